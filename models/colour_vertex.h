@@ -1,0 +1,24 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+
+namespace octant::models {
+
+/// A vertex as it goes to the graphics card. 16 bytes.
+struct ColourVertex {
+    glm::vec3 position_m{0.0F}; ///< world axes, metres, eye point subtracted
+    std::uint32_t colour = 0;   ///< red in the lowest byte, then green, blue, alpha; each 0..255
+};
+
+/// Packs linear parts 0..1 (clamped, rounded) with full alpha.
+inline std::uint32_t packed_colour(const glm::vec3& rgb) {
+    const auto byte = [](float part) {
+        const float clamped = part < 0.0F ? 0.0F : (part > 1.0F ? 1.0F : part);
+        return static_cast<std::uint32_t>(clamped * 255.0F + 0.5F);
+    };
+    return byte(rgb.x) | byte(rgb.y) << 8U | byte(rgb.z) << 16U | 0xff000000U;
+}
+
+} // namespace octant::models

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace octant::models {
+
+/// A surface colour, linear parts 0..1 of red, green, blue.
+struct Material {
+    std::string name;
+    glm::vec3 colour{0.7F};
+};
+
+/// A convex planar polygon seen from its front side only: its corners run counter-clockwise seen
+/// from there. `corners` is a range of PolygonModel::corner_vertices.
+struct Polygon {
+    std::uint32_t first_corner = 0;
+    std::uint32_t corner_count = 0; ///< at least 3
+    std::uint32_t material = 0;     ///< index into PolygonModel::materials
+    std::uint32_t part = 0;         ///< index into PolygonModel::parts
+};
+
+/// A polygon model with its n-gons kept, in body axes: x forward, y right, z down, metres.
+struct PolygonModel {
+    std::string name;
+    std::vector<glm::dvec3> vertices_m;
+    std::vector<std::uint32_t> corner_vertices; ///< indices into vertices_m, polygon after polygon
+    std::vector<Polygon> polygons;              ///< in file order
+    std::vector<Material> materials;            ///< at least one
+    std::vector<std::string> parts;             ///< OBJ groups in file order, at least one
+
+    /// Vertex indices of one polygon.
+    std::span<const std::uint32_t> corners(std::size_t polygon) const {
+        const Polygon& p = polygons[polygon];
+        return std::span(corner_vertices).subspan(p.first_corner, p.corner_count);
+    }
+};
+
+/// Unit normal of a polygon, pointing to the side from which it is seen (Newell's sum, so that no
+/// single corner decides).
+glm::dvec3 normal_of(const PolygonModel& model, std::size_t polygon);
+
+/// Radius of the smallest sphere around the origin that holds all vertices, metres.
+double radius_m(const PolygonModel& model);
+
+} // namespace octant::models

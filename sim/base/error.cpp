@@ -1,0 +1,23 @@
+#include "sim/base/error.h"
+
+namespace octant {
+
+void error_at(const std::filesystem::path& path, int line, const std::string& what) {
+    throw Error(path.string() + ":" + std::to_string(line) + ": " + what);
+}
+
+void error_in(const std::filesystem::path& path, const std::string& what) {
+    throw Error(path.string() + ": " + what);
+}
+
+std::string printable(const std::string& text) {
+    constexpr std::size_t longest = 60;
+    std::string out;
+    for (const char c : text.substr(0, longest)) {
+        const auto byte = static_cast<unsigned char>(c);
+        out += (byte < 0x20 || byte >= 0x7f) ? '?' : c;
+    }
+    return text.size() > longest ? out + "..." : out;
+}
+
+} // namespace octant

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+namespace octant {
+
+/// 64-bit running hash (FNV-1a taken over 8-byte words, a shorter end padded with zeros): fast
+/// enough for a picture a frame. Tells runs apart; not for secrets.
+class Hash {
+public:
+    void add(std::span<const std::byte> bytes) {
+        std::size_t at = 0;
+        for (; at + 8 <= bytes.size(); at += 8) {
+            std::uint64_t word = 0;
+            std::memcpy(&word, bytes.data() + at, 8);
+            add_word(word);
+        }
+        if (at < bytes.size()) {
+            std::uint64_t word = 0;
+            std::memcpy(&word, bytes.data() + at, bytes.size() - at);
+            add_word(word);
+        }
+    }
+
+    void add_word(std::uint64_t word) {
+        value_ = (value_ ^ word) * 0x100000001b3ULL;
+        value_ ^= value_ >> 32U;
+    }
+
+    std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 0xcbf29ce484222325ULL;
+};
+
+} // namespace octant

@@ -1,0 +1,112 @@
+#include "sim/base/output_file.h"
+
+#include "sim/base/error.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <utility>
+
+namespace octant {
+
+namespace {
+
+[[noreturn]] void cannot_write(const std::filesystem::path& path) {
+    error_in(path, fmt::format("cannot be written: {}", std::strerror(errno)));
+}
+
+bool write_all(int descriptor, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+        if (written < 0) {
+            if (errno == EINTR) {
+                continue;
+            }
+            return false;
+        }
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return true;
+}
+
+int create(const std::filesystem::path& path) {
+    return ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+}
+
+} // namespace
+
+void write_file(const std::filesystem::path& path, std::string_view bytes) {
+    // A device or a pipe cannot be renamed over; it is written directly.
+    std::error_code ignored;
+    const auto status = std::filesystem::status(path, ignored);
+    const bool special =
+        std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+    std::filesystem::path target = path;
+    if (!special) {
+        target += fmt::format(".{}.part", ::getpid());
+    }
+    const int descriptor = create(target);
+    if (descriptor < 0) {
+        cannot_write(path);
+    }
+    const bool written = write_all(descriptor, bytes);
+    const int write_errno = errno;
+    const bool closed = ::close(descriptor) == 0;
+    if (!written) {
+        errno = write_errno;
+    }
+    if (written && closed && (special || ::rename(target.c_str(), path.c_str()) == 0)) {
+        return;
+    }
+    const int kept_errno = errno;
+    if (!special) {
+        ::unlink(target.c_str());
+    }
+    errno = kept_errno;
+    cannot_write(path);
+}
+
+void make_folder(const std::filesystem::path& path) {
+    std::error_code code;
+    std::filesystem::create_directories(path, code);
+    if (code || !std::filesystem::is_directory(path, code)) {
+        error_in(
+            path,
+            fmt::format("cannot be made a folder: {}", code ? code.message() : "a file is there"));
+    }
+}
+
+GrowingFile::GrowingFile(std::filesystem::path path)
+    : path_(std::move(path))
+    , descriptor_(create(path_)) {
+    if (descriptor_ < 0) {
+        cannot_write(path_);
+    }
+}
+
+GrowingFile::~GrowingFile() {
+    if (descriptor_ >= 0) {
+        write_all(descriptor_, kept_);
+        ::close(descriptor_);
+    }
+}
+
+GrowingFile::GrowingFile(GrowingFile&& other) noexcept
+    : path_(std::move(other.path_))
+    , kept_(std::move(other.kept_))
+    , descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+void GrowingFile::append(std::string_view text) {
+    kept_ += text;
+}
+
+void GrowingFile::flush() {
+    const std::string bytes = std::exchange(kept_, {});
+    if (!write_all(descriptor_, bytes)) {
+        cannot_write(path_);
+    }
+}
+
+} // namespace octant

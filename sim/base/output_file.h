@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace octant {
+
+/// Writes the whole file or nothing: into a temporary file beside it, flushed, then renamed over
+/// `path`. Throws Error (no permission, no such folder, disk full) and leaves no temporary behind.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Makes the folder and its parents. Throws Error when that is not possible.
+void make_folder(const std::filesystem::path& path);
+
+/// A file that grows line by line and survives a kill: what was flushed is in the kernel's hands.
+class GrowingFile {
+public:
+    /// Creates or empties the file. Throws Error.
+    explicit GrowingFile(std::filesystem::path path);
+    ~GrowingFile();
+    GrowingFile(GrowingFile&& other) noexcept;
+    GrowingFile& operator=(GrowingFile&&) = delete;
+    GrowingFile(const GrowingFile&) = delete;
+    GrowingFile& operator=(const GrowingFile&) = delete;
+
+    /// Keeps the text until the next flush.
+    void append(std::string_view text);
+
+    /// Hands everything appended to the kernel. Throws Error (disk full).
+    void flush();
+
+private:
+    std::filesystem::path path_;
+    std::string kept_;
+    int descriptor_ = -1;
+};
+
+} // namespace octant

@@ -1,0 +1,116 @@
+#include "sim/base/text_file.h"
+
+#include "sim/base/error.h"
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+
+namespace octant {
+
+std::string read_file(const std::filesystem::path& path, std::size_t largest_bytes) {
+    std::error_code code;
+    const auto status = std::filesystem::status(path, code);
+    if (!std::filesystem::exists(status)) {
+        error_in(
+            path, code && code.value() != ENOENT ? code.message() : "expected a file, found none");
+    }
+    if (std::filesystem::is_directory(status)) {
+        error_in(path, "expected a file, got a folder");
+    }
+    std::ifstream in(path, std::ios::binary);
+    if (!in) {
+        error_in(path, fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
+    }
+    // Read in pieces, so that a pipe or an endless device is bounded as well as a regular file.
+    std::string bytes;
+    std::string piece(std::size_t{1} << 16, '\0');
+    while (in) {
+        in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+        bytes.append(piece, 0, static_cast<std::size_t>(in.gcount()));
+        if (bytes.size() > largest_bytes) {
+            error_in(path, fmt::format("expected at most {} bytes, got more", largest_bytes));
+        }
+    }
+    if (in.bad()) {
+        error_in(path, "cannot be read to its end");
+    }
+    return bytes;
+}
+
+std::string read_text_file(const std::filesystem::path& path, std::size_t largest_bytes) {
+    std::string text = read_file(path, largest_bytes);
+    if (text.find('\0') != std::string::npos) {
+        error_in(path, "expected text, got binary data");
+    }
+    return text;
+}
+
+std::vector<std::string_view> split_lines(std::string_view text) {
+    std::vector<std::string_view> lines;
+    while (!text.empty()) {
+        const std::size_t end = text.find('\n');
+        std::string_view line = text.substr(0, end);
+        if (!line.empty() && line.back() == '\r') {
+            line.remove_suffix(1);
+        }
+        lines.push_back(line);
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    }
+    return lines;
+}
+
+std::vector<std::string_view> split_words(std::string_view line) {
+    constexpr std::string_view blanks = " \t\r";
+    std::vector<std::string_view> words;
+    std::size_t at = line.find_first_not_of(blanks);
+    while (at != std::string_view::npos) {
+        const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
+        words.push_back(line.substr(at, end - at));
+        at = line.find_first_not_of(blanks, end);
+    }
+    return words;
+}
+
+std::vector<std::string_view> split_fields(std::string_view line, char separator) {
+    constexpr std::string_view blanks = " \t\r";
+    std::vector<std::string_view> fields;
+    std::size_t at = 0;
+    while (true) {
+        const std::size_t end = std::min(line.find(separator, at), line.size());
+        std::string_view field = line.substr(at, end - at);
+        field.remove_prefix(std::min(field.find_first_not_of(blanks), field.size()));
+        field = field.substr(0, field.find_last_not_of(blanks) + 1);
+        fields.push_back(field);
+        if (end == line.size()) {
+            return fields;
+        }
+        at = end + 1;
+    }
+}
+
+std::optional<double> finite_number(std::string_view text) {
+    if (!text.empty() && text.front() == '+') {
+        text.remove_prefix(1);
+    }
+    double value = 0.0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+std::optional<long> whole_number(std::string_view text) {
+    long value = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc() || end != text.data() + text.size()) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+} // namespace octant

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "sim/aircraft_state.h"
+
+#include <span>
+#include <vector>
+
+namespace octant::sim {
+
+/// A flight as samples in time order with a state for every time between them.
+///
+/// Positions run along cubic Hermite curves through the samples' positions and velocities, so
+/// position and velocity are continuous; attitudes turn at a constant rate between samples (slerp).
+class Trajectory {
+public:
+    /// At least one sample, times strictly increasing (asserted; readers check before).
+    explicit Trajectory(std::vector<AircraftState> samples);
+
+    std::span<const AircraftState> samples() const { return samples_; }
+
+    double start_s() const { return samples_.front().time_s; }
+
+    double end_s() const { return samples_.back().time_s; }
+
+    /// State at `time_s`; before the start and after the end the first and last sample, at rest in
+    /// their place. O(log samples).
+    AircraftState state_at(double time_s) const;
+
+private:
+    std::vector<AircraftState> samples_;
+};
+
+} // namespace octant::sim

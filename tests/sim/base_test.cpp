@@ -1,0 +1,136 @@
+#include "sim/base/axes.h"
+#include "sim/base/error.h"
+#include "sim/base/hash.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "sim/base/units.h"
+
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <fstream>
+
+using namespace octant;
+
+namespace {
+
+std::filesystem::path scratch(const std::string& name) {
+    const auto folder = std::filesystem::temp_directory_path() / "octant-base-test";
+    std::filesystem::create_directories(folder);
+    return folder / name;
+}
+
+void check_vector(const glm::dvec3& got, const glm::dvec3& expected) {
+    for (int axis = 0; axis < 3; ++axis) {
+        CHECK(got[axis] == Approx(expected[axis]).margin(1e-12));
+    }
+}
+
+} // namespace
+
+TEST_CASE("a level aircraft heading north has its nose north, right wing east and belly down") {
+    const glm::dquat q = body_to_world_from_euler({});
+    check_vector(q * glm::dvec3(1, 0, 0), {0, 1, 0});
+    check_vector(q * glm::dvec3(0, 1, 0), {1, 0, 0});
+    check_vector(q * glm::dvec3(0, 0, 1), {0, 0, -1});
+}
+
+TEST_CASE(
+    "heading 90 points east, positive pitch lifts the nose, positive roll drops the right wing") {
+    check_vector(
+        body_to_world_from_euler({rad_from_deg(90), 0, 0}) * glm::dvec3(1, 0, 0), {1, 0, 0});
+    CHECK((body_to_world_from_euler({0, 0.3, 0}) * glm::dvec3(1, 0, 0)).z == Approx(std::sin(0.3)));
+    CHECK(
+        (body_to_world_from_euler({0, 0, 0.3}) * glm::dvec3(0, 1, 0)).z == Approx(-std::sin(0.3)));
+}
+
+TEST_CASE("Euler angles survive the way to a rotation and back") {
+    for (double heading = 0.0; heading < 6.2; heading += 0.7) {
+        for (double pitch = -1.5; pitch <= 1.5; pitch += 0.5) {
+            for (double roll = -3.0; roll <= 3.0; roll += 0.75) {
+                const EulerAngles back =
+                    euler_from_body_to_world(body_to_world_from_euler({heading, pitch, roll}));
+                CHECK(wrapped_to_pi(back.heading_rad - heading) == Approx(0.0).margin(1e-9));
+                CHECK(back.pitch_rad == Approx(pitch).margin(1e-9));
+                CHECK(back.roll_rad == Approx(roll).margin(1e-9));
+            }
+        }
+    }
+}
+
+TEST_CASE("straight up and down keep a heading and give no roll") {
+    const EulerAngles up = euler_from_body_to_world(body_to_world_from_euler({1.0, pi / 2, 0.0}));
+    CHECK(up.pitch_rad == Approx(pi / 2).margin(1e-6));
+    CHECK(up.roll_rad == 0.0);
+    CHECK(up.heading_rad == Approx(1.0).margin(1e-6));
+}
+
+TEST_CASE("numbers are read whole, finite and in the C locale or not at all") {
+    CHECK(finite_number("-1.5e3") == -1500.0);
+    CHECK(finite_number("+2") == 2.0);
+    for (const char* bad : {"", "1,5", "nan", "inf", "1x", " 1", "--1"}) {
+        CHECK_FALSE(finite_number(bad));
+    }
+    CHECK(whole_number("-12") == -12);
+    CHECK_FALSE(whole_number("1.0"));
+    CHECK_FALSE(whole_number("99999999999999999999"));
+}
+
+TEST_CASE("lines, words and fields are split without their separators") {
+    CHECK(split_lines("a\r\nb\n\nc") == std::vector<std::string_view>{"a", "b", "", "c"});
+    CHECK(split_words("  f 1\t2 ") == std::vector<std::string_view>{"f", "1", "2"});
+    CHECK(split_fields("a, b ,,", ',') == std::vector<std::string_view>{"a", "b", "", ""});
+}
+
+TEST_CASE("a missing file, a folder and a binary file are refused by name") {
+    CHECK_THROWS_WITH(read_file("/nowhere/x.obj"), "/nowhere/x.obj: expected a file, found none");
+    CHECK_THROWS_WITH(read_file("/tmp"), "/tmp: expected a file, got a folder");
+    const auto path = scratch("binary");
+    write_file(path, std::string_view("a\0b", 3));
+    CHECK_THROWS_WITH(read_text_file(path), path.string() + ": expected text, got binary data");
+    CHECK_THROWS_WITH(
+        read_file("/dev/zero", 1000), "/dev/zero: expected at most 1000 bytes, got more");
+}
+
+TEST_CASE("a file is written whole, replaced whole, and a full disk leaves nothing behind") {
+    const auto path = scratch("whole");
+    write_file(path, "one");
+    write_file(path, "two");
+    CHECK(read_file(path) == "two");
+    CHECK_THROWS_WITH(write_file("/dev/full", "x"), Catch::Contains("No space left on device"));
+    CHECK_THROWS_WITH(write_file("/nowhere/x", "x"), Catch::Contains("No such file or directory"));
+    const auto folder = std::filesystem::directory_iterator(path.parent_path());
+    for (const auto& entry : folder) {
+        CHECK(entry.path().extension() != ".part");
+    }
+}
+
+TEST_CASE("a growing file keeps what was flushed") {
+    const auto path = scratch("growing");
+    GrowingFile file(path);
+    file.append("line\n");
+    CHECK(read_file(path).empty());
+    file.flush();
+    CHECK(read_file(path) == "line\n");
+    GrowingFile full("/dev/full");
+    full.append("x");
+    CHECK_THROWS_AS(full.flush(), Error);
+}
+
+TEST_CASE("the hash sees every byte and its place") {
+    std::array<std::byte, 11> bytes{};
+    Hash reference;
+    reference.add(bytes);
+    for (auto& byte : bytes) {
+        byte = std::byte{1};
+        Hash changed;
+        changed.add(bytes);
+        CHECK(changed.value() != reference.value());
+        byte = std::byte{0};
+    }
+}
+
+TEST_CASE("text from outside is made printable and short") {
+    CHECK(printable("a\nb\x1b") == "a?b?");
+    CHECK(printable(std::string(80, 'x')) == std::string(60, 'x') + "...");
+}

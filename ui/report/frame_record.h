@@ -1,0 +1,32 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+namespace octant::ui::report {
+
+/// One line of frames.csv. Times in milliseconds are wall time; everything else is repeatable.
+struct FrameRecord {
+    int frame = 0;
+    bool warm_up = false; ///< recorded, but left out of the statistics
+    double sim_time_s = 0.0;
+    double wall_s = 0.0;   ///< since the first frame began
+    double frame_ms = 0.0; ///< simulation step begun to pixels read
+    double sim_ms = 0.0;
+    double plan_ms = 0.0;
+    double draw_ms = 0.0;
+    double read_ms = 0.0;
+    double record_ms = 0.0; ///< writing pictures and video, outside frame_ms
+    int terrain_triangles = 0;
+    int terrain_fans = 0;
+    int aircraft_polygons = 0; ///< in the lists drawn, before back-face culling
+    int draw_cell = 0;         ///< cell of the first aircraft's draw order
+    double resolution_c = 0.0; ///< C of the terrain in this frame
+    int triangle_change = 0;   ///< terrain triangles minus those of the frame before
+    double stress = 0.0;       ///< frame_ms over the frame's share of simulated time
+    int overrun = 0;           ///< 1 when frame_ms is above 16.67
+    glm::dvec3 eye_m{0.0};
+    glm::dvec3 aircraft_m{0.0};  ///< first aircraft, world
+    double aircraft_agl_m = 0.0; ///< first aircraft above the ground below it
+};
+
+} // namespace octant::ui::report

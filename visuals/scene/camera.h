@@ -1,0 +1,34 @@
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+
+namespace octant::visuals::scene {
+
+/// An eye point and where it looks. World: x east, y north, z up, metres.
+struct Camera {
+    glm::dvec3 eye_m{0.0};
+    glm::dquat view_to_world{
+        1.0, 0.0, 0.0, 0.0}; ///< view axes as in OpenGL: x right, y up, -z ahead
+    double vertical_fov_rad = 0.785398163397448; ///< 45 degrees
+    double near_m = 0.5;
+};
+
+/// Camera at `eye_m` that looks at `target_m`, upright. Looking straight up or down keeps north up.
+Camera camera_looking_at(const glm::dvec3& eye_m, const glm::dvec3& target_m);
+
+/// Rotation part of the view: eye-relative world vectors to view axes.
+glm::mat4 world_to_view(const Camera& camera);
+
+/// Perspective with the depth reversed (1 at the near plane, 0 at infinity) and no far plane, for
+/// clip depth 0..1. `aspect` = width / height.
+glm::mat4 view_to_clip(const Camera& camera, double aspect);
+
+/// Planes of the view frustum through the eye, eye-relative world axes, unit normals pointing
+/// inside: left, right, bottom, top. A point is inside when every dot product is >= 0.
+std::array<glm::dvec3, 4> frustum_normals(const Camera& camera, double aspect);
+
+} // namespace octant::visuals::scene

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "models/colour_vertex.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::scene {
+
+/// How hidden surfaces of aircraft are removed.
+enum class HiddenSurface {
+    Octant,      ///< polygons painted in precomputed order, no depth inside the aircraft
+    DepthBuffer, ///< 32-bit float, reversed
+    BackFace     ///< back faces removed, polygons in file order: the 1989 paper's fast, wrong way
+};
+
+/// A vertex of an aircraft as uploaded once at loading. Body axes x forward, y right, z down. 28
+/// bytes.
+struct ModelVertex {
+    glm::vec3 position_m{0.0F};
+    glm::vec3 normal{0.0F};
+    std::uint32_t colour = 0; ///< as ColourVertex::colour
+};
+
+/// What a renderer uploads once for an aircraft: all draw lists lie in one index buffer.
+struct ModelBuffers {
+    std::vector<ModelVertex> vertices;
+    std::vector<std::uint32_t> indices; ///< triangles
+};
+
+/// One aircraft of one frame: one range of its model's index buffer.
+struct AircraftDraw {
+    std::uint32_t model = 0; ///< index into the ModelBuffers given to the renderer
+    std::uint32_t first_index = 0;
+    std::uint32_t index_count = 0;
+    glm::mat4 body_to_eye_world{1.0F}; ///< body axes to world axes with the eye subtracted
+    glm::vec3 sun_in_body{0.0F};       ///< unit vector towards the sun, body axes
+};
+
+/// Triangles that lie in world axes with the eye subtracted. Memory stays with the maker of the
+/// plan until the next plan.
+struct TriangleDraw {
+    std::span<const models::ColourVertex> vertices;
+    std::span<const std::uint32_t> indices; ///< triangles, counter-clockwise seen from above
+};
+
+/// Air between the eye and what is seen: colour = mix(own, haze, 1 - exp(-distance / visibility)).
+struct Haze {
+    glm::vec3 colour{0.0F};    ///< linear parts 0..1
+    float visibility_m = 0.0F; ///< distance at which 1/e of the own colour is left; 0 = no haze
+};
+
+/// Everything a renderer needs for one picture, and nothing of any graphics library. Painted in
+/// the order background, sky, ground, aircraft.
+struct FramePlan {
+    glm::mat4 world_to_view{1.0F}; ///< rotation only: positions are relative to the eye
+    glm::mat4 view_to_clip{1.0F};  ///< reversed depth 1..0, infinite far plane
+    glm::vec3 background{0.0F};    ///< what the picture is cleared to
+    Haze haze;
+    TriangleDraw sky;    ///< no depth, no haze; empty when the sky is off
+    TriangleDraw ground; ///< depth tested and written unless ground_is_ordered
+    bool ground_is_ordered =
+        false; ///< the ground's triangles are in painting order: no depth needed
+    HiddenSurface hidden_surface = HiddenSurface::Octant;
+    std::vector<AircraftDraw> aircraft; ///< farthest first
+    glm::vec3 ambient{0.45F};           ///< light on an aircraft from everywhere, linear
+    glm::vec3 sunlight{0.65F};          ///< light from the sun, times the cosine to it
+};
+
+} // namespace octant::visuals::scene
