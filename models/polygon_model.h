@@ -24,6 +24,14 @@ struct Polygon {
     std::uint32_t part = 0;         ///< index into PolygonModel::parts
 };
 
+/// A part that turns about an axis of its own: a rotor, a propeller.
+struct Pivot {
+    std::uint32_t part = 0;  ///< index into PolygonModel::parts
+    glm::dvec3 point_m{0.0}; ///< a point of the axis, body axes
+    glm::dvec3 axis{
+        0.0, 0.0, 1.0}; ///< unit vector, body axes; positive turns follow the right hand
+};
+
 /// A polygon model with its n-gons kept, in body axes: x forward, y right, z down, metres.
 struct PolygonModel {
     std::string name;
@@ -32,6 +40,7 @@ struct PolygonModel {
     std::vector<Polygon> polygons;              ///< in file order
     std::vector<Material> materials;            ///< at least one
     std::vector<std::string> parts;             ///< OBJ groups in file order, at least one
+    std::vector<Pivot> pivots;                  ///< at most one for each part
 
     /// Vertex indices of one polygon.
     std::span<const std::uint32_t> corners(std::size_t polygon) const {

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "models/file_axes.h"
+#include "models/polygon_model.h"
+
+#include <cstddef>
+#include <filesystem>
+
+namespace octant::models {
+
+inline constexpr std::size_t most_obj_vertices = 1'000'000;
+inline constexpr std::size_t most_obj_polygons = 1'000'000;
+inline constexpr std::size_t most_obj_corners = 1'000; ///< of one polygon
+inline constexpr double most_obj_coordinate_m = 1e7;
+
+/// Reads a Wavefront OBJ file of convex planar polygons, coordinates in metres in the file's
+/// `axes`.
+///
+/// Read: v (what follows three coordinates is ignored), f (n-gons; corners as 7, 7/1, 7//3 or
+/// 7/1/3; negative numbers count back from the last vertex), g and o (parts; polygons before the
+/// first belong to "default"), usemtl ("default" before the first), mtllib (one file name a line,
+/// beside the OBJ file), and comments of the form
+///     # pivot NAME X Y Z axis AX AY AZ
+/// which say that part NAME turns about the axis through a point (a "# pivot" comment without the
+/// word axis stays a comment). s, l, p, vt, vn, vp and other comments are ignored.
+///
+/// Vertices stay in file order, also unused ones; parts and materials come in the order of their
+/// first polygon. A file without mtllib keeps its material names, all in the default colour.
+///
+/// Throws Error "file:line: expected ..., got ..." for anything else: other keywords, numbers that
+/// cannot be read, NaN and infinity, indices out of range, what polygon_fault (polygon_check.h)
+/// finds, a material or material file that is missing, a pivot of a part without polygons or
+/// without an axis, more than the bounds above; "file: ..." for binary data and a file without
+/// polygons.
+PolygonModel read_obj(const std::filesystem::path& path, const FileAxes& axes = {});
+
+} // namespace octant::models

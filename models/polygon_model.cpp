@@ -1,0 +1,32 @@
+#include "models/polygon_model.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace octant::models {
+
+glm::dvec3 normal_of(const PolygonModel& model, std::size_t polygon) {
+    const auto corners = model.corners(polygon);
+    assert(corners.size() >= 3);
+    // Taken from the first corner, so that a small polygon far from the origin keeps its digits.
+    const glm::dvec3& origin_m = model.vertices_m[corners[0]];
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+        sum += glm::cross(
+            model.vertices_m[corners[i]] - origin_m, model.vertices_m[corners[i + 1]] - origin_m);
+    }
+    return glm::normalize(sum);
+}
+
+double radius_m(const PolygonModel& model) {
+    double largest = 0.0;
+    for (const glm::dvec3& vertex_m : model.vertices_m) {
+        largest = std::max(largest, glm::dot(vertex_m, vertex_m));
+    }
+    return std::sqrt(largest);
+}
+
+} // namespace octant::models
