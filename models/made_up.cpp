@@ -81,7 +81,7 @@ const std::array<Cut, 35> cuts{{
 }};
 
 /// Colour letter of each piece of ground.
-constexpr std::string_view ground_colours = "abcdWeWfWgahRdgfcbeaghbdecfbahcgdeba";
+constexpr std::string_view ground_colours = "abcdWeWfWgahRdgfcbeaghedecffahcgdeba";
 
 struct Colour {
     char letter;

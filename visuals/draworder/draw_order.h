@@ -1,0 +1,56 @@
+#pragma once
+
+#include "visuals/draworder/octant_order.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::draworder {
+
+/// Painting orders as a renderer uploads them: one flat list of polygon numbers, and for each cell
+/// of eye space a range of it. Cells with equal lists share a range.
+class DrawOrder {
+public:
+    /// Polygons first .. first + count - 1 of the flat list.
+    struct Range {
+        std::size_t first = 0;
+        std::size_t count = 0;
+        bool operator==(const Range&) const = default;
+    };
+
+    /// Eight cells, the octants.
+    explicit DrawOrder(const OctantOrders& orders);
+
+    /// One cell: the same list for every eye, first painted first.
+    explicit DrawOrder(std::vector<std::uint32_t> list);
+
+    int cell_count() const { return static_cast<int>(cells_.size()); }
+
+    /// The cell in which an eye (body axes) lies, 0 .. cell_count - 1; every eye lies in one.
+    int cell_of(const glm::dvec3& eye_in_body_m) const;
+
+    /// Where a cell's list lies in polygons().
+    Range range_of(int cell) const;
+
+    /// A cell's list, first painted first.
+    std::span<const std::uint32_t> polygons_of(int cell) const;
+
+    /// All different lists, one after the other, in the order of the first cell that uses each.
+    std::span<const std::uint32_t> polygons() const { return polygons_; }
+
+private:
+    void add_cell(std::span<const std::uint32_t> list);
+
+    std::vector<std::uint32_t> polygons_;
+    std::vector<Range> cells_;
+};
+
+/// One cell that lists all polygons in file order: for painting with a depth buffer, and for models
+/// whose file order is their painting order.
+DrawOrder file_order(const models::PolygonModel& model);
+
+} // namespace octant::visuals::draworder
