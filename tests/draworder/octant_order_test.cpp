@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "wrong_rays.h"
 
@@ -175,6 +176,32 @@ TEST_CASE("whatever a random eye outside the radius sees is in its octant's list
             }
         }
     }
+}
+
+TEST_CASE("three bars, each over the next, cannot be ordered, and the result says so") {
+    const glm::dvec3 towards_eye = glm::normalize(glm::dvec3(1, 1, 1));
+    const glm::dvec3 along = glm::normalize(glm::dvec3(0, 1, -1));
+    const glm::dvec3 inward = glm::cross(towards_eye, along);
+    octant::models::PolygonModel bars = paper_example();
+    bars.vertices_m.clear();
+    bars.polygons.resize(3);
+    for (int bar = 0; bar < 3; ++bar) {
+        for (const auto& [t, side] : {std::pair{-5, -2}, {5, -2}, {5, -1}, {-5, -1}}) {
+            const glm::dvec3 p =
+                along * (1.0 * t) + inward * (1.0 * side) + towards_eye * (0.1 * t);
+            const std::array<double, 6> turned{p.x, p.y, p.z, p.x, p.y, p.z};
+            const auto first = static_cast<std::size_t>(bar);
+            bars.vertices_m.emplace_back(turned[first], turned[first + 1], turned[first + 2]);
+        }
+    }
+    bars.corner_vertices = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+    REQUIRE(glm::dot(octant::models::normal_of(bars, 0), towards_eye) > 0.9);
+    const OctantOrders orders = paper_orders(bars, {.listed = Listed::FromPoint});
+    CHECK(orders.lists[0].size() == 3);
+    CHECK(orders.broken_cycles >= 1);
+    CHECK(count_wrong_rays(bars, DrawOrder(orders), {.octant = 0}).wrong > 0);
+    bars.polygons.resize(2);
+    CHECK(paper_orders(bars).broken_cycles == 0);
 }
 
 TEST_CASE("the eye in body axes follows equations (34) to (36)") {

@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
+#include <string>
 
 using octant::models::FileAxes;
 
@@ -43,7 +45,7 @@ TEST_CASE("of all 216 triples 24 are right-handed, and each of them converts the
     for (const auto& x : names) {
         for (const auto& y : names) {
             for (const auto& z : names) {
-                const std::string text = x + "," + y + "," + z;
+                const std::string text = fmt::format("{},{},{}", x, y, z);
                 if (message(text) != "accepted") {
                     continue;
                 }

@@ -173,7 +173,7 @@ TEST_CASE("wrong OBJ lines are refused with file, line, expected and got") {
     CHECK(message("f 1 2 3\n") == "m.obj:1: expected vertices before a polygon, got 1");
     for (const std::string corner : {"x", "1.5", "1/", "1/2/3/4", "/1", "1/x/1", "1/1/"}) {
         CHECK(
-            message(square + "f 1 2 " + corner + "\n") ==
+            message(square + fmt::format("f 1 2 {}\n", corner)) ==
             "m.obj:5: expected a corner such as 7, 7/1, 7//3 or 7/1/3, got '" + corner + "'");
     }
     CHECK(

@@ -6,7 +6,8 @@
 // - The normal is Newell's sum over all corners, not u x v of the first three, which may lie on one
 //   line.
 // - By default a polygon is listed when it faces some eye of the octant, not only P: near an axis
-//   an eye sees polygons that P does not, and the renderer drops those that face away.
+//   an eye sees polygons that P does not, and the renderer drops those that face away. Polygons
+//   that face away from P are compared like the others, by their outlines as seen from P.
 // - The paper does not say how a sequence is made from its pairs; here they are the edges of a
 //   graph, sorted with the lowest polygon number first. Cycles, which the paper does not mention,
 //   are broken and counted.
@@ -125,6 +126,7 @@ OctantOrders paper_orders(const models::PolygonModel& model, const PaperOptions&
         const ScreenView view(signs * options.viewpoint_radii * radius_m, options.screen, radius_m);
         const auto listed = listed_polygons(model, options, signs, radius_m);
         std::vector<ScreenPolygon> seen;
+        seen.reserve(listed.size());
         for (const std::uint32_t polygon : listed) {
             seen.push_back(on_screen(model, polygon, view));
         }
