@@ -1,0 +1,60 @@
+#pragma once
+
+#include "visuals/gl/functions.h"
+
+#include <memory>
+#include <string>
+
+namespace octant::visuals::gl {
+
+/// What draws, for reports.
+struct ContextDescription {
+    std::string kind;     ///< "osmesa" or "egl"
+    std::string renderer; ///< the driver's GL_RENDERER
+    std::string version;  ///< the driver's GL_VERSION
+};
+
+/// An OpenGL 4.5 core context without a picture of its own: draw into a Framebuffer. Must outlive
+/// whatever was made with its functions.
+class Context {
+public:
+    virtual ~Context() = default;
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+    Context(Context&&) = delete;
+    Context& operator=(Context&&) = delete;
+
+    /// Makes it current in this thread. Whichever context was current is released first: a maker
+    /// (GLX, EGL, OSMesa) does not notice that another one took over. Throws Error.
+    void make_current();
+
+    const Functions& functions() const { return functions_; }
+
+    const ContextDescription& description() const { return description_; }
+
+protected:
+    Context() = default;
+
+    /// Makes it current and fills functions and description. Throws Error.
+    void start(const std::string& kind, AddressOf address_of);
+
+    /// For the destructor of a maker: releases the context where it is still current.
+    void leave();
+
+private:
+    virtual void bind() = 0;
+    virtual void release() = 0;
+
+    Functions functions_;
+    ContextDescription description_;
+};
+
+/// A context on Mesa's off-screen library (processor only, no display needed), current in this
+/// thread. Throws Error.
+std::unique_ptr<Context> make_osmesa_context();
+
+/// A context through EGL without display or surface: Mesa's surfaceless platform or, failing that,
+/// the first device that gives one; current in this thread. Throws Error.
+std::unique_ptr<Context> make_egl_context();
+
+} // namespace octant::visuals::gl

@@ -1,0 +1,29 @@
+#include "visuals/gl/object.h"
+
+namespace octant::visuals::gl {
+
+Object make_buffer(const Functions& gl) {
+    GLuint name = 0;
+    gl.create_buffers(1, &name);
+    return {gl, name, [](const Functions& f, GLuint n) { f.delete_buffers(1, &n); }};
+}
+
+Object make_vertex_array(const Functions& gl) {
+    GLuint name = 0;
+    gl.create_vertex_arrays(1, &name);
+    return {gl, name, [](const Functions& f, GLuint n) { f.delete_vertex_arrays(1, &n); }};
+}
+
+Object make_framebuffer(const Functions& gl) {
+    GLuint name = 0;
+    gl.create_framebuffers(1, &name);
+    return {gl, name, [](const Functions& f, GLuint n) { f.delete_framebuffers(1, &n); }};
+}
+
+Object make_renderbuffer(const Functions& gl) {
+    GLuint name = 0;
+    gl.create_renderbuffers(1, &name);
+    return {gl, name, [](const Functions& f, GLuint n) { f.delete_renderbuffers(1, &n); }};
+}
+
+} // namespace octant::visuals::gl

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "visuals/gl/framebuffer.h"
+#include "visuals/gl/picture.h"
+#include "visuals/gl/stream_buffer.h"
+#include "visuals/scene/frame_plan.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::gl {
+
+/// Draws frame plans into a picture of its own. The context whose functions it was given must be
+/// current in every call, the destructor too, and outlive it.
+///
+/// Colours are display values from input to picture: nothing is converted. Back faces of ground
+/// and aircraft are not drawn. An aircraft's triangle has the colour of its first vertex: a
+/// polygon split into a fan around its first corner keeps one colour.
+class Renderer {
+public:
+    /// Picture size in pixels, 1 or 4 samples a pixel. Throws Error when the driver cannot.
+    Renderer(const Functions& gl, int width, int height, int samples);
+
+    /// Uploads the aircraft models, in place of those uploaded before. AircraftDraw::model counts
+    /// in this list.
+    void load_models(std::span<const scene::ModelBuffers> models);
+
+    /// Draws once in every state that a plan can ask for, because drivers compile on first use
+    /// (14-18 ms each). To be called after load_models; what the picture holds afterwards is
+    /// undefined.
+    void warm_up();
+
+    /// Starts the drawing of a picture; the plan's memory is free again on return.
+    void draw(const scene::FramePlan& plan);
+
+    /// Waits until the picture is drawn. Throws Error when the driver reports one.
+    void finish();
+
+    /// finish(), then copies the picture, top row first. `picture` keeps its memory between calls.
+    void finish_and_read(Picture& picture);
+
+private:
+    struct ModelPlace {
+        std::size_t first_index = 0;
+        std::size_t index_count = 0;
+        GLint first_vertex = 0;
+    };
+
+    enum class Depth { Unused, Tested, Written };
+
+    void prepare(const scene::FramePlan& plan);
+    void upload(const scene::FramePlan& plan);
+    void set_haze(const scene::FramePlan& plan, const Object& program);
+    void use_depth(Depth depth, GLenum nearer);
+    void draw_sky(const scene::FramePlan& plan, Depth depth);
+    void draw_ground(const scene::FramePlan& plan, Depth depth);
+    void begin_aircraft(const scene::FramePlan& plan, Depth depth);
+    void draw_aircraft(const scene::AircraftDraw& aircraft, const glm::mat4& world_to_clip);
+
+    const Functions& gl_;
+    Framebuffer framebuffer_;
+    Object ground_program_;
+    Object sky_program_;
+    Object aircraft_program_;
+    StreamBuffer stream_vertices_; ///< ground, then sky
+    StreamBuffer stream_indices_;
+    Object model_vertices_;
+    Object model_indices_;
+    Object stream_array_;
+    Object model_array_;
+    std::vector<ModelPlace> models_;
+};
+
+} // namespace octant::visuals::gl

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace octant::visuals::gl {
+
+// The files of visuals/gl/shaders/, put in at build time (embed_shaders.cmake).
+extern const char* const ground_vert;
+extern const char* const sky_vert;
+extern const char* const aircraft_vert;
+extern const char* const smooth_frag;
+extern const char* const flat_frag;
+
+} // namespace octant::visuals::gl
