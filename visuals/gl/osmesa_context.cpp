@@ -4,6 +4,7 @@
 #include <GL/osmesa.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace octant::visuals::gl {
@@ -55,7 +56,7 @@ private:
 
     void release() override { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
 
-    std::array<std::uint32_t, unused_px * unused_px> pixels_{};
+    std::array<std::uint32_t, std::size_t{unused_px} * unused_px> pixels_{};
     OSMesaContext context_ = nullptr;
 };
 

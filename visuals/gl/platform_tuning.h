@@ -10,7 +10,8 @@ void tune_allocator();
 
 /// Gives each raster thread of Mesa's software renderer a processor of its own, because the kernel
 /// likes to leave two of them on one. Does nothing when there are more processors than threads. To
-/// be called after the context was made; returns how many threads were placed.
+/// be called after a first picture (Renderer::warm_up): the threads are known by the names that
+/// they give themselves once they run. Returns how many threads were placed.
 int spread_raster_threads();
 
 } // namespace octant::visuals::gl
