@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <gdal.h>
+#include <memory>
+#include <string>
+
+namespace octant::models {
+
+/// While one lives, GDAL on this thread writes nothing to stderr and no side files, keeps off the
+/// network and remembers the first error it meets. Not to be nested.
+class GdalSession {
+public:
+    GdalSession();
+    ~GdalSession();
+    GdalSession(const GdalSession&) = delete;
+    GdalSession& operator=(const GdalSession&) = delete;
+    GdalSession(GdalSession&&) = delete;
+    GdalSession& operator=(GdalSession&&) = delete;
+
+    bool failed() const { return !first_error_.empty(); }
+
+    /// True when the error was that no driver knows the file.
+    bool names_no_format() const;
+
+    /// Starts over: what went wrong so far was harmless.
+    void forget() { first_error_.clear(); }
+
+    /// GDAL's first error as one printable piece without the file's path; "no reason given" when
+    /// there was none.
+    std::string reason(const std::filesystem::path& path) const;
+
+private:
+    static void CPL_STDCALL keep(CPLErr severity, CPLErrorNum number, const char* text);
+
+    std::string first_error_;
+};
+
+struct CloseDataset {
+    void operator()(void* dataset) const { GDALClose(dataset); }
+};
+
+using Dataset = std::unique_ptr<void, CloseDataset>;
+
+} // namespace octant::models
