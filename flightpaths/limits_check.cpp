@@ -1,0 +1,240 @@
+#include "flightpaths/limits_check.h"
+
+#include "flightpaths/manoeuvre.h"
+#include "sim/base/error.h"
+#include "sim/base/units.h"
+#include "sim/fixed_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace octant::flightpaths {
+
+namespace {
+
+/// Slack for limits that a leg asks for exactly, relative.
+constexpr double slack = 1e-9;
+
+/// Two decimals at most, one at least.
+std::string short_number(double value) {
+    std::string text = fmt::format("{:.2f}", value);
+    return text.back() == '0' ? text.substr(0, text.size() - 1) : text;
+}
+
+struct Peaks {
+    double bank_rad = 0.0;
+    double roll_rate_radps = 0.0;
+    double most_load_factor = 1.0;
+    double least_load_factor = 1.0;
+    double load_factor_rate_gps = 0.0;
+};
+
+Peaks peaks_of(const Leg& weave) {
+    Peaks peaks;
+    const long steps = sim::step_at(weave.duration_s.value_or(0.0));
+    for (long step = 0; step <= steps; ++step) {
+        const Aim aim = weave_aim(weave, sim::time_of_step(step), 0.0);
+        peaks.bank_rad = std::max(peaks.bank_rad, std::abs(aim.bank_rad));
+        peaks.roll_rate_radps = std::max(peaks.roll_rate_radps, std::abs(aim.bank_rate_radps));
+        peaks.most_load_factor = std::max(peaks.most_load_factor, aim.load_factor);
+        peaks.least_load_factor = std::min(peaks.least_load_factor, aim.load_factor);
+        peaks.load_factor_rate_gps =
+            std::max(peaks.load_factor_rate_gps, std::abs(aim.load_factor_rate_gps));
+    }
+    return peaks;
+}
+
+} // namespace
+
+LimitsCheck::LimitsCheck(
+    const PathScript& script,
+    const sim::AircraftLimits& limits,
+    bool lenient,
+    std::vector<std::string>& notes)
+    : script_(script)
+    , limits_(limits)
+    , lenient_(lenient)
+    , notes_(notes) {}
+
+double LimitsCheck::at_most(double value, double limit, const Subject& subject) const {
+    if (value <= limit + slack * std::abs(limit)) {
+        return value;
+    }
+    if (!lenient_) {
+        error_at(
+            script_.file,
+            subject.line,
+            fmt::format(
+                "expected a {} of at most {}{} for {}, got {}",
+                subject.what,
+                short_number(limit),
+                subject.unit,
+                limits_.name,
+                short_number(value)));
+    }
+    notes_.push_back(fmt::format(
+        "{}:{}: {} of {}{} clipped to {}, the most for {}",
+        script_.file.string(),
+        subject.line,
+        subject.what,
+        short_number(value),
+        subject.unit,
+        short_number(limit),
+        limits_.name));
+    return limit;
+}
+
+double LimitsCheck::at_least(double value, double limit, const Subject& subject) const {
+    if (value >= limit - slack * std::abs(limit)) {
+        return value;
+    }
+    if (!lenient_) {
+        error_at(
+            script_.file,
+            subject.line,
+            fmt::format(
+                "expected a {} of at least {}{} for {}, got {}",
+                subject.what,
+                short_number(limit),
+                subject.unit,
+                limits_.name,
+                short_number(value)));
+    }
+    notes_.push_back(fmt::format(
+        "{}:{}: {} of {}{} clipped to {}, the least for {}",
+        script_.file.string(),
+        subject.line,
+        subject.what,
+        short_number(value),
+        subject.unit,
+        short_number(limit),
+        limits_.name));
+    return limit;
+}
+
+Leg LimitsCheck::checked(const Leg& leg) const {
+    Leg flown = leg;
+    if (flown.roll_rate_radps) {
+        const double limit = deg_from_rad(limits_.roll_rate_radps);
+        flown.roll_rate_radps = rad_from_deg(at_most(
+            deg_from_rad(*flown.roll_rate_radps), limit, {leg.line, "roll rate", " deg/s"}));
+    }
+    const double acceleration = at_most(
+        std::abs(leg.acceleration_mps2),
+        limits_.acceleration_mps2,
+        {leg.line, "change of speed", " m/s2"});
+    flown.acceleration_mps2 = std::copysign(acceleration, leg.acceleration_mps2);
+    if (flown.to_speed_mps) {
+        const LimitsCheck::Subject speed{leg.line, "speed", " m/s"};
+        flown.to_speed_mps = at_least(
+            at_most(*flown.to_speed_mps, limits_.most_speed_mps, speed),
+            least_flown_speed_mps(limits_),
+            speed);
+    }
+    if (flown.load_factor) {
+        const LimitsCheck::Subject load{leg.line, "load factor", ""};
+        flown.load_factor = at_least(
+            at_most(*flown.load_factor, limits_.most_load_factor, load),
+            limits_.least_load_factor,
+            load);
+    }
+    check_turn(flown);
+    if (flown.kind == LegKind::Jink) {
+        check_weave(flown);
+    }
+    return flown;
+}
+
+void LimitsCheck::check_turn(Leg& leg) const {
+    // A level turn at a load factor n banks acos(1/n), so either of the two may be the tighter one.
+    const bool turn = leg.kind == LegKind::Turn;
+    const double level = turn ? std::cos(leg.climb_rad.value_or(0.0)) : 1.0;
+    const Subject bank{leg.line, "bank", " deg"};
+    double limit = deg_from_rad(limits_.bank_rad);
+    if (turn && leg.load_factor) {
+        const double asked = deg_from_rad(std::acos(std::min(1.0, level / *leg.load_factor)));
+        const double got = at_most(asked, limit, bank);
+        if (got < asked) {
+            leg.load_factor = level / std::cos(rad_from_deg(got));
+        }
+        return;
+    }
+    if (turn) {
+        const double by_load =
+            deg_from_rad(std::acos(std::min(1.0, level / limits_.most_load_factor)));
+        limit = std::min(limit, by_load);
+    }
+    if (leg.bank_rad) {
+        const double got = at_most(deg_from_rad(std::abs(*leg.bank_rad)), limit, bank);
+        leg.bank_rad = std::copysign(rad_from_deg(got), *leg.bank_rad);
+    }
+}
+
+std::string LimitsCheck::weave_fault(const Leg& leg) const {
+    const Peaks peaks = peaks_of(leg);
+    const auto fault = [&](const char* what, const char* side, double limit, double got) {
+        return fmt::format(
+            "expected a weave with a {} of at {} {} for {}, got {}",
+            what,
+            side,
+            short_number(limit),
+            limits_.name,
+            short_number(got));
+    };
+    constexpr double most = 1.0 + slack;
+    if (peaks.most_load_factor > limits_.most_load_factor * most) {
+        return fault("load factor", "most", limits_.most_load_factor, peaks.most_load_factor);
+    }
+    if (peaks.least_load_factor < limits_.least_load_factor - slack) {
+        return fault("load factor", "least", limits_.least_load_factor, peaks.least_load_factor);
+    }
+    if (peaks.bank_rad > limits_.bank_rad * most) {
+        return fault(
+            "bank in deg", "most", deg_from_rad(limits_.bank_rad), deg_from_rad(peaks.bank_rad));
+    }
+    const double roll_rate_radps =
+        std::min(limits_.roll_rate_radps, leg.roll_rate_radps.value_or(limits_.roll_rate_radps));
+    if (peaks.roll_rate_radps > roll_rate_radps * most) {
+        return fault(
+            "roll rate in deg/s",
+            "most",
+            deg_from_rad(roll_rate_radps),
+            deg_from_rad(peaks.roll_rate_radps));
+    }
+    if (peaks.load_factor_rate_gps > limits_.load_factor_rate_gps * most) {
+        return fault(
+            "load factor onset in g/s",
+            "most",
+            limits_.load_factor_rate_gps,
+            peaks.load_factor_rate_gps);
+    }
+    return {};
+}
+
+void LimitsCheck::check_weave(Leg& leg) const {
+    const std::string fault = weave_fault(leg);
+    if (fault.empty()) {
+        return;
+    }
+    if (!lenient_) {
+        error_at(script_.file, leg.line, fault);
+    }
+    // Both amplitudes shrink alike, in steps of one percent.
+    Leg smaller = leg;
+    int percent = 100;
+    while (percent > 0 && !weave_fault(smaller).empty()) {
+        --percent;
+        smaller.lateral_g = leg.lateral_g * percent / 100.0;
+        smaller.vertical_g = leg.vertical_g * percent / 100.0;
+    }
+    notes_.push_back(fmt::format(
+        "{}:{}: weave clipped to {} %: {}", script_.file.string(), leg.line, percent, fault));
+    leg = smaller;
+}
+
+double least_flown_speed_mps(const sim::AircraftLimits& limits) {
+    return std::max(limits.least_speed_mps, 5.0);
+}
+
+} // namespace octant::flightpaths

@@ -1,0 +1,44 @@
+// Radii of curvature of the meridian and of the prime vertical: any text on geodesy, e.g. Snyder,
+// Map Projections: A Working Manual (USGS Professional Paper 1395), eqs. 4-18 and 4-20.
+
+#include "flightpaths/local_tangent.h"
+
+#include "sim/base/axes.h"
+#include "sim/base/units.h"
+
+#include <cmath>
+
+namespace octant::flightpaths {
+
+namespace {
+
+constexpr double semi_major_m = 6378137.0;
+constexpr double flattening = 1.0 / 298.257223563;
+
+/// Metres a radian of longitude (x) and of latitude (y).
+glm::dvec2 metres_a_radian(const GeoOrigin& origin) {
+    constexpr double e2 = flattening * (2.0 - flattening);
+    const double latitude_rad = rad_from_deg(origin.latitude_deg);
+    const double sine = std::sin(latitude_rad);
+    const double w2 = 1.0 - e2 * sine * sine;
+    const double prime_m = semi_major_m / std::sqrt(w2);
+    return {prime_m * std::cos(latitude_rad), prime_m * (1.0 - e2) / w2};
+}
+
+} // namespace
+
+glm::dvec2 local_from_geo(const GeoOrigin& origin, double latitude_deg, double longitude_deg) {
+    const glm::dvec2 scale = metres_a_radian(origin);
+    const double east_rad = wrapped_to_pi(rad_from_deg(longitude_deg - origin.longitude_deg));
+    const double north_rad = rad_from_deg(latitude_deg - origin.latitude_deg);
+    return {scale.x * east_rad, scale.y * north_rad};
+}
+
+GeoOrigin geo_from_local(const GeoOrigin& origin, const glm::dvec2& east_north_m) {
+    const glm::dvec2 scale = metres_a_radian(origin);
+    return {
+        origin.latitude_deg + deg_from_rad(east_north_m.y / scale.y),
+        origin.longitude_deg + deg_from_rad(east_north_m.x / scale.x)};
+}
+
+} // namespace octant::flightpaths

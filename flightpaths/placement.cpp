@@ -1,0 +1,264 @@
+#include "flightpaths/placement.h"
+
+#include "flightpaths/ground_follow.h"
+#include "sim/base/axes.h"
+#include "sim/base/error.h"
+#include "sim/base/units.h"
+#include "sim/fixed_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace octant::flightpaths {
+
+namespace {
+
+constexpr int headings = 24;
+
+/// Every step from the start, and the end.
+std::vector<double> step_times(const sim::Trajectory& path) {
+    const double duration_s = path.end_s() - path.start_s();
+    const long steps = static_cast<long>(std::ceil(duration_s * sim::steps_per_second - 1e-6));
+    std::vector<double> times_s;
+    for (long step = 0; step <= steps; ++step) {
+        times_s.push_back(path.start_s() + std::min(duration_s, sim::time_of_step(step)));
+    }
+    return times_s;
+}
+
+std::vector<glm::dvec3>
+places_along(const sim::Trajectory& path, const std::vector<double>& times_s) {
+    std::vector<glm::dvec3> places_m;
+    places_m.reserve(times_s.size());
+    for (const double time_s : times_s) {
+        places_m.push_back(path.state_at(time_s).position_m);
+    }
+    return places_m;
+}
+
+glm::dquat turn_by(double heading_rad) {
+    return glm::angleAxis(-heading_rad, glm::dvec3(0.0, 0.0, 1.0));
+}
+
+/// Ground along a path, or where it leaves the map.
+struct GroundTrack {
+    std::vector<double> heights_m;
+    std::optional<std::size_t> leaves_at; ///< index of the first place without ground
+};
+
+GroundTrack ground_along(const std::vector<glm::dvec3>& places_m, const GroundHeight& ground) {
+    GroundTrack track;
+    track.heights_m.reserve(places_m.size());
+    for (std::size_t i = 0; i < places_m.size(); ++i) {
+        const auto height_m = ground(places_m[i].x, places_m[i].y);
+        if (!height_m || !std::isfinite(*height_m)) {
+            track.leaves_at = i;
+            return track;
+        }
+        track.heights_m.push_back(*height_m);
+    }
+    return track;
+}
+
+std::vector<glm::dvec3>
+turned(const std::vector<glm::dvec3>& places_m, double heading_rad, const glm::dvec2& origin_m) {
+    const glm::dquat turn = turn_by(heading_rad);
+    std::vector<glm::dvec3> out;
+    out.reserve(places_m.size());
+    for (const glm::dvec3& place : places_m) {
+        out.push_back(turn * place + glm::dvec3(origin_m, 0.0));
+    }
+    return out;
+}
+
+std::string where(double time_s, const glm::dvec3& place_m) {
+    return fmt::format("t = {:.1f} s, x = {:.1f}, y = {:.1f} m", time_s, place_m.x, place_m.y);
+}
+
+struct Choice {
+    double heading_rad = 0.0;
+    glm::dvec2 origin_m{0.0};
+};
+
+/// The heading of least height difference on the ground; nothing when every heading leaves the map.
+std::optional<Choice> least_relief(
+    const std::vector<glm::dvec3>& places_m,
+    const glm::dvec2& pivot_m,
+    const glm::dvec2& place_m,
+    const GroundHeight& ground) {
+    std::optional<Choice> best;
+    double best_relief_m = std::numeric_limits<double>::infinity();
+    for (int candidate = 0; candidate < headings; ++candidate) {
+        const double heading_rad = 2.0 * pi * candidate / headings;
+        const glm::dvec2 origin_m =
+            place_m - glm::dvec2(turn_by(heading_rad) * glm::dvec3(pivot_m, 0.0));
+        const GroundTrack track = ground_along(turned(places_m, heading_rad, origin_m), ground);
+        if (track.leaves_at) {
+            continue;
+        }
+        const auto [low, high] =
+            std::minmax_element(track.heights_m.begin(), track.heights_m.end());
+        if (*high - *low < best_relief_m) {
+            best_relief_m = *high - *low;
+            best = Choice{heading_rad, origin_m};
+        }
+    }
+    return best;
+}
+
+glm::dvec2 middle_of(const std::vector<glm::dvec3>& places_m) {
+    glm::dvec3 low = places_m.front();
+    glm::dvec3 high = low;
+    for (const glm::dvec3& place : places_m) {
+        low = glm::min(low, place);
+        high = glm::max(high, place);
+    }
+    return glm::dvec2(0.5 * (low + high));
+}
+
+Choice chosen(
+    const std::vector<glm::dvec3>& places_m,
+    const std::vector<double>& times_s,
+    const Placement& placement,
+    const GroundHeight& ground) {
+    if (placement.heading_rad) {
+        return {wrapped_to_two_pi(*placement.heading_rad), placement.place_m};
+    }
+    auto best = least_relief(places_m, glm::dvec2(0.0), placement.place_m, ground);
+    if (!best) {
+        best = least_relief(places_m, middle_of(places_m), placement.place_m, ground);
+    }
+    if (best) {
+        return *best;
+    }
+    const auto as_is = turned(places_m, 0.0, placement.place_m);
+    const std::size_t at = ground_along(as_is, ground).leaves_at.value_or(0);
+    throw Error(fmt::format(
+        "path leaves the map at every heading, with heading 0 at {}",
+        where(times_s[at], as_is[at])));
+}
+
+sim::Trajectory moved(const sim::Trajectory& path, const Choice& choice) {
+    const glm::dquat turn = turn_by(choice.heading_rad);
+    std::vector<sim::AircraftState> samples(path.samples().begin(), path.samples().end());
+    for (sim::AircraftState& state : samples) {
+        state.position_m = turn * state.position_m + glm::dvec3(choice.origin_m, 0.0);
+        state.velocity_mps = turn * state.velocity_mps;
+        state.body_to_world = glm::normalize(turn * state.body_to_world);
+    }
+    return sim::Trajectory(std::move(samples));
+}
+
+sim::Trajectory raised(const sim::Trajectory& path, double by_m) {
+    std::vector<sim::AircraftState> samples(path.samples().begin(), path.samples().end());
+    for (sim::AircraftState& state : samples) {
+        state.position_m.z += by_m;
+    }
+    return sim::Trajectory(std::move(samples));
+}
+
+struct Lowest {
+    double clearance_m = 0.0;
+    std::size_t step = 0;
+};
+
+Lowest
+lowest_of(const std::vector<glm::dvec3>& places_m, const std::vector<double>& ground_heights_m) {
+    Lowest lowest{places_m.front().z - ground_heights_m.front(), 0};
+    for (std::size_t i = 1; i < places_m.size(); ++i) {
+        const double clearance_m = places_m[i].z - ground_heights_m[i];
+        if (clearance_m < lowest.clearance_m) {
+            lowest = {clearance_m, i};
+        }
+    }
+    return lowest;
+}
+
+[[noreturn]] void refuse_contact(
+    const std::vector<double>& times_s,
+    const std::vector<glm::dvec3>& places_m,
+    const std::vector<double>& ground_heights_m) {
+    std::size_t first = 0;
+    while (first + 1 < places_m.size() && places_m[first].z > ground_heights_m[first]) {
+        ++first;
+    }
+    throw Error(fmt::format(
+        "path meets the ground at {}, and is {:.1f} m below it at its lowest",
+        where(times_s[first], places_m[first]),
+        -lowest_of(places_m, ground_heights_m).clearance_m));
+}
+
+double least_added_m(const sim::Trajectory& before, const sim::Trajectory& after) {
+    double least_m = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < before.samples().size(); ++i) {
+        least_m =
+            std::min(least_m, after.samples()[i].position_m.z - before.samples()[i].position_m.z);
+    }
+    return least_m;
+}
+
+sim::Trajectory following(
+    const sim::Trajectory& path,
+    const std::vector<glm::dvec3>& places_m,
+    const std::vector<double>& ground_heights_m,
+    double min_clearance_m,
+    const sim::AircraftLimits& limits) {
+    // Heights of the path are heights over the ground, never less than the clearance.
+    std::vector<double> needed_m;
+    for (std::size_t i = 0; i < places_m.size(); ++i) {
+        needed_m.push_back(ground_heights_m[i] + std::max(0.0, min_clearance_m - places_m[i].z));
+    }
+    return lifted_over(path, needed_m, limits);
+}
+
+} // namespace
+
+PlacedPath place_over_ground(
+    const sim::Trajectory& path,
+    const Placement& placement,
+    const GroundHeight& ground,
+    double min_clearance_m,
+    const sim::AircraftLimits& limits) {
+    const std::vector<double> times_s = step_times(path);
+    const Choice choice = chosen(places_along(path, times_s), times_s, placement, ground);
+    const sim::Trajectory over = moved(path, choice);
+    std::vector<glm::dvec3> places_m = places_along(over, times_s);
+    const GroundTrack track = ground_along(places_m, ground);
+    if (track.leaves_at) {
+        throw Error(
+            "path leaves the map at " +
+            where(times_s[*track.leaves_at], places_m[*track.leaves_at]));
+    }
+    sim::Trajectory placed = over;
+    if (placement.mode == HeightMode::Follow) {
+        placed = following(over, places_m, track.heights_m, min_clearance_m, limits);
+        places_m = places_along(placed, times_s);
+    }
+    Lowest lowest = lowest_of(places_m, track.heights_m);
+    const double missing_m = min_clearance_m - lowest.clearance_m;
+    // Between samples a curve may dip a little below the envelope that the samples lie on.
+    if (placement.mode == HeightMode::Clear ||
+        (placement.mode == HeightMode::Follow && missing_m > 0.0)) {
+        placed = raised(placed, missing_m);
+        places_m = places_along(placed, times_s);
+        lowest = lowest_of(places_m, track.heights_m);
+    }
+    if (lowest.clearance_m <= 0.0 && placement.mode == HeightMode::Datum) {
+        refuse_contact(times_s, places_m, track.heights_m);
+    }
+    const double offset_m = least_added_m(over, placed);
+    return {
+        std::move(placed),
+        offset_m,
+        choice.heading_rad,
+        choice.origin_m,
+        lowest.clearance_m,
+        times_s[lowest.step],
+        places_m[lowest.step]};
+}
+
+} // namespace octant::flightpaths

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "sim/aircraft_limits.h"
+#include "sim/trajectory.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <functional>
+#include <optional>
+
+namespace octant::flightpaths {
+
+/// Height of the ground at world x (east), y (north), m; nothing outside the map.
+using GroundHeight = std::function<std::optional<double>(double x_m, double y_m)>;
+
+enum class HeightMode {
+    Clear,  ///< the whole path lifted (or lowered) by one height: its lowest clearance over the
+            ///< ground is the wanted one
+    Follow, ///< heights are heights over a smoothed ground, as far as the aircraft can follow it
+    Datum   ///< heights as they are
+};
+
+struct Placement {
+    glm::dvec2 place_m{0.0}; ///< where the path's origin goes
+    /// Turn of the whole path about its origin, clockwise; 0 keeps its north. Not given: that one
+    /// of 24 headings (15 degrees apart) whose ground has the least height difference, the lowest
+    /// heading among equals; headings that leave the map are passed over. If all 24 leave it, the
+    /// same again with the middle of the path (of its bounding box) at the place.
+    std::optional<double> heading_rad;
+    HeightMode mode = HeightMode::Clear;
+};
+
+struct PlacedPath {
+    sim::Trajectory trajectory;
+    double offset_m = 0.0; ///< added to every height; when following, the least that was added
+    double heading_rad = 0.0;
+    glm::dvec2 origin_m{0.0}; ///< where the path's origin came to lie
+    double lowest_clearance_m = 0.0;
+    double lowest_clearance_at_s = 0.0;
+    glm::dvec3 lowest_clearance_place_m{0.0}; ///< of the aircraft then
+};
+
+/// Puts a path over ground. Clearances are looked at every 1/120 s along the trajectory's curve.
+/// `limits` matter for HeightMode::Follow only, which guarantees `min_clearance_m` as Clear does.
+/// Throws Error with time and place when the path leaves the map or, with its heights as they are,
+/// meets the ground.
+PlacedPath place_over_ground(
+    const sim::Trajectory& path,
+    const Placement& placement,
+    const GroundHeight& ground,
+    double min_clearance_m,
+    const sim::AircraftLimits& limits);
+
+} // namespace octant::flightpaths

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+namespace octant::flightpaths {
+
+/// An aircraft as a point that lift pulls along its own up axis. The flight axes (x along the
+/// velocity, y right, z down, away from the lift) are a rotation and not two angles, so that a bank
+/// beyond 90 degrees or a climb through the vertical is no special case.
+struct PointMass {
+    glm::dvec3 position_m{0.0};                     ///< world
+    double speed_mps = 0.0;                         ///< above zero
+    glm::dquat flight_to_world{1.0, 0.0, 0.0, 0.0}; ///< unit
+    double load_factor = 1.0;                       ///< lift over weight, in g
+};
+
+/// What is held constant over one step.
+struct Controls {
+    double roll_rate_radps = 0.0;      ///< about the velocity, right wing down
+    double load_factor_rate_gps = 0.0; ///< change of the load factor, g/s
+    double acceleration_mps2 = 0.0;    ///< change of the speed
+};
+
+/// Position, track (clockwise from north), path angle (up) and bank (right) as a point mass.
+PointMass point_mass_at(
+    const glm::dvec3& position_m,
+    double speed_mps,
+    double track_rad,
+    double climb_rad,
+    double bank_rad = 0.0);
+
+/// The point mass `step_s` later. Classical Runge-Kutta of fourth order; the aircraft never
+/// sideslips, so its side is turned into the path by what gravity pulls sideways.
+PointMass stepped(const PointMass& now, const Controls& controls, double step_s);
+
+glm::dvec3 velocity_mps(const PointMass& mass);
+
+/// Turn rate of the track, rad/s, clockwise. Meaningless within a few degrees of the vertical.
+double track_rate_radps(const PointMass& mass);
+
+/// Attitude of the body: the flight axes with the nose raised by the angle of attack.
+glm::dquat body_to_world(const PointMass& mass, double angle_of_attack_rad);
+
+} // namespace octant::flightpaths

@@ -1,0 +1,278 @@
+#include "flightpaths/recorded_track.h"
+
+#include "flightpaths/motion_fill.h"
+#include "sim/base/axes.h"
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "sim/base/units.h"
+
+#include <glm/geometric.hpp>
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace octant::flightpaths {
+
+namespace {
+
+constexpr double fastest_mps = 3000.0;
+constexpr double furthest_m = 1e7;
+constexpr double longest_s = 86400.0;
+
+/// What a column means; the value of each column is in the unit of its name.
+enum Quantity {
+    time_q,
+    north_q,
+    east_q,
+    altitude_q,
+    roll_q,
+    pitch_q,
+    yaw_q,
+    v_north_q,
+    v_east_q,
+    v_up_q,
+    load_factor_q,
+    quantity_count
+};
+
+struct Known {
+    Quantity quantity;
+    std::string_view name;
+};
+
+constexpr std::array<Known, 11> own_columns{{
+    {time_q, "t_s"},
+    {north_q, "north_m"},
+    {east_q, "east_m"},
+    {altitude_q, "alt_m"},
+    {roll_q, "roll_deg"},
+    {pitch_q, "pitch_deg"},
+    {yaw_q, "yaw_deg"},
+    {v_north_q, "v_north_mps"},
+    {v_east_q, "v_east_mps"},
+    {v_up_q, "v_up_mps"},
+    {load_factor_q, "n_g"},
+}};
+
+// The geodetic latitude stands first: it is taken where both are there.
+constexpr std::array<Known, 11> jsbsim_columns{{
+    {time_q, "Time"},
+    {north_q, "Latitude Geodetic (deg)"},
+    {north_q, "Latitude (deg)"},
+    {east_q, "Longitude (deg)"},
+    {altitude_q, "Altitude ASL (ft)"},
+    {roll_q, "Phi (deg)"},
+    {pitch_q, "Theta (deg)"},
+    {yaw_q, "Psi (deg)"},
+    {v_north_q, "V_{North} (ft/s)"},
+    {v_east_q, "V_{East} (ft/s)"},
+    {v_up_q, "V_{Down} (ft/s)"},
+}};
+
+struct Column {
+    int field = -1; ///< -1: not there
+    std::string_view name;
+};
+
+struct Header {
+    char separator = ',';
+    bool jsbsim = false;
+    std::size_t fields = 0;
+    std::array<Column, quantity_count> columns;
+
+    bool has(std::initializer_list<Quantity> quantities) const {
+        for (const Quantity quantity : quantities) {
+            if (columns[quantity].field < 0) {
+                return false;
+            }
+        }
+        return true;
+    }
+};
+
+struct Source {
+    const std::filesystem::path& file;
+    int line;
+
+    [[noreturn]] void refuse(const std::string& what) const { error_at(file, line, what); }
+};
+
+int field_of(const std::vector<std::string_view>& names, std::string_view name, const Source& at) {
+    int found = -1;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (names[i] != name) {
+            continue;
+        }
+        if (found >= 0) {
+            at.refuse(fmt::format("expected one column {}, got two", name));
+        }
+        found = static_cast<int>(i);
+    }
+    return found;
+}
+
+void need_columns(const Header& header, const Source& at) {
+    for (const Known& known : header.jsbsim ? jsbsim_columns : own_columns) {
+        if (known.quantity <= altitude_q && !header.has({known.quantity})) {
+            at.refuse(fmt::format("expected a column {}, got none", known.name));
+        }
+    }
+}
+
+Header header_from(std::string_view line, const Source& at) {
+    if (line.substr(0, 3) == "\xef\xbb\xbf") {
+        line.remove_prefix(3);
+    }
+    Header header;
+    header.separator = line.find('\t') != std::string_view::npos ? '\t' : ',';
+    const auto names = split_fields(line, header.separator);
+    header.fields = names.size();
+    const bool own = field_of(names, "t_s", at) >= 0;
+    header.jsbsim = !own && field_of(names, "Time", at) >= 0;
+    if (!own && !header.jsbsim) {
+        at.refuse(fmt::format(
+            "expected column names with t_s or Time among them, got {}",
+            printable(std::string(line))));
+    }
+    for (const Known& known : header.jsbsim ? jsbsim_columns : own_columns) {
+        Column& column = header.columns[known.quantity];
+        if (column.field < 0) {
+            column = {field_of(names, known.name, at), known.name};
+        }
+    }
+    need_columns(header, at);
+    return header;
+}
+
+using Row = std::array<double, quantity_count>;
+
+Row row_from(std::string_view line, const Header& header, const Source& at) {
+    const auto fields = split_fields(line, header.separator);
+    if (fields.size() < header.fields) {
+        at.refuse(fmt::format("expected {} fields, got {}", header.fields, fields.size()));
+    }
+    Row row{};
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        const Column& column = header.columns[i];
+        if (column.field < 0) {
+            continue;
+        }
+        const std::string_view text = fields[static_cast<std::size_t>(column.field)];
+        const auto value = finite_number(text);
+        if (!value) {
+            at.refuse(fmt::format(
+                "expected a finite number in column {}, got \"{}\"",
+                column.name,
+                printable(std::string(text))));
+        }
+        row[i] = *value;
+    }
+    return row;
+}
+
+/// A JSBSim row in the units and axes of our own columns.
+Row own_from_jsbsim(Row row, std::optional<GeoOrigin>& origin, const Source& at) {
+    if (std::abs(row[north_q]) > 89.0 || std::abs(row[east_q]) > 360.0) {
+        at.refuse(fmt::format(
+            "expected a latitude within 89 deg and a longitude within 360 deg, got {} and {}",
+            row[north_q],
+            row[east_q]));
+    }
+    if (!origin) {
+        origin = GeoOrigin{row[north_q], row[east_q]};
+    }
+    const glm::dvec2 local = local_from_geo(*origin, row[north_q], row[east_q]);
+    row[north_q] = local.y;
+    row[east_q] = local.x;
+    row[altitude_q] = m_from_ft(row[altitude_q]);
+    row[v_north_q] = m_from_ft(row[v_north_q]);
+    row[v_east_q] = m_from_ft(row[v_east_q]);
+    row[v_up_q] = -m_from_ft(row[v_up_q]);
+    return row;
+}
+
+sim::AircraftState state_from(const Row& row, const Source& at) {
+    sim::AircraftState state;
+    state.time_s = row[time_q];
+    state.position_m = {row[east_q], row[north_q], row[altitude_q]};
+    if (!(glm::length(state.position_m) <= furthest_m)) {
+        at.refuse(fmt::format(
+            "expected a place within {:.0f} km of the origin, got {:.0f} km",
+            furthest_m / 1000.0,
+            glm::length(state.position_m) / 1000.0));
+    }
+    state.velocity_mps = {row[v_east_q], row[v_north_q], row[v_up_q]};
+    state.body_to_world = body_to_world_from_euler(
+        {rad_from_deg(row[yaw_q]), rad_from_deg(row[pitch_q]), rad_from_deg(row[roll_q])});
+    state.load_factor = row[load_factor_q];
+    return state;
+}
+
+void check_times(double first_s, double before_s, double now_s, const Source& at) {
+    if (!(now_s > before_s)) {
+        at.refuse(fmt::format("expected a time after {:.3f} s, got {:.3f} s", before_s, now_s));
+    }
+    if (!(now_s - first_s <= longest_s)) {
+        at.refuse(fmt::format(
+            "expected a time within {:.0f} s of the first, got {:.3f} s", longest_s, now_s));
+    }
+}
+
+void check_speed(
+    const sim::AircraftState& before, const sim::AircraftState& now, const Source& at) {
+    const double speed_mps = std::max(
+        glm::length(now.velocity_mps),
+        glm::length(now.position_m - before.position_m) / (now.time_s - before.time_s));
+    if (!(speed_mps <= fastest_mps)) {
+        at.refuse(fmt::format(
+            "expected a speed of at most {:.0f} m/s, got {:.1f} m/s", fastest_mps, speed_mps));
+    }
+}
+
+} // namespace
+
+RecordedTrack read_recorded_track(const std::filesystem::path& file) {
+    const std::string text = read_text_file(file);
+    const auto lines = split_lines(text);
+    if (lines.empty() || split_words(lines.front()).empty()) {
+        error_at(file, 1, "expected a line of column names, got an empty one");
+    }
+    const Header header = header_from(lines.front(), {file, 1});
+    std::optional<GeoOrigin> origin;
+    std::vector<sim::AircraftState> samples;
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+        if (split_words(lines[i]).empty()) {
+            continue;
+        }
+        const Source at{file, static_cast<int>(i) + 1};
+        Row row = row_from(lines[i], header, at);
+        if (header.jsbsim) {
+            row = own_from_jsbsim(row, origin, at);
+        }
+        samples.push_back(state_from(row, at));
+        if (samples.size() > 1) {
+            const sim::AircraftState& before = samples[samples.size() - 2];
+            check_times(samples.front().time_s, before.time_s, samples.back().time_s, at);
+            check_speed(before, samples.back(), at);
+        }
+    }
+    if (samples.size() < 2) {
+        error_in(file, fmt::format("expected at least 2 samples, got {}", samples.size()));
+    }
+    if (!header.has({v_north_q, v_east_q, v_up_q})) {
+        fill_velocities(samples);
+    }
+    if (!header.has({roll_q, pitch_q, yaw_q})) {
+        fill_attitudes(samples);
+    }
+    if (!header.has({load_factor_q})) {
+        fill_load_factors(samples);
+    }
+    return {sim::Trajectory(std::move(samples)), origin};
+}
+
+} // namespace octant::flightpaths

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "flightpaths/local_tangent.h"
+#include "sim/trajectory.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace octant::flightpaths {
+
+struct RecordedTrack {
+    sim::Trajectory trajectory; ///< at least 2 samples
+    /// Where the local origin lies; set when the recording gives latitude and longitude. The first
+    /// sample then is at x = y = 0; heights stay those of the recording, above datum.
+    std::optional<GeoOrigin> origin;
+};
+
+/// Reads a recorded flight as text: a line of column names, then a line a sample, separated by
+/// commas or tabs. Columns are found by name, in any order; others are passed over.
+///   own:    t_s, north_m, east_m, alt_m; optional roll_deg, pitch_deg, yaw_deg (all three),
+///           v_north_mps, v_east_mps, v_up_mps (all three), n_g
+///   JSBSim: Time, Latitude Geodetic (deg) or Latitude (deg), Longitude (deg), Altitude ASL (ft);
+///           optional Phi (deg), Theta (deg), Psi (deg), and V_{North} (ft/s), V_{East} (ft/s),
+///           V_{Down} (ft/s)
+/// What is optional and missing is made from the motion (motion_fill.h). Throws Error with file and
+/// line for a missing or doubled column, too few fields, what is no finite number, times that do
+/// not increase or span more than a day, fewer than 2 samples, a speed above 3000 m/s.
+RecordedTrack read_recorded_track(const std::filesystem::path& file);
+
+} // namespace octant::flightpaths

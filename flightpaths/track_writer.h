@@ -1,0 +1,29 @@
+#pragma once
+
+#include "flightpaths/fly_script.h"
+#include "flightpaths/local_tangent.h"
+#include "sim/trajectory.h"
+
+#include <string>
+#include <vector>
+
+namespace octant::flightpaths {
+
+/// A flight as comma-separated text with the columns t_s, north_m, east_m, alt_m, roll_deg,
+/// pitch_deg, yaw_deg, tas_mps, n_g, v_north_mps, v_east_mps, v_up_mps. read_recorded_track gives
+/// the same states back within 1e-3 (m, m/s, rad, g).
+std::string track_csv(const sim::Trajectory& trajectory);
+
+/// What a Tacview file says beside the motion.
+struct AcmiHeader {
+    std::string title;
+    std::string aircraft; ///< "f15" and "500md" get their type's name and class; others go as told
+    GeoOrigin origin;     ///< where x = y = 0 lies
+    std::vector<LegBegin> bookmarks;
+};
+
+/// A flight as Tacview ACMI 2.2 text with positions on the globe and on the flat local map. The
+/// reference time is fixed, so that the same flight gives the same bytes.
+std::string track_acmi(const sim::Trajectory& trajectory, const AcmiHeader& header);
+
+} // namespace octant::flightpaths
