@@ -222,13 +222,14 @@ void Mesher::visit(GroundFan fan, unsigned planes) {
         child_planes[q] = planes == 0 ? 0 : planes_cutting(child, planes);
         if (child_planes[q] > all_planes) {
             fan.hidden |= quadrant;
-        } else if (full ? full_split : wants_split(below, column, row)) {
+        }
+        if (full ? full_split : wants_split(below, column, row)) {
             fan.split |= quadrant;
         }
     }
     fans_[own] = fan;
     for (unsigned q = 0; q < 4; ++q) {
-        if ((fan.split >> q & 1U) != 0) {
+        if (((fan.split & ~fan.hidden) >> q & 1U) != 0) {
             visit(children[q], child_planes[q]);
         }
     }

@@ -45,7 +45,7 @@ struct GroundFan {
     std::uint16_t column = 0;
     std::uint16_t row = 0;
     std::uint8_t level = 0;
-    std::uint8_t split = 0;  ///< quadrants drawn by a child's own fan
+    std::uint8_t split = 0;  ///< quadrants left to a child's own fan, drawn unless hidden
     std::uint8_t hidden = 0; ///< quadrants outside the frustum or the field
     bool at_frustum = false; ///< not known to be wholly inside the frustum
 };
