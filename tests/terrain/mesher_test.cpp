@@ -1,5 +1,6 @@
 #include "tests/terrain/ground_check.h"
 #include "visuals/terrain/mesher.h"
+#include "visuals/terrain/settled_resolution.h"
 
 #include <catch2/catch.hpp>
 

@@ -13,9 +13,10 @@
 //   the edge is in the mesh or would be but for the frustum; and always at the field's border.
 #include "visuals/terrain/mesher.h"
 
-#include <glm/geometric.hpp>
+#include "visuals/terrain/frustum.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -29,10 +30,6 @@ constexpr unsigned south_east = 2;
 constexpr unsigned north_west = 4;
 constexpr unsigned north_east = 8;
 constexpr unsigned all_quadrants = 15;
-constexpr unsigned all_planes = 15;
-
-/// A box this far outside is still drawn: more than double arithmetic can be wrong by.
-constexpr double cull_margin_m = 1e-3;
 
 /// Edges of a fan counter-clockwise from the south one: the corners are those of the two quadrants.
 struct FanEdge {
@@ -78,11 +75,7 @@ GroundMesh Mesher::mesh(const MeshView& view, const Detail& detail) {
     look_from(view, detail);
     fans_.clear();
     counters_ = {};
-    unsigned planes = 0;
-    for (std::size_t k = 0; k < view.frustum_normals.size(); ++k) {
-        planes |= view.frustum_normals[k] == glm::dvec3(0.0) ? 0U : 1U << k;
-    }
-    visit({}, planes);
+    visit({}, planes_of(view.frustum_normals));
     make_room();
     for (const GroundFan& fan : fans_) {
         emit(fan);
@@ -152,9 +145,8 @@ bool Mesher::is_split(int level, int column, int row) const {
     return true;
 }
 
-/// Those of `planes` that a node's box is not wholly inside of; all_planes + 1 when it is wholly
-/// outside one of them.
-unsigned Mesher::planes_cutting(const GroundFan& node, unsigned planes) const {
+/// planes_cutting for the box of a node's samples.
+unsigned Mesher::planes_cutting_node(const GroundFan& node, unsigned planes) const {
     const models::HeightField& field = tree_->field();
     const QuadtreeNode& bounds = tree_->nodes()[node.node];
     const int edge = levels_[node.level].edge;
@@ -171,20 +163,7 @@ unsigned Mesher::planes_cutting(const GroundFan& node, unsigned planes) const {
         0.5 * (low_m + high_m));
     const glm::dvec3 half_m(
         (east - west) * half_spacing_m, (north - south) * half_spacing_m, 0.5 * (high_m - low_m));
-    unsigned cutting = 0;
-    for (unsigned k = 0; k < 4; ++k) {
-        if ((planes >> k & 1U) == 0) {
-            continue;
-        }
-        const glm::dvec3& normal = view_.frustum_normals[k];
-        const double middle_m = glm::dot(normal, centre_m);
-        const double radius_m = glm::dot(glm::abs(normal), half_m) + cull_margin_m;
-        if (middle_m < -radius_m) {
-            return all_planes + 1;
-        }
-        cutting |= middle_m < radius_m ? 1U << k : 0U;
-    }
-    return cutting;
+    return planes_cutting(view_.frustum_normals, planes, centre_m, half_m);
 }
 
 /// Puts a node and all that is split below it into fans_. `planes`: those that the node's box may
@@ -219,8 +198,8 @@ void Mesher::visit(GroundFan fan, unsigned planes) {
         child.row = static_cast<std::uint16_t>(row);
         child.level = static_cast<std::uint8_t>(below);
         ++counters_.nodes_visited;
-        child_planes[q] = planes == 0 ? 0 : planes_cutting(child, planes);
-        if (child_planes[q] > all_planes) {
+        child_planes[q] = planes == 0 ? 0 : planes_cutting_node(child, planes);
+        if (child_planes[q] == outside_frustum) {
             fan.hidden |= quadrant;
         }
         if (full ? full_split : wants_split(below, column, row)) {
@@ -228,8 +207,9 @@ void Mesher::visit(GroundFan fan, unsigned planes) {
         }
     }
     fans_[own] = fan;
+    const unsigned drawn = fan.split & ~static_cast<unsigned>(fan.hidden);
     for (unsigned q = 0; q < 4; ++q) {
-        if (((fan.split & ~fan.hidden) >> q & 1U) != 0) {
+        if ((drawn >> q & 1U) != 0) {
             visit(children[q], child_planes[q]);
         }
     }
@@ -349,36 +329,6 @@ std::uint32_t Mesher::vertex_at(Sample at) {
             static_cast<float>(height_m - view_.eye_m.z)),
         colours_[sample]};
     return vertex_count_++;
-}
-
-double settled_resolution(
-    Mesher& mesher,
-    const MeshView& view,
-    const Detail& detail,
-    double target_triangles,
-    double max_resolution) {
-    double low = mesher.tree().options().min_resolution;
-    double high = std::max(max_resolution, low);
-    double best = low;
-    double best_miss = std::numeric_limits<double>::infinity();
-    const auto too_many = [&](double resolution) {
-        Detail tried = detail;
-        tried.resolution = resolution;
-        const double over = mesher.mesh(view, tried).counters.triangles - target_triangles;
-        if (std::abs(over) < best_miss) {
-            best_miss = std::abs(over);
-            best = resolution;
-        }
-        return over > 0.0;
-    };
-    if (too_many(low) || !too_many(high)) {
-        return best;
-    }
-    for (int step = 0; step < 22 && best_miss > 0.0; ++step) {
-        const double middle = std::sqrt(low * high);
-        (too_many(middle) ? high : low) = middle;
-    }
-    return best;
 }
 
 } // namespace octant::visuals::terrain

@@ -2,53 +2,15 @@
 
 #include "models/colour_vertex.h"
 #include "visuals/terrain/detail_settings.h"
+#include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/quadtree.h"
 
-#include <glm/vec3.hpp>
-
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace octant::visuals::terrain {
-
-/// From where the ground is seen.
-struct MeshView {
-    glm::dvec3 eye_m{0.0}; ///< world axes; may lie outside the field or below the ground
-    /// Planes through the eye, unit normals in world axes pointing inside. A zero vector leaves
-    /// out its plane; all zero: nothing is culled.
-    std::array<glm::dvec3, 4> frustum_normals{
-        glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
-    /// How many times larger than through the reference lens things appear: tan(reference / 2) /
-    /// tan(field of view / 2). Multiplies C. At least 1 (asserted).
-    double magnification = 1.0;
-};
-
-struct MeshCounters {
-    int triangles = 0;
-    int fans = 0;          ///< nodes that gave at least one triangle
-    int nodes_visited = 0; ///< nodes tested for culling or splitting
-};
-
-/// The ground for one view. The memory is the mesher's and lasts until its next mesh.
-struct GroundMesh {
-    std::span<const models::ColourVertex> vertices; ///< used samples, each once
-    std::span<const std::uint32_t> indices; ///< triangles, counter-clockwise seen from above
-    MeshCounters counters;
-};
-
-/// A node that is in the mesh: its centre is a vertex, unless all four quadrants are split.
-/// Quadrants are bits: 1 south-west, 2 south-east, 4 north-west, 8 north-east.
-struct GroundFan {
-    std::uint32_t node = 0; ///< index into Quadtree::nodes()
-    std::uint16_t column = 0;
-    std::uint16_t row = 0;
-    std::uint8_t level = 0;
-    std::uint8_t split = 0;  ///< quadrants left to a child's own fan, drawn unless hidden
-    std::uint8_t hidden = 0; ///< quadrants outside the frustum or the field
-    bool at_frustum = false; ///< not known to be wholly inside the frustum
-};
 
 /// Makes the mesh of a quadtree for an eye point, frame after frame in the same memory.
 ///
@@ -89,7 +51,7 @@ private:
     void look_from(const MeshView& view, const Detail& detail);
     bool wants_split(int level, int column, int row) const;
     bool is_split(int level, int column, int row) const;
-    unsigned planes_cutting(const GroundFan& node, unsigned planes) const;
+    unsigned planes_cutting_node(const GroundFan& node, unsigned planes) const;
     void visit(GroundFan fan, unsigned planes);
     void make_room();
     void emit(const GroundFan& fan);
@@ -120,16 +82,5 @@ private:
     std::size_t index_count_ = 0;
     MeshCounters counters_;
 };
-
-/// The resolution C at which a mesh comes nearest to `target_triangles` from this view, by
-/// bisection between the tree's smallest and `max_resolution`; `detail.resolution` is not looked
-/// at. Makes about 24 meshes: work for loading, so that the first picture of a run already meets
-/// its target.
-double settled_resolution(
-    Mesher& mesher,
-    const MeshView& view,
-    const Detail& detail,
-    double target_triangles,
-    double max_resolution);
 
 } // namespace octant::visuals::terrain

@@ -137,8 +137,7 @@ Quadtree::Quadtree(const models::HeightField& field, const QuadtreeOptions& opti
     }
     bound_last_level();
     for (int level = levels() - 2; level >= 0; --level) {
-        bound(level);
-        propagate(level);
+        take_from_children(level);
     }
 }
 
@@ -182,21 +181,17 @@ void Quadtree::bound_last_level() {
     }
 }
 
-void Quadtree::bound(int level) {
-    QuadtreeNode* node = nodes_.data() + index_of(level, 0, 0);
-    for (int row = 0; row < rows(level); ++row) {
-        const int last_row = std::min(2 * row + 1, rows(level + 1) - 1);
-        for (int column = 0; column < columns(level); ++column, ++node) {
-            const int last_column = std::min(2 * column + 1, columns(level + 1) - 1);
-            node->lowest = 255;
-            node->highest = 0;
-            for (int j = 2 * row; j <= last_row; ++j) {
-                for (int i = 2 * column; i <= last_column; ++i) {
-                    const QuadtreeNode& child = nodes_[index_of(level + 1, i, j)];
-                    node->lowest = std::min(node->lowest, child.lowest);
-                    node->highest = std::max(node->highest, child.highest);
-                }
-            }
+/// Height bounds of a node from those of its children that exist.
+void Quadtree::bound_by_children(int level, int column, int row) {
+    QuadtreeNode& node = nodes_[index_of(level, column, row)];
+    node.lowest = 255;
+    node.highest = 0;
+    const int below = level + 1;
+    for (int j = 2 * row; j < std::min(2 * row + 2, rows(below)); ++j) {
+        for (int i = 2 * column; i < std::min(2 * column + 2, columns(below)); ++i) {
+            const QuadtreeNode& child = nodes_[index_of(below, i, j)];
+            node.lowest = std::min(node.lowest, child.lowest);
+            node.highest = std::max(node.highest, child.highest);
         }
     }
 }
@@ -223,15 +218,17 @@ float Quadtree::roughest_child(int level, int column, int row) const {
     return roughness_of({roughest, 0, 0});
 }
 
-void Quadtree::propagate(int level) {
+/// Height bounds and propagated roughness of a level from the one below.
+void Quadtree::take_from_children(int level) {
     const double share = options_.propagation == Propagation::CrackFree
                              ? 0.5 + std::sqrt(2.5) / (2.0 * options_.min_resolution)
                              : 1.0;
-    QuadtreeNode* node = nodes_.data() + index_of(level, 0, 0);
     for (int row = 0; row < rows(level); ++row) {
-        for (int column = 0; column < columns(level); ++column, ++node) {
+        for (int column = 0; column < columns(level); ++column) {
+            bound_by_children(level, column, row);
             const float propagated = static_cast<float>(share) * roughest_child(level, column, row);
-            node->roughness = std::max(node->roughness, packed_roughness(propagated));
+            QuadtreeNode& node = nodes_[index_of(level, column, row)];
+            node.roughness = std::max(node.roughness, packed_roughness(propagated));
         }
     }
 }

@@ -80,8 +80,8 @@ private:
 
     void measure(int level);
     void bound_last_level();
-    void bound(int level);
-    void propagate(int level);
+    void bound_by_children(int level, int column, int row);
+    void take_from_children(int level);
     float roughest_child(int level, int column, int row) const;
 
     const models::HeightField* field_;

@@ -1,0 +1,39 @@
+#include "visuals/terrain/settled_resolution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace octant::visuals::terrain {
+
+double settled_resolution(
+    Mesher& mesher,
+    const MeshView& view,
+    const Detail& detail,
+    double target_triangles,
+    double max_resolution) {
+    double low = mesher.tree().options().min_resolution;
+    double high = std::max(max_resolution, low);
+    double best = low;
+    double best_miss = std::numeric_limits<double>::infinity();
+    const auto too_many = [&](double resolution) {
+        Detail tried = detail;
+        tried.resolution = resolution;
+        const double over = mesher.mesh(view, tried).counters.triangles - target_triangles;
+        if (std::abs(over) < best_miss) {
+            best_miss = std::abs(over);
+            best = resolution;
+        }
+        return over > 0.0;
+    };
+    if (too_many(low) || !too_many(high)) {
+        return best;
+    }
+    for (int step = 0; step < 22 && best_miss > 0.0; ++step) {
+        const double middle = std::sqrt(low * high);
+        (too_many(middle) ? high : low) = middle;
+    }
+    return best;
+}
+
+} // namespace octant::visuals::terrain
