@@ -297,6 +297,19 @@ TEST_CASE("an aircraft has light from everywhere and the sun's by the cosine to 
     CHECK(lit_from({0.0F, 0.0F, 1.0F}) == Pixel{38, 153, 255, 255});
 }
 
+TEST_CASE("light beyond white is cut before the haze is mixed in") {
+    Studio studio;
+    const scene::ModelBuffers model = square_model(glm::vec3(1.0F));
+    studio.renderer().load_models({&model, 1});
+    scene::FramePlan plan = empty_plan();
+    plan.ambient = glm::vec3(1.5F);
+    plan.aircraft = {square_ahead(0, 100.0F)};
+    plan.haze = {glm::vec3(0.0F), 100.0F};
+    plan.view_to_clip[0][0] = 100.0F; // large enough to be seen
+    plan.view_to_clip[1][1] = 100.0F;
+    CHECK(middle(studio.picture(plan)) == Pixel{94, 94, 94, 255}); // 255 / e
+}
+
 TEST_CASE("an aircraft's polygon has one colour, that of the corner its fan starts from") {
     Studio studio;
     scene::ModelBuffers model = square_model(red);
