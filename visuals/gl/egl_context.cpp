@@ -5,8 +5,6 @@
 #include <EGL/eglext.h>
 #include <algorithm>
 #include <array>
-#include <map>
-#include <mutex>
 #include <string_view>
 #include <vector>
 
@@ -49,52 +47,14 @@ std::vector<EGLDisplay> displays_without_screen() {
     return displays;
 }
 
-/// One use of an initialised display. EGL hands out the same display again and does not count its
-/// users, so that the last one must terminate it and no other may.
-class DisplayUse {
-public:
-    /// Throws Error when the display cannot be initialised.
-    explicit DisplayUse(EGLDisplay display)
-        : display_(display) {
-        const std::lock_guard lock(mutex());
-        if (uses()[display] == 0 && eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
-            throw Error("expected EGL to initialise without a display, got a refusal");
-        }
-        ++uses()[display];
-    }
-
-    ~DisplayUse() {
-        const std::lock_guard lock(mutex());
-        if (--uses()[display_] == 0) {
-            eglTerminate(display_);
-        }
-    }
-
-    DisplayUse(const DisplayUse&) = delete;
-    DisplayUse& operator=(const DisplayUse&) = delete;
-    DisplayUse(DisplayUse&&) = delete;
-    DisplayUse& operator=(DisplayUse&&) = delete;
-
-    EGLDisplay display() const { return display_; }
-
-private:
-    static std::mutex& mutex() {
-        static std::mutex the_mutex;
-        return the_mutex;
-    }
-
-    static std::map<EGLDisplay, int>& uses() {
-        static std::map<EGLDisplay, int> counts;
-        return counts;
-    }
-
-    EGLDisplay display_;
-};
-
 class EglContext final : public Context {
 public:
     explicit EglContext(EGLDisplay display)
-        : use_(display) {
+        : display_(display) {
+        // Never terminated: EGL hands out the same display again and does not count its users.
+        if (eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
+            throw Error("expected EGL to initialise without a display, got a refusal");
+        }
         const std::array<EGLint, 5> config_wanted{
             EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_NONE};
         EGLConfig config = nullptr;
@@ -118,7 +78,7 @@ public:
 
     ~EglContext() override {
         leave();
-        eglDestroyContext(use_.display(), context_);
+        eglDestroyContext(display_, context_);
     }
 
     EglContext(const EglContext&) = delete;
@@ -131,16 +91,16 @@ public:
 private:
     void bind() override {
         eglBindAPI(EGL_OPENGL_API);
-        if (eglMakeCurrent(use_.display(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
+        if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
             throw Error("expected EGL to make a context current without a surface, got a refusal");
         }
     }
 
     void release() override {
-        eglMakeCurrent(use_.display(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     }
 
-    DisplayUse use_;
+    EGLDisplay display_;
     EGLContext context_ = EGL_NO_CONTEXT;
 };
 
