@@ -55,7 +55,7 @@ LegPilot::LegPilot(const Leg& leg, const PointMass& start, const sim::AircraftLi
     const double share = leg.kind == LegKind::Jink ? 1.0 : 0.5;
     roll_rate_limit_radps_ = leg.roll_rate_radps.value_or(share * limits.roll_rate_radps);
     if (leg.kind == LegKind::Hold) {
-        hold_climb_rad_ = angles.pitch_rad;
+        hold_climb_rad_ = angles.pitch_rad + climb_to_come_rad(start);
     } else if (leg.kind != LegKind::Pull && leg.kind != LegKind::Push) {
         hold_climb_rad_ = leg.climb_rad.value_or(0.0);
     }
@@ -145,16 +145,21 @@ double LegPilot::roll_rate(const PointMass& now, const Aim& aim) const {
     return std::clamp(wanted_radps, -roll_rate_limit_radps_, roll_rate_limit_radps_);
 }
 
-bool LegPilot::reached_climb(const PointMass& now) const {
+double LegPilot::climb_to_come_rad(const PointMass& now) const {
     const EulerAngles angles = euler_from_body_to_world(now.flight_to_world);
     const double rate_radps =
         gravity_mps2 / now.speed_mps *
         (now.load_factor * std::cos(angles.roll_rad) - std::cos(angles.pitch_rad));
     const double unloading_s =
         0.5 * std::abs(now.load_factor - 1.0) / limits_.load_factor_rate_gps + load_factor_lag_s;
+    return rate_radps * unloading_s;
+}
+
+bool LegPilot::reached_climb(const PointMass& now) const {
+    const double climb_rad = euler_from_body_to_world(now.flight_to_world).pitch_rad;
     const double side = *leg_.climb_rad >= start_climb_rad_ ? 1.0 : -1.0;
-    const double to_come_rad = std::max(0.0, side * rate_radps) * unloading_s;
-    return side * (angles.pitch_rad - *leg_.climb_rad) + to_come_rad >= 0.0;
+    const double to_come_rad = std::max(0.0, side * climb_to_come_rad(now));
+    return side * (climb_rad - *leg_.climb_rad) + to_come_rad >= 0.0;
 }
 
 bool LegPilot::reached_heading(const PointMass& now) const {

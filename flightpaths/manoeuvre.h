@@ -39,6 +39,8 @@ private:
     Aim aim(const PointMass& now, double since_s) const;
     double load_factor_to_hold_path(const PointMass& now, double aim_bank_rad) const;
     double roll_rate(const PointMass& now, const Aim& aim) const;
+    /// Change of the path angle while the load factor goes to 1 g.
+    double climb_to_come_rad(const PointMass& now) const;
     bool reached_climb(const PointMass& now) const;
     bool reached_heading(const PointMass& now) const;
 

@@ -18,6 +18,8 @@ namespace octant::flightpaths {
 namespace {
 
 constexpr int headings = 24;
+/// Reliefs closer than this count as equal, so that rounding does not choose.
+constexpr double same_relief_m = 1e-6;
 
 /// Every step from the start, and the end.
 std::vector<double> step_times(const sim::Trajectory& path) {
@@ -102,7 +104,7 @@ std::optional<Choice> least_relief(
         }
         const auto [low, high] =
             std::minmax_element(track.heights_m.begin(), track.heights_m.end());
-        if (*high - *low < best_relief_m) {
+        if (*high - *low < best_relief_m - same_relief_m) {
             best_relief_m = *high - *low;
             best = Choice{heading_rad, origin_m};
         }

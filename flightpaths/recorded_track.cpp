@@ -25,18 +25,18 @@ constexpr double longest_s = 86400.0;
 
 /// What a column means; the value of each column is in the unit of its name.
 enum Quantity {
-    time_q,
-    north_q,
-    east_q,
-    altitude_q,
-    roll_q,
-    pitch_q,
-    yaw_q,
-    v_north_q,
-    v_east_q,
-    v_up_q,
-    load_factor_q,
-    quantity_count
+    Time,
+    North,
+    East,
+    Altitude,
+    Roll,
+    Pitch,
+    Yaw,
+    NorthSpeed,
+    EastSpeed,
+    UpSpeed,
+    LoadFactor,
+    QuantityCount
 };
 
 struct Known {
@@ -45,32 +45,32 @@ struct Known {
 };
 
 constexpr std::array<Known, 11> own_columns{{
-    {time_q, "t_s"},
-    {north_q, "north_m"},
-    {east_q, "east_m"},
-    {altitude_q, "alt_m"},
-    {roll_q, "roll_deg"},
-    {pitch_q, "pitch_deg"},
-    {yaw_q, "yaw_deg"},
-    {v_north_q, "v_north_mps"},
-    {v_east_q, "v_east_mps"},
-    {v_up_q, "v_up_mps"},
-    {load_factor_q, "n_g"},
+    {Time, "t_s"},
+    {North, "north_m"},
+    {East, "east_m"},
+    {Altitude, "alt_m"},
+    {Roll, "roll_deg"},
+    {Pitch, "pitch_deg"},
+    {Yaw, "yaw_deg"},
+    {NorthSpeed, "v_north_mps"},
+    {EastSpeed, "v_east_mps"},
+    {UpSpeed, "v_up_mps"},
+    {LoadFactor, "n_g"},
 }};
 
 // The geodetic latitude stands first: it is taken where both are there.
 constexpr std::array<Known, 11> jsbsim_columns{{
-    {time_q, "Time"},
-    {north_q, "Latitude Geodetic (deg)"},
-    {north_q, "Latitude (deg)"},
-    {east_q, "Longitude (deg)"},
-    {altitude_q, "Altitude ASL (ft)"},
-    {roll_q, "Phi (deg)"},
-    {pitch_q, "Theta (deg)"},
-    {yaw_q, "Psi (deg)"},
-    {v_north_q, "V_{North} (ft/s)"},
-    {v_east_q, "V_{East} (ft/s)"},
-    {v_up_q, "V_{Down} (ft/s)"},
+    {Time, "Time"},
+    {North, "Latitude Geodetic (deg)"},
+    {North, "Latitude (deg)"},
+    {East, "Longitude (deg)"},
+    {Altitude, "Altitude ASL (ft)"},
+    {Roll, "Phi (deg)"},
+    {Pitch, "Theta (deg)"},
+    {Yaw, "Psi (deg)"},
+    {NorthSpeed, "V_{North} (ft/s)"},
+    {EastSpeed, "V_{East} (ft/s)"},
+    {UpSpeed, "V_{Down} (ft/s)"},
 }};
 
 struct Column {
@@ -82,7 +82,7 @@ struct Header {
     char separator = ',';
     bool jsbsim = false;
     std::size_t fields = 0;
-    std::array<Column, quantity_count> columns;
+    std::array<Column, QuantityCount> columns;
 
     bool has(std::initializer_list<Quantity> quantities) const {
         for (const Quantity quantity : quantities) {
@@ -117,7 +117,7 @@ int field_of(const std::vector<std::string_view>& names, std::string_view name, 
 
 void need_columns(const Header& header, const Source& at) {
     for (const Known& known : header.jsbsim ? jsbsim_columns : own_columns) {
-        if (known.quantity <= altitude_q && !header.has({known.quantity})) {
+        if (known.quantity <= Altitude && !header.has({known.quantity})) {
             at.refuse(fmt::format("expected a column {}, got none", known.name));
         }
     }
@@ -148,7 +148,7 @@ Header header_from(std::string_view line, const Source& at) {
     return header;
 }
 
-using Row = std::array<double, quantity_count>;
+using Row = std::array<double, QuantityCount>;
 
 Row row_from(std::string_view line, const Header& header, const Source& at) {
     const auto fields = split_fields(line, header.separator);
@@ -176,39 +176,39 @@ Row row_from(std::string_view line, const Header& header, const Source& at) {
 
 /// A JSBSim row in the units and axes of our own columns.
 Row own_from_jsbsim(Row row, std::optional<GeoOrigin>& origin, const Source& at) {
-    if (std::abs(row[north_q]) > 89.0 || std::abs(row[east_q]) > 360.0) {
+    if (std::abs(row[North]) > 89.0 || std::abs(row[East]) > 360.0) {
         at.refuse(fmt::format(
             "expected a latitude within 89 deg and a longitude within 360 deg, got {} and {}",
-            row[north_q],
-            row[east_q]));
+            row[North],
+            row[East]));
     }
     if (!origin) {
-        origin = GeoOrigin{row[north_q], row[east_q]};
+        origin = GeoOrigin{row[North], row[East]};
     }
-    const glm::dvec2 local = local_from_geo(*origin, row[north_q], row[east_q]);
-    row[north_q] = local.y;
-    row[east_q] = local.x;
-    row[altitude_q] = m_from_ft(row[altitude_q]);
-    row[v_north_q] = m_from_ft(row[v_north_q]);
-    row[v_east_q] = m_from_ft(row[v_east_q]);
-    row[v_up_q] = -m_from_ft(row[v_up_q]);
+    const glm::dvec2 local = local_from_geo(*origin, row[North], row[East]);
+    row[North] = local.y;
+    row[East] = local.x;
+    row[Altitude] = m_from_ft(row[Altitude]);
+    row[NorthSpeed] = m_from_ft(row[NorthSpeed]);
+    row[EastSpeed] = m_from_ft(row[EastSpeed]);
+    row[UpSpeed] = -m_from_ft(row[UpSpeed]);
     return row;
 }
 
 sim::AircraftState state_from(const Row& row, const Source& at) {
     sim::AircraftState state;
-    state.time_s = row[time_q];
-    state.position_m = {row[east_q], row[north_q], row[altitude_q]};
+    state.time_s = row[Time];
+    state.position_m = {row[East], row[North], row[Altitude]};
     if (!(glm::length(state.position_m) <= furthest_m)) {
         at.refuse(fmt::format(
             "expected a place within {:.0f} km of the origin, got {:.0f} km",
             furthest_m / 1000.0,
             glm::length(state.position_m) / 1000.0));
     }
-    state.velocity_mps = {row[v_east_q], row[v_north_q], row[v_up_q]};
+    state.velocity_mps = {row[EastSpeed], row[NorthSpeed], row[UpSpeed]};
     state.body_to_world = body_to_world_from_euler(
-        {rad_from_deg(row[yaw_q]), rad_from_deg(row[pitch_q]), rad_from_deg(row[roll_q])});
-    state.load_factor = row[load_factor_q];
+        {rad_from_deg(row[Yaw]), rad_from_deg(row[Pitch]), rad_from_deg(row[Roll])});
+    state.load_factor = row[LoadFactor];
     return state;
 }
 
@@ -263,13 +263,13 @@ RecordedTrack read_recorded_track(const std::filesystem::path& file) {
     if (samples.size() < 2) {
         error_in(file, fmt::format("expected at least 2 samples, got {}", samples.size()));
     }
-    if (!header.has({v_north_q, v_east_q, v_up_q})) {
+    if (!header.has({NorthSpeed, EastSpeed, UpSpeed})) {
         fill_velocities(samples);
     }
-    if (!header.has({roll_q, pitch_q, yaw_q})) {
+    if (!header.has({Roll, Pitch, Yaw})) {
         fill_attitudes(samples);
     }
-    if (!header.has({load_factor_q})) {
+    if (!header.has({LoadFactor})) {
         fill_load_factors(samples);
     }
     return {sim::Trajectory(std::move(samples)), origin};
