@@ -9,7 +9,7 @@ struct FrameRecord {
     int frame = 0;
     bool warm_up = false; ///< recorded, but left out of the statistics
     double sim_time_s = 0.0;
-    double wall_s = 0.0;   ///< since the first frame began
+    double wall_s = 0.0;   ///< when this frame began, since the first frame began
     double frame_ms = 0.0; ///< simulation step begun to pixels read
     double sim_ms = 0.0;
     double plan_ms = 0.0;

@@ -1,0 +1,164 @@
+#include "ui/report/child_program.h"
+
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+
+#include <array>
+#include <cassert>
+#include <cerrno>
+#include <cstring>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <utility>
+
+extern char** environ;
+
+namespace octant::ui::report {
+
+namespace {
+
+void close_if_open(int& descriptor) {
+    if (descriptor >= 0) {
+        ::close(std::exchange(descriptor, -1));
+    }
+}
+
+std::string all_of(int descriptor) {
+    std::string text;
+    std::array<char, 65536> piece{};
+    ::lseek(descriptor, 0, SEEK_SET);
+    while (true) {
+        const ssize_t got = ::read(descriptor, piece.data(), piece.size());
+        if (got > 0) {
+            text.append(piece.data(), static_cast<std::size_t>(got));
+        } else if (got == 0 || errno != EINTR) {
+            return text;
+        }
+    }
+}
+
+std::string last_line(const std::string& text) {
+    std::string_view last;
+    for (const std::string_view line : split_lines(text)) {
+        if (!split_words(line).empty()) {
+            last = line;
+        }
+    }
+    return std::string(last);
+}
+
+std::string ending_text(int status) {
+    if (WIFSIGNALED(status)) {
+        return fmt::format("ended by signal {}", WTERMSIG(status));
+    }
+    return fmt::format("ended with exit code {}", WEXITSTATUS(status));
+}
+
+/// Spawns with standard input, output and error set. Returns errno's value, 0 = running.
+int spawn(
+    pid_t& process, const std::vector<std::string>& words, const std::array<int, 3>& streams) {
+    std::vector<char*> arguments;
+    for (const std::string& word : words) {
+        arguments.push_back(const_cast<char*>(word.c_str())); // spawn does not write to them
+    }
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t actions{};
+    posix_spawn_file_actions_init(&actions);
+    for (int i = 0; i < 3; ++i) {
+        posix_spawn_file_actions_adddup2(&actions, streams[static_cast<std::size_t>(i)], i);
+    }
+    posix_spawnattr_t attributes{};
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    const int code =
+        posix_spawnp(&process, arguments[0], &actions, &attributes, arguments.data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return code;
+}
+
+} // namespace
+
+std::optional<ChildProgram> ChildProgram::start(const std::vector<std::string>& words) {
+    assert(!words.empty());
+    ChildProgram child;
+    // A socket rather than a pipe: send() can be told not to raise SIGPIPE.
+    std::array<int, 2> ends{-1, -1};
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+        throw Error(fmt::format("{} cannot be started: {}", words[0], std::strerror(errno)));
+    }
+    child.input_ = ends[0];
+    child.output_ = ::memfd_create("output", MFD_CLOEXEC);
+    child.complaints_ = ::memfd_create("complaints", MFD_CLOEXEC);
+    const int code =
+        child.output_ < 0 || child.complaints_ < 0
+            ? errno
+            : spawn(child.process_, words, {ends[1], child.output_, child.complaints_});
+    ::close(ends[1]);
+    if (code == 0) {
+        return child;
+    }
+    child.process_ = -1;
+    if (code == ENOENT || code == EACCES || code == ENOTDIR) {
+        return std::nullopt;
+    }
+    throw Error(fmt::format("{} cannot be started: {}", words[0], std::strerror(code)));
+}
+
+ChildProgram::~ChildProgram() {
+    close_if_open(input_);
+    wait();
+    close_if_open(output_);
+    close_if_open(complaints_);
+}
+
+ChildProgram::ChildProgram(ChildProgram&& other) noexcept
+    : process_(std::exchange(other.process_, -1))
+    , input_(std::exchange(other.input_, -1))
+    , output_(std::exchange(other.output_, -1))
+    , complaints_(std::exchange(other.complaints_, -1)) {}
+
+bool ChildProgram::send(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t sent = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+        if (sent < 0 && errno == EINTR) {
+            continue;
+        }
+        if (sent < 0) {
+            return false;
+        }
+        bytes.remove_prefix(static_cast<std::size_t>(sent));
+    }
+    return true;
+}
+
+int ChildProgram::wait() {
+    int status = 0;
+    if (process_ > 0) {
+        while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+        }
+        process_ = -1;
+    }
+    return status;
+}
+
+ProgramEnding ChildProgram::finish() {
+    assert(process_ > 0);
+    close_if_open(input_);
+    const int status = wait();
+    ProgramEnding ending;
+    ending.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    ending.output = all_of(output_);
+    ending.last_complaint = last_line(all_of(complaints_));
+    if (ending.last_complaint.empty() && !ending.succeeded) {
+        ending.last_complaint = ending_text(status);
+    }
+    return ending;
+}
+
+} // namespace octant::ui::report

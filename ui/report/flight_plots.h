@@ -1,0 +1,21 @@
+#pragma once
+
+#include "ui/report/frame_record.h"
+#include "ui/report/plots.h"
+
+#include <span>
+#include <vector>
+
+namespace octant::ui::report {
+
+/// Top of a flight's frame-time plots: above 16.67 ms and above its longest counted frame, but no
+/// more than 2.5 times P99, so that one stray frame does not flatten the rest (its curve leaves the
+/// plot). Plots of several flights take the greatest, so that they compare by eye.
+double plot_ceiling_ms(std::span<const FrameRecord> records);
+
+/// The plots of a flight: frame time (warm-up apart), histogram, stages, terrain triangles, their
+/// change. A long flight is thinned to some thousand points: curves keep every peak, stages are
+/// averaged.
+std::vector<Plot> flight_plots(std::span<const FrameRecord> records, double ceiling_ms);
+
+} // namespace octant::ui::report

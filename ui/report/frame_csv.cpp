@@ -1,0 +1,225 @@
+#include "ui/report/frame_csv.h"
+
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+#include <limits>
+#include <string_view>
+#include <type_traits>
+
+namespace octant::ui::report {
+
+namespace {
+
+enum class Kind { whole, number, may_be_empty };
+
+struct Column {
+    std::string_view name;
+    Kind kind;
+    int decimals;
+    double (*get)(const FrameRecord&);
+    void (*set)(FrameRecord&, double);
+};
+
+template <auto Member>
+constexpr Column column(std::string_view name, Kind kind = Kind::whole, int decimals = 0) {
+    return {
+        name,
+        kind,
+        decimals,
+        [](const FrameRecord& record) { return static_cast<double>(record.*Member); },
+        [](FrameRecord& record, double value) {
+            record.*Member = static_cast<std::remove_reference_t<decltype(record.*Member)>>(value);
+        }};
+}
+
+template <auto Member, int axis>
+constexpr Column axis_column(std::string_view name) {
+    return {
+        name,
+        Kind::may_be_empty,
+        3,
+        [](const FrameRecord& record) { return (record.*Member)[axis]; },
+        [](FrameRecord& record, double value) { (record.*Member)[axis] = value; }};
+}
+
+using R = FrameRecord;
+constexpr auto seconds = 6;
+constexpr auto milliseconds = 4;
+constexpr std::size_t required_columns = 16;
+constexpr std::array columns{
+    column<&R::frame>("frame"),
+    column<&R::sim_time_s>("sim_time_s", Kind::number, seconds),
+    column<&R::wall_s>("wall_s", Kind::number, seconds),
+    column<&R::frame_ms>("frame_ms", Kind::number, milliseconds),
+    column<&R::sim_ms>("sim_ms", Kind::number, milliseconds),
+    column<&R::plan_ms>("plan_ms", Kind::number, milliseconds),
+    column<&R::draw_ms>("draw_ms", Kind::number, milliseconds),
+    column<&R::read_ms>("read_ms", Kind::number, milliseconds),
+    column<&R::terrain_triangles>("terrain_triangles"),
+    column<&R::terrain_fans>("terrain_fans"),
+    column<&R::aircraft_polygons>("aircraft_polygons"),
+    column<&R::draw_cell>("draw_cell"),
+    column<&R::resolution_c>("resolution_c", Kind::may_be_empty, 6),
+    column<&R::triangle_change>("triangle_change"),
+    column<&R::stress>("stress", Kind::may_be_empty, 4),
+    column<&R::overrun>("overrun"),
+    column<&R::warm_up>("warm_up"),
+    column<&R::record_ms>("record_ms", Kind::number, milliseconds),
+    axis_column<&R::eye_m, 0>("eye_x_m"),
+    axis_column<&R::eye_m, 1>("eye_y_m"),
+    axis_column<&R::eye_m, 2>("eye_z_m"),
+    axis_column<&R::aircraft_m, 0>("aircraft_x_m"),
+    axis_column<&R::aircraft_m, 1>("aircraft_y_m"),
+    axis_column<&R::aircraft_m, 2>("aircraft_z_m"),
+    column<&R::aircraft_agl_m>("aircraft_agl_m", Kind::may_be_empty, 3),
+};
+
+std::string header_line() {
+    std::string line;
+    for (const Column& each : columns) {
+        line += line.empty() ? "" : ",";
+        line += each.name;
+    }
+    return line;
+}
+
+std::string field_text(const Column& column, double value) {
+    return std::isfinite(value) ? fmt::format("{:.{}f}", value, column.decimals) : std::string();
+}
+
+/// The column's value from its text, or nothing when the text does not fit the column.
+std::optional<double> field_value(const Column& column, std::string_view text) {
+    if (column.kind == Kind::whole) {
+        const auto whole = whole_number(text);
+        const bool fits = whole && *whole >= std::numeric_limits<int>::min() &&
+                          *whole <= std::numeric_limits<int>::max();
+        return fits ? std::optional(static_cast<double>(*whole)) : std::nullopt;
+    }
+    if (text.empty() && column.kind == Kind::may_be_empty) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    return finite_number(text);
+}
+
+/// For each field of the header its column, null for one that is not ours.
+std::vector<const Column*> read_header(const std::filesystem::path& path, std::string_view line) {
+    std::vector<const Column*> order;
+    for (const std::string_view name : split_fields(line, ',')) {
+        const auto found = std::find_if(
+            columns.begin(), columns.end(), [&](const Column& each) { return each.name == name; });
+        const Column* column = found == columns.end() ? nullptr : &*found;
+        if (column != nullptr && std::find(order.begin(), order.end(), column) != order.end()) {
+            error_at(path, 1, fmt::format("expected column {} once, got it twice", name));
+        }
+        order.push_back(column);
+    }
+    for (std::size_t i = 0; i < required_columns; ++i) {
+        if (std::find(order.begin(), order.end(), &columns[i]) == order.end()) {
+            error_at(
+                path,
+                1,
+                fmt::format(
+                    "expected a column {}, got '{}'",
+                    columns[i].name,
+                    printable(std::string(line))));
+        }
+    }
+    return order;
+}
+
+FrameRecord read_line(
+    const std::filesystem::path& path,
+    int line_number,
+    std::string_view line,
+    const std::vector<const Column*>& order) {
+    const auto fields = split_fields(line, ',');
+    if (fields.size() != order.size()) {
+        error_at(
+            path,
+            line_number,
+            fmt::format("expected {} fields, got {}", order.size(), fields.size()));
+    }
+    FrameRecord record;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (order[i] == nullptr) {
+            continue;
+        }
+        const auto value = field_value(*order[i], fields[i]);
+        if (!value) {
+            error_at(
+                path,
+                line_number,
+                fmt::format(
+                    "expected a {} in column {}, got '{}'",
+                    order[i]->kind == Kind::whole ? "whole number" : "number",
+                    order[i]->name,
+                    printable(std::string(fields[i]))));
+        }
+        order[i]->set(record, *value);
+    }
+    return record;
+}
+
+} // namespace
+
+std::string frame_csv_header() {
+    return header_line() + "\n";
+}
+
+std::string frame_csv_line(const FrameRecord& record) {
+    std::string line;
+    for (const Column& each : columns) {
+        line += line.empty() ? "" : ",";
+        line += field_text(each, each.get(record));
+    }
+    return line + "\n";
+}
+
+FrameRecord as_written(const FrameRecord& record) {
+    FrameRecord rounded;
+    for (const Column& each : columns) {
+        const std::string text = field_text(each, each.get(record));
+        each.set(rounded, finite_number(text).value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
+    return rounded;
+}
+
+FrameFile read_frame_csv(const std::filesystem::path& path) {
+    constexpr std::size_t largest_bytes = std::size_t{2} << 30; // two days at 60 frames a second
+    const std::string text = read_text_file(path, largest_bytes);
+    FrameFile file;
+    file.torn = !text.empty() && text.back() != '\n';
+    auto lines = split_lines(text);
+    if (file.torn) {
+        const bool header_torn = lines.size() == 1 && header_line().starts_with(lines.front());
+        if (lines.size() > 1 || header_torn) {
+            lines.pop_back();
+        }
+    }
+    if (lines.empty()) {
+        return file;
+    }
+    const auto order = read_header(path, lines.front());
+    file.records.reserve(lines.size() - 1);
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+        const int line_number = static_cast<int>(i + 1);
+        const FrameRecord record = read_line(path, line_number, lines[i], order);
+        if (!file.records.empty() && record.frame <= file.records.back().frame) {
+            error_at(
+                path,
+                line_number,
+                fmt::format(
+                    "expected a frame after {}, got {}", file.records.back().frame, record.frame));
+        }
+        file.records.push_back(record);
+    }
+    return file;
+}
+
+} // namespace octant::ui::report

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "ui/report/frame_record.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace octant::ui::report {
+
+/// The header line of frames.csv with its line end.
+std::string frame_csv_header();
+
+/// One line of frames.csv with its line end: fixed decimals a column, C locale. What is not finite
+/// is an empty field; resolution_c, stress, eye and aircraft places may be that, nothing else.
+std::string frame_csv_line(const FrameRecord& record);
+
+/// The record with its numbers rounded as its line gives them, so that figures computed now and
+/// figures computed from the file are the same bit for bit.
+FrameRecord as_written(const FrameRecord& record);
+
+/// What a frames.csv holds.
+struct FrameFile {
+    std::vector<FrameRecord> records;
+    bool torn = false; ///< the last line was cut short (the program was killed) and left out
+};
+
+/// Reads frames.csv by column name: columns may stand in any order, unknown ones are skipped, the
+/// sixteen up to `overrun` must be there. An empty file has no records. Frames must count upwards.
+/// Throws Error "file:line: expected ..., got ..." for anything else.
+FrameFile read_frame_csv(const std::filesystem::path& path);
+
+} // namespace octant::ui::report

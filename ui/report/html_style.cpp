@@ -1,0 +1,88 @@
+#include "ui/report/html_style.h"
+
+namespace octant::ui::report {
+
+std::string_view page_style() {
+    return R"css(
+:root {
+  color-scheme: light dark;
+  --page: #f6f7f9; --card: #ffffff; --ink: #1b2430; --soft: #5d6b7c; --line: #dde3ea;
+  --accent: #2563eb; --bad: #b91c1c; --bad-back: #fdecec; --good: #15803d; --good-back: #e8f6ed;
+  --changed: #fff6dd;
+}
+@media (prefers-color-scheme: dark) {
+  :root {
+    --page: #12161c; --card: #1a2029; --ink: #e4e9f0; --soft: #98a5b5; --line: #2e3743;
+    --accent: #7ab0ff; --bad: #ff9b9b; --bad-back: #40201f; --good: #86e0a5; --good-back: #173324;
+    --changed: #3a3216;
+  }
+}
+* { box-sizing: border-box; }
+body {
+  margin: 0; padding: 2rem clamp(1rem, 3vw, 3rem) 4rem; background: var(--page); color: var(--ink);
+  font: 15px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif;
+}
+main { max-width: 1180px; margin: 0 auto; }
+main.several { max-width: 1800px; }
+h1 { font-size: 1.75rem; line-height: 1.2; margin: 0 0 .25rem; }
+h2 { font-size: 1.15rem; margin: 2.2rem 0 .7rem; }
+h3 { font-size: 1rem; margin: 0 0 .5rem; overflow-wrap: anywhere; }
+.lead, .note, figcaption { color: var(--soft); }
+.lead { margin: 0; }
+.note { font-size: .87rem; margin: .5rem 0 0; }
+.flights { display: grid; gap: 1rem; grid-template-columns: repeat(var(--flights), minmax(0, 1fr)); }
+.card {
+  background: var(--card); border: 1px solid var(--line); border-radius: 10px; padding: 1rem 1.1rem;
+  min-width: 0; margin-bottom: 1rem;
+}
+.flights > .card { margin-bottom: 0; }
+header { margin-bottom: 1rem; }
+.badge {
+  display: inline-block; border-radius: 99px; padding: .1rem .7rem; margin: .5rem .4rem 0 0;
+  font-size: .83rem; font-weight: 600; color: var(--good); background: var(--good-back);
+}
+.badge.bad { color: var(--bad); background: var(--bad-back); }
+.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(118px, 1fr)); gap: .7rem; margin: 1rem 0 0; }
+.tiles dt { color: var(--soft); font-size: .8rem; }
+.tiles dd { margin: 0; font-size: 1.35rem; font-weight: 650; font-variant-numeric: tabular-nums; }
+.tiles small { font-size: .8rem; font-weight: 400; color: var(--soft); }
+.plots { display: grid; gap: 1rem; grid-template-columns: repeat(2, minmax(0, 1fr)); }
+.plots .wide { grid-column: 1 / -1; }
+.several .plots { grid-template-columns: minmax(0, 1fr); }
+.plot h3 { font-size: .9rem; margin: 0; }
+.plot svg { display: block; width: 100%; height: auto; color: var(--ink); }
+.plot svg text { font-family: inherit; }
+.plot .gridline { opacity: .28; }
+.scroll { overflow-x: auto; }
+table { border-collapse: collapse; width: 100%; font-size: .9rem; }
+th, td { text-align: left; padding: .32rem .8rem .32rem 0; border-bottom: 1px solid var(--line); vertical-align: top; overflow-wrap: anywhere; }
+th { color: var(--soft); font-weight: 600; }
+tbody tr:last-child td { border-bottom: 0; }
+td:first-child:not(.number) { min-width: 9rem; width: 22%; }
+.flights td:first-child { width: auto; }
+.number { text-align: right; padding-right: 1.6rem; font-variant-numeric: tabular-nums; white-space: nowrap; }
+tr.changed td { background: var(--changed); }
+tr.changed td:first-child { box-shadow: -.5rem 0 var(--changed); }
+.better { color: var(--good); }
+.worse { color: var(--bad); }
+td.definition { color: var(--soft); }
+code { font: .86em ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; overflow-wrap: anywhere; }
+.sheet { display: grid; gap: .8rem; grid-template-columns: repeat(auto-fill, minmax(240px, 1fr)); }
+figure { margin: 0; }
+figure img { display: block; width: 100%; height: auto; border-radius: 6px; border: 1px solid var(--line); }
+figcaption { font-size: .8rem; padding-top: .2rem; }
+.missing { border: 1px dashed var(--line); border-radius: 6px; padding: 1rem; }
+@media (max-width: 800px) {
+  .flights, .plots { grid-template-columns: minmax(0, 1fr); }
+}
+@media print {
+  :root { --page: #fff; --card: #fff; --ink: #000; --soft: #444; --line: #bbb; --changed: #eee; }
+  body { padding: 0; font-size: 10pt; }
+  .card, figure, tr { break-inside: avoid; }
+  .sheet { grid-template-columns: repeat(4, 1fr); }
+  h2 { break-after: avoid; }
+}
+)css";
+}
+
+} // namespace octant::ui::report

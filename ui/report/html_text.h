@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace octant::ui::report {
+
+/// A table for a page: every text in it is escaped when it is written.
+struct HtmlTable {
+    std::string title;
+    std::vector<std::string> header;
+    std::vector<std::vector<std::string>> rows; ///< a shorter row is filled with empty cells
+    std::string note;                           ///< below the table; empty = none
+};
+
+/// Text as HTML shows it, fit for attributes too: & < > " ' replaced, control characters but line
+/// ends and tabs dropped, bytes that are no UTF-8 replaced by U+FFFD.
+std::string escaped(std::string_view text);
+
+std::string base64(std::string_view bytes);
+
+/// Title, table and note. Cells that are numbers are set right.
+std::string html_of(const HtmlTable& table);
+
+} // namespace octant::ui::report

@@ -1,0 +1,84 @@
+#include "ui/report/loaded_recording.h"
+
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "ui/report/frame_csv.h"
+#include "ui/report/timing_files.h"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+namespace octant::ui::report {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The frame of "picture-00042.png", nothing for other names.
+std::optional<long> picture_frame(std::string_view name) {
+    constexpr std::string_view before = "picture-";
+    constexpr std::string_view after = ".png";
+    if (name.size() <= before.size() + after.size() || !name.starts_with(before) ||
+        !name.ends_with(after)) {
+        return std::nullopt;
+    }
+    name.remove_prefix(before.size());
+    name.remove_suffix(after.size());
+    return whole_number(name);
+}
+
+std::vector<fs::path> pictures_in(const fs::path& folder) {
+    std::vector<std::pair<long, fs::path>> found;
+    std::error_code code;
+    for (fs::directory_iterator at(folder, code), end; !code && at != end; at.increment(code)) {
+        if (const auto frame = picture_frame(at->path().filename().string())) {
+            found.emplace_back(*frame, at->path());
+        }
+    }
+    std::sort(found.begin(), found.end());
+    std::vector<fs::path> pictures;
+    for (auto& [frame, path] : found) {
+        pictures.push_back(std::move(path));
+    }
+    return pictures;
+}
+
+} // namespace
+
+LoadedRecording load_recording(const fs::path& folder) {
+    std::error_code ignored;
+    if (!fs::is_directory(folder, ignored)) {
+        error_in(folder, "expected the folder of a recording, found none");
+    }
+    LoadedRecording recording;
+    recording.folder = folder;
+    const fs::path whole = fs::absolute(folder).lexically_normal();
+    recording.name =
+        (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();
+    recording.run = read_run_file(folder / "run.json");
+    if (fs::exists(folder / "frames.csv", ignored) || recording.run.ended) {
+        recording.records = read_frame_csv(folder / "frames.csv").records;
+    }
+    recording.statistics = statistics_of(recording.records);
+    recording.ended_early = !recording.run.ended;
+    recording.pictures = pictures_in(folder);
+    return recording;
+}
+
+void complete_timing_files(const LoadedRecording& recording) {
+    std::error_code ignored;
+    const fs::path mangohud = recording.folder / "mangohud.csv";
+    if (!fs::exists(mangohud, ignored)) {
+        write_file(
+            mangohud,
+            mangohud_csv(recording.records, recording.run.machine_info, recording.run.gl_renderer));
+    }
+    const fs::path trace = recording.folder / "trace.json";
+    if (!fs::exists(trace, ignored)) {
+        write_file(trace, trace_json(recording.records));
+    }
+}
+
+} // namespace octant::ui::report

@@ -1,0 +1,189 @@
+#include "ui/report/plots.h"
+
+#include "sim/base/error.h"
+#include "ui/report/child_program.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+#include <string_view>
+
+namespace octant::ui::report {
+
+namespace {
+
+using Out = std::back_insert_iterator<std::string>;
+
+/// A text for gnuplot: single quotes, in which only the quote itself is special.
+std::string quoted(const std::string& text) {
+    std::string out = "'";
+    for (const char c : text) {
+        if (c == '\'') {
+            out += "''";
+        } else {
+            out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        }
+    }
+    return out + "'";
+}
+
+void append_data(Out out, std::size_t index, const PlotSeries& series) {
+    const bool area = series.style == PlotSeries::Style::area;
+    assert(series.y.size() == series.x.size());
+    assert(!area || series.y_low.size() == series.x.size());
+    fmt::format_to(out, "$series{} << EOD\n", index);
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+        if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i])) {
+            fmt::format_to(out, "\n");
+        } else if (area) {
+            fmt::format_to(
+                out, "{:.7g} {:.7g} {:.7g}\n", series.x[i], series.y_low[i], series.y[i]);
+        } else {
+            fmt::format_to(out, "{:.7g} {:.7g}\n", series.x[i], series.y[i]);
+        }
+    }
+    fmt::format_to(out, "EOD\n");
+}
+
+std::string series_clause(std::size_t index, const PlotSeries& series) {
+    const std::string title =
+        series.name.empty() ? std::string("notitle") : "title " + quoted(series.name);
+    switch (series.style) {
+    case PlotSeries::Style::area:
+        return fmt::format(
+            "$series{} using 1:2:3 with filledcurves lc rgb {} {}",
+            index,
+            quoted(series.colour),
+            title);
+    case PlotSeries::Style::bars:
+        return fmt::format(
+            "$series{} using 1:2 with boxes lc rgb {} {}", index, quoted(series.colour), title);
+    case PlotSeries::Style::line:
+        break;
+    }
+    return fmt::format(
+        "$series{} using 1:2 with lines lw 1.2 lc rgb {} {}", index, quoted(series.colour), title);
+}
+
+bool has_points(const PlotSeries& series) {
+    const auto finite = [](double value) { return std::isfinite(value); };
+    return std::any_of(series.y.begin(), series.y.end(), finite);
+}
+
+std::string bound(const std::optional<double>& value) {
+    return value ? fmt::format("{:.7g}", *value) : "*";
+}
+
+void append_axes(Out out, const Plot& plot) {
+    fmt::format_to(
+        out,
+        "set terminal svg size {},{} noenhanced font 'sans-serif,12'\n"
+        "set encoding utf8\nset border 3 lw 0.8\nset tics nomirror out scale 0.6\nset grid y\n"
+        "set key above right horizontal samplen 1.5 noenhanced\n"
+        "set style fill solid 0.85 noborder\nset boxwidth {:.7g}\n",
+        plot.width_px,
+        plot.height_px,
+        plot.bar_width);
+    fmt::format_to(
+        out,
+        "set xlabel {}\nset ylabel {}\nset autoscale xfix\nset yrange [{}:{}]\n",
+        quoted(plot.x_label),
+        quoted(plot.y_label),
+        bound(plot.y_min),
+        bound(plot.y_max));
+    if (plot.y_logarithmic) {
+        fmt::format_to(out, "set logscale y\n");
+    }
+}
+
+/// `text` without everything from `from` up to and with `to`, wherever it occurs.
+void cut_all(std::string& text, std::string_view from, std::string_view to) {
+    std::size_t at = 0;
+    while ((at = text.find(from, at)) != std::string::npos) {
+        const std::size_t end = text.find(to, at + from.size());
+        if (end == std::string::npos) {
+            return;
+        }
+        text.erase(at, end + to.size() - at);
+    }
+}
+
+void replace_all(std::string& text, std::string_view what, std::string_view with) {
+    std::size_t at = 0;
+    while ((at = text.find(what, at)) != std::string::npos) {
+        text.replace(at, what.size(), with);
+        at += with.size();
+    }
+}
+
+} // namespace
+
+std::string gnuplot_script(const Plot& plot) {
+    std::string script;
+    const Out out(script);
+    append_axes(out, plot);
+    std::string clauses;
+    for (std::size_t i = 0; i < plot.series.size(); ++i) {
+        if (has_points(plot.series[i])) {
+            append_data(out, i, plot.series[i]);
+            clauses += (clauses.empty() ? "" : ", ") + series_clause(i, plot.series[i]);
+        }
+    }
+    for (const PlotLevel& level : plot.levels) {
+        clauses += fmt::format(
+            "{}{:.7g} with lines dt 2 lw 1 lc rgb '#ef4444' title {}",
+            clauses.empty() ? "" : ", ",
+            level.y,
+            quoted(level.name));
+    }
+    return script + "plot " + clauses + "\n";
+}
+
+std::optional<std::string> plot_svg(const Plot& plot) {
+    if (std::none_of(plot.series.begin(), plot.series.end(), has_points)) {
+        return std::nullopt;
+    }
+    auto gnuplot = ChildProgram::start({"gnuplot", "--default-settings", "-"});
+    if (!gnuplot) {
+        return std::nullopt;
+    }
+    gnuplot->send(gnuplot_script(plot));
+    ProgramEnding ending = gnuplot->finish();
+    if (!ending.succeeded || ending.output.find("</svg>") == std::string::npos) {
+        throw Error("gnuplot: " + printable(ending.last_complaint));
+    }
+    return std::move(ending.output);
+}
+
+std::string inline_svg(std::string svg) {
+    svg.erase(0, std::min(svg.find("<svg"), svg.size()));
+    cut_all(svg, "<defs>", "</defs>");
+    cut_all(svg, "<title>Gnuplot", "</title>");
+    cut_all(svg, "<desc>", "</desc>");
+    cut_all(svg, " id=\"", "\"");
+    cut_all(svg, " color=\"", "\"");
+    replace_all(svg, "fill=\"black\"", "fill=\"currentColor\"");
+    replace_all(svg, "stroke='gray'", "stroke='currentColor'");
+    replace_all(svg, "stroke='black'", "stroke='currentColor'");
+    // Groups that hold nothing are most of what gnuplot writes.
+    std::size_t at = 0;
+    while ((at = svg.find(">\n</g>\n", at)) != std::string::npos) {
+        const std::size_t open = svg.rfind('<', at);
+        if (svg.compare(open, 3, "<g ") == 0) {
+            svg.erase(open, at + std::string_view(">\n</g>\n").size() - open);
+            at = open;
+        } else {
+            ++at;
+        }
+    }
+    return svg;
+}
+
+bool gnuplot_installed() {
+    auto gnuplot = ChildProgram::start({"gnuplot", "--version"});
+    return gnuplot && gnuplot->finish().succeeded;
+}
+
+} // namespace octant::ui::report

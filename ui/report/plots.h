@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace octant::ui::report {
+
+/// One set of points of a plot.
+struct PlotSeries {
+    enum class Style {
+        line,
+        area, ///< filled between `y_low` and `y`
+        bars  ///< from the axis up to `y`
+    };
+
+    std::string name;   ///< in the key; empty = not there
+    std::string colour; ///< "#rrggbb"
+    Style style = Style::line;
+    std::vector<double> x;
+    std::vector<double> y; ///< as many as `x`; what is not finite is a gap
+    std::vector<double> y_low;
+};
+
+/// A level line across a plot.
+struct PlotLevel {
+    std::string name;
+    double y = 0.0;
+};
+
+struct Plot {
+    std::string title;
+    std::string x_label;
+    std::string y_label;
+    std::vector<PlotSeries> series; ///< drawn in this order
+    std::vector<PlotLevel> levels;
+    std::optional<double> y_min;
+    std::optional<double> y_max;
+    bool y_logarithmic = false;
+    double bar_width = 1.0;
+    int width_px = 860;
+    int height_px = 260;
+};
+
+/// What gnuplot is told, data included. Same plot, same text.
+std::string gnuplot_script(const Plot& plot);
+
+/// The plot as an SVG document, drawn by gnuplot found on PATH; nothing when it is not installed or
+/// the plot has no points. Throws Error with gnuplot's last line when it fails.
+std::optional<std::string> plot_svg(const Plot& plot);
+
+/// plot_svg's document made to stand inside a page: without XML head, definitions and names, and
+/// with text, axes and grid in the page's own colour (currentColor).
+std::string inline_svg(std::string svg);
+
+/// True when gnuplot can be started.
+bool gnuplot_installed();
+
+} // namespace octant::ui::report

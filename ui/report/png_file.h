@@ -1,0 +1,41 @@
+#pragma once
+
+#include "ui/report/picture_view.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace octant::ui::report {
+
+/// A picture of our own, top row first.
+struct Picture {
+    int width_px = 0;
+    int height_px = 0;
+    int channels = 3;
+    std::vector<std::byte> bytes;
+
+    PictureView view() const { return {width_px, height_px, channels, bytes, false}; }
+};
+
+enum class PngEffort {
+    fast, ///< a picture a frame: level 1, Sub filter, run lengths
+    small ///< a picture in a page: level 9
+};
+
+/// The picture as an RGB PNG (alpha is dropped). `picture.is_whole()` must hold. Same picture, same
+/// bytes. Throws Error when libpng cannot (more than a million pixels a side).
+std::string png_bytes(const PictureView& picture, PngEffort effort = PngEffort::fast);
+
+/// png_bytes as a file, whole or not at all. Throws Error.
+void write_png(const std::filesystem::path& path, const PictureView& picture);
+
+/// Reads a PNG of any kind as 8-bit RGB, or RGBA when it has transparency. `path` is only named in
+/// errors. Throws Error for what is no PNG, is damaged or holds more than 100 million pixels.
+Picture picture_from_png(const std::filesystem::path& path, std::string_view bytes);
+
+/// picture_from_png of a file.
+Picture read_png(const std::filesystem::path& path);
+
+} // namespace octant::ui::report

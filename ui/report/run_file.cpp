@@ -1,0 +1,207 @@
+#include "ui/report/run_file.h"
+
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+
+#include <cassert>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace octant::ui::report {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr const char* format_name = "octant recording";
+constexpr int format_version = 1;
+
+/// Text that may hold bytes which are no UTF-8 (file names): JSON cannot carry them as they are.
+std::string dumped(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json machine_json(const RunInfo& info) {
+    const MachineInfo& machine = info.machine;
+    return {
+        {"cpu", machine.cpu},
+        {"cores", machine.cores},
+        {"memory_kb", machine.memory_kb},
+        {"os", machine.os},
+        {"kernel", machine.kernel},
+        {"gl_renderer", info.gl_renderer},
+        {"compiler", machine.compiler},
+        {"lp_num_threads", machine.lp_num_threads},
+        {"start_time_utc", machine.start_time_utc},
+        {"load_average_1min", machine.load_average_1min},
+        {"steal_ticks", machine.cpu_times.steal}};
+}
+
+Json start_json(const RunInfo& info) {
+    const Json settings = Json::parse(info.settings_json, nullptr, false);
+    assert(settings.is_object());
+    Json facts = Json::object();
+    for (const auto& [name, value] : info.facts) {
+        facts[name] = value;
+    }
+    Json json{
+        {"format", format_name},
+        {"format_version", format_version},
+        {"title", info.title},
+        {"program", {{"name", "octant"}, {"version", info.version}, {"commit", info.commit}}},
+        {"settings", settings},
+        {"machine", machine_json(info)}};
+    const glm::dvec3& offset_m = info.path_offset_m;
+    json["path_offset_m"] = {offset_m.x, offset_m.y, offset_m.z};
+    json["facts"] = facts;
+    return json;
+}
+
+double rounded(double value, int decimals) {
+    const double scale = std::pow(10.0, decimals);
+    return std::round(value * scale) / scale;
+}
+
+Json summary_json(const Statistics& statistics, const RunEnd& end) {
+    Json summary = Json::object();
+    for (const Figure& figure : figures()) {
+        const double value = figure.value(statistics);
+        if (figure.decimals == 0) {
+            summary[std::string(figure.key)] = static_cast<int>(value);
+        } else {
+            summary[std::string(figure.key)] = rounded(value, 6);
+        }
+    }
+    summary["state_hash"] = fmt::format("{:016x}", end.state_hash);
+    summary["picture_hash"] = fmt::format("{:016x}", end.picture_hash);
+    return summary;
+}
+
+Json noise_json(const MachineInfo& machine, const RunEnd& end) {
+    const auto use = cpu_use_between(machine.cpu_times, end.cpu_times);
+    Json noise = Json::object();
+    if (use) {
+        noise["steal_share"] = rounded(use->stolen, 4);
+        noise["others_share"] = rounded(use->others, 4);
+    }
+    const auto reasons = noise_reasons(machine.load_average_1min, machine.cores, use);
+    noise["noisy"] = !reasons.empty();
+    noise["reasons"] = reasons;
+    return noise;
+}
+
+/// A JSON value as a report shows it.
+std::string shown(const Json& value) {
+    if (value.is_string()) {
+        return value.get<std::string>();
+    }
+    if (value.is_array()) {
+        std::string text;
+        for (const Json& each : value) {
+            text += text.empty() ? "" : ", ";
+            text += shown(each);
+        }
+        return text;
+    }
+    return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void append_rows(Rows& rows, const Json& object, const std::string& prefix) {
+    for (const auto& [name, value] : object.items()) {
+        if (value.is_object()) {
+            append_rows(rows, value, prefix + name + ".");
+        } else {
+            rows.emplace_back(prefix + name, shown(value));
+        }
+    }
+}
+
+/// The member of that name, or null JSON when there is none.
+Json member(const Json& json, const char* name) {
+    return json.is_object() && json.contains(name) ? json[name] : Json();
+}
+
+std::string text_in(const Json& json, const char* name) {
+    const Json value = member(json, name);
+    return value.is_null() ? std::string() : shown(value);
+}
+
+double number_in(const Json& json, const char* name) {
+    const Json value = member(json, name);
+    return value.is_number() ? value.get<double>() : 0.0;
+}
+
+MachineInfo machine_from(const Json& json) {
+    MachineInfo machine;
+    machine.cpu = text_in(json, "cpu");
+    machine.cores = static_cast<int>(number_in(json, "cores"));
+    machine.memory_kb = static_cast<std::uint64_t>(std::max(0.0, number_in(json, "memory_kb")));
+    machine.os = text_in(json, "os");
+    machine.kernel = text_in(json, "kernel");
+    machine.compiler = text_in(json, "compiler");
+    machine.lp_num_threads = text_in(json, "lp_num_threads");
+    machine.start_time_utc = text_in(json, "start_time_utc");
+    machine.load_average_1min = number_in(json, "load_average_1min");
+    return machine;
+}
+
+std::vector<std::string> noise_from(const Json& json, const MachineInfo& machine) {
+    const Json reasons = member(member(json, "noise"), "reasons");
+    if (!reasons.is_array()) {
+        return noise_reasons(machine.load_average_1min, machine.cores, std::nullopt);
+    }
+    std::vector<std::string> texts;
+    for (const Json& reason : reasons) {
+        texts.push_back(shown(reason));
+    }
+    return texts;
+}
+
+} // namespace
+
+std::string run_json(const RunInfo& info) {
+    return dumped(start_json(info));
+}
+
+std::string run_json(const RunInfo& info, const RunEnd& end, const Statistics& statistics) {
+    Json json = start_json(info);
+    json["summary"] = summary_json(statistics, end);
+    json["noise"] = noise_json(info.machine, end);
+    return dumped(json);
+}
+
+RunFile read_run_file(const std::filesystem::path& path) {
+    const Json json = Json::parse(read_text_file(path), nullptr, false);
+    if (json.is_discarded()) {
+        error_in(path, "expected JSON, got something else or a part of it");
+    }
+    if (text_in(json, "format") != format_name) {
+        error_in(path, fmt::format("expected \"format\": \"{}\", got none", format_name));
+    }
+    RunFile run;
+    run.title = text_in(json, "title");
+    append_rows(run.settings, member(json, "settings"), "");
+    append_rows(run.machine, member(json, "program"), "program.");
+    append_rows(run.machine, member(json, "machine"), "");
+    append_rows(run.facts, member(json, "facts"), "");
+    run.machine_info = machine_from(member(json, "machine"));
+    run.gl_renderer = text_in(member(json, "machine"), "gl_renderer");
+    run.path_offset = text_in(json, "path_offset_m");
+    const Json summary = member(json, "summary");
+    run.ended = summary.is_object();
+    run.state_hash = text_in(summary, "state_hash");
+    run.picture_hash = text_in(summary, "picture_hash");
+    run.noise = noise_from(json, run.machine_info);
+    return run;
+}
+
+bool is_run_file(const std::filesystem::path& path) {
+    try {
+        read_run_file(path);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+} // namespace octant::ui::report

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "ui/report/machine_info.h"
+#include "ui/report/statistics.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace octant::ui::report {
+
+/// Names and values in the order to show.
+using Rows = std::vector<std::pair<std::string, std::string>>;
+
+/// What run.json says from the start of a flight.
+struct RunInfo {
+    std::string title;                ///< for people: "f15-pop-up over hills"
+    std::string settings_json = "{}"; ///< an object as JSON text; its order is kept
+    std::string version;
+    std::string commit;
+    std::string gl_renderer;
+    glm::dvec3 path_offset_m{0.0}; ///< how the path was moved to stand over the ground
+    MachineInfo machine;
+    Rows facts; ///< anything else the report should show
+};
+
+/// What is known after the end.
+struct RunEnd {
+    std::uint64_t state_hash = 0;
+    std::uint64_t picture_hash = 0;
+    CpuTimes cpu_times; ///< read after the last frame (and after the video is whole)
+};
+
+/// run.json with `summary` and `noise` when `end` is given. `info.settings_json` must be a JSON
+/// object.
+std::string run_json(const RunInfo& info);
+std::string run_json(const RunInfo& info, const RunEnd& end, const Statistics& statistics);
+
+/// run.json as a report shows it.
+struct RunFile {
+    std::string title;
+    Rows settings; ///< nested names joined by dots, lists by ", "
+    Rows machine;  ///< program, machine and renderer
+    Rows facts;
+    MachineInfo machine_info; ///< without cpu_times
+    std::string gl_renderer;
+    std::string path_offset; ///< "0, 0, 120 m"
+    bool ended = false;      ///< there is a summary
+    std::string state_hash;  ///< 16 hex digits, empty unless ended
+    std::string picture_hash;
+    std::vector<std::string> noise; ///< see noise_reasons
+};
+
+/// Reads run.json. Missing entries stay empty, so that older recordings can be shown. Throws Error
+/// when it is not JSON or not from a recording.
+RunFile read_run_file(const std::filesystem::path& path);
+
+/// True when the file is a run.json of ours.
+bool is_run_file(const std::filesystem::path& path);
+
+} // namespace octant::ui::report

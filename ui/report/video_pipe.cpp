@@ -1,0 +1,95 @@
+#include "ui/report/video_pipe.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace octant::ui::report {
+
+namespace {
+
+/// Filters that make the picture what a player expects: top row first, even sides (yuv420p halves
+/// them), colours of HD video.
+std::string filters(const VideoFormat& format) {
+    std::string text = format.bottom_row_first ? "vflip," : "";
+    if (format.width_px % 2 != 0 || format.height_px % 2 != 0) {
+        text += "pad=ceil(iw/2)*2:ceil(ih/2)*2,";
+    }
+    return text + "scale=out_color_matrix=bt709:out_range=tv";
+}
+
+std::vector<std::string> command(const std::filesystem::path& file, const VideoFormat& format) {
+    const int frames_in_fragment = std::max(1, static_cast<int>(std::lround(format.frames_per_s)));
+    return {
+        "ffmpeg",
+        "-hide_banner",
+        "-nostdin",
+        "-loglevel",
+        "error",
+        "-y",
+        "-f",
+        "rawvideo",
+        "-pix_fmt",
+        format.channels == 4 ? "rgba" : "rgb24",
+        "-video_size",
+        fmt::format("{}x{}", format.width_px, format.height_px),
+        "-framerate",
+        fmt::format("{}", format.frames_per_s),
+        "-i",
+        "pipe:0",
+        "-an",
+        "-vf",
+        filters(format),
+        "-c:v",
+        "libx264",
+        "-crf",
+        "20",
+        "-pix_fmt",
+        "yuv420p",
+        "-colorspace",
+        "bt709",
+        "-color_primaries",
+        "bt709",
+        "-color_trc",
+        "bt709",
+        "-color_range",
+        "tv",
+        "-g",
+        fmt::format("{}", frames_in_fragment),
+        "-movflags",
+        "+frag_keyframe+empty_moov+default_base_moof",
+        // "file:" keeps a name with a colon or a leading dash from being read as something else.
+        "-f",
+        "mp4",
+        "file:" + file.string()};
+}
+
+} // namespace
+
+VideoPipe::VideoPipe(const std::filesystem::path& file, const VideoFormat& format)
+    : format_(format)
+    , program_(ChildProgram::start(command(file, format))) {}
+
+void VideoPipe::add(const PictureView& picture) {
+    assert(picture.is_whole() && picture.width_px == format_.width_px);
+    assert(picture.height_px == format_.height_px && picture.channels == format_.channels);
+    assert(picture.bottom_row_first == format_.bottom_row_first);
+    if (running()) {
+        broken_ = !program_->send(
+            {reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size()});
+    }
+}
+
+VideoResult VideoPipe::finish() {
+    if (!program_) {
+        return {VideoResult::Outcome::no_ffmpeg, "not made: ffmpeg is not installed"};
+    }
+    const ProgramEnding ending = program_->finish();
+    if (!ending.succeeded || broken_) {
+        return {VideoResult::Outcome::failed, "not made: ffmpeg: " + ending.last_complaint};
+    }
+    return {};
+}
+
+} // namespace octant::ui::report
