@@ -29,15 +29,20 @@ std::vector<std::size_t> cuts(std::size_t count, std::size_t pieces) {
     return at;
 }
 
-/// A curve of one value of the counted or of the warm-up frames. Where pieces hold several frames,
-/// each gives its least and its greatest value in the order they came.
-template <class Value>
-PlotSeries curve(std::span<const FrameRecord> records, bool warm_up, Value value_of) {
+std::vector<FrameRecord> chosen_by_warm_up(std::span<const FrameRecord> records, bool warm_up) {
     std::vector<FrameRecord> chosen;
     std::copy_if(
         records.begin(), records.end(), std::back_inserter(chosen), [&](const FrameRecord& each) {
             return each.warm_up == warm_up;
         });
+    return chosen;
+}
+
+/// A curve of one value of the counted or of the warm-up frames. Where pieces hold several frames,
+/// each gives its least and its greatest value in the order they came.
+template <class Value>
+PlotSeries curve(std::span<const FrameRecord> records, bool warm_up, Value value_of) {
+    const std::vector<FrameRecord> chosen = chosen_by_warm_up(records, warm_up);
     PlotSeries series;
     const auto add = [&](const FrameRecord& record) {
         series.x.push_back(record.frame);
@@ -117,6 +122,28 @@ Plot histogram_plot(std::span<const FrameRecord> records) {
     return plot;
 }
 
+/// A column of the stage plot: the longest of some frames in a row.
+struct Column {
+    FrameRecord longest;
+    double x_from = 0.0;
+    double x_to = 0.0;
+};
+
+std::vector<Column> stage_columns(std::span<const FrameRecord> counted) {
+    constexpr std::size_t most_columns = 400; // each wide enough to be seen
+    std::vector<Column> columns;
+    const auto at = cuts(counted.size(), most_columns);
+    for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+        const auto piece = counted.subspan(at[i], at[i + 1] - at[i]);
+        const auto longest =
+            std::max_element(piece.begin(), piece.end(), [](const auto& a, const auto& b) {
+                return a.frame_ms < b.frame_ms;
+            });
+        columns.push_back({*longest, piece.front().frame - 0.5, piece.back().frame + 0.5});
+    }
+    return columns;
+}
+
 Plot stage_plot(std::span<const FrameRecord> records, double ceiling_ms) {
     struct Stage {
         const char* name;
@@ -129,29 +156,21 @@ Plot stage_plot(std::span<const FrameRecord> records, double ceiling_ms) {
         Stage{"plan", green, &FrameRecord::plan_ms},
         Stage{"draw", blue, &FrameRecord::draw_ms},
         Stage{"read", amber, &FrameRecord::read_ms}};
+    const std::vector<FrameRecord> counted = chosen_by_warm_up(records, false);
+    const std::vector<Column> columns = stage_columns(counted);
     Plot plot{"Stages, stacked", "frame", "ms", {}, {}, 0.0, ceiling_ms};
-    std::vector<FrameRecord> counted;
-    std::copy_if(
-        records.begin(), records.end(), std::back_inserter(counted), [](const FrameRecord& each) {
-            return !each.warm_up;
-        });
-    const auto at = cuts(counted.size(), most_pieces);
-    // Two points a piece: a stair, in which a single long frame keeps its width.
-    std::vector<double> base(at.empty() ? 0 : 2 * (at.size() - 1), 0.0);
+    if (columns.size() < counted.size()) {
+        plot.x_label = "frame (columns show the longest of their frames)";
+    }
+    std::vector<double> base(2 * columns.size(), 0.0);
     for (const Stage& stage : stages) {
         PlotSeries area = named({}, stage.name, stage.colour);
         area.style = PlotSeries::Style::area;
         area.y_low = base;
-        for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-            double sum = 0.0;
-            for (std::size_t k = at[i]; k < at[i + 1]; ++k) {
-                sum += counted[k].*stage.duration_ms;
-            }
-            const double mean = sum / static_cast<double>(at[i + 1] - at[i]);
-            base[2 * i] += mean;
-            base[2 * i + 1] += mean;
-            area.x.push_back(counted[at[i]].frame - 0.5);
-            area.x.push_back(counted[at[i + 1] - 1].frame + 0.5);
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            base[2 * i] += columns[i].longest.*stage.duration_ms;
+            base[2 * i + 1] = base[2 * i];
+            area.x.insert(area.x.end(), {columns[i].x_from, columns[i].x_to});
         }
         area.y = base;
         plot.series.push_back(std::move(area));

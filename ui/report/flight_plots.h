@@ -14,8 +14,8 @@ namespace octant::ui::report {
 double plot_ceiling_ms(std::span<const FrameRecord> records);
 
 /// The plots of a flight: frame time (warm-up apart), histogram, stages, terrain triangles, their
-/// change. A long flight is thinned to some thousand points: curves keep every peak, stages are
-/// averaged.
+/// change. A long flight is thinned to some thousand points: curves keep every peak, the
+/// stages are those of the longest frame of some in a row.
 std::vector<Plot> flight_plots(std::span<const FrameRecord> records, double ceiling_ms);
 
 } // namespace octant::ui::report

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 namespace octant::ui::report {
 
@@ -23,6 +24,7 @@ std::string dumped(const Json& json) {
 
 Json machine_json(const RunInfo& info) {
     const MachineInfo& machine = info.machine;
+    const auto ticks_per_s = static_cast<double>(sysconf(_SC_CLK_TCK));
     return {
         {"cpu", machine.cpu},
         {"cores", machine.cores},
@@ -31,10 +33,10 @@ Json machine_json(const RunInfo& info) {
         {"kernel", machine.kernel},
         {"gl_renderer", info.gl_renderer},
         {"compiler", machine.compiler},
-        {"lp_num_threads", machine.lp_num_threads},
+        {"LP_NUM_THREADS", machine.lp_num_threads},
         {"start_time_utc", machine.start_time_utc},
         {"load_average_1min", machine.load_average_1min},
-        {"steal_ticks", machine.cpu_times.steal}};
+        {"steal_time_s", static_cast<double>(machine.cpu_times.steal) / ticks_per_s}};
 }
 
 Json start_json(const RunInfo& info) {
@@ -139,7 +141,7 @@ MachineInfo machine_from(const Json& json) {
     machine.os = text_in(json, "os");
     machine.kernel = text_in(json, "kernel");
     machine.compiler = text_in(json, "compiler");
-    machine.lp_num_threads = text_in(json, "lp_num_threads");
+    machine.lp_num_threads = text_in(json, "LP_NUM_THREADS");
     machine.start_time_utc = text_in(json, "start_time_utc");
     machine.load_average_1min = number_in(json, "load_average_1min");
     return machine;

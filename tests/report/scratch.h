@@ -1,0 +1,89 @@
+#pragma once
+
+#include "ui/report/frame_record.h"
+#include "ui/report/png_file.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace octant::ui::report {
+
+/// A folder of this test program's own, empty at first and removed at the end.
+class ScratchFolder {
+public:
+    ScratchFolder()
+        : path_(
+              std::filesystem::temp_directory_path() /
+              ("octant-report-test-" + std::to_string(getpid()))) {
+        std::filesystem::remove_all(path_);
+        std::filesystem::create_directories(path_);
+    }
+
+    ~ScratchFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    ScratchFolder(ScratchFolder&&) = delete;
+    ScratchFolder& operator=(ScratchFolder&&) = delete;
+
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// While it lives, programs are looked for in `path` only.
+class SearchPath {
+public:
+    explicit SearchPath(const std::string& path)
+        : before_(std::getenv("PATH") != nullptr ? std::getenv("PATH") : "") {
+        setenv("PATH", path.c_str(), 1);
+    }
+
+    ~SearchPath() { setenv("PATH", before_.c_str(), 1); }
+
+    SearchPath(const SearchPath&) = delete;
+    SearchPath& operator=(const SearchPath&) = delete;
+    SearchPath(SearchPath&&) = delete;
+    SearchPath& operator=(SearchPath&&) = delete;
+
+private:
+    std::string before_;
+};
+
+/// A frame with easily told numbers: sim 1, plan 2, draw `draw_ms`, read 0.5 ms.
+inline FrameRecord made_up_frame(int frame, double draw_ms) {
+    FrameRecord record;
+    record.frame = frame;
+    record.warm_up = frame < 2;
+    record.sim_time_s = 0.05 * frame;
+    record.wall_s = 0.02 * frame;
+    record.sim_ms = 1.0;
+    record.plan_ms = 2.0;
+    record.draw_ms = draw_ms;
+    record.read_ms = 0.5;
+    record.frame_ms = 3.5 + draw_ms;
+    record.terrain_triangles = 1000 + frame;
+    record.triangle_change = frame > 0 ? 1 : 0;
+    record.overrun = record.frame_ms > 16.67 ? 1 : 0;
+    return record;
+}
+
+/// A picture in which every byte depends on its place.
+inline Picture made_up_picture(int width_px, int height_px, int channels) {
+    Picture picture{width_px, height_px, channels, {}};
+    for (int i = 0; i < width_px * height_px * channels; ++i) {
+        picture.bytes.push_back(static_cast<std::byte>((i * 37 + i / 7) & 255));
+    }
+    return picture;
+}
+
+} // namespace octant::ui::report
