@@ -220,17 +220,22 @@ void LimitsCheck::check_weave(Leg& leg) const {
     if (!lenient_) {
         error_at(script_.file, leg.line, fault);
     }
-    // Both amplitudes shrink alike, in steps of one percent.
-    Leg smaller = leg;
-    int percent = 100;
-    while (percent > 0 && !weave_fault(smaller).empty()) {
-        --percent;
+    // Both amplitudes shrink alike, to the largest whole percentage that fits.
+    const auto shrunk = [&](int percent) {
+        Leg smaller = leg;
         smaller.lateral_g = leg.lateral_g * percent / 100.0;
         smaller.vertical_g = leg.vertical_g * percent / 100.0;
+        return smaller;
+    };
+    int fits = 0;
+    int too_much = 100;
+    while (too_much - fits > 1) {
+        const int percent = (fits + too_much) / 2;
+        (weave_fault(shrunk(percent)).empty() ? fits : too_much) = percent;
     }
     notes_.push_back(fmt::format(
-        "{}:{}: weave clipped to {} %: {}", script_.file.string(), leg.line, percent, fault));
-    leg = smaller;
+        "{}:{}: weave clipped to {} %: {}", script_.file.string(), leg.line, fits, fault));
+    leg = shrunk(fits);
 }
 
 double least_flown_speed_mps(const sim::AircraftLimits& limits) {

@@ -37,7 +37,8 @@ constexpr Bounds weave_g{0.0, 20.0};
 constexpr double steepest_rad = rad_from_deg(80.0);
 constexpr Bounds climb_rad{-steepest_rad, steepest_rad};
 constexpr Bounds slope_rad{0.0, steepest_rad};
-constexpr Bounds duration_s{0.05, 36000.0};
+constexpr double longest_s = 7200.0;
+constexpr Bounds duration_s{0.05, longest_s};
 
 LegKind kind_from(const std::string& word) {
     for (const auto& [kind, name] : words) {
@@ -202,6 +203,13 @@ PathScript read_path_script(const std::filesystem::path& file) {
                 script.rate_hz));
     }
     script.samples = fields.required_whole("samples", 2, 200000);
+    const double duration_s = static_cast<double>(script.samples - 1) / script.rate_hz;
+    if (duration_s > longest_s) {
+        fields.refuse(
+            line_of(*root.get("samples")),
+            fmt::format(
+                "expected samples for at most {:.0f} s, got {:.0f} s", longest_s, duration_s));
+    }
     script.min_clearance_m = fields.required_number("min_clearance", "m", {0.0, 40000.0});
     script.angle_of_attack_rad_per_g =
         fields.number("angle_of_attack", "rad_per_g", {0.0, rad_from_deg(5.0)}).value_or(0.0);

@@ -134,7 +134,7 @@ std::optional<std::string> Fields::text(std::string_view name) {
     if (node == nullptr) {
         return std::nullopt;
     }
-    const auto value = node->value_exact<std::string>();
+    auto value = node->value_exact<std::string>();
     if (!value) {
         refuse(
             line_of(*node), fmt::format("expected {} to be a text, got {}", name, kind_of(*node)));
@@ -160,7 +160,7 @@ std::string Fields::required_text(std::string_view name) {
 
 std::string
 Fields::required_word(std::string_view name, std::initializer_list<std::string_view> words) {
-    const std::string word = required_text(name);
+    std::string word = required_text(name);
     std::string list;
     for (const std::string_view allowed : words) {
         if (word == allowed) {

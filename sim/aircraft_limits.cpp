@@ -8,7 +8,7 @@ namespace octant::sim {
 // (general knowledge); 800 kt low down; climb of the 50,000 ft/min class.
 // 500MD: never-exceed speed 152 kt and 8.6 m/s of climb (published data sheets), 0.3..2.0 g and 60
 // degrees of bank (general knowledge of the type's handling). A zoom trades speed for height, so
-// the sustained climb limit does not hold it back; see flightpaths/manoeuvre.cpp.
+// the sustained climb limit does not hold it back; see flightpaths/fly_script.h.
 std::optional<AircraftLimits> limits_of(std::string_view aircraft) {
     if (aircraft == "f15") {
         return AircraftLimits{

@@ -144,6 +144,9 @@ TEST_CASE("a number out of its bounds is refused in the unit it was given in") {
         fault_with("samples = 100", "samples = 9000000000000000000") ==
         "4: expected samples from 2 to 200000, got 9000000000000000000");
     CHECK(
+        fault_with("samples = 100", "samples = 200000") ==
+        "4: expected samples for at most 7200 s, got 10000 s");
+    CHECK(
         fault_with("speed_kt = 400", "speed_kt = nan") ==
         "12: expected speed_kt to be finite, got nan");
     CHECK(
@@ -157,7 +160,7 @@ TEST_CASE("a number out of its bounds is refused in the unit it was given in") {
         "17: expected bank_deg from 1 to 85, got 86");
     CHECK(
         fault_with("duration_s = 5", "duration_s = 1e300") ==
-        "23: expected duration_s from 0.05 to 36000, got 1e+300");
+        "23: expected duration_s from 0.05 to 7200, got 1e+300");
 }
 
 TEST_CASE("unknown, doubled and contradicting keys are refused") {

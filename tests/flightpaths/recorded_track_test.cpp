@@ -182,6 +182,15 @@ TEST_CASE("wrong tracks are refused with line and what was expected") {
     CHECK(fault_of(std::string("t_s\0", 4)) == " expected text, got binary data");
 }
 
+TEST_CASE("every cut of a good track is read or refused, never worse") {
+    const std::string good =
+        "t_s,north_m,east_m,alt_m,n_g\n0,0,0,100,1\n1,50,0,100,1\n2,99,0,100,1";
+    for (std::size_t length = 0; length < good.size(); ++length) {
+        const std::string fault = fault_of(good.substr(0, length));
+        CHECK(fault.find('\n') == std::string::npos);
+    }
+}
+
 TEST_CASE("a written track reads back as the same states") {
     for (const char* name : {"f15-pop-up", "500md-jinking"}) {
         const PathScript script = read_path_script(shipped(name));
