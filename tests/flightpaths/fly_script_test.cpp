@@ -209,9 +209,9 @@ TEST_CASE("a lenient flight clips and says so") {
         std::vector<std::string>{
             "12: weave clipped to 83 %: expected a weave with a load factor of at most 2.0 for "
             "500md, got 2.06"});
-    for (const auto& state :
-         flown("fly = \"turn\"\nside = \"left\"\nbank_deg = 80\nduration_s = 5\n", "500md", true)
-             .trajectory.samples()) {
+    const FlownPath turn =
+        flown("fly = \"turn\"\nside = \"left\"\nbank_deg = 80\nduration_s = 5\n", "500md", true);
+    for (const auto& state : turn.trajectory.samples()) {
         CHECK(std::abs(bank_deg(state)) < 60.5);
         CHECK(state.load_factor <= 2.0 + 1e-9);
     }

@@ -136,7 +136,8 @@ TEST_CASE("an aircraft that stands still or falls keeps an attitude") {
     for (int i = 0; i < 10; ++i) {
         fall += std::to_string(i) + ",0,0," + std::to_string(1000 - 100 * i) + "\n";
     }
-    for (const auto& state : track_of(fall).trajectory.samples()) {
+    const RecordedTrack falling = track_of(fall);
+    for (const auto& state : falling.trajectory.samples()) {
         CHECK(glm::length(state.body_to_world) == Approx(1));
     }
 }

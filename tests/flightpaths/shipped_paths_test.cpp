@@ -284,7 +284,8 @@ TEST_CASE("attitude, velocity and load factor never jump") {
 TEST_CASE("the nose points along the path, raised by the angle of attack") {
     for (const std::string& name : names) {
         const PathScript script = read_path_script(shipped(name));
-        for (const auto& state : flown(name).trajectory.samples()) {
+        const FlownPath path = flown(name);
+        for (const auto& state : path.trajectory.samples()) {
             const glm::dvec3 along = glm::inverse(state.body_to_world) *
                                      (state.velocity_mps / glm::length(state.velocity_mps));
             CHECK(along.y == Approx(0).margin(1e-9));
@@ -298,7 +299,8 @@ TEST_CASE("the nose points along the path, raised by the angle of attack") {
 TEST_CASE("the same path is the same to the last bit in every build") {
     const auto hash_of = [](const std::string& name) {
         Hash hash;
-        for (const auto& state : flown(name).trajectory.samples()) {
+        const FlownPath path = flown(name);
+        for (const auto& state : path.trajectory.samples()) {
             const std::array<double, 11> values{
                 state.position_m.x,
                 state.position_m.y,
