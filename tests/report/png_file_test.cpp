@@ -20,7 +20,7 @@ TEST_CASE("a picture comes back from its file as it was") {
     CHECK(got.channels == 3);
     CHECK(got.bytes == picture.bytes);
     CHECK(
-        picture_from_png("b", png_bytes(picture.view(), PngEffort::small)).bytes == picture.bytes);
+        picture_from_png("b", png_bytes(picture.view(), PngEffort::Small)).bytes == picture.bytes);
 }
 
 TEST_CASE("alpha is dropped and a bottom row that comes first goes to the bottom") {

@@ -26,9 +26,9 @@ void make_program(
 
 Plot small_plot() {
     Plot plot{"Title", "x", "it's y", {}, {{"limit", 2.5}}, 0.0, {}};
-    PlotSeries line{"a < b", "#102030", PlotSeries::Style::line, {1, 2, 3}, {4, 0, 6}, {}};
+    PlotSeries line{"a < b", "#102030", PlotSeries::Style::Line, {1, 2, 3}, {4, 0, 6}, {}};
     line.y[1] = std::numeric_limits<double>::quiet_NaN();
-    PlotSeries area{"", "#405060", PlotSeries::Style::area, {1, 2}, {3, 4}, {1, 2}};
+    PlotSeries area{"", "#405060", PlotSeries::Style::Area, {1, 2}, {3, 4}, {1, 2}};
     plot.series = {line, area};
     return plot;
 }
@@ -71,7 +71,7 @@ TEST_CASE("without ffmpeg a video is not made, and that is no error") {
     CHECK_FALSE(video.running());
     video.add(picture.view());
     const VideoResult result = video.finish();
-    CHECK(result.outcome == VideoResult::Outcome::no_ffmpeg);
+    CHECK(result.outcome == VideoResult::Outcome::NoFfmpeg);
     CHECK(result.text == "not made: ffmpeg is not installed");
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("an ffmpeg that fails is reported with its last line and stops nobody"
     }
     CHECK_FALSE(video.running());
     const VideoResult result = video.finish();
-    CHECK(result.outcome == VideoResult::Outcome::failed);
+    CHECK(result.outcome == VideoResult::Outcome::Failed);
     CHECK(result.text == "not made: ffmpeg: no such codec");
 }
 
@@ -95,7 +95,7 @@ TEST_CASE("ffmpeg is asked for a file that plays after a kill, by a name nobody 
     make_program(scratch / "bin", "ffmpeg", "for word; do echo \"$word\"; done > \"$0.words\"");
     const SearchPath only((scratch / "bin").string());
     VideoPipe video("-a: b.mp4", {5, 4, 4, true, 20.0});
-    CHECK(video.finish().outcome == VideoResult::Outcome::made);
+    CHECK(video.finish().outcome == VideoResult::Outcome::Made);
     const std::string words = read_file(scratch / "bin/ffmpeg.words");
     CHECK_THAT(words, Catch::Contains("-video_size\n5x4\n-framerate\n20\n-i\npipe:0\n"));
     CHECK_THAT(words, Catch::Contains("-pix_fmt\nrgba\n"));
@@ -124,7 +124,7 @@ TEST_CASE("ffmpeg makes a fragmented video of odd size and odd name") {
     }
     const VideoResult result = video.finish();
     CHECK(result.text.empty());
-    REQUIRE(result.outcome == VideoResult::Outcome::made);
+    REQUIRE(result.outcome == VideoResult::Outcome::Made);
     const std::string bytes = read_file(path);
     CHECK(bytes.substr(4, 4) == "ftyp");
     std::size_t fragments = 0;

@@ -15,8 +15,6 @@
 #include <unistd.h>
 #include <utility>
 
-extern char** environ;
-
 namespace octant::ui::report {
 
 namespace {
@@ -62,6 +60,7 @@ std::string ending_text(int status) {
 int spawn(
     pid_t& process, const std::vector<std::string>& words, const std::array<int, 3>& streams) {
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (const std::string& word : words) {
         arguments.push_back(const_cast<char*>(word.c_str())); // spawn does not write to them
     }

@@ -38,7 +38,7 @@ std::string picture_html(const std::filesystem::path& path) {
             name,
             small.width_px,
             small.height_px,
-            base64(png_bytes(small.view(), PngEffort::small)));
+            base64(png_bytes(small.view(), PngEffort::Small)));
     } catch (const Error& error) {
         return fmt::format(
             "<figure class=\"missing\"><figcaption>{}</figcaption></figure>\n",

@@ -109,7 +109,7 @@ Plot histogram_plot(std::span<const FrameRecord> records) {
         }
     }
     PlotSeries bars;
-    bars.style = PlotSeries::Style::bars;
+    bars.style = PlotSeries::Style::Bars;
     for (std::size_t i = 0; i < counts.size(); ++i) {
         if (counts[i] > 0.0) {
             bars.x.push_back((static_cast<double>(i) + 0.5) * width_ms);
@@ -165,7 +165,7 @@ Plot stage_plot(std::span<const FrameRecord> records, double ceiling_ms) {
     std::vector<double> base(2 * columns.size(), 0.0);
     for (const Stage& stage : stages) {
         PlotSeries area = named({}, stage.name, stage.colour);
-        area.style = PlotSeries::Style::area;
+        area.style = PlotSeries::Style::Area;
         area.y_low = base;
         for (std::size_t i = 0; i < columns.size(); ++i) {
             base[2 * i] += columns[i].longest.*stage.duration_ms;

@@ -16,7 +16,7 @@ namespace octant::ui::report {
 
 namespace {
 
-enum class Kind { whole, number, may_be_empty };
+enum class Kind { Whole, Number, MayBeEmpty };
 
 struct Column {
     std::string_view name;
@@ -27,7 +27,7 @@ struct Column {
 };
 
 template <auto Member>
-constexpr Column column(std::string_view name, Kind kind = Kind::whole, int decimals = 0) {
+constexpr Column column(std::string_view name, Kind kind = Kind::Whole, int decimals = 0) {
     return {
         name,
         kind,
@@ -42,7 +42,7 @@ template <auto Member, int axis>
 constexpr Column axis_column(std::string_view name) {
     return {
         name,
-        Kind::may_be_empty,
+        Kind::MayBeEmpty,
         3,
         [](const FrameRecord& record) { return (record.*Member)[axis]; },
         [](FrameRecord& record, double value) { (record.*Member)[axis] = value; }};
@@ -54,30 +54,30 @@ constexpr auto milliseconds = 4;
 constexpr std::size_t required_columns = 16;
 constexpr std::array columns{
     column<&R::frame>("frame"),
-    column<&R::sim_time_s>("sim_time_s", Kind::number, seconds),
-    column<&R::wall_s>("wall_s", Kind::number, seconds),
-    column<&R::frame_ms>("frame_ms", Kind::number, milliseconds),
-    column<&R::sim_ms>("sim_ms", Kind::number, milliseconds),
-    column<&R::plan_ms>("plan_ms", Kind::number, milliseconds),
-    column<&R::draw_ms>("draw_ms", Kind::number, milliseconds),
-    column<&R::read_ms>("read_ms", Kind::number, milliseconds),
+    column<&R::sim_time_s>("sim_time_s", Kind::Number, seconds),
+    column<&R::wall_s>("wall_s", Kind::Number, seconds),
+    column<&R::frame_ms>("frame_ms", Kind::Number, milliseconds),
+    column<&R::sim_ms>("sim_ms", Kind::Number, milliseconds),
+    column<&R::plan_ms>("plan_ms", Kind::Number, milliseconds),
+    column<&R::draw_ms>("draw_ms", Kind::Number, milliseconds),
+    column<&R::read_ms>("read_ms", Kind::Number, milliseconds),
     column<&R::terrain_triangles>("terrain_triangles"),
     column<&R::terrain_fans>("terrain_fans"),
     column<&R::aircraft_polygons>("aircraft_polygons"),
     column<&R::draw_cell>("draw_cell"),
-    column<&R::resolution_c>("resolution_c", Kind::may_be_empty, 6),
+    column<&R::resolution_c>("resolution_c", Kind::MayBeEmpty, 6),
     column<&R::triangle_change>("triangle_change"),
-    column<&R::stress>("stress", Kind::may_be_empty, 4),
+    column<&R::stress>("stress", Kind::MayBeEmpty, 4),
     column<&R::overrun>("overrun"),
     column<&R::warm_up>("warm_up"),
-    column<&R::record_ms>("record_ms", Kind::number, milliseconds),
+    column<&R::record_ms>("record_ms", Kind::Number, milliseconds),
     axis_column<&R::eye_m, 0>("eye_x_m"),
     axis_column<&R::eye_m, 1>("eye_y_m"),
     axis_column<&R::eye_m, 2>("eye_z_m"),
     axis_column<&R::aircraft_m, 0>("aircraft_x_m"),
     axis_column<&R::aircraft_m, 1>("aircraft_y_m"),
     axis_column<&R::aircraft_m, 2>("aircraft_z_m"),
-    column<&R::aircraft_agl_m>("aircraft_agl_m", Kind::may_be_empty, 3),
+    column<&R::aircraft_agl_m>("aircraft_agl_m", Kind::MayBeEmpty, 3),
 };
 
 std::string header_line() {
@@ -95,13 +95,13 @@ std::string field_text(const Column& column, double value) {
 
 /// The column's value from its text, or nothing when the text does not fit the column.
 std::optional<double> field_value(const Column& column, std::string_view text) {
-    if (column.kind == Kind::whole) {
+    if (column.kind == Kind::Whole) {
         const auto whole = whole_number(text);
         const bool fits = whole && *whole >= std::numeric_limits<int>::min() &&
                           *whole <= std::numeric_limits<int>::max();
         return fits ? std::optional(static_cast<double>(*whole)) : std::nullopt;
     }
-    if (text.empty() && column.kind == Kind::may_be_empty) {
+    if (text.empty() && column.kind == Kind::MayBeEmpty) {
         return std::numeric_limits<double>::quiet_NaN();
     }
     return finite_number(text);
@@ -157,7 +157,7 @@ FrameRecord read_line(
                 line_number,
                 fmt::format(
                     "expected a {} in column {}, got '{}'",
-                    order[i]->kind == Kind::whole ? "whole number" : "number",
+                    order[i]->kind == Kind::Whole ? "whole number" : "number",
                     order[i]->name,
                     printable(std::string(fields[i]))));
         }

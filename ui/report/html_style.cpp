@@ -2,8 +2,9 @@
 
 namespace octant::ui::report {
 
-std::string_view page_style() {
-    return R"css(
+namespace {
+
+constexpr std::string_view style = R"css(
 :root {
   color-scheme: light dark;
   --page: #f6f7f9; --card: #ffffff; --ink: #1b2430; --soft: #5d6b7c; --line: #dde3ea;
@@ -83,6 +84,11 @@ figcaption { font-size: .8rem; padding-top: .2rem; }
   h2 { break-after: avoid; }
 }
 )css";
+
+} // namespace
+
+std::string_view page_style() {
+    return style;
 }
 
 } // namespace octant::ui::report

@@ -39,6 +39,7 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
     }
     std::sort(found.begin(), found.end());
     std::vector<fs::path> pictures;
+    pictures.reserve(found.size());
     for (auto& [frame, path] : found) {
         pictures.push_back(std::move(path));
     }

@@ -40,7 +40,7 @@ std::string value_of(std::string_view text, std::string_view key, char separator
     return {};
 }
 
-std::string or_unknown(std::string text) {
+std::string or_unknown(const std::string& text) {
     return text.empty() ? "unknown" : text;
 }
 

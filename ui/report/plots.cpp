@@ -30,7 +30,7 @@ std::string quoted(const std::string& text) {
 }
 
 void append_data(Out out, std::size_t index, const PlotSeries& series) {
-    const bool area = series.style == PlotSeries::Style::area;
+    const bool area = series.style == PlotSeries::Style::Area;
     assert(series.y.size() == series.x.size());
     assert(!area || series.y_low.size() == series.x.size());
     fmt::format_to(out, "$series{} << EOD\n", index);
@@ -51,16 +51,16 @@ std::string series_clause(std::size_t index, const PlotSeries& series) {
     const std::string title =
         series.name.empty() ? std::string("notitle") : "title " + quoted(series.name);
     switch (series.style) {
-    case PlotSeries::Style::area:
+    case PlotSeries::Style::Area:
         return fmt::format(
             "$series{} using 1:2:3 with filledcurves lc rgb {} {}",
             index,
             quoted(series.colour),
             title);
-    case PlotSeries::Style::bars:
+    case PlotSeries::Style::Bars:
         return fmt::format(
             "$series{} using 1:2 with boxes lc rgb {} {}", index, quoted(series.colour), title);
-    case PlotSeries::Style::line:
+    case PlotSeries::Style::Line:
         break;
     }
     return fmt::format(

@@ -9,14 +9,14 @@ namespace octant::ui::report {
 /// One set of points of a plot.
 struct PlotSeries {
     enum class Style {
-        line,
-        area, ///< filled between `y_low` and `y`
-        bars  ///< from the axis up to `y`
+        Line,
+        Area, ///< filled between `y_low` and `y`
+        Bars  ///< from the axis up to `y`
     };
 
     std::string name;   ///< in the key; empty = not there
     std::string colour; ///< "#rrggbb"
-    Style style = Style::line;
+    Style style = Style::Line;
     std::vector<double> x;
     std::vector<double> y; ///< as many as `x`; what is not finite is a gap
     std::vector<double> y_low;

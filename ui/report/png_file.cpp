@@ -63,7 +63,7 @@ struct WriteHandles {
 };
 
 void set_effort(png_structp png, PngEffort effort) {
-    if (effort == PngEffort::fast) {
+    if (effort == PngEffort::Fast) {
         png_set_compression_level(png, 1);
         png_set_compression_strategy(png, Z_RLE);
         png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);

@@ -20,13 +20,13 @@ struct Picture {
 };
 
 enum class PngEffort {
-    fast, ///< a picture a frame: level 1, Sub filter, run lengths
-    small ///< a picture in a page: level 9
+    Fast, ///< a picture a frame: level 1, Sub filter, run lengths
+    Small ///< a picture in a page: level 9
 };
 
 /// The picture as an RGB PNG (alpha is dropped). `picture.is_whole()` must hold. Same picture, same
 /// bytes. Throws Error when libpng cannot (more than a million pixels a side).
-std::string png_bytes(const PictureView& picture, PngEffort effort = PngEffort::fast);
+std::string png_bytes(const PictureView& picture, PngEffort effort = PngEffort::Fast);
 
 /// png_bytes as a file, whole or not at all. Throws Error.
 void write_png(const std::filesystem::path& path, const PictureView& picture);

@@ -83,11 +83,11 @@ void VideoPipe::add(const PictureView& picture) {
 
 VideoResult VideoPipe::finish() {
     if (!program_) {
-        return {VideoResult::Outcome::no_ffmpeg, "not made: ffmpeg is not installed"};
+        return {VideoResult::Outcome::NoFfmpeg, "not made: ffmpeg is not installed"};
     }
     const ProgramEnding ending = program_->finish();
     if (!ending.succeeded || broken_) {
-        return {VideoResult::Outcome::failed, "not made: ffmpeg: " + ending.last_complaint};
+        return {VideoResult::Outcome::Failed, "not made: ffmpeg: " + ending.last_complaint};
     }
     return {};
 }

@@ -21,12 +21,12 @@ struct VideoFormat {
 /// How a video came out. `text` is one line: empty when made, else "not made: ...".
 struct VideoResult {
     enum class Outcome {
-        made,
-        no_ffmpeg, ///< not installed: a flight goes on without its video
-        failed     ///< ffmpeg's last line is in `text`
+        Made,
+        NoFfmpeg, ///< not installed: a flight goes on without its video
+        Failed    ///< ffmpeg's last line is in `text`
     };
 
-    Outcome outcome = Outcome::made;
+    Outcome outcome = Outcome::Made;
     std::string text;
 };
 
