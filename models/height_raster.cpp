@@ -31,7 +31,7 @@ struct Band {
 };
 
 [[noreturn]] void error_unreadable(const path& file, const std::string& got) {
-    error_in(file, "expected a height field that GDAL can read, got " + got);
+    error_in(file, fmt::format("expected a height field that GDAL can read, got {}", got));
 }
 
 Dataset open(const path& file, const GdalSession& gdal) {

@@ -5,6 +5,7 @@
 // the same everywhere; the rim of the map takes part with the neighbours it has.
 #include "models/height_voids.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

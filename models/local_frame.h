@@ -49,8 +49,8 @@ public:
     double step_north_m() const { return step_north_m_; }
 
     /// The grid resampled (bilinear) to square cells of sqrt(step_east_m * step_north_m), which
-    /// keeps the number of samples, over the largest upright rectangle about the centre that has
-    /// data at all its rim. Nothing when no 2 x 2 cells are left or the ground is wider than
+    /// keeps the number of samples about the same, over the upright rectangle that lies within all
+    /// four of its edges. Nothing when fewer than 2 x 2 samples fit in or the ground is wider than
     /// 1,000 km.
     std::optional<LocalGrid> resampled(const HeightGrid& grid) const;
 

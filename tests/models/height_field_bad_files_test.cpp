@@ -149,7 +149,7 @@ TEST_CASE("pictures in colour and numbers that are no heights are refused") {
     complex.type = GDT_CFloat32;
     check_raster_refused(complex, "expected real heights, got complex numbers");
     RasterFile warm = flat(4, 4);
-    warm.unit = "K";
+    warm.unit = std::string("K");
     check_raster_refused(warm, "expected heights in metres or feet, got 'K'");
 }
 
