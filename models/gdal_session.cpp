@@ -3,6 +3,7 @@
 #include "sim/base/error.h"
 
 #include <cpl_conv.h>
+#include <gdal.h>
 #include <gdal_frmts.h>
 #include <mutex>
 #include <ogr_srs_api.h>
@@ -29,10 +30,20 @@ void erase_all(std::string& text, const std::string& piece) {
     }
 }
 
+void CPL_STDCALL hear(CPLErr severity, CPLErrorNum /*number*/, const char* text) {
+    if (severity >= CE_Failure) {
+        static_cast<GdalSession*>(CPLGetErrorHandlerUserData())->note_error(text);
+    }
+}
+
 } // namespace
 
+void CloseDataset::operator()(void* dataset) const {
+    GDALClose(dataset);
+}
+
 GdalSession::GdalSession() {
-    CPLPushErrorHandlerEx(&GdalSession::keep, this);
+    CPLPushErrorHandlerEx(&hear, this);
     static std::once_flag registered;
     std::call_once(registered, register_drivers);
     CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", "NO");
@@ -44,10 +55,9 @@ GdalSession::~GdalSession() {
     CPLPopErrorHandler();
 }
 
-void CPL_STDCALL GdalSession::keep(CPLErr severity, CPLErrorNum /*number*/, const char* text) {
-    auto* session = static_cast<GdalSession*>(CPLGetErrorHandlerUserData());
-    if (severity >= CE_Failure && session->first_error_.empty()) {
-        session->first_error_ = text;
+void GdalSession::note_error(const char* text) {
+    if (first_error_.empty()) {
+        first_error_ = text;
     }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <gdal.h>
 #include <memory>
 #include <string>
 
@@ -30,16 +29,18 @@ public:
     /// there was none.
     std::string reason(const std::filesystem::path& path) const;
 
-private:
-    static void CPL_STDCALL keep(CPLErr severity, CPLErrorNum number, const char* text);
+    /// Keeps the text if it is the first; what GDAL's error handler calls.
+    void note_error(const char* text);
 
+private:
     std::string first_error_;
 };
 
 struct CloseDataset {
-    void operator()(void* dataset) const { GDALClose(dataset); }
+    void operator()(void* dataset) const;
 };
 
+/// Owner of a GDALDatasetH. GDAL's own headers stay out of ours.
 using Dataset = std::unique_ptr<void, CloseDataset>;
 
 } // namespace octant::models

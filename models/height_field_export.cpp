@@ -9,6 +9,7 @@
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
+#include <gdal.h>
 #include <limits>
 #include <ogr_srs_api.h>
 #include <string>

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <new>
+#include <ogr_srs_api.h>
 #include <optional>
 #include <utility>
 

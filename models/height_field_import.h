@@ -35,11 +35,12 @@ inline constexpr double highest_import_m = 9000.0;
 /// magnitudes from 1e30, the file's declared value and, where none is declared, -32768, -32767 and
 /// -9999. They are filled smoothly and counted in `filled_voids`.
 ///
-/// Memory: 4 bytes a sample, 8 while resampling, 20 more a void while filling.
+/// Memory: 4 bytes a sample, 8 while resampling; about 11 more a void while filling; for a plain
+/// PGM also the file.
 ///
-/// Throws Error "path: expected ..., got ..." for everything else: no readable file, a damaged one,
+/// Throws Error "file: expected ..., got ..." for everything else: no readable file, a damaged one,
 /// a colour picture, a rotated grid, only voids, heights outside the bounds above, fewer than 2 x 2
 /// or more than 20,000 x 20,000 samples, ground wider than 1,000 km.
-HeightField read_height_field(const std::filesystem::path& path, const ImportOptions& options = {});
+HeightField read_height_field(const std::filesystem::path& file, const ImportOptions& options = {});
 
 } // namespace octant::models

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
+#include <gdal.h>
 #include <limits>
 #include <string>
 #include <string_view>

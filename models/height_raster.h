@@ -11,10 +11,10 @@ namespace octant::models {
 
 /// A file of heights as GDAL gives it, turned so that row 0 is the south and column 0 the west.
 struct HeightRaster {
-    Dataset dataset;                       ///< still open: owner of `system`
-    HeightGrid grid;                       ///< metres, NaN where the file has no data
-    std::optional<GridFrame> frame;        ///< nothing for a mere picture
-    OGRSpatialReferenceH system = nullptr; ///< null when the file names none
+    Dataset dataset;                ///< still open: owner of `system`
+    HeightGrid grid;                ///< metres, NaN where the file has no data
+    std::optional<GridFrame> frame; ///< nothing for a mere picture
+    SystemHandle system = nullptr;  ///< null when the file names none
 };
 
 /// Throws Error unless the path is a readable, regular file with content on this computer.

@@ -27,7 +27,22 @@ std::vector<std::size_t> voids_of(const HeightGrid& grid) {
     return voids;
 }
 
-/// Mean of the known samples of each 2 x 2 block.
+/// Mean of the known samples of the 2 x 2 block from a sample on, NaN without any.
+float block_mean(const HeightGrid& grid, int column, int row) {
+    double sum = 0.0;
+    int known = 0;
+    for (int y = row; y < std::min(row + 2, grid.rows); ++y) {
+        for (int x = column; x < std::min(column + 2, grid.columns); ++x) {
+            const float height = grid.at(x, y);
+            if (!std::isnan(height)) {
+                sum += height;
+                ++known;
+            }
+        }
+    }
+    return known == 0 ? no_height : static_cast<float>(sum / known);
+}
+
 HeightGrid halved(const HeightGrid& grid) {
     HeightGrid half;
     half.columns = (grid.columns + 1) / 2;
@@ -36,18 +51,7 @@ HeightGrid halved(const HeightGrid& grid) {
         static_cast<std::size_t>(half.columns) * static_cast<std::size_t>(half.rows));
     for (int row = 0; row < grid.rows; row += 2) {
         for (int column = 0; column < grid.columns; column += 2) {
-            double sum = 0.0;
-            int known = 0;
-            for (int y = row; y < std::min(row + 2, grid.rows); ++y) {
-                for (int x = column; x < std::min(column + 2, grid.columns); ++x) {
-                    const float height = grid.at(x, y);
-                    if (!std::isnan(height)) {
-                        sum += height;
-                        ++known;
-                    }
-                }
-            }
-            half.heights_m.push_back(known == 0 ? no_height : static_cast<float>(sum / known));
+            half.heights_m.push_back(block_mean(grid, column, row));
         }
     }
     return half;
@@ -78,14 +82,11 @@ void relax(HeightGrid& grid, const std::vector<std::size_t>& voids) {
     }
 }
 
-float from_coarser(const HeightGrid& coarse, std::size_t i, std::size_t columns) {
-    const double column = (static_cast<double>(i % columns) - 0.5) / 2.0;
-    const double row = (static_cast<double>(i / columns) - 0.5) / 2.0;
+float from_coarser(const HeightGrid& coarse, int column, int row) {
     if (coarse.columns < 2 || coarse.rows < 2) {
-        const std::size_t half_columns = static_cast<std::size_t>(coarse.columns);
-        return coarse.heights_m[(i / columns) / 2 * half_columns + (i % columns) / 2];
+        return coarse.at(column / 2, row / 2);
     }
-    return interpolated(coarse, column, row);
+    return interpolated(coarse, (column - 0.5) / 2.0, (row - 0.5) / 2.0);
 }
 
 } // namespace
@@ -99,7 +100,8 @@ long fill_voids(HeightGrid& grid) {
     fill_voids(coarse);
     const auto columns = static_cast<std::size_t>(grid.columns);
     for (const std::size_t i : voids) {
-        grid.heights_m[i] = from_coarser(coarse, i, columns);
+        grid.heights_m[i] =
+            from_coarser(coarse, static_cast<int>(i % columns), static_cast<int>(i / columns));
     }
     relax(grid, voids);
     return static_cast<long>(voids.size());

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <ogr_srs_api.h>
 #include <string>
 #include <utility>
 
@@ -58,8 +59,12 @@ double distance(Point a, Point b) {
 
 } // namespace
 
+void CloseTransformation::operator()(void* transformation) const {
+    OCTDestroyCoordinateTransformation(transformation);
+}
+
 std::optional<LocalFrame>
-LocalFrame::around(OGRSpatialReferenceH system, const GridFrame& frame, int columns, int rows) {
+LocalFrame::around(SystemHandle system, const GridFrame& frame, int columns, int rows) {
     const Point centre = {
         frame.west + 0.5 * (columns - 1) * frame.step_east,
         frame.south + 0.5 * (rows - 1) * frame.step_north};

@@ -4,18 +4,19 @@
 #include "models/height_grid.h"
 
 #include <memory>
-#include <ogr_srs_api.h>
 #include <optional>
 
 namespace octant::models {
 
 struct CloseTransformation {
-    void operator()(void* transformation) const {
-        OCTDestroyCoordinateTransformation(transformation);
-    }
+    void operator()(void* transformation) const;
 };
 
+/// Owner of an OGRCoordinateTransformationH.
 using Transformation = std::unique_ptr<void, CloseTransformation>;
+
+/// An OGRSpatialReferenceH, owned elsewhere.
+using SystemHandle = void*;
 
 /// Where the samples of a grid lie in a coordinate system: sample (0, 0) and the steps, both above
 /// zero, in the system's own units.
@@ -39,7 +40,7 @@ class LocalFrame {
 public:
     /// Nothing when the system cannot be brought to WGS 84.
     static std::optional<LocalFrame>
-    around(OGRSpatialReferenceH system, const GridFrame& frame, int columns, int rows);
+    around(SystemHandle system, const GridFrame& frame, int columns, int rows);
 
     GeoPlace place() const { return place_; }
 
