@@ -2,6 +2,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <cmath>
 #include <cstdint>
 
 namespace octant::models {
@@ -16,7 +17,7 @@ struct ColourVertex {
 inline std::uint32_t packed_colour(const glm::vec3& rgb) {
     const auto byte = [](float part) {
         const float clamped = part < 0.0F ? 0.0F : (part > 1.0F ? 1.0F : part);
-        return static_cast<std::uint32_t>(clamped * 255.0F + 0.5F);
+        return static_cast<std::uint32_t>(std::lround(clamped * 255.0F));
     };
     return byte(rgb.x) | byte(rgb.y) << 8U | byte(rgb.z) << 16U | 0xff000000U;
 }

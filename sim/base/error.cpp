@@ -1,13 +1,15 @@
 #include "sim/base/error.h"
 
+#include <fmt/format.h>
+
 namespace octant {
 
 void error_at(const std::filesystem::path& path, int line, const std::string& what) {
-    throw Error(path.string() + ":" + std::to_string(line) + ": " + what);
+    throw Error(fmt::format("{}:{}: {}", path.string(), line, what));
 }
 
 void error_in(const std::filesystem::path& path, const std::string& what) {
-    throw Error(path.string() + ": " + what);
+    throw Error(fmt::format("{}: {}", path.string(), what));
 }
 
 std::string printable(const std::string& text) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/base/output_file.h"
+#include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
 
@@ -12,10 +13,8 @@ namespace octant::tests {
 
 /// A file with this text in a folder of this test program.
 inline std::filesystem::path written(const std::string& name, std::string_view text) {
-    const auto folder = std::filesystem::temp_directory_path() / "octant-flightpaths-test";
-    std::filesystem::create_directories(folder);
-    write_file(folder / name, text);
-    return folder / name;
+    write_file(scratch_folder() / name, text);
+    return scratch_folder() / name;
 }
 
 inline std::string replaced(std::string text, std::string_view from, std::string_view to) {

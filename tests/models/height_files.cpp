@@ -1,5 +1,7 @@
 #include "tests/models/height_files.h"
 
+#include "tests/scratch.h"
+
 #include <catch2/catch.hpp>
 
 #include <cpl_conv.h>
@@ -11,10 +13,9 @@
 namespace octant::models::test {
 
 std::filesystem::path scratch_file(const std::string& name) {
-    const auto folder = std::filesystem::temp_directory_path() / "octant-height-tests";
-    std::filesystem::create_directories(folder);
-    std::filesystem::remove_all(folder / name);
-    return folder / name;
+    std::filesystem::create_directories(tests::scratch_folder());
+    std::filesystem::remove_all(tests::scratch_folder() / name);
+    return tests::scratch_folder() / name;
 }
 
 void write_raster(const std::filesystem::path& path, const char* driver, const RasterFile& raster) {

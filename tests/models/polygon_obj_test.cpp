@@ -3,6 +3,7 @@
 #include "models/obj_writer.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
 
@@ -14,9 +15,7 @@ using namespace octant::models;
 namespace {
 
 std::filesystem::path scratch(const std::string& name) {
-    const auto folder = std::filesystem::temp_directory_path() / "octant-models-test";
-    std::filesystem::create_directories(folder);
-    return folder / name;
+    return octant::tests::scratch_folder() / name;
 }
 
 PolygonModel model_of(const std::string& text, const FileAxes& axes = {}) {

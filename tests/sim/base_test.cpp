@@ -4,6 +4,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
+#include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
 
@@ -15,9 +16,7 @@ using namespace octant;
 namespace {
 
 std::filesystem::path scratch(const std::string& name) {
-    const auto folder = std::filesystem::temp_directory_path() / "octant-base-test";
-    std::filesystem::create_directories(folder);
-    return folder / name;
+    return tests::scratch_folder() / name;
 }
 
 void check_vector(const glm::dvec3& got, const glm::dvec3& expected) {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <unistd.h>
+
+namespace octant::tests {
+
+/// A folder of this process's own, removed when the process ends: tests run side by side.
+inline std::filesystem::path scratch_folder() {
+    struct Folder {
+        std::filesystem::path path =
+            std::filesystem::temp_directory_path() / ("octant-test-" + std::to_string(getpid()));
+
+        Folder() { std::filesystem::create_directories(path); }
+
+        ~Folder() {
+            std::error_code ignored;
+            std::filesystem::remove_all(path, ignored);
+        }
+
+        Folder(const Folder&) = delete;
+        Folder& operator=(const Folder&) = delete;
+        Folder(Folder&&) = delete;
+        Folder& operator=(Folder&&) = delete;
+    };
+
+    static const Folder folder;
+    return folder.path;
+}
+
+} // namespace octant::tests
