@@ -1,0 +1,107 @@
+#include "sim/base/axes.h"
+#include "sim/base/units.h"
+#include "visuals/scene/camera_rig.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+using namespace octant;
+using namespace octant::visuals::scene;
+
+namespace {
+
+const GroundHeight flat_ground = [](double, double) { return std::optional<double>(0.0); };
+const Subject fighter{10.0, {5.4, 0.0, -1.0}};
+
+sim::AircraftState level_flight(double heading_rad) {
+    sim::AircraftState state;
+    state.position_m = {0.0, 0.0, 500.0};
+    state.body_to_world = body_to_world_from_euler({heading_rad, 0.0, 0.0});
+    state.velocity_mps = 200.0 * direction_from_heading(heading_rad);
+    return state;
+}
+
+Camera seen(View view, const sim::AircraftState& state, const GroundHeight& ground = flat_ground) {
+    Settings settings;
+    settings.view = view;
+    return camera_of(
+        settings, state, advanced({}, state), fighter, {{100.0, 0.0, 20.0}, {}, {}}, ground);
+}
+
+glm::dvec3 looking(const Camera& camera) {
+    return camera.view_to_world * glm::dvec3(0, 0, -1);
+}
+
+} // namespace
+
+TEST_CASE("the chase camera stands behind and above and looks ahead") {
+    const Camera camera = seen(View::Chase, level_flight(0.0));
+    CHECK(camera.eye_m.y < -20.0);
+    CHECK(camera.eye_m.z > 500.0);
+    CHECK(std::abs(camera.eye_m.x) < 1e-9);
+    CHECK(looking(camera).y > 0.9);
+}
+
+TEST_CASE("the chase camera lags behind a turn and catches up") {
+    RigMemory memory = advanced({}, level_flight(0.0));
+    memory = advanced(memory, level_flight(1.0));
+    const glm::dvec3 ahead = direction_from_heading(1.0);
+    CHECK(glm::dot(memory.lagging_forward, ahead) < 0.6);
+    for (int step = 0; step < 480; ++step) {
+        memory = advanced(memory, level_flight(1.0));
+    }
+    CHECK(glm::dot(memory.lagging_forward, ahead) > 0.999);
+}
+
+TEST_CASE("the pilot's eye moves and rolls with the aircraft") {
+    sim::AircraftState state = level_flight(0.0);
+    state.body_to_world = body_to_world_from_euler({0.0, 0.0, rad_from_deg(90)});
+    const Camera camera = seen(View::Cockpit, state);
+    CHECK(camera.eye_m.y == Approx(5.4));
+    CHECK(camera.eye_m.x == Approx(1.0)); // one metre above the axis, rolled to the right
+    CHECK(camera.eye_m.z == Approx(500.0));
+    CHECK((camera.view_to_world * glm::dvec3(0, 1, 0)).x == Approx(1.0));
+    CHECK(looking(camera).y == Approx(1.0));
+}
+
+TEST_CASE("the tower looks at the aircraft and zooms in on it") {
+    const Camera camera = seen(View::Tower, level_flight(0.0));
+    const glm::dvec3 to_aircraft = glm::dvec3(0, 0, 500) - camera.eye_m;
+    CHECK(glm::dot(glm::normalize(to_aircraft), looking(camera)) == Approx(1.0));
+    CHECK(camera.vertical_fov_rad < rad_from_deg(20));
+}
+
+TEST_CASE("the orbit sees the aircraft from all eight octants") {
+    int seen_octants = 0;
+    for (int tick = 0; tick < 88 * 20; ++tick) {
+        sim::AircraftState state = level_flight(0.3);
+        state.time_s = tick / 20.0;
+        const Camera camera = seen(View::Orbit, state);
+        const glm::dvec3 in_body =
+            glm::inverse(state.body_to_world) * (camera.eye_m - state.position_m);
+        seen_octants |=
+            1 << ((in_body.x < 0 ? 1 : 0) + (in_body.y < 0 ? 2 : 0) + (in_body.z < 0 ? 4 : 0));
+    }
+    CHECK(seen_octants == 255);
+}
+
+TEST_CASE("no view puts the eye into the ground") {
+    const GroundHeight hill = [](double, double) { return std::optional<double>(700.0); };
+    for (const View view : {View::Chase, View::Orbit, View::Free}) {
+        CHECK(seen(view, level_flight(0.0), hill).eye_m.z >= 702.0);
+    }
+}
+
+TEST_CASE("the tower stands where the flight is in sight") {
+    // A wall along x = 0 hides the flight east of it from the middle.
+    const GroundHeight wall = [](double x, double) {
+        return std::optional<double>(std::abs(x - 100.0) < 30.0 ? 900.0 : 0.0);
+    };
+    std::vector<glm::dvec3> flight;
+    for (int i = -20; i <= 20; ++i) {
+        flight.emplace_back(1500.0, 100.0 * i, 300.0);
+    }
+    const glm::dvec3 place = tower_place(flight, {0.0, 0.0}, wall);
+    CHECK(place.x > 70.0); // on the wall or behind it
+    CHECK(tower_place(flight, {0.0, 0.0}, flat_ground) == glm::dvec3(0.0, 0.0, 12.0));
+}

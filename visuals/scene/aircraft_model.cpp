@@ -1,0 +1,106 @@
+#include "visuals/scene/aircraft_model.h"
+
+#include "models/colour_vertex.h"
+
+#include <glm/common.hpp>
+
+#include <limits>
+#include <span>
+#include <utility>
+
+namespace octant::visuals::scene {
+
+namespace {
+
+class BufferMaker {
+public:
+    explicit BufferMaker(const models::PolygonModel& model)
+        : model_(model) {
+        for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+            add_corners(i);
+        }
+    }
+
+    /// Appends polygons as triangle fans in the order given.
+    template <class Polygons>
+    IndexRange append(const Polygons& polygons) {
+        IndexRange range;
+        range.first_index = static_cast<std::uint32_t>(buffers_.indices.size());
+        for (const std::uint32_t polygon : polygons) {
+            const std::uint32_t first = model_.polygons[polygon].first_corner;
+            for (std::uint32_t corner = 2; corner < model_.polygons[polygon].corner_count;
+                 ++corner) {
+                buffers_.indices.insert(
+                    buffers_.indices.end(), {first, first + corner - 1, first + corner});
+            }
+            ++range.polygons;
+        }
+        range.index_count = static_cast<std::uint32_t>(buffers_.indices.size()) - range.first_index;
+        return range;
+    }
+
+    ModelBuffers take() { return std::move(buffers_); }
+
+private:
+    void add_corners(std::size_t polygon) {
+        const glm::vec3 normal(models::normal_of(model_, polygon));
+        const std::uint32_t colour =
+            models::packed_colour(model_.materials[model_.polygons[polygon].material].colour);
+        for (const std::uint32_t vertex : model_.corners(polygon)) {
+            buffers_.vertices.push_back({glm::vec3(model_.vertices_m[vertex]), normal, colour});
+        }
+    }
+
+    const models::PolygonModel& model_;
+    ModelBuffers buffers_;
+};
+
+} // namespace
+
+AircraftModel
+aircraft_model(models::PolygonModel polygons, draworder::DrawOrder order, const glm::dvec3& eye_m) {
+    BufferMaker maker(polygons);
+    std::vector<IndexRange> cells;
+    for (int cell = 0; cell < order.cell_count(); ++cell) {
+        // Cells with equal lists share a range of the order, and so of the index buffer.
+        int same = 0;
+        while (!(order.range_of(same) == order.range_of(cell))) {
+            ++same;
+        }
+        cells.push_back(
+            same < cell ? cells[static_cast<std::size_t>(same)]
+                        : maker.append(order.polygons_of(cell)));
+    }
+    const IndexRange all = maker.append(draworder::file_order(polygons).polygons());
+    const double radius_m = models::radius_m(polygons);
+    ModelBuffers buffers = maker.take();
+    return {
+        std::move(polygons),
+        std::move(order),
+        std::move(buffers),
+        std::move(cells),
+        all,
+        {radius_m, eye_m}};
+}
+
+glm::dvec3 pilot_eye_m(const models::PolygonModel& model) {
+    // F-15: eye 5.0 m behind the nose tip (Zaretto F-15vsp.xml) and 0.94 m above the reference line
+    // (JSBSim f15.xml); the origin is 10.4 m behind the nose. 500MD: front seat on the left,
+    // eye 1.2 m behind the nose and 1.5 m above the skids; the origin is on the mast axis, 1.2 m
+    // above the skids.
+    if (model.name == "f15") {
+        return {5.4, 0.0, -0.94};
+    }
+    if (model.name == "500md") {
+        return {0.75, -0.33, -0.3};
+    }
+    glm::dvec3 least(std::numeric_limits<double>::max());
+    glm::dvec3 most(std::numeric_limits<double>::lowest());
+    for (const glm::dvec3& vertex : model.vertices_m) {
+        least = glm::min(least, vertex);
+        most = glm::max(most, vertex);
+    }
+    return {most.x - 0.25 * (most.x - least.x), 0.5 * (least.y + most.y), least.z};
+}
+
+} // namespace octant::visuals::scene

@@ -1,0 +1,177 @@
+#include "visuals/scene/camera_rig.h"
+
+#include "sim/base/axes.h"
+#include "sim/base/units.h"
+#include "sim/fixed_step.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace octant::visuals::scene {
+
+namespace {
+
+constexpr double least_eye_height_m = 2.0;
+constexpr double chase_lag_s = 0.45;
+constexpr double chase_distance_radii = 3.0;
+constexpr double chase_rise = 0.27; ///< share of the distance by which the eye stands higher
+constexpr double orbit_distance_radii = 3.4;
+constexpr double orbit_turn_s = 16.0;
+constexpr double orbit_swing_s = 22.0;
+constexpr double orbit_swing_rad = rad_from_deg(55.0);
+constexpr double tower_share = 0.14; ///< of the picture's height that the aircraft's sphere fills
+constexpr double tower_least_fov_rad = rad_from_deg(0.7);
+constexpr double tower_height_m = 12.0;
+
+void lift_above_ground(glm::dvec3& eye_m, const GroundHeight& ground) {
+    if (const auto height_m = ground(eye_m.x, eye_m.y)) {
+        eye_m.z = std::max(eye_m.z, *height_m + least_eye_height_m);
+    }
+}
+
+Camera chase(
+    const sim::AircraftState& state,
+    const RigMemory& memory,
+    const Subject& subject,
+    const GroundHeight& ground) {
+    const double distance_m = chase_distance_radii * subject.radius_m;
+    glm::dvec3 eye_m = state.position_m - distance_m * memory.lagging_forward;
+    eye_m.z += chase_rise * distance_m;
+    lift_above_ground(eye_m, ground);
+    return camera_looking_at(
+        eye_m, state.position_m + 0.5 * subject.radius_m * memory.lagging_forward);
+}
+
+Camera cockpit(const sim::AircraftState& state, const Subject& subject) {
+    Camera camera;
+    camera.eye_m = state.position_m + state.body_to_world * subject.pilot_eye_m;
+    // View axes x right, y up, -z ahead in body axes x forward, y right, z down.
+    static const glm::dquat view_to_body =
+        glm::quat_cast(glm::dmat3(glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1), glm::dvec3(-1, 0, 0)));
+    camera.view_to_world = glm::normalize(state.body_to_world * view_to_body);
+    camera.near_m = 0.15;
+    return camera;
+}
+
+Camera tower(const sim::AircraftState& state, const Subject& subject, const glm::dvec3& eye_m) {
+    Camera camera = camera_looking_at(eye_m, state.position_m);
+    const double distance_m = std::max(glm::length(state.position_m - eye_m), subject.radius_m);
+    camera.vertical_fov_rad =
+        std::max(2.0 * std::atan(subject.radius_m / tower_share / distance_m), tower_least_fov_rad);
+    return camera;
+}
+
+Camera orbit(const sim::AircraftState& state, const Subject& subject, const GroundHeight& ground) {
+    const double azimuth_rad = 2.0 * pi * state.time_s / orbit_turn_s;
+    const double elevation_rad =
+        orbit_swing_rad * std::sin(2.0 * pi * state.time_s / orbit_swing_s);
+    const glm::dvec3 level = direction_from_heading(azimuth_rad);
+    const glm::dvec3 outward =
+        std::cos(elevation_rad) * level + glm::dvec3(0.0, 0.0, std::sin(elevation_rad));
+    glm::dvec3 eye_m = state.position_m + orbit_distance_radii * subject.radius_m * outward;
+    lift_above_ground(eye_m, ground);
+    return camera_looking_at(eye_m, state.position_m);
+}
+
+/// Share of the flight that is in sight from a point, by 40 samples along each line of sight.
+int samples_in_sight(
+    std::span<const glm::dvec3> flight_m, const glm::dvec3& eye_m, const GroundHeight& ground) {
+    constexpr int steps = 40;
+    return static_cast<int>(
+        std::count_if(flight_m.begin(), flight_m.end(), [&](const glm::dvec3& target_m) {
+            for (int step = 1; step < steps; ++step) {
+                const glm::dvec3 point_m =
+                    glm::mix(eye_m, target_m, static_cast<double>(step) / steps);
+                const auto height_m = ground(point_m.x, point_m.y);
+                if (height_m && *height_m > point_m.z) {
+                    return false;
+                }
+            }
+            return true;
+        }));
+}
+
+} // namespace
+
+RigMemory advanced(const RigMemory& memory, const sim::AircraftState& state) {
+    static const double share = 1.0 - std::exp(-sim::step_s / chase_lag_s);
+    const glm::dvec3 forward = state.body_to_world * glm::dvec3(1, 0, 0);
+    if (memory.lagging_forward == glm::dvec3(0.0)) {
+        return {forward};
+    }
+    const glm::dvec3 mixed = glm::mix(memory.lagging_forward, forward, share);
+    const double length = glm::length(mixed);
+    return {length > 1e-9 ? mixed / length : forward};
+}
+
+Camera camera_of(
+    const Settings& settings,
+    const sim::AircraftState& state,
+    const RigMemory& memory,
+    const Subject& subject,
+    const FixedPoints& points,
+    const GroundHeight& ground) {
+    const auto with_fov = [&](Camera camera) {
+        camera.vertical_fov_rad = rad_from_deg(settings.fov_deg);
+        return camera;
+    };
+    switch (settings.view) {
+    case View::Chase:
+        return with_fov(chase(state, memory, subject, ground));
+    case View::Cockpit:
+        return with_fov(cockpit(state, subject));
+    case View::Tower:
+        return tower(state, subject, points.tower_m);
+    case View::Orbit:
+        return with_fov(orbit(state, subject, ground));
+    case View::Free:
+        break;
+    }
+    glm::dvec3 eye_m = points.free_eye_m;
+    lift_above_ground(eye_m, ground);
+    return with_fov(camera_looking_at(eye_m, points.free_look_m));
+}
+
+glm::dvec3 tower_place(
+    std::span<const glm::dvec3> flight_m, const glm::dvec2& around_m, const GroundHeight& ground) {
+    double extent_m = 0.0;
+    for (const glm::dvec3& point_m : flight_m) {
+        extent_m = std::max(extent_m, glm::length(glm::dvec2(point_m) - around_m));
+    }
+    constexpr int rings = 5;
+    constexpr int spokes = 12;
+    std::vector<std::pair<int, glm::dvec3>> spots; ///< samples in sight, eye point
+    for (int ring = 0; ring <= rings; ++ring) {
+        for (int spoke = 0; spoke < (ring == 0 ? 1 : spokes); ++spoke) {
+            const double distance_m = 0.25 * extent_m * ring / rings;
+            const glm::dvec2 spot_m =
+                around_m +
+                distance_m * glm::dvec2(direction_from_heading(2.0 * pi * spoke / spokes));
+            if (const auto height_m = ground(spot_m.x, spot_m.y)) {
+                const glm::dvec3 eye_m(spot_m, *height_m + tower_height_m);
+                spots.emplace_back(samples_in_sight(flight_m, eye_m, ground), eye_m);
+            }
+        }
+    }
+    if (spots.empty()) {
+        return {around_m, tower_height_m};
+    }
+    const int most = std::max_element(spots.begin(), spots.end(), [](const auto& a, const auto& b) {
+                         return a.first < b.first;
+                     })->first;
+    const double enough = most - 0.05 * static_cast<double>(flight_m.size());
+    glm::dvec3 best_m(0.0, 0.0, std::numeric_limits<double>::lowest());
+    for (const auto& [in_sight, eye_m] : spots) {
+        if (in_sight >= enough && eye_m.z > best_m.z) {
+            best_m = eye_m;
+        }
+    }
+    return best_m;
+}
+
+} // namespace octant::visuals::scene

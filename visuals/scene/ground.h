@@ -1,0 +1,66 @@
+#pragma once
+
+#include "models/height_field.h"
+#include "models/polygon_model.h"
+#include "visuals/scene/camera.h"
+#include "visuals/scene/frame_plan.h"
+#include "visuals/scene/settings.h"
+
+#include <glm/vec2.hpp>
+
+#include <memory>
+#include <optional>
+
+namespace octant::visuals::scene {
+
+/// What was drawn of the ground in one frame.
+struct GroundCounts {
+    int triangles = 0;
+    int fans = 0;
+    double resolution = 0.0; ///< C
+};
+
+/// What stands below the aircraft: a height field under a quadtree, or polygons painted in one
+/// fixed order. Built once at loading.
+class Ground {
+public:
+    virtual ~Ground() = default;
+    Ground(const Ground&) = delete;
+    Ground& operator=(const Ground&) = delete;
+    Ground(Ground&&) = delete;
+    Ground& operator=(Ground&&) = delete;
+
+    /// Height of the full-resolution ground; nothing outside the map.
+    virtual std::optional<double> height_at(double x_m, double y_m) const = 0;
+
+    /// Half the extent of the map from its centre, east and north, metres.
+    virtual glm::dvec2 half_extent_m() const = 0;
+
+    /// Mean height above datum, metres, and mean colour of what is drawn.
+    virtual double mean_height_m() const = 0;
+    virtual glm::vec3 mean_colour() const = 0;
+
+    /// True when the triangles come in painting order and need no depth.
+    virtual bool is_ordered() const = 0;
+
+    /// Sets the detail so that the first frame, seen by this camera, meets its target. Loading
+    /// work.
+    virtual void settle(const Camera& camera, double aspect) = 0;
+
+    /// The triangles of one frame, valid until the next call, and what they cost. Advances the
+    /// detail control by one frame.
+    virtual TriangleDraw triangles(const Camera& camera, double aspect, GroundCounts& counts) = 0;
+
+protected:
+    Ground() = default;
+};
+
+/// A height field under a quadtree whose triangle count is held. Takes the field over.
+std::unique_ptr<Ground> ground_from_field(models::HeightField field, const Settings& settings);
+
+/// Polygons painted in file order over a level datum. Body axes of the model: x north, y east, z
+/// down. Without polygons: nothing to see and a map of 2,000 km, for aircraft alone.
+std::unique_ptr<Ground>
+ground_from_polygons(models::PolygonModel polygons, const Settings& settings);
+
+} // namespace octant::visuals::scene

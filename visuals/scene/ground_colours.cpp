@@ -1,0 +1,147 @@
+#include "visuals/scene/ground_colours.h"
+
+#include "models/colour_vertex.h"
+#include "sim/base/units.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace octant::visuals::scene {
+
+namespace {
+
+struct Stop {
+    float height_m;
+    glm::vec3 colour;
+};
+
+// Cover of level ground by height above the water, and what shows where it is steep.
+constexpr std::array temperate_stops = {
+    Stop{0.0F, {0.50F, 0.53F, 0.34F}},
+    Stop{15.0F, {0.36F, 0.47F, 0.24F}},
+    Stop{250.0F, {0.27F, 0.40F, 0.20F}},
+    Stop{900.0F, {0.25F, 0.35F, 0.21F}},
+    Stop{1500.0F, {0.42F, 0.42F, 0.29F}},
+    Stop{1900.0F, {0.50F, 0.48F, 0.44F}},
+    Stop{2300.0F, {0.93F, 0.94F, 0.96F}}};
+constexpr std::array arid_stops = {
+    Stop{0.0F, {0.45F, 0.33F, 0.24F}},
+    Stop{900.0F, {0.58F, 0.38F, 0.26F}},
+    Stop{1300.0F, {0.66F, 0.44F, 0.30F}},
+    Stop{1700.0F, {0.68F, 0.52F, 0.36F}},
+    Stop{2050.0F, {0.60F, 0.54F, 0.36F}},
+    Stop{2400.0F, {0.42F, 0.45F, 0.28F}}};
+constexpr glm::vec3 temperate_rock(0.47F, 0.44F, 0.41F);
+constexpr glm::vec3 water_colour(0.17F, 0.31F, 0.42F);
+constexpr float band_m = 85.0F; ///< thickness of a stratum of arid rock
+
+/// Whole-number noise in [0, 1): the same bits on every machine.
+float lattice_noise(int column, int row) {
+    auto h = static_cast<std::uint32_t>(column) * 0x9e3779b1U ^
+             static_cast<std::uint32_t>(row) * 0x85ebca77U;
+    h = (h ^ (h >> 15U)) * 0x2c1b3c6dU;
+    h = (h ^ (h >> 12U)) * 0x297a2d39U;
+    return static_cast<float>((h ^ (h >> 15U)) >> 8U) * (1.0F / 16777216.0F);
+}
+
+/// Smooth noise in [-1, 1] whose features are `cell` samples wide.
+float patch_noise(int column, int row, int cell) {
+    const int i = column / cell;
+    const int j = row / cell;
+    const float u = static_cast<float>(column % cell) / static_cast<float>(cell);
+    const float v = static_cast<float>(row % cell) / static_cast<float>(cell);
+    const float su = u * u * (3.0F - 2.0F * u);
+    const float sv = v * v * (3.0F - 2.0F * v);
+    const float south = glm::mix(lattice_noise(i, j), lattice_noise(i + 1, j), su);
+    const float north = glm::mix(lattice_noise(i, j + 1), lattice_noise(i + 1, j + 1), su);
+    return 2.0F * glm::mix(south, north, sv) - 1.0F;
+}
+
+glm::vec3 cover(std::span<const Stop> stops, float height_m) {
+    for (std::size_t i = 1; i < stops.size(); ++i) {
+        if (height_m < stops[i].height_m) {
+            const float t =
+                (height_m - stops[i - 1].height_m) / (stops[i].height_m - stops[i - 1].height_m);
+            return glm::mix(stops[i - 1].colour, stops[i].colour, glm::clamp(t, 0.0F, 1.0F));
+        }
+    }
+    return stops.back().colour;
+}
+
+glm::vec3 temperate(float height_m, float steepness, float patches) {
+    // Patches of forest and meadow, and a tree line and snow line that are not drawn with a ruler.
+    const glm::vec3 grown = cover(temperate_stops, std::max(height_m + 120.0F * patches, 0.0F)) *
+                            (1.0F + 0.16F * patches);
+    const float bare = glm::smoothstep(0.12F, 0.30F, steepness + 0.03F * patches);
+    return glm::mix(grown, temperate_rock * (1.0F + 0.10F * patches), bare);
+}
+
+glm::vec3 arid(float height_m, float steepness, float patches) {
+    const glm::vec3 level = cover(arid_stops, height_m + 60.0F * patches);
+    const float stratum = (height_m + 12.0F * patches) / band_m;
+    const float layer = lattice_noise(static_cast<int>(std::floor(stratum)), 7);
+    const glm::vec3 rock =
+        glm::mix(glm::vec3(0.55F, 0.30F, 0.19F), glm::vec3(0.78F, 0.62F, 0.45F), layer);
+    return glm::mix(level, rock, glm::smoothstep(0.05F, 0.25F, steepness)) *
+           (1.0F + 0.10F * patches);
+}
+
+} // namespace
+
+glm::vec3 direction_to_sun(const Settings& settings) {
+    const double azimuth_rad = rad_from_deg(settings.sun_azimuth_deg);
+    const double elevation_rad = rad_from_deg(settings.sun_elevation_deg);
+    return glm::vec3(glm::dvec3(
+        std::cos(elevation_rad) * std::sin(azimuth_rad),
+        std::cos(elevation_rad) * std::cos(azimuth_rad),
+        std::sin(elevation_rad)));
+}
+
+std::vector<std::uint32_t>
+ground_colours(const models::HeightField& field, const Settings& settings) {
+    const glm::vec3 sun = direction_to_sun(settings);
+    const auto water_m = static_cast<float>(settings.water_level_m);
+    std::vector<std::uint32_t> colours;
+    colours.reserve(
+        static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()));
+    for (int row = 0; row < field.rows(); ++row) {
+        for (int column = 0; column < field.columns(); ++column) {
+            const float height_m = field.height_m(column, row);
+            const glm::vec3 normal = field.normal_at_sample(column, row);
+            const float patches =
+                0.6F * patch_noise(column, row, 37) + 0.4F * patch_noise(column, row, 11);
+            const float steepness = 1.0F - normal.z;
+            glm::vec3 own = settings.palette == Palette::Arid
+                                ? arid(height_m, steepness, patches)
+                                : temperate(height_m - water_m, steepness, patches);
+            if (height_m <= water_m && steepness < 1e-4F) {
+                own = water_colour;
+            }
+            const float light = ambient_light + sun_light * std::max(glm::dot(normal, sun), 0.0F);
+            colours.push_back(models::packed_colour(own * light));
+        }
+    }
+    return colours;
+}
+
+glm::vec3 mean_colour(const std::vector<std::uint32_t>& colours) {
+    std::array<std::uint64_t, 3> sums{};
+    for (const std::uint32_t colour : colours) {
+        sums[0] += colour & 0xffU;
+        sums[1] += (colour >> 8U) & 0xffU;
+        sums[2] += (colour >> 16U) & 0xffU;
+    }
+    const double scale =
+        colours.empty() ? 0.0 : 1.0 / (255.0 * static_cast<double>(colours.size()));
+    return glm::vec3(glm::dvec3(
+        static_cast<double>(sums[0]) * scale,
+        static_cast<double>(sums[1]) * scale,
+        static_cast<double>(sums[2]) * scale));
+}
+
+} // namespace octant::visuals::scene

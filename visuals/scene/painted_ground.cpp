@@ -1,0 +1,83 @@
+#include "models/colour_vertex.h"
+#include "visuals/scene/ground.h"
+#include "visuals/scene/ground_colours.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace octant::visuals::scene {
+
+namespace {
+
+class PaintedGround final : public Ground {
+public:
+    PaintedGround(const models::PolygonModel& model, const Settings& settings) {
+        const glm::vec3 sun = direction_to_sun(settings);
+        for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+            const glm::vec3 normal(world_from_body(models::normal_of(model, i)));
+            const float light = ambient_light + sun_light * std::max(glm::dot(normal, sun), 0.0F);
+            const glm::vec3 colour = model.materials[model.polygons[i].material].colour * light;
+            const auto first = static_cast<std::uint32_t>(corners_m_.size());
+            for (const std::uint32_t vertex : model.corners(i)) {
+                corners_m_.push_back(world_from_body(model.vertices_m[vertex]));
+                vertices_.push_back({glm::vec3(0.0F), models::packed_colour(colour)});
+                half_extent_m_ = glm::max(half_extent_m_, glm::abs(glm::dvec2(corners_m_.back())));
+            }
+            for (std::uint32_t corner = 2; corner < model.polygons[i].corner_count; ++corner) {
+                indices_.insert(indices_.end(), {first, first + corner - 1, first + corner});
+            }
+            mean_colour_ += colour / static_cast<float>(model.polygons.size());
+        }
+        polygons_ = static_cast<int>(model.polygons.size());
+        if (model.polygons.empty()) {
+            half_extent_m_ = glm::dvec2(1e6);
+        }
+    }
+
+    std::optional<double> height_at(double x_m, double y_m) const override {
+        const bool inside = std::abs(x_m) <= half_extent_m_.x && std::abs(y_m) <= half_extent_m_.y;
+        return inside ? std::optional<double>(0.0) : std::nullopt;
+    }
+
+    glm::dvec2 half_extent_m() const override { return half_extent_m_; }
+
+    double mean_height_m() const override { return 0.0; }
+
+    glm::vec3 mean_colour() const override { return mean_colour_; }
+
+    bool is_ordered() const override { return true; }
+
+    void settle(const Camera& /*camera*/, double /*aspect*/) override {}
+
+    TriangleDraw triangles(const Camera& camera, double /*aspect*/, GroundCounts& counts) override {
+        for (std::size_t i = 0; i < vertices_.size(); ++i) {
+            vertices_[i].position_m = glm::vec3(corners_m_[i] - camera.eye_m);
+        }
+        counts = {static_cast<int>(indices_.size() / 3), polygons_, 0.0};
+        return {vertices_, indices_};
+    }
+
+private:
+    static glm::dvec3 world_from_body(const glm::dvec3& v) { return {v.y, v.x, -v.z}; }
+
+    std::vector<glm::dvec3> corners_m_;
+    std::vector<models::ColourVertex> vertices_;
+    std::vector<std::uint32_t> indices_;
+    glm::dvec2 half_extent_m_{0.0};
+    glm::vec3 mean_colour_{0.0F};
+    int polygons_ = 0;
+};
+
+} // namespace
+
+std::unique_ptr<Ground>
+ground_from_polygons(models::PolygonModel polygons, const Settings& settings) {
+    return std::make_unique<PaintedGround>(polygons, settings);
+}
+
+} // namespace octant::visuals::scene

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "visuals/scene/frame_plan.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace octant::visuals::scene {
+
+enum class View { Chase, Cockpit, Tower, Orbit, Free };
+enum class HeightMode { Clear, Follow, Datum };
+enum class ContextKind { OsMesa, Egl };
+enum class GroundMetric { Printed, Midpoint };
+enum class Propagation { CrackFree, Printed };
+enum class GroundFans { Partial, Full };
+enum class DetailControl { Previous, Damped, Literal, Fixed };
+enum class Palette { Temperate, Arid };
+
+/// Everything that decides what a run shows. A run is repeated by repeating its Settings; each
+/// field is an option of the command line of the same name (ui/settings_fields.h says unit and
+/// meaning). Fields that only say where results go are not here.
+struct Settings {
+    std::string path = "straight";               ///< built-in path, path file or recorded track
+    std::vector<std::string> aircraft = {"f15"}; ///< the first flies the path, the others beside it
+    std::string axes = "right,up,back";          ///< of aircraft files
+    std::string terrain = "hills";
+    double terrain_spacing_m = 30.0;   ///< of files that do not say
+    std::optional<std::string> place;  ///< "X,Y" metres or "LAT,LON" degrees
+    std::optional<double> heading_deg; ///< turns the path; none = the heading of least relief
+    std::optional<HeightMode>
+        height_mode; ///< none = clear, or datum for a track that knows its place
+    bool lenient = false;
+
+    View view = View::Chase;
+    std::optional<glm::dvec3> eye_m;  ///< of the tower and free views
+    std::optional<glm::dvec3> look_m; ///< of the free view
+    double fov_deg = 45.0;            ///< vertical
+    glm::ivec2 size_px{1280, 720};
+    int samples = 1;
+    double rate_hz = 60.0;
+    bool frame_per_sample = false;
+    std::optional<int> frames;
+    std::optional<double> seconds;
+    int warm_up = 10;
+    ContextKind context = ContextKind::OsMesa;
+
+    HiddenSurface hidden_surface = HiddenSurface::Octant;
+    GroundMetric mesh = GroundMetric::Midpoint;
+    Propagation propagation = Propagation::CrackFree;
+    GroundFans fans = GroundFans::Partial;
+    DetailControl detail = DetailControl::Damped;
+    int triangles = 20000;
+    double resolution_c = 0.0; ///< C of the first frame; 0 = the one that meets the triangle target
+    std::optional<double>
+        roughness_c;        ///< c, weight of roughness; none = 20 for midpoint, 5 for printed
+    double control_a = 0.0; ///< a, triangles per unit of C; 0 = from the terrain's own gain
+    int control_r = 4;      ///< r, earlier frames that the damping looks back at
+
+    bool sky = true;
+    double visibility_m = 30000.0; ///< 0 = no haze
+    glm::vec3 background{158.0F / 255.0F, 184.0F / 255.0F, 214.0F / 255.0F};
+    double sun_azimuth_deg = 225.0;
+    double sun_elevation_deg = 35.0;
+    double water_level_m = 0.0; ///< ground at or below it is drawn as water
+    Palette palette = Palette::Temperate;
+};
+
+} // namespace octant::visuals::scene
