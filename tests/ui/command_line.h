@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace octant::tests {
+
+/// What a run of the program left behind.
+struct ProgramRun {
+    int exit_code = -1; ///< 128 + signal when it was killed
+    std::string out;
+    std::string err;
+};
+
+/// Runs the octant program with these arguments (no shell) and waits. `environment`: "NAME=value"
+/// added to ours.
+ProgramRun run_octant(
+    const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
+
+/// Starts it and kills it (SIGKILL) after `after_s` seconds.
+void run_octant_and_kill(const std::vector<std::string>& arguments, double after_s);
+
+/// An empty folder for one test, removed and made anew.
+std::filesystem::path empty_folder(const std::string& name);
+
+/// Number of lines in a text.
+int lines_in(const std::string& text);
+
+} // namespace octant::tests

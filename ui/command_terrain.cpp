@@ -1,0 +1,153 @@
+#include "models/height_field_export.h"
+#include "models/height_field_import.h"
+#include "models/made_terrain.h"
+#include "sim/base/error.h"
+#include "sim/base/units.h"
+#include "ui/commands.h"
+#include "ui/progress.h"
+#include "ui/terrain_file.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace octant::ui {
+
+namespace {
+
+struct TerrainOptions {
+    std::string terrain;
+    double spacing_m = 30.0;
+    bool json = false;
+    bool quiet = false;
+    std::string kind = "hills";
+    models::MadeOptions made;
+    std::string out;
+};
+
+nlohmann::ordered_json figures_of(const models::HeightField& field) {
+    nlohmann::ordered_json figures;
+    double sum_m = 0.0;
+    double steepest = 0.0;
+    for (int row = 0; row < field.rows(); ++row) {
+        for (int column = 0; column < field.columns(); ++column) {
+            sum_m += static_cast<double>(field.height_m(column, row));
+            steepest = std::max(
+                steepest,
+                std::acos(
+                    std::min(1.0, static_cast<double>(field.normal_at_sample(column, row).z))));
+        }
+    }
+    figures["name"] = field.name;
+    figures["columns"] = field.columns();
+    figures["rows"] = field.rows();
+    figures["spacing_m"] = field.spacing_m();
+    figures["extent_east_m"] = 2.0 * field.half_extent_m().x;
+    figures["extent_north_m"] = 2.0 * field.half_extent_m().y;
+    figures["lowest_m"] = field.lowest_m();
+    figures["highest_m"] = field.highest_m();
+    figures["mean_m"] = sum_m / field.columns() / field.rows();
+    figures["steepest_deg"] = deg_from_rad(steepest);
+    figures["filled_voids"] = field.filled_voids;
+    if (field.place) {
+        figures["latitude_deg"] = field.place->latitude_deg;
+        figures["longitude_deg"] = field.place->longitude_deg;
+    }
+    return figures;
+}
+
+void print(const nlohmann::ordered_json& figures, bool json) {
+    if (json) {
+        std::fputs(fmt::format("{}\n", figures.dump(2)).c_str(), stdout);
+        return;
+    }
+    for (const auto& [key, value] : figures.items()) {
+        const std::string text = value.is_string() ? value.get<std::string>()
+                                 : value.is_number_float()
+                                     ? fmt::format("{:.6g}", value.get<double>())
+                                     : value.dump();
+        std::fputs(fmt::format("{:<18} {}\n", key, text).c_str(), stdout);
+    }
+}
+
+void show(const TerrainOptions& options) {
+    print(figures_of(load_height_field(options.terrain, options.spacing_m)), options.json);
+}
+
+void make(const TerrainOptions& options) {
+    const auto field = models::made_terrain(options.kind, options.made);
+    if (!field) {
+        throw Error(
+            fmt::format("--kind: expected hills or canyon, got '{}'", printable(options.kind)));
+    }
+    models::write_height_field(options.out, *field);
+    say(options.quiet,
+        fmt::format(
+            "{}: {} x {} samples, {} m apart, {:.0f} to {:.0f} m",
+            options.out,
+            field->columns(),
+            field->rows(),
+            field->spacing_m(),
+            field->lowest_m(),
+            field->highest_m()));
+}
+
+void add_info(CLI::App& terrain) {
+    auto options = std::make_shared<TerrainOptions>();
+    CLI::App* info =
+        terrain.add_subcommand("info", "Shows size, heights, slopes, voids and place of a terrain");
+    info->add_option("terrain", options->terrain, "hills, canyon or a file that GDAL reads")
+        ->type_name("NAME|FILE")
+        ->required();
+    info->add_option(
+            "--terrain-spacing", options->spacing_m, "sample spacing of files that do not say")
+        ->type_name("METRES")
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 1e5));
+    info->add_flag("--json", options->json, "as JSON");
+    info->footer("Example:\n  octant terrain info map.tif --json");
+    info->callback([options] { show(*options); });
+}
+
+void add_make(CLI::App& terrain) {
+    auto options = std::make_shared<TerrainOptions>();
+    CLI::App* make_command =
+        terrain.add_subcommand("make", "Makes a terrain from a seed and writes it as GeoTIFF");
+    make_command->add_option("--kind", options->kind, "hills (gentle) or canyon (rugged)")
+        ->type_name("KIND")
+        ->capture_default_str();
+    make_command->add_option("--size", options->made.size, "samples a side")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(CLI::Range(2, 20000));
+    make_command->add_option("--spacing", options->made.spacing_m, "between samples")
+        ->type_name("METRES")
+        ->capture_default_str()
+        ->check(CLI::Range(0.1, 1000.0));
+    make_command->add_option("--seed", options->made.seed, "another seed, another terrain")
+        ->type_name("S")
+        ->capture_default_str();
+    make_command->add_option("--out", options->out, "the file to write")
+        ->type_name("FILE.tif")
+        ->required();
+    make_command->add_flag("--quiet", options->quiet, "no notes");
+    make_command->footer(
+        "Example:\n  octant terrain make --kind canyon --size 2049 --seed 7 --out made.tif");
+    make_command->callback([options] { make(*options); });
+}
+
+} // namespace
+
+void add_terrain_command(CLI::App& program) {
+    CLI::App* terrain = program.add_subcommand("terrain", "Height fields: show, make");
+    terrain->require_subcommand(1);
+    add_info(*terrain);
+    add_make(*terrain);
+}
+
+} // namespace octant::ui

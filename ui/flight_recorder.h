@@ -1,0 +1,60 @@
+#pragma once
+
+#include "ui/report/recording.h"
+#include "ui/report/video_pipe.h"
+#include "ui/session.h"
+#include "visuals/scene/settings.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace octant::ui {
+
+/// What is kept of a flight.
+struct RecordOptions {
+    std::optional<std::filesystem::path> folder;
+    std::optional<std::filesystem::path> video;
+    int picture_every = -1; ///< frames; 0 = no pictures, below = one a simulated second
+};
+
+/// What came out of a flight.
+struct FlightEnd {
+    report::Statistics statistics;
+    std::uint64_t state_hash = 0;
+    std::uint64_t picture_hash = 0;
+    std::vector<std::string> notes; ///< where results are, and what is missing
+};
+
+/// True when the folder holds a finished recording of these settings by this program.
+bool is_recorded(const RecordOptions& options, const visuals::scene::Settings& settings);
+
+/// Writes a flight as it is flown: recording folder, pictures, video. Without a folder only the
+/// figures are kept.
+class FlightRecorder {
+public:
+    /// Makes the folder with run.json and the track files. Throws Error.
+    FlightRecorder(
+        const RecordOptions& options,
+        const visuals::scene::Settings& settings,
+        const Session& session);
+
+    /// Takes the frame that the session has just drawn. Throws Error (disk full).
+    void add(report::FrameRecord record, Session& session);
+
+    /// Ends the recording and writes its report. Throws Error.
+    FlightEnd finish(const Session& session);
+
+private:
+    void write_tracks(const Session& session) const;
+    std::string write_report() const;
+
+    RecordOptions options_;
+    int picture_every_ = 0;
+    std::optional<report::Recording> recording_;
+    std::optional<report::VideoPipe> video_;
+    std::vector<report::FrameRecord> records_; ///< without a folder
+};
+
+} // namespace octant::ui

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace octant::ui {
+
+/// Progress of long work on stderr: one line redrawn in place when stderr is a terminal, else a
+/// plain line every few seconds; nothing when quiet.
+class Progress {
+public:
+    Progress(std::string what, int total, bool quiet);
+
+    /// `done` of the total are finished; `note` is shown behind the numbers.
+    void show(int done, const std::string& note = "");
+
+    /// Ends the line.
+    void finish();
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::string what_;
+    int total_;
+    bool quiet_;
+    bool terminal_;
+    bool drawn_ = false;
+    Clock::time_point start_;
+    Clock::time_point last_shown_;
+};
+
+/// One line on stderr, unless quiet.
+void say(bool quiet, const std::string& line);
+
+} // namespace octant::ui

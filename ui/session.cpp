@@ -1,0 +1,160 @@
+#include "ui/session.h"
+
+#include "sim/base/units.h"
+#include "sim/fixed_step.h"
+#include "ui/formation.h"
+#include "ui/report/statistics.h"
+#include "visuals/gl/platform_tuning.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace octant::ui {
+
+namespace scene = visuals::scene;
+namespace gl = visuals::gl;
+
+namespace {
+
+std::unique_ptr<gl::Context> make_context(scene::ContextKind kind) {
+    return kind == scene::ContextKind::Egl ? gl::make_egl_context() : gl::make_osmesa_context();
+}
+
+void add_state(Hash& hash, const sim::AircraftState& state) {
+    hash.add(std::as_bytes(std::span(glm::value_ptr(state.position_m), 3)));
+    hash.add(std::as_bytes(std::span(glm::value_ptr(state.velocity_mps), 3)));
+    hash.add(std::as_bytes(std::span(glm::value_ptr(state.body_to_world), 4)));
+}
+
+} // namespace
+
+Session::Session(const scene::Settings& settings)
+    : settings_(settings)
+    , world_(load_world(settings))
+    , context_(make_context(settings.context))
+    , renderer_(std::make_unique<gl::Renderer>(
+          context_->functions(), settings.size_px.x, settings.size_px.y, settings.samples))
+    , planner_(world_.scene, settings_)
+    , ground_height_(
+          [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); })
+    , next_step_(sim::step_at(world_.flight.trajectory.start_s())) {
+    std::vector<scene::ModelBuffers> buffers;
+    for (const scene::AircraftModel& model : world_.scene.models) {
+        buffers.push_back(model.buffers);
+    }
+    renderer_->load_models(buffers);
+    renderer_->warm_up();
+    gl::spread_raster_threads();
+    states_.resize(world_.scene.aircraft.size());
+    make_frame_times();
+    states_at(frame_times_s_.front());
+    rig_ = scene::advanced(rig_, states_.front());
+    planner_.settle(camera());
+}
+
+Session::~Session() {
+    context_->make_current();
+}
+
+void Session::make_frame_times() {
+    const sim::Trajectory& path = world_.flight.trajectory;
+    double until_s = path.end_s();
+    if (settings_.seconds) {
+        until_s = std::min(until_s, path.start_s() + *settings_.seconds);
+    }
+    rate_hz_ = settings_.frame_per_sample ? world_.flight.rate_hz : settings_.rate_hz;
+    const double half_frame_s = 0.5 / rate_hz_;
+    if (settings_.frame_per_sample) {
+        for (const sim::AircraftState& sample : path.samples()) {
+            frame_times_s_.push_back(sample.time_s);
+        }
+        std::erase_if(
+            frame_times_s_, [&](double time_s) { return time_s > until_s + half_frame_s; });
+    } else {
+        const auto count =
+            static_cast<long>(std::floor((until_s - path.start_s()) * rate_hz_ + 1e-6)) + 1;
+        for (long frame = 0; frame < count; ++frame) {
+            frame_times_s_.push_back(path.start_s() + static_cast<double>(frame) / rate_hz_);
+        }
+    }
+    if (settings_.frames && frame_times_s_.size() > static_cast<std::size_t>(*settings_.frames)) {
+        frame_times_s_.resize(static_cast<std::size_t>(*settings_.frames));
+    }
+}
+
+void Session::states_at(double time_s) {
+    states_.front() = world_.flight.trajectory.state_at(time_s);
+    for (std::size_t i = 1; i < states_.size(); ++i) {
+        states_[i] = wingman_of(states_.front(), static_cast<int>(i));
+    }
+}
+
+void Session::simulate_to(double time_s) {
+    for (; next_step_ <= sim::step_at(time_s); ++next_step_) {
+        states_at(sim::time_of_step(next_step_));
+        rig_ = scene::advanced(rig_, states_.front());
+        for (const sim::AircraftState& state : states_) {
+            add_state(state_hash_, state);
+        }
+    }
+    states_at(time_s);
+}
+
+scene::Camera Session::camera() const {
+    scene::Subject subject = world_.scene.models[world_.scene.aircraft.front()].subject;
+    subject.radius_m += formation_radius_m(static_cast<int>(states_.size()));
+    return scene::camera_of(
+        settings_, states_.front(), rig_, subject, world_.points, ground_height_);
+}
+
+report::FrameRecord Session::draw(int frame) {
+    if (frame == 0) {
+        since_first_frame_ = Stopwatch();
+    }
+    report::FrameRecord record;
+    record.frame = frame;
+    record.warm_up = frame < settings_.warm_up;
+    record.sim_time_s = frame_times_s_[static_cast<std::size_t>(frame)];
+    record.wall_s = since_first_frame_.s();
+
+    const Stopwatch whole;
+    Stopwatch stage;
+    simulate_to(record.sim_time_s);
+    record.sim_ms = stage.lap_ms();
+
+    const scene::Camera seen_from = camera();
+    scene::PlanCounts counts;
+    const scene::FramePlan& plan = planner_.plan(seen_from, states_, counts);
+    record.plan_ms = stage.lap_ms();
+
+    renderer_->draw(plan);
+    renderer_->finish();
+    record.draw_ms = stage.lap_ms();
+    renderer_->finish_and_read(picture_);
+    record.read_ms = stage.lap_ms();
+    record.frame_ms = whole.ms();
+
+    record.terrain_triangles = counts.ground.triangles;
+    record.terrain_fans = counts.ground.fans;
+    record.aircraft_polygons = counts.aircraft_polygons;
+    record.draw_cell = counts.draw_cell;
+    record.resolution_c = counts.ground.resolution;
+    record.triangle_change = frame == 0 ? 0 : counts.ground.triangles - last_triangles_;
+    last_triangles_ = counts.ground.triangles;
+    record.stress = record.frame_ms * rate_hz_ / 1000.0;
+    record.overrun = record.frame_ms > report::overrun_16_ms ? 1 : 0;
+    record.eye_m = seen_from.eye_m;
+    record.aircraft_m = states_.front().position_m;
+    record.aircraft_agl_m = record.aircraft_m.z -
+                            ground_height_(record.aircraft_m.x, record.aircraft_m.y).value_or(0.0);
+    return record;
+}
+
+void Session::hash_picture() {
+    picture_hash_.add(std::as_bytes(std::span(picture_.rgba)));
+}
+
+} // namespace octant::ui

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "sim/base/hash.h"
+#include "ui/report/frame_record.h"
+#include "ui/stopwatch.h"
+#include "ui/world.h"
+#include "visuals/gl/context.h"
+#include "visuals/gl/picture.h"
+#include "visuals/gl/renderer.h"
+#include "visuals/scene/camera_rig.h"
+#include "visuals/scene/planner.h"
+#include "visuals/scene/settings.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace octant::ui {
+
+/// The conductor of a run: takes each frame from simulation through plan and picture to its record.
+/// The only place that reads the clock during a flight.
+class Session {
+public:
+    /// Loads the world, makes the context and draws once in every drawing state. Throws Error.
+    /// Stays in its place: parts of it point at others.
+    explicit Session(const visuals::scene::Settings& settings);
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+    Session(Session&&) = delete;
+    Session& operator=(Session&&) = delete;
+
+    const World& world() const { return world_; }
+
+    const visuals::gl::ContextDescription& context() const { return context_->description(); }
+
+    /// Number of frames of the run.
+    int frames() const { return static_cast<int>(frame_times_s_.size()); }
+
+    /// Frames a second of simulated time, for video and stress.
+    double rate_hz() const { return rate_hz_; }
+
+    /// Makes the session's context current: to be called before draw() when several sessions take
+    /// turns.
+    void make_current() { context_->make_current(); }
+
+    /// Simulates up to the frame's time, plans, draws and reads the picture. Frames come in order.
+    report::FrameRecord draw(int frame);
+
+    /// Picture of the last frame, top row first.
+    const visuals::gl::Picture& picture() const { return picture_; }
+
+    /// Over the aircraft states at every fixed step so far, and over the pixels of every frame.
+    std::uint64_t state_hash() const { return state_hash_.value(); }
+
+    std::uint64_t picture_hash() const { return picture_hash_.value(); }
+
+    /// Adds the last picture to the picture hash. Apart from draw(), because it is not the frame's
+    /// work.
+    void hash_picture();
+
+private:
+    void make_frame_times();
+    void simulate_to(double time_s);
+    void states_at(double time_s);
+    visuals::scene::Camera camera() const;
+
+    visuals::scene::Settings settings_;
+    World world_;
+    std::unique_ptr<visuals::gl::Context> context_;
+    std::unique_ptr<visuals::gl::Renderer> renderer_; ///< goes before its context
+    visuals::scene::Planner planner_;
+    visuals::scene::GroundHeight ground_height_;
+    std::vector<double> frame_times_s_;
+    double rate_hz_ = 0.0;
+    long next_step_ = 0;
+    visuals::scene::RigMemory rig_;
+    std::vector<sim::AircraftState> states_;
+    visuals::gl::Picture picture_;
+    int last_triangles_ = 0;
+    Hash state_hash_;
+    Hash picture_hash_;
+    Stopwatch since_first_frame_;
+};
+
+} // namespace octant::ui

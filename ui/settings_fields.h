@@ -1,0 +1,160 @@
+#pragma once
+
+#include "ui/settings_text.h"
+
+namespace octant::ui {
+
+/// Calls visit(FieldInfo, field) for every field of Settings in the order of help and files. The
+/// one list from which command line, settings files and run.json are made.
+template <class SomeSettings, class Visit>
+void visit_settings(SomeSettings& s, Visit&& visit) {
+    constexpr double far_m = 1e7;
+    using Info = FieldInfo;
+    visit(
+        Info{
+            "path",
+            "NAME|FILE",
+            "path: straight, jinking, pop-up, turn, a .toml or a recorded .csv"},
+        s.path);
+    visit(
+        Info{
+            "aircraft",
+            "NAME|FILE",
+            "aircraft: f15, 500md, concave or an OBJ file; repeat for wingmen"},
+        s.aircraft);
+    visit(Info{"axes", "X,Y,Z", "where the axes of aircraft files point"}, s.axes);
+    visit(
+        Info{
+            "terrain",
+            "NAME|FILE",
+            "ground: hills, canyon, background60, none or a file that GDAL reads"},
+        s.terrain);
+    visit(
+        Info{
+            "terrain-spacing",
+            "METRES",
+            "sample spacing of terrain files that do not say",
+            0.01,
+            1e5},
+        s.terrain_spacing_m);
+    visit(
+        Info{
+            "place",
+            "X,Y|LAT,LON",
+            "where the path's origin lies: metres east,north of the map centre, or degrees such as "
+            "49.3N,123.1W or, on the map, 49.3,-123.1 [map centre]"},
+        s.place);
+    visit(
+        Info{
+            "heading",
+            "DEGREES",
+            "turns the whole path, clockwise [the heading of least relief]",
+            -360.0,
+            360.0},
+        s.heading_deg);
+    visit(
+        Info{
+            "height-mode",
+            "MODE",
+            "clear: lift the path to its named clearance; follow: follow the ground; datum: as it "
+            "is [clear; datum for a track with its own place]"},
+        s.height_mode);
+    visit(
+        Info{"lenient", "", "clip legs that ask more than the aircraft can give, and say so"},
+        s.lenient);
+    visit(Info{"view", "VIEW", "chase, cockpit, tower, orbit or free"}, s.view);
+    visit(
+        Info{
+            "eye",
+            "X,Y,Z",
+            "eye point of the tower and free views, metres east,north,up",
+            -far_m,
+            far_m},
+        s.eye_m);
+    visit(
+        Info{"look", "X,Y,Z", "what the free view looks at, metres east,north,up", -far_m, far_m},
+        s.look_m);
+    visit(Info{"fov", "DEGREES", "vertical field of view", 1.0, 150.0}, s.fov_deg);
+    visit(Info{"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, s.size_px);
+    visit(Info{"samples", "N", "samples a pixel, 1 or 4", 1, 4}, s.samples);
+    visit(Info{"rate", "HZ", "frames a simulated second", 0.1, 1000.0}, s.rate_hz);
+    visit(
+        Info{"frame-per-sample", "", "one frame a path sample, as the 1989 tables use"},
+        s.frame_per_sample);
+    visit(
+        Info{"frames", "N", "stop after so many frames [the whole path]", 1, 100000000}, s.frames);
+    visit(
+        Info{"seconds", "S", "stop after so much simulated time [the whole path]", 0.001, 1e6},
+        s.seconds);
+    visit(Info{"warm-up", "N", "first frames that statistics leave out", 0, 1000000}, s.warm_up);
+    visit(Info{"context", "KIND", "who draws: osmesa (no GPU, no display) or egl"}, s.context);
+    visit(
+        Info{
+            "hidden-surface",
+            "METHOD",
+            "octant: precomputed order; depth-buffer; back-face: removal of back faces only"},
+        s.hidden_surface);
+    visit(
+        Info{"mesh", "METRIC", "roughness of the ground: printed (corner slopes) or midpoint"},
+        s.mesh);
+    visit(
+        Info{
+            "propagation",
+            "RULE",
+            "how roughness reaches coarser nodes: crack-free, or printed (leaves cracks)"},
+        s.propagation);
+    visit(Info{"fans", "KIND", "partial: quadrants refine singly; full: all four at once"}, s.fans);
+    visit(
+        Info{
+            "detail",
+            "CONTROL",
+            "triangle control: damped (weighted mean), previous, literal, or fixed C"},
+        s.detail);
+    visit(
+        Info{"triangles", "N", "triangles of ground that the control holds", 100, 10000000},
+        s.triangles);
+    visit(
+        Info{"resolution-c", "C", "C of the first frame; 0 = what meets the target", 0.0, 1e6},
+        s.resolution_c);
+    visit(
+        Info{
+            "roughness-c",
+            "c",
+            "weight of roughness against distance [20 for midpoint, 5 for printed]",
+            0.0,
+            1000.0},
+        s.roughness_c);
+    visit(
+        Info{
+            "control-a",
+            "a",
+            "triangles a unit of C in the control; 0 = from the ground's own gain",
+            0.0,
+            1e9},
+        s.control_a);
+    visit(Info{"control-r", "r", "earlier frames in the damping's mean", 0, 64}, s.control_r);
+    visit(Info{"sky", "", "sky and the plain beyond the map's edge"}, s.sky);
+    visit(
+        Info{
+            "visibility",
+            "METRES",
+            "distance at which haze leaves 1/e of a colour; 0 = no haze",
+            0.0,
+            1e7},
+        s.visibility_m);
+    visit(
+        Info{"background", "RRGGBB", "colour of the empty picture, and of the haze"}, s.background);
+    visit(
+        Info{"sun-azimuth", "DEGREES", "sun, clockwise from north", -360.0, 360.0},
+        s.sun_azimuth_deg);
+    visit(
+        Info{"sun-elevation", "DEGREES", "sun above the horizon", 0.0, 90.0}, s.sun_elevation_deg);
+    visit(
+        Info{"water-level", "METRES", "level ground at or below it is water", -12000.0, 9000.0},
+        s.water_level_m);
+    visit(
+        Info{"palette", "NAME", "ground colours: temperate or arid (canyon is always arid)"},
+        s.palette);
+}
+
+} // namespace octant::ui

@@ -1,0 +1,94 @@
+#include "ui/settings_options.h"
+
+#include "sim/base/error.h"
+#include "ui/settings_fields.h"
+#include "ui/settings_file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace octant::ui {
+
+using visuals::scene::Settings;
+
+namespace {
+
+class OptionAdder {
+public:
+    OptionAdder(CLI::App& command, bool path_is_positional)
+        : command_(command)
+        , path_is_positional_(path_is_positional) {}
+
+    template <class Value>
+    void operator()(const FieldInfo& info, Value& value) {
+        const bool positional = path_is_positional_ && info.name == "path";
+        const std::string name =
+            positional ? std::string(info.name) : fmt::format("--{}", info.name);
+        CLI::Option* option = command_.add_option_function<std::string>(
+            name,
+            [info, &value](const std::string& text) { read_option(info, text, value); },
+            std::string(info.meaning));
+        option->type_name(std::string(info.form))
+            ->default_str(default_text(value))
+            ->group("Settings");
+    }
+
+    void operator()(const FieldInfo& info, bool& value) {
+        const std::string name = fmt::format("--{}{}", value ? "no-" : "", info.name);
+        const std::string meaning = fmt::format("{}{}", value ? "leave out: " : "", info.meaning);
+        const bool when_given = !value;
+        command_
+            .add_flag_callback(
+                name, [&value, when_given] { value = when_given; }, meaning)
+            ->group("Settings");
+    }
+
+    void operator()(const FieldInfo& info, std::vector<std::string>& value) {
+        command_
+            .add_option_function<std::vector<std::string>>(
+                fmt::format("--{}", info.name),
+                [&value](const std::vector<std::string>& names) { value = names; },
+                std::string(info.meaning))
+            ->type_name(std::string(info.form))
+            ->default_str(fmt::format("{}", value.front()))
+            ->allow_extra_args(false)
+            ->group("Settings");
+    }
+
+private:
+    template <class Value>
+    static void read_option(const FieldInfo& info, const std::string& text, Value& value) {
+        try {
+            read_setting(info, text, value);
+        } catch (const Error& fault) {
+            throw Error(fmt::format("{}{}", info.name == "path" ? "" : "--", fault.what()));
+        }
+    }
+
+    template <class Value>
+    static std::string default_text(const Value& value) {
+        return text_of(value);
+    }
+
+    template <class Value>
+    static std::string default_text(const std::optional<Value>& value) {
+        return value ? text_of(*value) : "";
+    }
+
+    CLI::App& command_;
+    bool path_is_positional_;
+};
+
+} // namespace
+
+void add_setting_options(CLI::App& command, Settings& settings, bool path_is_positional) {
+    command
+        .add_option_function<std::string>(
+            "--settings",
+            [&settings](const std::string& file) { settings = read_settings(file); },
+            "take settings from FILE or from a recording's run.json; other options override them")
+        ->type_name("FILE");
+    visit_settings(settings, OptionAdder(command, path_is_positional));
+}
+
+} // namespace octant::ui

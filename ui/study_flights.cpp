@@ -1,0 +1,222 @@
+#include "ui/study_flights.h"
+
+#include "sim/base/output_file.h"
+#include "ui/data_files.h"
+#include "ui/flight_recorder.h"
+#include "ui/progress.h"
+#include "ui/report/html_report.h"
+#include "ui/report/loaded_recording.h"
+#include "ui/report/plots.h"
+#include "ui/session.h"
+#include "ui/table_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace octant::ui {
+
+namespace scene = visuals::scene;
+
+namespace {
+
+constexpr std::array methods = {
+    scene::HiddenSurface::Octant,
+    scene::HiddenSurface::DepthBuffer,
+    scene::HiddenSurface::BackFace};
+constexpr std::array method_names = {"octant order", "depth buffer", "back faces only"};
+
+/// Seconds that the paper printed; 0 where it printed frames a second or nothing.
+struct PaperRow {
+    const char* aircraft;
+    const char* path; ///< "alone" = table 5
+    int frames;
+    double octant_s;
+    double depth_buffer_fps;
+    double back_face_fps;
+};
+
+// E. K. Kim, J. A. Park, C. Song, J. H. Kim, "Hidden-Surface Removal in 3D Graphics for Real Time
+// Animation", 1989: section IV (frames a second by back-face removal and z-buffer), tables 5 and 6.
+constexpr std::array paper_rows = {
+    PaperRow{"f15", "alone", 100, 3.3, 5.0, 30.0},
+    PaperRow{"500md", "alone", 100, 3.5, 4.0, 29.0},
+    PaperRow{"f15", "straight", 800, 27.5, 0, 0},
+    PaperRow{"f15", "jinking", 700, 24.0, 0, 0},
+    PaperRow{"f15", "pop-up", 730, 25.0, 0, 0},
+    PaperRow{"f15", "turn", 580, 19.5, 0, 0},
+    PaperRow{"500md", "straight", 800, 29.0, 0, 0},
+    PaperRow{"500md", "jinking", 700, 25.5, 0, 0},
+    PaperRow{"500md", "pop-up", 730, 27.0, 0, 0},
+    PaperRow{"500md", "turn", 580, 20.5, 0, 0}};
+
+struct Measured {
+    int frames = 0;
+    std::array<double, methods.size()> seconds{};
+    std::array<double, methods.size()> median_ms{};
+};
+
+scene::Settings
+settings_of(const PaperRow& row, const StudyOptions& options, scene::HiddenSurface method) {
+    scene::Settings settings;
+    settings.size_px = options.settings.size_px;
+    settings.samples = options.settings.samples;
+    settings.context = options.settings.context;
+    settings.aircraft = {row.aircraft};
+    settings.hidden_surface = method;
+    settings.warm_up = 0;
+    settings.frame_per_sample = true;
+    if (std::string(row.path) == "alone") {
+        settings.path = "straight";
+        settings.terrain = "none";
+        settings.view = scene::View::Orbit;
+        settings.sky = false;
+        settings.frames = row.frames;
+    } else {
+        settings.path = row.path;
+        settings.terrain = "background60";
+    }
+    return settings;
+}
+
+Measured measure(const PaperRow& row, const StudyOptions& options) {
+    std::array<std::unique_ptr<Session>, methods.size()> sessions;
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+        sessions[m] = std::make_unique<Session>(settings_of(row, options, methods[m]));
+    }
+    Session& octant = *sessions.front();
+    RecordOptions record;
+    record.folder = options.out / fmt::format("{}-{}", row.aircraft, row.path);
+    octant.make_current();
+    FlightRecorder recorder(record, settings_of(row, options, methods.front()), octant);
+    Measured measured;
+    measured.frames = octant.frames();
+    std::array<std::vector<double>, methods.size()> frame_ms;
+    Progress progress(fmt::format("{} {}", row.aircraft, row.path), measured.frames, options.quiet);
+    for (int frame = 0; frame < measured.frames; ++frame) {
+        for (std::size_t turn = 0; turn < methods.size(); ++turn) {
+            const std::size_t m = (turn + static_cast<std::size_t>(frame)) % methods.size();
+            sessions[m]->make_current();
+            const report::FrameRecord drawn = sessions[m]->draw(frame);
+            frame_ms[m].push_back(drawn.frame_ms);
+            if (m == 0) {
+                recorder.add(drawn, octant);
+            }
+        }
+        progress.show(frame + 1);
+    }
+    progress.finish();
+    octant.make_current();
+    recorder.finish(octant);
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+        measured.seconds[m] = std::accumulate(frame_ms[m].begin(), frame_ms[m].end(), 0.0) / 1000.0;
+        measured.median_ms[m] = report::statistics_of_times(frame_ms[m]).p50_ms;
+    }
+    return measured;
+}
+
+std::string paper_fps(const PaperRow& row, std::size_t method) {
+    const std::array fps = {row.frames / row.octant_s, row.depth_buffer_fps, row.back_face_fps};
+    return fps[method] > 0.0 ? fmt::format("{:.1f}", fps[method]) : "";
+}
+
+std::vector<std::string> cells_of(const PaperRow& row, const Measured& measured) {
+    std::vector<std::string> cells = {
+        row.aircraft,
+        row.path,
+        fmt::format("{}", measured.frames),
+        fmt::format("{:.1f}", row.octant_s)};
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+        cells.push_back(paper_fps(row, m));
+        cells.push_back(fmt::format("{:.3f}", measured.seconds[m]));
+        cells.push_back(fmt::format("{:.0f}", measured.frames / measured.seconds[m]));
+    }
+    cells.push_back(fmt::format("{:.2f}", measured.median_ms[1] / measured.median_ms[0]));
+    cells.push_back(fmt::format("{:.2f}", measured.median_ms[2] / measured.median_ms[0]));
+    return cells;
+}
+
+report::HtmlTable table_of(const std::vector<Measured>& measured, const StudyOptions& options) {
+    report::HtmlTable table;
+    table.title = "Tables 5 and 6 of the 1989 paper, ours beside";
+    table.header = {"aircraft", "path", "frames", "paper s, octant order"};
+    for (const char* method : method_names) {
+        table.header.push_back(fmt::format("paper frames/s, {}", method));
+        table.header.push_back(fmt::format("our s, {}", method));
+        table.header.push_back(fmt::format("our frames/s, {}", method));
+    }
+    table.header.emplace_back("median, depth buffer / octant");
+    table.header.emplace_back("median, back faces / octant");
+    for (std::size_t i = 0; i < paper_rows.size(); ++i) {
+        table.rows.push_back(cells_of(paper_rows[i], measured[i]));
+    }
+    table.note = fmt::format(
+        "Ours at {}x{}, one frame a path sample; the three methods draw every frame in turn. "
+        "'alone' is table 5: 100 frames "
+        "of an orbit without background. The paper's machine was an IRIS workstation with 12 "
+        "geometry engines.",
+        options.settings.size_px.x,
+        options.settings.size_px.y);
+    return table;
+}
+
+report::Plot plot_of(const std::vector<Measured>& measured) {
+    constexpr std::array colours = {"#1f77b4", "#d62728", "#7f7f7f"};
+    report::Plot plot;
+    plot.title = "Median frame time by flight: 1-2 aircraft alone, 3-6 F-15, 7-10 500MD";
+    plot.x_label = "row of the table";
+    plot.y_label = "ms";
+    plot.y_min = 0.0;
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+        report::PlotSeries series;
+        series.name = method_names[m];
+        series.colour = colours[m];
+        for (std::size_t i = 0; i < measured.size(); ++i) {
+            series.x.push_back(static_cast<double>(i + 1));
+            series.y.push_back(measured[i].median_ms[m]);
+        }
+        plot.series.push_back(series);
+    }
+    return plot;
+}
+
+void write_results(const std::vector<Measured>& measured, const StudyOptions& options) {
+    const report::HtmlTable table = table_of(measured, options);
+    const std::string markdown = markdown_of(table);
+    write_file(options.out / "flights.csv", csv_of(table));
+    write_file(options.out / "flights.md", markdown);
+    if (const auto svg = report::plot_svg(plot_of(measured))) {
+        write_file(options.out / "flights.svg", *svg);
+    } else {
+        say(options.quiet, "flights.svg not made: gnuplot is not installed");
+    }
+    std::vector<report::LoadedRecording> recordings;
+    for (const PaperRow& row : paper_rows) {
+        recordings.push_back(
+            report::load_recording(options.out / fmt::format("{}-{}", row.aircraft, row.path)));
+    }
+    write_file(options.out / "report.html", report::html_report(recordings, std::span(&table, 1)));
+    std::fputs(markdown.c_str(), stdout);
+    say(options.quiet,
+        fmt::format(
+            "tables: {0}/flights.md, {0}/flights.csv; report: {0}/report.html",
+            options.out.string()));
+}
+
+} // namespace
+
+void study_flights(const StudyOptions& options) {
+    make_folder(options.out);
+    std::vector<Measured> measured;
+    for (const PaperRow& row : paper_rows) {
+        measured.push_back(measure(row, options));
+    }
+    write_results(measured, options);
+}
+
+} // namespace octant::ui

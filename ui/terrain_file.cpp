@@ -1,0 +1,30 @@
+#include "ui/terrain_file.h"
+
+#include "models/height_field_import.h"
+#include "models/made_terrain.h"
+#include "sim/base/error.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace octant::ui {
+
+models::HeightField load_height_field(const std::string& name_or_file, double spacing_m) {
+    if (auto made = models::made_terrain(name_or_file, {})) {
+        return std::move(*made);
+    }
+    std::error_code ignored;
+    const bool is_file = name_or_file.find('/') != std::string::npos ||
+                         name_or_file.find('.') != std::string::npos ||
+                         std::filesystem::exists(name_or_file, ignored);
+    if (!is_file) {
+        throw Error(fmt::format(
+            "terrain: expected hills, canyon, background60 or a file, got '{}'",
+            printable(name_or_file)));
+    }
+    models::ImportOptions options;
+    options.spacing_m = spacing_m;
+    return models::read_height_field(name_or_file, options);
+}
+
+} // namespace octant::ui

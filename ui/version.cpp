@@ -1,0 +1,13 @@
+#include "ui/version.h"
+
+namespace octant::ui {
+
+std::string program_version() {
+    return OCTANT_VERSION;
+}
+
+std::string program_commit() {
+    return OCTANT_COMMIT;
+}
+
+} // namespace octant::ui

@@ -1,0 +1,230 @@
+#include "ui/world.h"
+
+#include "flightpaths/path_script.h"
+#include "flightpaths/placement.h"
+#include "flightpaths/recorded_track.h"
+#include "models/made_up.h"
+#include "models/obj_reader.h"
+#include "sim/base/error.h"
+#include "sim/base/units.h"
+#include "ui/data_files.h"
+#include "ui/place_text.h"
+#include "ui/terrain_file.h"
+#include "visuals/draworder/octant_order.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <utility>
+
+namespace octant::ui {
+
+namespace scene = visuals::scene;
+namespace draworder = visuals::draworder;
+
+namespace {
+
+/// Lowest clearance of a recorded track that is lifted over ground: it names none itself.
+constexpr double track_clearance_m = 50.0;
+
+/// A path before it is laid over ground.
+struct Script {
+    sim::Trajectory trajectory;
+    double rate_hz = 0.0;
+    double min_clearance_m = 0.0;
+    sim::AircraftLimits limits;
+    std::optional<flightpaths::GeoOrigin> origin; ///< of a track that knows where it was flown
+    std::vector<flightpaths::LegBegin> legs;
+};
+
+void load_ground(const scene::Settings& settings, World& world) {
+    world.ground_name = settings.terrain;
+    if (settings.terrain == "background60" || settings.terrain == "none") {
+        world.scene.ground = scene::ground_from_polygons(
+            settings.terrain == "none" ? models::PolygonModel{} : models::background60(), settings);
+        return;
+    }
+    models::HeightField field = load_height_field(settings.terrain, settings.terrain_spacing_m);
+    world.ground_name = fmt::format(
+        "{}, {} x {} samples, {:.4g} m apart",
+        field.name,
+        field.columns(),
+        field.rows(),
+        field.spacing_m());
+    world.ground_place = field.place;
+    if (field.filled_voids > 0) {
+        world.notes.push_back(fmt::format(
+            "{}: {} samples without data were filled in", field.name, field.filled_voids));
+    }
+    scene::Settings colours = settings;
+    if (settings.terrain == "canyon") {
+        colours.palette = scene::Palette::Arid;
+    }
+    world.scene.ground = scene::ground_from_field(std::move(field), colours);
+}
+
+std::uint32_t load_model(const std::string& name, const scene::Settings& settings, World& world) {
+    const std::filesystem::path file = aircraft_file(name);
+    const bool built_in = file.parent_path() == data_folder() / "models";
+    models::PolygonModel model = models::read_obj(
+        file, built_in ? models::FileAxes() : models::FileAxes::from_text(settings.axes));
+    draworder::DrawOrder order(draworder::paper_orders(model));
+    const glm::dvec3 eye_m = scene::pilot_eye_m(model);
+    world.scene.models.push_back(scene::aircraft_model(std::move(model), std::move(order), eye_m));
+    return static_cast<std::uint32_t>(world.scene.models.size() - 1);
+}
+
+void load_aircraft(const scene::Settings& settings, World& world) {
+    std::vector<std::string> loaded;
+    for (const std::string& name : settings.aircraft) {
+        const auto found = std::find(loaded.begin(), loaded.end(), name);
+        if (found == loaded.end()) {
+            loaded.push_back(name);
+            world.scene.aircraft.push_back(load_model(name, settings, world));
+        } else {
+            world.scene.aircraft.push_back(static_cast<std::uint32_t>(found - loaded.begin()));
+        }
+    }
+    const std::filesystem::path cockpit =
+        data_folder() / "models" / (settings.aircraft.front() + "-cockpit.obj");
+    if (settings.view == scene::View::Cockpit && std::filesystem::exists(cockpit)) {
+        models::PolygonModel model = models::read_obj(cockpit);
+        draworder::DrawOrder order = draworder::file_order(model);
+        world.scene.cockpit = static_cast<std::uint32_t>(world.scene.models.size());
+        world.scene.models.push_back(
+            scene::aircraft_model(std::move(model), std::move(order), glm::dvec3(0.0)));
+    }
+}
+
+Script load_script(const scene::Settings& settings, World& world) {
+    const std::filesystem::path file = path_file(settings.path, settings.aircraft.front());
+    if (file.extension() == ".toml") {
+        const flightpaths::PathScript script = flightpaths::read_path_script(file);
+        const auto limits = sim::limits_of(script.aircraft);
+        if (!limits) {
+            error_in(
+                file,
+                fmt::format(
+                    "expected aircraft f15 or 500md, got '{}'", printable(script.aircraft)));
+        }
+        flightpaths::FlownPath flown = flightpaths::fly(script, *limits, settings.lenient);
+        world.notes.insert(world.notes.end(), flown.notes.begin(), flown.notes.end());
+        return {
+            std::move(flown.trajectory),
+            static_cast<double>(script.rate_hz),
+            script.min_clearance_m,
+            *limits,
+            {},
+            std::move(flown.legs)};
+    }
+    flightpaths::RecordedTrack track = flightpaths::read_recorded_track(file);
+    const auto samples = track.trajectory.samples();
+    const double mean_step_s =
+        (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
+    const auto limits = sim::limits_of(settings.aircraft.front());
+    return {
+        std::move(track.trajectory),
+        1.0 / mean_step_s,
+        track_clearance_m,
+        limits.value_or(*sim::limits_of("f15")),
+        track.origin,
+        {}};
+}
+
+flightpaths::Placement
+placement_of(const scene::Settings& settings, const Script& script, const World& world) {
+    flightpaths::Placement placement;
+    const glm::dvec2 half_extent_m = world.scene.ground->half_extent_m();
+    const bool knows_its_place = script.origin && world.ground_place;
+    if (settings.place) {
+        placement.place_m = place_from_text(*settings.place, world.ground_place, half_extent_m);
+    } else if (knows_its_place) {
+        placement.place_m = flightpaths::local_from_geo(
+            {world.ground_place->latitude_deg, world.ground_place->longitude_deg},
+            script.origin->latitude_deg,
+            script.origin->longitude_deg);
+        placement.heading_rad = 0.0;
+    }
+    if (settings.heading_deg) {
+        placement.heading_rad = rad_from_deg(*settings.heading_deg);
+    }
+    const auto mode = settings.height_mode.value_or(
+        knows_its_place ? scene::HeightMode::Datum : scene::HeightMode::Clear);
+    placement.mode = static_cast<flightpaths::HeightMode>(mode);
+    return placement;
+}
+
+Flight place_flight(const scene::Settings& settings, Script script, const World& world) {
+    const auto ground = [&](double x_m, double y_m) {
+        return world.scene.ground->height_at(x_m, y_m);
+    };
+    flightpaths::PlacedPath placed = flightpaths::place_over_ground(
+        script.trajectory,
+        placement_of(settings, script, world),
+        ground,
+        script.min_clearance_m,
+        script.limits);
+    const auto stem = [](const std::string& name) {
+        return std::filesystem::path(name).stem().string();
+    };
+    return {
+        .trajectory = std::move(placed.trajectory),
+        .title = fmt::format(
+            "{} {} over {}",
+            stem(settings.aircraft.front()),
+            stem(settings.path),
+            stem(settings.terrain)),
+        .rate_hz = script.rate_hz,
+        .place_m = placed.origin_m,
+        .heading_rad = placed.heading_rad,
+        .offset_m = placed.offset_m,
+        .lowest_clearance_m = placed.lowest_clearance_m,
+        .lowest_clearance_s = placed.lowest_clearance_at_s,
+        .legs = std::move(script.legs)};
+}
+
+scene::FixedPoints fixed_points(const scene::Settings& settings, const World& world) {
+    scene::FixedPoints points;
+    if (settings.view == scene::View::Free) {
+        if (!settings.eye_m || !settings.look_m) {
+            throw Error(
+                "--view free: expected --eye X,Y,Z and --look X,Y,Z, got at most one of them");
+        }
+        points.free_eye_m = *settings.eye_m;
+        points.free_look_m = *settings.look_m;
+    }
+    if (settings.view != scene::View::Tower) {
+        return points;
+    }
+    if (settings.eye_m) {
+        points.tower_m = *settings.eye_m;
+        return points;
+    }
+    constexpr std::size_t every = 10;
+    std::vector<glm::dvec3> flight_m;
+    for (std::size_t i = 0; i < world.flight.trajectory.samples().size(); i += every) {
+        flight_m.push_back(world.flight.trajectory.samples()[i].position_m);
+    }
+    points.tower_m =
+        scene::tower_place(flight_m, world.flight.place_m, [&](double x_m, double y_m) {
+            return world.scene.ground->height_at(x_m, y_m);
+        });
+    return points;
+}
+
+} // namespace
+
+World load_world(const scene::Settings& settings) {
+    if (settings.samples != 1 && settings.samples != 4) {
+        throw Error(fmt::format("--samples: expected 1 or 4, got {}", settings.samples));
+    }
+    World world;
+    load_aircraft(settings, world);
+    Script script = load_script(settings, world);
+    load_ground(settings, world);
+    world.flight = place_flight(settings, std::move(script), world);
+    world.points = fixed_points(settings, world);
+    return world;
+}
+
+} // namespace octant::ui

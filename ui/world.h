@@ -1,0 +1,45 @@
+#pragma once
+
+#include "flightpaths/fly_script.h"
+#include "sim/trajectory.h"
+#include "visuals/scene/camera_rig.h"
+#include "visuals/scene/planner.h"
+#include "visuals/scene/settings.h"
+
+#include <glm/vec2.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace octant::ui {
+
+/// A path as it is flown over the ground of a run.
+struct Flight {
+    sim::Trajectory trajectory; ///< world axes
+    std::string title;
+    double rate_hz = 20.0;    ///< samples a second
+    glm::dvec2 place_m{0.0};  ///< where the path's origin lies
+    double heading_rad = 0.0; ///< how far the path was turned, clockwise
+    double offset_m = 0.0;    ///< how far it was lifted
+    double lowest_clearance_m = 0.0;
+    double lowest_clearance_s = 0.0; ///< when
+    std::vector<flightpaths::LegBegin> legs;
+};
+
+/// Everything a run needs, loaded.
+struct World {
+    visuals::scene::Scene scene;
+    Flight flight{
+        .trajectory = sim::Trajectory(std::vector<sim::AircraftState>(1)), .title = {}, .legs = {}};
+    visuals::scene::FixedPoints points;
+    std::string ground_name;
+    std::optional<models::GeoPlace> ground_place;
+    std::vector<std::string>
+        notes; ///< what a person should be told: voids filled, legs clipped, ...
+};
+
+/// Loads aircraft, ground and path of a run and lays the path over the ground. Throws Error.
+World load_world(const visuals::scene::Settings& settings);
+
+} // namespace octant::ui
