@@ -243,6 +243,25 @@ TEST_CASE("an SRTM tile is read by its name and size") {
     CHECK(field.filled_voids == 0);
 }
 
+TEST_CASE("a USGS DEM is read in its own projection") {
+    RasterFile raster = counted(6, 5);
+    raster.type = GDT_Int16;
+    raster.transform = {500000.0 - 15.0, 30.0, 0.0, 5000000.0 + 15.0, 0.0, -30.0};
+    raster.system = "EPSG:26710";
+    const auto path = scratch_file("survey.dem");
+    write_raster(path, "USGSDEM", raster);
+    const HeightField field = read_height_field(path);
+    CHECK(field.columns() == 6);
+    CHECK(field.rows() == 6);
+    CHECK(field.spacing_m() == 30.0);
+    // GDAL's writer adds a row without data in the south.
+    CHECK(field.filled_voids == 6);
+    CHECK(field.height_m(0, 5) == 0.0F);
+    CHECK(field.height_m(2, 3) == 14.0F);
+    CHECK(field.height_m(5, 1) == 29.0F);
+    CHECK(field.place);
+}
+
 TEST_CASE("samples without data are told by the usual marks and filled") {
     const double infinity = std::numeric_limits<double>::infinity();
     for (const double mark : {-32768.0, -32767.0, -9999.0, double(NAN), infinity, -3.4e38}) {
