@@ -24,9 +24,10 @@ constexpr double orbit_distance_radii = 3.4;
 constexpr double orbit_turn_s = 16.0;
 constexpr double orbit_swing_s = 22.0;
 constexpr double orbit_swing_rad = rad_from_deg(55.0);
-constexpr double tower_share = 0.14; ///< of the picture's height that the aircraft's sphere fills
+constexpr double tower_share = 0.34; ///< of the picture's height that the aircraft's sphere fills
 constexpr double tower_least_fov_rad = rad_from_deg(0.7);
-constexpr double tower_height_m = 12.0;
+constexpr double tower_lowered = 0.16; ///< of the picture's height
+constexpr double tower_height_m = 25.0;
 
 void lift_above_ground(glm::dvec3& eye_m, const GroundHeight& ground) {
     if (const auto height_m = ground(eye_m.x, eye_m.y)) {
@@ -63,6 +64,10 @@ Camera tower(const sim::AircraftState& state, const Subject& subject, const glm:
     const double distance_m = std::max(glm::length(state.position_m - eye_m), subject.radius_m);
     camera.vertical_fov_rad =
         std::max(2.0 * std::atan(subject.radius_m / tower_share / distance_m), tower_least_fov_rad);
+    // The aircraft stands above the middle, so that more ground than sky is in the picture.
+    const glm::dquat down =
+        glm::angleAxis(-tower_lowered * camera.vertical_fov_rad, glm::dvec3(1, 0, 0));
+    camera.view_to_world = glm::normalize(camera.view_to_world * down);
     return camera;
 }
 
@@ -78,22 +83,17 @@ Camera orbit(const sim::AircraftState& state, const Subject& subject, const Grou
     return camera_looking_at(eye_m, state.position_m);
 }
 
-/// Share of the flight that is in sight from a point, by 40 samples along each line of sight.
-int samples_in_sight(
-    std::span<const glm::dvec3> flight_m, const glm::dvec3& eye_m, const GroundHeight& ground) {
-    constexpr int steps = 40;
-    return static_cast<int>(
-        std::count_if(flight_m.begin(), flight_m.end(), [&](const glm::dvec3& target_m) {
-            for (int step = 1; step < steps; ++step) {
-                const glm::dvec3 point_m =
-                    glm::mix(eye_m, target_m, static_cast<double>(step) / steps);
-                const auto height_m = ground(point_m.x, point_m.y);
-                if (height_m && *height_m > point_m.z) {
-                    return false;
-                }
-            }
-            return true;
-        }));
+bool in_sight(const glm::dvec3& eye_m, const glm::dvec3& target_m, const GroundHeight& ground) {
+    constexpr double step_m = 30.0;
+    const int steps = std::clamp(static_cast<int>(glm::length(target_m - eye_m) / step_m), 2, 400);
+    for (int step = 1; step < steps; ++step) {
+        const glm::dvec3 point_m = glm::mix(eye_m, target_m, static_cast<double>(step) / steps);
+        const auto height_m = ground(point_m.x, point_m.y);
+        if (height_m && *height_m > point_m.z) {
+            return false;
+        }
+    }
+    return true;
 }
 
 } // namespace
@@ -154,7 +154,11 @@ glm::dvec3 tower_place(
                 distance_m * glm::dvec2(direction_from_heading(2.0 * pi * spoke / spokes));
             if (const auto height_m = ground(spot_m.x, spot_m.y)) {
                 const glm::dvec3 eye_m(spot_m, *height_m + tower_height_m);
-                spots.emplace_back(samples_in_sight(flight_m, eye_m, ground), eye_m);
+                const auto seen = std::count_if(
+                    flight_m.begin(), flight_m.end(), [&](const glm::dvec3& target_m) {
+                        return in_sight(eye_m, target_m, ground);
+                    });
+                spots.emplace_back(static_cast<int>(seen), eye_m);
             }
         }
     }
@@ -166,8 +170,8 @@ glm::dvec3 tower_place(
                      })->first;
     const double enough = most - 0.05 * static_cast<double>(flight_m.size());
     glm::dvec3 best_m(0.0, 0.0, std::numeric_limits<double>::lowest());
-    for (const auto& [in_sight, eye_m] : spots) {
-        if (in_sight >= enough && eye_m.z > best_m.z) {
+    for (const auto& [seen, eye_m] : spots) {
+        if (seen >= enough && eye_m.z > best_m.z) {
             best_m = eye_m;
         }
     }

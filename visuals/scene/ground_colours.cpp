@@ -21,14 +21,21 @@ struct Stop {
 };
 
 // Cover of level ground by height above the water, and what shows where it is steep.
-constexpr std::array temperate_stops = {
-    Stop{0.0F, {0.50F, 0.53F, 0.34F}},
-    Stop{15.0F, {0.36F, 0.47F, 0.24F}},
-    Stop{250.0F, {0.27F, 0.40F, 0.20F}},
-    Stop{900.0F, {0.25F, 0.35F, 0.21F}},
-    Stop{1500.0F, {0.42F, 0.42F, 0.29F}},
-    Stop{1900.0F, {0.50F, 0.48F, 0.44F}},
-    Stop{2300.0F, {0.93F, 0.94F, 0.96F}}};
+constexpr std::array meadow_stops = {
+    Stop{0.0F, {0.46F, 0.50F, 0.28F}},
+    Stop{300.0F, {0.37F, 0.47F, 0.22F}},
+    Stop{1100.0F, {0.36F, 0.43F, 0.23F}},
+    Stop{1600.0F, {0.46F, 0.46F, 0.31F}},
+    Stop{2000.0F, {0.52F, 0.50F, 0.45F}},
+    Stop{2350.0F, {0.93F, 0.94F, 0.96F}}};
+constexpr glm::vec3 dry_grass(0.58F, 0.55F, 0.31F);
+constexpr glm::vec3 forest(0.14F, 0.25F, 0.12F);
+constexpr float tree_line_m = 1500.0F;
+constexpr std::array crops = {
+    glm::vec3(0.66F, 0.58F, 0.33F),
+    glm::vec3(0.33F, 0.46F, 0.19F),
+    glm::vec3(0.45F, 0.52F, 0.25F),
+    glm::vec3(0.47F, 0.37F, 0.25F)};
 constexpr std::array arid_stops = {
     Stop{0.0F, {0.45F, 0.33F, 0.24F}},
     Stop{900.0F, {0.58F, 0.38F, 0.26F}},
@@ -73,22 +80,54 @@ glm::vec3 cover(std::span<const Stop> stops, float height_m) {
     return stops.back().colour;
 }
 
-glm::vec3 temperate(float height_m, float steepness, float patches) {
-    // Patches of forest and meadow, and a tree line and snow line that are not drawn with a ruler.
-    const glm::vec3 grown = cover(temperate_stops, std::max(height_m + 120.0F * patches, 0.0F)) *
-                            (1.0F + 0.16F * patches);
-    const float bare = glm::smoothstep(0.12F, 0.30F, steepness + 0.03F * patches);
-    return glm::mix(grown, temperate_rock * (1.0F + 0.10F * patches), bare);
+/// A sample of ground before light falls on it.
+struct Site {
+    int column;
+    int row;
+    float height_m;  ///< above the water level
+    float steepness; ///< 1 - cosine of the slope
+    float patches;   ///< noise in [-1, 1], features of some hundred metres
+};
+
+/// Farmland: fields some samples wide, each with its crop.
+glm::vec3 field_crop(const Site& site) {
+    const int along = site.column + static_cast<int>(6.0F * lattice_noise(0, site.row / 9));
+    const float pick = lattice_noise(along / 13, site.row / 9);
+    return crops[static_cast<std::size_t>(pick * static_cast<float>(crops.size()))];
 }
 
-glm::vec3 arid(float height_m, float steepness, float patches) {
-    const glm::vec3 level = cover(arid_stops, height_m + 60.0F * patches);
-    const float stratum = (height_m + 12.0F * patches) / band_m;
+glm::vec3 temperate(const Site& site) {
+    // A tree line and a snow line that are not drawn with a ruler.
+    const float height_m = std::max(site.height_m + 120.0F * site.patches, 0.0F);
+    const float dryness = 0.5F + 0.5F * patch_noise(site.column + 5000, site.row, 83);
+    const float below_trees =
+        1.0F - glm::smoothstep(tree_line_m - 200.0F, tree_line_m + 200.0F, height_m);
+    glm::vec3 colour =
+        glm::mix(cover(meadow_stops, height_m), dry_grass, 0.45F * dryness * below_trees);
+    const float level = 1.0F - glm::smoothstep(0.0010F, 0.0035F, site.steepness);
+    const float farmed =
+        level * glm::smoothstep(-0.15F, 0.05F, patch_noise(site.column, site.row + 5000, 61));
+    colour = glm::mix(colour, field_crop(site), farmed * below_trees);
+    const float growth =
+        site.patches + 0.5F * patch_noise(site.column, site.row, 5) + 5.0F * site.steepness - 0.12F;
+    const float wooded = glm::smoothstep(0.0F, 0.16F, growth) * below_trees * (1.0F - farmed);
+    colour = glm::mix(
+        colour, forest * (0.85F + 0.3F * lattice_noise(site.column, site.row)), 0.9F * wooded);
+    const float bare = glm::smoothstep(0.14F, 0.30F, site.steepness + 0.03F * site.patches);
+    return glm::mix(colour, temperate_rock * (1.0F + 0.10F * site.patches), bare);
+}
+
+glm::vec3 arid(const Site& site) {
+    const glm::vec3 level = cover(arid_stops, site.height_m + 60.0F * site.patches);
+    const float stratum = (site.height_m + 12.0F * site.patches) / band_m;
     const float layer = lattice_noise(static_cast<int>(std::floor(stratum)), 7);
     const glm::vec3 rock =
         glm::mix(glm::vec3(0.55F, 0.30F, 0.19F), glm::vec3(0.78F, 0.62F, 0.45F), layer);
-    return glm::mix(level, rock, glm::smoothstep(0.05F, 0.25F, steepness)) *
-           (1.0F + 0.10F * patches);
+    const float shrubs =
+        glm::smoothstep(0.1F, 0.5F, site.patches + 0.6F * patch_noise(site.column, site.row, 3));
+    const glm::vec3 grown = glm::mix(level, glm::vec3(0.36F, 0.36F, 0.22F), 0.35F * shrubs);
+    return glm::mix(grown, rock, glm::smoothstep(0.05F, 0.25F, site.steepness)) *
+           (1.0F + 0.10F * site.patches);
 }
 
 } // namespace
@@ -111,15 +150,15 @@ ground_colours(const models::HeightField& field, const Settings& settings) {
         static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()));
     for (int row = 0; row < field.rows(); ++row) {
         for (int column = 0; column < field.columns(); ++column) {
-            const float height_m = field.height_m(column, row);
             const glm::vec3 normal = field.normal_at_sample(column, row);
-            const float patches =
-                0.6F * patch_noise(column, row, 37) + 0.4F * patch_noise(column, row, 11);
-            const float steepness = 1.0F - normal.z;
-            glm::vec3 own = settings.palette == Palette::Arid
-                                ? arid(height_m, steepness, patches)
-                                : temperate(height_m - water_m, steepness, patches);
-            if (height_m <= water_m && steepness < 1e-4F) {
+            const Site site{
+                column,
+                row,
+                field.height_m(column, row) - water_m,
+                1.0F - normal.z,
+                0.6F * patch_noise(column, row, 37) + 0.4F * patch_noise(column, row, 11)};
+            glm::vec3 own = settings.palette == Palette::Arid ? arid(site) : temperate(site);
+            if (site.height_m <= 0.0F && site.steepness < 1e-4F) {
                 own = water_colour;
             }
             const float light = ambient_light + sun_light * std::max(glm::dot(normal, sun), 0.0F);

@@ -55,7 +55,7 @@ Mesher::Mesher(const Quadtree& tree, std::span<const std::uint32_t> colours)
     , colours_(colours)
     , in_mesh_(tree.nodes().size(), 0)
     , vertex_of_sample_(colours.size(), 0) {
-    const models::HeightField& field = tree.field();
+    [[maybe_unused]] const models::HeightField& field = tree.field();
     assert(
         colours.size() ==
         static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()));
