@@ -69,7 +69,7 @@ void set_effort(png_structp png, PngEffort effort) {
         png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
         return;
     }
-    png_set_compression_level(png, 9);
+    png_set_compression_level(png, 5);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);
 }
 

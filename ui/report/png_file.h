@@ -21,7 +21,7 @@ struct Picture {
 
 enum class PngEffort {
     Fast, ///< a picture a frame: level 1, Sub filter, run lengths
-    Small ///< a picture in a page: level 9
+    Small ///< a picture in a page: level 5
 };
 
 /// The picture as an RGB PNG (alpha is dropped). `picture.is_whole()` must hold. Same picture, same
