@@ -216,7 +216,7 @@ void Renderer::draw_ground(const FramePlan& plan, Depth depth) {
         return;
     }
     use_depth(depth, GL_GREATER);
-    gl_.enable(GL_CULL_FACE);
+    gl_.disable(GL_CULL_FACE);
     set_matrix(gl_, ground_program_, to_clip, plan.view_to_clip * plan.world_to_view);
     set_haze(plan, ground_program_);
     gl_.use_program(ground_program_.name());

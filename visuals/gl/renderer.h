@@ -15,9 +15,11 @@ namespace octant::visuals::gl {
 /// Draws frame plans into a picture of its own. The context whose functions it was given must be
 /// current in every call, the destructor too, and outlive it.
 ///
-/// Colours are display values from input to picture: nothing is converted. Back faces of ground
-/// and aircraft are not drawn. An aircraft's triangle has the colour of its first vertex: a
-/// polygon split into a fan around its first corner keeps one colour.
+/// Colours are display values from input to picture: nothing is converted. Back faces of
+/// aircraft are not drawn. Those of the ground are: the plan has left them out but for triangles
+/// seen edge-on, which the driver must judge by the positions it draws. An aircraft's triangle has
+/// the colour of its first vertex: a polygon split into a fan around its first corner keeps one
+/// colour.
 class Renderer {
 public:
     /// Picture size in pixels, 1 or 4 samples a pixel. Throws Error when the driver cannot.

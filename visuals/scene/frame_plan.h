@@ -61,8 +61,9 @@ struct FramePlan {
     glm::mat4 view_to_clip{1.0F};  ///< reversed depth 1..0, infinite far plane
     glm::vec3 background{0.0F};    ///< what the picture is cleared to
     Haze haze;
-    TriangleDraw sky;    ///< no depth, no haze; empty when the sky is off
-    TriangleDraw ground; ///< depth tested and written unless ground_is_ordered
+    TriangleDraw sky; ///< no depth, no haze; empty when the sky is off
+    TriangleDraw
+        ground; ///< facing the eye or edge-on; depth tested and written unless ground_is_ordered
     bool ground_is_ordered =
         false; ///< the ground's triangles are in painting order: no depth needed
     HiddenSurface hidden_surface = HiddenSurface::Octant;

@@ -1,5 +1,6 @@
 #include "visuals/scene/planner.h"
 
+#include "visuals/scene/facing.h"
 #include "visuals/scene/ground_colours.h"
 
 #include <glm/geometric.hpp>
@@ -48,6 +49,11 @@ const FramePlan& Planner::plan(
     plan_.world_to_view = world_to_view(camera);
     plan_.view_to_clip = view_to_clip(camera, aspect_);
     plan_.ground = scene_.ground->triangles(camera, aspect_, counts.ground);
+    if (!plan_.ground_is_ordered) {
+        const double pixel_rad =
+            2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings_.size_px.y;
+        plan_.ground = facing_the_eye(plan_.ground, pixel_rad, facing_indices_);
+    }
     plan_sky(camera);
     plan_aircraft(camera, states, counts);
     return plan_;

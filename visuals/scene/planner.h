@@ -56,6 +56,7 @@ private:
     double aspect_;
     glm::dvec3 to_sun_;
     Sky sky_;
+    std::vector<std::uint32_t> facing_indices_;
     FramePlan plan_;
 };
 

@@ -1,0 +1,55 @@
+#include "visuals/scene/facing.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace octant::visuals::scene {
+
+namespace {
+
+/// Renderers round screen positions to 1/256 pixel; twice that bounds the error of both ends of an
+/// edge.
+constexpr float rounding_px = 2.0F / 256.0F;
+
+float sum_of_parts(const glm::vec3& v) {
+    const glm::vec3 size = glm::abs(v);
+    return size.x + size.y + size.z;
+}
+
+/// Corners relative to the eye. The triple product is the triangle's doubled area on the screen
+/// times distance cubed times the pixel's angle squared; rounding moves that area by at most
+/// rounding_px times the outline. Sums of parts bound lengths from above without a square root.
+bool faces_away(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, float pixel_rad) {
+    const glm::vec3 ab = b - a;
+    const glm::vec3 ac = c - a;
+    const float edges_m = sum_of_parts(ab) + sum_of_parts(ac);
+    const float distance_m = sum_of_parts(a) + edges_m;
+    const float doubt = rounding_px * pixel_rad * 2.0F * edges_m * distance_m * distance_m;
+    return glm::dot(glm::cross(ab, ac), a) > doubt;
+}
+
+} // namespace
+
+TriangleDraw
+facing_the_eye(const TriangleDraw& draw, double pixel_rad, std::vector<std::uint32_t>& kept) {
+    kept.resize(draw.indices.size());
+    std::size_t count = 0;
+    const auto pixel = static_cast<float>(pixel_rad);
+    for (std::size_t i = 0; i < draw.indices.size(); i += 3) {
+        const std::uint32_t* corner = &draw.indices[i];
+        const bool away = faces_away(
+            draw.vertices[corner[0]].position_m,
+            draw.vertices[corner[1]].position_m,
+            draw.vertices[corner[2]].position_m,
+            pixel);
+        // Written in any case and counted when it stays: no branch to guess.
+        kept[count] = corner[0];
+        kept[count + 1] = corner[1];
+        kept[count + 2] = corner[2];
+        count += away ? 0 : 3;
+    }
+    kept.resize(count);
+    return {draw.vertices, kept};
+}
+
+} // namespace octant::visuals::scene
