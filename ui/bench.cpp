@@ -27,9 +27,7 @@ constexpr int warm_up_frames = 20;
 class Floor {
 public:
     explicit Floor(const scene::Settings& settings)
-        : context_(
-              settings.context == scene::ContextKind::Egl ? gl::make_egl_context()
-                                                          : gl::make_osmesa_context())
+        : context_(make_context(settings.context))
         , renderer_(std::make_unique<gl::Renderer>(
               context_->functions(), settings.size_px.x, settings.size_px.y, settings.samples)) {
         plan_.view_to_clip =

@@ -1,6 +1,7 @@
 #include "sim/base/error.h"
 #include "ui/commands.h"
 #include "ui/flight_recorder.h"
+#include "ui/input_files.h"
 #include "ui/progress.h"
 #include "ui/report/statistics.h"
 #include "ui/session.h"
@@ -23,7 +24,6 @@ namespace {
 struct FlyOptions {
     scene::Settings settings;
     RecordOptions record;
-    bool realtime = false;
     bool json = false;
     bool quiet = false;
     bool if_new = false;
@@ -41,7 +41,12 @@ void print_summary(const FlightEnd& end, bool json) {
     if (json) {
         nlohmann::ordered_json object;
         for (const report::Figure& figure : report::figures()) {
-            object[std::string(figure.key)] = figure.value(end.statistics);
+            const double value = figure.value(end.statistics);
+            if (figure.decimals == 0) {
+                object[std::string(figure.key)] = static_cast<int>(value);
+            } else {
+                object[std::string(figure.key)] = value;
+            }
         }
         object["state_hash"] = fmt::format("{:016x}", end.state_hash);
         object["picture_hash"] = fmt::format("{:016x}", end.picture_hash);
@@ -66,7 +71,11 @@ void print_summary(const FlightEnd& end, bool json) {
         stdout);
 }
 
-void fly(const FlyOptions& options) {
+void fly(FlyOptions options) {
+    options.settings = with_absolute_files(options.settings);
+    if (options.if_new && !options.record.folder) {
+        throw Error("--if-new: expected --record DIR beside it, got none");
+    }
     if (options.if_new && is_recorded(options.record, options.settings)) {
         say(options.quiet, fmt::format("{} is done already", options.record.folder->string()));
         return;
@@ -79,7 +88,7 @@ void fly(const FlyOptions& options) {
     Progress progress(session.world().flight.title, session.frames(), options.quiet);
     const Stopwatch since_start;
     for (int frame = 0; frame < session.frames(); ++frame) {
-        if (options.realtime) {
+        if (options.settings.realtime) {
             wait_for(since_start, frame / session.rate_hz());
         }
         report::FrameRecord record = session.draw(frame);
@@ -91,7 +100,19 @@ void fly(const FlyOptions& options) {
     for (const std::string& note : end.notes) {
         say(options.quiet, note);
     }
+    for (const std::string& missing : end.missing) {
+        say(false, missing);
+    }
+    if (end.statistics.frames == 0) {
+        say(options.quiet,
+            fmt::format(
+                "note: all {} frames are warm-up, so there are no figures; --warm-up 0 counts them",
+                session.frames()));
+    }
     print_summary(end, options.json);
+    if (!end.fault.empty()) {
+        throw Error(end.fault);
+    }
 }
 
 } // namespace
@@ -112,13 +133,6 @@ void add_fly_command(CLI::App& program) {
             [options](const std::string& file) { options->record.video = file; },
             "write a video (needs ffmpeg; frame times then include the encoder's load)")
         ->type_name("FILE.mp4");
-    command
-        ->add_option(
-            "--pictures", options->record.picture_every, "write every Nth frame as PNG; 0 = none")
-        ->type_name("N")
-        ->default_str("one a simulated second with --record")
-        ->check(CLI::Range(0, 100000000));
-    command->add_flag("--realtime", options->realtime, "no faster than the clock");
     command->add_flag(
         "--if-new", options->if_new, "do nothing when DIR holds this very run already");
     command->add_flag("--json", options->json, "summary as JSON");

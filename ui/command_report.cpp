@@ -3,6 +3,7 @@
 #include "ui/progress.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
+#include "ui/track_files.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -32,6 +33,10 @@ void make_report(const ReportOptions& options) {
                     folder,
                     recordings.back().records.size()));
             report::complete_timing_files(recordings.back());
+            cut_tracks(
+                folder,
+                recordings.back().records.empty() ? 0.0
+                                                  : recordings.back().records.back().sim_time_s);
         }
     }
     const std::filesystem::path file =

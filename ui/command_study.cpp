@@ -12,6 +12,7 @@ void add_study_command(CLI::App& program) {
     CLI::App* study = program.add_subcommand(
         "study", "Repeats a paper's experiment and prints its tables with ours beside");
     study->require_subcommand(1);
+    study->footer("Example:\n  octant study flights --out tables");
     auto options = std::make_shared<StudyOptions>();
     CLI::App* flights = study->add_subcommand(
         "flights", "Tables 5 and 6 of the 1989 paper: four paths, two aircraft, three methods");

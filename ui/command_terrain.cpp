@@ -5,11 +5,13 @@
 #include "sim/base/units.h"
 #include "ui/commands.h"
 #include "ui/progress.h"
+#include "ui/settings_options.h"
 #include "ui/terrain_file.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
@@ -27,18 +29,19 @@ struct TerrainOptions {
     bool quiet = false;
     std::string kind = "hills";
     models::MadeOptions made;
+    int seed = 1;
     std::string out;
 };
 
 nlohmann::ordered_json figures_of(const models::HeightField& field) {
     nlohmann::ordered_json figures;
     double sum_m = 0.0;
-    double steepest = 0.0;
+    double steepest_rad = 0.0;
     for (int row = 0; row < field.rows(); ++row) {
         for (int column = 0; column < field.columns(); ++column) {
             sum_m += static_cast<double>(field.height_m(column, row));
-            steepest = std::max(
-                steepest,
+            steepest_rad = std::max(
+                steepest_rad,
                 std::acos(
                     std::min(1.0, static_cast<double>(field.normal_at_sample(column, row).z))));
         }
@@ -52,7 +55,7 @@ nlohmann::ordered_json figures_of(const models::HeightField& field) {
     figures["lowest_m"] = field.lowest_m();
     figures["highest_m"] = field.highest_m();
     figures["mean_m"] = sum_m / field.columns() / field.rows();
-    figures["steepest_deg"] = deg_from_rad(steepest);
+    figures["steepest_deg"] = deg_from_rad(steepest_rad);
     figures["filled_voids"] = field.filled_voids;
     if (field.place) {
         figures["latitude_deg"] = field.place->latitude_deg;
@@ -79,7 +82,8 @@ void show(const TerrainOptions& options) {
     print(figures_of(load_height_field(options.terrain, options.spacing_m)), options.json);
 }
 
-void make(const TerrainOptions& options) {
+void make(TerrainOptions options) {
+    options.made.seed = static_cast<std::uint64_t>(options.seed);
     const auto field = models::made_terrain(options.kind, options.made);
     if (!field) {
         throw Error(
@@ -104,11 +108,10 @@ void add_info(CLI::App& terrain) {
     info->add_option("terrain", options->terrain, "hills, canyon or a file that GDAL reads")
         ->type_name("NAME|FILE")
         ->required();
-    info->add_option(
-            "--terrain-spacing", options->spacing_m, "sample spacing of files that do not say")
-        ->type_name("METRES")
-        ->capture_default_str()
-        ->check(CLI::Range(0.01, 1e5));
+    add_number_option(
+        *info,
+        {"terrain-spacing", "METRES", "sample spacing of files that do not say", 0.01, 1e5},
+        options->spacing_m);
     info->add_flag("--json", options->json, "as JSON");
     info->footer("Example:\n  octant terrain info map.tif --json");
     info->callback([options] { show(*options); });
@@ -121,17 +124,13 @@ void add_make(CLI::App& terrain) {
     make_command->add_option("--kind", options->kind, "hills (gentle) or canyon (rugged)")
         ->type_name("KIND")
         ->capture_default_str();
-    make_command->add_option("--size", options->made.size, "samples a side")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(CLI::Range(2, 20000));
-    make_command->add_option("--spacing", options->made.spacing_m, "between samples")
-        ->type_name("METRES")
-        ->capture_default_str()
-        ->check(CLI::Range(0.1, 1000.0));
-    make_command->add_option("--seed", options->made.seed, "another seed, another terrain")
-        ->type_name("S")
-        ->capture_default_str();
+    add_number_option(*make_command, {"size", "N", "samples a side", 2, 20000}, options->made.size);
+    add_number_option(
+        *make_command,
+        {"spacing", "METRES", "between samples", 0.1, 1000},
+        options->made.spacing_m);
+    add_number_option(
+        *make_command, {"seed", "S", "another seed, another terrain", 0, 1e9}, options->seed);
     make_command->add_option("--out", options->out, "the file to write")
         ->type_name("FILE.tif")
         ->required();
@@ -146,6 +145,8 @@ void add_make(CLI::App& terrain) {
 void add_terrain_command(CLI::App& program) {
     CLI::App* terrain = program.add_subcommand("terrain", "Height fields: show, make");
     terrain->require_subcommand(1);
+    terrain->footer("Examples:\n  octant terrain info map.tif\n  octant terrain make --kind canyon "
+                    "--seed 7 --out made.tif");
     add_info(*terrain);
     add_make(*terrain);
 }

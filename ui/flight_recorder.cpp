@@ -1,16 +1,20 @@
 #include "ui/flight_recorder.h"
 
-#include "flightpaths/track_writer.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
+#include "ui/input_files.h"
 #include "ui/report/html_report.h"
+#include "ui/report/json_text.h"
 #include "ui/report/loaded_recording.h"
+#include "ui/report/plots.h"
 #include "ui/settings_file.h"
 #include "ui/stopwatch.h"
+#include "ui/track_files.h"
 #include "ui/version.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
@@ -44,65 +48,52 @@ report::RunInfo run_info(const scene::Settings& settings, const Session& session
          fmt::format("{:.1f} m at {:.2f} s", flight.lowest_clearance_m, flight.lowest_clearance_s)},
         {"drawn by",
          fmt::format("{}, OpenGL {}", session.context().kind, session.context().version)}};
-    for (const std::string& note : session.world().notes) {
-        info.facts.emplace_back("note", note);
-    }
+    info.notes = session.world().notes;
+    info.inputs = input_hashes(settings);
     return info;
 }
 
 } // namespace
 
 bool is_recorded(const RecordOptions& options, const scene::Settings& settings) {
-    if (!options.folder || !report::is_run_file(*options.folder / "run.json")) {
+    const bool changed_checkout = program_commit().ends_with('+');
+    if (changed_checkout || !options.folder || !report::is_run_file(*options.folder / "run.json")) {
         return false;
     }
-    const auto run =
-        nlohmann::ordered_json::parse(read_text_file(*options.folder / "run.json"), nullptr, false);
-    const nlohmann::ordered_json program = {
+    using Json = nlohmann::ordered_json;
+    const auto file = *options.folder / "run.json";
+    const Json run = report::parsed_json(file, read_text_file(file));
+    const Json program = {
         {"name", "octant"}, {"version", program_version()}, {"commit", program_commit()}};
-    return !run.is_discarded() && run.contains("summary") &&
-           run.value("settings", nlohmann::ordered_json()) == settings_json(settings) &&
-           run.value("program", nlohmann::ordered_json()) == program;
+    Json inputs = Json::object();
+    for (const auto& [input, hash] : input_hashes(settings)) {
+        inputs[input] = hash;
+    }
+    return run.contains("summary") && run.value("settings", Json()) == settings_json(settings) &&
+           run.value("inputs", Json()) == inputs && run.value("program", Json()) == program;
 }
 
 FlightRecorder::FlightRecorder(
     const RecordOptions& options, const scene::Settings& settings, const Session& session)
     : options_(options)
-    , picture_every_(options.picture_every) {
-    if (picture_every_ < 0) {
-        picture_every_ = options.folder ? static_cast<int>(std::lround(session.rate_hz())) : 0;
-    }
-    if (options.picture_every > 0 && !options.folder) {
-        throw Error("--pictures: expected --record DIR for the pictures, got none");
-    }
-    if (options.folder) {
-        recording_.emplace(*options.folder, run_info(settings, session));
-        write_tracks(session);
-    }
+    , picture_every_(settings.pictures.value_or(
+          std::max(1, static_cast<int>(std::lround(session.rate_hz()))))) {
     if (options.video) {
         video_.emplace(
             *options.video,
             report::VideoFormat{
                 settings.size_px.x, settings.size_px.y, 4, false, session.rate_hz()});
     }
-}
-
-void FlightRecorder::write_tracks(const Session& session) const {
-    const World& world = session.world();
-    write_file(*options_.folder / "track.csv", flightpaths::track_csv(world.flight.trajectory));
-    flightpaths::AcmiHeader header;
-    header.title = world.flight.title;
-    header.aircraft = world.scene.models[world.scene.aircraft.front()].polygons.name;
-    header.bookmarks = world.flight.legs;
-    if (world.ground_place) {
-        header.origin = {world.ground_place->latitude_deg, world.ground_place->longitude_deg};
+    if (options.folder) {
+        recording_.emplace(*options.folder, run_info(settings, session));
+        // Whole at first: a killed flight's tracks are cut by its report.
+        write_tracks(*options.folder, session.world(), session.world().flight.trajectory.end_s());
     }
-    write_file(
-        *options_.folder / "track.acmi", flightpaths::track_acmi(world.flight.trajectory, header));
 }
 
 void FlightRecorder::add(report::FrameRecord record, Session& session) {
     const Stopwatch writing;
+    flown_until_s_ = record.sim_time_s;
     session.hash_picture();
     if (recording_ && picture_every_ > 0 && record.frame % picture_every_ == 0) {
         recording_->add_picture(record.frame, view_of(session.picture()));
@@ -131,14 +122,26 @@ FlightEnd FlightRecorder::finish(const Session& session) {
     end.picture_hash = session.picture_hash();
     if (video_) {
         const report::VideoResult result = video_->finish();
-        end.notes.push_back(
-            result.text.empty() ? fmt::format("video: {}", options_.video->string())
-                                : fmt::format("video {}", result.text));
+        switch (result.outcome) {
+        case report::VideoResult::Outcome::Made:
+            end.notes.push_back(fmt::format("video: {}", options_.video->string()));
+            break;
+        case report::VideoResult::Outcome::NoFfmpeg:
+            end.missing.push_back(fmt::format("video {}", result.text));
+            break;
+        case report::VideoResult::Outcome::Failed:
+            end.fault = fmt::format("{}: {}", options_.video->string(), result.text);
+            break;
+        }
     }
     if (recording_) {
         end.statistics =
             recording_->finish({end.state_hash, end.picture_hash, report::read_cpu_times()});
+        write_tracks(*options_.folder, session.world(), flown_until_s_);
         end.notes.push_back(write_report());
+        if (!report::gnuplot_installed()) {
+            end.missing.emplace_back("plots not made: gnuplot is not installed");
+        }
     } else {
         end.statistics = report::statistics_of(records_);
     }

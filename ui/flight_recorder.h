@@ -16,7 +16,6 @@ namespace octant::ui {
 struct RecordOptions {
     std::optional<std::filesystem::path> folder;
     std::optional<std::filesystem::path> video;
-    int picture_every = -1; ///< frames; 0 = no pictures, below = one a simulated second
 };
 
 /// What came out of a flight.
@@ -24,10 +23,13 @@ struct FlightEnd {
     report::Statistics statistics;
     std::uint64_t state_hash = 0;
     std::uint64_t picture_hash = 0;
-    std::vector<std::string> notes; ///< where results are, and what is missing
+    std::vector<std::string> notes;   ///< where results are
+    std::vector<std::string> missing; ///< what was asked for and needs a program that is not here
+    std::string fault;                ///< what went wrong beside the recording; empty = nothing
 };
 
-/// True when the folder holds a finished recording of these settings by this program.
+/// True when the folder holds a finished recording of these settings and input files by this
+/// program. Never true for a program built from a changed checkout: two of them may differ.
 bool is_recorded(const RecordOptions& options, const visuals::scene::Settings& settings);
 
 /// Writes a flight as it is flown: recording folder, pictures, video. Without a folder only the
@@ -47,7 +49,6 @@ public:
     FlightEnd finish(const Session& session);
 
 private:
-    void write_tracks(const Session& session) const;
     std::string write_report() const;
 
     RecordOptions options_;
@@ -55,6 +56,7 @@ private:
     std::optional<report::Recording> recording_;
     std::optional<report::VideoPipe> video_;
     std::vector<report::FrameRecord> records_; ///< without a folder
+    double flown_until_s_ = 0.0;
 };
 
 } // namespace octant::ui

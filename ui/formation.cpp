@@ -2,31 +2,32 @@
 
 #include "sim/base/axes.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace octant::ui {
 
-namespace {
+Formation::Formation(int aircraft, double largest_radius_m)
+    : ranks_(aircraft / 2)
+    , aside_m_(1.7 * largest_radius_m)
+    , back_m_(0.5 * largest_radius_m) {}
 
-constexpr double back_m = 15.0;
-constexpr double aside_m = 17.0;
-
-} // namespace
-
-sim::AircraftState wingman_of(const sim::AircraftState& leader, int number) {
-    const double rank = (number + 1) / 2;
+sim::AircraftState Formation::wingman_of(const sim::AircraftState& leader, int number) const {
+    const double rank = (number + 1) / 2; // NOLINT(bugprone-integer-division): whole ranks
     const double side = number % 2 == 1 ? 1.0 : -1.0;
     const double heading_rad = euler_from_body_to_world(leader.body_to_world).heading_rad;
     const glm::dvec3 ahead = direction_from_heading(heading_rad);
     const glm::dvec3 right(ahead.y, -ahead.x, 0.0);
     sim::AircraftState state = leader;
-    state.position_m += rank * (side * aside_m * right - back_m * ahead);
+    state.position_m += rank * (side * aside_m_ * right - back_m_ * ahead);
     return state;
 }
 
-double formation_radius_m(int aircraft) {
-    const double last_rank = aircraft / 2; // NOLINT(bugprone-integer-division): whole ranks
-    return last_rank * std::hypot(back_m, aside_m);
+double Formation::framed_radius_m(double leader_radius_m) const {
+    // The camera stands three radii behind and sees a little more than a third of a right angle to
+    // either side.
+    constexpr double distances_per_aside = 1.6;
+    const double distance_m = ranks_ * (distances_per_aside * aside_m_ + back_m_);
+    return std::max(leader_radius_m, distance_m / 3.0);
 }
 
 } // namespace octant::ui

@@ -4,11 +4,24 @@
 
 namespace octant::ui {
 
-/// State of wingman `number` (from 1) beside a leader: in echelon behind him, alternately to the
-/// right and left, 15 m back and 17 m aside for each rank, level with him, in the same attitude.
-sim::AircraftState wingman_of(const sim::AircraftState& leader, int number);
+/// Where wingmen fly: nearly abreast of the leader, alternately to the right and left of him, level
+/// and in the same attitude, far enough apart for the largest of them.
+class Formation {
+public:
+    /// `aircraft` >= 1 with the leader; `largest_radius_m` of any of them.
+    Formation(int aircraft, double largest_radius_m);
 
-/// How far the last wingman is from the leader when `aircraft` fly together, metres; 0 for one.
-double formation_radius_m(int aircraft);
+    /// State of wingman `number` (from 1) beside the leader.
+    sim::AircraftState wingman_of(const sim::AircraftState& leader, int number) const;
+
+    /// Radius of the sphere that a chase camera should frame, so that all are in its picture: the
+    /// leader's own radius unless the formation is too wide for it.
+    double framed_radius_m(double leader_radius_m) const;
+
+private:
+    int ranks_;
+    double aside_m_; ///< for each rank
+    double back_m_;  ///< for each rank
+};
 
 } // namespace octant::ui

@@ -5,7 +5,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <fmt/format.h>
 #include <new>
@@ -46,7 +49,12 @@ int run(int argc, char** argv) {
         if (fault.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
             return program.exit(fault);
         }
-        return fail(fault.what());
+        const bool no_command = program.get_subcommands().empty();
+        const std::string got = argc > 1 ? argv[1] : "none";
+        return fail(
+            no_command ? fmt::format(
+                             "expected a command (fly, report, terrain, study, bench), got {}", got)
+                       : std::string(fault.what()));
     }
     return 0;
 }
@@ -55,12 +63,16 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     octant::visuals::gl::tune_allocator();
+    std::signal(SIGXFSZ, SIG_IGN); // a file that grows too large is a write error, told in one line
     try {
-        return run(argc, argv);
+        const int code = run(argc, argv);
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+            return fail(fmt::format(
+                "results cannot be written to standard output: {}", std::strerror(errno)));
+        }
+        return code;
     } catch (const octant::Error& fault) {
         return fail(fault.what());
-    } catch (const octant::ui::CheckSaidNo&) {
-        return 1;
     } catch (const std::bad_alloc&) {
         return fail("expected enough memory for this input, got none");
     } catch (const std::exception& fault) {

@@ -27,7 +27,7 @@ void Progress::show(int done, const std::string& note) {
     const double per_s = done / elapsed_s;
     const double left_s = done > 0 ? (total_ - done) / per_s : 0.0;
     const std::string line = fmt::format(
-        "{}: {} of {}, {:.0f} a second, {:.0f} s left{}{}",
+        "{}: {} of {}, {:.0f} frames/s, {:.0f} s left{}{}",
         what_,
         done,
         total_,
@@ -45,6 +45,7 @@ void Progress::finish() {
     if (terminal_ && drawn_) {
         std::fputs("\r\x1b[K", stderr);
         std::fflush(stderr);
+        drawn_ = false;
     }
 }
 

@@ -11,6 +11,13 @@ class Progress {
 public:
     Progress(std::string what, int total, bool quiet);
 
+    ~Progress() { finish(); }
+
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    Progress(Progress&&) = delete;
+    Progress& operator=(Progress&&) = delete;
+
     /// `done` of the total are finished; `note` is shown behind the numbers.
     void show(int done, const std::string& note = "");
 

@@ -2,7 +2,6 @@
 
 #include "sim/base/units.h"
 #include "sim/fixed_step.h"
-#include "ui/formation.h"
 #include "ui/report/statistics.h"
 #include "visuals/gl/platform_tuning.h"
 
@@ -17,11 +16,11 @@ namespace octant::ui {
 namespace scene = visuals::scene;
 namespace gl = visuals::gl;
 
-namespace {
-
 std::unique_ptr<gl::Context> make_context(scene::ContextKind kind) {
     return kind == scene::ContextKind::Egl ? gl::make_egl_context() : gl::make_osmesa_context();
 }
+
+namespace {
 
 void add_state(Hash& hash, const sim::AircraftState& state) {
     hash.add(std::as_bytes(std::span(glm::value_ptr(state.position_m), 3)));
@@ -38,6 +37,7 @@ Session::Session(const scene::Settings& settings)
     , renderer_(std::make_unique<gl::Renderer>(
           context_->functions(), settings.size_px.x, settings.size_px.y, settings.samples))
     , planner_(world_.scene, settings_)
+    , formation_(formation_of(world_.scene))
     , ground_height_(
           [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); })
     , next_step_(sim::step_at(world_.flight.trajectory.start_s())) {
@@ -88,7 +88,7 @@ void Session::make_frame_times() {
 void Session::states_at(double time_s) {
     states_.front() = world_.flight.trajectory.state_at(time_s);
     for (std::size_t i = 1; i < states_.size(); ++i) {
-        states_[i] = wingman_of(states_.front(), static_cast<int>(i));
+        states_[i] = formation_.wingman_of(states_.front(), static_cast<int>(i));
     }
 }
 
@@ -105,7 +105,7 @@ void Session::simulate_to(double time_s) {
 
 scene::Camera Session::camera() const {
     scene::Subject subject = world_.scene.models[world_.scene.aircraft.front()].subject;
-    subject.radius_m += formation_radius_m(static_cast<int>(states_.size()));
+    subject.radius_m = formation_.framed_radius_m(subject.radius_m);
     return scene::camera_of(
         settings_, states_.front(), rig_, subject, world_.points, ground_height_);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/base/hash.h"
+#include "ui/formation.h"
 #include "ui/report/frame_record.h"
 #include "ui/stopwatch.h"
 #include "ui/world.h"
@@ -16,6 +17,9 @@
 #include <vector>
 
 namespace octant::ui {
+
+/// The context that the settings ask for, current in this thread. Throws Error.
+std::unique_ptr<visuals::gl::Context> make_context(visuals::scene::ContextKind kind);
 
 /// The conductor of a run: takes each frame from simulation through plan and picture to its record.
 /// The only place that reads the clock during a flight.
@@ -70,6 +74,7 @@ private:
     std::unique_ptr<visuals::gl::Context> context_;
     std::unique_ptr<visuals::gl::Renderer> renderer_; ///< goes before its context
     visuals::scene::Planner planner_;
+    Formation formation_;
     visuals::scene::GroundHeight ground_height_;
     std::vector<double> frame_times_s_;
     double rate_hz_ = 0.0;

@@ -4,11 +4,11 @@
 
 namespace octant::ui {
 
-/// Calls visit(FieldInfo, field) for every field of Settings in the order of help and files. The
-/// one list from which command line, settings files and run.json are made.
+// Each calls visit(FieldInfo, field) for some fields of Settings, in the order of help and files.
+
+/// Fields that say which path, aircraft and ground.
 template <class SomeSettings, class Visit>
-void visit_settings(SomeSettings& s, Visit&& visit) {
-    constexpr double far_m = 1e7;
+void visit_path_settings(SomeSettings& s, Visit& visit) {
     using Info = FieldInfo;
     visit(
         Info{
@@ -62,6 +62,13 @@ void visit_settings(SomeSettings& s, Visit&& visit) {
     visit(
         Info{"lenient", "", "clip legs that ask more than the aircraft can give, and say so"},
         s.lenient);
+}
+
+/// Fields that say from where it is seen, and on what picture.
+template <class SomeSettings, class Visit>
+void visit_view_settings(SomeSettings& s, Visit& visit) {
+    constexpr double far_m = 1e7;
+    using Info = FieldInfo;
     visit(Info{"view", "VIEW", "chase, cockpit, tower, orbit or free"}, s.view);
     visit(
         Info{
@@ -74,9 +81,23 @@ void visit_settings(SomeSettings& s, Visit&& visit) {
     visit(
         Info{"look", "X,Y,Z", "what the free view looks at, metres east,north,up", -far_m, far_m},
         s.look_m);
-    visit(Info{"fov", "DEGREES", "vertical field of view", 1.0, 150.0}, s.fov_deg);
+    visit(
+        Info{
+            "fov",
+            "DEGREES",
+            "vertical field of view [45; the tower zooms in on the aircraft]",
+            1.0,
+            150.0},
+        s.fov_deg);
     visit(Info{"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, s.size_px);
     visit(Info{"samples", "N", "samples a pixel, 1 or 4", 1, 4}, s.samples);
+    visit(Info{"context", "KIND", "who draws: osmesa (no GPU, no display) or egl"}, s.context);
+}
+
+/// Fields that say which frames are drawn, and how fast.
+template <class SomeSettings, class Visit>
+void visit_time_settings(SomeSettings& s, Visit& visit) {
+    using Info = FieldInfo;
     visit(Info{"rate", "HZ", "frames a simulated second", 0.1, 1000.0}, s.rate_hz);
     visit(
         Info{"frame-per-sample", "", "one frame a path sample, as the 1989 tables use"},
@@ -87,7 +108,21 @@ void visit_settings(SomeSettings& s, Visit&& visit) {
         Info{"seconds", "S", "stop after so much simulated time [the whole path]", 0.001, 1e6},
         s.seconds);
     visit(Info{"warm-up", "N", "first frames that statistics leave out", 0, 1000000}, s.warm_up);
-    visit(Info{"context", "KIND", "who draws: osmesa (no GPU, no display) or egl"}, s.context);
+    visit(Info{"realtime", "", "no faster than the clock"}, s.realtime);
+    visit(
+        Info{
+            "pictures",
+            "N",
+            "with --record: every Nth frame as PNG, 0 = none [one a simulated second]",
+            0,
+            100000000},
+        s.pictures);
+}
+
+/// Fields that say how hidden surfaces are removed and the ground is refined.
+template <class SomeSettings, class Visit>
+void visit_ground_settings(SomeSettings& s, Visit& visit) {
+    using Info = FieldInfo;
     visit(
         Info{
             "hidden-surface",
@@ -133,6 +168,12 @@ void visit_settings(SomeSettings& s, Visit&& visit) {
             1e9},
         s.control_a);
     visit(Info{"control-r", "r", "earlier frames in the damping's mean", 0, 64}, s.control_r);
+}
+
+/// Fields that say sky, haze, sun and colours.
+template <class SomeSettings, class Visit>
+void visit_air_settings(SomeSettings& s, Visit& visit) {
+    using Info = FieldInfo;
     visit(Info{"sky", "", "sky and the plain beyond the map's edge"}, s.sky);
     visit(
         Info{
@@ -153,8 +194,22 @@ void visit_settings(SomeSettings& s, Visit&& visit) {
         Info{"water-level", "METRES", "level ground at or below it is water", -12000.0, 9000.0},
         s.water_level_m);
     visit(
-        Info{"palette", "NAME", "ground colours: temperate or arid (canyon is always arid)"},
+        Info{
+            "palette",
+            "NAME",
+            "ground colours: temperate or arid [arid for the canyon, else temperate]"},
         s.palette);
+}
+
+/// Calls visit(FieldInfo, field) for every field of Settings: the one list from which command line,
+/// settings files and run.json are made.
+template <class SomeSettings, class Visit>
+void visit_settings(SomeSettings& s, Visit&& visit) {
+    visit_path_settings(s, visit);
+    visit_view_settings(s, visit);
+    visit_time_settings(s, visit);
+    visit_ground_settings(s, visit);
+    visit_air_settings(s, visit);
 }
 
 } // namespace octant::ui

@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "ui/report/json_text.h"
 #include "ui/settings_fields.h"
 
 #include <algorithm>
@@ -73,25 +74,9 @@ void read_field(const FieldInfo& info, const ordered_json& json, std::vector<std
     value = json.get<std::vector<std::string>>();
 }
 
-int line_of_offset(std::string_view text, std::size_t offset) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text.size()));
-    return 1 + static_cast<int>(std::count(text.begin(), end, '\n'));
-}
-
-int line_of_key(std::string_view text, std::string_view key) {
+int line_of_key(const std::string& text, std::string_view key) {
     const std::size_t at = text.find(fmt::format("\"{}\"", key));
-    return at == std::string_view::npos ? 1 : line_of_offset(text, at);
-}
-
-ordered_json parsed(const std::filesystem::path& path, const std::string& text) {
-    try {
-        return ordered_json::parse(text);
-    } catch (const ordered_json::parse_error& fault) {
-        error_at(
-            path,
-            line_of_offset(text, fault.byte == 0 ? 0 : fault.byte - 1),
-            "expected a JSON object of settings, got something else");
-    }
+    return at == std::string::npos ? 1 : report::line_of_byte(text, at);
 }
 
 } // namespace
@@ -107,7 +92,7 @@ ordered_json settings_json(const Settings& settings) {
 Settings read_settings(const std::filesystem::path& path) {
     constexpr std::size_t largest_bytes = std::size_t{16} << 20;
     const std::string text = read_text_file(path, largest_bytes);
-    ordered_json json = parsed(path, text);
+    ordered_json json = report::parsed_json(path, text);
     if (json.is_object() && json.contains("settings")) {
         json = ordered_json(json["settings"]);
     }
@@ -136,6 +121,12 @@ Settings read_settings(const std::filesystem::path& path) {
                 line_of_key(text, key),
                 fmt::format("expected the name of a setting, got '{}'", printable(key)));
         }
+    }
+    if (settings.samples != 1 && settings.samples != 4) {
+        error_at(
+            path,
+            line_of_key(text, "samples"),
+            fmt::format("samples: expected 1 or 4, got {}", settings.samples));
     }
     return settings;
 }

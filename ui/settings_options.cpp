@@ -34,12 +34,9 @@ public:
     }
 
     void operator()(const FieldInfo& info, bool& value) {
-        const std::string name = fmt::format("--{}{}", value ? "no-" : "", info.name);
-        const std::string meaning = fmt::format("{}{}", value ? "leave out: " : "", info.meaning);
-        const bool when_given = !value;
-        command_
-            .add_flag_callback(
-                name, [&value, when_given] { value = when_given; }, meaning)
+        const std::string name = fmt::format("--{0},!--no-{0}", info.name);
+        command_.add_flag(name, value, std::string(info.meaning))
+            ->default_str(value ? "true" : "false")
             ->group("Settings");
     }
 
@@ -89,6 +86,14 @@ void add_setting_options(CLI::App& command, Settings& settings, bool path_is_pos
             "take settings from FILE or from a recording's run.json; other options override them")
         ->type_name("FILE");
     visit_settings(settings, OptionAdder(command, path_is_positional));
+}
+
+void add_number_option(CLI::App& command, const FieldInfo& info, double& value) {
+    OptionAdder(command, false)(info, value);
+}
+
+void add_number_option(CLI::App& command, const FieldInfo& info, int& value) {
+    OptionAdder(command, false)(info, value);
 }
 
 } // namespace octant::ui

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ui/settings_text.h"
 #include "visuals/scene/settings.h"
 
 namespace CLI {
@@ -13,5 +14,9 @@ namespace octant::ui {
 /// value throws Error while the command line is parsed.
 void add_setting_options(
     CLI::App& command, visuals::scene::Settings& settings, bool path_is_positional);
+
+/// Adds an option for one number within the bounds of `info`, read as settings are ("nan" is none).
+void add_number_option(CLI::App& command, const FieldInfo& info, double& value);
+void add_number_option(CLI::App& command, const FieldInfo& info, int& value);
 
 } // namespace octant::ui

@@ -56,8 +56,13 @@ void read_setting(const FieldInfo& info, std::string_view text, Enum& value) {
     value = static_cast<Enum>(read_choice(info, text, EnumNames<Enum>::names()));
 }
 
+/// "none" unsets it.
 template <class Value>
 void read_setting(const FieldInfo& info, std::string_view text, std::optional<Value>& value) {
+    if (text == "none") {
+        value.reset();
+        return;
+    }
     Value read{};
     read_setting(info, text, read);
     value = std::move(read);

@@ -19,8 +19,7 @@ models::HeightField load_height_field(const std::string& name_or_file, double sp
                          std::filesystem::exists(name_or_file, ignored);
     if (!is_file) {
         throw Error(fmt::format(
-            "terrain: expected hills, canyon, background60 or a file, got '{}'",
-            printable(name_or_file)));
+            "terrain: expected hills, canyon or a file, got '{}'", printable(name_or_file)));
     }
     models::ImportOptions options;
     options.spacing_m = spacing_m;

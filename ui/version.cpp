@@ -1,5 +1,7 @@
 #include "ui/version.h"
 
+#include <octant_version.h>
+
 namespace octant::ui {
 
 std::string program_version() {

@@ -57,10 +57,29 @@ void load_ground(const scene::Settings& settings, World& world) {
             "{}: {} samples without data were filled in", field.name, field.filled_voids));
     }
     scene::Settings colours = settings;
-    if (settings.terrain == "canyon") {
+    if (!settings.palette && settings.terrain == "canyon") {
         colours.palette = scene::Palette::Arid;
     }
     world.scene.ground = scene::ground_from_field(std::move(field), colours);
+}
+
+/// The octant orders take time with the square of the polygons: 20,000 of them about 20 s.
+constexpr std::size_t most_ordered_polygons = 20000;
+
+draworder::DrawOrder
+draw_order(const models::PolygonModel& model, const scene::Settings& settings) {
+    if (settings.hidden_surface != scene::HiddenSurface::Octant) {
+        return draworder::file_order(model);
+    }
+    if (model.polygons.size() > most_ordered_polygons) {
+        throw Error(fmt::format(
+            "{}: expected at most {} polygons for --hidden-surface octant, got {}; depth-buffer "
+            "takes more",
+            model.name,
+            most_ordered_polygons,
+            model.polygons.size()));
+    }
+    return draworder::DrawOrder(draworder::paper_orders(model));
 }
 
 std::uint32_t load_model(const std::string& name, const scene::Settings& settings, World& world) {
@@ -68,7 +87,7 @@ std::uint32_t load_model(const std::string& name, const scene::Settings& setting
     const bool built_in = file.parent_path() == data_folder() / "models";
     models::PolygonModel model = models::read_obj(
         file, built_in ? models::FileAxes() : models::FileAxes::from_text(settings.axes));
-    draworder::DrawOrder order(draworder::paper_orders(model));
+    draworder::DrawOrder order = draw_order(model, settings);
     const glm::dvec3 eye_m = scene::pilot_eye_m(model);
     world.scene.models.push_back(scene::aircraft_model(std::move(model), std::move(order), eye_m));
     return static_cast<std::uint32_t>(world.scene.models.size() - 1);
@@ -131,14 +150,26 @@ Script load_script(const scene::Settings& settings, World& world) {
         {}};
 }
 
+flightpaths::HeightMode placement_mode(scene::HeightMode mode) {
+    switch (mode) {
+    case scene::HeightMode::Clear:
+        return flightpaths::HeightMode::Clear;
+    case scene::HeightMode::Follow:
+        return flightpaths::HeightMode::Follow;
+    case scene::HeightMode::Datum:
+        break;
+    }
+    return flightpaths::HeightMode::Datum;
+}
+
 flightpaths::Placement
 placement_of(const scene::Settings& settings, const Script& script, const World& world) {
     flightpaths::Placement placement;
     const glm::dvec2 half_extent_m = world.scene.ground->half_extent_m();
-    const bool knows_its_place = script.origin && world.ground_place;
+    const bool at_its_own_place = script.origin && world.ground_place && !settings.place;
     if (settings.place) {
         placement.place_m = place_from_text(*settings.place, world.ground_place, half_extent_m);
-    } else if (knows_its_place) {
+    } else if (at_its_own_place) {
         placement.place_m = flightpaths::local_from_geo(
             {world.ground_place->latitude_deg, world.ground_place->longitude_deg},
             script.origin->latitude_deg,
@@ -148,9 +179,8 @@ placement_of(const scene::Settings& settings, const Script& script, const World&
     if (settings.heading_deg) {
         placement.heading_rad = rad_from_deg(*settings.heading_deg);
     }
-    const auto mode = settings.height_mode.value_or(
-        knows_its_place ? scene::HeightMode::Datum : scene::HeightMode::Clear);
-    placement.mode = static_cast<flightpaths::HeightMode>(mode);
+    placement.mode = placement_mode(settings.height_mode.value_or(
+        at_its_own_place ? scene::HeightMode::Datum : scene::HeightMode::Clear));
     return placement;
 }
 
@@ -183,13 +213,26 @@ Flight place_flight(const scene::Settings& settings, Script script, const World&
         .legs = std::move(script.legs)};
 }
 
+void check_eye_point(const scene::Settings& settings) {
+    const bool free = settings.view == scene::View::Free;
+    if (free && (!settings.eye_m || !settings.look_m)) {
+        throw Error("--view free: expected --eye X,Y,Z and --look X,Y,Z, got at most one of them");
+    }
+    if (free && *settings.eye_m == *settings.look_m) {
+        throw Error("--look: expected another point than --eye, got the same");
+    }
+    if (!free && settings.view != scene::View::Tower && settings.eye_m) {
+        throw Error("--eye: expected --view tower or free beside it, got another view");
+    }
+    if (!free && settings.look_m) {
+        throw Error("--look: expected --view free beside it, got another view");
+    }
+}
+
 scene::FixedPoints fixed_points(const scene::Settings& settings, const World& world) {
+    check_eye_point(settings);
     scene::FixedPoints points;
     if (settings.view == scene::View::Free) {
-        if (!settings.eye_m || !settings.look_m) {
-            throw Error(
-                "--view free: expected --eye X,Y,Z and --look X,Y,Z, got at most one of them");
-        }
         points.free_eye_m = *settings.eye_m;
         points.free_look_m = *settings.look_m;
     }
@@ -213,6 +256,14 @@ scene::FixedPoints fixed_points(const scene::Settings& settings, const World& wo
 }
 
 } // namespace
+
+Formation formation_of(const scene::Scene& scene) {
+    double largest_m = 0.0;
+    for (const std::uint32_t model : scene.aircraft) {
+        largest_m = std::max(largest_m, scene.models[model].subject.radius_m);
+    }
+    return {static_cast<int>(scene.aircraft.size()), largest_m};
+}
 
 World load_world(const scene::Settings& settings) {
     if (settings.samples != 1 && settings.samples != 4) {

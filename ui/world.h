@@ -2,6 +2,7 @@
 
 #include "flightpaths/fly_script.h"
 #include "sim/trajectory.h"
+#include "ui/formation.h"
 #include "visuals/scene/camera_rig.h"
 #include "visuals/scene/planner.h"
 #include "visuals/scene/settings.h"
@@ -38,6 +39,9 @@ struct World {
     std::vector<std::string>
         notes; ///< what a person should be told: voids filled, legs clipped, ...
 };
+
+/// The formation in which the scene's aircraft fly.
+Formation formation_of(const visuals::scene::Scene& scene);
 
 /// Loads aircraft, ground and path of a run and lays the path over the ground. Throws Error.
 World load_world(const visuals::scene::Settings& settings);

@@ -21,11 +21,14 @@ std::string read_file(const std::filesystem::path& path, std::size_t largest_byt
     if (std::filesystem::is_directory(status)) {
         error_in(path, "expected a file, got a folder");
     }
+    if (!std::filesystem::is_regular_file(status)) {
+        error_in(path, "expected a regular file, got a device or pipe");
+    }
     std::ifstream in(path, std::ios::binary);
     if (!in) {
         error_in(path, fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
     }
-    // Read in pieces, so that a pipe or an endless device is bounded as well as a regular file.
+    // Read in pieces: a file that is too large costs no more memory than the largest allowed.
     std::string bytes;
     std::string piece(std::size_t{1} << 16, '\0');
     while (in) {

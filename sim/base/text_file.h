@@ -9,8 +9,8 @@
 
 namespace octant {
 
-/// The whole file as bytes. Throws Error when it is missing, a folder, unreadable or larger than
-/// `largest_bytes`; the message names the file and says which.
+/// The whole file as bytes. Throws Error when it is missing, no regular file, unreadable or larger
+/// than `largest_bytes`; the message names the file and says which.
 std::string
 read_file(const std::filesystem::path& path, std::size_t largest_bytes = std::size_t{256} << 20);
 

@@ -236,7 +236,7 @@ TEST_CASE("what is no recording is refused by name") {
     write_file(folder + "/run.json", "{\"a\":");
     CHECK_THROWS_WITH(
         load_recording(folder),
-        folder + "/run.json: expected JSON, got something else or a part of it");
+        folder + "/run.json:1: expected JSON, got something else or a part of it");
     write_file(folder + "/run.json", "[]");
     CHECK_THROWS_WITH(
         load_recording(folder),

@@ -88,7 +88,10 @@ TEST_CASE("a missing file, a folder and a binary file are refused by name") {
     write_file(path, std::string_view("a\0b", 3));
     CHECK_THROWS_WITH(read_text_file(path), path.string() + ": expected text, got binary data");
     CHECK_THROWS_WITH(
-        read_file("/dev/zero", 1000), "/dev/zero: expected at most 1000 bytes, got more");
+        read_file("/dev/zero"), "/dev/zero: expected a regular file, got a device or pipe");
+    write_file(path, std::string(1001, 'x'));
+    CHECK_THROWS_WITH(
+        read_file(path, 1000), path.string() + ": expected at most 1000 bytes, got more");
 }
 
 TEST_CASE("a file is written whole, replaced whole, and a full disk leaves nothing behind") {

@@ -48,7 +48,7 @@ height_m = 200
 heading_deg = 0
 speed_mps = 200
 [[leg]]
-kind = "straight"
+fly = "straight"
 duration_s = 2
 )";
 
@@ -60,6 +60,13 @@ std::string changed(std::string_view text, std::string_view from, std::string_vi
 }
 
 } // namespace
+
+TEST_CASE("the path that the wrong ones are made from is good") {
+    const tests::ProgramRun run = run_octant(
+        {"fly", file_with("good.toml", good_path), "--frames", "2", "--size", "64x36", "--quiet"});
+    INFO(run.err);
+    CHECK(run.exit_code == 0);
+}
 
 TEST_CASE("a wrong path is refused in one line with exit code 2") {
     check_refused({"somewhere"}, "expected straight, jinking, pop-up, turn");
@@ -80,14 +87,13 @@ TEST_CASE("a wrong path is refused in one line with exit code 2") {
     check_refused(
         {file_with("huge.toml", changed(good_path, "samples = 40", "samples = 2000000000"))},
         "huge.toml:4:");
-    check_refused(
-        {file_with(
-            "asks.toml",
-            changed(
-                good_path,
-                "kind = \"straight\"\nduration_s = 2",
-                "kind = \"pull\"\nload_factor_g = 30\nto_climb_deg = 20"))},
-        "asks.toml:1");
+    const std::string asks = file_with(
+        "asks.toml",
+        changed(
+            good_path,
+            "fly = \"straight\"\nduration_s = 2",
+            "fly = \"pull\"\nload_factor_g = 9\nto_climb_deg = 20"));
+    check_refused({asks}, "asks.toml:12: expected a load factor of at most 7.33 for f15, got 9");
     check_refused({file_with("track.csv", "t_s,north_m\n0,1\n")}, "track.csv:1:");
 }
 
@@ -114,7 +120,8 @@ TEST_CASE("a wrong aircraft is refused in one line with exit code 2") {
 
 TEST_CASE("a wrong terrain is refused in one line with exit code 2") {
     check_refused(
-        {"straight", "--terrain", "mountains"}, "terrain: expected hills, canyon, background60");
+        {"straight", "--terrain", "mountains"},
+        "terrain: expected hills, canyon or a file, got 'mountains'");
     check_refused({"straight", "--terrain", "/nowhere/map.tif"}, "/nowhere/map.tif");
     check_refused({"straight", "--terrain", file_with("empty.tif", "")}, "empty.tif");
     check_refused({"straight", "--terrain", file_with("text.tif", "no map at all")}, "text.tif");
@@ -145,6 +152,16 @@ TEST_CASE("wrong settings and options are refused in one line with exit code 2")
         "--view: expected one of chase, cockpit, tower, orbit, free");
     check_refused(
         {"straight", "--view", "free"}, "--view free: expected --eye X,Y,Z and --look X,Y,Z");
+    check_refused(
+        {"straight", "--view", "free", "--eye", "1,2,3", "--look", "1,2,3"},
+        "--look: expected another point than --eye");
+    check_refused({"straight", "--eye", "1,2,3"}, "--eye: expected --view tower or free");
+    check_refused(
+        {"straight", "--settings", file_with("deep.json", std::string(100000, '['))},
+        "deep.json: expected at most 64 levels");
+    check_refused(
+        {"straight", "--video", "/nowhere/x.mp4"},
+        "/nowhere/x.mp4: expected a file that can be written");
     check_refused({"straight", "--samples", "3"}, "--samples: expected 1 or 4, got 3");
     check_refused({"straight", "--no-such-option"}, "--no-such-option");
     check_refused({"straight", "--place", "1e9,0"}, "leaves the map");

@@ -17,6 +17,8 @@ TEST_CASE("a flight that was killed is reported, losing at most its last second"
          "160x90",
          "--triangles",
          "2000",
+         "--pictures",
+         "1",
          "--record",
          folder.string()},
         6.0);

@@ -64,10 +64,13 @@ TEST_CASE("a missing key keeps its default and a wrong one is refused with its l
     expect(
         "{\"warm-up\": 1.5}", ":1: warm-up: expected a whole number from 0 to 1000000, got '1.5'");
     expect("{\"aircraft\": []}", ":1: aircraft: expected a list of names, got []");
+    expect("{\n\"samples\": 2}", ":2: samples: expected 1 or 4, got 2");
     expect("{\"sky\": 1}", ":1: sky: expected true or false, got '1'");
     expect(
         "{\"background\": \"red\"}",
         ":1: background: expected six hexadecimal digits RRGGBB, got 'red'");
+    expect("{\"fov\": 1e400}", ": expected JSON with numbers that fit into 64 bits, got others");
+    expect(std::string(100000, '['), ": expected at most 64 levels of nesting, got more");
     expect("[]", ":1: expected a JSON object of settings, got array");
-    expect("{\n\"fov\": ", ":2: expected a JSON object of settings, got something else");
+    expect("{\n\"fov\": ", ":2: expected JSON, got something else or a part of it");
 }

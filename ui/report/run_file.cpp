@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "ui/report/json_text.h"
 
 #include <cassert>
 #include <cmath>
@@ -56,6 +57,11 @@ Json start_json(const RunInfo& info) {
     const glm::dvec3& offset_m = info.path_offset_m;
     json["path_offset_m"] = {offset_m.x, offset_m.y, offset_m.z};
     json["facts"] = facts;
+    json["notes"] = info.notes;
+    json["inputs"] = Json::object();
+    for (const auto& [file, hash] : info.inputs) {
+        json["inputs"][file] = hash;
+    }
     return json;
 }
 
@@ -173,10 +179,7 @@ std::string run_json(const RunInfo& info, const RunEnd& end, const Statistics& s
 }
 
 RunFile read_run_file(const std::filesystem::path& path) {
-    const Json json = Json::parse(read_text_file(path), nullptr, false);
-    if (json.is_discarded()) {
-        error_in(path, "expected JSON, got something else or a part of it");
-    }
+    const Json json = parsed_json(path, read_text_file(path));
     if (text_in(json, "format") != format_name) {
         error_in(path, fmt::format("expected \"format\": \"{}\", got none", format_name));
     }
@@ -186,6 +189,9 @@ RunFile read_run_file(const std::filesystem::path& path) {
     append_rows(run.machine, member(json, "program"), "program.");
     append_rows(run.machine, member(json, "machine"), "");
     append_rows(run.facts, member(json, "facts"), "");
+    for (const Json& note : member(json, "notes")) {
+        run.facts.emplace_back("note", shown(note));
+    }
     run.machine_info = machine_from(member(json, "machine"));
     run.gl_renderer = text_in(member(json, "machine"), "gl_renderer");
     run.path_offset = text_in(json, "path_offset_m");

@@ -26,7 +26,9 @@ struct RunInfo {
     std::string gl_renderer;
     glm::dvec3 path_offset_m{0.0}; ///< how the path was moved to stand over the ground
     MachineInfo machine;
-    Rows facts; ///< anything else the report should show
+    Rows facts;                     ///< anything else the report should show
+    std::vector<std::string> notes; ///< what a person was told: voids filled, legs clipped, ...
+    Rows inputs;                    ///< files that were read and hashes of what was in them
 };
 
 /// What is known after the end.

@@ -1,9 +1,12 @@
 #include "ui/report/video_pipe.h"
 
+#include "sim/base/error.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace octant::ui::report {
 
@@ -65,11 +68,21 @@ std::vector<std::string> command(const std::filesystem::path& file, const VideoF
         "file:" + file.string()};
 }
 
+/// Finds out before the flight what ffmpeg would find out after it.
+const std::filesystem::path& writable(const std::filesystem::path& file) {
+    const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    if (::access(folder.c_str(), W_OK) != 0 || std::filesystem::is_directory(file) ||
+        (std::filesystem::exists(file) && ::access(file.c_str(), W_OK) != 0)) {
+        error_in(file, "expected a file that can be written, got one that cannot");
+    }
+    return file;
+}
+
 } // namespace
 
 VideoPipe::VideoPipe(const std::filesystem::path& file, const VideoFormat& format)
     : format_(format)
-    , program_(ChildProgram::start(command(file, format))) {}
+    , program_(ChildProgram::start(command(writable(file), format))) {}
 
 void VideoPipe::add(const PictureView& picture) {
     assert(picture.is_whole() && picture.width_px == format_.width_px);

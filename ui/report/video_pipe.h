@@ -35,7 +35,8 @@ struct VideoResult {
 class VideoPipe {
 public:
     /// Starts ffmpeg, found on PATH, which replaces the file. Without ffmpeg nothing is started and
-    /// finish() says so. Throws Error when the system cannot start a program.
+    /// finish() says so. Throws Error when the file cannot be written there or the system cannot
+    /// start a program.
     VideoPipe(const std::filesystem::path& file, const VideoFormat& format);
 
     /// True while frames are taken: false without ffmpeg and after it failed.

@@ -3,14 +3,15 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include <cassert>
 #include <cmath>
 
 namespace octant::visuals::scene {
 
 Camera camera_looking_at(const glm::dvec3& eye_m, const glm::dvec3& target_m) {
-    assert(glm::length(target_m - eye_m) > 0.0);
-    const glm::dvec3 ahead = glm::normalize(target_m - eye_m);
+    const glm::dvec3 to_target_m = target_m - eye_m;
+    const double distance_m = glm::length(to_target_m);
+    const glm::dvec3 ahead =
+        distance_m > 0.0 ? to_target_m / distance_m : glm::dvec3(0.0, 1.0, 0.0);
     const glm::dvec3 sideways = glm::cross(ahead, glm::dvec3(0.0, 0.0, 1.0));
     const bool vertical = glm::length(sideways) < 1e-9;
     const glm::dvec3 right =

@@ -17,7 +17,8 @@ struct Camera {
     double near_m = 0.5;
 };
 
-/// Camera at `eye_m` that looks at `target_m`, upright. Looking straight up or down keeps north up.
+/// Camera at `eye_m` that looks at `target_m`, upright. Looking straight up or down keeps north up;
+/// at itself, it looks north.
 Camera camera_looking_at(const glm::dvec3& eye_m, const glm::dvec3& target_m);
 
 /// Rotation part of the view: eye-relative world vectors to view axes.

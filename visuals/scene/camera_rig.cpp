@@ -4,6 +4,7 @@
 #include "sim/base/units.h"
 #include "sim/fixed_step.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -16,6 +17,7 @@ namespace octant::visuals::scene {
 
 namespace {
 
+constexpr double usual_fov_deg = 45.0;
 constexpr double least_eye_height_m = 2.0;
 constexpr double chase_lag_s = 0.45;
 constexpr double chase_distance_radii = 3.0;
@@ -25,8 +27,11 @@ constexpr double orbit_turn_s = 16.0;
 constexpr double orbit_swing_s = 22.0;
 constexpr double orbit_swing_rad = rad_from_deg(55.0);
 constexpr double tower_share = 0.34; ///< of the picture's height that the aircraft's sphere fills
+constexpr double tower_least_share = 0.12; ///< the same, where the view widens for the skyline
+constexpr double skyline_margin_rad = rad_from_deg(0.6);
 constexpr double tower_least_fov_rad = rad_from_deg(0.7);
-constexpr double tower_lowered = 0.16; ///< of the picture's height
+constexpr double tower_lowered =
+    0.3; ///< of the picture's height that the aircraft stands above its middle
 constexpr double tower_height_m = 25.0;
 
 void lift_above_ground(glm::dvec3& eye_m, const GroundHeight& ground) {
@@ -48,9 +53,11 @@ Camera chase(
         eye_m, state.position_m + 0.5 * subject.radius_m * memory.lagging_forward);
 }
 
-Camera cockpit(const sim::AircraftState& state, const Subject& subject) {
+Camera
+cockpit(const sim::AircraftState& state, const Subject& subject, const GroundHeight& ground) {
     Camera camera;
     camera.eye_m = state.position_m + state.body_to_world * subject.pilot_eye_m;
+    lift_above_ground(camera.eye_m, ground);
     // View axes x right, y up, -z ahead in body axes x forward, y right, z down.
     static const glm::dquat view_to_body =
         glm::quat_cast(glm::dmat3(glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1), glm::dvec3(-1, 0, 0)));
@@ -59,12 +66,25 @@ Camera cockpit(const sim::AircraftState& state, const Subject& subject) {
     return camera;
 }
 
+double fov_for_share(const Subject& subject, double distance_m, double share) {
+    return 2.0 * std::atan(subject.radius_m / share / distance_m);
+}
+
+/// Close enough to know the aircraft; wider where that brings the skyline into the picture below
+/// it.
 Camera tower(const sim::AircraftState& state, const Subject& subject, const glm::dvec3& eye_m) {
     Camera camera = camera_looking_at(eye_m, state.position_m);
-    const double distance_m = std::max(glm::length(state.position_m - eye_m), subject.radius_m);
-    camera.vertical_fov_rad =
-        std::max(2.0 * std::atan(subject.radius_m / tower_share / distance_m), tower_least_fov_rad);
-    // The aircraft stands above the middle, so that more ground than sky is in the picture.
+    const glm::dvec3 to_aircraft_m = state.position_m - eye_m;
+    const double distance_m = std::max(glm::length(to_aircraft_m), subject.radius_m);
+    const double close_rad = fov_for_share(subject, distance_m, tower_share);
+    const double wide_rad = fov_for_share(subject, distance_m, tower_least_share);
+    const double elevation_rad = std::asin(std::clamp(to_aircraft_m.z / distance_m, -1.0, 1.0));
+    const double wanted_rad =
+        (std::max(elevation_rad, 0.0) + skyline_margin_rad) / (0.5 + tower_lowered);
+    const double reach = 1.0 - glm::smoothstep(1.0, 3.0, wanted_rad / wide_rad);
+    camera.vertical_fov_rad = std::max(
+        glm::mix(close_rad, std::clamp(wanted_rad, close_rad, wide_rad), reach),
+        tower_least_fov_rad);
     const glm::dquat down =
         glm::angleAxis(-tower_lowered * camera.vertical_fov_rad, glm::dvec3(1, 0, 0));
     camera.view_to_world = glm::normalize(camera.view_to_world * down);
@@ -117,24 +137,28 @@ Camera camera_of(
     const FixedPoints& points,
     const GroundHeight& ground) {
     const auto with_fov = [&](Camera camera) {
-        camera.vertical_fov_rad = rad_from_deg(settings.fov_deg);
+        camera.vertical_fov_rad = rad_from_deg(settings.fov_deg.value_or(usual_fov_deg));
         return camera;
+    };
+    const auto lifted = [&](glm::dvec3 eye_m) {
+        lift_above_ground(eye_m, ground);
+        return eye_m;
     };
     switch (settings.view) {
     case View::Chase:
         return with_fov(chase(state, memory, subject, ground));
     case View::Cockpit:
-        return with_fov(cockpit(state, subject));
+        return with_fov(cockpit(state, subject, ground));
     case View::Tower:
-        return tower(state, subject, points.tower_m);
+        return settings.fov_deg
+                   ? with_fov(camera_looking_at(lifted(points.tower_m), state.position_m))
+                   : tower(state, subject, lifted(points.tower_m));
     case View::Orbit:
         return with_fov(orbit(state, subject, ground));
     case View::Free:
         break;
     }
-    glm::dvec3 eye_m = points.free_eye_m;
-    lift_above_ground(eye_m, ground);
-    return with_fov(camera_looking_at(eye_m, points.free_look_m));
+    return with_fov(camera_looking_at(lifted(points.free_eye_m), points.free_look_m));
 }
 
 glm::dvec3 tower_place(

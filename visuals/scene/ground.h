@@ -36,7 +36,8 @@ public:
     /// Half the extent of the map from its centre, east and north, metres.
     virtual glm::dvec2 half_extent_m() const = 0;
 
-    /// Mean height above datum, metres, and mean colour of what is drawn.
+    /// Mean height above datum, metres, infinite where there is no ground at all, and mean colour
+    /// of what is drawn.
     virtual double mean_height_m() const = 0;
     virtual glm::vec3 mean_colour() const = 0;
 

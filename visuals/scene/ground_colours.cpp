@@ -56,12 +56,16 @@ float lattice_noise(int column, int row) {
     return static_cast<float>((h ^ (h >> 15U)) >> 8U) * (1.0F / 16777216.0F);
 }
 
-/// Smooth noise in [-1, 1] whose features are `cell` samples wide.
-float patch_noise(int column, int row, int cell) {
-    const int i = column / cell;
-    const int j = row / cell;
-    const float u = static_cast<float>(column % cell) / static_cast<float>(cell);
-    const float v = static_cast<float>(row % cell) / static_cast<float>(cell);
+int cell_of(float at_m, float cell_m) {
+    return static_cast<int>(std::floor(at_m / cell_m));
+}
+
+/// Smooth noise in [-1, 1] whose features are `cell_m` wide.
+float patch_noise(float east_m, float north_m, float cell_m) {
+    const int i = cell_of(east_m, cell_m);
+    const int j = cell_of(north_m, cell_m);
+    const float u = east_m / cell_m - static_cast<float>(i);
+    const float v = north_m / cell_m - static_cast<float>(j);
     const float su = u * u * (3.0F - 2.0F * u);
     const float sv = v * v * (3.0F - 2.0F * v);
     const float south = glm::mix(lattice_noise(i, j), lattice_noise(i + 1, j), su);
@@ -82,37 +86,55 @@ glm::vec3 cover(std::span<const Stop> stops, float height_m) {
 
 /// A sample of ground before light falls on it.
 struct Site {
-    int column;
-    int row;
+    float east_m;    ///< of the field's south-west corner
+    float north_m;   ///< of the field's south-west corner
     float height_m;  ///< above the water level
     float steepness; ///< 1 - cosine of the slope
     float patches;   ///< noise in [-1, 1], features of some hundred metres
 };
 
-/// Farmland: fields some samples wide, each with its crop.
+Site site_of(
+    const models::HeightField& field, int column, int row, float steepness, float water_m) {
+    const auto spacing_m = static_cast<float>(field.spacing_m());
+    const float east_m = spacing_m * static_cast<float>(column);
+    const float north_m = spacing_m * static_cast<float>(row);
+    return {
+        east_m,
+        north_m,
+        field.height_m(column, row) - water_m,
+        steepness,
+        0.6F * patch_noise(east_m, north_m, 740.0F) + 0.4F * patch_noise(east_m, north_m, 220.0F)};
+}
+
+/// Farmland: fields of 260 x 180 m in rows, each with its crop.
 glm::vec3 field_crop(const Site& site) {
-    const int along = site.column + static_cast<int>(6.0F * lattice_noise(0, site.row / 9));
-    const float pick = lattice_noise(along / 13, site.row / 9);
+    const int row = cell_of(site.north_m, 180.0F);
+    const float pick =
+        lattice_noise(cell_of(site.east_m + 120.0F * lattice_noise(0, row), 260.0F), row);
     return crops[static_cast<std::size_t>(pick * static_cast<float>(crops.size()))];
 }
 
 glm::vec3 temperate(const Site& site) {
     // A tree line and a snow line that are not drawn with a ruler.
     const float height_m = std::max(site.height_m + 120.0F * site.patches, 0.0F);
-    const float dryness = 0.5F + 0.5F * patch_noise(site.column + 5000, site.row, 83);
+    const float dryness = 0.5F + 0.5F * patch_noise(site.east_m + 1e5F, site.north_m, 1660.0F);
     const float below_trees =
         1.0F - glm::smoothstep(tree_line_m - 200.0F, tree_line_m + 200.0F, height_m);
     glm::vec3 colour =
         glm::mix(cover(meadow_stops, height_m), dry_grass, 0.45F * dryness * below_trees);
     const float level = 1.0F - glm::smoothstep(0.0010F, 0.0035F, site.steepness);
     const float farmed =
-        level * glm::smoothstep(-0.15F, 0.05F, patch_noise(site.column, site.row + 5000, 61));
+        level *
+        glm::smoothstep(-0.15F, 0.05F, patch_noise(site.east_m, site.north_m + 1e5F, 1220.0F));
     colour = glm::mix(colour, field_crop(site), farmed * below_trees);
-    const float growth =
-        site.patches + 0.5F * patch_noise(site.column, site.row, 5) + 5.0F * site.steepness - 0.12F;
+    const float growth = site.patches + 0.5F * patch_noise(site.east_m, site.north_m, 100.0F) +
+                         5.0F * site.steepness - 0.12F;
     const float wooded = glm::smoothstep(0.0F, 0.16F, growth) * below_trees * (1.0F - farmed);
     colour = glm::mix(
-        colour, forest * (0.85F + 0.3F * lattice_noise(site.column, site.row)), 0.9F * wooded);
+        colour,
+        forest * (0.85F +
+                  0.3F * lattice_noise(cell_of(site.east_m, 20.0F), cell_of(site.north_m, 20.0F))),
+        0.9F * wooded);
     const float bare = glm::smoothstep(0.14F, 0.30F, site.steepness + 0.03F * site.patches);
     return glm::mix(colour, temperate_rock * (1.0F + 0.10F * site.patches), bare);
 }
@@ -123,8 +145,8 @@ glm::vec3 arid(const Site& site) {
     const float layer = lattice_noise(static_cast<int>(std::floor(stratum)), 7);
     const glm::vec3 rock =
         glm::mix(glm::vec3(0.55F, 0.30F, 0.19F), glm::vec3(0.78F, 0.62F, 0.45F), layer);
-    const float shrubs =
-        glm::smoothstep(0.1F, 0.5F, site.patches + 0.6F * patch_noise(site.column, site.row, 3));
+    const float shrubs = glm::smoothstep(
+        0.1F, 0.5F, site.patches + 0.6F * patch_noise(site.east_m, site.north_m, 60.0F));
     const glm::vec3 grown = glm::mix(level, glm::vec3(0.36F, 0.36F, 0.22F), 0.35F * shrubs);
     return glm::mix(grown, rock, glm::smoothstep(0.05F, 0.25F, site.steepness)) *
            (1.0F + 0.10F * site.patches);
@@ -151,12 +173,7 @@ ground_colours(const models::HeightField& field, const Settings& settings) {
     for (int row = 0; row < field.rows(); ++row) {
         for (int column = 0; column < field.columns(); ++column) {
             const glm::vec3 normal = field.normal_at_sample(column, row);
-            const Site site{
-                column,
-                row,
-                field.height_m(column, row) - water_m,
-                1.0F - normal.z,
-                0.6F * patch_noise(column, row, 37) + 0.4F * patch_noise(column, row, 11)};
+            const Site site = site_of(field, column, row, 1.0F - normal.z, water_m);
             glm::vec3 own = settings.palette == Palette::Arid ? arid(site) : temperate(site);
             if (site.height_m <= 0.0F && site.steepness < 1e-4F) {
                 own = water_colour;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace octant::visuals::scene {
@@ -46,7 +47,9 @@ public:
 
     glm::dvec2 half_extent_m() const override { return half_extent_m_; }
 
-    double mean_height_m() const override { return 0.0; }
+    double mean_height_m() const override {
+        return polygons_ > 0 ? 0.0 : std::numeric_limits<double>::infinity();
+    }
 
     glm::vec3 mean_colour() const override { return mean_colour_; }
 

@@ -1,5 +1,6 @@
 #include "visuals/scene/planner.h"
 
+#include "visuals/draworder/octant_order.h"
 #include "visuals/scene/facing.h"
 #include "visuals/scene/ground_colours.h"
 
@@ -86,9 +87,8 @@ void Planner::plan_aircraft(
     for (std::size_t i = 0; i < states.size(); ++i) {
         const sim::AircraftState& state = states[i];
         const AircraftModel& model = scene_.models[scene_.aircraft[i]];
-        const glm::dvec3 eye_in_body =
-            glm::inverse(state.body_to_world) * (camera.eye_m - state.position_m);
-        const int cell = model.order.cell_of(eye_in_body);
+        const int cell = model.order.cell_of(
+            draworder::eye_in_body(camera.eye_m, state.position_m, state.body_to_world));
         counts.draw_cell = i == 0 ? cell : counts.draw_cell;
         const bool ordered = settings_.hidden_surface == HiddenSurface::Octant;
         add(scene_.aircraft[i],

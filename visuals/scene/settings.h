@@ -38,7 +38,7 @@ struct Settings {
     View view = View::Chase;
     std::optional<glm::dvec3> eye_m;  ///< of the tower and free views
     std::optional<glm::dvec3> look_m; ///< of the free view
-    double fov_deg = 45.0;            ///< vertical
+    std::optional<double> fov_deg; ///< vertical; none = 45, and the tower zooms in on the aircraft
     glm::ivec2 size_px{1280, 720};
     int samples = 1;
     double rate_hz = 60.0;
@@ -46,6 +46,9 @@ struct Settings {
     std::optional<int> frames;
     std::optional<double> seconds;
     int warm_up = 10;
+    bool realtime = false; ///< no faster than the clock
+    std::optional<int>
+        pictures; ///< every Nth frame as PNG, 0 = none; none = one a simulated second
     ContextKind context = ContextKind::OsMesa;
 
     HiddenSurface hidden_surface = HiddenSurface::Octant;
@@ -65,8 +68,8 @@ struct Settings {
     glm::vec3 background{158.0F / 255.0F, 184.0F / 255.0F, 214.0F / 255.0F};
     double sun_azimuth_deg = 225.0;
     double sun_elevation_deg = 35.0;
-    double water_level_m = 0.0; ///< ground at or below it is drawn as water
-    Palette palette = Palette::Temperate;
+    double water_level_m = 0.0;     ///< ground at or below it is drawn as water
+    std::optional<Palette> palette; ///< none = arid for the canyon, else temperate
 };
 
 } // namespace octant::visuals::scene

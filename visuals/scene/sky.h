@@ -10,7 +10,7 @@ namespace octant::visuals::scene {
 
 /// What the sky shows below the horizon, where the map has ended: an endless plain.
 struct Plain {
-    double height_below_eye_m = 0.0; ///< zero or less = no plain, only haze
+    double height_below_eye_m = 0.0; ///< zero, less or not finite = no plain, only haze
     double map_edge_m = 0.0;         ///< level distance from the eye to the nearest edge of the map
     glm::vec3 colour{0.4F};          ///< mean colour of the ground, linear parts 0..1
 };

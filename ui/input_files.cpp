@@ -1,0 +1,82 @@
+#include "ui/input_files.h"
+
+#include "sim/base/error.h"
+#include "sim/base/hash.h"
+#include "ui/data_files.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <span>
+
+namespace octant::ui {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string absolute(const std::string& file) {
+    return fs::absolute(file).lexically_normal().string();
+}
+
+std::string hash_of_file(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in || fs::is_directory(file)) {
+        error_in(file, "expected a file that can be read, got none");
+    }
+    Hash hash;
+    std::vector<char> piece(std::size_t{1} << 20);
+    while (in) {
+        in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+        hash.add(std::as_bytes(std::span(piece.data(), static_cast<std::size_t>(in.gcount()))));
+    }
+    return fmt::format("{:016x}", hash.value());
+}
+
+bool is_file(const std::string& name) {
+    std::error_code ignored;
+    return fs::is_regular_file(name, ignored);
+}
+
+} // namespace
+
+visuals::scene::Settings with_absolute_files(visuals::scene::Settings settings) {
+    // A name that is built in comes first everywhere, also where a file of that name lies about.
+    const std::string pilot = settings.aircraft.front();
+    if (path_file(settings.path, pilot) == settings.path) {
+        settings.path = absolute(settings.path);
+    }
+    for (std::string& name : settings.aircraft) {
+        if (aircraft_file(name) == name) {
+            name = absolute(name);
+        }
+    }
+    const bool built_in_ground = settings.terrain == "hills" || settings.terrain == "canyon" ||
+                                 settings.terrain == "background60" || settings.terrain == "none";
+    if (!built_in_ground && is_file(settings.terrain)) {
+        settings.terrain = absolute(settings.terrain);
+    }
+    return settings;
+}
+
+std::vector<std::pair<std::string, std::string>>
+input_hashes(const visuals::scene::Settings& settings) {
+    std::vector<fs::path> files = {path_file(settings.path, settings.aircraft.front())};
+    for (const std::string& name : settings.aircraft) {
+        files.push_back(aircraft_file(name));
+        const fs::path materials = fs::path(files.back()).replace_extension(".mtl");
+        if (is_file(materials.string())) {
+            files.push_back(materials);
+        }
+    }
+    if (is_file(settings.terrain)) {
+        files.emplace_back(settings.terrain);
+    }
+    std::vector<std::pair<std::string, std::string>> hashes;
+    for (const fs::path& file : files) {
+        hashes.emplace_back(file.string(), hash_of_file(file));
+    }
+    return hashes;
+}
+
+} // namespace octant::ui
