@@ -143,13 +143,19 @@ void visit_ground_settings(SomeSettings& s, Visit& visit) {
         Info{
             "detail",
             "CONTROL",
-            "triangle control: damped (weighted mean), previous, literal, or fixed C"},
+            "triangle control: exact (counted in each frame), damped (weighted mean), previous, "
+            "literal, or fixed C"},
         s.detail);
     visit(
         Info{"triangles", "N", "triangles of ground that the control holds", 100, 10000000},
         s.triangles);
     visit(
-        Info{"resolution-c", "C", "C of the first frame; 0 = what meets the target", 0.0, 1e6},
+        Info{
+            "resolution-c",
+            "C",
+            "C of the first frame; 0 = what meets the target; not for exact",
+            0.0,
+            1e6},
         s.resolution_c);
     visit(
         Info{

@@ -103,7 +103,7 @@ struct EnumNames<visuals::scene::GroundFans> {
 template <>
 struct EnumNames<visuals::scene::DetailControl> {
     static std::vector<std::string_view> names() {
-        return {"previous", "damped", "literal", "fixed"};
+        return {"exact", "damped", "previous", "literal", "fixed"};
     }
 };
 

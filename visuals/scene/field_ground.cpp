@@ -44,6 +44,7 @@ terrain::ControlSettings control_settings(const Settings& settings) {
     case DetailControl::Literal:
         control.method = terrain::ControlMethod::Literal;
         break;
+    case DetailControl::Exact:
     case DetailControl::Damped:
     case DetailControl::Fixed:
         control.method = terrain::ControlMethod::Damped;
@@ -61,8 +62,10 @@ public:
         , mesher_(tree_, colours_)
         , control_(control_settings(settings))
         , mean_colour_(scene::mean_colour(colours_))
+        , exact_(settings.detail == DetailControl::Exact)
         , fixed_resolution_(settings.detail == DetailControl::Fixed)
         , first_resolution_(settings.resolution_c) {
+        budget_.triangles = settings.triangles;
         detail_.roughness_weight = settings.roughness_c.value_or(
             settings.mesh == GroundMetric::Printed ? printed_weight : midpoint_weight);
         detail_.fans =
@@ -89,6 +92,9 @@ public:
     bool is_ordered() const override { return false; }
 
     void settle(const Camera& camera, double aspect) override {
+        if (exact_) {
+            return;
+        }
         const double resolution = first_resolution_ > 0.0 ? first_resolution_
                                                           : terrain::settled_resolution(
                                                                 mesher_,
@@ -100,16 +106,24 @@ public:
     }
 
     TriangleDraw triangles(const Camera& camera, double aspect, GroundCounts& counts) override {
-        detail_.resolution = state_.resolution;
-        const terrain::GroundMesh mesh = mesher_.mesh(view_of(camera, aspect), detail_);
-        if (!fixed_resolution_) {
-            state_ = terrain::next_state(state_, control_, mesh.counters.triangles);
-        }
-        counts = {mesh.counters.triangles, mesh.counters.fans, detail_.resolution};
+        const terrain::GroundMesh mesh = next_mesh(view_of(camera, aspect));
+        counts = {mesh.counters.triangles, mesh.counters.fans, mesh.resolution};
         return {mesh.vertices, mesh.indices};
     }
 
 private:
+    terrain::GroundMesh next_mesh(const terrain::MeshView& view) {
+        if (exact_) {
+            return mesher_.mesh_within(view, detail_, budget_);
+        }
+        detail_.resolution = state_.resolution;
+        const terrain::GroundMesh mesh = mesher_.mesh(view, detail_);
+        if (!fixed_resolution_) {
+            state_ = terrain::next_state(state_, control_, mesh.counters.triangles);
+        }
+        return mesh;
+    }
+
     static terrain::MeshView view_of(const Camera& camera, double aspect) {
         const double zoom =
             std::tan(reference_fov_rad / 2.0) / std::tan(camera.vertical_fov_rad / 2.0);
@@ -121,10 +135,12 @@ private:
     std::vector<std::uint32_t> colours_;
     terrain::Mesher mesher_;
     terrain::ControlSettings control_;
+    terrain::TriangleBudget budget_;
     terrain::Detail detail_;
     terrain::DetailState state_;
     glm::vec3 mean_colour_;
     double mean_height_m_ = 0.0;
+    bool exact_;
     bool fixed_resolution_;
     double first_resolution_;
 };

@@ -17,7 +17,7 @@ enum class ContextKind { OsMesa, Egl };
 enum class GroundMetric { Printed, Midpoint };
 enum class Propagation { CrackFree, Printed };
 enum class GroundFans { Partial, Full };
-enum class DetailControl { Previous, Damped, Literal, Fixed };
+enum class DetailControl { Exact, Damped, Previous, Literal, Fixed };
 enum class Palette { Temperate, Arid };
 
 /// Everything that decides what a run shows. A run is repeated by repeating its Settings; each
@@ -55,7 +55,7 @@ struct Settings {
     GroundMetric mesh = GroundMetric::Midpoint;
     Propagation propagation = Propagation::CrackFree;
     GroundFans fans = GroundFans::Partial;
-    DetailControl detail = DetailControl::Damped;
+    DetailControl detail = DetailControl::Exact;
     int triangles = 20000;
     double resolution_c = 0.0; ///< C of the first frame; 0 = the one that meets the triangle target
     std::optional<double>

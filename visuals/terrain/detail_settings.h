@@ -83,4 +83,12 @@ struct ControlSettings {
 
 inline constexpr int max_remembered_frames = 8;
 
+/// How many triangles a mesh may have. Paper: none; it steers by the meshes of earlier frames.
+struct TriangleBudget {
+    int triangles = 20000; ///< at least 1
+    /// C is kept at or below it, also where that leaves triangles unspent. 500: the short sides of
+    /// flat triangles, half a node's edge, are 1 mrad, 0.87 pixels of 720 lines over 45 degrees.
+    double max_resolution = 500.0;
+};
+
 } // namespace octant::visuals::terrain

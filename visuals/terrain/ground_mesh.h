@@ -25,7 +25,7 @@ struct MeshView {
 struct MeshCounters {
     int triangles = 0;
     int fans = 0;          ///< nodes that gave at least one triangle
-    int nodes_visited = 0; ///< nodes tested for culling or splitting
+    int nodes_visited = 0; ///< how often nodes were tested for culling or splitting
 };
 
 /// The ground for one view. The memory is the mesher's and lasts until its next mesh.
@@ -33,6 +33,7 @@ struct GroundMesh {
     std::span<const models::ColourVertex> vertices; ///< used samples, each once
     std::span<const std::uint32_t> indices; ///< triangles, counter-clockwise seen from above
     MeshCounters counters;
+    double resolution = 0.0; ///< C it was made with, before magnification
 };
 
 /// A node that is in the mesh: its centre is a vertex, unless all four quadrants are split.

@@ -1,9 +1,12 @@
 #pragma once
 
 #include "models/colour_vertex.h"
+#include "visuals/terrain/budget_survey.h"
 #include "visuals/terrain/detail_settings.h"
+#include "visuals/terrain/fan_shape.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/quadtree.h"
+#include "visuals/terrain/split_rule.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +29,13 @@ public:
     /// `detail.roughness_weight` is at least 0 and below 1e6 (asserted).
     GroundMesh mesh(const MeshView& view, const Detail& detail);
 
+    /// The mesh at the largest C up to which none has more triangles than the budget, whatever was
+    /// meshed before; `detail.resolution` is not looked at. It has as many as the steps of N(C)
+    /// allow, fewer where C ends at `budget.max_resolution`, and more only where those at the
+    /// tree's smallest C already are. mesh() at the C returned makes the same triangles.
+    GroundMesh
+    mesh_within(const MeshView& view, const Detail& detail, const TriangleBudget& budget);
+
     /// Nodes of the last mesh in drawing order, parents before children, also those without
     /// triangles of their own.
     std::span<const GroundFan> fans() const { return fans_; }
@@ -33,28 +43,15 @@ public:
     const Quadtree& tree() const { return *tree_; }
 
 private:
-    struct Sample {
-        int column;
-        int row;
-    };
+    bool wants_split(int level, int column, int row) const {
+        return rule_.critical_squared(level, column, row) < limit_;
+    }
 
-    /// What the split rule and the culling need of a level in this frame.
-    struct LevelView {
-        int edge;          ///< samples
-        int columns;       ///< nodes
-        int rows;          ///< nodes
-        std::size_t first; ///< node
-        float half_edge;   ///< samples
-        float reach;       ///< C d in samples: flat nodes nearer than this split
-    };
-
-    void look_from(const MeshView& view, const Detail& detail);
-    bool wants_split(int level, int column, int row) const;
     bool is_split(int level, int column, int row) const;
-    unsigned planes_cutting_node(const GroundFan& node, unsigned planes) const;
     void visit(GroundFan fan, unsigned planes);
-    void make_room();
-    void emit(const GroundFan& fan);
+    void make_room(std::size_t fans);
+    GroundMesh finished();
+    void emit(const GroundFan& fan, unsigned middles);
     unsigned middles_of(const GroundFan& fan) const;
     bool has_neighbour(const GroundFan& fan, int east, int north) const;
     std::uint32_t vertex_at(Sample at);
@@ -62,15 +59,9 @@ private:
     const Quadtree* tree_;
     std::span<const std::uint32_t> colours_;
 
-    MeshView view_;
-    FanKind fan_kind_ = FanKind::Partial;
-    float roughness_weight_ = 0.0F;
-    float eye_column_ = 0.0F;
-    float eye_row_ = 0.0F;
-    float eye_height_squared_ = 0.0F; ///< samples^2
-    double west_m_ = 0.0;             ///< of the field, eye subtracted
-    double south_m_ = 0.0;            ///< of the field, eye subtracted
-    std::vector<LevelView> levels_;
+    SplitRule rule_;
+    BudgetSurvey survey_;
+    float limit_ = 0.0F; ///< SplitRule::limit_squared of the mesh
 
     std::vector<GroundFan> fans_;
     std::vector<std::uint8_t> in_mesh_;           ///< per node, all 0 between frames

@@ -1,0 +1,236 @@
+#include "tests/terrain/ground_check.h"
+#include "visuals/terrain/mesher.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace octant::visuals::terrain;
+using namespace octant::visuals::terrain::test;
+using octant::models::ColourVertex;
+using octant::models::HeightField;
+
+namespace {
+
+/// A tree and a mesher over a field that stays where it is.
+struct Ground {
+    explicit Ground(HeightField made, const QuadtreeOptions& options = {})
+        : field(std::move(made))
+        , colours(numbered_colours(field))
+        , tree(field, options)
+        , mesher(tree, colours) {}
+
+    HeightField field;
+    std::vector<std::uint32_t> colours;
+    Quadtree tree;
+    Mesher mesher;
+};
+
+struct Copy {
+    explicit Copy(const GroundMesh& mesh)
+        : vertices(mesh.vertices.begin(), mesh.vertices.end())
+        , indices(mesh.indices.begin(), mesh.indices.end())
+        , triangles(mesh.counters.triangles)
+        , fans(mesh.counters.fans)
+        , resolution(mesh.resolution) {}
+
+    bool operator==(const Copy& other) const {
+        return indices == other.indices && vertices.size() == other.vertices.size() &&
+               std::memcmp(
+                   vertices.data(),
+                   other.vertices.data(),
+                   vertices.size() * sizeof(ColourVertex)) == 0 &&
+               triangles == other.triangles && fans == other.fans && resolution == other.resolution;
+    }
+
+    std::vector<ColourVertex> vertices;
+    std::vector<std::uint32_t> indices;
+    int triangles;
+    int fans;
+    double resolution;
+};
+
+QuadtreeOptions random_options(Numbers& numbers) {
+    return {
+        numbers.coin() ? Roughness::Literal : Roughness::Midpoint,
+        numbers.next() % 4 == 0 ? Propagation::Printed : Propagation::CrackFree,
+        numbers.coin() ? 2.0 : 1.6};
+}
+
+MeshView random_view(Numbers& numbers, const HeightField& field) {
+    const glm::dvec2 reach = field.half_extent_m() * 1.3;
+    const glm::dvec3 eye_m(
+        numbers.between(-reach.x, reach.x),
+        numbers.between(-reach.y, reach.y),
+        numbers.between(-5.0, numbers.coin() ? 10.0 : 80.0));
+    MeshView view;
+    view.eye_m = eye_m;
+    if (numbers.next() % 4 != 0) {
+        view = camera_view(
+            eye_m,
+            numbers.between(0.0, 6.28),
+            numbers.between(-1.2, 0.4),
+            numbers.between(0.1, 1.6));
+    }
+    view.magnification = numbers.coin() ? 1.0 : numbers.between(1.0, 8.0);
+    return view;
+}
+
+/// Ground as of a real map, flown over low; steps of N are small against 3000 triangles.
+Ground wide_ground() {
+    return Ground(rough_field(257, 257, 6));
+}
+
+constexpr TriangleBudget wide_budget{3000, 500.0};
+
+/// On a circle over wide_ground.
+MeshView circling(int frame) {
+    const double angle = frame * 0.02;
+    return camera_view(
+        {70.0 * std::cos(angle), 70.0 * std::sin(angle), 15.0}, angle + 1.57, -0.2, 0.9);
+}
+
+MeshView into_the_sky() {
+    return camera_view({0.0, 0.0, 200.0}, 0.3, 1.2, 0.9);
+}
+
+} // namespace
+
+TEST_CASE("a budget is kept by hand's count on four quadrants") {
+    // Children with an edge of 2 m, their centres 1.41 (once), 3.16 (twice) and 4.24 m from the
+    // corner: 0.5, 1.6 and 2.1 edges. C = 2 has 24 triangles in 4 fans, C above 2.12 has 32.
+    Ground ground(level_field(5, 5));
+    MeshView view;
+    view.eye_m = {-2.0, -2.0, 0.0};
+    const Detail detail{0.0, 5.0, FanKind::Partial};
+    CHECK(ground.mesher.mesh_within(view, detail, {24, 500.0}).counters.triangles == 24);
+    const GroundMesh short_of_32 = ground.mesher.mesh_within(view, detail, {31, 500.0});
+    CHECK(short_of_32.counters.triangles == 24);
+    CHECK(short_of_32.resolution == Approx(std::sqrt(4.5)));
+    const GroundMesh all = ground.mesher.mesh_within(view, detail, {32, 500.0});
+    CHECK(all.counters.triangles == 32);
+    CHECK(all.resolution == 500.0);
+    SECTION("nothing is coarser than the smallest C") {
+        const GroundMesh over = ground.mesher.mesh_within(view, detail, {10, 500.0});
+        CHECK(over.counters.triangles == 24);
+        CHECK(over.resolution == 2.0);
+    }
+    SECTION("nothing is finer than the largest C") {
+        const GroundMesh under = ground.mesher.mesh_within(view, detail, {1000, 2.1});
+        CHECK(under.counters.triangles == 24);
+        CHECK(under.resolution == Approx(2.1));
+    }
+    SECTION("full fans come all at once, within 4 m times C of the root's centre") {
+        const Detail full{0.0, 5.0, FanKind::Full};
+        view.eye_m = {-2.0, -2.0, 16.0};
+        CHECK(ground.mesher.mesh_within(view, full, {31, 500.0}).counters.triangles == 8);
+        CHECK(ground.mesher.mesh_within(view, full, {32, 500.0}).counters.triangles == 32);
+    }
+}
+
+TEST_CASE("the counted steps are those of the meshes, for all grounds, views and fans") {
+    int within = 0;
+    int spent = 0;
+    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+        Numbers numbers(seed);
+        const int columns = 20 + static_cast<int>(numbers.next() % 110);
+        const int rows = 20 + static_cast<int>(numbers.next() % 110);
+        Ground ground(
+            numbers.coin() ? rough_field(columns, rows, seed) : spiky_field(columns, rows, seed),
+            random_options(numbers));
+        Mesher plain(ground.tree, ground.colours);
+        for (int k = 0; k < 20; ++k) {
+            const MeshView view = random_view(numbers, ground.field);
+            Detail detail{
+                0.0, numbers.between(0.0, 10.0), numbers.coin() ? FanKind::Partial : FanKind::Full};
+            const TriangleBudget budget{
+                10 + static_cast<int>(numbers.next() % 1500), numbers.coin() ? 500.0 : 20.0};
+            const Copy got(ground.mesher.mesh_within(view, detail, budget));
+            detail.resolution = got.resolution;
+            INFO("seed " << seed << ", case " << k);
+            REQUIRE(got == Copy(plain.mesh(view, detail)));
+            const bool coarsest = got.resolution <= 1.000001 * ground.tree.options().min_resolution;
+            REQUIRE((got.triangles <= budget.triangles || coarsest));
+            within += coarsest ? 0 : 1;
+            if (got.resolution < 0.999 * budget.max_resolution &&
+                got.triangles <= budget.triangles) {
+                detail.resolution *= 1.0 + 2e-7; // beyond the next step, which is too high
+                REQUIRE(plain.mesh(view, detail).counters.triangles > budget.triangles);
+                ++spent;
+            }
+        }
+    }
+    CHECK(within > 1500);
+    CHECK(spent > 400);
+}
+
+TEST_CASE("a mesh within a budget does not depend on the meshes before") {
+    Ground ground = wide_ground();
+    Numbers numbers(5);
+    for (int frame = 0; frame < 150; ++frame) {
+        const MeshView view = random_view(numbers, ground.field);
+        const TriangleBudget budget{
+            200 + static_cast<int>(numbers.next() % 20000), numbers.coin() ? 500.0 : 30.0};
+        const Detail detail{
+            0.0, numbers.between(0.0, 20.0), numbers.coin() ? FanKind::Partial : FanKind::Full};
+        Mesher fresh(ground.tree, ground.colours);
+        const Copy expected(fresh.mesh_within(view, detail, budget));
+        REQUIRE(Copy(ground.mesher.mesh_within(view, detail, budget)) == expected);
+        REQUIRE(Copy(ground.mesher.mesh_within(view, detail, budget)) == expected);
+    }
+}
+
+TEST_CASE("along a path every mesh spends its budget to a few triangles") {
+    Ground ground = wide_ground();
+    const Detail detail{0.0, 20.0, FanKind::Partial};
+    double missing = 0.0;
+    for (int frame = 0; frame < 300; ++frame) {
+        const GroundMesh mesh = ground.mesher.mesh_within(circling(frame), detail, wide_budget);
+        REQUIRE(mesh.counters.triangles <= wide_budget.triangles);
+        REQUIRE(mesh.counters.triangles >= wide_budget.triangles - 30);
+        missing += wide_budget.triangles - mesh.counters.triangles;
+    }
+    CHECK(missing / 300 < 0.002 * wide_budget.triangles);
+}
+
+TEST_CASE("a view that swings from ground to sky and back spends its budget at once") {
+    Ground ground = wide_ground();
+    const Detail detail{0.0, 20.0, FanKind::Partial};
+    for (int swing = 0; swing < 10; ++swing) {
+        for (int frame = 0; frame < 3; ++frame) {
+            const GroundMesh sky = ground.mesher.mesh_within(into_the_sky(), detail, wide_budget);
+            REQUIRE(sky.counters.triangles < 20);
+            REQUIRE(sky.resolution == 500.0);
+        }
+        const GroundMesh mesh = ground.mesher.mesh_within(circling(swing), detail, wide_budget);
+        REQUIRE(mesh.counters.triangles <= wide_budget.triangles);
+        REQUIRE(mesh.counters.triangles >= wide_budget.triangles - 30);
+        REQUIRE(mesh.counters.nodes_visited < 20 * wide_budget.triangles);
+    }
+}
+
+TEST_CASE("a larger budget never coarsens the mesh") {
+    Ground ground = wide_ground();
+    const Detail detail{0.0, 20.0, FanKind::Partial};
+    Copy last(ground.mesher.mesh_within(circling(7), detail, {100, 500.0}));
+    for (int triangles = 150; triangles < 200000; triangles += triangles / 7) {
+        const Copy mesh(ground.mesher.mesh_within(circling(7), detail, {triangles, 500.0}));
+        CHECK(mesh.resolution >= last.resolution);
+        CHECK(mesh.triangles >= last.triangles);
+        last = mesh;
+    }
+    CHECK(last.resolution == 500.0);
+}
+
+TEST_CASE("a lens that magnifies spends the same budget at a smaller C") {
+    Ground ground = wide_ground();
+    const Detail detail{0.0, 20.0, FanKind::Partial};
+    MeshView view = circling(3);
+    const Copy plain(ground.mesher.mesh_within(view, detail, wide_budget));
+    view.magnification = 2.0;
+    const GroundMesh magnified = ground.mesher.mesh_within(view, detail, wide_budget);
+    CHECK(magnified.counters.triangles == plain.triangles);
+    CHECK(magnified.resolution == Approx(plain.resolution / 2.0));
+}

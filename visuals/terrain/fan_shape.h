@@ -1,0 +1,86 @@
+#pragma once
+
+#include "models/height_field.h"
+
+#include <algorithm>
+#include <array>
+
+namespace octant::visuals::terrain {
+
+/// All quadrants of a node; quadrant q is bit q: 0 south-west, 1 south-east, 2 north-west, 3
+/// north-east.
+inline constexpr unsigned all_quadrants = 15;
+
+/// Edges of a fan counter-clockwise from the south one: the corners are those of the two quadrants.
+struct FanEdge {
+    int corner_a_east; ///< corners in half edges from the south-west corner
+    int corner_a_north;
+    int corner_b_east;
+    int corner_b_north;
+    unsigned quadrant_a;
+    unsigned quadrant_b;
+    int beyond_east; ///< step to the node beyond the edge
+    int beyond_north;
+};
+
+inline constexpr std::array<FanEdge, 4> fan_edges = {{
+    {0, 0, 2, 0, 0, 1, 0, -1},
+    {2, 0, 2, 2, 1, 3, 1, 0},
+    {2, 2, 0, 2, 3, 2, 0, 1},
+    {0, 2, 0, 0, 2, 0, -1, 0},
+}};
+
+struct Sample {
+    int column;
+    int row;
+};
+
+/// The nine samples that the triangles of a node's fan use, those beyond the field moved onto its
+/// last column and row.
+class FanSamples {
+public:
+    FanSamples(const models::HeightField& field, int edge, int column, int row)
+        : last_column_(field.columns() - 1)
+        , last_row_(field.rows() - 1)
+        , half_(edge / 2)
+        , west_(column * edge)
+        , south_(row * edge) {}
+
+    /// Some samples were moved, so that triangles may have no area.
+    bool is_cut() const {
+        return west_ + 2 * half_ > last_column_ || south_ + 2 * half_ > last_row_;
+    }
+
+    Sample at(int half_edges_east, int half_edges_north) const {
+        return {
+            std::min(west_ + half_edges_east * half_, last_column_),
+            std::min(south_ + half_edges_north * half_, last_row_)};
+    }
+
+    Sample corner_a(const FanEdge& edge) const {
+        return at(edge.corner_a_east, edge.corner_a_north);
+    }
+
+    Sample corner_b(const FanEdge& edge) const {
+        return at(edge.corner_b_east, edge.corner_b_north);
+    }
+
+    Sample middle(const FanEdge& edge) const {
+        return at(
+            (edge.corner_a_east + edge.corner_b_east) / 2,
+            (edge.corner_a_north + edge.corner_b_north) / 2);
+    }
+
+private:
+    int last_column_;
+    int last_row_;
+    int half_;
+    int west_;
+    int south_;
+};
+
+inline bool has_area(Sample a, Sample b, Sample c) {
+    return (b.column - a.column) * (c.row - a.row) != (b.row - a.row) * (c.column - a.column);
+}
+
+} // namespace octant::visuals::terrain

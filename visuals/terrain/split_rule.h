@@ -1,0 +1,108 @@
+#pragma once
+
+#include "visuals/terrain/detail_settings.h"
+#include "visuals/terrain/ground_mesh.h"
+#include "visuals/terrain/quadtree.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace octant::visuals::terrain {
+
+/// Which nodes of a quadtree a view switches on and which it cannot see.
+class SplitRule {
+public:
+    /// What the rule needs of a level of the tree.
+    struct Level {
+        int edge;          ///< samples
+        int columns;       ///< nodes
+        int rows;          ///< nodes
+        std::size_t first; ///< node
+        float edge_samples;
+        float half_edge_samples;
+    };
+
+    /// The tree must outlive the rule.
+    explicit SplitRule(const Quadtree& tree);
+
+    /// Takes a view; `detail.resolution` is not looked at.
+    void look_from(const MeshView& view, const Detail& detail);
+
+    const Quadtree& tree() const { return *tree_; }
+
+    const MeshView& view() const { return view_; }
+
+    const Level& level(int index) const { return levels_[static_cast<std::size_t>(index)]; }
+
+    /// Index into Quadtree::nodes().
+    std::uint32_t node_at(int level_index, int column, int row) const {
+        const Level& at = levels_[static_cast<std::size_t>(level_index)];
+        return static_cast<std::uint32_t>(
+            at.first + static_cast<std::size_t>(row) * static_cast<std::size_t>(at.columns) +
+            static_cast<std::size_t>(column));
+    }
+
+    double west_m() const { return west_m_; } ///< of the field, eye subtracted
+
+    double south_m() const { return south_m_; } ///< of the field, eye subtracted
+
+    /// What critical values are compared with: the square of C, raised to the tree's smallest,
+    /// times the magnification.
+    float limit_squared(double resolution) const {
+        const double seen =
+            std::max(resolution, tree_->options().min_resolution) * view_.magnification;
+        return static_cast<float>(seen * seen);
+    }
+
+    /// The C of a limit that is not below the smallest: limit_squared of it is `limit` again.
+    double resolution_of(float limit) const;
+
+    /// Equation (3) solved for C, squared: a node's quadrant of its parent is switched on where
+    /// this is below the limit, if the parent's is. The root is always on.
+    float critical_squared(int level, int column, int row) const {
+        if (level == 0) {
+            return 0.0F;
+        }
+        return fan_kind_ == FanKind::Partial ? own_critical_squared(level, column, row)
+                                             : own_critical_squared(level - 1, column / 2, row / 2);
+    }
+
+    /// The same of the four children at (column, row) and east and north of it, by quadrant.
+    /// Anything for those that do not exist.
+    std::array<float, 4> critical_squared_of_four(int level, int column, int row) const;
+
+    /// planes_cutting for the box of a node's samples.
+    unsigned planes_cutting_node(const GroundFan& node, unsigned planes) const;
+
+private:
+    float own_critical_squared(int level, int column, int row) const {
+        return critical_squared_at(
+            levels_[static_cast<std::size_t>(level)],
+            column,
+            row,
+            roughness_of(tree_->nodes()[node_at(level, column, row)]));
+    }
+
+    float critical_squared_at(const Level& at, int column, int row, float roughness) const {
+        const float east = static_cast<float>(2 * column + 1) * at.half_edge_samples - eye_column_;
+        const float north = static_cast<float>(2 * row + 1) * at.half_edge_samples - eye_row_;
+        const float scale = at.edge_samples * std::max(roughness_weight_ * roughness, 1.0F);
+        return (east * east + north * north + eye_height_squared_) / (scale * scale);
+    }
+
+    const Quadtree* tree_;
+    std::vector<Level> levels_;
+    MeshView view_;
+    FanKind fan_kind_ = FanKind::Partial;
+    float roughness_weight_ = 0.0F;
+    float eye_column_ = 0.0F;
+    float eye_row_ = 0.0F;
+    float eye_height_squared_ = 0.0F; ///< samples^2
+    double west_m_ = 0.0;
+    double south_m_ = 0.0;
+};
+
+} // namespace octant::visuals::terrain
