@@ -1,3 +1,4 @@
+#include "models/height_field_import.h"
 #include "tests/terrain/ground_check.h"
 #include "visuals/terrain/mesher.h"
 
@@ -5,7 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <iostream>
 
 using namespace octant::visuals::terrain;
 using namespace octant::visuals::terrain::test;
@@ -233,4 +237,40 @@ TEST_CASE("a lens that magnifies spends the same budget at a smaller C") {
     const GroundMesh magnified = ground.mesher.mesh_within(view, detail, wide_budget);
     CHECK(magnified.counters.triangles == plain.triangles);
     CHECK(magnified.resolution == Approx(plain.resolution / 2.0));
+}
+
+TEST_CASE("over real maps every mesh spends its budget to a tenth of a percent") {
+    const char* const given = std::getenv("OCTANT_SHARED_DATA");
+    const std::filesystem::path data =
+        given != nullptr ? given : OCTANT_SOURCE_DIR "/../shared/data";
+    for (const char* const name : {"gcanyon_1025.tif", "pugetsound_1025.tif"}) {
+        const std::filesystem::path file = data / "terrain" / name;
+        if (!std::filesystem::exists(file)) {
+            std::cout << "SKIPPED: no " << file << '\n';
+            return;
+        }
+        Ground ground(octant::models::read_height_field(file, {30.0, 1.0}));
+        for (const int triangles : {20000, 32000}) {
+            double missing = 0.0;
+            int least = triangles;
+            for (int frame = 0; frame < 100; ++frame) {
+                const double angle = frame * 0.01;
+                const glm::dvec2 at_m = 0.5 * ground.field.half_extent_m() *
+                                        glm::dvec2(std::cos(angle), std::sin(angle));
+                const double ground_m = ground.field.height_at(at_m.x, at_m.y).value_or(0.0);
+                const MeshView view =
+                    camera_view({at_m.x, at_m.y, ground_m + 200.0}, angle + 1.57, -0.1, 0.785);
+                const int got =
+                    ground.mesher
+                        .mesh_within(view, {0.0, 20.0, FanKind::Partial}, {triangles, 500.0})
+                        .counters.triangles;
+                REQUIRE(got <= triangles);
+                least = std::min(least, got);
+                missing += triangles - got;
+            }
+            INFO(name);
+            CHECK(missing / 100 < 0.0005 * triangles);
+            CHECK(least > 0.999 * triangles);
+        }
+    }
 }

@@ -238,8 +238,10 @@ float BudgetSurvey::on_beyond(float parent, int level, int column, int row) cons
     if (column < 0 || row < 0 || column >= at.columns || row >= at.rows) {
         return 0.0F;
     }
-    return parent >= high_ ? infinite
-                           : std::max(parent, rule_->critical_squared(level, column, row));
+    if (parent >= high_) {
+        return infinite;
+    }
+    return std::max(parent, rule_->critical_squared(level, column, row));
 }
 
 } // namespace octant::visuals::terrain

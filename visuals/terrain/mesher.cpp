@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <limits>
 
 namespace octant::visuals::terrain {
@@ -46,7 +45,7 @@ GroundMesh Mesher::mesh(const MeshView& view, const Detail& detail) {
     for (const GroundFan& fan : fans_) {
         in_mesh_[fan.node] = 0;
     }
-    return finished();
+    return finished(std::max(detail.resolution, tree_->options().min_resolution));
 }
 
 GroundMesh
@@ -70,17 +69,17 @@ Mesher::mesh_within(const MeshView& view, const Detail& detail, const TriangleBu
         fans_.push_back(fan);
         emit(fan, middles);
     }
-    return finished();
+    return finished(rule_.resolution_of(limit_));
 }
 
-GroundMesh Mesher::finished() {
+GroundMesh Mesher::finished(double resolution) {
     first_stamp_ += vertex_count_;
     counters_.triangles = static_cast<int>(index_count_ / 3);
     return {
         std::span(vertices_).first(vertex_count_),
         std::span(indices_).first(index_count_),
         counters_,
-        rule_.resolution_of(limit_)};
+        resolution};
 }
 
 /// Whether a node is in the unculled mesh.

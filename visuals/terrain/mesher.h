@@ -50,7 +50,7 @@ private:
     bool is_split(int level, int column, int row) const;
     void visit(GroundFan fan, unsigned planes);
     void make_room(std::size_t fans);
-    GroundMesh finished();
+    GroundMesh finished(double resolution);
     void emit(const GroundFan& fan, unsigned middles);
     unsigned middles_of(const GroundFan& fan) const;
     bool has_neighbour(const GroundFan& fan, int east, int north) const;
