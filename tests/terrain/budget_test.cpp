@@ -41,12 +41,17 @@ struct Copy {
         , resolution(mesh.resolution) {}
 
     bool operator==(const Copy& other) const {
-        return indices == other.indices && vertices.size() == other.vertices.size() &&
-               std::memcmp(
-                   vertices.data(),
-                   other.vertices.data(),
-                   vertices.size() * sizeof(ColourVertex)) == 0 &&
-               triangles == other.triangles && fans == other.fans && resolution == other.resolution;
+        const auto same = [](const ColourVertex& a, const ColourVertex& b) {
+            return std::memcmp(&a, &b, sizeof(ColourVertex)) == 0;
+        };
+        return indices == other.indices && triangles == other.triangles && fans == other.fans &&
+               resolution == other.resolution &&
+               std::equal(
+                   vertices.begin(),
+                   vertices.end(),
+                   other.vertices.begin(),
+                   other.vertices.end(),
+                   same);
     }
 
     std::vector<ColourVertex> vertices;
