@@ -25,7 +25,7 @@ sim::AircraftState Formation::wingman_of(const sim::AircraftState& leader, int n
 double Formation::framed_radius_m(double leader_radius_m) const {
     // The camera stands three radii behind and sees a little more than a third of a right angle to
     // either side.
-    constexpr double distances_per_aside = 1.6;
+    constexpr double distances_per_aside = 2.2;
     const double distance_m = ranks_ * (distances_per_aside * aside_m_ + back_m_);
     return std::max(leader_radius_m, distance_m / 3.0);
 }

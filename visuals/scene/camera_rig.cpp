@@ -29,6 +29,7 @@ constexpr double orbit_swing_rad = rad_from_deg(55.0);
 constexpr double tower_share = 0.34; ///< of the picture's height that the aircraft's sphere fills
 constexpr double tower_least_share = 0.12; ///< the same, where the view widens for the skyline
 constexpr double skyline_margin_rad = rad_from_deg(0.6);
+constexpr double tower_reach = 0.5; ///< of the flight's extent around its origin
 constexpr double tower_least_fov_rad = rad_from_deg(0.7);
 constexpr double tower_lowered =
     0.3; ///< of the picture's height that the aircraft stands above its middle
@@ -86,7 +87,7 @@ Camera tower(const sim::AircraftState& state, const Subject& subject, const glm:
         glm::mix(close_rad, std::clamp(wanted_rad, close_rad, wide_rad), reach),
         tower_least_fov_rad);
     const glm::dquat down =
-        glm::angleAxis(-tower_lowered * camera.vertical_fov_rad, glm::dvec3(1, 0, 0));
+        glm::angleAxis(-reach * tower_lowered * camera.vertical_fov_rad, glm::dvec3(1, 0, 0));
     camera.view_to_world = glm::normalize(camera.view_to_world * down);
     return camera;
 }
@@ -167,12 +168,12 @@ glm::dvec3 tower_place(
     for (const glm::dvec3& point_m : flight_m) {
         extent_m = std::max(extent_m, glm::length(glm::dvec2(point_m) - around_m));
     }
-    constexpr int rings = 5;
-    constexpr int spokes = 12;
+    constexpr int rings = 8;
+    constexpr int spokes = 16;
     std::vector<std::pair<int, glm::dvec3>> spots; ///< samples in sight, eye point
     for (int ring = 0; ring <= rings; ++ring) {
         for (int spoke = 0; spoke < (ring == 0 ? 1 : spokes); ++spoke) {
-            const double distance_m = 0.25 * extent_m * ring / rings;
+            const double distance_m = tower_reach * extent_m * ring / rings;
             const glm::dvec2 spot_m =
                 around_m +
                 distance_m * glm::dvec2(direction_from_heading(2.0 * pi * spoke / spokes));

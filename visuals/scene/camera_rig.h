@@ -44,7 +44,7 @@ Camera camera_of(
     const FixedPoints& points,
     const GroundHeight& ground);
 
-/// A good place for the tower: within a quarter of the flight's extent around `around_m` a spot, 25
+/// A good place for the tower: within half the flight's extent around `around_m` a spot, 25
 /// m above the ground, from which as much of the flight is in sight as from any other (to 5 % of
 /// it); among those the highest, so that ground stands behind the aircraft; among equals the
 /// nearest.
