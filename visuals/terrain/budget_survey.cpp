@@ -147,7 +147,7 @@ void BudgetSurvey::visit(const Visit& from) {
     count(node, from.replaced, *triangles);
     nodes_.push_back(node);
     for (unsigned q = 0; q < 4; ++q) {
-        if ((node.fan.hidden >> q & 1U) != 0) {
+        if ((unsigned{node.fan.hidden} >> q & 1U) != 0) {
             continue;
         }
         if (node.split[q] >= high_) {
