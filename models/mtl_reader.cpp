@@ -1,5 +1,6 @@
 #include "models/mtl_reader.h"
 
+#include "models/obj_lines.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
@@ -22,7 +23,7 @@ public:
 
     std::vector<Material> read() {
         const std::string text = read_text_file(path_, largest_file_bytes);
-        for (const std::string_view line : split_lines(text)) {
+        for (const std::string_view line : split_lines(without_byte_order_mark(text))) {
             ++line_;
             const auto words = split_words(line);
             if (!words.empty() && words[0] == "newmtl") {

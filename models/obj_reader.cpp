@@ -1,6 +1,7 @@
 #include "models/obj_reader.h"
 
 #include "models/mtl_reader.h"
+#include "models/obj_lines.h"
 #include "models/polygon_check.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace octant::models {
@@ -20,7 +22,13 @@ namespace octant::models {
 namespace {
 
 constexpr std::size_t largest_file_bytes = std::size_t{256} << 20U;
-constexpr std::array<std::string_view, 6> ignored_keywords{"s", "l", "p", "vt", "vn", "vp"};
+/// All other keywords of the OBJ specification: lines and points, free-form curves and surfaces,
+/// display and rendering attributes, calls.
+constexpr std::array<std::string_view, 33> ignored_keywords{
+    "s",        "l",    "p",      "vt",     "vn",         "vp",        "mg",    "bevel", "c_interp",
+    "d_interp", "lod",  "maplib", "usemap", "shadow_obj", "trace_obj", "ctech", "stech", "cstype",
+    "deg",      "bmat", "step",   "curv",   "curv2",      "surf",      "parm",  "trim",  "hole",
+    "scrv",     "sp",   "end",    "con",    "call",       "csh"};
 
 using Words = std::vector<std::string_view>;
 
@@ -66,9 +74,10 @@ public:
 
     PolygonModel read() {
         const std::string text = read_text_file(path_, largest_file_bytes);
-        for (const std::string_view line : split_lines(text)) {
-            ++line_;
-            take(line);
+        ObjLines lines(text);
+        while (lines.next()) {
+            line_ = lines.number();
+            take(lines.text());
         }
         if (model_.polygons.empty()) {
             error_in(path_, "expected at least one polygon (f), got none");
@@ -108,7 +117,7 @@ private:
             material_ = name_after(line, "material");
             material_line_ = line_;
         } else if (keyword == "mtllib") {
-            take_material_file(name_after(line, "file"));
+            take_material_files(name_after(line, "file"), words);
         } else if (std::ranges::find(ignored_keywords, keyword) == ignored_keywords.end()) {
             refuse(fmt::format(
                 "expected an OBJ line (v, f, g, o, usemtl, mtllib), got {}", in_quotes(keyword)));
@@ -197,16 +206,49 @@ private:
         polygon_lines_.push_back(line_);
     }
 
-    void take_material_file(const std::string& name) {
+    /// `all` is the line after its keyword: one name with blanks if there is such a file or none
+    /// of the words is one, else a name a word.
+    void take_material_files(const std::string& all, const Words& words) {
+        if (take_material_file(all)) {
+            return;
+        }
+        std::vector<std::string> missing;
+        for (std::size_t i = 1; i < words.size(); ++i) {
+            const std::string name(words[i]);
+            if (!take_material_file(name)) {
+                missing.push_back(name);
+            }
+        }
+        if (missing.size() + 1 == words.size()) {
+            missing = {all};
+        }
+        for (const std::string& name : missing) {
+            note_missing(name);
+        }
+    }
+
+    /// False when there is no such file.
+    bool take_material_file(const std::string& name) {
         const std::filesystem::path file = path_.parent_path() / name;
         std::error_code ignored;
         if (!std::filesystem::exists(file, ignored)) {
-            refuse(fmt::format("expected the material file {}, found none", in_quotes(name)));
+            return false;
         }
         for (const Material& material : read_mtl(file)) {
             colours_.insert_or_assign(material.name, material.colour);
         }
         has_material_file_ = true;
+        return true;
+    }
+
+    void note_missing(const std::string& name) {
+        if (missing_files_.insert(name).second) {
+            model_.notes.push_back(fmt::format(
+                "{}:{}: material file {} is missing, its materials are drawn grey",
+                path_.string(),
+                line_,
+                printable(name)));
+        }
     }
 
     void take_comment(const Words& words, std::string_view line) {
@@ -246,7 +288,7 @@ private:
             const auto known = colours_.find(material.name);
             if (known != colours_.end()) {
                 material.colour = known->second;
-            } else if (has_material_file_ && materials_.line_of(i) > 0) {
+            } else if (has_material_file_ && missing_files_.empty() && materials_.line_of(i) > 0) {
                 error_at(
                     path_,
                     materials_.line_of(i),
@@ -291,6 +333,7 @@ private:
     int material_line_ = 0;
     std::map<std::string, glm::vec3> colours_;
     bool has_material_file_ = false;
+    std::set<std::string> missing_files_;
     std::vector<int> polygon_lines_;
     std::vector<PivotLine> pivots_;
     int line_ = 0;

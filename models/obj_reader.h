@@ -18,18 +18,24 @@ inline constexpr double most_obj_coordinate_m = 1e7;
 ///
 /// Read: v (what follows three coordinates is ignored), f (n-gons; corners as 7, 7/1, 7//3 or
 /// 7/1/3; negative numbers count back from the last vertex), g and o (parts; polygons before the
-/// first belong to "default"), usemtl ("default" before the first), mtllib (one file name a line,
-/// beside the OBJ file), and comments of the form
+/// first belong to "default"), usemtl ("default" before the first), mtllib (files beside the
+/// OBJ file: one whose name may have blanks, or several), and comments of the form
 ///     # pivot NAME X Y Z axis AX AY AZ
 /// which say that part NAME turns about the axis through a point (a "# pivot" comment without the
-/// word axis stays a comment). s, l, p, vt, vn, vp and other comments are ignored.
+/// word axis stays a comment). The other keywords of the OBJ
+/// specification (s, l, p, vt, vn, vp, curves and surfaces, attributes, calls) and other comments
+/// are ignored. A backslash at the end of a line joins the next one to it (obj_lines.h); messages
+/// then name the line where it begins. A UTF-8 byte order mark is skipped.
 ///
 /// Vertices stay in file order, also unused ones; parts and materials come in the order of their
 /// first polygon. A file without mtllib keeps its material names, all in the default colour.
+/// So do materials that no file knows when a material file is missing, which PolygonModel::notes
+/// says.
 ///
 /// Throws Error "file:line: expected ..., got ..." for anything else: other keywords, numbers that
 /// cannot be read, NaN and infinity, indices out of range, what polygon_fault (polygon_check.h)
-/// finds, a material or material file that is missing, a pivot of a part without polygons or
+/// finds, a material that none of the material files
+/// knows although all are there, a pivot of a part without polygons or
 /// without an axis, more than the bounds above; "file: ..." for binary data and a file without
 /// polygons.
 PolygonModel read_obj(const std::filesystem::path& path, const FileAxes& axes = {});

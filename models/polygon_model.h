@@ -41,6 +41,7 @@ struct PolygonModel {
     std::vector<Material> materials;            ///< at least one
     std::vector<std::string> parts;             ///< OBJ groups in file order, at least one
     std::vector<Pivot> pivots;                  ///< at most one for each part
+    std::vector<std::string> notes; ///< what its file lacks, each "file:line: ..."; often none
 
     /// Vertex indices of one polygon.
     std::span<const std::uint32_t> corners(std::size_t polygon) const {

@@ -1,0 +1,56 @@
+#include "models/obj_lines.h"
+
+#include "sim/base/text_file.h"
+
+namespace octant::models {
+
+namespace {
+
+bool is_comment(std::string_view line) {
+    const std::size_t first = line.find_first_not_of(" \t");
+    return first != std::string_view::npos && line[first] == '#';
+}
+
+/// Takes the backslash off the end; false when there is none.
+bool goes_on(std::string_view& line) {
+    if (!line.ends_with('\\')) {
+        return false;
+    }
+    line.remove_suffix(1);
+    return true;
+}
+
+} // namespace
+
+std::string_view without_byte_order_mark(std::string_view text) {
+    if (text.starts_with("\xef\xbb\xbf")) {
+        text.remove_prefix(3);
+    }
+    return text;
+}
+
+ObjLines::ObjLines(std::string_view text)
+    : lines_(split_lines(without_byte_order_mark(text))) {}
+
+bool ObjLines::next() {
+    if (at_ == lines_.size()) {
+        return false;
+    }
+    text_ = lines_[at_++];
+    number_ = static_cast<int>(at_);
+    if (is_comment(text_) || !goes_on(text_)) {
+        return true;
+    }
+    joined_ = text_;
+    bool more = true;
+    while (more && at_ < lines_.size()) {
+        std::string_view part = lines_[at_++];
+        more = goes_on(part);
+        joined_ += ' ';
+        joined_ += part;
+    }
+    text_ = joined_;
+    return true;
+}
+
+} // namespace octant::models
