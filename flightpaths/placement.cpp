@@ -46,6 +46,10 @@ glm::dquat turn_by(double heading_rad) {
     return glm::angleAxis(-heading_rad, glm::dvec3(0.0, 0.0, 1.0));
 }
 
+std::string where(double time_s, const glm::dvec3& place_m) {
+    return fmt::format("t = {:.1f} s, x = {:.1f}, y = {:.1f} m", time_s, place_m.x, place_m.y);
+}
+
 /// Ground along a path, or where it leaves the map.
 struct GroundTrack {
     std::vector<double> heights_m;
@@ -66,6 +70,20 @@ GroundTrack ground_along(const std::vector<glm::dvec3>& places_m, const GroundHe
     return track;
 }
 
+/// Heights of the ground along a path; throws where it leaves the map.
+std::vector<double> heights_on_map(
+    const std::vector<double>& times_s,
+    const std::vector<glm::dvec3>& places_m,
+    const GroundHeight& ground) {
+    GroundTrack track = ground_along(places_m, ground);
+    if (track.leaves_at) {
+        throw Error(
+            "path leaves the map at " +
+            where(times_s[*track.leaves_at], places_m[*track.leaves_at]));
+    }
+    return std::move(track.heights_m);
+}
+
 std::vector<glm::dvec3>
 turned(const std::vector<glm::dvec3>& places_m, double heading_rad, const glm::dvec2& origin_m) {
     const glm::dquat turn = turn_by(heading_rad);
@@ -75,10 +93,6 @@ turned(const std::vector<glm::dvec3>& places_m, double heading_rad, const glm::d
         out.push_back(turn * place + glm::dvec3(origin_m, 0.0));
     }
     return out;
-}
-
-std::string where(double time_s, const glm::dvec3& place_m) {
-    return fmt::format("t = {:.1f} s, x = {:.1f}, y = {:.1f} m", time_s, place_m.x, place_m.y);
 }
 
 struct Choice {
@@ -180,10 +194,15 @@ lowest_of(const std::vector<glm::dvec3>& places_m, const std::vector<double>& gr
     return lowest;
 }
 
-[[noreturn]] void refuse_contact(
+/// Throws where a path meets the ground.
+void check_clear(
     const std::vector<double>& times_s,
     const std::vector<glm::dvec3>& places_m,
     const std::vector<double>& ground_heights_m) {
+    const double clearance_m = lowest_of(places_m, ground_heights_m).clearance_m;
+    if (clearance_m > 0.0) {
+        return;
+    }
     std::size_t first = 0;
     while (first + 1 < places_m.size() && places_m[first].z > ground_heights_m[first]) {
         ++first;
@@ -191,7 +210,7 @@ lowest_of(const std::vector<glm::dvec3>& places_m, const std::vector<double>& gr
     throw Error(fmt::format(
         "path meets the ground at {}, and is {:.1f} m below it at its lowest",
         where(times_s[first], places_m[first]),
-        -lowest_of(places_m, ground_heights_m).clearance_m));
+        0.0 - clearance_m));
 }
 
 double least_added_m(const sim::Trajectory& before, const sim::Trajectory& after) {
@@ -219,6 +238,12 @@ sim::Trajectory following(
 
 } // namespace
 
+void check_over_ground(const sim::Trajectory& in_world, const GroundHeight& ground) {
+    const std::vector<double> times_s = step_times(in_world);
+    const std::vector<glm::dvec3> places_m = places_along(in_world, times_s);
+    check_clear(times_s, places_m, heights_on_map(times_s, places_m, ground));
+}
+
 PlacedPath place_over_ground(
     const sim::Trajectory& path,
     const Placement& placement,
@@ -229,28 +254,23 @@ PlacedPath place_over_ground(
     const Choice choice = chosen(places_along(path, times_s), times_s, placement, ground);
     const sim::Trajectory over = moved(path, choice);
     std::vector<glm::dvec3> places_m = places_along(over, times_s);
-    const GroundTrack track = ground_along(places_m, ground);
-    if (track.leaves_at) {
-        throw Error(
-            "path leaves the map at " +
-            where(times_s[*track.leaves_at], places_m[*track.leaves_at]));
-    }
+    const std::vector<double> ground_m = heights_on_map(times_s, places_m, ground);
     sim::Trajectory placed = over;
     if (placement.mode == HeightMode::Follow) {
-        placed = following(over, places_m, track.heights_m, min_clearance_m, limits);
+        placed = following(over, places_m, ground_m, min_clearance_m, limits);
         places_m = places_along(placed, times_s);
     }
-    Lowest lowest = lowest_of(places_m, track.heights_m);
+    Lowest lowest = lowest_of(places_m, ground_m);
     const double missing_m = min_clearance_m - lowest.clearance_m;
     // Between samples a curve may dip a little below the envelope that the samples lie on.
     if (placement.mode == HeightMode::Clear ||
         (placement.mode == HeightMode::Follow && missing_m > 0.0)) {
         placed = raised(placed, missing_m);
         places_m = places_along(placed, times_s);
-        lowest = lowest_of(places_m, track.heights_m);
+        lowest = lowest_of(places_m, ground_m);
     }
-    if (lowest.clearance_m <= 0.0 && placement.mode == HeightMode::Datum) {
-        refuse_contact(times_s, places_m, track.heights_m);
+    if (placement.mode == HeightMode::Datum) {
+        check_clear(times_s, places_m, ground_m);
     }
     const double offset_m = least_added_m(over, placed);
     return {

@@ -52,4 +52,8 @@ PlacedPath place_over_ground(
     double min_clearance_m,
     const sim::AircraftLimits& limits);
 
+/// Looks at a path in world axes, every 1/120 s along the trajectory's curve as place_over_ground
+/// does. Throws its Error with time and place when the path leaves the map or meets the ground.
+void check_over_ground(const sim::Trajectory& in_world, const GroundHeight& ground);
+
 } // namespace octant::flightpaths

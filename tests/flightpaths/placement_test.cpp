@@ -160,6 +160,31 @@ TEST_CASE("at datum heights a path that meets the ground is refused with time an
         "its lowest");
 }
 
+TEST_CASE("a path in world axes is looked at where it is") {
+    const sim::Trajectory path = northward();
+    CHECK_NOTHROW(check_over_ground(path, flat(49.9)));
+    CHECK_THROWS_WITH(
+        check_over_ground(path, flat(50)),
+        "path meets the ground at t = 0.0 s, x = 100.0, y = 0.0 m, and is 0.0 m below it at its "
+        "lowest");
+    CHECK_THROWS_WITH(
+        check_over_ground(path, [](double, double y) { return 0.1 * y; }),
+        "path meets the ground at t = 5.0 s, x = 100.0, y = 500.0 m, and is 150.0 m below it at "
+        "its lowest");
+    CHECK_THROWS_WITH(
+        check_over_ground(path, hills(0, 1000, 1500)),
+        "path leaves the map at t = 15.0 s, x = 100.0, y = 1500.8 m");
+}
+
+TEST_CASE("what place_over_ground has placed passes the look at it") {
+    const GroundHeight ground = hills(300, 4000);
+    for (const HeightMode mode : {HeightMode::Clear, HeightMode::Follow}) {
+        const PlacedPath placed =
+            place_over_ground(northward(), {{500, -700}, 1.0, mode}, ground, 1, f15());
+        CHECK_NOTHROW(check_over_ground(placed.trajectory, ground));
+    }
+}
+
 TEST_CASE("slopes are limited to the smallest curve above") {
     const std::vector<double> up(7, 1.0);
     const std::vector<double> down(7, 2.0);
