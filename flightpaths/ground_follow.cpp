@@ -135,6 +135,11 @@ Lift level_lift(const std::vector<double>& needed_m) {
     return {std::vector<double>(needed_m.size(), most_m), zeros, zeros};
 }
 
+bool is_level(const Lift& lift) {
+    const auto [low, high] = std::minmax_element(lift.height_m.begin(), lift.height_m.end());
+    return *low == *high;
+}
+
 double at_step(const std::vector<double>& values, double step) {
     const double last = static_cast<double>(values.size() - 1);
     const double inside = std::clamp(step, 0.0, last);
@@ -204,13 +209,14 @@ std::vector<double> slope_limited(
     return needed_m;
 }
 
-sim::Trajectory lifted_over(
+LiftedPath lifted_over(
     const sim::Trajectory& path,
     const std::vector<double>& needed_m,
     const sim::AircraftLimits& limits) {
     assert(!needed_m.empty());
     const Slopes slopes = slopes_along(path, needed_m.size(), limits.climb_rate_mps);
     Lift lift = level_lift(needed_m);
+    bool refused = false;
     for (const double half_s : half_windows_s) {
         const auto half = static_cast<std::size_t>(half_s * sim::steps_per_second);
         Lift tried = rounded_lift(needed_m, slopes, half);
@@ -218,12 +224,13 @@ sim::Trajectory lifted_over(
             lift = std::move(tried);
             break;
         }
+        refused = true;
     }
     std::vector<sim::AircraftState> samples;
     for (const sim::AircraftState& state : path.samples()) {
         samples.push_back(lifted(state, lift, step_of(path, state.time_s)));
     }
-    return sim::Trajectory(std::move(samples));
+    return {sim::Trajectory(std::move(samples)), !refused || !is_level(lift)};
 }
 
 } // namespace octant::flightpaths

@@ -7,6 +7,11 @@
 
 namespace octant::flightpaths {
 
+struct LiftedPath {
+    sim::Trajectory trajectory;
+    bool follows = true; ///< false: nothing but one lift for all heights fits the limits
+};
+
 /// Lifts a path over ground, changing in time.
 ///
 /// `needed_m` is what must at least be added to the path's height at each step of sim::step_s from
@@ -14,10 +19,11 @@ namespace octant::flightpaths {
 /// can beside what the path climbs already, sinks no faster than it can climb, and both no steeper
 /// than 1 in 4. It is rounded over the shortest time that keeps the load factor within half of the
 /// aircraft's margins (or near the path's own, where that is beyond) and its onset within the
-/// limit; where no time does, the whole path is lifted by one height.
+/// limit; where no time does, or none short of levelling the whole path, that is lifted by one
+/// height and `follows` is false.
 ///
 /// Speed along the ground stays; velocity, pitch and load factor follow the new path; bank stays.
-sim::Trajectory lifted_over(
+LiftedPath lifted_over(
     const sim::Trajectory& path,
     const std::vector<double>& needed_m,
     const sim::AircraftLimits& limits);

@@ -222,7 +222,7 @@ double least_added_m(const sim::Trajectory& before, const sim::Trajectory& after
     return least_m;
 }
 
-sim::Trajectory following(
+LiftedPath following(
     const sim::Trajectory& path,
     const std::vector<glm::dvec3>& places_m,
     const std::vector<double>& ground_heights_m,
@@ -256,8 +256,11 @@ PlacedPath place_over_ground(
     std::vector<glm::dvec3> places_m = places_along(over, times_s);
     const std::vector<double> ground_m = heights_on_map(times_s, places_m, ground);
     sim::Trajectory placed = over;
+    bool follows = true;
     if (placement.mode == HeightMode::Follow) {
-        placed = following(over, places_m, ground_m, min_clearance_m, limits);
+        LiftedPath lifted = following(over, places_m, ground_m, min_clearance_m, limits);
+        follows = lifted.follows;
+        placed = std::move(lifted.trajectory);
         places_m = places_along(placed, times_s);
     }
     Lowest lowest = lowest_of(places_m, ground_m);
@@ -273,6 +276,13 @@ PlacedPath place_over_ground(
         check_clear(times_s, places_m, ground_m);
     }
     const double offset_m = least_added_m(over, placed);
+    std::vector<std::string> notes;
+    if (!follows) {
+        notes.push_back(fmt::format(
+            "the ground is too steep to follow within the aircraft's limits: the whole path is "
+            "lifted by {:.1f} m",
+            offset_m));
+    }
     return {
         std::move(placed),
         offset_m,
@@ -280,7 +290,8 @@ PlacedPath place_over_ground(
         choice.origin_m,
         lowest.clearance_m,
         times_s[lowest.step],
-        places_m[lowest.step]};
+        places_m[lowest.step],
+        std::move(notes)};
 }
 
 } // namespace octant::flightpaths

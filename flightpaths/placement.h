@@ -8,6 +8,8 @@
 
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace octant::flightpaths {
 
@@ -17,7 +19,8 @@ using GroundHeight = std::function<std::optional<double>(double x_m, double y_m)
 enum class HeightMode {
     Clear,  ///< the whole path lifted (or lowered) by one height: its lowest clearance over the
             ///< ground is the wanted one
-    Follow, ///< heights are heights over a smoothed ground, as far as the aircraft can follow it
+    Follow, ///< heights are heights over a smoothed ground; where the aircraft cannot follow any,
+            ///< the whole path is lifted by one height, and a note says so
     Datum   ///< heights as they are
 };
 
@@ -39,9 +42,12 @@ struct PlacedPath {
     double lowest_clearance_m = 0.0;
     double lowest_clearance_at_s = 0.0;
     glm::dvec3 lowest_clearance_place_m{0.0}; ///< of the aircraft then
+    std::vector<std::string> notes;           ///< what was not done as wanted, a sentence each
 };
 
-/// Puts a path over ground. Clearances are looked at every 1/120 s along the trajectory's curve.
+/// Puts a path over ground. A clearance is the height of the aircraft's reference point (the origin
+/// of its body axes) over the ground right below it; lower parts of the aircraft are not looked at.
+/// Clearances are looked at every 1/120 s along the trajectory's curve.
 /// `limits` matter for HeightMode::Follow only, which guarantees `min_clearance_m` as Clear does.
 /// Throws Error with time and place when the path leaves the map or, with its heights as they are,
 /// meets the ground.

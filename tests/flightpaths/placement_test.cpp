@@ -37,12 +37,16 @@ GroundHeight hills(double height_m, double wave_m, double half_map_m = 1e6) {
     };
 }
 
-/// Straight north along x = 100, 50 m up, 100 m/s, 20 s.
-sim::Trajectory northward() {
+/// Straight north along x = 100, 50 m up.
+sim::Trajectory northward(double speed_mps = 100, int duration_s = 20) {
     std::vector<sim::AircraftState> samples;
-    for (int i = 0; i <= 400; ++i) {
+    for (int i = 0; i <= 20 * duration_s; ++i) {
         samples.push_back(
-            {0.05 * i, {100, 5.0 * i, 50}, {0, 100, 0}, body_to_world_from_euler({}), 1.0});
+            {0.05 * i,
+             {100, 0.05 * speed_mps * i, 50},
+             {0, speed_mps, 0},
+             body_to_world_from_euler({}),
+             1.0});
     }
     return sim::Trajectory(samples);
 }
@@ -196,6 +200,7 @@ TEST_CASE("following level ground adds its height and nothing else") {
     const PlacedPath placed =
         place_over_ground(northward(), {{0, 0}, 0.0, HeightMode::Follow}, flat(120), 30, f15());
     CHECK(placed.offset_m == Approx(120));
+    CHECK(placed.notes.empty());
     for (const auto& state : placed.trajectory.samples()) {
         CHECK(state.position_m.z == Approx(170));
         CHECK(state.velocity_mps.z == Approx(0).margin(1e-9));
@@ -262,6 +267,7 @@ TEST_CASE("a followed path's velocity is the slope of its heights") {
         most_mps = std::max(most_mps, std::abs(slope_mps));
     }
     CHECK(most_mps > 5.0); // it does follow
+    CHECK(placed.notes.empty());
 }
 
 TEST_CASE("steep ground is cleared even where it cannot be followed") {
@@ -270,4 +276,26 @@ TEST_CASE("steep ground is cleared even where it cannot be followed") {
         northward(), {{0, 0}, 0.0, HeightMode::Follow}, wall, 30, *sim::limits_of("500md"));
     CHECK(placed.lowest_clearance_m >= 30 - 1e-9);
     CHECK(lowest_clearance_m(placed.trajectory, wall) >= 30 - 1e-6);
+    CHECK(placed.notes.empty());
+}
+
+TEST_CASE("a path that is lifted by one height because it cannot follow says so") {
+    sim::AircraftLimits gentle = f15();
+    gentle.most_load_factor = 1.05;
+    gentle.least_load_factor = 0.95;
+    const auto check = [&](const sim::Trajectory& path, const GroundHeight& ground) {
+        const PlacedPath placed =
+            place_over_ground(path, {{0, 0}, 0.0, HeightMode::Follow}, ground, 30, gentle);
+        CHECK(placed.offset_m == Approx(600));
+        CHECK(placed.lowest_clearance_m == Approx(50));
+        CHECK(
+            placed.notes ==
+            std::vector<std::string>{
+                "the ground is too steep to follow within the aircraft's limits: the whole path is "
+                "lifted by 600.0 m"});
+    };
+    // No rounding fits over the wall; the first that fits the valley fills it to the brim.
+    check(
+        northward(200, 100), [](double, double y) { return y > 10000 && y < 10100 ? 600.0 : 0.0; });
+    check(northward(), [](double, double y) { return y > 250 && y < 1750 ? 0.0 : 600.0; });
 }
