@@ -210,7 +210,7 @@ PathScript read_path_script(const std::filesystem::path& file) {
             fmt::format(
                 "expected samples for at most {:.0f} s, got {:.0f} s", longest_s, duration_s));
     }
-    script.min_clearance_m = fields.required_number("min_clearance", "m", {0.0, 40000.0});
+    script.min_clearance_m = fields.required_number("min_clearance", "m", {1.0, 40000.0});
     script.angle_of_attack_rad_per_g =
         fields.number("angle_of_attack", "rad_per_g", {0.0, rad_from_deg(5.0)}).value_or(0.0);
     read_start(file, fields.required_table("start"), script);

@@ -44,7 +44,8 @@ struct PathScript {
     std::string title;
     int rate_hz = 20;             ///< samples a second; divides sim::steps_per_second
     int samples = 0;              ///< at least 2
-    double min_clearance_m = 0.0; ///< lowest clearance over the ground that the path is meant for
+    double min_clearance_m = 1.0; ///< lowest clearance over the ground that the path is meant for,
+                                  ///< at least 1
     double angle_of_attack_rad_per_g = 0.0;
     int start_line = 1;   ///< where [start] begins in the file
     double north_m = 0.0; ///< start

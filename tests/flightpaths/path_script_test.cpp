@@ -135,6 +135,13 @@ TEST_CASE("a number out of its bounds is refused in the unit it was given in") {
         fault_with("rate_hz = 20", "rate_hz = -20") ==
         "3: expected rate_hz from 1 to 120, got -20");
     CHECK(
+        fault_with("min_clearance_m = 50", "min_clearance_m = 0") ==
+        "5: expected min_clearance_m from 1 to 40000, got 0");
+    CHECK(
+        fault_with("min_clearance_m = 50", "min_clearance_ft = 3") ==
+        "5: expected min_clearance_ft from 3.28084 to 131234, got 3");
+    CHECK(fault_with("min_clearance_m = 50", "min_clearance_m = 1") == "no error");
+    CHECK(
         fault_with("rate_hz = 20", "rate_hz = 7") ==
         "3: expected a rate_hz that divides 120, got 7");
     CHECK(
