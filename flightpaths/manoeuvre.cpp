@@ -78,9 +78,9 @@ Controls LegPilot::controls(const PointMass& now, double since_s) const {
 }
 
 bool LegPilot::done(const PointMass& now, double since_s) const {
-    constexpr double half_step_s = 1e-9;
+    constexpr double rounding_s = 1e-9;
     if (leg_.duration_s) {
-        return since_s >= *leg_.duration_s - half_step_s;
+        return since_s >= *leg_.duration_s - rounding_s;
     }
     if (leg_.to_height_m) {
         return *leg_.to_height_m >= start_height_m_ ? now.position_m.z >= *leg_.to_height_m

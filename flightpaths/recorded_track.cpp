@@ -22,6 +22,7 @@ namespace {
 constexpr double fastest_mps = 3000.0;
 constexpr double furthest_m = 1e7;
 constexpr double longest_s = 86400.0;
+constexpr double latest_s = 1e7;
 
 /// What a column means; the value of each column is in the unit of its name.
 enum Quantity {
@@ -198,6 +199,13 @@ Row own_from_jsbsim(Row row, std::optional<GeoOrigin>& origin, const Source& at)
 sim::AircraftState state_from(const Row& row, const Source& at) {
     sim::AircraftState state;
     state.time_s = row[Time];
+    if (std::abs(state.time_s) > latest_s) {
+        at.refuse(fmt::format(
+            "expected a time from -{:.0f} s to {:.0f} s, got {:.10g} s",
+            latest_s,
+            latest_s,
+            state.time_s));
+    }
     state.position_m = {row[East], row[North], row[Altitude]};
     if (!(glm::length(state.position_m) <= furthest_m)) {
         at.refuse(fmt::format(

@@ -24,7 +24,8 @@ struct RecordedTrack {
 ///           V_{Down} (ft/s)
 /// What is optional and missing is made from the motion (motion_fill.h). Throws Error with file and
 /// line for a missing or doubled column, too few fields, what is no finite number, times that do
-/// not increase or span more than a day, fewer than 2 samples, a speed above 3000 m/s.
+/// not increase, span more than a day or lie more than 1e7 s from zero, fewer than 2 samples, a
+/// speed above 3000 m/s.
 RecordedTrack read_recorded_track(const std::filesystem::path& file);
 
 } // namespace octant::flightpaths

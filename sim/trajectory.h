@@ -22,8 +22,8 @@ public:
 
     double end_s() const { return samples_.back().time_s; }
 
-    /// State at `time_s`; before the start and after the end the first and last sample, at rest in
-    /// their place. O(log samples).
+    /// State at `time_s`; before the start the first sample and after the end the last one as it
+    /// is, with its own time and velocity. O(log samples).
     AircraftState state_at(double time_s) const;
 
 private:

@@ -169,8 +169,18 @@ TEST_CASE("wrong tracks are refused with line and what was expected") {
         fault_of(own_head + "0,0,0,0\n1,0,0,0\n1,0,0,0\n") ==
         "4: expected a time after 1.000 s, got 1.000 s");
     CHECK(
-        fault_of(own_head + "0,0,0,0\n1e9,0,0,0\n") ==
-        "3: expected a time within 86400 s of the first, got 1000000000.000 s");
+        fault_of(own_head + "0,0,0,0\n1e6,0,0,0\n") ==
+        "3: expected a time within 86400 s of the first, got 1000000.000 s");
+    CHECK(
+        fault_of(own_head + "1e9,0,0,0\n1000000001,0,0,0\n") ==
+        "2: expected a time from -10000000 s to 10000000 s, got 1000000000 s");
+    CHECK(
+        fault_of(own_head + "-1e300,0,0,0\n0,0,0,0\n") ==
+        "2: expected a time from -10000000 s to 10000000 s, got -1e+300 s");
+    CHECK(
+        fault_of(own_head + "1e7,0,0,0\n10000001,0,0,0\n") ==
+        "3: expected a time from -10000000 s to 10000000 s, got 10000001 s");
+    CHECK(fault_of(own_head + "9999999,0,0,0\n1e7,0,0,0\n") == "no error");
     CHECK(
         fault_of(own_head + "0,0,0,0\n1,0,0,4000\n") ==
         "3: expected a speed of at most 3000 m/s, got 4000.0 m/s");

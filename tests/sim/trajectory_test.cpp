@@ -27,6 +27,16 @@ TEST_CASE("a trajectory goes through its samples and stays at its ends") {
     CHECK(path.state_at(9.0).position_m.x == 10.0);
 }
 
+TEST_CASE("outside its times a trajectory gives the sample at that end as it is") {
+    const Trajectory path(
+        {sample(1, {0, 0, 0}, {10, 0, 0}, 0), sample(2, {10, 0, 0}, {20, 0, 0}, 1)});
+    CHECK(path.state_at(0.0).time_s == 1.0);
+    CHECK(path.state_at(0.0).velocity_mps.x == 10.0);
+    CHECK(path.state_at(9.0).time_s == 2.0);
+    CHECK(path.state_at(9.0).velocity_mps.x == 20.0);
+    CHECK(path.state_at(9.0).body_to_world == path.samples()[1].body_to_world);
+}
+
 TEST_CASE("heading turns evenly between samples") {
     const Trajectory path({sample(0, {0, 0, 0}, {0, 0, 0}, 0), sample(1, {0, 0, 0}, {0, 0, 0}, 1)});
     const auto angles = euler_from_body_to_world(path.state_at(0.25).body_to_world);
