@@ -87,6 +87,7 @@ std::uint32_t load_model(const std::string& name, const scene::Settings& setting
     const bool built_in = file.parent_path() == data_folder() / "models";
     models::PolygonModel model = models::read_obj(
         file, built_in ? models::FileAxes() : models::FileAxes::from_text(settings.axes));
+    world.notes.insert(world.notes.end(), model.notes.begin(), model.notes.end());
     draworder::DrawOrder order = draw_order(model, settings);
     const glm::dvec3 eye_m = scene::pilot_eye_m(model);
     world.scene.models.push_back(scene::aircraft_model(std::move(model), std::move(order), eye_m));
@@ -184,7 +185,7 @@ placement_of(const scene::Settings& settings, const Script& script, const World&
     return placement;
 }
 
-Flight place_flight(const scene::Settings& settings, Script script, const World& world) {
+Flight place_flight(const scene::Settings& settings, Script script, World& world) {
     const auto ground = [&](double x_m, double y_m) {
         return world.scene.ground->height_at(x_m, y_m);
     };
@@ -194,6 +195,7 @@ Flight place_flight(const scene::Settings& settings, Script script, const World&
         ground,
         script.min_clearance_m,
         script.limits);
+    world.notes.insert(world.notes.end(), placed.notes.begin(), placed.notes.end());
     const auto stem = [](const std::string& name) {
         return std::filesystem::path(name).stem().string();
     };
@@ -211,6 +213,24 @@ Flight place_flight(const scene::Settings& settings, Script script, const World&
         .lowest_clearance_m = placed.lowest_clearance_m,
         .lowest_clearance_s = placed.lowest_clearance_at_s,
         .legs = std::move(script.legs)};
+}
+
+/// The leader's path has been laid over the ground; those beside him must clear it too.
+void check_wingmen(const World& world) {
+    const Formation formation = formation_of(world.scene);
+    for (std::size_t number = 1; number < world.scene.aircraft.size(); ++number) {
+        std::vector<sim::AircraftState> states;
+        for (const sim::AircraftState& leader : world.flight.trajectory.samples()) {
+            states.push_back(formation.wingman_of(leader, static_cast<int>(number)));
+        }
+        try {
+            flightpaths::check_over_ground(
+                sim::Trajectory(std::move(states)),
+                [&](double x_m, double y_m) { return world.scene.ground->height_at(x_m, y_m); });
+        } catch (const Error& fault) {
+            throw Error(fmt::format("wingman {}: {}", number, fault.what()));
+        }
+    }
 }
 
 void check_eye_point(const scene::Settings& settings) {
@@ -274,6 +294,7 @@ World load_world(const scene::Settings& settings) {
     Script script = load_script(settings, world);
     load_ground(settings, world);
     world.flight = place_flight(settings, std::move(script), world);
+    check_wingmen(world);
     world.points = fixed_points(settings, world);
     return world;
 }

@@ -64,13 +64,23 @@ TEST_CASE("the pilot's eye moves and rolls with the aircraft") {
     CHECK(looking(camera).y == Approx(1.0));
 }
 
-TEST_CASE("the tower looks at the aircraft and zooms in on it") {
+TEST_CASE("the tower looks at an aircraft overhead and zooms in on it") {
     const Camera camera = seen(View::Tower, level_flight(0.0));
     const glm::dvec3 to_aircraft = glm::dvec3(0, 0, 500) - camera.eye_m;
-    const double off_rad = std::acos(glm::dot(glm::normalize(to_aircraft), looking(camera)));
-    CHECK(off_rad < 0.35 * camera.vertical_fov_rad);
-    CHECK(looking(camera).z < glm::normalize(to_aircraft).z);
+    CHECK(glm::dot(glm::normalize(to_aircraft), looking(camera)) == Approx(1.0));
     CHECK(camera.vertical_fov_rad < rad_from_deg(25));
+}
+
+TEST_CASE("the tower widens for the skyline below an aircraft that is far and low") {
+    sim::AircraftState state = level_flight(0.0);
+    state.position_m = {100.0, 3000.0, 120.0};
+    const Camera camera = seen(View::Tower, state);
+    const double look_rad = std::asin(looking(camera).z);
+    const double aircraft_rad = std::asin(glm::normalize(state.position_m - camera.eye_m).z);
+    CHECK(look_rad - camera.vertical_fov_rad / 2.0 < 0.0);
+    CHECK(aircraft_rad - look_rad > 0.0);
+    CHECK(aircraft_rad - look_rad < 0.45 * camera.vertical_fov_rad);
+    CHECK(camera.vertical_fov_rad < rad_from_deg(5));
 }
 
 TEST_CASE("the orbit sees the aircraft from all eight octants") {

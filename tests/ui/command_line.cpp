@@ -79,9 +79,12 @@ run_octant(const std::vector<std::string>& arguments, const std::vector<std::str
     return run;
 }
 
-void run_octant_and_kill(const std::vector<std::string>& arguments, double after_s) {
+void run_octant_and_kill(
+    const std::vector<std::string>& arguments, const std::filesystem::path& file) {
     const pid_t child = start(arguments, {}, "/dev/null", "/dev/null");
-    std::this_thread::sleep_for(std::chrono::duration<double>(after_s));
+    for (int tenth = 0; tenth < 1200 && !std::filesystem::exists(file); ++tenth) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
     kill(child, SIGKILL);
     wait_for(child);
 }

@@ -18,8 +18,8 @@ struct ProgramRun {
 ProgramRun run_octant(
     const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
 
-/// Starts it and kills it (SIGKILL) after `after_s` seconds.
-void run_octant_and_kill(const std::vector<std::string>& arguments, double after_s);
+/// Starts it and kills it (SIGKILL) once `file` is there, at the latest after two minutes.
+void run_octant_and_kill(const std::vector<std::string>& arguments, const std::filesystem::path& file);
 
 /// An empty folder for one test, removed and made anew.
 std::filesystem::path empty_folder(const std::string& name);

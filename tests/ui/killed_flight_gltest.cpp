@@ -21,7 +21,7 @@ TEST_CASE("a flight that was killed is reported, losing at most its last second"
          "1",
          "--record",
          folder.string()},
-        6.0);
+        folder / "picture-00100.png");
     const tests::ProgramRun run = tests::run_octant({"report", folder.string()});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
