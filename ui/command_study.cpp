@@ -41,6 +41,7 @@ void add_study_command(CLI::App& program) {
             "who draws: osmesa or egl")
         ->type_name("KIND")
         ->default_str(text_of(options->settings.context));
+    flights->add_flag("--json", options->json, "print the tables as JSON");
     flights->add_flag("--quiet", options->quiet, "no progress, no notes");
     flights->footer("Example:\n  octant study flights --out tables");
     flights->callback([options] { study_flights(*options); });

@@ -247,7 +247,7 @@ void write_results(const std::vector<Measured>& measured, const StudyOptions& op
             report::load_recording(options.out / fmt::format("{}-{}", row.aircraft, row.path)));
     }
     write_file(options.out / "report.html", report::html_report(recordings, tables));
-    std::fputs(markdown.c_str(), stdout);
+    std::fputs((options.json ? json_of(tables) : markdown).c_str(), stdout);
     say(options.quiet,
         fmt::format(
             "tables: {0}/flights.md, {0}/table-5.csv, {0}/table-6.csv; report: {0}/report.html",

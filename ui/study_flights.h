@@ -9,6 +9,7 @@ namespace octant::ui {
 struct StudyOptions {
     std::filesystem::path out;
     visuals::scene::Settings settings; ///< size, samples and context are taken from it
+    bool json = false;                 ///< print the tables as JSON instead of Markdown
     bool quiet = false;
 };
 
