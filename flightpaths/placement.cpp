@@ -20,6 +20,8 @@ namespace {
 constexpr int headings = 24;
 /// Reliefs closer than this count as equal, so that rounding does not choose.
 constexpr double same_relief_m = 1e-6;
+/// A clearance of no more than this is contact, for the same reason.
+constexpr double contact_m = 1e-6;
 
 /// Every step from the start, and the end.
 std::vector<double> step_times(const sim::Trajectory& path) {
@@ -200,17 +202,17 @@ void check_clear(
     const std::vector<glm::dvec3>& places_m,
     const std::vector<double>& ground_heights_m) {
     const double clearance_m = lowest_of(places_m, ground_heights_m).clearance_m;
-    if (clearance_m > 0.0) {
+    if (clearance_m > contact_m) {
         return;
     }
     std::size_t first = 0;
-    while (first + 1 < places_m.size() && places_m[first].z > ground_heights_m[first]) {
+    while (first + 1 < places_m.size() && places_m[first].z - ground_heights_m[first] > contact_m) {
         ++first;
     }
     throw Error(fmt::format(
         "path meets the ground at {}, and is {:.1f} m below it at its lowest",
         where(times_s[first], places_m[first]),
-        0.0 - clearance_m));
+        std::max(0.0, -clearance_m)));
 }
 
 double least_added_m(const sim::Trajectory& before, const sim::Trajectory& after) {
@@ -272,9 +274,7 @@ PlacedPath place_over_ground(
         places_m = places_along(placed, times_s);
         lowest = lowest_of(places_m, ground_m);
     }
-    if (placement.mode == HeightMode::Datum) {
-        check_clear(times_s, places_m, ground_m);
-    }
+    check_clear(times_s, places_m, ground_m);
     const double offset_m = least_added_m(over, placed);
     std::vector<std::string> notes;
     if (!follows) {

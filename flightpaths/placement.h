@@ -49,8 +49,8 @@ struct PlacedPath {
 /// of its body axes) over the ground right below it; lower parts of the aircraft are not looked at.
 /// Clearances are looked at every 1/120 s along the trajectory's curve.
 /// `limits` matter for HeightMode::Follow only, which guarantees `min_clearance_m` as Clear does.
-/// Throws Error with time and place when the path leaves the map or, with its heights as they are,
-/// meets the ground.
+/// Throws Error with time and place when the path leaves the map or, in any mode, meets the ground:
+/// at datum heights, or where `min_clearance_m` is not above zero.
 PlacedPath place_over_ground(
     const sim::Trajectory& path,
     const Placement& placement,

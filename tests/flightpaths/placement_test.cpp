@@ -164,6 +164,28 @@ TEST_CASE("at datum heights a path that meets the ground is refused with time an
         "its lowest");
 }
 
+TEST_CASE("a path that meets the ground is refused in every mode") {
+    const sim::Trajectory path = northward();
+    const std::string start = "path meets the ground at t = 0.0 s, x = 100.0, y = 0.0 m, and is ";
+    for (const double height_m : {0.0, 700.0}) {
+        CHECK_THROWS_WITH(
+            place_over_ground(path, {{0, 0}, 0.0, HeightMode::Clear}, flat(height_m), 0, f15()),
+            start + "0.0 m below it at its lowest");
+    }
+    CHECK_THROWS_WITH(
+        place_over_ground(path, {{0, 0}, 0.0, HeightMode::Clear}, flat(0), -30, f15()),
+        start + "30.0 m below it at its lowest");
+    std::vector<sim::AircraftState> low(path.samples().begin(), path.samples().end());
+    for (sim::AircraftState& state : low) {
+        state.position_m.z = 0.0;
+    }
+    CHECK_THROWS_WITH(
+        place_over_ground(
+            sim::Trajectory(low), {{0, 0}, 0.0, HeightMode::Follow}, flat(120), 0, f15()),
+        start + "0.0 m below it at its lowest");
+    CHECK_NOTHROW(place_over_ground(path, {{0, 0}, 0.0, HeightMode::Clear}, flat(700), 1, f15()));
+}
+
 TEST_CASE("a path in world axes is looked at where it is") {
     const sim::Trajectory path = northward();
     CHECK_NOTHROW(check_over_ground(path, flat(49.9)));
