@@ -13,6 +13,8 @@ constexpr double time_of_step(long step) {
 }
 
 /// The last step at or before a time; a time within 1e-6 of a step below it counts as that step.
+/// For times within 1e7 s of zero, which the readers of paths see to: far beyond, a step number
+/// does not fit its type.
 constexpr long step_at(double time_s) {
     const double steps = time_s * steps_per_second + 1e-6 * steps_per_second;
     const long whole = static_cast<long>(steps);

@@ -59,4 +59,6 @@ TEST_CASE("steps and times convert without drift") {
         CHECK(sim::step_at(sim::time_of_step(step)) == step);
     }
     CHECK(sim::step_at(0.05 * 799) == 799 * 6);
+    CHECK(sim::step_at(1e7) == 1'200'000'000L);
+    CHECK(sim::step_at(-1e7) == -1'200'000'000L);
 }
