@@ -1,6 +1,7 @@
 #include "models/polygon_model.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -19,6 +20,29 @@ glm::dvec3 normal_of(const PolygonModel& model, std::size_t polygon) {
             model.vertices_m[corners[i]] - origin_m, model.vertices_m[corners[i + 1]] - origin_m);
     }
     return glm::normalize(sum);
+}
+
+Plane plane_of(const PolygonModel& model, std::size_t polygon) {
+    const glm::dvec3 normal = normal_of(model, polygon);
+    glm::dvec3 middle_m(0.0);
+    for (const std::uint32_t vertex : model.corners(polygon)) {
+        middle_m += model.vertices_m[vertex];
+    }
+    middle_m /= static_cast<double>(model.corners(polygon).size());
+    return {normal, -glm::dot(normal, middle_m)};
+}
+
+std::optional<std::uint32_t> pivot_of(const PolygonModel& model, std::size_t polygon) {
+    for (std::size_t i = 0; i < model.pivots.size(); ++i) {
+        if (model.pivots[i].part == model.polygons[polygon].part) {
+            return static_cast<std::uint32_t>(i);
+        }
+    }
+    return std::nullopt;
+}
+
+glm::dvec3 turned(const Pivot& pivot, const glm::dvec3& point_m, double angle_rad) {
+    return pivot.point_m + glm::angleAxis(angle_rad, pivot.axis) * (point_m - pivot.point_m);
 }
 
 double radius_m(const PolygonModel& model) {

@@ -7,15 +7,33 @@
 
 namespace octant::visuals::draworder {
 
-DrawOrder::DrawOrder(const OctantOrders& orders) {
-    for (const auto& list : orders.lists) {
-        add_cell(list);
-    }
+namespace {
+
+/// Signs of x, then y, then z, as octant_of() does: cell = octant.
+std::vector<DrawOrder::Node> octant_nodes() {
+    const Plane x{{1.0, 0.0, 0.0}, 0.0};
+    const Plane y{{0.0, 1.0, 0.0}, 0.0};
+    const Plane z{{0.0, 0.0, 1.0}, 0.0};
+    return {{z, 1, 4}, {y, 2, 3}, {x, ~0, ~1}, {x, ~2, ~3}, {y, 5, 6}, {x, ~4, ~5}, {x, ~6, ~7}};
 }
+
+} // namespace
+
+DrawOrder::DrawOrder(const OctantOrders& orders)
+    : DrawOrder(octant_nodes(), orders.lists) {}
 
 DrawOrder::DrawOrder(std::vector<std::uint32_t> list)
     : polygons_(std::move(list))
-    , cells_{{0, polygons_.size()}} {}
+    , cells_{{0, polygons_.size()}}
+    , list_count_(1) {}
+
+DrawOrder::DrawOrder(std::vector<Node> nodes, std::span<const std::vector<std::uint32_t>> lists)
+    : nodes_(std::move(nodes)) {
+    assert(nodes_.empty() ? lists.size() == 1 : lists.size() >= 2);
+    for (const auto& list : lists) {
+        add_cell(list);
+    }
+}
 
 void DrawOrder::add_cell(std::span<const std::uint32_t> list) {
     for (const Range& known : cells_) {
@@ -26,10 +44,16 @@ void DrawOrder::add_cell(std::span<const std::uint32_t> list) {
     }
     cells_.push_back({polygons_.size(), list.size()});
     polygons_.insert(polygons_.end(), list.begin(), list.end());
+    ++list_count_;
 }
 
 int DrawOrder::cell_of(const glm::dvec3& eye_in_body_m) const {
-    return cell_count() == 1 ? 0 : octant_of(eye_in_body_m);
+    int at = nodes_.empty() ? ~0 : 0;
+    while (at >= 0) {
+        const Node& node = nodes_[static_cast<std::size_t>(at)];
+        at = distance_m(node.plane, eye_in_body_m) >= 0.0 ? node.front : node.back;
+    }
+    return ~at;
 }
 
 DrawOrder::Range DrawOrder::range_of(int cell) const {

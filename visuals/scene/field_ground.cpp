@@ -111,6 +111,9 @@ public:
         return {mesh.vertices, mesh.indices};
     }
 
+    void triangles_in(
+        const BoxTest& /*wanted*/, std::vector<std::uint32_t>& /*triangles*/) const override {}
+
 private:
     terrain::GroundMesh next_mesh(const terrain::MeshView& view) {
         if (exact_) {

@@ -5,6 +5,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,12 +19,13 @@ enum class HiddenSurface {
     BackFace     ///< back faces removed, polygons in file order: the 1989 paper's fast, wrong way
 };
 
-/// A vertex of an aircraft as uploaded once at loading. Body axes x forward, y right, z down. 28
+/// A vertex of an aircraft as uploaded once at loading. Body axes x forward, y right, z down. 32
 /// bytes.
 struct ModelVertex {
     glm::vec3 position_m{0.0F};
     glm::vec3 normal{0.0F};
     std::uint32_t colour = 0; ///< as ColourVertex::colour
+    std::uint32_t part = 0; ///< 0 = body, k = pivot k - 1 of the model: turns with FramePlan::parts
 };
 
 /// What a renderer uploads once for an aircraft: all draw lists lie in one index buffer.
@@ -39,6 +41,28 @@ struct AircraftDraw {
     std::uint32_t index_count = 0;
     glm::mat4 body_to_eye_world{1.0F}; ///< body axes to world axes with the eye subtracted
     glm::vec3 sun_in_body{0.0F};       ///< unit vector towards the sun, body axes
+    std::uint32_t first_part = 0;      ///< index into FramePlan::parts
+};
+
+/// Planes that a draw is cut by: world axes with the eye subtracted, what lies in front of all of
+/// them is drawn. xyz = normal, w = offset.
+struct Clip {
+    static constexpr int most_planes = 8;
+    std::array<glm::vec4, most_planes> planes{};
+    int count = 0;
+};
+
+/// One step of painting after the ground.
+struct PaintStep {
+    enum class What {
+        Aircraft, ///< FramePlan::aircraft first .. first + count - 1
+        Ground    ///< ground triangles once more: FramePlan::repaint_indices first .. + count - 1
+    };
+    static constexpr std::uint32_t whole = ~std::uint32_t{0};
+    What what = What::Aircraft;
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+    std::uint32_t clip = whole; ///< index into FramePlan::clips; whole = not cut
 };
 
 /// Triangles that lie in world axes with the eye subtracted. Memory stays with the maker of the
@@ -68,8 +92,19 @@ struct FramePlan {
         false; ///< the ground's triangles are in painting order: no depth needed
     HiddenSurface hidden_surface = HiddenSurface::Octant;
     std::vector<AircraftDraw> aircraft; ///< farthest first
-    glm::vec3 ambient{0.45F};           ///< light on an aircraft from everywhere, linear
-    glm::vec3 sunlight{0.65F};          ///< light from the sun, times the cosine to it
+    std::vector<glm::mat4> parts; ///< AircraftDraw::first_part: body, then each pivot of the model
+    /// Octant, BackFace: what is painted after the ground, in this order; it names every aircraft
+    /// at least once. DepthBuffer: one step with all aircraft, nearest first.
+    std::vector<PaintStep> steps;
+    std::vector<Clip> clips;
+    std::vector<std::uint32_t> repaint_indices; ///< of ground.vertices, then shadow_vertices
+    /// Shadow pieces. Their indices count on after ground.vertices.
+    std::vector<models::ColourVertex> shadow_vertices;
+    std::vector<std::uint32_t> shadow_indices; ///< DepthBuffer: drawn on the ground; else empty,
+                                               ///< because ground.indices holds them in their place
+    glm::vec3 to_sun{0.0F, 0.0F, 1.0F};        ///< unit vector, world axes
+    glm::vec3 ambient{0.45F};                  ///< light on an aircraft from everywhere, linear
+    glm::vec3 sunlight{0.65F};                 ///< light from the sun, times the cosine to it
 };
 
 } // namespace octant::visuals::scene

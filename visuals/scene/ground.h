@@ -8,8 +8,11 @@
 
 #include <glm/vec2.hpp>
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace octant::visuals::scene {
 
@@ -48,9 +51,17 @@ public:
     /// work.
     virtual void settle(const Camera& camera, double aspect) = 0;
 
-    /// The triangles of one frame, valid until the next call, and what they cost. Advances the
-    /// detail control by one frame.
+    /// The triangles of one frame in painting order, farthest first, valid until the next call, and
+    /// what they cost. Advances the detail control by one frame.
     virtual TriangleDraw triangles(const Camera& camera, double aspect, GroundCounts& counts) = 0;
+
+    /// Whether something between two corners (world axes, metres) is looked for.
+    using BoxTest = std::function<bool(const glm::dvec3& least_m, const glm::dvec3& most_m)>;
+
+    /// Appends the numbers of those triangles of the last triangles() (3 i is the first index of
+    /// triangle i), in painting order, that lie in boxes of which `wanted` says yes; more may come.
+    virtual void
+    triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const = 0;
 
 protected:
     Ground() = default;

@@ -65,6 +65,13 @@ public:
         return {vertices_, indices_};
     }
 
+    void
+    triangles_in(const BoxTest& /*wanted*/, std::vector<std::uint32_t>& triangles) const override {
+        for (std::uint32_t i = 0; i < indices_.size() / 3; ++i) {
+            triangles.push_back(i);
+        }
+    }
+
 private:
     static glm::dvec3 world_from_body(const glm::dvec3& v) { return {v.y, v.x, -v.z}; }
 

@@ -29,6 +29,9 @@ struct PlanCounts {
     GroundCounts ground;
     int aircraft_polygons = 0;
     int draw_cell = 0; ///< of the first aircraft
+    int cuts = 0;      ///< ground triangles and aircraft polygons painted again, cut by planes
+    int unordered = 0; ///< overlaps for which no order was found; 0 but for aircraft that touch
+    int shadow_triangles = 0;
 };
 
 /// Decides what is drawn in each frame. Keeps memory that the plans point into, and the ground's

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "visuals/draworder/ordered_model.h"
 #include "visuals/scene/frame_plan.h"
 
 #include <glm/vec2.hpp>
@@ -52,6 +53,8 @@ struct Settings {
     ContextKind context = ContextKind::OsMesa;
 
     HiddenSurface hidden_surface = HiddenSurface::Octant;
+    draworder::Method order_method = draworder::Method::Tree;
+    bool shadows = true; ///< of aircraft on the ground
     GroundMetric mesh = GroundMetric::Midpoint;
     Propagation propagation = Propagation::CrackFree;
     GroundFans fans = GroundFans::Partial;
