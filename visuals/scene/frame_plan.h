@@ -89,7 +89,7 @@ struct FramePlan {
     bool ground_is_ordered =
         false; ///< the ground's triangles are in painting order: no depth needed
     HiddenSurface hidden_surface = HiddenSurface::Octant;
-    std::vector<AircraftDraw> aircraft; ///< farthest first
+    std::vector<AircraftDraw> aircraft; ///< in the order in which `steps` first names them
     std::vector<glm::mat4> parts; ///< AircraftDraw::first_part: body, then each pivot of the model
     /// Octant, BackFace: what is painted after the ground, in this order; it names every aircraft
     /// at least once. DepthBuffer: one step with all aircraft, nearest first.
