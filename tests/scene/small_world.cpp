@@ -114,7 +114,55 @@ private:
     std::vector<std::uint32_t> indices_;
 };
 
+class TriangleGround final : public scene::Ground {
+public:
+    explicit TriangleGround(std::vector<GroundTriangle> triangles)
+        : triangles_(std::move(triangles)) {}
+
+    std::optional<double> height_at(double /*x_m*/, double /*y_m*/) const override { return 0.0; }
+
+    glm::dvec2 half_extent_m() const override { return glm::dvec2(1000.0); }
+
+    double mean_height_m() const override { return 0.0; }
+
+    glm::vec3 mean_colour() const override { return glm::vec3(0.5F); }
+
+    bool is_ordered() const override { return true; }
+
+    void settle(const scene::Camera& /*camera*/, double /*aspect*/) override {}
+
+    scene::TriangleDraw triangles(
+        const scene::Camera& camera, double /*aspect*/, scene::GroundCounts& counts) override {
+        vertices_.clear();
+        indices_.clear();
+        for (const GroundTriangle& triangle : triangles_) {
+            for (const glm::dvec3& corner_m : triangle) {
+                indices_.push_back(static_cast<std::uint32_t>(vertices_.size()));
+                vertices_.push_back({glm::vec3(corner_m - camera.eye_m), 0xff808080U});
+            }
+        }
+        counts = {static_cast<int>(triangles_.size()), 0, 0.0};
+        return {vertices_, indices_};
+    }
+
+    void
+    triangles_in(const BoxTest& /*wanted*/, std::vector<std::uint32_t>& triangles) const override {
+        for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+            triangles.push_back(i);
+        }
+    }
+
+private:
+    std::vector<GroundTriangle> triangles_;
+    std::vector<models::ColourVertex> vertices_;
+    std::vector<std::uint32_t> indices_;
+};
+
 } // namespace
+
+std::unique_ptr<scene::Ground> triangle_ground(std::vector<GroundTriangle> triangles) {
+    return std::make_unique<TriangleGround>(std::move(triangles));
+}
 
 glm::dquat Dice::attitude() {
     const glm::dvec4 q(

@@ -79,7 +79,8 @@ void ShadowCaster::cast(
         return;
     }
     const glm::dvec3 place_m = hull.centre_m - to_sun_ * path_m;
-    const double size_m = radius_m(hull);
+    const HullExtent& extent = aircraft.model->hull;
+    const double size_m = 0.5 * glm::distance(extent.least_m, extent.most_m);
     // On a slope that falls away from the sun a shadow is longer than on the level.
     const double reach_m = 2.0 * size_m / to_sun_.z;
     if (2.0 * size_m < least_shadow_px * view.pixel_rad * glm::length(place_m) ||
