@@ -310,10 +310,12 @@ void Mesher::add_triangles_in(
     std::array<std::uint32_t, 4> children{}; // in drawing order
     std::size_t count = 0;
     for (unsigned q = 0; q < 4; ++q) {
-        if ((drawn >> q & 1U) == 0) {
+        const std::uint32_t child = place.child[q];
+        if ((drawn >> q & 1U) == 0 ||
+            places_[child].first_triangle == places_[child].end_triangle) {
             continue;
         }
-        children[count] = place.child[q];
+        children[count] = child;
         for (std::size_t k = count++; k > 0; --k) {
             if (places_[children[k - 1]].first_triangle > places_[children[k]].first_triangle) {
                 std::swap(children[k - 1], children[k]);
