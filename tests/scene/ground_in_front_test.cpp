@@ -29,7 +29,7 @@ GroundTriangle strip(
 
 struct Found {
     std::vector<std::uint32_t> triangles;
-    bool meets = false;
+    std::vector<std::uint32_t> meeting;
 };
 
 Found before(const HullBox& box, std::vector<GroundTriangle> triangles) {
@@ -38,7 +38,11 @@ Found before(const HullBox& box, std::vector<GroundTriangle> triangles) {
     const TriangleDraw draw = ground->triangles(Camera(), 1.0, counts);
     GroundInFront in_front;
     in_front.find(box, *ground, draw, glm::dvec3(0.0));
-    return {{in_front.triangles().begin(), in_front.triangles().end()}, in_front.meets()};
+    Found found{{}, {in_front.meeting().begin(), in_front.meeting().end()}};
+    for (const NearTriangle& near : in_front.found()) {
+        found.triangles.push_back(near.triangle);
+    }
+    return found;
 }
 
 using Numbers = std::vector<std::uint32_t>;
@@ -74,7 +78,7 @@ TEST_CASE("ground that cuts the box is told apart and comes with what lies befor
         {strip(0, 30, 120, -10, 130, 5),
          strip(0, 50, 90, -5, 110, 5),
          strip(0, 30, 50, -10, 60, 5)});
-    CHECK(found.meets);
+    CHECK(found.meeting == Numbers{1});
     CHECK(found.triangles == Numbers{1, 2});
 }
 

@@ -28,14 +28,14 @@ struct Total {
 Total paint_scenes(
     int scenes,
     int aircraft,
-    const Height& height,
+    std::unique_ptr<Ground> ground,
     const std::function<glm::dvec3(Dice&)>& place,
     const std::function<glm::dvec3(Dice&)>& eye) {
     Total total;
     Dice dice(1989);
     const Settings settings = plain_settings();
     Scene scene;
-    scene.ground = cell_ground(16, 50.0, height);
+    scene.ground = std::move(ground);
     scene.models.push_back(convex_aircraft(box_model({10.0, 3.0, 2.0})));
     scene.models.push_back(concave_aircraft(0.1));
     for (int i = 0; i < aircraft; ++i) {
@@ -65,6 +65,10 @@ Total paint_scenes(
     return total;
 }
 
+std::unique_ptr<Ground> cells(const Height& height) {
+    return cell_ground(16, 50.0, height);
+}
+
 const Height level = [](double, double) { return 0.0; };
 
 } // namespace
@@ -73,7 +77,7 @@ TEST_CASE("aircraft apart over level ground are painted right without repaints")
     const Total total = paint_scenes(
         100,
         6,
-        level,
+        cells(level),
         [](Dice& dice) {
             return dice.in_box({300, 300, 60}) + glm::dvec3(0, 0, 100);
         },
@@ -90,7 +94,7 @@ TEST_CASE("aircraft among ridges are painted right") {
     const Total total = paint_scenes(
         100,
         5,
-        rugged,
+        cells(rugged),
         [](Dice& dice) {
             const glm::dvec3 at = dice.in_box({300, 300, 0});
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(18.0, 60.0));
@@ -109,7 +113,7 @@ TEST_CASE("aircraft that touch the ground are painted right") {
     const Total total = paint_scenes(
         100,
         3,
-        rugged,
+        cells(rugged),
         [](Dice& dice) {
             const glm::dvec3 at = dice.in_box({300, 300, 0});
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(-2.0, 8.0));
@@ -129,7 +133,7 @@ TEST_CASE("aircraft close together, in rings and through each other are painted 
         const Total total = paint_scenes(
             60,
             5,
-            rugged,
+            cells(rugged),
             [&](Dice& dice) { return dice.in_box(glm::dvec3(spread_m)) + glm::dvec3(0, 0, 150); },
             [](Dice& dice) {
                 return dice.in_box({120, 120, 60}) + glm::dvec3(0, 0, 150);
@@ -139,4 +143,32 @@ TEST_CASE("aircraft close together, in rings and through each other are painted 
         CHECK(total.unordered == 0);
         CHECK(total.knots > 10);
     }
+}
+
+TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {
+    std::vector<float> heights_m;
+    for (int row = 0; row < 65; ++row) {
+        for (int column = 0; column < 65; ++column) {
+            heights_m.push_back(
+                static_cast<float>(rugged((column - 32) * 12.5, (row - 32) * 12.5)));
+        }
+    }
+    Settings settings = plain_settings();
+    settings.triangles = 600;
+    const Total total = paint_scenes(
+        60,
+        5,
+        ground_from_field({65, 65, 12.5, heights_m}, settings),
+        [](Dice& dice) {
+            const glm::dvec3 at = dice.in_box({300, 300, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(0.0, 60.0));
+        },
+        [](Dice& dice) {
+            const glm::dvec3 at = dice.in_box({380, 380, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 60.0));
+        });
+    CHECK(total.seen > 5000);
+    CHECK(total.wrong == 0);
+    CHECK(total.cuts > 100);
+    CHECK(total.unordered == 0);
 }

@@ -154,6 +154,13 @@ Plane side_of(const HullBox& box, int side) {
     return {normal, -glm::dot(normal, box.centre_m) - box.half_m[axis]};
 }
 
+void cut_to_inside(SightPolygon& polygon, const HullBox& box, SightPolygon& scratch) {
+    for (int side = 0; side < 6 && !polygon.empty(); ++side) {
+        const Plane plane = side_of(box, side);
+        cut_to_front(polygon, {-plane.normal, -plane.offset_m}, 0.0, scratch);
+    }
+}
+
 bool holds_eye(const HullBox& box) {
     return glm::all(glm::lessThanEqual(glm::abs(box.centre_m * box.axes), box.half_m));
 }

@@ -2,6 +2,7 @@
 
 #include "models/polygon_model.h"
 #include "sim/base/plane.h"
+#include "visuals/scene/sight.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
@@ -48,6 +49,9 @@ double radius_m(const HullBox& box);
 
 /// Plane of side 0 .. 5 of a box, its front outside.
 Plane side_of(const HullBox& box, int side);
+
+/// Cuts a convex polygon down to the inside of a box.
+void cut_to_inside(SightPolygon& polygon, const HullBox& box, SightPolygon& scratch);
 
 /// True for an eye inside the box or on it.
 bool holds_eye(const HullBox& box);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visuals/scene/frame_plan.h"
-#include "visuals/scene/step_writer.h"
+#include "visuals/scene/ground_frame.h"
 
 #include <cstdint>
 #include <span>

@@ -1,6 +1,6 @@
 #include "visuals/scene/ground_in_front.h"
 
-#include "visuals/scene/step_writer.h"
+#include "visuals/scene/ground_frame.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -79,7 +79,7 @@ void GroundInFront::find(
     const glm::dvec3& eye_m) {
     candidates_.clear();
     found_.clear();
-    meets_ = false;
+    meeting_.clear();
     const ConvexRoom room = sight_lines_to(box);
 
     struct Look {
@@ -106,19 +106,18 @@ void GroundInFront::find(
             continue;
         }
         const Place place = place_of(box, cone.planes());
-        meets_ = meets_ || place == Place::Meets;
         if (place != Place::Elsewhere) {
-            found_.push_back(candidate);
+            found_.push_back({candidate, place == Place::Meets});
+        }
+        if (place == Place::Meets) {
+            meeting_.push_back(candidate);
         }
     }
 }
 
 GroundInFront::Place GroundInFront::place_of(const HullBox& box, std::span<const glm::dvec3> cone) {
     part_ = triangle_;
-    for (int side = 0; side < 6 && !part_.empty(); ++side) {
-        const Plane plane = side_of(box, side);
-        cut_to_front(part_, {-plane.normal, -plane.offset_m}, 0.0, scratch_);
-    }
+    cut_to_inside(part_, box, scratch_);
     if (!part_.empty()) {
         return Place::Meets;
     }

@@ -29,6 +29,12 @@ bool may_meet(const ConvexRoom& room, const glm::dvec3& least_m, const glm::dvec
 /// A room that holds all sight lines from the eye to points of a box.
 ConvexRoom sight_lines_to(const HullBox& box);
 
+/// A triangle of the ground that hides part of a box or meets it.
+struct NearTriangle {
+    std::uint32_t triangle = 0; ///< number in Ground::triangles
+    bool meets = false;         ///< it may lie before, inside and behind the box
+};
+
 /// Finds the triangles of the ground that hide part of a box or meet it. Keeps its memory.
 ///
 /// A triangle and a box that do not meet are parted by a plane, and the eye stands on one side of
@@ -42,12 +48,11 @@ public:
         const TriangleDraw& triangles,
         const glm::dvec3& eye_m);
 
-    /// In the ground's painting order: those before the box and, when any meets it, also those that
-    /// meet it.
-    std::span<const std::uint32_t> triangles() const { return found_; }
+    /// In the ground's painting order.
+    std::span<const NearTriangle> found() const { return found_; }
 
-    /// True when a triangle meets the box, so that it may be before and behind.
-    bool meets() const { return meets_; }
+    /// Those of them that meet the box.
+    std::span<const std::uint32_t> meeting() const { return meeting_; }
 
 private:
     enum class Place { Elsewhere, Before, Meets };
@@ -55,11 +60,11 @@ private:
     Place place_of(const HullBox& box, std::span<const glm::dvec3> cone);
 
     std::vector<std::uint32_t> candidates_;
-    std::vector<std::uint32_t> found_;
+    std::vector<NearTriangle> found_;
+    std::vector<std::uint32_t> meeting_;
     SightPolygon triangle_;
     SightPolygon part_;
     SightPolygon scratch_;
-    bool meets_ = false;
 };
 
 } // namespace octant::visuals::scene

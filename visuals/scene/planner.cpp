@@ -212,19 +212,17 @@ void Planner::paint_knot(const Knot& knot, const Camera& camera, PlanCounts& cou
     for (const std::uint32_t member : order_.members(knot)) {
         members_.push_back(&placed_[member]);
     }
-    const std::span<const std::uint32_t> before = in_front_.triangles();
-    if (in_front_.meets() || members_.size() > 1) {
-        const std::span<const std::uint32_t> among =
-            in_front_.meets() ? before : std::span<const std::uint32_t>();
+    if (!in_front_.meeting().empty() || members_.size() > 1) {
         ++counts.knots;
-        counts.cuts += repaint_.paint(members_, ground_, among, rounding_px * pixel_rad_, steps_);
+        counts.cuts += repaint_.paint(
+            members_, knot.box, ground_, in_front_.meeting(), rounding_px * pixel_rad_, steps_);
         counts.unordered += repaint_.given_up();
     } else {
         steps_.paint(draw_of(*members_.front()));
     }
-    if (!in_front_.meets() && !before.empty()) {
-        steps_.paint_within(ground_, before, cone_of(knot.box).planes());
-        counts.cuts += static_cast<int>(before.size());
+    if (!in_front_.found().empty() && !holds_eye(knot.box)) {
+        steps_.paint_before(ground_, in_front_.found(), knot.box);
+        counts.cuts += static_cast<int>(in_front_.found().size());
     }
 }
 

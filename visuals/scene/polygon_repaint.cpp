@@ -25,16 +25,18 @@ AircraftDraw draw_of(const PlacedAircraft& aircraft, std::uint32_t first, std::u
 
 int PolygonRepaint::paint(
     std::span<const PlacedAircraft* const> aircraft,
+    const HullBox& box,
     const GroundFrame& ground,
-    std::span<const std::uint32_t> triangles,
+    std::span<const std::uint32_t> meeting,
     double rounding_rad,
     StepWriter& steps) {
     painted_.clear();
     corners_.clear();
     given_up_ = 0;
     ground_ = &ground;
-    for (const std::uint32_t triangle : triangles) {
+    for (const std::uint32_t triangle : meeting) {
         place_triangle(ground.all, triangle, part_);
+        cut_to_inside(part_, box, scratch_);
         note({is_ground, triangle, 0, 0, 0}, part_);
     }
     int again = 0;

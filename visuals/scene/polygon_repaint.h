@@ -22,13 +22,15 @@ namespace octant::visuals::scene {
 /// a convex part of itself by planes through the eye.
 class PolygonRepaint {
 public:
-    /// Paints the aircraft, over ground that has been painted; `triangles` (in painting order) are
-    /// those that may lie before them. `rounding_rad`: how far a renderer may move an edge.
-    /// Returns how many triangles and polygons were painted again.
+    /// Paints the aircraft in `box` over ground that has been painted; `meeting` are the triangles
+    /// that meet the box, in painting order, and only what lies inside it is painted again.
+    /// `rounding_rad`: how far a renderer may move an edge. Returns how many triangles and polygons
+    /// were painted again.
     int paint(
         std::span<const PlacedAircraft* const> aircraft,
+        const HullBox& box,
         const GroundFrame& ground,
-        std::span<const std::uint32_t> triangles,
+        std::span<const std::uint32_t> meeting,
         double rounding_rad,
         StepWriter& steps);
 

@@ -2,9 +2,9 @@
 
 #include "visuals/scene/aircraft_hull.h"
 #include "visuals/scene/ground.h"
+#include "visuals/scene/ground_frame.h"
 #include "visuals/scene/placed_aircraft.h"
 #include "visuals/scene/sight.h"
-#include "visuals/scene/step_writer.h"
 
 #include <glm/vec3.hpp>
 

@@ -24,20 +24,6 @@ edge_normal(const glm::dvec3& from_m, const glm::dvec3& to_m, const glm::dvec3& 
 
 } // namespace
 
-std::span<const ShadowPieces> shadows_on(const GroundFrame& ground, std::uint32_t triangle) {
-    const auto [first, last] =
-        std::ranges::equal_range(ground.shadows, triangle, {}, &ShadowPieces::triangle);
-    return {first, last};
-}
-
-void place_triangle(const TriangleDraw& ground, std::uint32_t triangle, SightPolygon& placed) {
-    placed.resize(3);
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-        const std::uint32_t vertex = ground.indices[std::size_t{3} * triangle + corner];
-        placed[corner] = {glm::dvec3(ground.vertices[vertex].position_m), false};
-    }
-}
-
 void StepWriter::paint(const AircraftDraw& draw) {
     const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
     plan_.aircraft.push_back(draw);
@@ -110,16 +96,57 @@ void StepWriter::add_indices(const GroundFrame& ground, std::uint32_t triangle) 
     }
 }
 
-void StepWriter::paint_within(
-    const GroundFrame& ground,
-    std::span<const std::uint32_t> triangles,
-    std::span<const glm::dvec3> cone) {
-    const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
-    for (const std::uint32_t triangle : triangles) {
-        add_indices(ground, triangle);
+void StepWriter::paint_before(
+    const GroundFrame& ground, std::span<const NearTriangle> triangles, const HullBox& box) {
+    const SightCone cone = cone_of(box);
+    std::uint32_t cone_clip = PaintStep::whole;
+    bool continues = false; // the last step, with the cone alone
+    for (const NearTriangle& near : triangles) {
+        if (near.meets) {
+            paint_outside(ground, near.triangle, box, cone);
+            continues = false;
+            continue;
+        }
+        const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
+        add_indices(ground, near.triangle);
+        const auto count = static_cast<std::uint32_t>(plan_.repaint_indices.size()) - first;
+        if (continues) {
+            plan_.steps.back().count += count;
+            continue;
+        }
+        cone_clip = cone_clip == PaintStep::whole ? add_clip(cone.planes()) : cone_clip;
+        plan_.steps.push_back({PaintStep::What::Ground, first, count, cone_clip});
+        continues = true;
     }
-    const auto count = static_cast<std::uint32_t>(plan_.repaint_indices.size()) - first;
-    plan_.steps.push_back({PaintStep::What::Ground, first, count, add_clip(cone)});
+}
+
+/// A sight line enters a box through the last of the sides that face the eye, so that a point in
+/// the cone lies before the box if it lies outside any of them.
+void StepWriter::paint_outside(
+    const GroundFrame& ground, std::uint32_t triangle, const HullBox& box, const SightCone& cone) {
+    const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
+    std::uint32_t count = 0;
+    for (int side = 0; side < 6; ++side) {
+        const Plane plane = side_of(box, side);
+        if (plane.offset_m <= 0.0) {
+            continue;
+        }
+        place_triangle(ground.all, triangle, piece_);
+        cut_to_front(piece_, plane, 0.0, scratch_);
+        cut_to_cone(piece_, cone.planes(), scratch_);
+        if (solid_angle_sr(piece_) < least_solid_angle_sr) {
+            continue;
+        }
+        if (count == 0) {
+            add_indices(ground, triangle);
+            count = static_cast<std::uint32_t>(plan_.repaint_indices.size()) - first;
+        }
+        const std::uint32_t index = add_clip(cone.planes());
+        Clip& clip = plan_.clips[index];
+        clip.planes[static_cast<std::size_t>(clip.count++)] =
+            glm::vec4(glm::vec3(plane.normal), static_cast<float>(plane.offset_m));
+        plan_.steps.push_back({PaintStep::What::Ground, first, count, index});
+    }
 }
 
 void StepWriter::paint_within(

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "visuals/scene/frame_plan.h"
+#include "visuals/scene/ground_frame.h"
+#include "visuals/scene/ground_in_front.h"
 #include "visuals/scene/sight.h"
 
 #include <cstdint>
@@ -8,30 +10,6 @@
 #include <vector>
 
 namespace octant::visuals::scene {
-
-/// Indices of one triangle's shadow pieces, in FramePlan::shadow_indices' numbering.
-struct ShadowPieces {
-    std::uint32_t triangle = 0; ///< number in Ground::triangles
-    std::uint32_t first = 0;    ///< place of the first index among the pieces' indices
-    std::uint32_t count = 0;
-
-    bool operator<(const ShadowPieces& other) const {
-        return triangle != other.triangle ? triangle < other.triangle : first < other.first;
-    }
-};
-
-/// The ground of one frame before facing, with the shadows on it.
-struct GroundFrame {
-    TriangleDraw all;                      ///< Ground::triangles, in painting order
-    std::span<const ShadowPieces> shadows; ///< ascending
-    std::span<const std::uint32_t> shadow_indices;
-};
-
-/// The shadow pieces on a triangle.
-std::span<const ShadowPieces> shadows_on(const GroundFrame& ground, std::uint32_t triangle);
-
-/// Three corners of a triangle of the ground.
-void place_triangle(const TriangleDraw& ground, std::uint32_t triangle, SightPolygon& placed);
 
 /// Appends to the painting steps of a plan. Consecutive aircraft that are not cut become one step.
 class StepWriter {
@@ -44,19 +22,24 @@ public:
     /// Paints an aircraft's range once more where `region` is seen: a part of one of its polygons.
     void paint_within(const AircraftDraw& draw, const SightPolygon& region);
 
-    /// Paints triangles once more inside a cone, with their shadows.
-    void paint_within(
-        const GroundFrame& ground,
-        std::span<const std::uint32_t> triangles,
-        std::span<const glm::dvec3> cone);
+    /// Paints triangles once more where they lie before a box, with their shadows. They are in
+    /// painting order; those that meet the box are cut to the outside of its sides. The eye is
+    /// outside the box.
+    void paint_before(
+        const GroundFrame& ground, std::span<const NearTriangle> triangles, const HullBox& box);
 
     /// Paints one triangle once more where `region`, a part of it, is seen.
     void
     paint_within(const GroundFrame& ground, std::uint32_t triangle, const SightPolygon& region);
 
 private:
-    /// Index of a new clip; at most Clip::most_planes normals.
+    /// Index of a new clip by planes through the eye, at most Clip::most_planes.
     std::uint32_t add_clip(std::span<const glm::dvec3> normals);
+    void paint_outside(
+        const GroundFrame& ground,
+        std::uint32_t triangle,
+        const HullBox& box,
+        const SightCone& cone);
     void add_indices(const GroundFrame& ground, std::uint32_t triangle);
 
     /// Calls paint(clip) for each convex piece of `region` that few enough planes bound.
@@ -65,6 +48,7 @@ private:
 
     FramePlan& plan_;
     SightPolygon piece_;
+    SightPolygon scratch_;
     std::vector<glm::dvec3> normals_;
 };
 
