@@ -51,7 +51,7 @@ Total paint_scenes(
         camera.near_m = 1e-3;
         PlanCounts counts;
         const FramePlan& plan = planner.plan(camera, states, counts);
-        const SightCount count = count_wrong_sights(plan, scene, states, camera.eye_m, dice);
+        const SightCount count = count_wrong_sights(plan, scene, states, camera, dice);
         if (count.wrong > 0) {
             INFO("scene " << i);
             CHECK(count.wrong == 0);

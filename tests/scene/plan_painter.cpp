@@ -110,15 +110,19 @@ SightCount count_wrong_sights(
     const scene::FramePlan& plan,
     const scene::Scene& scene,
     const std::vector<sim::AircraftState>& states,
-    const glm::dvec3& eye_m,
+    const scene::Camera& camera,
     Dice& dice) {
     const PlanPainter painter(plan, scene);
+    const auto frustum = scene::frustum_normals(camera, 4.0 / 3.0);
     SightCount count;
     for (std::size_t i = 0; i < states.size(); ++i) {
         const double radius_m = scene.models[scene.aircraft[i]].subject.radius_m;
-        for (int k = 0; k < 60; ++k) {
+        for (int k = 0; k < 150; ++k) {
             const glm::dvec3 target_m =
-                states[i].position_m - eye_m + dice.in_box(glm::dvec3(radius_m));
+                states[i].position_m - camera.eye_m + dice.in_box(glm::dvec3(radius_m));
+            if (!scene::in_view(target_m, 0.0, frustum)) {
+                continue;
+            }
             const std::optional<Sight> sight = painter.look(glm::normalize(target_m));
             if (!sight || sight->nearest_m == missed) {
                 continue;

@@ -44,12 +44,12 @@ struct SightCount {
     int wrong = 0;
 };
 
-/// Sight lines around the aircraft and between them, from the eye at `eye_m`.
+/// Sight lines around the aircraft and between them that a picture of 4:3 shows.
 SightCount count_wrong_sights(
     const visuals::scene::FramePlan& plan,
     const visuals::scene::Scene& scene,
     const std::vector<sim::AircraftState>& states,
-    const glm::dvec3& eye_m,
+    const visuals::scene::Camera& camera,
     Dice& dice);
 
 } // namespace octant::tests

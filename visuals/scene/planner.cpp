@@ -79,6 +79,7 @@ const FramePlan& Planner::plan(
     plan_.world_to_view = world_to_view(camera);
     plan_.view_to_clip = view_to_clip(camera, aspect_);
     pixel_rad_ = 2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings_.size_px.y;
+    frustum_ = frustum_normals(camera, aspect_);
     plan_.aircraft.clear();
     plan_.steps.clear();
     plan_.clips.clear();
@@ -156,7 +157,7 @@ void Planner::write_parts() {
 void Planner::cast_shadows(const Camera& camera) {
     shadows_.begin(ground_.all, plan_.shadow_vertices);
     if (settings_.shadows) {
-        const ShadowView view{camera.eye_m, frustum_normals(camera, aspect_), pixel_rad_};
+        const ShadowView view{camera.eye_m, frustum_, pixel_rad_};
         for (std::size_t i = 0; i < hulls_.size(); ++i) {
             shadows_.cast(placed_[i], hulls_[i], *scene_.ground, view);
         }
@@ -205,13 +206,19 @@ void Planner::paint_knots(const Camera& camera, PlanCounts& counts) {
     }
 }
 
-/// Paints a knot and again what lies before it.
+/// Paints a knot and again what lies before it; nothing again where it is out of view.
 void Planner::paint_knot(const Knot& knot, const Camera& camera, PlanCounts& counts) {
-    in_front_.find(knot.box, *scene_.ground, ground_.all, camera.eye_m);
     members_.clear();
     for (const std::uint32_t member : order_.members(knot)) {
         members_.push_back(&placed_[member]);
     }
+    if (!in_view(knot.box.centre_m, radius_m(knot.box), frustum_)) {
+        for (const PlacedAircraft* member : members_) {
+            steps_.paint(draw_of(*member));
+        }
+        return;
+    }
+    in_front_.find(knot.box, *scene_.ground, ground_.all, camera.eye_m);
     if (!in_front_.meeting().empty() || members_.size() > 1) {
         ++counts.knots;
         counts.cuts += repaint_.paint(

@@ -14,6 +14,7 @@
 #include "visuals/scene/sky.h"
 #include "visuals/scene/step_writer.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -83,6 +84,7 @@ private:
     GroundInFront in_front_;
     PolygonRepaint repaint_;
     double pixel_rad_ = 0.0; ///< what a pixel covers in the middle of the picture
+    std::array<glm::dvec3, 4> frustum_{};
     GroundFrame ground_;
     std::vector<PlacedAircraft> placed_; ///< Scene::aircraft, then the cockpit
     std::vector<glm::dmat4> parts_;      ///< of placed_

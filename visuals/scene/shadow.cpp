@@ -41,12 +41,6 @@ ConvexRoom lit_room(const HullBox& hull, const glm::dvec3& to_sun, double path_m
     return room;
 }
 
-bool in_view(const glm::dvec3& place_m, double radius_m, const ShadowView& view) {
-    return std::ranges::all_of(view.frustum_normals, [&](const glm::dvec3& normal) {
-        return glm::dot(normal, place_m) >= -radius_m;
-    });
-}
-
 double plan_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -84,7 +78,7 @@ void ShadowCaster::cast(
     // On a slope that falls away from the sun a shadow is longer than on the level.
     const double reach_m = 2.0 * size_m / to_sun_.z;
     if (2.0 * size_m < least_shadow_px * view.pixel_rad * glm::length(place_m) ||
-        !in_view(place_m, reach_m, view)) {
+        !in_view(place_m, reach_m, view.frustum_normals)) {
         return;
     }
     const ConvexRoom room = lit_room(hull, to_sun_, path_m, reach_m);
@@ -164,6 +158,13 @@ void ShadowCaster::cast_on(std::uint32_t triangle) {
     if (slope <= 0.01 || plane.offset_m <= 0.0 || plane.normal.z <= 0.0) {
         return; // the sun does not reach it or the eye does not see it
     }
+    std::array<Plane, 3> sides;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3& from_m = triangle_[i].at_m;
+        const glm::dvec3 edge_m = triangle_[(i + 1) % 3].at_m - from_m;
+        const glm::dvec3 inward(-edge_m.y, edge_m.x, 0.0);
+        sides[i] = {inward, -glm::dot(inward, from_m)};
+    }
     const std::size_t first = indices_.size();
     for (const Face& face : faces_) {
         const auto corners = std::span(face_corners_).subspan(face.first, face.count);
@@ -173,10 +174,7 @@ void ShadowCaster::cast_on(std::uint32_t triangle) {
             corner.at_m -= to_sun_ * (distance_m(plane, corner.at_m) / slope);
         }
         for (std::size_t i = 0; i < 3 && !part_.empty(); ++i) {
-            const glm::dvec3& from_m = triangle_[i].at_m;
-            const glm::dvec3 edge_m = triangle_[(i + 1) % 3].at_m - from_m;
-            const glm::dvec3 inward = glm::normalize(glm::dvec3(-edge_m.y, edge_m.x, 0.0));
-            cut_to_front(part_, {inward, -glm::dot(inward, from_m)}, 0.0, scratch_);
+            cut_to_front(part_, sides[i], 0.0, scratch_);
         }
         if (part_.size() >= 3) {
             add_piece(triangle);

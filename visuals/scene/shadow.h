@@ -1,6 +1,7 @@
 #pragma once
 
 #include "visuals/scene/aircraft_hull.h"
+#include "visuals/scene/camera.h"
 #include "visuals/scene/ground.h"
 #include "visuals/scene/ground_frame.h"
 #include "visuals/scene/placed_aircraft.h"
