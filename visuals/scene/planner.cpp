@@ -20,6 +20,32 @@ glm::mat4 body_to_eye_world(const sim::AircraftState& state, const glm::dvec3& e
     return matrix;
 }
 
+/// Farthest first by the sum of the corners; a renderer that paints needs an order.
+TriangleDraw farthest_first(const TriangleDraw& draw, std::vector<std::uint32_t>& sorted) {
+    struct Triangle {
+        float distance = 0.0F;
+        std::size_t first_index = 0;
+    };
+
+    std::vector<Triangle> triangles(draw.indices.size() / 3);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        glm::vec3 sum(0.0F);
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            sum += draw.vertices[draw.indices[3 * i + corner]].position_m;
+        }
+        triangles[i] = {glm::dot(sum, sum), 3 * i};
+    }
+    std::stable_sort(triangles.begin(), triangles.end(), [](const Triangle& a, const Triangle& b) {
+        return a.distance > b.distance;
+    });
+    sorted.clear();
+    for (const Triangle& triangle : triangles) {
+        const auto corners = draw.indices.subspan(triangle.first_index, 3);
+        sorted.insert(sorted.end(), corners.begin(), corners.end());
+    }
+    return {draw.vertices, sorted};
+}
+
 double distance_to_edge_m(const Ground& ground, const glm::dvec3& eye_m) {
     const glm::dvec2 half_m = ground.half_extent_m();
     return std::max(std::min(half_m.x - std::abs(eye_m.x), half_m.y - std::abs(eye_m.y)), 0.0);
@@ -30,14 +56,14 @@ double distance_to_edge_m(const Ground& ground, const glm::dvec3& eye_m) {
 Planner::Planner(Scene& scene, const Settings& settings)
     : scene_(scene)
     , settings_(settings)
-    , aspect_(static_cast<double>(settings.size_px.x) / settings.size_px.y)
-    , to_sun_(direction_to_sun(settings)) {
+    , aspect_(static_cast<double>(settings.size_px.x) / settings.size_px.y) {
     plan_.background = settings.background;
     plan_.haze = {settings.background, static_cast<float>(settings.visibility_m)};
     plan_.hidden_surface = settings.hidden_surface;
     plan_.ground_is_ordered = scene.ground->is_ordered();
     plan_.ambient = glm::vec3(ambient_light);
     plan_.sunlight = glm::vec3(sun_light);
+    plan_.to_sun = glm::vec3(direction_to_sun(settings));
     plan_.aircraft.reserve(scene.aircraft.size() + 1);
 }
 
@@ -54,6 +80,7 @@ const FramePlan& Planner::plan(
         const double pixel_rad =
             2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings_.size_px.y;
         plan_.ground = facing_the_eye(plan_.ground, pixel_rad, facing_indices_);
+        plan_.ground = farthest_first(plan_.ground, sorted_indices_);
     }
     plan_sky(camera);
     plan_aircraft(camera, states, counts);
@@ -75,13 +102,12 @@ void Planner::plan_sky(const Camera& camera) {
 void Planner::plan_aircraft(
     const Camera& camera, std::span<const sim::AircraftState> states, PlanCounts& counts) {
     plan_.aircraft.clear();
+    plan_.parts.clear();
     counts.aircraft_polygons = 0;
-    const auto add = [&](std::uint32_t model,
-                         const IndexRange& range,
-                         const sim::AircraftState& state,
-                         glm::mat4 matrix) {
-        const glm::vec3 sun(glm::inverse(state.body_to_world) * to_sun_);
-        plan_.aircraft.push_back({model, range.first_index, range.index_count, matrix, sun, 0});
+    const auto add = [&](std::uint32_t model, const IndexRange& range, const glm::mat4& matrix) {
+        const auto first_part = static_cast<std::uint32_t>(plan_.parts.size());
+        plan_.parts.push_back(matrix);
+        plan_.aircraft.push_back({model, range.first_index, range.index_count, first_part});
         counts.aircraft_polygons += range.polygons;
     };
     for (std::size_t i = 0; i < states.size(); ++i) {
@@ -93,16 +119,15 @@ void Planner::plan_aircraft(
         const bool ordered = settings_.hidden_surface == HiddenSurface::Octant;
         add(scene_.aircraft[i],
             ordered ? model.cells[static_cast<std::size_t>(cell)] : model.file_order,
-            state,
             body_to_eye_world(state, camera.eye_m));
     }
     // Farthest first.
     std::sort(
         plan_.aircraft.begin(),
         plan_.aircraft.end(),
-        [](const AircraftDraw& a, const AircraftDraw& b) {
-            const glm::vec3 pa(a.body_to_eye_world[3]);
-            const glm::vec3 pb(b.body_to_eye_world[3]);
+        [&](const AircraftDraw& a, const AircraftDraw& b) {
+            const glm::vec3 pa(plan_.parts[a.first_part][3]);
+            const glm::vec3 pb(plan_.parts[b.first_part][3]);
             return glm::dot(pa, pa) > glm::dot(pb, pb);
         });
     if (scene_.cockpit && settings_.view == View::Cockpit) {
@@ -110,9 +135,13 @@ void Planner::plan_aircraft(
         around_eye.position_m = camera.eye_m;
         add(*scene_.cockpit,
             scene_.models[*scene_.cockpit].file_order,
-            around_eye,
             body_to_eye_world(around_eye, camera.eye_m));
     }
+    if (settings_.hidden_surface == HiddenSurface::DepthBuffer) {
+        std::reverse(plan_.aircraft.begin(), plan_.aircraft.end());
+    }
+    const auto count = static_cast<std::uint32_t>(plan_.aircraft.size());
+    plan_.steps = {{PaintStep::What::Aircraft, 0, count, PaintStep::whole}};
 }
 
 } // namespace octant::visuals::scene

@@ -57,9 +57,9 @@ private:
     Scene& scene_;
     const Settings& settings_;
     double aspect_;
-    glm::dvec3 to_sun_;
     Sky sky_;
     std::vector<std::uint32_t> facing_indices_;
+    std::vector<std::uint32_t> sorted_indices_;
     FramePlan plan_;
 };
 
