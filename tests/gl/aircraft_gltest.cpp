@@ -155,8 +155,8 @@ TEST_CASE("aircraft drawn together give the picture of those drawn one by one") 
         apart.steps.push_back({scene::PaintStep::What::Aircraft, i, 1, scene::PaintStep::whole});
     }
     const gl::Picture picture = studio.picture(together);
-    CHECK(studio.picture(apart).rgba == picture.rgba);
+    CHECK((studio.picture(apart).rgba == picture.rgba));
     // They do not cross, so depth finds the same; its order within models changes nothing.
     together.hidden_surface = HiddenSurface::DepthBuffer;
-    CHECK(studio.picture(together).rgba == picture.rgba);
+    CHECK((studio.picture(together).rgba == picture.rgba));
 }

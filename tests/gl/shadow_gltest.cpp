@@ -75,7 +75,7 @@ TEST_CASE("with depth a shadow lies on the ground without a hole") {
         const gl::Picture over = studio.picture(painted);
         CHECK(count_of(over, red_px) > 1000);
         CHECK(count_of(over, green_px) > 1000);
-        CHECK(by_depth.rgba == over.rgba);
+        CHECK((by_depth.rgba == over.rgba));
     }
 }
 

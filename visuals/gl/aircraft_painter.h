@@ -25,12 +25,10 @@ public:
     /// Puts an aircraft 100 m ahead into a plan without any, if a model is loaded.
     void add_any(scene::FramePlan& plan) const;
 
-    /// FramePlan::aircraft `first` to `first + count - 1` in this order, without depth. No clip =
-    /// not cut.
-    void paint(std::uint32_t first, std::uint32_t count, const scene::Clip* clip);
-
-    /// The same into the depth buffer, model by model: the order is kept only within a model.
-    void draw_by_depth(std::uint32_t first, std::uint32_t count);
+    /// FramePlan::aircraft `first` to `first + count - 1` in this order, by one call. No clip = not
+    /// cut.
+    void
+    draw(std::uint32_t first, std::uint32_t count, Depth depth, const scene::Clip* clip = nullptr);
 
 private:
     struct ModelPlace {
@@ -40,20 +38,26 @@ private:
         std::size_t parts = 0; ///< body and turning parts
     };
 
-    void draw_range(std::uint32_t first, std::uint32_t count, bool join);
+    /// As glMultiDrawElementsIndirect reads it.
+    struct Command {
+        GLuint index_count = 0;
+        GLuint instance_count = 0;
+        GLuint first_index = 0;
+        GLint first_vertex = 0;
+        GLuint first_instance = 0; ///< of instance_buffer_
+    };
 
     const Functions& gl_;
     DrawState& state_;
     ProgramPair programs_;
     Object model_vertices_;
     Object model_indices_;
-    StreamBuffer parts_;
-    StreamBuffer instances_; ///< AircraftDraw::first_part of each aircraft
-    StreamBuffer commands_;
+    StreamBuffer part_buffer_;
+    StreamBuffer instance_buffer_; ///< AircraftDraw::first_part of each aircraft
+    StreamBuffer command_buffer_;
     Object array_;
     std::vector<ModelPlace> models_;
-    std::span<const scene::AircraftDraw> aircraft_;
-    std::vector<std::uint32_t> order_;
+    std::vector<Command> commands_; ///< one for each aircraft
     std::vector<std::uint32_t> first_parts_;
 };
 

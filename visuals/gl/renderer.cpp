@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <fmt/format.h>
+#include <span>
 
 namespace octant::visuals::gl {
 namespace {
@@ -64,14 +65,12 @@ void Renderer::draw(const FramePlan& plan) {
 
 void Renderer::begin(const FramePlan& plan) {
     const bool by_depth = plan.hidden_surface == HiddenSurface::DepthBuffer;
-    const GLuint target = by_depth || std::getenv("DEPTHFB") ? framebuffer_.name()
-                                                             : framebuffer_.name_without_depth();
+    const GLuint target = by_depth ? framebuffer_.name() : framebuffer_.name_without_depth();
     gl_.bind_framebuffer(GL_FRAMEBUFFER, target);
     gl_.viewport(0, 0, framebuffer_.width(), framebuffer_.height());
     state_.begin_picture();
     const glm::vec4 background(plan.background, 1.0F);
-    if (!std::getenv("NOCLEAR"))
-        gl_.clear_named_framebufferfv(target, GL_COLOR, 0, glm::value_ptr(background));
+    gl_.clear_named_framebufferfv(target, GL_COLOR, 0, glm::value_ptr(background));
     if (by_depth) {
         const float infinitely_far = 0.0F;
         gl_.clear_named_framebufferfv(target, GL_DEPTH, 0, &infinitely_far);
@@ -94,7 +93,7 @@ void Renderer::paint(const FramePlan& plan) {
         const scene::Clip* const clip =
             step.clip == PaintStep::whole ? nullptr : &plan.clips[step.clip];
         if (step.what == PaintStep::What::Aircraft) {
-            aircraft_.paint(step.first, step.count, clip);
+            aircraft_.draw(step.first, step.count, Depth::Unused, clip);
         } else {
             triangles_.repaint(step.first, step.count, clip);
         }
@@ -104,7 +103,7 @@ void Renderer::paint(const FramePlan& plan) {
 /// From near to far, so that what is hidden is not coloured first. Where aircraft and ground are
 /// equally near the aircraft is seen.
 void Renderer::draw_by_depth(const FramePlan& plan) {
-    aircraft_.draw_by_depth(0, static_cast<std::uint32_t>(plan.aircraft.size()));
+    aircraft_.draw(0, static_cast<std::uint32_t>(plan.aircraft.size()), Depth::Nearest);
     triangles_.draw_ground(Depth::Nearest);
     triangles_.draw_shadows();
     triangles_.draw_sky(Depth::InfinitelyFar);

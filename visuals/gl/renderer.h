@@ -15,6 +15,10 @@ namespace octant::visuals::gl {
 /// Draws frame plans into a picture of its own. The context whose functions it was given must be
 /// current in every call, the destructor too, and outlive it.
 ///
+/// With HiddenSurface::DepthBuffer hidden surfaces are removed by a 32-bit float depth buffer and
+/// FramePlan::steps are not looked at: all aircraft in their order, ground, shadows, sky. Else
+/// sky, ground and steps are painted, each over what is there, and no depth buffer is attached.
+///
 /// Colours are display values from input to picture: nothing is converted. Back faces of
 /// aircraft are not drawn. Those of the ground are: the plan has left them out but for triangles
 /// seen edge-on, which the driver must judge by the positions it draws. An aircraft's triangle has
@@ -43,7 +47,7 @@ public:
     /// finish(), then copies the picture, top row first. `picture` keeps its memory between calls.
     void finish_and_read(Picture& picture);
 
-    /// Of the last draw().
+    /// Of the last draw(); consecutive aircraft of a step are one.
     int draw_calls() const { return state_.draw_calls(); }
 
 private:
