@@ -6,6 +6,9 @@ class App;
 
 namespace octant::ui {
 
+/// Thrown by a callback when its work is done and a check said no: exit code 1, without a line.
+struct CheckSaidNo {};
+
 // Each adds one sub-command whose callback does the work. A callback throws Error when input or
 // environment is wrong.
 

@@ -16,6 +16,7 @@
 
 namespace {
 
+constexpr int check_said_no = 1;
 constexpr int wrong_input = 2;
 
 int fail(std::string line) {
@@ -45,6 +46,8 @@ int run(int argc, char** argv) {
     octant::ui::add_bench_command(program);
     try {
         program.parse(argc, argv);
+    } catch (const octant::ui::CheckSaidNo&) {
+        return check_said_no;
     } catch (const CLI::ParseError& fault) {
         if (fault.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
             return program.exit(fault);

@@ -42,6 +42,7 @@ struct AircraftDraw {
     glm::mat4 body_to_eye_world{1.0F}; ///< body axes to world axes with the eye subtracted
     glm::vec3 sun_in_body{0.0F};       ///< unit vector towards the sun, body axes
     std::uint32_t first_part = 0;      ///< index into FramePlan::parts
+    std::uint32_t aircraft = 0;        ///< number in Scene::aircraft; the cockpit comes after all
 };
 
 /// Planes that a draw is cut by: world axes with the eye subtracted, what lies in front of all of

@@ -81,7 +81,7 @@ void Planner::plan_aircraft(
                          const sim::AircraftState& state,
                          glm::mat4 matrix) {
         const glm::vec3 sun(glm::inverse(state.body_to_world) * to_sun_);
-        plan_.aircraft.push_back({model, range.first_index, range.index_count, matrix, sun, 0});
+        plan_.aircraft.push_back({model, range.first_index, range.index_count, matrix, sun, 0, 0});
         counts.aircraft_polygons += range.polygons;
     };
     for (std::size_t i = 0; i < states.size(); ++i) {
