@@ -18,20 +18,6 @@ using octant::models::HeightField;
 
 namespace {
 
-/// A tree and a mesher over a field that stays where it is.
-struct Ground {
-    explicit Ground(HeightField made, const QuadtreeOptions& options = {})
-        : field(std::move(made))
-        , colours(numbered_colours(field))
-        , tree(field, options)
-        , mesher(tree, colours) {}
-
-    HeightField field;
-    std::vector<std::uint32_t> colours;
-    Quadtree tree;
-    Mesher mesher;
-};
-
 struct Copy {
     explicit Copy(const GroundMesh& mesh)
         : vertices(mesh.vertices.begin(), mesh.vertices.end())
@@ -60,32 +46,6 @@ struct Copy {
     int fans;
     double resolution;
 };
-
-QuadtreeOptions random_options(Numbers& numbers) {
-    return {
-        numbers.coin() ? Roughness::Literal : Roughness::Midpoint,
-        numbers.next() % 4 == 0 ? Propagation::Printed : Propagation::CrackFree,
-        numbers.coin() ? 2.0 : 1.6};
-}
-
-MeshView random_view(Numbers& numbers, const HeightField& field) {
-    const glm::dvec2 reach = field.half_extent_m() * 1.3;
-    const glm::dvec3 eye_m(
-        numbers.between(-reach.x, reach.x),
-        numbers.between(-reach.y, reach.y),
-        numbers.between(-5.0, numbers.coin() ? 10.0 : 80.0));
-    MeshView view;
-    view.eye_m = eye_m;
-    if (numbers.next() % 4 != 0) {
-        view = camera_view(
-            eye_m,
-            numbers.between(0.0, 6.28),
-            numbers.between(-1.2, 0.4),
-            numbers.between(0.1, 1.6));
-    }
-    view.magnification = numbers.coin() ? 1.0 : numbers.between(1.0, 8.0);
-    return view;
-}
 
 /// Ground as of a real map, flown over low; steps of N are small against 3000 triangles.
 Ground wide_ground() {

@@ -4,8 +4,11 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
+#include <limits>
+#include <numbers>
+#include <optional>
 
 namespace octant::visuals::terrain::test {
 
@@ -37,6 +40,58 @@ bool on_border(std::uint32_t a, std::uint32_t b, const models::HeightField& fiel
     const Place q = place_of(b, field);
     return (p.column == q.column && (p.column == 0 || p.column == field.columns() - 1)) ||
            (p.row == q.row && (p.row == 0 || p.row == field.rows() - 1));
+}
+
+/// Part of a plan ray, in lengths of its direction.
+struct Passage {
+    double first = 0.0;
+    double last = std::numeric_limits<double>::infinity();
+};
+
+/// Where a ray from the origin is inside a counter-clockwise triangle, if it is for more than a
+/// moment.
+std::optional<Passage>
+passage_through(const std::array<glm::dvec2, 3>& corners, const glm::dvec2& direction) {
+    Passage inside;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec2 edge = corners[(k + 1) % 3] - corners[k];
+        const glm::dvec2 inward(-edge.y, edge.x);
+        const double approach = glm::dot(inward, direction);
+        const double way = glm::dot(inward, corners[k]);
+        if (approach > 0.0) {
+            inside.first = std::max(inside.first, way / approach);
+        } else if (approach < 0.0) {
+            inside.last = std::min(inside.last, way / approach);
+        } else if (way >= 0.0) {
+            return std::nullopt;
+        }
+    }
+    constexpr double moment = 1e-7;
+    return inside.last - inside.first > moment ? std::optional(inside) : std::nullopt;
+}
+
+/// Directions between each two neighbouring ones of those to the corners.
+std::vector<glm::dvec2>
+directions_between(const std::vector<std::array<glm::dvec2, 3>>& triangles) {
+    std::vector<double> angles_rad;
+    for (const auto& corners : triangles) {
+        for (const glm::dvec2& corner : corners) {
+            angles_rad.push_back(std::atan2(corner.y, corner.x));
+        }
+    }
+    std::sort(angles_rad.begin(), angles_rad.end());
+    if (!angles_rad.empty()) {
+        angles_rad.push_back(angles_rad.front() + 2.0 * std::numbers::pi);
+    }
+    std::vector<glm::dvec2> directions;
+    constexpr double least_gap_rad = 1e-7;
+    for (std::size_t k = 1; k < angles_rad.size(); ++k) {
+        if (angles_rad[k] - angles_rad[k - 1] > least_gap_rad) {
+            const double middle_rad = 0.5 * (angles_rad[k] + angles_rad[k - 1]);
+            directions.emplace_back(std::cos(middle_rad), std::sin(middle_rad));
+        }
+    }
+    return directions;
 }
 
 SampleTriangle smallest_first(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -161,6 +216,62 @@ bool ground_triangles_conform(
     const GroundCheck check = checked_ground(triangles, field);
     return check.counter_clockwise && check.unmatched_edges == 0 &&
            check.twice_area == 2L * (field.columns() - 1) * (field.rows() - 1);
+}
+
+QuadtreeOptions random_options(Numbers& numbers) {
+    return {
+        numbers.coin() ? Roughness::Literal : Roughness::Midpoint,
+        numbers.next() % 4 == 0 ? Propagation::Printed : Propagation::CrackFree,
+        numbers.coin() ? 2.0 : 1.6};
+}
+
+MeshView random_view(Numbers& numbers, const models::HeightField& field) {
+    const glm::dvec2 reach = field.half_extent_m() * 1.3;
+    const glm::dvec3 eye_m(
+        numbers.between(-reach.x, reach.x),
+        numbers.between(-reach.y, reach.y),
+        numbers.between(-5.0, numbers.coin() ? 10.0 : 80.0));
+    MeshView view;
+    view.eye_m = eye_m;
+    if (numbers.next() % 4 != 0) {
+        view = camera_view(
+            eye_m,
+            numbers.between(0.0, 6.28),
+            numbers.between(-1.2, 0.4),
+            numbers.between(0.1, 1.6));
+    }
+    view.magnification = numbers.coin() ? 1.0 : numbers.between(1.0, 8.0);
+    return view;
+}
+
+long wrongly_ordered_rays(
+    const std::vector<SampleTriangle>& triangles,
+    const models::HeightField& field,
+    const glm::dvec3& eye_m) {
+    std::vector<std::array<glm::dvec2, 3>> corners;
+    const auto seen_m = [&](std::uint32_t sample) {
+        const Place at = place_of(sample, field);
+        const glm::dvec3 world_m =
+            field.sample_m(static_cast<int>(at.column), static_cast<int>(at.row));
+        return glm::dvec2(world_m - eye_m);
+    };
+    for (const SampleTriangle& t : triangles) {
+        corners.push_back({seen_m(t.a), seen_m(t.b), seen_m(t.c)});
+    }
+    long wrong = 0;
+    constexpr double tolerance_m = 1e-6;
+    for (const glm::dvec2& direction : directions_between(corners)) {
+        double nearest_m = std::numeric_limits<double>::infinity();
+        for (const auto& triangle : corners) {
+            const auto passage = passage_through(triangle, direction);
+            if (passage && passage->last > nearest_m + tolerance_m) {
+                ++wrong;
+                break;
+            }
+            nearest_m = passage ? passage->first : nearest_m;
+        }
+    }
+    return wrong;
 }
 
 MeshView camera_view(const glm::dvec3& eye_m, double yaw_rad, double pitch_rad, double fov_rad) {

@@ -4,6 +4,7 @@
 #include "visuals/terrain/mesher.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace octant::visuals::terrain::test {
@@ -43,6 +44,20 @@ models::HeightField spiky_field(int columns, int rows, std::uint64_t seed);
 /// As many colours as the field has samples, all different.
 std::vector<std::uint32_t> numbered_colours(const models::HeightField& field);
 
+/// A tree and a mesher over a field that stays where it is.
+struct Ground {
+    explicit Ground(models::HeightField made, const QuadtreeOptions& options = {})
+        : field(std::move(made))
+        , colours(numbered_colours(field))
+        , tree(field, options)
+        , mesher(tree, colours) {}
+
+    models::HeightField field;
+    std::vector<std::uint32_t> colours;
+    Quadtree tree;
+    Mesher mesher;
+};
+
 /// A triangle by the samples at its corners (row * columns + column), the smallest first.
 struct SampleTriangle {
     std::uint32_t a;
@@ -68,6 +83,20 @@ checked_ground(const std::vector<SampleTriangle>& triangles, const models::Heigh
 /// The triangles cover the whole field once, without a corner on another's edge.
 bool ground_triangles_conform(
     const std::vector<SampleTriangle>& triangles, const models::HeightField& field);
+
+/// Any of the options under which trees are built.
+QuadtreeOptions random_options(Numbers& numbers);
+
+/// An eye in, beside, above or below the field; every fourth view is not culled.
+MeshView random_view(Numbers& numbers, const models::HeightField& field);
+
+/// How many plan rays from the eye pass two of the triangles, given in drawing order, in the wrong
+/// one: the earlier nearer to the eye. One ray between each two neighbouring corners as seen from
+/// the eye, so that every triangle that can be seen through another in plan is.
+long wrongly_ordered_rays(
+    const std::vector<SampleTriangle>& triangles,
+    const models::HeightField& field,
+    const glm::dvec3& eye_m);
 
 /// Frustum of a camera: yaw counter-clockwise from east, pitch upward.
 MeshView camera_view(const glm::dvec3& eye_m, double yaw_rad, double pitch_rad, double fov_rad);

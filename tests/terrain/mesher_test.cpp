@@ -22,20 +22,6 @@ MeshView from(double x_m, double y_m, double z_m) {
 
 constexpr Detail coarsest{2.0, 5.0, FanKind::Partial};
 
-/// A tree and a mesher over a field that stays where it is.
-struct Ground {
-    explicit Ground(HeightField made, const QuadtreeOptions& options = {})
-        : field(std::move(made))
-        , colours(numbered_colours(field))
-        , tree(field, options)
-        , mesher(tree, colours) {}
-
-    HeightField field;
-    std::vector<std::uint32_t> colours;
-    Quadtree tree;
-    Mesher mesher;
-};
-
 /// Level of the fan that covers the cell north-east of a sample; -1 where none does.
 std::vector<int> levels_of_cells(const Ground& ground) {
     const int columns = ground.field.columns() - 1;

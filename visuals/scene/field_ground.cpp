@@ -61,6 +61,10 @@ public:
         , colours_(ground_colours(field_, settings))
         , mesher_(tree_, colours_)
         , control_(control_settings(settings))
+        , order_(
+              settings.hidden_surface == HiddenSurface::DepthBuffer
+                  ? terrain::PaintOrder::FrontToBack
+                  : terrain::PaintOrder::BackToFront)
         , mean_colour_(scene::mean_colour(colours_))
         , exact_(settings.detail == DetailControl::Exact)
         , fixed_resolution_(settings.detail == DetailControl::Fixed)
@@ -89,7 +93,7 @@ public:
 
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
-    bool is_ordered() const override { return false; }
+    bool is_ordered() const override { return order_ == terrain::PaintOrder::BackToFront; }
 
     void settle(const Camera& camera, double aspect) override {
         if (exact_) {
@@ -111,8 +115,9 @@ public:
         return {mesh.vertices, mesh.indices};
     }
 
-    void triangles_in(
-        const BoxTest& /*wanted*/, std::vector<std::uint32_t>& /*triangles*/) const override {}
+    void triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const override {
+        mesher_.triangles_in(wanted, triangles);
+    }
 
 private:
     terrain::GroundMesh next_mesh(const terrain::MeshView& view) {
@@ -127,10 +132,10 @@ private:
         return mesh;
     }
 
-    static terrain::MeshView view_of(const Camera& camera, double aspect) {
+    terrain::MeshView view_of(const Camera& camera, double aspect) const {
         const double zoom =
             std::tan(reference_fov_rad / 2.0) / std::tan(camera.vertical_fov_rad / 2.0);
-        return {camera.eye_m, frustum_normals(camera, aspect), std::max(zoom, 1.0)};
+        return {camera.eye_m, frustum_normals(camera, aspect), std::max(zoom, 1.0), order_};
     }
 
     models::HeightField field_;
@@ -141,6 +146,7 @@ private:
     terrain::TriangleBudget budget_;
     terrain::Detail detail_;
     terrain::DetailState state_;
+    terrain::PaintOrder order_;
     glm::vec3 mean_colour_;
     double mean_height_m_ = 0.0;
     bool exact_;

@@ -30,7 +30,7 @@ public:
                 half_extent_m_ = glm::max(half_extent_m_, glm::abs(glm::dvec2(corners_m_.back())));
             }
             for (std::uint32_t corner = 2; corner < model.polygons[i].corner_count; ++corner) {
-                indices_.insert(indices_.end(), {first, first + corner - 1, first + corner});
+                add_triangle(first, first + corner - 1, first + corner);
             }
             mean_colour_ += colour / static_cast<float>(model.polygons.size());
         }
@@ -65,19 +65,35 @@ public:
         return {vertices_, indices_};
     }
 
-    void
-    triangles_in(const BoxTest& /*wanted*/, std::vector<std::uint32_t>& triangles) const override {
-        for (std::uint32_t i = 0; i < indices_.size() / 3; ++i) {
-            triangles.push_back(i);
+    void triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const override {
+        for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
+            if (wanted(boxes_[i].least_m, boxes_[i].most_m)) {
+                triangles.push_back(i);
+            }
         }
     }
 
 private:
+    /// Around a triangle, world axes.
+    struct Box {
+        glm::dvec3 least_m;
+        glm::dvec3 most_m;
+    };
+
+    void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        indices_.insert(indices_.end(), {a, b, c});
+        const glm::dvec3& a_m = corners_m_[a];
+        const glm::dvec3& b_m = corners_m_[b];
+        const glm::dvec3& c_m = corners_m_[c];
+        boxes_.push_back({glm::min(a_m, glm::min(b_m, c_m)), glm::max(a_m, glm::max(b_m, c_m))});
+    }
+
     static glm::dvec3 world_from_body(const glm::dvec3& v) { return {v.y, v.x, -v.z}; }
 
     std::vector<glm::dvec3> corners_m_;
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;
+    std::vector<Box> boxes_; ///< by triangle
     glm::dvec2 half_extent_m_{0.0};
     glm::vec3 mean_colour_{0.0F};
     int polygons_ = 0;

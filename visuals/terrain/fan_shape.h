@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 namespace octant::visuals::terrain {
 
@@ -29,6 +30,17 @@ inline constexpr std::array<FanEdge, 4> fan_edges = {{
     {2, 2, 0, 2, 3, 2, 0, 1},
     {0, 2, 0, 0, 2, 0, -1, 0},
 }};
+
+/// A sample on the outline of a fan, in half edges from its south-west corner.
+struct RingSample {
+    int east;
+    int north;
+};
+
+/// The outline counter-clockwise from the south-west corner: corners and, at odd places, the
+/// mid-points of fan_edges.
+inline constexpr std::array<RingSample, 8> fan_ring = {
+    {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 
 struct Sample {
     int column;
@@ -56,6 +68,8 @@ public:
             std::min(west_ + half_edges_east * half_, last_column_),
             std::min(south_ + half_edges_north * half_, last_row_)};
     }
+
+    Sample ring(std::size_t place) const { return at(fan_ring[place].east, fan_ring[place].north); }
 
     Sample corner_a(const FanEdge& edge) const {
         return at(edge.corner_a_east, edge.corner_a_north);

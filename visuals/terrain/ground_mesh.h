@@ -10,6 +10,12 @@
 
 namespace octant::visuals::terrain {
 
+/// In which order triangles are drawn.
+enum class PaintOrder {
+    BackToFront, ///< none is hidden by an earlier one: pictures need no depth
+    FrontToBack  ///< exactly the reverse: with depth, what is hidden is rejected early
+};
+
 /// From where the ground is seen.
 struct MeshView {
     glm::dvec3 eye_m{0.0}; ///< world axes; may lie outside the field or below the ground
@@ -20,6 +26,7 @@ struct MeshView {
     /// How many times larger than through the reference lens things appear: tan(reference / 2) /
     /// tan(field of view / 2). Multiplies C. At least 1 (asserted).
     double magnification = 1.0;
+    PaintOrder order = PaintOrder::BackToFront;
 };
 
 struct MeshCounters {
@@ -31,7 +38,8 @@ struct MeshCounters {
 /// The ground for one view. The memory is the mesher's and lasts until its next mesh.
 struct GroundMesh {
     std::span<const models::ColourVertex> vertices; ///< used samples, each once
-    std::span<const std::uint32_t> indices; ///< triangles, counter-clockwise seen from above
+    std::span<const std::uint32_t> indices; ///< triangles in the view's order, counter-clockwise
+                                            ///< seen from above
     MeshCounters counters;
     double resolution = 0.0; ///< C it was made with, before magnification
 };

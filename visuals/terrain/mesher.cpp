@@ -4,6 +4,7 @@
 // equations (1) and (3) and steps 3 and 4 of section 2; fans after S. Roettger, W. Heidrich, P.
 // Slusallek, H.-P. Seidel, "Real-Time Generation of Continuous Levels of Detail for Height Fields".
 // Deviations:
+// - Triangles come in painting order: see paint_order.cpp. The paper draws with a depth buffer.
 // - An edge keeps its mid-point where this node has a child beside it; else where the node beyond
 //   the edge is in the mesh or would be but for the frustum; and always at the field's border.
 // - See split_rule.cpp for those of equation (3).
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <limits>
 
@@ -25,22 +27,27 @@ Mesher::Mesher(const Quadtree& tree, std::span<const std::uint32_t> colours)
     , survey_(tree)
     , in_mesh_(tree.nodes().size(), 0)
     , vertex_of_sample_(colours.size(), 0) {
-    [[maybe_unused]] const models::HeightField& field = tree.field();
+    const models::HeightField& field = tree.field();
     assert(
         colours.size() ==
         static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()));
     assert(tree.levels() <= 16);
+    for (int level = 0; level < tree.levels(); ++level) {
+        const std::ptrdiff_t half = tree.edge_samples(level) / 2;
+        Ring& ring = rings_.emplace_back();
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+            ring[k] = half * ((fan_ring[k].north - 1) * field.columns() + fan_ring[k].east - 1);
+        }
+    }
 }
 
 GroundMesh Mesher::mesh(const MeshView& view, const Detail& detail) {
     rule_.look_from(view, detail);
     limit_ = rule_.limit_squared(detail.resolution);
-    fans_.clear();
-    counters_ = {};
+    start(view);
     visit({}, planes_of(view.frustum_normals));
-    make_room(fans_.size());
-    for (const GroundFan& fan : fans_) {
-        emit(fan, middles_of(fan));
+    for (std::size_t k = 0; k < fans_.size(); ++k) {
+        places_[k].middles = static_cast<std::uint8_t>(middles_of(fans_[k]));
     }
     for (const GroundFan& fan : fans_) {
         in_mesh_[fan.node] = 0;
@@ -52,10 +59,8 @@ GroundMesh
 Mesher::mesh_within(const MeshView& view, const Detail& detail, const TriangleBudget& budget) {
     rule_.look_from(view, detail);
     limit_ = survey_.limit_for(rule_, budget);
-    fans_.clear();
-    counters_ = {};
+    start(view);
     counters_.nodes_visited = survey_.nodes_tested();
-    make_room(survey_.nodes().size());
     for (const SurveyedNode& node : survey_.nodes()) {
         if (node.on >= limit_) {
             continue;
@@ -66,13 +71,36 @@ Mesher::mesh_within(const MeshView& view, const Detail& detail, const TriangleBu
             fan.split |= static_cast<std::uint8_t>(node.split[k] < limit_ ? 1U << k : 0U);
             middles |= node.middle[k] < limit_ ? 1U << k : 0U;
         }
-        fans_.push_back(fan);
-        emit(fan, middles);
+        add(fan, middles);
     }
     return finished(rule_.resolution_of(limit_));
 }
 
+void Mesher::start(const MeshView& view) {
+    fans_.clear();
+    places_.clear();
+    counters_ = {};
+    orders_ = painting_orders(view.order).data();
+    eye_ = glm::dvec2(-rule_.west_m(), -rule_.south_m()) / tree_->field().spacing_m();
+}
+
+/// Puts a node that is in the mesh into fans_, after its parent.
+std::size_t Mesher::add(const GroundFan& fan, unsigned middles) {
+    const std::size_t own = fans_.size();
+    newest_[fan.level] = static_cast<std::uint32_t>(own);
+    if (fan.level > 0) {
+        const unsigned quadrant = (fan.column & 1U) | (fan.row & 1U) << 1U;
+        places_[newest_[fan.level - 1U]].child[quadrant] = newest_[fan.level];
+    }
+    fans_.push_back(fan);
+    places_.emplace_back().middles = static_cast<std::uint8_t>(middles);
+    return own;
+}
+
+/// The mesh of fans_.
 GroundMesh Mesher::finished(double resolution) {
+    make_room();
+    emit(0);
     first_stamp_ += vertex_count_;
     counters_.triangles = static_cast<int>(index_count_ / 3);
     return {
@@ -99,8 +127,7 @@ bool Mesher::is_split(int level, int column, int row) const {
 void Mesher::visit(GroundFan fan, unsigned planes) {
     fan.at_frustum = planes != 0;
     in_mesh_[fan.node] = 1;
-    const std::size_t own = fans_.size();
-    fans_.push_back(fan);
+    const std::size_t own = add(fan, 0);
     const int below = fan.level + 1;
     if (below == tree_->levels()) {
         return;
@@ -140,7 +167,8 @@ void Mesher::visit(GroundFan fan, unsigned planes) {
 }
 
 /// Room for nine vertices and eight triangles a fan, and stamps for all of them.
-void Mesher::make_room(std::size_t fans) {
+void Mesher::make_room() {
+    const std::size_t fans = fans_.size();
     const std::size_t most_vertices = std::min(9 * fans, vertex_of_sample_.size());
     if (vertices_.size() < most_vertices) {
         vertices_.resize(most_vertices + most_vertices / 4);
@@ -184,61 +212,129 @@ unsigned Mesher::middles_of(const GroundFan& fan) const {
     return middles;
 }
 
-void Mesher::emit(const GroundFan& fan, unsigned middles) {
-    if (fan.split == all_quadrants) {
-        return;
-    }
-    const FanSamples samples(tree_->field(), rule_.level(fan.level).edge, fan.column, fan.row);
-    const bool cut = samples.is_cut();
-    const Sample centre = samples.at(1, 1);
-    const std::size_t first_index = index_count_;
-    const auto triangle = [&](Sample a, Sample b) {
-        if (cut && !has_area(centre, a, b)) {
-            return;
-        }
-        indices_[index_count_] = vertex_at(centre);
-        indices_[index_count_ + 1] = vertex_at(a);
-        indices_[index_count_ + 2] = vertex_at(b);
-        index_count_ += 3;
-    };
+/// Puts a node's triangles and those of all below it into the mesh.
+void Mesher::emit(std::uint32_t own) {
+    const GroundFan& fan = fans_[own];
+    FanPlace& place = places_[own];
+    place.first_triangle = static_cast<std::uint32_t>(index_count_ / 3);
     const unsigned covered = fan.split | fan.hidden;
-    for (unsigned k = 0; k < 4; ++k) {
-        const FanEdge& edge = fan_edges[k];
-        const Sample a = samples.corner_a(edge);
-        const Sample b = samples.corner_b(edge);
-        if ((middles >> k & 1U) == 0) {
-            triangle(a, b);
-            continue;
+    const unsigned children = fan.split & ~unsigned{fan.hidden};
+    const FanSamples samples(tree_->field(), rule_.level(fan.level).edge, fan.column, fan.row);
+    const Sample centre = samples.at(1, 1);
+    const glm::dvec2 eye = eye_ - glm::dvec2(centre.column, centre.row);
+    EmittedFan emitted{samples, place.child, rings_[fan.level].data(), index_of(centre)};
+    if (samples.is_cut()) {
+        Ring ring;
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+            ring[k] = index_of(samples.ring(k)) - emitted.centre;
         }
-        const Sample middle = samples.middle(edge);
-        if ((covered >> edge.quadrant_a & 1U) == 0) {
-            triangle(a, middle);
+        emitted.ring = ring.data();
+        const PartRow row = parts_of_cut_fan(
+            samples, parts_of(place.middles, covered, children), eye, rule_.view().order);
+        bool any = false;
+        for (unsigned k = 0; k < row.count; ++k) {
+            emit_part(emitted, row.part[k]);
+            any = any || row.part[k] < first_child_part;
         }
-        if ((covered >> edge.quadrant_b & 1U) == 0) {
-            triangle(middle, b);
+        counters_.fans += any ? 1 : 0;
+    } else {
+        const PartOrder& order = orders_[wedge_towards(eye.x, eye.y)];
+        const unsigned triangles = order.triangles(place.middles, covered);
+        counters_.fans += triangles != 0 ? 1 : 0;
+        for (unsigned left = triangles | order.children[children]; left != 0; left &= left - 1) {
+            emit_part(emitted, order.part[static_cast<std::size_t>(std::countr_zero(left))]);
         }
     }
-    counters_.fans += index_count_ > first_index ? 1 : 0;
+    place.end_triangle = static_cast<std::uint32_t>(index_count_ / 3);
 }
 
-std::uint32_t Mesher::vertex_at(Sample at) {
-    const models::HeightField& field = tree_->field();
-    const std::size_t sample =
-        static_cast<std::size_t>(at.row) * static_cast<std::size_t>(field.columns()) +
-        static_cast<std::size_t>(at.column);
-    std::uint32_t& stamp = vertex_of_sample_[sample];
-    if (stamp >= first_stamp_) {
-        return stamp - first_stamp_;
+inline void Mesher::emit_part(EmittedFan& fan, unsigned part) {
+    if (part >= first_child_part) {
+        emit(fan.child[part - first_child_part]);
+        return;
     }
-    stamp = first_stamp_ + vertex_count_;
+    if (fan.centre_vertex == no_vertex) {
+        fan.centre_vertex = vertex_at(fan.centre, [&] { return fan.samples.at(1, 1); });
+    }
+    const auto ring_vertex = [&](std::size_t k) {
+        return vertex_at(fan.centre + fan.ring[k], [&] { return fan.samples.ring(k); });
+    };
+    std::uint32_t* const corner = indices_.data() + index_count_;
+    corner[0] = fan.centre_vertex;
+    corner[1] = ring_vertex(part_sides[part].from);
+    corner[2] = ring_vertex(part_sides[part].to);
+    index_count_ += 3;
+}
+
+std::ptrdiff_t Mesher::index_of(Sample at) const {
+    return static_cast<std::ptrdiff_t>(at.row) * tree_->field().columns() + at.column;
+}
+
+/// The vertex of a sample by its index; `at`: gives its place.
+template <typename At>
+std::uint32_t Mesher::vertex_at(std::ptrdiff_t sample, const At& at) {
+    std::uint32_t& stamp = vertex_of_sample_[static_cast<std::size_t>(sample)];
+    if (stamp < first_stamp_) {
+        stamp = first_stamp_ + vertex_count_;
+        add_vertex(at(), colours_[static_cast<std::size_t>(sample)]);
+    }
+    return stamp - first_stamp_;
+}
+
+void Mesher::add_vertex(Sample at, std::uint32_t colour) {
+    const models::HeightField& field = tree_->field();
     const double height_m = static_cast<double>(field.height_m(at.column, at.row));
     vertices_[vertex_count_] = {
         glm::vec3(
             static_cast<float>(rule_.west_m() + at.column * field.spacing_m()),
             static_cast<float>(rule_.south_m() + at.row * field.spacing_m()),
             static_cast<float>(height_m - rule_.view().eye_m.z)),
-        colours_[sample]};
-    return vertex_count_++;
+        colour};
+    ++vertex_count_;
+}
+
+void Mesher::triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const {
+    if (!fans_.empty()) {
+        add_triangles_in(0, wanted, triangles);
+    }
+}
+
+void Mesher::add_triangles_in(
+    std::uint32_t own, const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const {
+    const NodeBox box = rule_.box_of(fans_[own]);
+    if (!wanted(box.least_m, box.most_m)) {
+        return;
+    }
+    const FanPlace& place = places_[own];
+    const unsigned drawn = fans_[own].split & ~unsigned{fans_[own].hidden};
+    std::array<std::uint32_t, 4> children{}; // in drawing order
+    std::size_t count = 0;
+    for (unsigned q = 0; q < 4; ++q) {
+        const std::uint32_t child = place.child[q];
+        if ((drawn >> q & 1U) == 0 ||
+            places_[child].first_triangle == places_[child].end_triangle) {
+            continue;
+        }
+        children[count] = child;
+        for (std::size_t k = count++; k > 0; --k) {
+            if (places_[children[k - 1]].first_triangle > places_[children[k]].first_triangle) {
+                std::swap(children[k - 1], children[k]);
+            }
+        }
+    }
+    std::uint32_t triangle = place.first_triangle;
+    const auto add_own = [&](std::uint32_t end) {
+        for (; triangle < end; ++triangle) {
+            triangles.push_back(triangle);
+        }
+    };
+    for (std::size_t k = 0; k < count; ++k) {
+        const FanPlace& below = places_[children[k]];
+        add_own(below.first_triangle);
+        add_triangles_in(children[k], wanted, triangles);
+        triangle = below.end_triangle;
+    }
+    add_own(place.end_triangle);
 }
 
 } // namespace octant::visuals::terrain

@@ -19,6 +19,13 @@
 
 namespace octant::visuals::terrain {
 
+namespace {
+
+/// More than double arithmetic with heights can be wrong by.
+constexpr double height_margin_m = 1e-6;
+
+} // namespace
+
 SplitRule::SplitRule(const Quadtree& tree)
     : tree_(&tree) {
     for (int level = 0; level < tree.levels(); ++level) {
@@ -80,6 +87,21 @@ std::array<float, 4> SplitRule::critical_squared_of_four(int level, int column, 
             at, column + static_cast<int>(q & 1U), row + static_cast<int>(q >> 1U), roughness[q]);
     }
     return critical;
+}
+
+NodeBox SplitRule::box_of(const GroundFan& node) const {
+    const models::HeightField& field = tree_->field();
+    const QuadtreeNode& bounds = tree_->nodes()[node.node];
+    const int edge = levels_[node.level].edge;
+    const int west = node.column * edge;
+    const int south = node.row * edge;
+    NodeBox box{
+        field.sample_m(west, south),
+        field.sample_m(
+            std::min(west + edge, field.columns() - 1), std::min(south + edge, field.rows() - 1))};
+    box.least_m.z = tree_->lowest_m(bounds) - height_margin_m;
+    box.most_m.z = tree_->highest_m(bounds) + height_margin_m;
+    return box;
 }
 
 unsigned SplitRule::planes_cutting_node(const GroundFan& node, unsigned planes) const {

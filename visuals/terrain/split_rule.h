@@ -4,6 +4,8 @@
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/quadtree.h"
 
+#include <glm/vec3.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -11,6 +13,12 @@
 #include <vector>
 
 namespace octant::visuals::terrain {
+
+/// Axes-aligned, world axes.
+struct NodeBox {
+    glm::dvec3 least_m;
+    glm::dvec3 most_m;
+};
 
 /// Which nodes of a quadtree a view switches on and which it cannot see.
 class SplitRule {
@@ -73,6 +81,9 @@ public:
     /// The same of the four children at (column, row) and east and north of it, by quadrant.
     /// Anything for those that do not exist.
     std::array<float, 4> critical_squared_of_four(int level, int column, int row) const;
+
+    /// A box around all samples of a node, a little wider than the tree's height bounds.
+    NodeBox box_of(const GroundFan& node) const;
 
     /// planes_cutting for the box of a node's samples.
     unsigned planes_cutting_node(const GroundFan& node, unsigned planes) const;
