@@ -26,6 +26,13 @@ constexpr glm::vec3 grey{0.5F, 0.5F, 0.5F};
 
 using Pixel = std::array<int, 4>;
 
+constexpr std::array<scene::HiddenSurface, 3> all_ways{
+    scene::HiddenSurface::Octant,
+    scene::HiddenSurface::DepthBuffer,
+    scene::HiddenSurface::BackFace};
+constexpr std::array<scene::HiddenSurface, 2> painting_ways{
+    scene::HiddenSurface::Octant, scene::HiddenSurface::BackFace};
+
 constexpr Pixel red_px{255, 0, 0, 255};
 constexpr Pixel green_px{0, 255, 0, 255};
 constexpr Pixel blue_px{0, 0, 255, 255};
@@ -77,16 +84,6 @@ inline scene::ModelBuffers square_model(const glm::vec3& colour) {
     return model;
 }
 
-/// The square of square_model at a distance ahead in the middle of the picture.
-inline scene::AircraftDraw square_ahead(std::uint32_t model, float ahead_m) {
-    scene::AircraftDraw aircraft;
-    aircraft.model = model;
-    aircraft.index_count = 6;
-    aircraft.body_to_eye_world[3] = glm::vec4(0.0F, 0.0F, -ahead_m, 1.0F);
-    aircraft.sun_in_body = glm::vec3(0, 0, 1);
-    return aircraft;
-}
-
 /// Nothing but grey background; aircraft keep their own colour.
 inline scene::FramePlan empty_plan() {
     scene::Camera camera;
@@ -98,6 +95,20 @@ inline scene::FramePlan empty_plan() {
     plan.sunlight = glm::vec3(0.0F);
     return plan;
 }
+
+/// A place ahead in the middle of the picture; bodies there have the axes of the view.
+inline glm::mat4 ahead(float ahead_m) {
+    glm::mat4 body_to_eye_world(1.0F);
+    body_to_eye_world[3].z = -ahead_m;
+    return body_to_eye_world;
+}
+
+/// Puts the whole of square_model, as model `model`, behind the aircraft of the plan. Its steps
+/// become one with all aircraft.
+void add_square(scene::FramePlan& plan, std::uint32_t model, const glm::mat4& body_to_eye_world);
+
+/// Leaves the plan with this one aircraft.
+void set_square(scene::FramePlan& plan, std::uint32_t model, const glm::mat4& body_to_eye_world);
 
 inline Pixel pixel(const gl::Picture& picture, int column, int row) {
     const std::size_t at =
@@ -145,8 +156,9 @@ private:
     gl::Renderer renderer_;
 };
 
-/// A scene with everything in it: hilly ground, sky, three aircraft of two models, haze. Its plan
-/// is valid as long as it lives where it is.
+/// A scene with everything in it: hilly ground, a shadow, sky, three aircraft of two models, one
+/// with a turning part, one painted again cut by planes, haze. Its plan is valid as long as it
+/// lives where it is.
 class FullScene {
 public:
     FullScene();
@@ -160,6 +172,12 @@ private:
     Triangles sky_;
     std::vector<scene::ModelBuffers> models_;
 };
+
+/// Models 0 red, 1 green and 2 blue, each a square_model.
+void load_squares(Studio& studio);
+
+/// Number of pixels of that colour.
+int count_of(const gl::Picture& picture, const Pixel& colour);
 
 /// Hash of the picture of FullScene, each way of hidden surfaces after the other.
 std::uint64_t hash_of_full_scene(Studio& studio);

@@ -20,7 +20,7 @@ std::size_t kept_of_one(float height_m, float far_m = 100.0F) {
         {{0.0F, far_m + 10.0F, height_m}, 0}};
     const std::vector<std::uint32_t> indices = {0, 1, 2};
     std::vector<std::uint32_t> kept;
-    return facing_the_eye({vertices, indices}, pixel_rad, kept).indices.size() / 3;
+    return facing_the_eye({{vertices, indices}, {}, {}}, pixel_rad, kept).indices.size() / 3;
 }
 
 } // namespace
@@ -46,6 +46,6 @@ TEST_CASE("kept triangles stay in their order with their corners") {
         {{0.0F, 12.0F, 5.0F}, 0}};
     const std::vector<std::uint32_t> indices = {0, 1, 2, 0, 2, 1, 1, 2, 0};
     std::vector<std::uint32_t> kept;
-    facing_the_eye({vertices, indices}, pixel_rad, kept);
+    facing_the_eye({{vertices, indices}, {}, {}}, pixel_rad, kept);
     CHECK(kept == std::vector<std::uint32_t>{0, 1, 2, 1, 2, 0});
 }

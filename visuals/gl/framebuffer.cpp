@@ -33,38 +33,43 @@ void check_size(const Functions& gl, int width, int height, int samples) {
 Framebuffer::Framebuffer(const Functions& gl, int width, int height, int samples)
     : gl_(gl)
     , width_(width)
-    , height_(height) {
+    , height_(height)
+    , samples_(samples) {
     check_size(gl, width, height, samples);
-    drawn_ = make_target(samples, true);
+    colour_ = make_storage(samples, GL_RGBA8);
+    depth_ = make_storage(samples, GL_DEPTH_COMPONENT32F);
+    with_depth_ = make_target(colour_, &depth_);
+    without_depth_ = make_target(colour_, nullptr);
     if (samples > 1) {
-        averaged_ = make_target(1, false);
+        averaged_colour_ = make_storage(1, GL_RGBA8);
+        averaged_ = make_target(averaged_colour_, nullptr);
     }
 }
 
-Framebuffer::Target Framebuffer::make_target(int samples, bool with_depth) const {
-    const auto attach = [&](const Object& framebuffer, GLenum place, GLenum format) {
-        Object buffer = make_renderbuffer(gl_);
-        gl_.named_renderbuffer_storage_multisample(
-            buffer.name(), samples > 1 ? samples : 0, format, width_, height_);
-        gl_.named_framebuffer_renderbuffer(
-            framebuffer.name(), place, GL_RENDERBUFFER, buffer.name());
-        return buffer;
+Object Framebuffer::make_storage(int samples, GLenum format) const {
+    Object storage = make_renderbuffer(gl_);
+    gl_.named_renderbuffer_storage_multisample(
+        storage.name(), samples > 1 ? samples : 0, format, width_, height_);
+    return storage;
+}
+
+Object Framebuffer::make_target(const Object& colour, const Object* depth) const {
+    Object target = make_framebuffer(gl_);
+    const auto attach = [&](GLenum place, const Object& storage) {
+        gl_.named_framebuffer_renderbuffer(target.name(), place, GL_RENDERBUFFER, storage.name());
     };
-    Target target;
-    target.framebuffer = make_framebuffer(gl_);
-    target.colour = attach(target.framebuffer, GL_COLOR_ATTACHMENT0, GL_RGBA8);
-    if (with_depth) {
-        target.depth = attach(target.framebuffer, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F);
+    attach(GL_COLOR_ATTACHMENT0, colour);
+    if (depth != nullptr) {
+        attach(GL_DEPTH_ATTACHMENT, *depth);
     }
-    const GLenum status =
-        gl_.check_named_framebuffer_status(target.framebuffer.name(), GL_DRAW_FRAMEBUFFER);
+    const GLenum status = gl_.check_named_framebuffer_status(target.name(), GL_DRAW_FRAMEBUFFER);
     if (gl_.get_error() != GL_NO_ERROR || status != GL_FRAMEBUFFER_COMPLETE) {
         throw Error(fmt::format(
             "expected memory for a picture of {} x {} pixels with {} samples, got a refusal by the "
             "driver",
             width_,
             height_,
-            samples));
+            samples_));
     }
     return target;
 }
@@ -73,11 +78,11 @@ void Framebuffer::read(std::span<std::uint8_t> rgba) const {
     assert(
         rgba.size() ==
         std::size_t{4} * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-    GLuint source = drawn_.framebuffer.name();
-    if (averaged_.framebuffer.name() != 0) {
+    GLuint source = with_depth_.name();
+    if (averaged_.name() != 0) {
         gl_.blit_named_framebuffer(
             source,
-            averaged_.framebuffer.name(),
+            averaged_.name(),
             0,
             0,
             width_,
@@ -88,7 +93,7 @@ void Framebuffer::read(std::span<std::uint8_t> rgba) const {
             height_,
             GL_COLOR_BUFFER_BIT,
             GL_NEAREST);
-        source = averaged_.framebuffer.name();
+        source = averaged_.name();
     }
     gl_.bind_framebuffer(GL_FRAMEBUFFER, source);
     gl_.read_pixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());

@@ -18,26 +18,30 @@ public:
 
     int height() const { return height_; }
 
-    GLuint name() const { return drawn_.framebuffer.name(); }
+    /// To draw into colour and depth.
+    GLuint name() const { return with_depth_.name(); }
+
+    /// To draw into the same colour, without depth.
+    GLuint name_without_depth() const { return without_depth_.name(); }
 
     /// Waits for the drawing and copies it, 4 * width * height bytes (asserted). Several samples
     /// are averaged. Leaves another framebuffer bound.
     void read(std::span<std::uint8_t> rgba) const;
 
 private:
-    struct Target {
-        Object colour;
-        Object depth;
-        Object framebuffer;
-    };
-
-    Target make_target(int samples, bool with_depth) const;
+    Object make_storage(int samples, GLenum format) const;
+    Object make_target(const Object& colour, const Object* depth) const;
 
     const Functions& gl_;
     int width_;
     int height_;
-    Target drawn_;
-    Target averaged_; ///< empty with 1 sample
+    int samples_;
+    Object colour_;
+    Object depth_;
+    Object with_depth_;
+    Object without_depth_;
+    Object averaged_colour_; ///< empty with 1 sample
+    Object averaged_;
 };
 
 } // namespace octant::visuals::gl

@@ -8,6 +8,8 @@
 // function that is needed gets a line here and nothing else.
 #define OCTANT_GL_FUNCTIONS(X)                                                                     \
     X(attach_shader, PFNGLATTACHSHADERPROC, "glAttachShader")                                      \
+    X(bind_buffer_base, PFNGLBINDBUFFERBASEPROC, "glBindBufferBase")                               \
+    X(bind_buffer, PFNGLBINDBUFFERPROC, "glBindBuffer")                                            \
     X(bind_framebuffer, PFNGLBINDFRAMEBUFFERPROC, "glBindFramebuffer")                             \
     X(bind_vertex_array, PFNGLBINDVERTEXARRAYPROC, "glBindVertexArray")                            \
     X(blit_named_framebuffer, PFNGLBLITNAMEDFRAMEBUFFERPROC, "glBlitNamedFramebuffer")             \
@@ -34,6 +36,9 @@
     X(depth_mask, PFNGLDEPTHMASKPROC, "glDepthMask")                                               \
     X(disable, PFNGLDISABLEPROC, "glDisable")                                                      \
     X(draw_elements_base_vertex, PFNGLDRAWELEMENTSBASEVERTEXPROC, "glDrawElementsBaseVertex")      \
+    X(draw_elements_instanced,                                                                     \
+      PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCEPROC,                                        \
+      "glDrawElementsInstancedBaseVertexBaseInstance")                                             \
     X(enable, PFNGLENABLEPROC, "glEnable")                                                         \
     X(enable_vertex_array_attrib, PFNGLENABLEVERTEXARRAYATTRIBPROC, "glEnableVertexArrayAttrib")   \
     X(finish, PFNGLFINISHPROC, "glFinish")                                                         \
@@ -46,6 +51,9 @@
     X(get_shaderiv, PFNGLGETSHADERIVPROC, "glGetShaderiv")                                         \
     X(get_string, PFNGLGETSTRINGPROC, "glGetString")                                               \
     X(link_program, PFNGLLINKPROGRAMPROC, "glLinkProgram")                                         \
+    X(multi_draw_elements_indirect,                                                                \
+      PFNGLMULTIDRAWELEMENTSINDIRECTPROC,                                                          \
+      "glMultiDrawElementsIndirect")                                                               \
     X(named_buffer_data, PFNGLNAMEDBUFFERDATAPROC, "glNamedBufferData")                            \
     X(named_buffer_sub_data, PFNGLNAMEDBUFFERSUBDATAPROC, "glNamedBufferSubData")                  \
     X(named_framebuffer_renderbuffer,                                                              \
@@ -54,9 +62,8 @@
     X(named_renderbuffer_storage_multisample,                                                      \
       PFNGLNAMEDRENDERBUFFERSTORAGEMULTISAMPLEPROC,                                                \
       "glNamedRenderbufferStorageMultisample")                                                     \
-    X(program_uniform_1f, PFNGLPROGRAMUNIFORM1FPROC, "glProgramUniform1f")                         \
-    X(program_uniform_3fv, PFNGLPROGRAMUNIFORM3FVPROC, "glProgramUniform3fv")                      \
-    X(program_uniform_matrix_4fv, PFNGLPROGRAMUNIFORMMATRIX4FVPROC, "glProgramUniformMatrix4fv")   \
+    X(polygon_offset, PFNGLPOLYGONOFFSETPROC, "glPolygonOffset")                                   \
+    X(program_uniform_4fv, PFNGLPROGRAMUNIFORM4FVPROC, "glProgramUniform4fv")                      \
     X(provoking_vertex, PFNGLPROVOKINGVERTEXPROC, "glProvokingVertex")                             \
     X(read_pixels, PFNGLREADPIXELSPROC, "glReadPixels")                                            \
     X(shader_source, PFNGLSHADERSOURCEPROC, "glShaderSource")                                      \
@@ -65,6 +72,12 @@
       PFNGLVERTEXARRAYATTRIBBINDINGPROC,                                                           \
       "glVertexArrayAttribBinding")                                                                \
     X(vertex_array_attrib_format, PFNGLVERTEXARRAYATTRIBFORMATPROC, "glVertexArrayAttribFormat")   \
+    X(vertex_array_attrib_i_format,                                                                \
+      PFNGLVERTEXARRAYATTRIBIFORMATPROC,                                                           \
+      "glVertexArrayAttribIFormat")                                                                \
+    X(vertex_array_binding_divisor,                                                                \
+      PFNGLVERTEXARRAYBINDINGDIVISORPROC,                                                          \
+      "glVertexArrayBindingDivisor")                                                               \
     X(vertex_array_element_buffer,                                                                 \
       PFNGLVERTEXARRAYELEMENTBUFFERPROC,                                                           \
       "glVertexArrayElementBuffer")                                                                \

@@ -30,11 +30,25 @@ Object make_shader(const Functions& gl, const char* name, GLenum kind, const cha
     return shader;
 }
 
+/// The text with a definition behind its first line, which is the #version.
+std::string with_definition(const char* text, const char* defined) {
+    std::string whole(text);
+    if (defined != nullptr) {
+        whole.insert(whole.find('\n') + 1, std::string("#define ") + defined + "\n");
+    }
+    return whole;
+}
+
 } // namespace
 
 Object make_program(
-    const Functions& gl, const char* name, const char* vertex_text, const char* fragment_text) {
-    const Object vertex = make_shader(gl, name, GL_VERTEX_SHADER, vertex_text);
+    const Functions& gl,
+    const char* name,
+    const char* vertex_text,
+    const char* fragment_text,
+    const char* defined) {
+    const std::string vertex_code = with_definition(vertex_text, defined);
+    const Object vertex = make_shader(gl, name, GL_VERTEX_SHADER, vertex_code.c_str());
     const Object fragment = make_shader(gl, name, GL_FRAGMENT_SHADER, fragment_text);
     Object program(
         gl, gl.create_program(), [](const Functions& f, GLuint n) { f.delete_program(n); });

@@ -1,14 +1,14 @@
 #pragma once
 
+#include "visuals/gl/aircraft_painter.h"
+#include "visuals/gl/draw_state.h"
 #include "visuals/gl/framebuffer.h"
 #include "visuals/gl/picture.h"
 #include "visuals/gl/stream_buffer.h"
+#include "visuals/gl/triangle_painter.h"
 #include "visuals/scene/frame_plan.h"
 
-#include <cstddef>
-#include <cstdint>
 #include <span>
-#include <vector>
 
 namespace octant::visuals::gl {
 
@@ -43,36 +43,21 @@ public:
     /// finish(), then copies the picture, top row first. `picture` keeps its memory between calls.
     void finish_and_read(Picture& picture);
 
+    /// Of the last draw().
+    int draw_calls() const { return state_.draw_calls(); }
+
 private:
-    struct ModelPlace {
-        std::size_t first_index = 0;
-        std::size_t index_count = 0;
-        GLint first_vertex = 0;
-    };
-
-    enum class Depth { Unused, Tested, Written };
-
-    void prepare(const scene::FramePlan& plan);
+    void begin(const scene::FramePlan& plan);
     void upload(const scene::FramePlan& plan);
-    void set_haze(const scene::FramePlan& plan, const Object& program);
-    void use_depth(Depth depth, GLenum nearer);
-    void draw_sky(const scene::FramePlan& plan, Depth depth);
-    void draw_ground(const scene::FramePlan& plan, Depth depth);
-    void begin_aircraft(const scene::FramePlan& plan, Depth depth);
-    void draw_aircraft(const scene::AircraftDraw& aircraft, const glm::mat4& world_to_clip);
+    void paint(const scene::FramePlan& plan);
+    void draw_by_depth(const scene::FramePlan& plan);
 
     const Functions& gl_;
     Framebuffer framebuffer_;
-    Object ground_program_;
-    Object sky_program_;
-    Object aircraft_program_;
-    StreamBuffer stream_vertices_; ///< ground, then sky
-    StreamBuffer stream_indices_;
-    Object model_vertices_;
-    Object model_indices_;
-    Object stream_array_;
-    Object model_array_;
-    std::vector<ModelPlace> models_;
+    StreamBuffer picture_values_; ///< what all shaders read about the picture
+    DrawState state_;
+    TrianglePainter triangles_;
+    AircraftPainter aircraft_;
 };
 
 } // namespace octant::visuals::gl

@@ -3,6 +3,7 @@
 #include "visuals/gl/object.h"
 
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 
 namespace octant::visuals::gl {
@@ -11,12 +12,12 @@ namespace octant::visuals::gl {
 /// driver need not wait for the picture before; its size only grows.
 class StreamBuffer {
 public:
-    explicit StreamBuffer(const Functions& gl);
+    StreamBuffer(const Functions& gl, std::size_t first_capacity_bytes);
 
     GLuint name() const { return buffer_.name(); }
 
-    /// Puts `first` and then `second` into the buffer.
-    void fill(std::span<const std::byte> first, std::span<const std::byte> second);
+    /// Puts the pieces into the buffer, one behind the other.
+    void fill(std::initializer_list<std::span<const std::byte>> pieces);
 
 private:
     const Functions& gl_;

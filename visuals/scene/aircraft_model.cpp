@@ -5,6 +5,8 @@
 #include <glm/common.hpp>
 
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -46,8 +48,11 @@ private:
         const glm::vec3 normal(models::normal_of(model_, polygon));
         const std::uint32_t colour =
             models::packed_colour(model_.materials[model_.polygons[polygon].material].colour);
+        const std::optional<std::uint32_t> pivot = models::pivot_of(model_, polygon);
+        const std::uint32_t part = pivot ? *pivot + 1 : 0;
         for (const std::uint32_t vertex : model_.corners(polygon)) {
-            buffers_.vertices.push_back({glm::vec3(model_.vertices_m[vertex]), normal, colour});
+            buffers_.vertices.push_back(
+                {glm::vec3(model_.vertices_m[vertex]), normal, colour, part});
         }
     }
 
@@ -71,8 +76,11 @@ aircraft_model(models::PolygonModel polygons, draworder::DrawOrder order, const 
             same < cell ? cells[static_cast<std::size_t>(same)]
                         : maker.append(order.polygons_of(cell)));
     }
-    const IndexRange all = maker.append(draworder::file_order(polygons).polygons());
+    std::vector<std::uint32_t> file_list(polygons.polygons.size());
+    std::iota(file_list.begin(), file_list.end(), 0U);
+    const IndexRange all = maker.append(file_list);
     const double radius_m = models::radius_m(polygons);
+    const HullExtent hull = hull_extent(polygons);
     ModelBuffers buffers = maker.take();
     return {
         std::move(polygons),
@@ -80,6 +88,8 @@ aircraft_model(models::PolygonModel polygons, draworder::DrawOrder order, const 
         std::move(buffers),
         std::move(cells),
         all,
+        std::move(file_list),
+        hull,
         {radius_m, eye_m}};
 }
 

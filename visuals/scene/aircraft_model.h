@@ -2,6 +2,7 @@
 
 #include "models/polygon_model.h"
 #include "visuals/draworder/draw_order.h"
+#include "visuals/scene/aircraft_hull.h"
 #include "visuals/scene/camera_rig.h"
 #include "visuals/scene/frame_plan.h"
 
@@ -17,7 +18,8 @@ struct IndexRange {
     int polygons = 0;
 };
 
-/// A polygon model as drawn: one vertex a polygon corner with the polygon's own normal and colour
+/// A polygon model as drawn: one vertex a polygon corner, in the order of
+/// PolygonModel::corner_vertices, with the polygon's own normal and colour
 /// (flat shading), one index buffer that holds the list of every draw cell and, behind them, all
 /// polygons in file order.
 struct AircraftModel {
@@ -26,6 +28,8 @@ struct AircraftModel {
     ModelBuffers buffers;
     std::vector<IndexRange> cells; ///< one for each cell of the order
     IndexRange file_order;
+    std::vector<std::uint32_t> file_list; ///< 0, 1, 2, ...: what file_order draws
+    HullExtent hull;
     Subject subject;
 };
 

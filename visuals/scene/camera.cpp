@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace octant::visuals::scene {
@@ -48,6 +49,12 @@ std::array<glm::dvec3, 4> frustum_normals(const Camera& camera, double aspect) {
         in_world({-1.0, 0.0, -half_width}),
         in_world({0.0, 1.0, -half_height}),
         in_world({0.0, -1.0, -half_height})};
+}
+
+bool in_view(
+    const glm::dvec3& centre_m, double radius_m, const std::array<glm::dvec3, 4>& frustum) {
+    return std::ranges::all_of(
+        frustum, [&](const glm::dvec3& normal) { return glm::dot(normal, centre_m) >= -radius_m; });
 }
 
 } // namespace octant::visuals::scene

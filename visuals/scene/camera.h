@@ -32,4 +32,7 @@ glm::mat4 view_to_clip(const Camera& camera, double aspect);
 /// inside: left, right, bottom, top. A point is inside when every dot product is >= 0.
 std::array<glm::dvec3, 4> frustum_normals(const Camera& camera, double aspect);
 
+/// False only for a sphere, eye-relative, of which nothing is inside such planes.
+bool in_view(const glm::dvec3& centre_m, double radius_m, const std::array<glm::dvec3, 4>& frustum);
+
 } // namespace octant::visuals::scene

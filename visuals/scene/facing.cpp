@@ -3,6 +3,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <cstddef>
+
 namespace octant::visuals::scene {
 
 namespace {
@@ -28,26 +31,52 @@ bool faces_away(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, floa
     return glm::dot(glm::cross(ab, ac), a) > doubt;
 }
 
-} // namespace
-
-TriangleDraw
-facing_the_eye(const TriangleDraw& draw, double pixel_rad, std::vector<std::uint32_t>& kept) {
-    kept.resize(draw.indices.size());
+/// Copies the triangles first .. last - 1 that face the eye to the beginning of `kept`, which must
+/// have room for all of them. Returns the number of indices copied.
+std::size_t keep_facing(
+    const TriangleDraw& draw,
+    std::size_t first,
+    std::size_t last,
+    float pixel_rad,
+    std::span<std::uint32_t> kept) {
     std::size_t count = 0;
-    const auto pixel = static_cast<float>(pixel_rad);
-    for (std::size_t i = 0; i < draw.indices.size(); i += 3) {
+    for (std::size_t i = 3 * first; i < 3 * last; i += 3) {
         const std::uint32_t* corner = &draw.indices[i];
         const bool away = faces_away(
             draw.vertices[corner[0]].position_m,
             draw.vertices[corner[1]].position_m,
             draw.vertices[corner[2]].position_m,
-            pixel);
+            pixel_rad);
         // Written in any case and counted when it stays: no branch to guess.
         kept[count] = corner[0];
         kept[count + 1] = corner[1];
         kept[count + 2] = corner[2];
         count += away ? 0 : 3;
     }
+    return count;
+}
+
+} // namespace
+
+TriangleDraw
+facing_the_eye(const GroundFrame& ground, double pixel_rad, std::vector<std::uint32_t>& kept) {
+    const TriangleDraw& draw = ground.all;
+    const auto pixel = static_cast<float>(pixel_rad);
+    kept.resize(draw.indices.size() + ground.shadow_indices.size());
+    std::size_t count = 0;
+    std::size_t next = 0;
+    const auto keep_until = [&](std::size_t last) {
+        count += keep_facing(draw, next, last, pixel, std::span(kept).subspan(count));
+        next = last;
+    };
+    for (const ShadowPieces& shadow : ground.shadows) {
+        keep_until(std::max<std::size_t>(next, std::size_t{shadow.triangle} + 1));
+        std::ranges::copy(
+            ground.shadow_indices.subspan(shadow.first, shadow.count),
+            kept.begin() + static_cast<std::ptrdiff_t>(count));
+        count += shadow.count;
+    }
+    keep_until(draw.indices.size() / 3);
     kept.resize(count);
     return {draw.vertices, kept};
 }

@@ -1,17 +1,20 @@
 #pragma once
 
 #include "visuals/scene/frame_plan.h"
+#include "visuals/scene/ground_frame.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace octant::visuals::scene {
 
-/// The triangles of a draw that face the eye, as a draw of the same vertices; `kept` holds its
-/// indices. Triangles seen so nearly edge-on that a renderer's rounding of screen positions may
-/// turn them round are kept too: a renderer that drops them by their unrounded facing leaves holes
-/// of single pixels. `pixel_rad`: angle that a pixel covers in the middle of the picture.
+/// The triangles of the ground that face the eye, in their order, each with its shadow pieces
+/// directly behind it, as a draw of the same vertices; `kept` holds its indices. Triangles seen so
+/// nearly edge-on that a renderer's rounding of screen positions may turn them round are kept too:
+/// a renderer that drops them by their unrounded facing leaves holes of single pixels. `pixel_rad`:
+/// angle that a pixel covers in the middle of the picture.
 TriangleDraw
-facing_the_eye(const TriangleDraw& draw, double pixel_rad, std::vector<std::uint32_t>& kept);
+facing_the_eye(const GroundFrame& ground, double pixel_rad, std::vector<std::uint32_t>& kept);
 
 } // namespace octant::visuals::scene

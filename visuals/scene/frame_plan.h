@@ -39,10 +39,7 @@ struct AircraftDraw {
     std::uint32_t model = 0; ///< index into the ModelBuffers given to the renderer
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
-    glm::mat4 body_to_eye_world{1.0F}; ///< body axes to world axes with the eye subtracted
-    glm::vec3 sun_in_body{0.0F};       ///< unit vector towards the sun, body axes
-    std::uint32_t first_part = 0;      ///< index into FramePlan::parts
-    std::uint32_t aircraft = 0;        ///< number in Scene::aircraft; the cockpit comes after all
+    std::uint32_t first_part = 0; ///< index into FramePlan::parts
 };
 
 /// Planes that a draw is cut by: world axes with the eye subtracted, what lies in front of all of
@@ -92,7 +89,7 @@ struct FramePlan {
     bool ground_is_ordered =
         false; ///< the ground's triangles are in painting order: no depth needed
     HiddenSurface hidden_surface = HiddenSurface::Octant;
-    std::vector<AircraftDraw> aircraft; ///< farthest first
+    std::vector<AircraftDraw> aircraft; ///< in the order in which `steps` first names them
     std::vector<glm::mat4> parts; ///< AircraftDraw::first_part: body, then each pivot of the model
     /// Octant, BackFace: what is painted after the ground, in this order; it names every aircraft
     /// at least once. DepthBuffer: one step with all aircraft, nearest first.

@@ -50,6 +50,9 @@ ModelBuffers numbered(const AircraftModel& model, std::uint32_t first) {
 IdPlan::IdPlan(const Scene& scene) {
     std::uint32_t first = 0;
     const auto add = [&](const AircraftModel& model) {
+        const std::size_t parts = model.polygons.pivots.size() + 1;
+        model_of_part_.insert(
+            model_of_part_.end(), parts, static_cast<std::uint32_t>(models_.size()));
         models_.push_back(numbered(model, first));
         first += static_cast<std::uint32_t>(model.polygons.polygons.size());
     };
@@ -86,7 +89,7 @@ const FramePlan& IdPlan::of(const FramePlan& plan) {
     plan_.sunlight = glm::vec3(0.0F);
     plan_.sky = {};
     for (AircraftDraw& draw : plan_.aircraft) {
-        draw.model = draw.aircraft;
+        draw.model = model_of_part_[draw.first_part];
     }
     add_ground(plan, plan.ground.indices);
     const std::size_t ground_indices = indices_.size();

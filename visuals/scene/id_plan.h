@@ -27,7 +27,8 @@ public:
 private:
     void add_ground(const FramePlan& plan, std::span<const std::uint32_t> indices);
 
-    std::vector<ModelBuffers> models_; ///< one for each aircraft, then the cockpit
+    std::vector<ModelBuffers> models_;         ///< one for each aircraft, then the cockpit
+    std::vector<std::uint32_t> model_of_part_; ///< by AircraftDraw::first_part
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;
     FramePlan plan_;

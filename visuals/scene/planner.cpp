@@ -5,18 +5,26 @@
 #include "visuals/scene/ground_colours.h"
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace octant::visuals::scene {
 
 namespace {
 
-glm::mat4 body_to_eye_world(const sim::AircraftState& state, const glm::dvec3& eye_m) {
-    glm::mat4 matrix(glm::mat3_cast(glm::quat(state.body_to_world)));
-    matrix[3] = glm::vec4(glm::vec3(state.position_m - eye_m), 1.0F);
+/// Renderers round screen positions to 1/256 pixel. What is painted again is cut this much too wide
+/// where only that rounding could tell, so that no line of the covered thing shows along the cut.
+constexpr double rounding_px = 0.01;
+
+/// A box may be wider without doing harm.
+constexpr double hull_margin_px = 0.25;
+constexpr double hull_margin_m = 0.01;
+
+glm::dmat4 body_to_eye_world(const sim::AircraftState& state, const glm::dvec3& eye_m) {
+    glm::dmat4 matrix(glm::mat3_cast(state.body_to_world));
+    matrix[3] = glm::dvec4(state.position_m - eye_m, 1.0);
     return matrix;
 }
 
@@ -31,14 +39,35 @@ Planner::Planner(Scene& scene, const Settings& settings)
     : scene_(scene)
     , settings_(settings)
     , aspect_(static_cast<double>(settings.size_px.x) / settings.size_px.y)
-    , to_sun_(direction_to_sun(settings)) {
+    , to_sun_(direction_to_sun(settings))
+    , shadows_(to_sun_)
+    , steps_(plan_) {
     plan_.background = settings.background;
     plan_.haze = {settings.background, static_cast<float>(settings.visibility_m)};
     plan_.hidden_surface = settings.hidden_surface;
     plan_.ground_is_ordered = scene.ground->is_ordered();
+    plan_.to_sun = glm::vec3(to_sun_);
     plan_.ambient = glm::vec3(ambient_light);
     plan_.sunlight = glm::vec3(sun_light);
-    plan_.aircraft.reserve(scene.aircraft.size() + 1);
+    const auto add = [&](std::uint32_t model) {
+        PlacedAircraft& aircraft = placed_.emplace_back();
+        aircraft.model = &scene.models[model];
+        aircraft.model_index = model;
+        aircraft.first_part = static_cast<std::uint32_t>(parts_.size());
+        parts_.resize(parts_.size() + aircraft.model->polygons.pivots.size() + 1);
+    };
+    for (const std::uint32_t model : scene.aircraft) {
+        add(model);
+    }
+    if (scene.cockpit && settings.view == View::Cockpit) {
+        add(*scene.cockpit);
+    }
+    for (PlacedAircraft& aircraft : placed_) {
+        aircraft.parts = std::span(parts_).subspan(
+            aircraft.first_part, aircraft.model->polygons.pivots.size() + 1);
+    }
+    hulls_.resize(scene.aircraft.size());
+    near_to_far_.resize(scene.aircraft.size());
 }
 
 void Planner::settle(const Camera& camera) {
@@ -49,14 +78,28 @@ const FramePlan& Planner::plan(
     const Camera& camera, std::span<const sim::AircraftState> states, PlanCounts& counts) {
     plan_.world_to_view = world_to_view(camera);
     plan_.view_to_clip = view_to_clip(camera, aspect_);
-    plan_.ground = scene_.ground->triangles(camera, aspect_, counts.ground);
-    if (!plan_.ground_is_ordered) {
-        const double pixel_rad =
-            2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings_.size_px.y;
-        plan_.ground = facing_the_eye(plan_.ground, pixel_rad, facing_indices_);
-    }
+    pixel_rad_ = 2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings_.size_px.y;
+    frustum_ = frustum_normals(camera, aspect_);
+    plan_.aircraft.clear();
+    plan_.steps.clear();
+    plan_.clips.clear();
+    plan_.repaint_indices.clear();
+    GroundCounts ground_counts;
+    ground_ = {scene_.ground->triangles(camera, aspect_, ground_counts), {}, {}};
+    counts = {};
+    counts.ground = ground_counts;
+    place_aircraft(camera, states);
+    write_parts();
+    cast_shadows(camera);
+    plan_ground();
     plan_sky(camera);
-    plan_aircraft(camera, states, counts);
+    count_aircraft(counts);
+    counts.shadow_triangles = static_cast<int>(ground_.shadow_indices.size() / 3);
+    if (settings_.hidden_surface == HiddenSurface::DepthBuffer) {
+        paint_nearest_first();
+    } else {
+        paint_knots(camera, counts);
+    }
     return plan_;
 }
 
@@ -72,47 +115,129 @@ void Planner::plan_sky(const Camera& camera) {
         plan_.haze);
 }
 
-void Planner::plan_aircraft(
-    const Camera& camera, std::span<const sim::AircraftState> states, PlanCounts& counts) {
-    plan_.aircraft.clear();
-    counts.aircraft_polygons = 0;
-    const auto add = [&](std::uint32_t model,
-                         const IndexRange& range,
-                         const sim::AircraftState& state,
-                         glm::mat4 matrix) {
-        const glm::vec3 sun(glm::inverse(state.body_to_world) * to_sun_);
-        plan_.aircraft.push_back({model, range.first_index, range.index_count, matrix, sun, 0, 0});
-        counts.aircraft_polygons += range.polygons;
-    };
+/// Where each aircraft is, which list it is painted by and the box that stands in for it.
+void Planner::place_aircraft(const Camera& camera, std::span<const sim::AircraftState> states) {
     for (std::size_t i = 0; i < states.size(); ++i) {
         const sim::AircraftState& state = states[i];
-        const AircraftModel& model = scene_.models[scene_.aircraft[i]];
-        const int cell = model.order.cell_of(
-            draworder::eye_in_body(camera.eye_m, state.position_m, state.body_to_world));
-        counts.draw_cell = i == 0 ? cell : counts.draw_cell;
-        const bool ordered = settings_.hidden_surface == HiddenSurface::Octant;
-        add(scene_.aircraft[i],
-            ordered ? model.cells[static_cast<std::size_t>(cell)] : model.file_order,
-            state,
-            body_to_eye_world(state, camera.eye_m));
+        place(placed_[i], state, camera.eye_m);
+        const glm::dvec3 position_m = state.position_m - camera.eye_m;
+        const double margin_m =
+            hull_margin_m + hull_margin_px * pixel_rad_ * glm::length(position_m);
+        hulls_[i] = placed_hull(placed_[i].model->hull, position_m, state.body_to_world, margin_m);
     }
-    // Farthest first.
-    std::sort(
-        plan_.aircraft.begin(),
-        plan_.aircraft.end(),
-        [](const AircraftDraw& a, const AircraftDraw& b) {
-            const glm::vec3 pa(a.body_to_eye_world[3]);
-            const glm::vec3 pb(b.body_to_eye_world[3]);
-            return glm::dot(pa, pa) > glm::dot(pb, pb);
-        });
-    if (scene_.cockpit && settings_.view == View::Cockpit) {
+    if (placed_.size() > states.size()) {
         sim::AircraftState around_eye = states.front();
         around_eye.position_m = camera.eye_m;
-        add(*scene_.cockpit,
-            scene_.models[*scene_.cockpit].file_order,
-            around_eye,
-            body_to_eye_world(around_eye, camera.eye_m));
+        place(placed_.back(), around_eye, camera.eye_m);
     }
+}
+
+void Planner::place(
+    PlacedAircraft& aircraft, const sim::AircraftState& state, const glm::dvec3& eye_m) {
+    const AircraftModel& model = *aircraft.model;
+    place_parts(
+        model.polygons,
+        body_to_eye_world(state, eye_m),
+        state.time_s,
+        std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1));
+    const int cell =
+        model.order.cell_of(draworder::eye_in_body(eye_m, state.position_m, state.body_to_world));
+    const bool by_cell = settings_.hidden_surface == HiddenSurface::Octant;
+    aircraft.polygons = by_cell ? model.order.polygons_of(cell) : model.file_list;
+    aircraft.range = by_cell ? model.cells[static_cast<std::size_t>(cell)] : model.file_order;
+    aircraft.cell = cell;
+}
+
+void Planner::write_parts() {
+    plan_.parts.resize(parts_.size());
+    std::ranges::transform(
+        parts_, plan_.parts.begin(), [](const glm::dmat4& part) { return glm::mat4(part); });
+}
+
+void Planner::cast_shadows(const Camera& camera) {
+    shadows_.begin(ground_.all, plan_.shadow_vertices);
+    if (settings_.shadows) {
+        const ShadowView view{camera.eye_m, frustum_, pixel_rad_};
+        for (std::size_t i = 0; i < hulls_.size(); ++i) {
+            shadows_.cast(placed_[i], hulls_[i], *scene_.ground, view);
+        }
+        shadows_.sort_pieces();
+    }
+    ground_.shadows = shadows_.pieces();
+    ground_.shadow_indices = shadows_.indices();
+}
+
+void Planner::plan_ground() {
+    plan_.shadow_indices.clear();
+    if (settings_.hidden_surface == HiddenSurface::DepthBuffer) {
+        plan_.ground = facing_the_eye({ground_.all, {}, {}}, pixel_rad_, facing_indices_);
+        plan_.shadow_indices.assign(ground_.shadow_indices.begin(), ground_.shadow_indices.end());
+    } else {
+        plan_.ground = facing_the_eye(ground_, pixel_rad_, facing_indices_);
+    }
+}
+
+/// The cockpit, if any, is nearer than all.
+void Planner::paint_nearest_first() {
+    std::iota(near_to_far_.begin(), near_to_far_.end(), 0U);
+    const auto distance2_m2 = [&](std::uint32_t i) {
+        return glm::dot(hulls_[i].centre_m, hulls_[i].centre_m);
+    };
+    std::ranges::sort(near_to_far_, [&](std::uint32_t a, std::uint32_t b) {
+        const double a_m2 = distance2_m2(a);
+        const double b_m2 = distance2_m2(b);
+        return a_m2 != b_m2 ? a_m2 < b_m2 : a < b;
+    });
+    if (placed_.size() > hulls_.size()) {
+        steps_.paint(draw_of(placed_.back()));
+    }
+    for (const std::uint32_t i : near_to_far_) {
+        steps_.paint(draw_of(placed_[i]));
+    }
+}
+
+void Planner::paint_knots(const Camera& camera, PlanCounts& counts) {
+    order_.arrange(hulls_);
+    for (const Knot& knot : order_.knots()) {
+        paint_knot(knot, camera, counts);
+    }
+    if (placed_.size() > hulls_.size()) {
+        steps_.paint(draw_of(placed_.back()));
+    }
+}
+
+/// Paints a knot and again what lies before it; nothing again where it is out of view.
+void Planner::paint_knot(const Knot& knot, const Camera& camera, PlanCounts& counts) {
+    members_.clear();
+    for (const std::uint32_t member : order_.members(knot)) {
+        members_.push_back(&placed_[member]);
+    }
+    if (!in_view(knot.box.centre_m, radius_m(knot.box), frustum_)) {
+        for (const PlacedAircraft* member : members_) {
+            steps_.paint(draw_of(*member));
+        }
+        return;
+    }
+    in_front_.find(knot.box, *scene_.ground, ground_.all, camera.eye_m);
+    if (!in_front_.meeting().empty() || members_.size() > 1) {
+        ++counts.knots;
+        counts.cuts += repaint_.paint(
+            members_, knot.box, ground_, in_front_.meeting(), rounding_px * pixel_rad_, steps_);
+        counts.unordered += repaint_.given_up();
+    } else {
+        steps_.paint(draw_of(*members_.front()));
+    }
+    if (!in_front_.found().empty() && !holds_eye(knot.box)) {
+        steps_.paint_before(ground_, in_front_.found(), knot.box);
+        counts.cuts += static_cast<int>(in_front_.found().size());
+    }
+}
+
+void Planner::count_aircraft(PlanCounts& counts) const {
+    for (const PlacedAircraft& aircraft : placed_) {
+        counts.aircraft_polygons += aircraft.range.polygons;
+    }
+    counts.draw_cell = placed_.empty() ? 0 : placed_.front().cell;
 }
 
 } // namespace octant::visuals::scene

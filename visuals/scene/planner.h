@@ -5,9 +5,16 @@
 #include "visuals/scene/camera.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/ground.h"
+#include "visuals/scene/ground_in_front.h"
+#include "visuals/scene/placed_aircraft.h"
+#include "visuals/scene/polygon_repaint.h"
+#include "visuals/scene/scene_order.h"
 #include "visuals/scene/settings.h"
+#include "visuals/scene/shadow.h"
 #include "visuals/scene/sky.h"
+#include "visuals/scene/step_writer.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -30,7 +37,8 @@ struct PlanCounts {
     int aircraft_polygons = 0;
     int draw_cell = 0; ///< of the first aircraft
     int cuts = 0;      ///< ground triangles and aircraft polygons painted again, cut by planes
-    int unordered = 0; ///< overlaps for which no order was found; 0 but for aircraft that touch
+    int knots = 0;     ///< aircraft painted polygon by polygon: they meet, or stand in a ring
+    int unordered = 0; ///< polygons that should have been painted again and were too many
     int shadow_triangles = 0;
 };
 
@@ -40,6 +48,11 @@ class Planner {
 public:
     /// The scene and the settings must outlive the planner.
     Planner(Scene& scene, const Settings& settings);
+    Planner(const Planner&) = delete;
+    Planner& operator=(const Planner&) = delete;
+    Planner(Planner&&) = delete;
+    Planner& operator=(Planner&&) = delete;
+    ~Planner() = default;
 
     /// Prepares the ground for the camera of the first frame. Loading work.
     void settle(const Camera& camera);
@@ -51,16 +64,36 @@ public:
 
 private:
     void plan_sky(const Camera& camera);
-    void plan_aircraft(
-        const Camera& camera, std::span<const sim::AircraftState> states, PlanCounts& counts);
+    void place_aircraft(const Camera& camera, std::span<const sim::AircraftState> states);
+    void place(PlacedAircraft& aircraft, const sim::AircraftState& state, const glm::dvec3& eye_m);
+    void cast_shadows(const Camera& camera);
+    void plan_ground();
+    void write_parts();
+    void paint_nearest_first();
+    void paint_knots(const Camera& camera, PlanCounts& counts);
+    void paint_knot(const Knot& knot, const Camera& camera, PlanCounts& counts);
+    void count_aircraft(PlanCounts& counts) const;
 
     Scene& scene_;
     const Settings& settings_;
     double aspect_;
     glm::dvec3 to_sun_;
     Sky sky_;
+    ShadowCaster shadows_;
+    SceneOrder order_;
+    GroundInFront in_front_;
+    PolygonRepaint repaint_;
+    double pixel_rad_ = 0.0; ///< what a pixel covers in the middle of the picture
+    std::array<glm::dvec3, 4> frustum_{};
+    GroundFrame ground_;
+    std::vector<PlacedAircraft> placed_; ///< Scene::aircraft, then the cockpit
+    std::vector<glm::dmat4> parts_;      ///< of placed_
+    std::vector<HullBox> hulls_;         ///< of Scene::aircraft
+    std::vector<const PlacedAircraft*> members_;
+    std::vector<std::uint32_t> near_to_far_;
     std::vector<std::uint32_t> facing_indices_;
     FramePlan plan_;
+    StepWriter steps_;
 };
 
 } // namespace octant::visuals::scene

@@ -4,12 +4,18 @@
 layout(location = 0) in vec3 position_m; // world axes, eye at the origin
 layout(location = 1) in vec4 own_colour;
 
-layout(location = 0) uniform mat4 to_clip;
+layout(std140, binding = 0) uniform Picture {
+    mat4 world_to_clip;
+    vec4 haze;
+    vec4 to_sun;
+    vec4 ambient;
+    vec4 sunlight;
+};
 
 out vec3 colour;
 
 void main() {
     colour = own_colour.rgb;
-    vec4 clip = to_clip * vec4(position_m, 1.0);
+    vec4 clip = world_to_clip * vec4(position_m, 1.0);
     gl_Position = vec4(clip.xy, 0.0, clip.w);
 }

@@ -1,0 +1,174 @@
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+#include "plan_painter.h"
+
+using namespace octant;
+using namespace octant::tests;
+using namespace octant::visuals::scene;
+
+namespace {
+
+double rugged(double x_m, double y_m) {
+    return 60.0 * std::sin(x_m / 90.0) * std::cos(y_m / 70.0) +
+           25.0 * std::sin(x_m / 31.0 + y_m / 23.0);
+}
+
+struct Total {
+    int seen = 0;
+    int wrong = 0;
+    int cuts = 0;
+    int knots = 0;
+    int unordered = 0;
+};
+
+/// Boxes and concave bodies where `place` puts them, seen from `eye`.
+Total paint_scenes(
+    int scenes,
+    int aircraft,
+    std::unique_ptr<Ground> ground,
+    const std::function<glm::dvec3(Dice&)>& place,
+    const std::function<glm::dvec3(Dice&)>& eye) {
+    Total total;
+    Dice dice(1989);
+    const Settings settings = plain_settings();
+    Scene scene;
+    scene.ground = std::move(ground);
+    scene.models.push_back(convex_aircraft(box_model({10.0, 3.0, 2.0})));
+    scene.models.push_back(concave_aircraft(0.1));
+    for (int i = 0; i < aircraft; ++i) {
+        scene.aircraft.push_back(static_cast<std::uint32_t>(i % 2));
+    }
+    Planner planner(scene, settings);
+    for (int i = 0; i < scenes; ++i) {
+        std::vector<sim::AircraftState> states;
+        for (int k = 0; k < aircraft; ++k) {
+            states.push_back(state_at(place(dice), dice.attitude()));
+        }
+        Camera camera = camera_looking_at(eye(dice), states.front().position_m);
+        camera.near_m = 1e-3;
+        PlanCounts counts;
+        const FramePlan& plan = planner.plan(camera, states, counts);
+        const SightCount count = count_wrong_sights(plan, scene, states, camera, dice);
+        if (count.wrong > 0) {
+            INFO("scene " << i);
+            CHECK(count.wrong == 0);
+        }
+        total.seen += count.seen;
+        total.wrong += count.wrong;
+        total.cuts += counts.cuts;
+        total.knots += counts.knots;
+        total.unordered += counts.unordered;
+    }
+    return total;
+}
+
+std::unique_ptr<Ground> cells(const Height& height) {
+    return cell_ground(16, 50.0, height);
+}
+
+const Height level = [](double, double) { return 0.0; };
+
+} // namespace
+
+TEST_CASE("aircraft apart over level ground are painted right without repaints") {
+    const Total total = paint_scenes(
+        100,
+        6,
+        cells(level),
+        [](Dice& dice) {
+            return dice.in_box({300, 300, 60}) + glm::dvec3(0, 0, 100);
+        },
+        [](Dice& dice) {
+            return dice.in_box({350, 350, 60}) + glm::dvec3(0, 0, 100);
+        });
+    CHECK(total.seen > 10000);
+    CHECK(total.wrong == 0);
+    CHECK(total.cuts == 0);
+    CHECK(total.unordered == 0);
+}
+
+TEST_CASE("aircraft among ridges are painted right") {
+    const Total total = paint_scenes(
+        100,
+        5,
+        cells(rugged),
+        [](Dice& dice) {
+            const glm::dvec3 at = dice.in_box({300, 300, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(18.0, 60.0));
+        },
+        [](Dice& dice) {
+            const glm::dvec3 at = dice.in_box({380, 380, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 60.0));
+        });
+    CHECK(total.seen > 10000);
+    CHECK(total.wrong == 0);
+    CHECK(total.cuts > 100);
+    CHECK(total.unordered == 0);
+}
+
+TEST_CASE("aircraft that touch the ground are painted right") {
+    const Total total = paint_scenes(
+        100,
+        3,
+        cells(rugged),
+        [](Dice& dice) {
+            const glm::dvec3 at = dice.in_box({300, 300, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(-2.0, 8.0));
+        },
+        [](Dice& dice) {
+            const glm::dvec3 at = dice.in_box({380, 380, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 60.0));
+        });
+    CHECK(total.seen > 5000);
+    CHECK(total.wrong == 0);
+    CHECK(total.knots > 50);
+    CHECK(total.unordered == 0);
+}
+
+TEST_CASE("aircraft close together, in rings and through each other are painted right") {
+    for (const double spread_m : {8.0, 15.0, 30.0}) {
+        const Total total = paint_scenes(
+            60,
+            5,
+            cells(rugged),
+            [&](Dice& dice) { return dice.in_box(glm::dvec3(spread_m)) + glm::dvec3(0, 0, 150); },
+            [](Dice& dice) {
+                return dice.in_box({120, 120, 60}) + glm::dvec3(0, 0, 150);
+            });
+        CHECK(total.seen > 5000);
+        CHECK(total.wrong == 0);
+        CHECK(total.unordered == 0);
+        CHECK(total.knots > 10);
+    }
+}
+
+TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {
+    std::vector<float> heights_m;
+    for (int row = 0; row < 65; ++row) {
+        for (int column = 0; column < 65; ++column) {
+            heights_m.push_back(
+                static_cast<float>(rugged((column - 32) * 12.5, (row - 32) * 12.5)));
+        }
+    }
+    Settings settings = plain_settings();
+    settings.triangles = 600;
+    const Total total = paint_scenes(
+        60,
+        5,
+        ground_from_field({65, 65, 12.5, heights_m}, settings),
+        [](Dice& dice) {
+            const glm::dvec3 at = dice.in_box({300, 300, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(0.0, 60.0));
+        },
+        [](Dice& dice) {
+            const glm::dvec3 at = dice.in_box({380, 380, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 60.0));
+        });
+    CHECK(total.seen > 5000);
+    CHECK(total.wrong == 0);
+    CHECK(total.cuts > 100);
+    CHECK(total.unordered == 0);
+}

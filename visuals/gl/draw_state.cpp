@@ -1,0 +1,98 @@
+#include "visuals/gl/draw_state.h"
+
+#include "visuals/gl/program.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace octant::visuals::gl {
+namespace {
+
+using scene::Clip;
+
+constexpr GLint planes_uniform = 0; ///< place in the shaders, where CUT is defined
+
+// Shadow pieces lie in the plane of ground triangles, yet their depths differ by rounding: of the
+// corners to 1/256 pixel, which one pixel's change of depth covers, and of the depth itself.
+constexpr float towards_eye_px = 1.0F;
+constexpr float towards_eye_steps = 16.0F; ///< of the float nearest to the triangle's depths
+
+} // namespace
+
+ProgramPair make_program_pair(
+    const Functions& gl, const char* name, const char* vertex_text, const char* fragment_text) {
+    return {
+        make_program(gl, name, vertex_text, fragment_text),
+        make_program(gl, name, vertex_text, fragment_text, "CUT")};
+}
+
+void DrawState::begin_picture() {
+    // The upper left origin brings the rows out from the top. Which side of a triangle is its
+    // front does not change with it: OpenGL turns the sign of the area along with the origin.
+    gl_.clip_control(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+    gl_.front_face(GL_CCW);
+    gl_.cull_face(GL_BACK);
+    gl_.provoking_vertex(GL_FIRST_VERTEX_CONVENTION);
+    gl_.disable(GL_DITHER);
+    gl_.depth_mask(GL_TRUE);
+    gl_.polygon_offset(towards_eye_px, towards_eye_steps);
+    cut_by_planes(false);
+    draw_calls_ = 0;
+}
+
+void DrawState::use_depth(Depth depth) {
+    if (depth == Depth::Unused) {
+        gl_.disable(GL_DEPTH_TEST);
+        return;
+    }
+    gl_.enable(GL_DEPTH_TEST);
+    gl_.depth_func(depth == Depth::Nearest ? GL_GREATER : GL_GEQUAL);
+    gl_.depth_mask(depth == Depth::InfinitelyFar ? GL_FALSE : GL_TRUE);
+    if (depth == Depth::OnGround) {
+        gl_.enable(GL_POLYGON_OFFSET_FILL);
+    } else {
+        gl_.disable(GL_POLYGON_OFFSET_FILL);
+    }
+}
+
+void DrawState::cull_back_faces(bool cull) {
+    if (cull) {
+        gl_.enable(GL_CULL_FACE);
+    } else {
+        gl_.disable(GL_CULL_FACE);
+    }
+}
+
+void DrawState::use_program(const ProgramPair& programs, const Clip* clip) {
+    const bool cut = clip != nullptr;
+    const Object& program = cut ? programs.cut : programs.whole;
+    gl_.use_program(program.name());
+    if (cut != cuts_) {
+        cut_by_planes(cut);
+    }
+    if (cut) {
+        assert(clip->count >= 0 && clip->count <= Clip::most_planes);
+        // All planes are always on: their number would be one more thing to compile for.
+        std::array<glm::vec4, Clip::most_planes> planes;
+        planes.fill(glm::vec4(0.0F, 0.0F, 0.0F, 1.0F)); // cuts nothing
+        std::copy_n(clip->planes.begin(), clip->count, planes.begin());
+        gl_.program_uniform_4fv(
+            program.name(), planes_uniform, Clip::most_planes, glm::value_ptr(planes.front()));
+    }
+}
+
+void DrawState::cut_by_planes(bool cut) {
+    for (GLenum plane = 0; plane < GLenum{Clip::most_planes}; ++plane) {
+        if (cut) {
+            gl_.enable(GL_CLIP_DISTANCE0 + plane);
+        } else {
+            gl_.disable(GL_CLIP_DISTANCE0 + plane);
+        }
+    }
+    cuts_ = cut;
+}
+
+} // namespace octant::visuals::gl

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "visuals/gl/object.h"
+#include "visuals/scene/frame_plan.h"
+
+namespace octant::visuals::gl {
+
+/// What is asked of the depth buffer; greater is nearer.
+enum class Depth {
+    Unused,       ///< drawn over whatever is there
+    Nearest,      ///< drawn where nearer than what is there, and written
+    OnGround,     ///< drawn where it lies on what is there, a little towards the eye; written
+    InfinitelyFar ///< drawn where nothing is; not written
+};
+
+/// A program of two kinds: for draws that are cut by planes, and for all others, which then pay
+/// nothing for the planes.
+struct ProgramPair {
+    Object whole;
+    Object cut;
+};
+
+/// Links both kinds, the second with CUT defined. Throws Error with `name`.
+ProgramPair make_program_pair(
+    const Functions& gl, const char* name, const char* vertex_text, const char* fragment_text);
+
+/// The state of the context that draws of one picture share, and their number.
+class DrawState {
+public:
+    explicit DrawState(const Functions& gl)
+        : gl_(gl) {}
+
+    /// Sets what stays the same in the whole picture, and the number of draw calls to 0. Nothing
+    /// about the context is taken for granted.
+    void begin_picture();
+
+    void use_depth(Depth depth);
+    void cull_back_faces(bool cull);
+
+    /// Takes the program of the pair that fits; no clip = not cut.
+    void use_program(const ProgramPair& programs, const scene::Clip* clip = nullptr);
+
+    void count_draw_call() { ++draw_calls_; }
+
+    int draw_calls() const { return draw_calls_; }
+
+private:
+    void cut_by_planes(bool cut);
+
+    const Functions& gl_;
+    bool cuts_ = false;
+    int draw_calls_ = 0;
+};
+
+} // namespace octant::visuals::gl

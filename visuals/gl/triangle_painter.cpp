@@ -1,0 +1,100 @@
+#include "visuals/gl/triangle_painter.h"
+
+#include "visuals/gl/program.h"
+#include "visuals/gl/shader_sources.h"
+#include "visuals/gl/vertex_array.h"
+
+#include <cassert>
+#include <span>
+
+namespace octant::visuals::gl {
+namespace {
+
+using models::ColourVertex;
+
+constexpr std::size_t first_capacity_bytes = std::size_t{1} << 20;
+
+Object make_array(const Functions& gl, const StreamBuffer& vertices, const StreamBuffer& indices) {
+    Object array = make_vertex_array(gl);
+    gl.vertex_array_vertex_buffer(array.name(), 0, vertices.name(), 0, sizeof(ColourVertex));
+    gl.vertex_array_element_buffer(array.name(), indices.name());
+    add_vector_input(gl, array, position_input, offsetof(ColourVertex, position_m));
+    add_colour_input(gl, array, offsetof(ColourVertex, colour));
+    return array;
+}
+
+} // namespace
+
+TrianglePainter::TrianglePainter(const Functions& gl, DrawState& state)
+    : gl_(gl)
+    , state_(state)
+    , ground_programs_(make_program_pair(gl, "ground", ground_vert, smooth_frag))
+    , sky_programs_{make_program(gl, "sky", sky_vert, smooth_frag), {}}
+    , vertices_(gl, first_capacity_bytes)
+    , indices_(gl, first_capacity_bytes)
+    , array_(make_array(gl, vertices_, indices_)) {}
+
+void TrianglePainter::upload(const scene::FramePlan& plan) {
+    const std::span shadow_vertices(plan.shadow_vertices);
+    vertices_.fill(
+        {std::as_bytes(plan.ground.vertices),
+         std::as_bytes(shadow_vertices),
+         std::as_bytes(plan.sky.vertices)});
+    indices_.fill(
+        {std::as_bytes(plan.ground.indices),
+         std::as_bytes(std::span(plan.repaint_indices)),
+         std::as_bytes(std::span(plan.shadow_indices)),
+         std::as_bytes(plan.sky.indices)});
+    ground_ = {0, plan.ground.indices.size()};
+    repainted_ = {ground_.count, plan.repaint_indices.size()};
+    shadows_ = {repainted_.first + repainted_.count, plan.shadow_indices.size()};
+    sky_ = {shadows_.first + shadows_.count, plan.sky.indices.size()};
+    first_sky_vertex_ = static_cast<GLint>(plan.ground.vertices.size() + shadow_vertices.size());
+}
+
+void TrianglePainter::draw_sky(Depth depth) {
+    if (sky_.count > 0) {
+        state_.use_depth(depth);
+        state_.use_program(sky_programs_);
+        draw(sky_, first_sky_vertex_);
+    }
+}
+
+void TrianglePainter::draw_ground(Depth depth) {
+    if (ground_.count > 0) {
+        state_.use_depth(depth);
+        state_.use_program(ground_programs_);
+        draw(ground_, 0);
+    }
+}
+
+void TrianglePainter::draw_shadows() {
+    if (shadows_.count > 0) {
+        state_.use_depth(Depth::OnGround);
+        state_.use_program(ground_programs_);
+        draw(shadows_, 0);
+    }
+}
+
+void TrianglePainter::repaint(std::uint32_t first, std::uint32_t count, const scene::Clip* clip) {
+    assert(std::size_t{first} + count <= repainted_.count);
+    if (count > 0) {
+        state_.use_depth(Depth::Unused);
+        state_.use_program(ground_programs_, clip);
+        draw({repainted_.first + first, count}, 0);
+    }
+}
+
+void TrianglePainter::draw(Range indices, GLint first_vertex) {
+    state_.cull_back_faces(false);
+    gl_.bind_vertex_array(array_.name());
+    gl_.draw_elements_base_vertex(
+        GL_TRIANGLES,
+        static_cast<GLsizei>(indices.count),
+        GL_UNSIGNED_INT,
+        reinterpret_cast<const void*>(indices.first * sizeof(std::uint32_t)),
+        first_vertex);
+    state_.count_draw_call();
+}
+
+} // namespace octant::visuals::gl

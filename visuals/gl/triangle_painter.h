@@ -1,0 +1,53 @@
+#pragma once
+
+#include "visuals/gl/draw_state.h"
+#include "visuals/gl/stream_buffer.h"
+#include "visuals/scene/frame_plan.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace octant::visuals::gl {
+
+/// Draws what lies in world axes: ground, shadows, sky. From a plan's upload on, each call draws of
+/// that plan.
+class TrianglePainter {
+public:
+    TrianglePainter(const Functions& gl, DrawState& state);
+
+    void upload(const scene::FramePlan& plan);
+
+    void draw_sky(Depth depth);
+
+    /// The whole list in its order.
+    void draw_ground(Depth depth);
+
+    /// FramePlan::shadow_indices.
+    void draw_shadows();
+
+    /// FramePlan::repaint_indices `first` to `first + count - 1`, without depth. No clip = not cut.
+    void repaint(std::uint32_t first, std::uint32_t count, const scene::Clip* clip);
+
+private:
+    struct Range {
+        std::size_t first = 0;
+        std::size_t count = 0;
+    };
+
+    void draw(Range indices, GLint first_vertex);
+
+    const Functions& gl_;
+    DrawState& state_;
+    ProgramPair ground_programs_;
+    ProgramPair sky_programs_;
+    StreamBuffer vertices_; ///< ground, shadows, sky
+    StreamBuffer indices_;  ///< ground, repainted, shadows, sky
+    Object array_;
+    Range ground_;
+    Range repainted_;
+    Range shadows_;
+    Range sky_;
+    GLint first_sky_vertex_ = 0;
+};
+
+} // namespace octant::visuals::gl

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "visuals/gl/object.h"
+
+#include <cstddef>
+
+namespace octant::visuals::gl {
+
+// Places of the inputs in visuals/gl/shaders/*.vert.
+constexpr GLuint position_input = 0;
+constexpr GLuint colour_input = 1;
+constexpr GLuint normal_input = 2;
+constexpr GLuint part_input = 3;
+constexpr GLuint first_part_input = 4;
+
+/// Three floats at `offset` of each vertex of the array's buffer 0.
+void add_vector_input(const Functions& gl, const Object& array, GLuint input, std::size_t offset);
+
+/// colour_input: four bytes at `offset` of each vertex of the array's buffer 0, 255 read as 1.
+void add_colour_input(const Functions& gl, const Object& array, std::size_t offset);
+
+/// A 32-bit number at `offset` of each element of the array's buffer `binding`.
+void add_number_input(
+    const Functions& gl, const Object& array, GLuint input, GLuint binding, std::size_t offset);
+
+} // namespace octant::visuals::gl

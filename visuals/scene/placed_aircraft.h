@@ -1,0 +1,43 @@
+#pragma once
+
+#include "visuals/scene/aircraft_hull.h"
+#include "visuals/scene/aircraft_model.h"
+#include "visuals/scene/sight.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace octant::visuals::scene {
+
+/// One aircraft of one frame, where it is.
+struct PlacedAircraft {
+    const AircraftModel* model = nullptr;
+    std::uint32_t model_index = 0;
+    std::span<const std::uint32_t> polygons; ///< in painting order
+    IndexRange range;                        ///< the same as drawn
+    int cell = 0;                            ///< of the draw order, in which the eye is
+    std::uint32_t first_part = 0;            ///< index into FramePlan::parts
+    /// Body axes to world axes with the eye at the origin: the body, then each pivot turned.
+    std::span<const glm::dmat4> parts;
+};
+
+/// The corners of a polygon of an aircraft where it is; world axes with the eye at the origin.
+void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, SightPolygon& placed);
+
+/// What a whole aircraft is drawn by.
+AircraftDraw draw_of(const PlacedAircraft& aircraft);
+
+/// Number of indices of a polygon as a fan of triangles.
+std::uint32_t index_count_of(const models::Polygon& polygon);
+
+/// The body matrix of an aircraft and one matrix for each pivot of its model, at a time.
+void place_parts(
+    const models::PolygonModel& model,
+    const glm::dmat4& body_to_eye_world,
+    double time_s,
+    std::span<glm::dmat4> parts);
+
+} // namespace octant::visuals::scene

@@ -1,0 +1,162 @@
+#include "visuals/scene/step_writer.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+
+namespace octant::visuals::scene {
+
+namespace {
+
+/// Plane through the eye and an edge, `inside` in front of it; zero for an edge seen end-on.
+glm::dvec3
+edge_normal(const glm::dvec3& from_m, const glm::dvec3& to_m, const glm::dvec3& inside_m) {
+    const glm::dvec3 across = glm::cross(from_m, to_m);
+    const double size = glm::length(across);
+    if (size <= 1e-14 * glm::length(from_m) * glm::length(to_m)) {
+        return glm::dvec3(0.0);
+    }
+    return across * ((glm::dot(across, inside_m) < 0.0 ? -1.0 : 1.0) / size);
+}
+
+} // namespace
+
+void StepWriter::paint(const AircraftDraw& draw) {
+    const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
+    plan_.aircraft.push_back(draw);
+    if (!plan_.steps.empty()) {
+        PaintStep& last = plan_.steps.back();
+        if (last.what == PaintStep::What::Aircraft && last.clip == PaintStep::whole &&
+            last.first + last.count == place) {
+            ++last.count;
+            return;
+        }
+    }
+    plan_.steps.push_back({PaintStep::What::Aircraft, place, 1, PaintStep::whole});
+}
+
+std::uint32_t StepWriter::add_clip(std::span<const glm::dvec3> normals) {
+    assert(normals.size() <= std::size_t{Clip::most_planes});
+    Clip& clip = plan_.clips.emplace_back();
+    for (const glm::dvec3& normal : normals) {
+        clip.planes[static_cast<std::size_t>(clip.count++)] = glm::vec4(glm::vec3(normal), 0.0F);
+    }
+    return static_cast<std::uint32_t>(plan_.clips.size() - 1);
+}
+
+template <class Paint>
+void StepWriter::for_each_clip(const SightPolygon& region, const Paint& paint) {
+    constexpr std::size_t most = Clip::most_planes;
+    const auto cuts = static_cast<std::size_t>(
+        std::ranges::count_if(region, [](const SightCorner& corner) { return corner.cut; }));
+    const auto add_edges = [&](const SightPolygon& piece, bool all) {
+        normals_.clear();
+        const glm::dvec3 middle_m = middle_of(piece);
+        for (std::size_t i = 0; i < piece.size(); ++i) {
+            const glm::dvec3 normal =
+                edge_normal(piece[i].at_m, piece[i + 1 < piece.size() ? i + 1 : 0].at_m, middle_m);
+            if ((all || piece[i].cut) && normal != glm::dvec3(0.0)) {
+                normals_.push_back(normal);
+            }
+        }
+        paint(add_clip(normals_));
+    };
+    if (cuts <= most) {
+        add_edges(region, false);
+        return;
+    }
+    // A fan of pieces with few edges each.
+    for (std::size_t from = 1; from + 1 < region.size(); from += most - 2) {
+        const std::size_t to = std::min(from + most - 2, region.size() - 1);
+        piece_.assign(1, region[0]);
+        for (std::size_t i = from; i <= to; ++i) {
+            piece_.push_back(region[i]);
+        }
+        add_edges(piece_, true);
+    }
+}
+
+void StepWriter::paint_within(const AircraftDraw& draw, const SightPolygon& region) {
+    const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
+    plan_.aircraft.push_back(draw);
+    for_each_clip(region, [&](std::uint32_t clip) {
+        plan_.steps.push_back({PaintStep::What::Aircraft, place, 1, clip});
+    });
+}
+
+void StepWriter::add_indices(const GroundFrame& ground, std::uint32_t triangle) {
+    const auto own = ground.all.indices.subspan(std::size_t{3} * triangle, 3);
+    plan_.repaint_indices.insert(plan_.repaint_indices.end(), own.begin(), own.end());
+    for (const ShadowPieces& shadow : shadows_on(ground, triangle)) {
+        const auto pieces = ground.shadow_indices.subspan(shadow.first, shadow.count);
+        plan_.repaint_indices.insert(plan_.repaint_indices.end(), pieces.begin(), pieces.end());
+    }
+}
+
+void StepWriter::paint_before(
+    const GroundFrame& ground, std::span<const NearTriangle> triangles, const HullBox& box) {
+    const SightCone cone = cone_of(box);
+    std::uint32_t cone_clip = PaintStep::whole;
+    bool continues = false; // the last step, with the cone alone
+    for (const NearTriangle& near : triangles) {
+        if (near.meets) {
+            paint_outside(ground, near.triangle, box, cone);
+            continues = false;
+            continue;
+        }
+        const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
+        add_indices(ground, near.triangle);
+        const auto count = static_cast<std::uint32_t>(plan_.repaint_indices.size()) - first;
+        if (continues) {
+            plan_.steps.back().count += count;
+            continue;
+        }
+        cone_clip = cone_clip == PaintStep::whole ? add_clip(cone.planes()) : cone_clip;
+        plan_.steps.push_back({PaintStep::What::Ground, first, count, cone_clip});
+        continues = true;
+    }
+}
+
+/// A sight line enters a box through the last of the sides that face the eye, so that a point in
+/// the cone lies before the box if it lies outside any of them.
+void StepWriter::paint_outside(
+    const GroundFrame& ground, std::uint32_t triangle, const HullBox& box, const SightCone& cone) {
+    const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
+    std::uint32_t count = 0;
+    for (int side = 0; side < 6; ++side) {
+        const Plane plane = side_of(box, side);
+        if (plane.offset_m <= 0.0) {
+            continue;
+        }
+        place_triangle(ground.all, triangle, piece_);
+        cut_to_front(piece_, plane, 0.0, scratch_);
+        cut_to_cone(piece_, cone.planes(), scratch_);
+        if (solid_angle_sr(piece_) < least_solid_angle_sr) {
+            continue;
+        }
+        if (count == 0) {
+            add_indices(ground, triangle);
+            count = static_cast<std::uint32_t>(plan_.repaint_indices.size()) - first;
+        }
+        const std::uint32_t index = add_clip(cone.planes());
+        Clip& clip = plan_.clips[index];
+        clip.planes[static_cast<std::size_t>(clip.count++)] =
+            glm::vec4(glm::vec3(plane.normal), static_cast<float>(plane.offset_m));
+        plan_.steps.push_back({PaintStep::What::Ground, first, count, index});
+    }
+}
+
+void StepWriter::paint_within(
+    const GroundFrame& ground, std::uint32_t triangle, const SightPolygon& region) {
+    const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
+    add_indices(ground, triangle);
+    const auto count = static_cast<std::uint32_t>(plan_.repaint_indices.size()) - first;
+    for_each_clip(region, [&](std::uint32_t clip) {
+        plan_.steps.push_back({PaintStep::What::Ground, first, count, clip});
+    });
+}
+
+} // namespace octant::visuals::scene
