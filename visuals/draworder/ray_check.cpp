@@ -182,4 +182,16 @@ RayCount count_wrong_rays(
     return count;
 }
 
+RayCount count_wrong_rays_from(
+    const models::PolygonModel& model,
+    std::span<const std::uint32_t> painted,
+    const glm::dvec3& eye_m,
+    int rays) {
+    Sampling sampling(model, {.rays_per_eye = rays}, {});
+    RayCount count;
+    count.eyes = 1;
+    sampling.look(eye_m, painted, count);
+    return count;
+}
+
 } // namespace octant::visuals::draworder

@@ -8,7 +8,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace octant::visuals::draworder {
 
@@ -64,5 +63,12 @@ RayCount count_wrong_rays(
 /// The same for orders by cells: eyes out of their range are passed over.
 RayCount count_wrong_rays(
     const models::PolygonModel& model, const CellOrders& orders, const EyeSamples& samples);
+
+/// Rays from one eye for one list.
+RayCount count_wrong_rays_from(
+    const models::PolygonModel& model,
+    std::span<const std::uint32_t> painted,
+    const glm::dvec3& eye_m,
+    int rays);
 
 } // namespace octant::visuals::draworder
