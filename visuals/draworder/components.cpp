@@ -143,4 +143,33 @@ Cycles cycles_of(const HidingGraph& graph) {
     return cycles_of(graph, all);
 }
 
+std::vector<std::uint32_t>
+shortest_ring(const HidingGraph& graph, std::span<const std::uint32_t> among) {
+    std::vector<std::uint32_t> best;
+    for (const std::uint32_t start : among) {
+        std::vector<std::uint32_t> came_from(graph.count(), unseen);
+        std::vector<std::uint32_t> reached{start};
+        for (std::size_t i = 0; i < reached.size() && came_from[start] == unseen; ++i) {
+            for_each_bit(graph.row(reached[i]), [&](std::size_t to) {
+                if (came_from[to] == unseen) {
+                    came_from[to] = reached[i];
+                    reached.push_back(static_cast<std::uint32_t>(to));
+                }
+            });
+        }
+        if (came_from[start] == unseen) {
+            continue;
+        }
+        std::vector<std::uint32_t> ring{start};
+        for (std::uint32_t at = came_from[start]; at != start; at = came_from[at]) {
+            ring.push_back(at);
+        }
+        std::reverse(ring.begin() + 1, ring.end());
+        if (best.empty() || ring.size() < best.size()) {
+            best = std::move(ring);
+        }
+    }
+    return best;
+}
+
 } // namespace octant::visuals::draworder

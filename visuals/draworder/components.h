@@ -25,6 +25,11 @@ Cycles cycles_of(const HidingGraph& graph, std::span<const std::uint32_t> among)
 /// The same for all polygons.
 Cycles cycles_of(const HidingGraph& graph);
 
+/// A ring with the fewest polygons: each hidden by the next, the last by the first. Empty without
+/// cycles. Looks for it from the given polygons.
+std::vector<std::uint32_t>
+shortest_ring(const HidingGraph& graph, std::span<const std::uint32_t> among);
+
 /// How many edges lie on cycles of `graph` without those that go into or out of `gone`, and without
 /// those by which one of `hiding` hides one of `hidden`. Looks at the given polygons only. Reuses
 /// its storage.

@@ -15,13 +15,11 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-/// 16 bytes each with what a renderer makes of them.
-constexpr std::size_t most_entries = 8'000'000;
 constexpr std::size_t most_edge_planes = 8'000;
 constexpr std::size_t looked_at_closer = 48;
 /// Graphs with more edges are judged by sides alone.
 constexpr std::size_t most_exact_edges = 4'000;
-constexpr int most_depth = 100;
+constexpr std::size_t most_depth = 100;
 
 /// A cell to be, or a cut.
 struct Branch {
@@ -31,12 +29,6 @@ struct Branch {
     std::vector<std::uint32_t> list;
     std::vector<Plane> planes;
     std::size_t leaves = 1;
-};
-
-struct EyeNode {
-    EyeRegion region;
-    HidingGraph graph;
-    Cycles cycles;
 };
 
 struct Choice {
@@ -60,16 +52,15 @@ public:
         : graphs_(graphs)
         , search_(search) {}
 
-    std::unique_ptr<Branch> grow(EyeNode node, std::size_t depth);
+    std::unique_ptr<Branch> grow(const EyeNode& node, std::size_t depth);
 
     std::optional<Deadlock> deadlock;
 
 private:
     std::unique_ptr<Branch> leaf(const EyeNode& node);
-    bool deadlocked(const EyeNode& node);
-    std::vector<Choice> by_sides(const EyeNode& node);
+    std::vector<Choice> by_sides(const EyeNode& node, const std::vector<Plane>& planes);
+    void count_cyclic(const Cycles& cycles, std::vector<Choice>& choices);
     std::vector<Choice> choices(const EyeNode& node);
-    EyeNode child(const EyeNode& node, EyeRegion region, const SideSets& sides);
     std::optional<std::pair<EyeNode, EyeNode>> children(const EyeNode& node, const Choice& choice);
     double cost(std::size_t front_edges, std::size_t back_edges, std::size_t before) const;
 
@@ -109,12 +100,16 @@ std::size_t ended_edges(
     return ended;
 }
 
-std::vector<Choice> TreeBuilder::by_sides(const EyeNode& node) {
+std::vector<Choice> TreeBuilder::by_sides(const EyeNode& node, const std::vector<Plane>& planes) {
     const Cycles& cycles = node.cycles;
     std::vector<Choice> best;
     std::size_t number = 0;
-    for (const Plane& plane :
-         candidate_planes(graphs_.model(), cycles.polygons, most_edge_planes)) {
+    for (const Plane& plane : planes) {
+        ++number;
+        if (!node.region.reaches_front_of(plane) ||
+            !node.region.reaches_front_of(reversed(plane))) {
+            continue;
+        }
         PlaneSides sides = sides_of(plane, graphs_.model(), cycles.polygons);
         const auto& [front, back] = sides.sets;
         const std::size_t front_edges =
@@ -122,7 +117,6 @@ std::vector<Choice> TreeBuilder::by_sides(const EyeNode& node) {
         const std::size_t back_edges =
             cycles.edges - ended_edges(cycles, back, front, sides.unseen_behind);
         const double value = cost(front_edges, back_edges, cycles.edges);
-        ++number;
         if (value == HUGE_VAL || (best.size() == looked_at_closer && value >= best.back().cost)) {
             continue;
         }
@@ -132,7 +126,13 @@ std::vector<Choice> TreeBuilder::by_sides(const EyeNode& node) {
             best.pop_back();
         }
     }
-    for (Choice& choice : best) {
+    count_cyclic(cycles, best);
+    return best;
+}
+
+/// Judges choices by what stays on rings, and sorts them.
+void TreeBuilder::count_cyclic(const Cycles& cycles, std::vector<Choice>& choices) {
+    for (Choice& choice : choices) {
         const auto& [front, back] = choice.sides.sets;
         const auto front_edges =
             cyclic_.count(cycles.inner, cycles.polygons, back, front, choice.sides.unseen_in_front);
@@ -140,22 +140,7 @@ std::vector<Choice> TreeBuilder::by_sides(const EyeNode& node) {
             cyclic_.count(cycles.inner, cycles.polygons, front, back, choice.sides.unseen_behind);
         choice.cost = cost(front_edges, back_edges, cycles.edges);
     }
-    std::sort(best.begin(), best.end());
-    return best;
-}
-
-EyeNode TreeBuilder::child(const EyeNode& node, EyeRegion region, const SideSets& sides) {
-    const auto& among = node.cycles.polygons;
-    const HidingGraph left = graphs_.surviving(region, node.cycles.inner, among, &sides);
-    HidingGraph graph = node.graph;
-    for (const std::uint32_t a : among) {
-        const auto inner = node.cycles.inner.row(a);
-        const auto row = graph.row(a);
-        for (std::size_t word = 0; word < row.size(); ++word) {
-            row[word] = (row[word] & ~inner[word]) | left.row(a)[word];
-        }
-    }
-    return {std::move(region), std::move(graph), cycles_of(left, among)};
+    std::sort(choices.begin(), choices.end());
 }
 
 std::optional<std::pair<EyeNode, EyeNode>>
@@ -166,20 +151,23 @@ TreeBuilder::children(const EyeNode& node, const Choice& choice) {
         return std::nullopt;
     }
     const SideSets& sides = choice.sides.sets;
+    const SideSets turned{sides.back_or_on, sides.front_or_on};
     return std::pair(
-        child(node, std::move(*front), sides),
-        child(node, std::move(*back), {sides.back_or_on, sides.front_or_on}));
+        part_of(graphs_, node, std::move(*front), &sides),
+        part_of(graphs_, node, std::move(*back), &turned));
 }
 
 /// The planes that promise most, best first; for graphs of some size as judged by sides.
 std::vector<Choice> TreeBuilder::choices(const EyeNode& node) {
-    std::vector<Choice> ranked = by_sides(node);
-    const auto cuts = [&](const Choice& choice) {
-        return node.region.reaches_front_of(choice.plane) &&
-               node.region.reaches_front_of(reversed(choice.plane));
-    };
-    std::erase_if(ranked, [&](const Choice& choice) { return !cuts(choice); });
-    if (node.cycles.edges > most_exact_edges || ranked.size() < 2) {
+    const Cycles& cycles = node.cycles;
+    std::vector<Choice> ranked =
+        by_sides(node, candidate_planes(graphs_.model(), cycles.polygons, most_edge_planes));
+    if (ranked.empty()) {
+        // Of many polygons not all planes were made. Those of one ring end it in time.
+        const auto ring = shortest_ring(cycles.inner, cycles.polygons);
+        ranked = by_sides(node, candidate_planes(graphs_.model(), ring, most_edge_planes));
+    }
+    if (cycles.edges > most_exact_edges || ranked.size() < 2) {
         return ranked;
     }
     ranked.erase(
@@ -187,50 +175,34 @@ std::vector<Choice> TreeBuilder::choices(const EyeNode& node) {
         ranked.end());
     for (Choice& choice : ranked) {
         const auto pair = children(node, choice);
-        choice.cost =
-            pair ? cost(pair->first.cycles.edges, pair->second.cycles.edges, node.cycles.edges)
-                 : HUGE_VAL;
+        choice.cost = pair ? cost(pair->first.cycles.edges, pair->second.cycles.edges, cycles.edges)
+                           : HUGE_VAL;
     }
     std::sort(ranked.begin(), ranked.end());
     return ranked;
 }
 
-bool TreeBuilder::deadlocked(const EyeNode& node) {
-    const auto& among = node.cycles.polygons;
-    const glm::dvec3 eye = node.region.some_eye();
-    const Cycles ring = cycles_of(graphs_.at_eye(eye, node.cycles.inner, among), among);
-    if (ring.edges > 0) {
-        deadlock = Deadlock{ring.components.front(), eye};
-    }
-    return ring.edges > 0;
-}
-
 std::unique_ptr<Branch> TreeBuilder::leaf(const EyeNode& node) {
     auto out = std::make_unique<Branch>();
-    const PolygonSet listed = graphs_.listed(node.region);
-    const auto pairs = node.graph.precedences(listed);
-    for (const std::uint32_t polygon : paint_sequence(node.graph.count(), pairs).order) {
-        if (listed.has(polygon)) {
-            out->list.push_back(polygon);
-        }
-    }
+    out->list = list_of(graphs_, node);
     out->planes = node.region.planes();
     entries_ += out->list.size();
-    if (entries_ > most_entries) {
-        throw Error(fmt::format(
-            "expected a model whose painting orders fit {} entries, got more: its {} polygons hide "
-            "one another in too many ways",
-            most_entries,
-            node.graph.count()));
-    }
+    check_entries(entries_, node.graph.count());
     return out;
 }
 
-std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
+std::unique_ptr<Branch> TreeBuilder::grow(const EyeNode& node, std::size_t depth) {
     if (node.cycles.edges == 0) {
         return leaf(node);
     }
-    if (deadlocked(node)) {
+    if (depth == most_depth) {
+        throw Error(fmt::format(
+            "expected a model with painting orders, got one of {} polygons that no {} planes order",
+            node.graph.count(),
+            most_depth));
+    }
+    deadlock = ring_at_eye(graphs_, node);
+    if (deadlock) {
         return nullptr;
     }
     const std::vector<Choice> ranked = choices(node);
@@ -243,8 +215,8 @@ std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
         }
         auto out = std::make_unique<Branch>();
         out->plane = ranked[i].plane;
-        out->front = grow(std::move(pair->first), depth + 1);
-        out->back = out->front ? grow(std::move(pair->second), depth + 1) : nullptr;
+        out->front = grow(pair->first, depth + 1);
+        out->back = out->front ? grow(pair->second, depth + 1) : nullptr;
         if (!out->back) {
             return nullptr;
         }
@@ -254,7 +226,7 @@ std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
         }
     }
     if (!best && !deadlock) {
-        deadlock = Deadlock{node.cycles.components.front(), std::nullopt};
+        deadlock = Deadlock{node.cycles.components.front(), node.region, std::nullopt};
     }
     return best;
 }
@@ -277,13 +249,9 @@ int flatten(Branch& branch, RegionTree& out) {
 
 } // namespace
 
-TreeResult region_tree(
-    RegionGraphs& graphs,
-    const EyeRegion& region,
-    const HidingGraph& graph,
-    const TreeSearch& search) {
+TreeResult region_tree(RegionGraphs& graphs, const EyeNode& root_node, const TreeSearch& search) {
     TreeBuilder builder(graphs, search);
-    const auto root = builder.grow({region, graph, cycles_of(graph)}, 0);
+    const auto root = builder.grow(root_node, 0);
     TreeResult result{.tree = {}, .deadlock = builder.deadlock};
     if (root) {
         flatten(*root, result.tree);

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "visuals/draworder/draw_order.h"
-#include "visuals/draworder/eye_region.h"
-#include "visuals/draworder/region_graph.h"
+#include "visuals/draworder/eye_node.h"
 
 #include <cstdint>
 #include <optional>
@@ -18,13 +17,6 @@ struct RegionTree {
     std::vector<std::vector<Plane>> cell_planes;
 };
 
-/// Polygons for which there is no order, wherever eye space is cut: they hide one another in a ring
-/// from one eye point, or from all of a region that no plane makes simpler.
-struct Deadlock {
-    std::vector<std::uint32_t> polygons;
-    std::optional<glm::dvec3> eye; ///< in the faces' space
-};
-
 /// How a tree is looked for.
 struct TreeSearch {
     double power = 1.0;              ///< a graph with E cyclic edges is taken to cost E^power
@@ -32,17 +24,13 @@ struct TreeSearch {
     std::vector<std::size_t> widths; ///< how many planes are followed up at depth 0, 1, ...; then 1
 };
 
-/// A tree whose cells have no cycles. `graph`: RegionGraphs::all of the region.
+/// A tree whose cells have no cycles, or why there is none.
 struct TreeResult {
     RegionTree tree;
-    std::optional<Deadlock> deadlock; ///< then the tree is not complete
+    std::optional<Deadlock> deadlock; ///< then the tree is empty
 };
 
-/// Throws Error when the tree grows beyond what can be held.
-TreeResult region_tree(
-    RegionGraphs& graphs,
-    const EyeRegion& region,
-    const HidingGraph& graph,
-    const TreeSearch& search);
+/// A tree over a node's region. Throws Error when it grows beyond what can be held.
+TreeResult region_tree(RegionGraphs& graphs, const EyeNode& root, const TreeSearch& search);
 
 } // namespace octant::visuals::draworder
