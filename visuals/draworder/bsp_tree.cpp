@@ -1,7 +1,8 @@
 // H. Fuchs, Z. M. Kedem, B. F. Naylor, "On Visible Surface Generation by A Priori Tree Structures",
 // SIGGRAPH 1980: auto-partition, back-to-front walk.
 // Deviations:
-// - The plane of a node is the best of all by number of cuts, then by balance, not of a sample.
+// - The plane of a node is the best of all by number of cuts, not of a sample; of three rules for
+//   equals the tree with the fewest cuts is kept.
 // - Polygons in a node's plane that face the other way stay in the node; each is painted on the way
 //   through when the eye is on its side.
 
@@ -23,10 +24,14 @@ constexpr std::size_t most_candidates = 200;
 
 enum class Side { In, Front, Back, Both };
 
+/// What decides among planes that cut equally many polygons.
+enum class Among { Even, Uneven, First };
+
 class BspBuilding {
 public:
-    explicit BspBuilding(models::PolygonModel model)
-        : tolerance_m_(split_tolerance_m(model)) {
+    BspBuilding(models::PolygonModel model, Among among)
+        : tolerance_m_(split_tolerance_m(model))
+        , among_(among) {
         tree_.model = std::move(model);
     }
 
@@ -70,7 +75,7 @@ private:
         return front ? Side::Front : back ? Side::Back : Side::In;
     }
 
-    /// (cuts, difference of the sides): less is better.
+    /// (cuts, what decides among equals): less is better.
     std::pair<int, int>
     cost_of(const Plane& plane, const std::vector<std::uint32_t>& polygons) const {
         int cuts = 0;
@@ -80,7 +85,15 @@ private:
             cuts += side == Side::Both ? 1 : 0;
             balance += side == Side::Front ? 1 : side == Side::Back ? -1 : 0;
         }
-        return {cuts, std::abs(balance)};
+        switch (among_) {
+        case Among::Even:
+            return {cuts, std::abs(balance)};
+        case Among::Uneven:
+            return {cuts, -std::abs(balance)};
+        case Among::First:
+            break;
+        }
+        return {cuts, 0};
     }
 
     std::uint32_t best_of(const std::vector<std::uint32_t>& polygons) const {
@@ -143,12 +156,20 @@ private:
 
     BspTree tree_;
     double tolerance_m_;
+    Among among_;
 };
 
 } // namespace
 
-BspTree bsp_tree(models::PolygonModel model) {
-    return BspBuilding(std::move(model)).build();
+BspTree bsp_tree(const models::PolygonModel& model) {
+    BspTree best = BspBuilding(model, Among::Even).build();
+    for (const Among among : {Among::Uneven, Among::First}) {
+        BspTree tree = BspBuilding(model, among).build();
+        if (std::pair(tree.splits, tree.depth) < std::pair(best.splits, best.depth)) {
+            best = std::move(tree);
+        }
+    }
+    return best;
 }
 
 void append_painted(
