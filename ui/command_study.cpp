@@ -1,5 +1,6 @@
 #include "ui/commands.h"
 #include "ui/settings_text.h"
+#include "ui/study_draw_order.h"
 #include "ui/study_flights.h"
 #include "ui/study_hidden_surface.h"
 
@@ -55,6 +56,18 @@ void add_flights(CLI::App& study) {
     flights->callback([options] { study_flights(*options); });
 }
 
+void add_draw_order(CLI::App& study) {
+    auto options = std::make_shared<DrawOrderStudyOptions>();
+    CLI::App* orders = study.add_subcommand(
+        "draw-order",
+        "Table 4 of the 1989 paper, and cells, splits, wrong pixels and BSP trees for its models");
+    add_out(*orders, options->out);
+    orders->add_flag("--json", options->json, "print the tables as JSON");
+    orders->add_flag("--quiet", options->quiet, "no progress, no notes");
+    orders->footer("Example:\n  octant study draw-order --out tables");
+    orders->callback([options] { study_draw_order(*options); });
+}
+
 void add_hidden_surface(CLI::App& study) {
     auto options = std::make_shared<HiddenSurfaceStudy>();
     options->settings.terrain = "canyon";
@@ -107,8 +120,10 @@ void add_study_command(CLI::App& program) {
     CLI::App* study = program.add_subcommand(
         "study", "Repeats a paper's experiment and prints its tables with ours beside");
     study->require_subcommand(1);
-    study->footer("Example:\n  octant study flights --out tables");
+    study->footer("Examples:\n  octant study flights --out tables\n  octant study draw-order --out "
+                  "tables");
     add_flights(*study);
+    add_draw_order(*study);
     add_hidden_surface(*study);
 }
 

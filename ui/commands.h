@@ -15,6 +15,7 @@ struct CheckSaidNo {};
 void add_fly_command(CLI::App& program);
 void add_report_command(CLI::App& program);
 void add_terrain_command(CLI::App& program);
+void add_draw_order_command(CLI::App& program);
 void add_study_command(CLI::App& program);
 void add_bench_command(CLI::App& program);
 
