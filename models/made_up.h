@@ -18,4 +18,10 @@ namespace octant::models {
 /// along no line of sight does one polygon that faces the eye lie behind another.
 PolygonModel background60();
 
+/// The torus of the 2008 hybrid-shading paper, which prints its 416 quads but not its shape: a ring
+/// of 1 m radius around the body z axis, 0.4 m thick in radius, cut into `around` x `across` quads
+/// (at least 3 each, asserted). All quads are planar and convex, face outward and follow one
+/// another around the axis, ring after ring; one part, one material.
+PolygonModel torus(int around = 26, int across = 16);
+
 } // namespace octant::models

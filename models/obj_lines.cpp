@@ -1,6 +1,11 @@
 #include "models/obj_lines.h"
 
+#include "models/obj_reader.h"
+#include "sim/base/error.h"
 #include "sim/base/text_file.h"
+
+#include <cmath>
+#include <fmt/format.h>
 
 namespace octant::models {
 
@@ -51,6 +56,24 @@ bool ObjLines::next() {
     }
     text_ = joined_;
     return true;
+}
+
+double obj_number(std::string_view word, const std::filesystem::path& path, int line) {
+    const auto value = finite_number(word);
+    if (!value) {
+        error_at(
+            path, line, fmt::format("expected a number, got '{}'", printable(std::string(word))));
+    }
+    if (std::abs(*value) > most_obj_coordinate_m) {
+        error_at(
+            path,
+            line,
+            fmt::format(
+                "expected a number within {:g}, got '{}'",
+                most_obj_coordinate_m,
+                printable(std::string(word))));
+    }
+    return *value;
 }
 
 } // namespace octant::models

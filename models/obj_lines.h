@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,5 +35,8 @@ private:
     std::string_view text_;
     int number_ = 0;
 };
+
+/// A finite number within most_obj_coordinate_m (obj_reader.h). Throws Error "file:line: ...".
+double obj_number(std::string_view word, const std::filesystem::path& path, int line);
 
 } // namespace octant::models

@@ -2,15 +2,13 @@
 
 #include "models/mtl_reader.h"
 #include "models/obj_lines.h"
-#include "models/polygon_check.h"
+#include "models/obj_pivots.h"
+#include "models/obj_polygons.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <optional>
@@ -29,6 +27,9 @@ constexpr std::array<std::string_view, 33> ignored_keywords{
     "d_interp", "lod",  "maplib", "usemap", "shadow_obj", "trace_obj", "ctech", "stech", "cstype",
     "deg",      "bmat", "step",   "curv",   "curv2",      "surf",      "parm",  "trim",  "hole",
     "scrv",     "sp",   "end",    "con",    "call",       "csh"};
+
+/// What version 3.0 of the specification lists as superseded: patches and curves.
+constexpr std::array<std::string_view, 5> old_keywords{"bsp", "bzp", "cdc", "cdp", "res"};
 
 using Words = std::vector<std::string_view>;
 
@@ -82,7 +83,7 @@ public:
         if (model_.polygons.empty()) {
             error_in(path_, "expected at least one polygon (f), got none");
         }
-        check_polygons();
+        cut_faulty_polygons(model_, path_, polygon_lines_);
         model_.parts = parts_.names();
         resolve_materials();
         resolve_pivots();
@@ -90,12 +91,6 @@ public:
     }
 
 private:
-    struct PivotLine {
-        std::string part;
-        Pivot pivot;
-        int line = 0;
-    };
-
     [[noreturn]] void refuse(const std::string& what) const { error_at(path_, line_, what); }
 
     void take(std::string_view line) {
@@ -105,7 +100,9 @@ private:
         }
         const std::string_view keyword = words[0];
         if (keyword.front() == '#') {
-            take_comment(words, line);
+            if (auto pivot = pivot_line(line, axes_, path_, line_)) {
+                pivots_.push_back(std::move(*pivot));
+            }
         } else if (keyword == "v") {
             take_vertex(words);
         } else if (keyword == "f") {
@@ -118,6 +115,8 @@ private:
             material_line_ = line_;
         } else if (keyword == "mtllib") {
             take_material_files(name_after(line, "file"), words);
+        } else if (std::ranges::find(old_keywords, keyword) != old_keywords.end()) {
+            take_old_statement(keyword);
         } else if (std::ranges::find(ignored_keywords, keyword) == ignored_keywords.end()) {
             refuse(fmt::format(
                 "expected an OBJ line (v, f, g, o, usemtl, mtllib), got {}", in_quotes(keyword)));
@@ -132,20 +131,9 @@ private:
         return std::string(name);
     }
 
-    double number(std::string_view word) const {
-        const auto value = finite_number(word);
-        if (!value) {
-            refuse(fmt::format("expected a number, got {}", in_quotes(word)));
-        }
-        if (std::abs(*value) > most_obj_coordinate_m) {
-            refuse(fmt::format(
-                "expected a number within {:g}, got {}", most_obj_coordinate_m, in_quotes(word)));
-        }
-        return *value;
-    }
-
     glm::dvec3 numbers(const Words& words, std::size_t first) const {
-        return {number(words[first]), number(words[first + 1]), number(words[first + 2])};
+        const auto number = [&](std::size_t word) { return obj_number(words[word], path_, line_); };
+        return {number(first), number(first + 1), number(first + 2)};
     }
 
     void take_vertex(const Words& words) {
@@ -251,34 +239,10 @@ private:
         }
     }
 
-    void take_comment(const Words& words, std::string_view line) {
-        const bool pivot = words.size() > 2 && words[0] == "#" && words[1] == "pivot" &&
-                           std::ranges::find(words, "axis") != words.end();
-        if (!pivot) {
-            return;
-        }
-        if (words.size() != 10 || words[6] != "axis") {
-            refuse(
-                fmt::format("expected # pivot NAME X Y Z axis AX AY AZ, got {}", in_quotes(line)));
-        }
-        PivotLine read{.part = std::string(words[2]), .pivot = {}, .line = line_};
-        read.pivot.point_m = axes_.body_from_file(numbers(words, 3));
-        const glm::dvec3 axis = axes_.body_from_file(numbers(words, 7));
-        const double length = glm::length(axis);
-        if (length < 1e-6) {
-            refuse(fmt::format("expected an axis with a length, got {}", in_quotes(line)));
-        }
-        // A unit vector stays as written, bit for bit.
-        read.pivot.axis = std::abs(length - 1.0) < 1e-14 ? axis : axis / length;
-        pivots_.push_back(read);
-    }
-
-    void check_polygons() const {
-        const double tolerance_m = flatness_tolerance_m(model_);
-        for (std::size_t i = 0; i < model_.polygons.size(); ++i) {
-            if (const auto fault = polygon_fault(model_, i, tolerance_m)) {
-                error_at(path_, polygon_lines_[i], *fault);
-            }
+    void take_old_statement(std::string_view keyword) {
+        if (old_statements_.insert(std::string(keyword)).second) {
+            model_.notes.push_back(fmt::format(
+                "{}:{}: {} is an old OBJ statement, ignored", path_.string(), line_, keyword));
         }
     }
 
@@ -334,6 +298,7 @@ private:
     std::map<std::string, glm::vec3> colours_;
     bool has_material_file_ = false;
     std::set<std::string> missing_files_;
+    std::set<std::string> old_statements_; ///< that the notes name
     std::vector<int> polygon_lines_;
     std::vector<PivotLine> pivots_;
     int line_ = 0;

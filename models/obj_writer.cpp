@@ -1,5 +1,6 @@
 #include "models/obj_writer.h"
 
+#include "models/obj_pivots.h"
 #include "sim/base/output_file.h"
 
 #include <fmt/format.h>
@@ -58,17 +59,7 @@ ObjText obj_text(const PolygonModel& model, const FileAxes& axes, std::string_vi
         axes.text(),
         mtl_name);
     for (const Pivot& pivot : model.pivots) {
-        const glm::dvec3 point = axes.file_from_body(pivot.point_m);
-        const glm::dvec3 axis = axes.file_from_body(pivot.axis);
-        text += fmt::format(
-            "# pivot {} {} {} {} axis {} {} {}\n",
-            model.parts[pivot.part],
-            point.x,
-            point.y,
-            point.z,
-            axis.x,
-            axis.y,
-            axis.z);
+        text += pivot_text(pivot, model.parts[pivot.part], axes);
     }
     for (const glm::dvec3& vertex_m : model.vertices_m) {
         const glm::dvec3 in_file = axes.file_from_body(vertex_m);

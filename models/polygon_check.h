@@ -2,7 +2,10 @@
 
 #include "models/polygon_model.h"
 
+#include <glm/vec3.hpp>
+
 #include <optional>
+#include <span>
 #include <string>
 
 namespace octant::models {
@@ -19,5 +22,15 @@ double flatness_tolerance_m(const PolygonModel& model);
 /// their place in the polygon, from 1.
 std::optional<std::string>
 polygon_fault(const PolygonModel& model, std::size_t polygon, double tolerance_m);
+
+/// The same for corners without a model.
+std::optional<std::string> corners_fault(std::span<const glm::dvec3> corners_m, double tolerance_m);
+
+/// What is wrong with corners that could not even be cut into convex planar pieces: two corners in
+/// one place or no area.
+std::optional<std::string> outline_fault(std::span<const glm::dvec3> corners_m);
+
+/// True when all corners lie on the plane of Newell's sum through their middle.
+bool is_planar(std::span<const glm::dvec3> corners_m, double tolerance_m);
 
 } // namespace octant::models

@@ -1,6 +1,8 @@
 #include "ui/commands.h"
 #include "ui/settings_text.h"
+#include "ui/study_draw_order.h"
 #include "ui/study_flights.h"
+#include "ui/study_hidden_surface.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -8,43 +10,121 @@
 
 namespace octant::ui {
 
-void add_study_command(CLI::App& program) {
-    CLI::App* study = program.add_subcommand(
-        "study", "Repeats a paper's experiment and prints its tables with ours beside");
-    study->require_subcommand(1);
-    study->footer("Example:\n  octant study flights --out tables");
-    auto options = std::make_shared<StudyOptions>();
-    CLI::App* flights = study->add_subcommand(
-        "flights", "Tables 5 and 6 of the 1989 paper: four paths, two aircraft, three methods");
-    flights
-        ->add_option_function<std::string>(
+namespace {
+
+void add_out(CLI::App& command, std::filesystem::path& out) {
+    command
+        .add_option_function<std::string>(
             "--out",
-            [options](const std::string& folder) { options->out = folder; },
-            "folder for tables (CSV, Markdown), plot, recordings and report")
+            [&out](const std::string& folder) { out = folder; },
+            "folder for the tables (CSV, Markdown) and whatever else comes of it")
         ->type_name("DIR")
         ->required();
-    flights
-        ->add_option_function<std::string>(
-            "--size",
-            [options](const std::string& text) {
-                read_setting({"--size", "", "", 16, 8192}, text, options->settings.size_px);
+}
+
+/// An option that is read like the setting of the same name.
+template <class Value>
+void add_setting(
+    CLI::App& command,
+    const std::string& name,
+    Value& value,
+    const char* form,
+    const char* meaning) {
+    command
+        .add_option_function<std::string>(
+            name,
+            [name, &value](const std::string& text) {
+                read_setting({name, "", "", 16, 8192}, text, value);
             },
-            "picture size in pixels")
-        ->type_name("WIDTHxHEIGHT")
-        ->default_str(text_of(options->settings.size_px));
-    flights
-        ->add_option_function<std::string>(
-            "--context",
-            [options](const std::string& text) {
-                read_setting({"--context", "", ""}, text, options->settings.context);
-            },
-            "who draws: osmesa or egl")
-        ->type_name("KIND")
-        ->default_str(text_of(options->settings.context));
+            meaning)
+        ->type_name(form)
+        ->default_str(text_of(value));
+}
+
+void add_flights(CLI::App& study) {
+    auto options = std::make_shared<StudyOptions>();
+    CLI::App* flights = study.add_subcommand(
+        "flights", "Tables 5 and 6 of the 1989 paper: four paths, two aircraft, three methods");
+    add_out(*flights, options->out);
+    add_setting(
+        *flights, "--size", options->settings.size_px, "WIDTHxHEIGHT", "picture size in pixels");
+    add_setting(
+        *flights, "--context", options->settings.context, "KIND", "who draws: osmesa or egl");
     flights->add_flag("--json", options->json, "print the tables as JSON");
     flights->add_flag("--quiet", options->quiet, "no progress, no notes");
     flights->footer("Example:\n  octant study flights --out tables");
     flights->callback([options] { study_flights(*options); });
+}
+
+void add_draw_order(CLI::App& study) {
+    auto options = std::make_shared<DrawOrderStudyOptions>();
+    CLI::App* orders = study.add_subcommand(
+        "draw-order",
+        "Table 4 of the 1989 paper, and cells, splits, wrong pixels and BSP trees for its models");
+    add_out(*orders, options->out);
+    orders->add_flag("--json", options->json, "print the tables as JSON");
+    orders->add_flag("--quiet", options->quiet, "no progress, no notes");
+    orders->footer("Example:\n  octant study draw-order --out tables");
+    orders->callback([options] { study_draw_order(*options); });
+}
+
+void add_hidden_surface(CLI::App& study) {
+    auto options = std::make_shared<HiddenSurfaceStudy>();
+    options->settings.terrain = "canyon";
+    CLI::App* command = study.add_subcommand(
+        "hidden-surface",
+        "Octant order, depth buffer and removal of back faces: frames a second, and every pixel's "
+        "polygon compared");
+    add_out(*command, options->out);
+    auto only = std::make_shared<std::string>("both");
+    command
+        ->add_option("--only", *only, "frames a second (race), polygon numbers (pictures) or both")
+        ->type_name("PART")
+        ->check(CLI::IsMember({"race", "pictures", "both"}))
+        ->capture_default_str();
+    add_setting(
+        *command, "--terrain", options->settings.terrain, "NAME|FILE", "ground of both parts");
+    add_setting(
+        *command,
+        "--size",
+        options->settings.size_px,
+        "WIDTHxHEIGHT",
+        "picture size of the comparison; the race has 640x480 and 1280x720");
+    add_setting(
+        *command, "--context", options->settings.context, "KIND", "who draws: osmesa or egl");
+    command->add_option("--frames", options->race_frames, "timed frames of each race")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(CLI::Range(10, 100000));
+    command->add_option("--every", options->every, "every Nth frame is compared")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 100000));
+    command->add_flag("--json", options->json, "print the tables as JSON");
+    command->add_flag("--quiet", options->quiet, "no progress, no notes");
+    command->footer(
+        "Exit code 1 when a pixel is wrong.\n"
+        "Example:\n  octant study hidden-surface --out tables --only pictures --every 10");
+    command->callback([options, only] {
+        options->race = *only != "pictures";
+        options->pictures = *only != "race";
+        if (!study_hidden_surface(*options)) {
+            throw CheckSaidNo();
+        }
+    });
+}
+
+} // namespace
+
+void add_study_command(CLI::App& program) {
+    CLI::App* study = program.add_subcommand(
+        "study", "Repeats a paper's experiment and prints its tables with ours beside");
+    study->require_subcommand(1);
+    study->footer("Examples:\n  octant study flights --out tables\n  octant study draw-order --out "
+                  "tables");
+    add_flights(*study);
+    add_draw_order(*study);
+    add_hidden_surface(*study);
 }
 
 } // namespace octant::ui

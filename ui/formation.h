@@ -4,8 +4,9 @@
 
 namespace octant::ui {
 
-/// Where wingmen fly: nearly abreast of the leader, alternately to the right and left of him, level
-/// and in the same attitude, far enough apart for the largest of them.
+/// Where wingmen fly, in the leader's attitude and far enough apart for the largest of them: up to
+/// eight nearly abreast of him, alternately to his right and left; more in lines one above and one
+/// behind the other, so that a thousand are a block of ten by ten by ten.
 class Formation {
 public:
     /// `aircraft` >= 1 with the leader; `largest_radius_m` of any of them.
@@ -19,7 +20,9 @@ public:
     double framed_radius_m(double leader_radius_m) const;
 
 private:
-    int ranks_;
+    int abreast_;    ///< aircraft in a line, the leader's place among them
+    int lines_;      ///< one above the other, in each layer
+    int ranks_;      ///< wingmen to one side of a line's middle
     double aside_m_; ///< for each rank
     double back_m_;  ///< for each rank
 };

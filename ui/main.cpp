@@ -16,6 +16,7 @@
 
 namespace {
 
+constexpr int check_said_no = 1;
 constexpr int wrong_input = 2;
 
 int fail(std::string line) {
@@ -37,14 +38,18 @@ int run(int argc, char** argv) {
         "  octant fly pop-up --aircraft f15 --terrain canyon --record my-flight\n"
         "  octant report my-flight\n"
         "  octant terrain info my-map.tif\n"
+        "  octant draw-order f15 --table\n"
         "octant COMMAND --help shows every option with its unit, default and an example.");
     octant::ui::add_fly_command(program);
     octant::ui::add_report_command(program);
     octant::ui::add_terrain_command(program);
+    octant::ui::add_draw_order_command(program);
     octant::ui::add_study_command(program);
     octant::ui::add_bench_command(program);
     try {
         program.parse(argc, argv);
+    } catch (const octant::ui::CheckSaidNo&) {
+        return check_said_no;
     } catch (const CLI::ParseError& fault) {
         if (fault.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
             return program.exit(fault);
@@ -52,9 +57,11 @@ int run(int argc, char** argv) {
         const bool no_command = program.get_subcommands().empty();
         const std::string got = argc > 1 ? argv[1] : "none";
         return fail(
-            no_command ? fmt::format(
-                             "expected a command (fly, report, terrain, study, bench), got {}", got)
-                       : std::string(fault.what()));
+            no_command
+                ? fmt::format(
+                      "expected a command (fly, report, terrain, draw-order, study, bench), got {}",
+                      got)
+                : std::string(fault.what()));
     }
     return 0;
 }

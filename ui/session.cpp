@@ -30,7 +30,7 @@ void add_state(Hash& hash, const sim::AircraftState& state) {
 
 } // namespace
 
-Session::Session(const scene::Settings& settings)
+Session::Session(const scene::Settings& settings, Shows shows)
     : settings_(settings)
     , world_(load_world(settings))
     , context_(make_context(settings.context))
@@ -41,11 +41,16 @@ Session::Session(const scene::Settings& settings)
     , ground_height_(
           [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); })
     , next_step_(sim::step_at(world_.flight.trajectory.start_s())) {
-    std::vector<scene::ModelBuffers> buffers;
-    for (const scene::AircraftModel& model : world_.scene.models) {
-        buffers.push_back(model.buffers);
+    if (shows == Shows::PolygonNumbers) {
+        ids_.emplace(world_.scene);
+        renderer_->load_models(ids_->models());
+    } else {
+        std::vector<scene::ModelBuffers> buffers;
+        for (const scene::AircraftModel& model : world_.scene.models) {
+            buffers.push_back(model.buffers);
+        }
+        renderer_->load_models(buffers);
     }
-    renderer_->load_models(buffers);
     renderer_->warm_up();
     gl::spread_raster_threads();
     states_.resize(world_.scene.aircraft.size());
@@ -130,7 +135,7 @@ report::FrameRecord Session::draw(int frame) {
     const scene::FramePlan& plan = planner_.plan(seen_from, states_, counts);
     record.plan_ms = stage.lap_ms();
 
-    renderer_->draw(plan);
+    renderer_->draw(ids_ ? ids_->of(plan) : plan);
     renderer_->finish();
     record.draw_ms = stage.lap_ms();
     renderer_->finish_and_read(picture_);
@@ -141,6 +146,9 @@ report::FrameRecord Session::draw(int frame) {
     record.terrain_fans = counts.ground.fans;
     record.aircraft_polygons = counts.aircraft_polygons;
     record.draw_cell = counts.draw_cell;
+    record.shadow_triangles = counts.shadow_triangles;
+    record.cuts = counts.cuts;
+    record.unordered = counts.unordered;
     record.resolution_c = counts.ground.resolution;
     record.triangle_change = frame == 0 ? 0 : counts.ground.triangles - last_triangles_;
     last_triangles_ = counts.ground.triangles;

@@ -9,11 +9,13 @@
 #include "visuals/gl/picture.h"
 #include "visuals/gl/renderer.h"
 #include "visuals/scene/camera_rig.h"
+#include "visuals/scene/id_plan.h"
 #include "visuals/scene/planner.h"
 #include "visuals/scene/settings.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace octant::ui {
@@ -21,13 +23,19 @@ namespace octant::ui {
 /// The context that the settings ask for, current in this thread. Throws Error.
 std::unique_ptr<visuals::gl::Context> make_context(visuals::scene::ContextKind kind);
 
+/// What the pictures of a session show.
+enum class Shows {
+    World,
+    PolygonNumbers ///< scene::IdPlan: which polygon or triangle of ground each pixel belongs to
+};
+
 /// The conductor of a run: takes each frame from simulation through plan and picture to its record.
 /// The only place that reads the clock during a flight.
 class Session {
 public:
     /// Loads the world, makes the context and draws once in every drawing state. Throws Error.
     /// Stays in its place: parts of it point at others.
-    explicit Session(const visuals::scene::Settings& settings);
+    explicit Session(const visuals::scene::Settings& settings, Shows shows = Shows::World);
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
@@ -74,6 +82,7 @@ private:
     std::unique_ptr<visuals::gl::Context> context_;
     std::unique_ptr<visuals::gl::Renderer> renderer_; ///< goes before its context
     visuals::scene::Planner planner_;
+    std::optional<visuals::scene::IdPlan> ids_;
     Formation formation_;
     visuals::scene::GroundHeight ground_height_;
     std::vector<double> frame_times_s_;

@@ -127,8 +127,17 @@ void visit_ground_settings(SomeSettings& s, Visit& visit) {
         Info{
             "hidden-surface",
             "METHOD",
-            "octant: precomputed order; depth-buffer; back-face: removal of back faces only"},
+            "octant: painted in order, no depth buffer; depth-buffer; back-face: aircraft in file "
+            "order"},
         s.hidden_surface);
+    visit(
+        Info{
+            "order-method",
+            "METHOD",
+            "painting order of octant: tree (exact for every eye), cells (octants divided further) "
+            "or paper (8 octants as printed)"},
+        s.order_method);
+    visit(Info{"shadows", "", "shadows of aircraft on the ground"}, s.shadows);
     visit(
         Info{"mesh", "METRIC", "roughness of the ground: printed (corner slopes) or midpoint"},
         s.mesh);

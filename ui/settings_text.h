@@ -117,4 +117,9 @@ struct EnumNames<visuals::scene::HiddenSurface> {
     static std::vector<std::string_view> names() { return {"octant", "depth-buffer", "back-face"}; }
 };
 
+template <>
+struct EnumNames<visuals::draworder::Method> {
+    static std::vector<std::string_view> names() { return {"paper", "cells", "tree"}; }
+};
+
 } // namespace octant::ui

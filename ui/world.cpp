@@ -10,7 +10,7 @@
 #include "ui/data_files.h"
 #include "ui/place_text.h"
 #include "ui/terrain_file.h"
-#include "visuals/draworder/octant_order.h"
+#include "visuals/draworder/ordered_model.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -63,13 +63,13 @@ void load_ground(const scene::Settings& settings, World& world) {
     world.scene.ground = scene::ground_from_field(std::move(field), colours);
 }
 
-/// The octant orders take time with the square of the polygons: 20,000 of them about 20 s.
+/// Looking for orders takes time with the square of the polygons and more.
 constexpr std::size_t most_ordered_polygons = 20000;
 
-draworder::DrawOrder
-draw_order(const models::PolygonModel& model, const scene::Settings& settings) {
+draworder::OrderedModel with_order(models::PolygonModel model, const scene::Settings& settings) {
     if (settings.hidden_surface != scene::HiddenSurface::Octant) {
-        return draworder::file_order(model);
+        draworder::DrawOrder order = draworder::file_order(model);
+        return {.model = std::move(model), .order = std::move(order), .cells = {}, .notes = {}};
     }
     if (model.polygons.size() > most_ordered_polygons) {
         throw Error(fmt::format(
@@ -79,7 +79,9 @@ draw_order(const models::PolygonModel& model, const scene::Settings& settings) {
             most_ordered_polygons,
             model.polygons.size()));
     }
-    return draworder::DrawOrder(draworder::paper_orders(model));
+    draworder::OrderOptions options;
+    options.method = settings.order_method;
+    return draworder::ordered(std::move(model), options);
 }
 
 std::uint32_t load_model(const std::string& name, const scene::Settings& settings, World& world) {
@@ -88,9 +90,11 @@ std::uint32_t load_model(const std::string& name, const scene::Settings& setting
     models::PolygonModel model = models::read_obj(
         file, built_in ? models::FileAxes() : models::FileAxes::from_text(settings.axes));
     world.notes.insert(world.notes.end(), model.notes.begin(), model.notes.end());
-    draworder::DrawOrder order = draw_order(model, settings);
     const glm::dvec3 eye_m = scene::pilot_eye_m(model);
-    world.scene.models.push_back(scene::aircraft_model(std::move(model), std::move(order), eye_m));
+    draworder::OrderedModel ordered = with_order(std::move(model), settings);
+    world.notes.insert(world.notes.end(), ordered.notes.begin(), ordered.notes.end());
+    world.scene.models.push_back(
+        scene::aircraft_model(std::move(ordered.model), std::move(ordered.order), eye_m));
     return static_cast<std::uint32_t>(world.scene.models.size() - 1);
 }
 

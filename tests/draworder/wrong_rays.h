@@ -1,63 +1,17 @@
 #pragma once
 
 #include "models/polygon_model.h"
-#include "visuals/draworder/draw_order.h"
-
-#include <glm/vec3.hpp>
-
-#include <cstdint>
-#include <vector>
+#include "visuals/draworder/ray_check.h"
 
 namespace octant::tests {
 
-/// Numbers 0 <= x < 1 from a small generator of its own.
-class Dice {
-public:
-    explicit Dice(std::uint64_t seed)
-        : state_(seed) {}
-
-    double next() {
-        state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-        return static_cast<double>(state_ >> 11U) / 9007199254740992.0;
-    }
-
-    double between(double least, double most) { return least + (most - least) * next(); }
-
-    /// Unit vector, all directions alike.
-    glm::dvec3 direction();
-
-private:
-    std::uint64_t state_;
-};
+using visuals::draworder::count_wrong_rays;
+using visuals::draworder::Dice;
+using visuals::draworder::EyeSamples;
+using visuals::draworder::RayCount;
 
 /// Vertices V1 .. V14 and polygons P1 .. P10 of the 1989 paper's example (tables 2 and 3), its
 /// x, y, z taken as body axes.
 models::PolygonModel paper_example();
-
-struct EyeSamples {
-    int eyes = 1000;
-    int rays_per_eye = 20;
-    double least_distance_radii = 1.0; ///< from the origin, in the model's radius
-    double most_distance_radii = 20.0; ///< distances spread evenly in their logarithm
-    int octant = -1;                   ///< only eyes of this octant; -1 = all
-    std::uint64_t seed = 1989;
-};
-
-struct RayCount {
-    long hits = 0;  ///< rays that meet a polygon's front
-    long wrong = 0; ///< of these, rays whose last painted polygon is not the nearest
-
-    double wrong_share() const {
-        return hits == 0 ? 0.0 : static_cast<double>(wrong) / static_cast<double>(hits);
-    }
-};
-
-/// Rays from random eyes in perspective, spread evenly over the disc of the model's radius around
-/// the origin as an eye that looks at it sees it, so that shares are shares of pixels. Polygons
-/// that face away from the eye are not painted.
-RayCount count_wrong_rays(
-    const models::PolygonModel& model,
-    const visuals::draworder::DrawOrder& order,
-    const EyeSamples& samples);
 
 } // namespace octant::tests

@@ -41,7 +41,7 @@ TEST_CASE("frames.csv begins with the columns that others rely on") {
     CHECK(header.substr(0, std::string(promised_columns).size()) == promised_columns);
     CHECK(
         header.substr(std::string(promised_columns).size()) ==
-        ",warm_up,record_ms,eye_x_m,eye_y_m,eye_z_m,aircraft_x_m,aircraft_y_m,aircraft_z_m,"
+        ",warm_up,record_ms,draw_calls,shadow_triangles,cuts,unordered,eye_x_m,eye_y_m,eye_z_m,aircraft_x_m,aircraft_y_m,aircraft_z_m,"
         "aircraft_agl_m\n");
 }
 

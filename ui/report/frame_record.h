@@ -24,6 +24,10 @@ struct FrameRecord {
     int triangle_change = 0;   ///< terrain triangles minus those of the frame before
     double stress = 0.0;       ///< frame_ms over the frame's share of simulated time
     int overrun = 0;           ///< 1 when frame_ms is above 16.67
+    int draw_calls = 0;
+    int shadow_triangles = 0;
+    int cuts = 0;      ///< ground triangles and aircraft polygons painted again, cut by planes
+    int unordered = 0; ///< overlaps for which no painting order was found
     glm::dvec3 eye_m{0.0};
     glm::dvec3 aircraft_m{0.0};  ///< first aircraft, world
     double aircraft_agl_m = 0.0; ///< first aircraft above the ground below it

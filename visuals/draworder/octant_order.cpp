@@ -135,6 +135,7 @@ OctantOrders paper_orders(const models::PolygonModel& model, const PaperOptions&
             orders.lists[static_cast<std::size_t>(octant)].push_back(listed[place]);
         }
         orders.broken_cycles += sequence.broken_cycles;
+        orders.cyclic_octants += sequence.broken_cycles > 0 ? 1 : 0;
     }
     return orders;
 }

@@ -40,7 +40,8 @@ struct PaperOptions {
 /// Painting orders by the octant of the eye.
 struct OctantOrders {
     std::array<std::vector<std::uint32_t>, 8> lists; ///< by octant_of; first painted first
-    int broken_cycles = 0; ///< over all octants; 0 = every precedence that was found is kept
+    int broken_cycles = 0;  ///< over all octants; 0 = every precedence that was found is kept
+    int cyclic_octants = 0; ///< octants with broken cycles
 };
 
 /// Steps 1 to 6 of the paper: the 8 painting orders of a model. Where the paper leaves the order

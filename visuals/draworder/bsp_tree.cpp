@@ -1,0 +1,209 @@
+// H. Fuchs, Z. M. Kedem, B. F. Naylor, "On Visible Surface Generation by A Priori Tree Structures",
+// SIGGRAPH 1980: auto-partition, back-to-front walk.
+// Deviations:
+// - The plane of a node is the best of all by number of cuts, not of a sample; of three rules for
+//   equals the tree with the fewest cuts is kept.
+// - Polygons in a node's plane that face the other way stay in the node; each is painted on the way
+//   through when the eye is on its side.
+
+#include "visuals/draworder/bsp_tree.h"
+
+#include "visuals/draworder/split.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+constexpr std::size_t most_candidates = 200;
+
+enum class Side { In, Front, Back, Both };
+
+/// What decides among planes that cut equally many polygons.
+enum class Among { Even, Uneven, First };
+
+class BspBuilding {
+public:
+    BspBuilding(models::PolygonModel model, Among among)
+        : tolerance_m_(split_tolerance_m(model))
+        , among_(among) {
+        tree_.model = std::move(model);
+    }
+
+    BspTree build() {
+        const std::size_t polygons = tree_.model.polygons.size();
+        std::vector<std::uint32_t> all;
+        for (std::uint32_t i = 0; i < polygons; ++i) {
+            all.push_back(i);
+        }
+        std::vector<Task> tasks;
+        tasks.push_back({std::move(all), BspTree::nothing, false, 1});
+        while (!tasks.empty()) {
+            const Task task = std::move(tasks.back());
+            tasks.pop_back();
+            add_node(task, tasks);
+        }
+        tree_.splits = static_cast<int>(tree_.model.polygons.size() - polygons);
+        return std::move(tree_);
+    }
+
+private:
+    /// Polygons that a new node below `parent` has to hold.
+    struct Task {
+        std::vector<std::uint32_t> polygons;
+        int parent = BspTree::nothing;
+        bool in_front = false;
+        int level = 1;
+    };
+
+    Side side_of(std::uint32_t polygon, const Plane& plane) const {
+        bool front = false;
+        bool back = false;
+        for (const std::uint32_t vertex : tree_.model.corners(polygon)) {
+            const double away_m = distance_m(plane, tree_.model.vertices_m[vertex]);
+            front = front || away_m > tolerance_m_;
+            back = back || away_m < -tolerance_m_;
+        }
+        if (front && back) {
+            return Side::Both;
+        }
+        return front ? Side::Front : back ? Side::Back : Side::In;
+    }
+
+    /// (cuts, what decides among equals): less is better.
+    std::pair<int, int>
+    cost_of(const Plane& plane, const std::vector<std::uint32_t>& polygons) const {
+        int cuts = 0;
+        int balance = 0;
+        for (const std::uint32_t polygon : polygons) {
+            const Side side = side_of(polygon, plane);
+            cuts += side == Side::Both ? 1 : 0;
+            balance += side == Side::Front ? 1 : side == Side::Back ? -1 : 0;
+        }
+        switch (among_) {
+        case Among::Even:
+            return {cuts, std::abs(balance)};
+        case Among::Uneven:
+            return {cuts, -std::abs(balance)};
+        case Among::First:
+            break;
+        }
+        return {cuts, 0};
+    }
+
+    std::uint32_t best_of(const std::vector<std::uint32_t>& polygons) const {
+        const std::size_t tried = std::min(polygons.size(), most_candidates);
+        std::uint32_t best = polygons.front();
+        std::pair<int, int> least = cost_of(models::plane_of(tree_.model, best), polygons);
+        for (std::size_t i = 1; i < tried; ++i) {
+            const std::uint32_t polygon = polygons[i * polygons.size() / tried];
+            const auto cost = cost_of(models::plane_of(tree_.model, polygon), polygons);
+            if (cost < least) {
+                least = cost;
+                best = polygon;
+            }
+        }
+        return best;
+    }
+
+    void add_node(const Task& task, std::vector<Task>& tasks) {
+        const int number = static_cast<int>(tree_.nodes.size());
+        if (task.parent != BspTree::nothing) {
+            BspTree::Node& parent = tree_.nodes[static_cast<std::size_t>(task.parent)];
+            (task.in_front ? parent.front : parent.back) = number;
+        }
+        tree_.depth = std::max(tree_.depth, task.level);
+        BspTree::Node node;
+        const std::uint32_t chosen = best_of(task.polygons);
+        node.plane = models::plane_of(tree_.model, chosen);
+        node.first = tree_.polygons.size();
+        Task front{{}, number, true, task.level + 1};
+        Task back{{}, number, false, task.level + 1};
+        for (const std::uint32_t polygon : task.polygons) {
+            const Side side = polygon == chosen ? Side::In : side_of(polygon, node.plane);
+            if (side == Side::In) {
+                add_to_plane(polygon, node.plane);
+            }
+            if (side == Side::Both) {
+                back.polygons.push_back(split_polygon(tree_.model, polygon, node.plane));
+            }
+            if (side == Side::Front || side == Side::Both) {
+                front.polygons.push_back(polygon);
+            }
+            if (side == Side::Back) {
+                back.polygons.push_back(polygon);
+            }
+        }
+        node.count = tree_.polygons.size() - node.first;
+        tree_.nodes.push_back(node);
+        for (Task& side : {std::ref(front), std::ref(back)}) {
+            if (!side.polygons.empty()) {
+                tasks.push_back(std::move(side));
+            }
+        }
+    }
+
+    void add_to_plane(std::uint32_t polygon, const Plane& plane) {
+        tree_.polygons.push_back(polygon);
+        tree_.along.push_back(
+            glm::dot(models::normal_of(tree_.model, polygon), plane.normal) > 0.0);
+    }
+
+    BspTree tree_;
+    double tolerance_m_;
+    Among among_;
+};
+
+} // namespace
+
+BspTree bsp_tree(const models::PolygonModel& model) {
+    BspTree best = BspBuilding(model, Among::Even).build();
+    for (const Among among : {Among::Uneven, Among::First}) {
+        BspTree tree = BspBuilding(model, among).build();
+        if (std::pair(tree.splits, tree.depth) < std::pair(best.splits, best.depth)) {
+            best = std::move(tree);
+        }
+    }
+    return best;
+}
+
+void append_painted(
+    const BspTree& tree,
+    const glm::dvec3& eye_m,
+    std::vector<std::uint32_t>& painted,
+    std::vector<int>& to_do) {
+    // A node on the way down is `node`; one whose far side is painted is ~node.
+    to_do.clear();
+    if (!tree.nodes.empty()) {
+        to_do.push_back(0);
+    }
+    while (!to_do.empty()) {
+        const int entry = to_do.back();
+        to_do.pop_back();
+        const bool far_side_done = entry < 0;
+        const int number = far_side_done ? ~entry : entry;
+        const BspTree::Node& node = tree.nodes[static_cast<std::size_t>(number)];
+        const bool in_front = distance_m(node.plane, eye_m) >= 0.0;
+        if (!far_side_done) {
+            to_do.push_back(~number);
+        }
+        if (far_side_done) {
+            for (std::size_t i = node.first; i < node.first + node.count; ++i) {
+                if (tree.along[i] == in_front) {
+                    painted.push_back(tree.polygons[i]);
+                }
+            }
+        }
+        const int child = far_side_done == in_front ? node.front : node.back;
+        if (child != BspTree::nothing) {
+            to_do.push_back(child);
+        }
+    }
+}
+
+} // namespace octant::visuals::draworder

@@ -1,0 +1,177 @@
+#include "visuals/draworder/candidate_planes.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <tuple>
+#include <utility>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+/// Points and planes closer than this count as one.
+constexpr double grain = 1e-6;
+
+std::int64_t grains(double value) {
+    return std::llround(value / grain);
+}
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+struct Outlines {
+    std::vector<glm::dvec3> corners; ///< each place once
+    std::vector<Edge> edges;         ///< each once
+};
+
+Outlines outlines_of(const ModelFaces& model, std::span<const std::uint32_t> among) {
+    using Place = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
+    const auto place_of = [](const glm::dvec3& p) {
+        return Place{grains(p.x), grains(p.y), grains(p.z)};
+    };
+    std::vector<std::pair<Place, glm::dvec3>> places;
+    for (const std::uint32_t polygon : among) {
+        for (const glm::dvec3& corner : model.faces[polygon].outline) {
+            places.emplace_back(place_of(corner), corner);
+        }
+    }
+    std::ranges::stable_sort(places, {}, &std::pair<Place, glm::dvec3>::first);
+    const auto doubles = std::ranges::unique(places, {}, &std::pair<Place, glm::dvec3>::first);
+    places.erase(doubles.begin(), doubles.end());
+    Outlines out;
+    for (const auto& [place, corner] : places) {
+        out.corners.push_back(corner);
+    }
+    const auto number_of = [&](const glm::dvec3& corner) {
+        const auto at = std::ranges::lower_bound(
+            places, place_of(corner), {}, &std::pair<Place, glm::dvec3>::first);
+        return static_cast<std::uint32_t>(at - places.begin());
+    };
+    for (const std::uint32_t polygon : among) {
+        const Face& face = model.faces[polygon];
+        for (std::size_t i = 0; i < face.outline.size() && face.plane && !face.pivot; ++i) {
+            const std::uint32_t from = number_of(face.outline[i]);
+            const std::uint32_t to = number_of(face.outline[(i + 1) % face.outline.size()]);
+            out.edges.emplace_back(std::min(from, to), std::max(from, to));
+        }
+    }
+    std::ranges::sort(out.edges);
+    const auto twice = std::ranges::unique(out.edges);
+    out.edges.erase(twice.begin(), twice.end());
+    return out;
+}
+
+void add_axis_planes(std::vector<Plane>& planes, const Outlines& outlines) {
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 normal(0.0);
+        normal[axis] = 1.0;
+        for (const glm::dvec3& corner : outlines.corners) {
+            planes.push_back({normal, -corner[axis]});
+        }
+    }
+}
+
+void add_edge_planes(std::vector<Plane>& planes, const Outlines& outlines, std::size_t most) {
+    const std::size_t all = outlines.edges.size() * outlines.corners.size();
+    const std::size_t step = all / most + 1;
+    for (std::size_t i = 0; i < all; i += step) {
+        const Edge& edge = outlines.edges[i / outlines.corners.size()];
+        const glm::dvec3& corner = outlines.corners[i % outlines.corners.size()];
+        const glm::dvec3& from = outlines.corners[edge.first];
+        const glm::dvec3 along = outlines.corners[edge.second] - from;
+        const glm::dvec3 across = glm::cross(along, corner - from);
+        const double area = glm::length(across);
+        if (area > 1e-6 * glm::length(along)) {
+            const glm::dvec3 normal = across / area;
+            planes.push_back({normal, -glm::dot(normal, from)});
+        }
+    }
+}
+
+/// Either orientation of a plane has the same key.
+std::array<std::int64_t, 4> key_of(const Plane& plane) {
+    std::array<std::int64_t, 4> key{
+        grains(plane.normal.x),
+        grains(plane.normal.y),
+        grains(plane.normal.z),
+        grains(plane.offset_m)};
+    for (const std::int64_t part : key) {
+        if (part != 0) {
+            if (part < 0) {
+                std::ranges::transform(key, key.begin(), [](std::int64_t k) { return -k; });
+            }
+            break;
+        }
+    }
+    return key;
+}
+
+std::vector<Plane> each_once(const std::vector<Plane>& planes) {
+    std::vector<std::pair<std::array<std::int64_t, 4>, std::size_t>> keys;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        keys.emplace_back(key_of(planes[i]), i);
+    }
+    std::ranges::sort(keys);
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (i == 0 || keys[i].first != keys[i - 1].first) {
+            kept.push_back(keys[i].second);
+        }
+    }
+    std::ranges::sort(kept);
+    std::vector<Plane> out;
+    for (const std::size_t i : kept) {
+        out.push_back(planes[i]);
+    }
+    return out;
+}
+
+} // namespace
+
+std::vector<Plane>
+candidate_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most) {
+    const Outlines outlines = outlines_of(model, among);
+    std::vector<Plane> planes;
+    add_axis_planes(planes, outlines);
+    for (const std::uint32_t polygon : among) {
+        if (model.faces[polygon].plane) {
+            planes.push_back(*model.faces[polygon].plane);
+        }
+    }
+    add_edge_planes(planes, outlines, most);
+    return each_once(planes);
+}
+
+PlaneSides
+sides_of(const Plane& plane, const ModelFaces& model, std::span<const std::uint32_t> among) {
+    PlaneSides sides(model.faces.size());
+    const double on = model.tolerances.on_plane;
+    for (const std::uint32_t polygon : among) {
+        const Face& face = model.faces[polygon];
+        double least = on;
+        double largest = -on;
+        for (const glm::dvec3& corner : face.corners) {
+            const double height = distance_m(plane, corner);
+            least = std::min(least, height);
+            largest = std::max(largest, height);
+        }
+        const bool before = least >= -on;
+        const bool behind = largest <= on;
+        if (before) {
+            sides.sets.front_or_on.add(polygon);
+        }
+        if (behind) {
+            sides.sets.back_or_on.add(polygon);
+        }
+        if (before && behind && face.plane) {
+            const bool along = glm::dot(plane.normal, face.plane->normal) > 0.0;
+            (along ? sides.unseen_behind : sides.unseen_in_front).add(polygon);
+        }
+    }
+    return sides;
+}
+
+} // namespace octant::visuals::draworder

@@ -1,0 +1,175 @@
+#include "visuals/draworder/components.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+constexpr std::uint32_t unseen = ~std::uint32_t{0};
+
+} // namespace
+
+std::uint64_t CyclicEdges::row_word(std::uint32_t polygon, std::size_t word) const {
+    const std::uint64_t barred = hidden_->has(polygon) ? hiding_->words()[word] : 0;
+    return graph_->row(polygon)[word] & allowed_[word] & ~barred;
+}
+
+/// The component whose first polygon this is leaves the stack; its inner edges are counted.
+void CyclicEdges::close(std::uint32_t polygon) {
+    const auto first = std::ranges::find(open_, polygon);
+    if (open_.end() - first > 1) {
+        std::ranges::fill(members_, std::uint64_t{0});
+        for (auto it = first; it != open_.end(); ++it) {
+            members_[*it / 64] |= std::uint64_t{1} << (*it % 64);
+        }
+        for (auto it = first; it != open_.end(); ++it) {
+            for (std::size_t word = 0; word < members_.size(); ++word) {
+                edges_ +=
+                    static_cast<std::size_t>(std::popcount(row_word(*it, word) & members_[word]));
+            }
+        }
+    }
+    for (auto it = first; it != open_.end(); ++it) {
+        component_[*it] = next_component_;
+    }
+    open_.erase(first, open_.end());
+    ++next_component_;
+}
+
+void CyclicEdges::search_from(std::uint32_t root) {
+    const auto enter = [this](std::uint32_t polygon) {
+        number_[polygon] = low_[polygon] = next_number_++;
+        open_.push_back(polygon);
+        visits_.push_back({polygon, 0, row_word(polygon, 0)});
+    };
+    enter(root);
+    while (!visits_.empty()) {
+        Visit& visit = visits_.back();
+        while (visit.left == 0 && visit.word + 1 < allowed_.size()) {
+            visit.left = row_word(visit.polygon, ++visit.word);
+        }
+        if (visit.left != 0) {
+            const auto bit = static_cast<std::size_t>(std::countr_zero(visit.left));
+            const auto to = static_cast<std::uint32_t>(visit.word * 64 + bit);
+            visit.left &= visit.left - 1;
+            if (number_[to] == unseen) {
+                enter(to);
+            } else if (component_[to] == unseen) {
+                low_[visit.polygon] = std::min(low_[visit.polygon], number_[to]);
+            }
+            continue;
+        }
+        const std::uint32_t done = visit.polygon;
+        visits_.pop_back();
+        if (!visits_.empty()) {
+            std::uint32_t& above = low_[visits_.back().polygon];
+            above = std::min(above, low_[done]);
+        }
+        if (low_[done] == number_[done]) {
+            close(done);
+        }
+    }
+}
+
+std::size_t CyclicEdges::count(
+    const HidingGraph& graph,
+    std::span<const std::uint32_t> among,
+    const PolygonSet& hiding,
+    const PolygonSet& hidden,
+    const PolygonSet& gone) {
+    graph_ = &graph;
+    hiding_ = &hiding;
+    hidden_ = &hidden;
+    const std::size_t words = hiding.words().size();
+    allowed_.assign(words, 0);
+    members_.assign(words, 0);
+    number_.resize(graph.count());
+    low_.resize(graph.count());
+    component_.resize(graph.count());
+    next_number_ = next_component_ = 0;
+    edges_ = 0;
+    for (const std::uint32_t polygon : among) {
+        number_[polygon] = component_[polygon] = unseen;
+        if (!gone.has(polygon)) {
+            allowed_[polygon / 64] |= std::uint64_t{1} << (polygon % 64);
+        }
+    }
+    for (const std::uint32_t polygon : among) {
+        if (number_[polygon] == unseen && !gone.has(polygon)) {
+            search_from(polygon);
+        }
+    }
+    return edges_;
+}
+
+Cycles cycles_of(const HidingGraph& graph, std::span<const std::uint32_t> among) {
+    const PolygonSet none(graph.count());
+    CyclicEdges search;
+    Cycles cycles{.polygons = {}, .components = {}, .inner = HidingGraph(graph.count())};
+    cycles.edges = search.count(graph, among, none, none, none);
+    std::vector<std::vector<std::uint32_t>> members(among.size());
+    for (const std::uint32_t polygon : among) {
+        members[search.component_of()[polygon]].push_back(polygon);
+    }
+    for (std::vector<std::uint32_t>& component : members) {
+        if (component.size() < 2) {
+            continue;
+        }
+        std::ranges::sort(component);
+        PolygonSet inside(graph.count());
+        for (const std::uint32_t polygon : component) {
+            inside.add(polygon);
+        }
+        for (const std::uint32_t polygon : component) {
+            const auto from = graph.row(polygon);
+            const auto to = cycles.inner.row(polygon);
+            for (std::size_t word = 0; word < from.size(); ++word) {
+                to[word] = from[word] & inside.words()[word];
+            }
+        }
+        cycles.polygons.insert(cycles.polygons.end(), component.begin(), component.end());
+        cycles.components.push_back(std::move(component));
+    }
+    std::ranges::sort(cycles.polygons);
+    return cycles;
+}
+
+Cycles cycles_of(const HidingGraph& graph) {
+    std::vector<std::uint32_t> all(graph.count());
+    std::iota(all.begin(), all.end(), 0U);
+    return cycles_of(graph, all);
+}
+
+std::vector<std::uint32_t>
+shortest_ring(const HidingGraph& graph, std::span<const std::uint32_t> among) {
+    std::vector<std::uint32_t> best;
+    for (const std::uint32_t start : among) {
+        std::vector<std::uint32_t> came_from(graph.count(), unseen);
+        std::vector<std::uint32_t> reached{start};
+        for (std::size_t i = 0; i < reached.size() && came_from[start] == unseen; ++i) {
+            for_each_bit(graph.row(reached[i]), [&](std::size_t to) {
+                if (came_from[to] == unseen) {
+                    came_from[to] = reached[i];
+                    reached.push_back(static_cast<std::uint32_t>(to));
+                }
+            });
+        }
+        if (came_from[start] == unseen) {
+            continue;
+        }
+        std::vector<std::uint32_t> ring{start};
+        for (std::uint32_t at = came_from[start]; at != start; at = came_from[at]) {
+            ring.push_back(at);
+        }
+        std::reverse(ring.begin() + 1, ring.end());
+        if (best.empty() || ring.size() < best.size()) {
+            best = std::move(ring);
+        }
+    }
+    return best;
+}
+
+} // namespace octant::visuals::draworder

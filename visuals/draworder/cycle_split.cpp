@@ -1,0 +1,124 @@
+// Splitting as in fig. 14 of the 1989 paper, though where polygons hide one another in a ring and
+// not where they pass through one another; which one to split is not in the paper.
+
+#include "visuals/draworder/cycle_split.h"
+
+#include "visuals/draworder/components.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+HidingGraph graph_of(RegionGraphs& graphs, const Deadlock& deadlock) {
+    const auto& among = deadlock.polygons;
+    HidingGraph pairs(graphs.model().faces.size());
+    for (const std::uint32_t a : among) {
+        for (const std::uint32_t b : among) {
+            if (a != b && !graphs.model().ignored.hides(b, a)) {
+                pairs.add(b, a);
+            }
+        }
+    }
+    return deadlock.eye ? graphs.at_eye(*deadlock.eye, pairs, among)
+                        : graphs.surviving(deadlock.region, pairs, among);
+}
+
+/// The part of an outline in front of a plane.
+std::vector<glm::dvec3> front_part(const std::vector<glm::dvec3>& outline, const Plane& plane) {
+    std::vector<glm::dvec3> part;
+    glm::dvec3 last = outline.back();
+    for (const glm::dvec3& corner : outline) {
+        const double height = distance_m(plane, corner);
+        const double last_height = distance_m(plane, last);
+        if ((height >= 0.0) != (last_height >= 0.0)) {
+            part.push_back(last + (corner - last) * (last_height / (last_height - height)));
+        }
+        if (height >= 0.0) {
+            part.push_back(corner);
+        }
+        last = corner;
+    }
+    return part;
+}
+
+bool straddles(const Face& face, const Plane& plane, double margin) {
+    const auto heights = [&](const glm::dvec3& corner) { return distance_m(plane, corner); };
+    const auto [least, most] = std::ranges::minmax(face.outline, {}, heights);
+    return heights(least) < -margin && heights(most) > margin;
+}
+
+/// Pairs on rings among the ring's polygons once one of them has been cut.
+std::size_t left_after(
+    const ModelFaces& model,
+    const Deadlock& deadlock,
+    const std::vector<std::uint32_t>& ring,
+    const Cut& cut) {
+    const Plane plane = *model.faces[cut.along].plane;
+    const Face& whole = model.faces[cut.polygon];
+    const std::size_t count = ring.size() + 1;
+    ModelFaces pieces{
+        .faces = {},
+        .tolerances = model.tolerances,
+        .rigid = HidingGraph(count),
+        .ignored = HidingGraph(count),
+        .notes = {}};
+    for (const std::uint32_t polygon : ring) {
+        pieces.faces.push_back(
+            polygon == cut.polygon
+                ? outline_face(
+                      front_part(whole.outline, plane), *whole.plane, model.tolerances.inset)
+                : model.faces[polygon]);
+    }
+    pieces.faces.push_back(outline_face(
+        front_part(whole.outline, {-plane.normal, -plane.offset_m}),
+        *whole.plane,
+        model.tolerances.inset));
+    Deadlock among{std::vector<std::uint32_t>(count), deadlock.region, deadlock.eye};
+    std::iota(among.polygons.begin(), among.polygons.end(), 0U);
+    RegionGraphs graphs(pieces);
+    return cycles_of(graph_of(graphs, among)).edges;
+}
+
+} // namespace
+
+std::optional<Cut> best_cut(RegionGraphs& graphs, const Deadlock& deadlock) {
+    const ModelFaces& model = graphs.model();
+    std::vector<std::uint32_t> ring = shortest_ring(graph_of(graphs, deadlock), deadlock.polygons);
+    std::ranges::sort(ring);
+    std::optional<Cut> best;
+    std::size_t fewest = 0;
+    for (const std::uint32_t polygon : ring) {
+        for (const std::uint32_t along : ring) {
+            const Face& face = model.faces[polygon];
+            const auto& plane = model.faces[along].plane;
+            if (face.pivot || !plane || !straddles(face, *plane, 2.0 * model.tolerances.inset)) {
+                continue;
+            }
+            const std::size_t left = left_after(model, deadlock, ring, {polygon, along});
+            if (!best || left < fewest) {
+                best = Cut{polygon, along};
+                fewest = left;
+            }
+        }
+    }
+    return best;
+}
+
+Precedence weakest_pair(RegionGraphs& graphs, const Deadlock& deadlock) {
+    const auto ring = shortest_ring(graph_of(graphs, deadlock), deadlock.polygons);
+    const auto& faces = graphs.model().faces;
+    std::size_t weakest = 0;
+    for (std::size_t i = ring.size(); i-- > 0;) {
+        if (faces[ring[i]].pivot || faces[ring[(i + 1) % ring.size()]].pivot) {
+            weakest = i;
+        }
+    }
+    return {ring[weakest], ring[(weakest + 1) % ring.size()]};
+}
+
+} // namespace octant::visuals::draworder

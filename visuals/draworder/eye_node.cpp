@@ -1,0 +1,69 @@
+#include "visuals/draworder/eye_node.h"
+
+#include "sim/base/error.h"
+
+#include <fmt/format.h>
+#include <utility>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+/// 4 bytes each here, and some 24 in a renderer's index buffer.
+constexpr std::size_t most_entries = 8'000'000;
+
+} // namespace
+
+void check_entries(std::size_t entries, std::size_t polygons) {
+    if (entries > most_entries) {
+        throw Error(fmt::format(
+            "expected a model whose painting orders have at most {} entries, got more: its {} "
+            "polygons hide one another in too many ways",
+            most_entries,
+            polygons));
+    }
+}
+
+EyeNode eye_node(RegionGraphs& graphs, const EyeRegion& region) {
+    HidingGraph graph = graphs.all(region);
+    Cycles cycles = cycles_of(graph);
+    return {region, std::move(graph), std::move(cycles)};
+}
+
+EyeNode part_of(RegionGraphs& graphs, const EyeNode& node, EyeRegion part, const SideSets* sides) {
+    const auto& among = node.cycles.polygons;
+    const HidingGraph left = graphs.surviving(part, node.cycles.inner, among, sides);
+    HidingGraph graph = node.graph;
+    for (const std::uint32_t a : among) {
+        const auto inner = node.cycles.inner.row(a);
+        const auto row = graph.row(a);
+        for (std::size_t word = 0; word < row.size(); ++word) {
+            row[word] = (row[word] & ~inner[word]) | left.row(a)[word];
+        }
+    }
+    return {std::move(part), std::move(graph), cycles_of(left, among)};
+}
+
+std::optional<Deadlock> ring_at_eye(RegionGraphs& graphs, const EyeNode& node) {
+    const auto& among = node.cycles.polygons;
+    const glm::dvec3 eye = node.region.some_eye();
+    Cycles ring = cycles_of(graphs.at_eye(eye, node.cycles.inner, among), among);
+    if (ring.edges == 0) {
+        return std::nullopt;
+    }
+    return Deadlock{std::move(ring.components.front()), node.region, eye};
+}
+
+std::vector<std::uint32_t> list_of(const RegionGraphs& graphs, const EyeNode& node) {
+    const PolygonSet listed = graphs.listed(node.region);
+    const auto pairs = node.graph.precedences(listed);
+    std::vector<std::uint32_t> list;
+    for (const std::uint32_t polygon : paint_sequence(node.graph.count(), pairs).order) {
+        if (listed.has(polygon)) {
+            list.push_back(polygon);
+        }
+    }
+    return list;
+}
+
+} // namespace octant::visuals::draworder

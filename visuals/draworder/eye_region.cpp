@@ -1,0 +1,186 @@
+// T. S. Motzkin, H. Raiffa, G. L. Thompson, R. M. Thrall, "The double description method", 1953;
+// the combinatorial test of adjacency as in K. Fukuda, A. Prodon, "Double description method
+// revisited", 1996, proposition 7.
+// Deviations:
+// - Heights within 1e-10 of a plane count as on it.
+// - Lines are kept apart from the rays, so that a region that is bounded by fewer than three planes
+//   needs no artificial box around it.
+
+#include "visuals/draworder/eye_region.h"
+
+#include <glm/geometric.hpp>
+
+#include <cassert>
+#include <cmath>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+constexpr double on_plane = 1e-10;
+
+glm::dvec4 front_of(const Plane& plane) {
+    return {plane.normal, plane.offset_m};
+}
+
+} // namespace
+
+EyeRegion EyeRegion::everywhere() {
+    EyeRegion all;
+    all.lines_ = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+    all.rays_ = {{{0, 0, 0, 1}, {}}};
+    all.facets_ = {{0, 0, 0, 1}};
+    return all;
+}
+
+bool EyeRegion::reaches_front_of(const Plane& plane) const {
+    const glm::dvec4 front = front_of(plane);
+    for (const glm::dvec4& line : lines_) {
+        if (std::abs(glm::dot(front, line)) > on_plane) {
+            return true;
+        }
+    }
+    for (const Ray& ray : rays_) {
+        if (glm::dot(front, ray.at) > on_plane) {
+            return true;
+        }
+    }
+    return false;
+}
+
+std::optional<EyeRegion> EyeRegion::cut(const Plane& plane) const {
+    const glm::dvec4 front = front_of(plane);
+    std::size_t steepest = 0;
+    double steepness = on_plane;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+        const double slope = std::abs(glm::dot(front, lines_[i]));
+        if (slope > steepness) {
+            steepness = slope;
+            steepest = i + 1;
+        }
+    }
+    if (steepest > 0) {
+        return cut_across_line(front, steepest - 1);
+    }
+    std::vector<double> heights;
+    heights.reserve(rays_.size());
+    bool some_front = false;
+    bool some_back = false;
+    for (const Ray& ray : rays_) {
+        heights.push_back(glm::dot(front, ray.at));
+        some_front = some_front || heights.back() > on_plane;
+        some_back = some_back || heights.back() < -on_plane;
+    }
+    if (!some_front) {
+        return std::nullopt;
+    }
+    return some_back ? cut_rays(front, heights) : *this;
+}
+
+/// The line becomes the one ray off the new facet; everything else slides along it onto the facet.
+EyeRegion EyeRegion::cut_across_line(const glm::dvec4& front, std::size_t line) const {
+    assert(facets_.size() <= most_planes);
+    EyeRegion out = *this;
+    const double slope = glm::dot(front, lines_[line]);
+    const glm::dvec4 inward = lines_[line] * (slope > 0.0 ? 1.0 : -1.0);
+    const auto slid = [&](const glm::dvec4& at) {
+        return glm::normalize(at - inward * (glm::dot(front, at) / std::abs(slope)));
+    };
+    out.lines_.erase(out.lines_.begin() + static_cast<std::ptrdiff_t>(line));
+    for (glm::dvec4& other : out.lines_) {
+        other = slid(other);
+    }
+    Ray added{inward, {}};
+    for (std::size_t facet = 0; facet < facets_.size(); ++facet) {
+        added.on.set(facet);
+    }
+    for (Ray& ray : out.rays_) {
+        ray.at = slid(ray.at);
+        ray.on.set(facets_.size());
+    }
+    out.rays_.push_back(added);
+    out.facets_.push_back(front);
+    return out;
+}
+
+/// Two rays of a cone span an edge of it unless a third lies on all facets that both lie on.
+bool EyeRegion::adjacent(std::size_t a, std::size_t b) const {
+    const Facets both = rays_[a].on & rays_[b].on;
+    if (both.count() + lines_.size() + 2 < 4) {
+        return false;
+    }
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+        if (i != a && i != b && (both & rays_[i].on) == both) {
+            return false;
+        }
+    }
+    return true;
+}
+
+EyeRegion EyeRegion::cut_rays(const glm::dvec4& front, const std::vector<double>& heights) const {
+    assert(facets_.size() <= most_planes);
+    EyeRegion out;
+    out.lines_ = lines_;
+    out.facets_ = facets_;
+    out.facets_.push_back(front);
+    out.rays_.reserve(rays_.size() + 4);
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+        if (heights[i] >= -on_plane) {
+            out.rays_.push_back(rays_[i]);
+            out.rays_.back().on.set(facets_.size(), heights[i] <= on_plane);
+        }
+    }
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+        for (std::size_t j = 0; j < rays_.size(); ++j) {
+            if (heights[i] > on_plane && heights[j] < -on_plane && adjacent(i, j)) {
+                const glm::dvec4 at = rays_[j].at * heights[i] - rays_[i].at * heights[j];
+                Ray added{glm::normalize(at), rays_[i].on & rays_[j].on};
+                added.on.set(facets_.size());
+                out.rays_.push_back(added);
+            }
+        }
+    }
+    return out;
+}
+
+void EyeRegion::append_generators(std::vector<glm::dvec4>& generators) const {
+    for (const Ray& ray : rays_) {
+        generators.push_back(ray.at);
+    }
+    for (const glm::dvec4& line : lines_) {
+        generators.push_back(line);
+        generators.push_back(-line);
+    }
+}
+
+glm::dvec3 EyeRegion::some_eye() const {
+    glm::dvec4 sum(0.0);
+    for (const Ray& ray : rays_) {
+        sum += ray.at;
+    }
+    assert(sum.w > 0.0);
+    return glm::dvec3(sum.x, sum.y, sum.z) / sum.w;
+}
+
+/// A facet is needless when all rays on it lie on another one, too.
+std::vector<Plane> EyeRegion::planes() const {
+    std::vector<bool> kept(facets_.size(), true);
+    for (std::size_t i = 1; i < facets_.size(); ++i) {
+        for (std::size_t other = 0; other < facets_.size() && kept[i]; ++other) {
+            bool within = other != i && kept[other];
+            for (const Ray& ray : rays_) {
+                within = within && (!ray.on[i] || ray.on[other]);
+            }
+            kept[i] = !within;
+        }
+    }
+    std::vector<Plane> planes;
+    for (std::size_t i = 1; i < facets_.size(); ++i) {
+        if (kept[i]) {
+            planes.push_back({{facets_[i].x, facets_[i].y, facets_[i].z}, facets_[i].w});
+        }
+    }
+    return planes;
+}
+
+} // namespace octant::visuals::draworder

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "sim/base/plane.h"
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <bitset>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace octant::visuals::draworder {
+
+/// A convex region of eye points with volume, bounded or not: the common front of some planes. Held
+/// as the homogeneous cone over it, by what generates it: points (x, y, z, 1) up to a factor,
+/// directions (x, y, z, 0), and lines, which are directions both ways.
+///
+/// Lengths are in a unit of about the radius of what is looked at: tolerances are 1e-10 of it.
+class EyeRegion {
+public:
+    /// How many planes a region can have been cut by.
+    static constexpr std::size_t most_planes = 126;
+
+    /// All of space.
+    static EyeRegion everywhere();
+
+    /// The part in front of a plane with a unit normal; nothing if it has no volume. At most
+    /// most_planes cuts after one another (asserted).
+    std::optional<EyeRegion> cut(const Plane& plane) const;
+
+    /// Whether cut() would leave something.
+    bool reaches_front_of(const Plane& plane) const;
+
+    /// Appends what generates the region, each of length 1 in four dimensions and with w >= 0; a
+    /// line is appended as two opposite directions.
+    void append_generators(std::vector<glm::dvec4>& generators) const;
+
+    /// A point inside, the same for the same region.
+    glm::dvec3 some_eye() const;
+
+    /// The planes that bound the region, without those that others make needless, in the order of
+    /// the cuts.
+    std::vector<Plane> planes() const;
+
+private:
+    using Facets = std::bitset<most_planes + 2>;
+
+    /// A point or direction, and the facets on which it lies.
+    struct Ray {
+        glm::dvec4 at{0.0};
+        Facets on;
+    };
+
+    EyeRegion() = default;
+    EyeRegion cut_across_line(const glm::dvec4& front, std::size_t line) const;
+    EyeRegion cut_rays(const glm::dvec4& front, const std::vector<double>& heights) const;
+    bool adjacent(std::size_t a, std::size_t b) const;
+
+    std::vector<Ray> rays_;
+    std::vector<glm::dvec4> lines_;
+    std::vector<glm::dvec4> facets_; ///< fronts, the first is w >= 0
+};
+
+} // namespace octant::visuals::draworder

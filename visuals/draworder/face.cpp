@@ -1,0 +1,71 @@
+#include "visuals/draworder/face.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+/// Corners sharper than this are blunted no further, or they would run out of the polygon.
+constexpr double sharpest = 0.01;
+
+glm::dvec2 inward_of(const glm::dvec2& from, const glm::dvec2& to) {
+    const glm::dvec2 along = to - from;
+    const double length = glm::length(along);
+    return length > 0.0 ? glm::dvec2(-along.y, along.x) / length : glm::dvec2(0.0);
+}
+
+std::vector<glm::dvec2> drawn_in(const std::vector<glm::dvec2>& outline, double inset) {
+    glm::dvec2 middle(0.0);
+    for (const glm::dvec2& corner : outline) {
+        middle += corner / static_cast<double>(outline.size());
+    }
+    double nearest = std::numeric_limits<double>::max();
+    for (const glm::dvec2& corner : outline) {
+        nearest = std::min(nearest, glm::distance(corner, middle));
+    }
+    const double step = std::min(inset, nearest / 5.0);
+    std::vector<glm::dvec2> inner;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const std::size_t count = outline.size();
+        const glm::dvec2 before = inward_of(outline[(i + count - 1) % count], outline[i]);
+        const glm::dvec2 after = inward_of(outline[i], outline[(i + 1) % count]);
+        const double share = std::max(1.0 + glm::dot(before, after), sharpest);
+        inner.push_back(outline[i] + (before + after) * (step / share));
+    }
+    return inner;
+}
+
+} // namespace
+
+Face outline_face(std::span<const glm::dvec3> corners, const Plane& plane, double inset) {
+    Face face;
+    face.plane = plane;
+    face.outline.assign(corners.begin(), corners.end());
+    const bool along_x = std::abs(plane.normal.x) > 0.7;
+    const glm::dvec3 aside = along_x ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    face.right = glm::normalize(glm::cross(aside, plane.normal));
+    face.up = glm::cross(plane.normal, face.right);
+    std::vector<glm::dvec2> outline;
+    for (const glm::dvec3& corner : corners) {
+        outline.emplace_back(glm::dot(corner, face.right), glm::dot(corner, face.up));
+    }
+    face.flat = drawn_in(outline, inset);
+    for (const glm::dvec2& corner : face.flat) {
+        face.corners.push_back(
+            face.right * corner.x + face.up * corner.y - plane.normal * plane.offset_m);
+    }
+    return face;
+}
+
+bool behind_or_on(const Face& face, const Plane& plane, double on_plane) {
+    return std::ranges::all_of(face.corners, [&](const glm::dvec3& corner) {
+        return distance_m(plane, corner) <= on_plane;
+    });
+}
+
+} // namespace octant::visuals::draworder

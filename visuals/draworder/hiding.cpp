@@ -1,0 +1,126 @@
+#include "visuals/draworder/hiding.h"
+
+#include "visuals/draworder/convex_separation.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+constexpr double rounding = 1e-12;
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// A sector of at most half a turn, counter-clockwise from `low` to `high`.
+class Sector {
+public:
+    Sector(const glm::dvec2& low, const glm::dvec2& high)
+        : low_(low)
+        , high_(high) {}
+
+    /// Widens it to hold a direction; false when it would exceed half a turn.
+    bool take(const glm::dvec2& direction) {
+        const double length = glm::length(direction);
+        if (length <= rounding) {
+            return true;
+        }
+        const glm::dvec2 unit = direction / length;
+        const double past_low = cross(low_, unit);
+        const double short_of_high = cross(unit, high_);
+        if (past_low < -rounding && short_of_high < -rounding) {
+            return false;
+        }
+        if (past_low < -rounding) {
+            low_ = unit;
+        } else if (short_of_high < -rounding) {
+            high_ = unit;
+        }
+        return true;
+    }
+
+private:
+    glm::dvec2 low_;
+    glm::dvec2 high_;
+};
+
+} // namespace
+
+bool HidingTest::possible(const Face& b, const Face& a) const {
+    if (a.plane && behind_or_on(b, *a.plane, tolerances_.on_plane)) {
+        return false;
+    }
+    if (!b.plane) {
+        return true;
+    }
+    const Plane back{-b.plane->normal, -b.plane->offset_m};
+    return !behind_or_on(a, back, tolerances_.on_plane);
+}
+
+bool HidingTest::hides(const Face& b, const Face& a, std::span<const glm::dvec4> eyes) {
+    if (!a.plane || !b.plane) {
+        return !separable(b.corners, a.corners, eyes);
+    }
+    find_crossings(b, a, eyes);
+    if (crossings_.empty()) {
+        return false;
+    }
+    for (std::size_t corner = 0; corner < b.flat.size(); ++corner) {
+        if (apart_at(b, corner)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void HidingTest::find_crossings(const Face& b, const Face& a, std::span<const glm::dvec4> eyes) {
+    behind_.clear();
+    crossings_.clear();
+    const double limit = -tolerances_.on_plane;
+    glm::dvec3 last = a.corners.back();
+    double last_height = distance_m(*b.plane, last);
+    for (const glm::dvec3& corner : a.corners) {
+        const double height = distance_m(*b.plane, corner);
+        if ((height < limit) != (last_height < limit)) {
+            const double share = (limit - last_height) / (height - last_height);
+            behind_.emplace_back(last + (corner - last) * share, limit);
+        }
+        if (height < limit) {
+            behind_.emplace_back(corner, height);
+        }
+        last = corner;
+        last_height = height;
+    }
+    for (const glm::dvec4& eye : eyes) {
+        const glm::dvec3 at(eye.x, eye.y, eye.z);
+        const double raw = glm::dot(b.plane->normal, at) + b.plane->offset_m * eye.w;
+        const double height = raw < 1e-10 ? 0.0 : raw;
+        const glm::dvec2 flat(glm::dot(at, b.right), glm::dot(at, b.up));
+        for (const glm::dvec4& corner : behind_) {
+            const glm::dvec3 from(corner.x, corner.y, corner.z);
+            const glm::dvec2 flat_from(glm::dot(from, b.right), glm::dot(from, b.up));
+            const double depth = -corner.w;
+            const double scale = 1.0 / (height + depth);
+            crossings_.emplace_back(
+                (flat_from * height + flat * depth) * scale, (height + depth * eye.w) * scale);
+        }
+    }
+}
+
+/// Whether a line through a corner of b has b on one side and all crossings on the other.
+bool HidingTest::apart_at(const Face& b, std::size_t corner) const {
+    const std::size_t count = b.flat.size();
+    const glm::dvec2 at = b.flat[corner];
+    const glm::dvec2 to_next = glm::normalize(b.flat[(corner + 1) % count] - at);
+    const glm::dvec2 to_last = glm::normalize(b.flat[(corner + count - 1) % count] - at);
+    Sector sector(-to_next, -to_last);
+    return std::ranges::all_of(crossings_, [&](const glm::dvec3& point) {
+        return sector.take(glm::dvec2(point.x, point.y) - at * point.z);
+    });
+}
+
+} // namespace octant::visuals::draworder

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "visuals/draworder/precedence.h"
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::draworder {
+
+/// A set of polygon numbers, one bit each.
+class PolygonSet {
+public:
+    explicit PolygonSet(std::size_t count)
+        : words_((count + 63) / 64, 0) {}
+
+    bool has(std::size_t polygon) const {
+        return ((words_[polygon / 64] >> (polygon % 64)) & 1U) != 0;
+    }
+
+    void add(std::size_t polygon) { words_[polygon / 64] |= std::uint64_t{1} << (polygon % 64); }
+
+    void remove(std::size_t polygon) {
+        words_[polygon / 64] &= ~(std::uint64_t{1} << (polygon % 64));
+    }
+
+    std::span<const std::uint64_t> words() const { return words_; }
+
+private:
+    std::vector<std::uint64_t> words_;
+};
+
+/// Which polygons hide parts of which, for the eyes of some region: a square of bits. Row a holds
+/// those that hide part of a, which have to be painted after it.
+class HidingGraph {
+public:
+    explicit HidingGraph(std::size_t count)
+        : count_(count)
+        , stride_((count + 63) / 64)
+        , bits_(count * stride_, 0) {}
+
+    std::size_t count() const { return count_; }
+
+    bool hides(std::size_t b, std::size_t a) const {
+        return ((bits_[a * stride_ + b / 64] >> (b % 64)) & 1U) != 0;
+    }
+
+    void add(std::size_t b, std::size_t a) {
+        bits_[a * stride_ + b / 64] |= std::uint64_t{1} << (b % 64);
+    }
+
+    void remove(std::size_t b, std::size_t a) {
+        bits_[a * stride_ + b / 64] &= ~(std::uint64_t{1} << (b % 64));
+    }
+
+    std::span<const std::uint64_t> row(std::size_t a) const {
+        return std::span(bits_).subspan(a * stride_, stride_);
+    }
+
+    std::span<std::uint64_t> row(std::size_t a) {
+        return std::span(bits_).subspan(a * stride_, stride_);
+    }
+
+    /// All pairs between polygons of a set.
+    std::vector<Precedence> precedences(const PolygonSet& among) const;
+
+private:
+    std::size_t count_ = 0;
+    std::size_t stride_ = 0;
+    std::vector<std::uint64_t> bits_;
+};
+
+/// Calls `visit` with the place of each bit that is set, lowest first.
+template <typename Visit>
+void for_each_bit(std::span<const std::uint64_t> words, Visit visit) {
+    for (std::size_t word = 0; word < words.size(); ++word) {
+        for (std::uint64_t left = words[word]; left != 0; left &= left - 1) {
+            visit(word * 64 + static_cast<std::size_t>(std::countr_zero(left)));
+        }
+    }
+}
+
+} // namespace octant::visuals::draworder

@@ -1,0 +1,163 @@
+#include "visuals/draworder/model_faces.h"
+
+#include "visuals/draworder/components.h"
+#include "visuals/draworder/convex_separation.h"
+#include "visuals/draworder/hiding.h"
+#include "visuals/draworder/turning_parts.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+double farthest_m(const models::PolygonModel& model, const glm::dvec3& origin_m) {
+    double farthest = 0.0;
+    for (const std::uint32_t vertex : model.corner_vertices) {
+        farthest = std::max(farthest, glm::distance(model.vertices_m[vertex], origin_m));
+    }
+    return farthest > 0.0 ? farthest : 1.0;
+}
+
+Tolerances tolerances_of(const models::PolygonModel& model, double unit_m) {
+    double bent = 0.0;
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        const Plane plane = models::plane_of(model, i);
+        for (const std::uint32_t vertex : model.corners(i)) {
+            bent = std::max(bent, std::abs(distance_m(plane, model.vertices_m[vertex])) / unit_m);
+        }
+    }
+    Tolerances tolerances;
+    tolerances.inset = std::max(tolerances.inset, 2.0 * bent);
+    tolerances.on_plane = tolerances.inset / 10.0;
+    return tolerances;
+}
+
+Face outline_of(const models::PolygonModel& model, std::size_t polygon, const ModelFaces& faces) {
+    std::vector<glm::dvec3> corners;
+    for (const std::uint32_t vertex : model.corners(polygon)) {
+        corners.push_back((model.vertices_m[vertex] - faces.origin_m) / faces.unit_m);
+    }
+    const Plane plane = faces.in_faces(models::plane_of(model, polygon));
+    return outline_face(corners, plane, faces.tolerances.inset);
+}
+
+/// Pairs within one part, for eyes everywhere. Where they form cycles, the pairs that an order by
+/// number breaks are left out.
+void add_rigid_pairs(const models::PolygonModel& model, std::uint32_t pivot, ModelFaces& out) {
+    HidingTest test(out.tolerances);
+    PolygonSet part(out.faces.size());
+    std::vector<Face> still(out.faces.size());
+    for (std::size_t i = 0; i < out.faces.size(); ++i) {
+        if (out.faces[i].pivot == pivot) {
+            part.add(i);
+            still[i] = outline_of(model, i, out);
+        }
+    }
+    const EyeRegion all = EyeRegion::everywhere();
+    HidingGraph graph(out.faces.size());
+    for_each_bit(part.words(), [&](std::size_t a) {
+        const EyeRegion before_a = *all.cut(*still[a].plane);
+        for_each_bit(part.words(), [&](std::size_t b) {
+            const bool possible = a != b && test.possible(still[b], still[a]);
+            const auto eyes = possible ? before_a.cut(*still[b].plane) : std::nullopt;
+            std::vector<glm::dvec4> generators;
+            if (eyes) {
+                eyes->append_generators(generators);
+                if (test.hides(still[b], still[a], generators)) {
+                    graph.add(b, a);
+                }
+            }
+        });
+    });
+    const PaintSequence sequence = paint_sequence(out.faces.size(), graph.precedences(part));
+    if (sequence.broken_cycles > 0) {
+        out.notes.push_back(fmt::format(
+            "{}: its polygons hide one another as it turns; no one order is right for all",
+            model.parts[model.pivots[pivot].part]));
+    }
+    std::vector<std::size_t> place(out.faces.size(), 0);
+    for (std::size_t i = 0; i < sequence.order.size(); ++i) {
+        place[sequence.order[i]] = i;
+    }
+    for (const Precedence& pair : graph.precedences(part)) {
+        if (place[pair.first] < place[pair.later]) {
+            out.rigid.add(pair.later, pair.first);
+        }
+    }
+}
+
+/// Marks what a turning polygon runs into at some angle.
+void find_meetings(const models::PolygonModel& model, std::size_t polygon, ModelFaces& out) {
+    const HidingTest test(out.tolerances);
+    const Face& face = out.faces[polygon];
+    std::vector<std::uint32_t> noted;
+    for (std::size_t other = 0; other < out.faces.size(); ++other) {
+        const Face& met = out.faces[other];
+        const bool apart = met.pivot == face.pivot || !test.possible(face, met) ||
+                           !test.possible(met, face) || separable(face.corners, met.corners, {});
+        if (apart) {
+            continue;
+        }
+        out.ignored.add(polygon, other);
+        out.ignored.add(other, polygon);
+        const std::string note = fmt::format(
+            "{} and {} meet as they turn; no order is right for them",
+            model.parts[model.polygons[polygon].part],
+            model.parts[model.polygons[other].part]);
+        if (std::ranges::find(out.notes, note) == out.notes.end()) {
+            out.notes.push_back(note);
+        }
+    }
+}
+
+} // namespace
+
+Plane ModelFaces::in_model(const Plane& plane) const {
+    return {plane.normal, plane.offset_m * unit_m - glm::dot(plane.normal, origin_m)};
+}
+
+Plane ModelFaces::in_faces(const Plane& plane) const {
+    return {plane.normal, distance_m(plane, origin_m) / unit_m};
+}
+
+ModelFaces model_faces(const models::PolygonModel& model, const glm::dvec3& origin_m) {
+    const std::size_t count = model.polygons.size();
+    ModelFaces out{
+        .faces = {},
+        .tolerances = {},
+        .origin_m = origin_m,
+        .unit_m = farthest_m(model, origin_m),
+        .rigid = HidingGraph(count),
+        .ignored = HidingGraph(count),
+        .notes = {}};
+    out.tolerances = tolerances_of(model, out.unit_m);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto pivot = models::pivot_of(model, i);
+        out.faces.push_back(
+            pivot ? turning_face(
+                        model,
+                        i,
+                        model.pivots[*pivot],
+                        origin_m,
+                        1.0 / out.unit_m,
+                        out.tolerances.inset)
+                  : outline_of(model, i, out));
+        out.faces.back().pivot = pivot;
+    }
+    for (std::uint32_t pivot = 0; pivot < model.pivots.size(); ++pivot) {
+        add_rigid_pairs(model, pivot, out);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        if (out.faces[i].pivot) {
+            find_meetings(model, i, out);
+        }
+    }
+    return out;
+}
+
+} // namespace octant::visuals::draworder

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "visuals/draworder/draw_order.h"
+#include "visuals/draworder/eye_node.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace octant::visuals::draworder {
+
+/// The octants about the faces' origin, each divided until its cells have orders. Planes are in
+/// the faces' space.
+struct OctantCells {
+    std::vector<DrawOrder::Node> nodes; ///< node 0 first, children behind their parents
+    std::vector<std::vector<std::uint32_t>> lists;
+    std::vector<std::string> paths;              ///< "+-+/0/3"; cells divided by planes share one
+    std::vector<std::vector<Plane>> cell_planes; ///< without the distance
+};
+
+struct OctantCellsResult {
+    OctantCells cells;
+    std::optional<Deadlock> deadlock; ///< then the cells are not complete
+};
+
+/// Section IV of the 1989 paper: "divide the viewing directions further until all hidden surfaces
+/// are removed". Lists are right for eyes with |x| + |y| + |z| >= least_distance from the origin.
+///
+/// Octant "sx sy sz" is the flat triangle A = (sx, 0, 0), B = (0, sy, 0), C = (0, 0, sz) as seen
+/// from the origin. Where its graph has a cycle it is divided at the middles of its sides into 0 =
+/// (A, AB, CA), 1 = (AB, B, BC), 2 = (CA, BC, C), 3 = (BC, CA, AB), and so on. A cell that is still
+/// cyclic six levels down is divided by planes as in region_tree.h.
+///
+/// Throws Error when there are more cells than can be held.
+OctantCellsResult octant_cells(RegionGraphs& graphs, double least_distance);
+
+} // namespace octant::visuals::draworder

@@ -1,0 +1,157 @@
+// A certificate for painting orders after the rule of separation.cpp, which is the condition of the
+// exact orders turned round: they look for what hides what, this looks for planes that prove that
+// nothing does.
+
+#include "visuals/draworder/order_check.h"
+
+#include "visuals/draworder/check_shape.h"
+#include "visuals/draworder/separation.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+/// Sine of the angle below which a plane stays where it is when it turns about an axis.
+constexpr double along_axis = 1e-9;
+
+using Planes = std::vector<Plane>;
+
+class Certifying {
+public:
+    Certifying(const models::PolygonModel& model, const CellOrders& orders)
+        : model_(model)
+        , orders_(orders)
+        , frame_(check_frame(model))
+        , shapes_(check_shapes(model, frame_, orders.two_sided)) {}
+
+    OrderCheck check(const std::function<void(std::size_t, std::size_t)>& progress) {
+        for (std::size_t i = 0; i < orders_.cells.size(); ++i) {
+            check_cell(i);
+            if (progress) {
+                progress(i + 1, orders_.cells.size());
+            }
+        }
+        return std::move(check_);
+    }
+
+private:
+    void check_cell(std::size_t cell) {
+        const auto& list = orders_.cells[cell].list;
+        region_.clear();
+        for (const Plane& plane : region_of(orders_, orders_.cells[cell])) {
+            region_.push_back(frame_.from_body(plane));
+        }
+        std::vector<bool> listed(shapes_.size());
+        for (const std::uint32_t polygon : list) {
+            listed[polygon] = true;
+        }
+        for (std::uint32_t polygon = 0; polygon < shapes_.size(); ++polygon) {
+            if (!listed[polygon]) {
+                check_unlisted(cell, polygon);
+            }
+        }
+        for (std::size_t first = 0; first < list.size(); ++first) {
+            for (std::size_t later = first + 1; later < list.size(); ++later) {
+                check_pair(cell, list[first], list[later]);
+            }
+        }
+    }
+
+    void check_unlisted(std::size_t cell, std::uint32_t polygon) {
+        ++check_.unlisted;
+        const auto& fronts = shapes_[polygon].swept_fronts;
+        const bool unseen = std::ranges::all_of(
+            fronts, [&](const Plane& front) { return is_behind(region_, front); });
+        if (!unseen) {
+            ++check_.unlisted_open;
+            doubt({cell, polygon, polygon});
+        }
+    }
+
+    void check_pair(std::size_t cell, std::uint32_t first, std::uint32_t later) {
+        ++check_.pairs;
+        switch (certificate(shapes_[first], shapes_[later])) {
+        case Certificate::Plane:
+            ++check_.by_plane;
+            break;
+        case Certificate::LinearProgramme:
+            ++check_.by_programme;
+            break;
+        case Certificate::None:
+            ++check_.pairs_open;
+            doubt({cell, first, later});
+        }
+    }
+
+    /// The weakest over the sides from which each of the two is seen.
+    Certificate certificate(const CheckShape& near_one, const CheckShape& far_one) const {
+        const bool rigid = near_one.pivot == far_one.pivot;
+        const Planes region = rigid && near_one.pivot ? unturned(*near_one.pivot) : region_;
+        Certificate weakest = Certificate::Plane;
+        for (const Planes& near_side : sides_of(near_one, rigid)) {
+            for (const Planes& far_side : sides_of(far_one, rigid)) {
+                Planes planes = region;
+                planes.insert(planes.end(), near_side.begin(), near_side.end());
+                planes.insert(planes.end(), far_side.begin(), far_side.end());
+                weakest = std::max(
+                    weakest,
+                    separated(
+                        rigid ? near_one.corners : near_one.swept,
+                        rigid ? far_one.corners : far_one.swept,
+                        planes));
+            }
+        }
+        return weakest;
+    }
+
+    /// For each side from which a polygon is seen, the planes before which those eyes lie.
+    static std::vector<Planes> sides_of(const CheckShape& shape, bool rigid) {
+        if (!rigid && shape.swept_fronts.size() != shape.fronts.size()) {
+            return {Planes{}};
+        }
+        std::vector<Planes> sides;
+        for (const Plane& front : shape.fronts) {
+            sides.push_back({front});
+        }
+        return sides;
+    }
+
+    /// The region as a turning part sees it: planes that turn with the eye hold at no angle.
+    Planes unturned(std::uint32_t pivot) const {
+        Planes planes;
+        std::ranges::copy_if(region_, std::back_inserter(planes), [&](const Plane& plane) {
+            return glm::length(glm::cross(plane.normal, model_.pivots[pivot].axis)) < along_axis;
+        });
+        return planes;
+    }
+
+    void doubt(const Doubt& doubt) {
+        if (check_.doubts.size() < OrderCheck::most_doubts) {
+            check_.doubts.push_back(doubt);
+        }
+    }
+
+    const models::PolygonModel& model_;
+    const CellOrders& orders_;
+    CheckFrame frame_;
+    std::vector<CheckShape> shapes_;
+    Planes region_; ///< of the cell that is checked
+    OrderCheck check_;
+};
+
+} // namespace
+
+OrderCheck certify(
+    const models::PolygonModel& model,
+    const CellOrders& orders,
+    const std::function<void(std::size_t, std::size_t)>& progress) {
+    assert(orders.faces == model.polygons.size());
+    return Certifying(model, orders).check(progress);
+}
+
+} // namespace octant::visuals::draworder

@@ -1,0 +1,117 @@
+#include "visuals/draworder/order_text.h"
+
+#include <cassert>
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+std::string numbers(const glm::dvec3& v) {
+    return fmt::format("{:.17g} {:.17g} {:.17g}", v.x, v.y, v.z);
+}
+
+std::string indices(const std::vector<std::uint32_t>& list) {
+    std::string text;
+    for (const std::uint32_t index : list) {
+        fmt::format_to(std::back_inserter(text), " {}", index);
+    }
+    return text;
+}
+
+std::string region_text(const ListedCell& cell, const models::FileAxes& axes) {
+    if (!cell.path.empty()) {
+        return path_in_file(cell.path, axes);
+    }
+    if (!cell.directions.empty()) {
+        std::string text = fmt::format("cone {}", cell.directions.size());
+        for (const glm::dvec3& direction : cell.directions) {
+            text += " " + numbers(axes.file_from_body(direction));
+        }
+        return text;
+    }
+    std::string text = fmt::format("half {}", cell.planes.size());
+    for (const Plane& plane : cell.planes) {
+        text += fmt::format(
+            " {} {:.17g}", numbers(axes.file_from_body(plane.normal)), plane.offset_m + 0.0);
+    }
+    return text;
+}
+
+/// Where axis `axis` (0 .. 2) of one system lies in the other: its place and sign there.
+struct AxisPlace {
+    std::size_t axis = 0;
+    bool turned_round = false;
+};
+
+AxisPlace place_of(const glm::dvec3& unit) {
+    for (int i = 0; i < 3; ++i) {
+        if (std::abs(unit[i]) > 0.5) {
+            return {static_cast<std::size_t>(i), unit[i] < 0.0};
+        }
+    }
+    assert(false);
+    return {};
+}
+
+/// Signs move with their axes; child 0, 1, 2 is the one at the corner on axis x, y, z, and the
+/// corners of each child are named alike, so that every level changes in the same way.
+template <typename ToOther>
+std::string with_axes_changed(const std::string& path, ToOther to_other) {
+    assert(is_octant_path(path));
+    std::string out = path;
+    std::array<AxisPlace, 3> places;
+    for (std::size_t i = 0; i < 3; ++i) {
+        glm::dvec3 unit(0.0);
+        unit[static_cast<int>(i)] = 1.0;
+        places[i] = place_of(to_other(unit));
+        out[places[i].axis] = (path[i] == '-') != places[i].turned_round ? '-' : '+';
+    }
+    for (std::size_t at = 4; at < path.size(); at += 2) {
+        const auto child = static_cast<std::size_t>(path[at] - '0');
+        if (child < 3) {
+            out[at] = static_cast<char>('0' + places[child].axis);
+        }
+    }
+    return out;
+}
+
+} // namespace
+
+std::string path_in_file(const std::string& path, const models::FileAxes& axes) {
+    return with_axes_changed(path, [&](const glm::dvec3& v) { return axes.file_from_body(v); });
+}
+
+std::string path_in_body(const std::string& path, const models::FileAxes& axes) {
+    return with_axes_changed(path, [&](const glm::dvec3& v) { return axes.body_from_file(v); });
+}
+
+std::string order_text(const CellOrders& orders, const models::FileAxes& axes) {
+    std::string text = "draworder 1\n";
+    if (orders.centre_m != glm::dvec3(0.0)) {
+        text += fmt::format("center {}\n", numbers(axes.file_from_body(orders.centre_m)));
+    }
+    text += fmt::format("metric {}\n", orders.metric == Metric::L1 ? "l1" : "l2");
+    text += fmt::format("faces {}\n", orders.faces);
+    if (!orders.two_sided.empty()) {
+        text += fmt::format("twosided{}\n", indices(orders.two_sided));
+    }
+    if (!orders.parents.empty()) {
+        text += fmt::format("parents{}\n", indices(orders.parents));
+    }
+    for (const ListedCell& cell : orders.cells) {
+        text += "cell " + region_text(cell, axes);
+        if (cell.min_m > 0.0) {
+            text += fmt::format(" min {:.17g}", cell.min_m);
+        }
+        if (std::isfinite(cell.max_m)) {
+            text += fmt::format(" max {:.17g}", cell.max_m);
+        }
+        text += fmt::format(" order{}\n", indices(cell.list));
+    }
+    return text;
+}
+
+} // namespace octant::visuals::draworder

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "models/file_axes.h"
+#include "visuals/draworder/cell_orders.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace octant::visuals::draworder {
+
+/// Painting orders as text, line by line, `#` starts a comment, polygons counted from 0:
+///     draworder 1
+///     center CX CY CZ          default 0 0 0
+///     metric l1 | l2           of min and max: |eye - center|; default l2
+///     faces N                  of the model
+///     twosided I J ...         default none
+///     parents P0 P1 ...        of which polygon each is a piece; default none
+///     cell REGION [min R] [max R] order I0 I1 ...    I0 is painted first, others never
+/// REGION is an octant path (cell_orders.h), `cone K X1 Y1 Z1 ...` (non-negative sums of K
+/// directions, from the centre) or `half K NX NY NZ D ...` (points p with N.p + D >= 0 for all K;
+/// K = 0 is everywhere). The first cell that contains an eye is used.
+///
+/// Coordinates are in `axes`, those of the model file that the orders speak of; so the letters
+/// A, B, C of octant paths belong to that file's x, y, z. Numbers have 17 significant digits.
+/// Cells without path or directions are written as `half`.
+std::string order_text(const CellOrders& orders, const models::FileAxes& axes = {});
+
+/// An octant path of the body axes as the file's axes say it: signs and children change places.
+std::string path_in_file(const std::string& path, const models::FileAxes& axes);
+
+/// The inverse of path_in_file.
+std::string path_in_body(const std::string& path, const models::FileAxes& axes);
+
+/// Reads order_text for a model of `faces` polygons. Normals of any length become unit vectors.
+/// Throws Error "file:line: expected ..., got ...": no header, unknown keywords and regions,
+/// numbers that are missing, too many, not finite or too large, indices out of range, a polygon
+/// twice in one cell, another count of faces, a keyword twice or after the cells, no cells.
+CellOrders read_order_file(
+    const std::filesystem::path& path, std::size_t faces, const models::FileAxes& axes = {});
+
+} // namespace octant::visuals::draworder

@@ -1,0 +1,268 @@
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "visuals/draworder/order_text.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+#include <string_view>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+constexpr double largest_number = 1e12;
+constexpr double least_length = 1e-12; ///< of a normal or a direction
+constexpr long most_planes = 1000;
+constexpr long most_directions = 64;
+constexpr std::size_t most_cells = 1'000'000;
+
+class OrderReading {
+public:
+    OrderReading(const std::filesystem::path& path, std::size_t faces, const models::FileAxes& axes)
+        : path_(path)
+        , axes_(axes)
+        , used_(faces) {
+        orders_.faces = faces;
+    }
+
+    CellOrders read() {
+        const std::string text = read_text_file(path_);
+        for (const std::string_view line : split_lines(text)) {
+            ++line_;
+            words_ = split_words(line.substr(0, line.find('#')));
+            at_ = 0;
+            if (!words_.empty()) {
+                take();
+            }
+        }
+        if (seen_.empty()) {
+            error_in(path_, "expected 'draworder 1' first, got an empty file");
+        }
+        if (orders_.cells.empty()) {
+            error_in(path_, "expected at least one cell, got none");
+        }
+        return std::move(orders_);
+    }
+
+private:
+    [[noreturn]] void refuse(const std::string& expected) const {
+        const std::string got =
+            at_ < words_.size() ? fmt::format("'{}'", printable(std::string(words_[at_]))) : "none";
+        error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
+    }
+
+    bool next_is(std::string_view word) const { return at_ < words_.size() && words_[at_] == word; }
+
+    bool skip(std::string_view word) {
+        const bool there = next_is(word);
+        at_ += there ? 1 : 0;
+        return there;
+    }
+
+    double number(const char* what) {
+        const auto value = at_ < words_.size() ? finite_number(words_[at_]) : std::nullopt;
+        if (!value || std::abs(*value) > largest_number) {
+            refuse(fmt::format("{} (a number within {:g})", what, largest_number));
+        }
+        ++at_;
+        return *value;
+    }
+
+    glm::dvec3 vector(const char* what) {
+        const double x = number(what);
+        const double y = number(what);
+        const double z = number(what);
+        return axes_.body_from_file({x, y, z});
+    }
+
+    glm::dvec3 long_vector(const char* what) {
+        const glm::dvec3 v = vector(what);
+        if (glm::length(v) < least_length) {
+            --at_;
+            refuse(fmt::format("{} with a length", what));
+        }
+        return v;
+    }
+
+    long count(const char* what, long least, long most) {
+        const auto value = at_ < words_.size() ? whole_number(words_[at_]) : std::nullopt;
+        if (!value || *value < least || *value > most) {
+            refuse(fmt::format("{} ({} to {})", what, least, most));
+        }
+        ++at_;
+        return *value;
+    }
+
+    std::uint32_t face() {
+        const long last = static_cast<long>(orders_.faces) - 1;
+        return static_cast<std::uint32_t>(count("a polygon of the model", 0, last));
+    }
+
+    /// Polygons up to the end of the line, none of them twice.
+    std::vector<std::uint32_t> different_faces() {
+        std::vector<std::uint32_t> list;
+        while (at_ < words_.size()) {
+            const std::uint32_t polygon = face();
+            if (used_[polygon]) {
+                --at_;
+                refuse("each polygon once");
+            }
+            used_[polygon] = true;
+            list.push_back(polygon);
+        }
+        for (const std::uint32_t polygon : list) {
+            used_[polygon] = false;
+        }
+        return list;
+    }
+
+    void take() {
+        const std::string keyword(words_[0]);
+        if (seen_.empty()) {
+            if (keyword != "draworder" || words_.size() != 2 || words_[1] != "1") {
+                refuse("'draworder 1' first");
+            }
+            seen_.insert(keyword);
+            return;
+        }
+        if (keyword != "center" && keyword != "metric" && keyword != "faces" &&
+            keyword != "twosided" && keyword != "parents" && keyword != "cell") {
+            refuse("center, metric, faces, twosided, parents or cell");
+        }
+        if (keyword != "cell" && (!seen_.insert(keyword).second || !orders_.cells.empty())) {
+            refuse("each keyword once and before the cells");
+        }
+        ++at_;
+        take(keyword);
+        if (at_ < words_.size()) {
+            refuse("the end of the line");
+        }
+    }
+
+    void take(const std::string& keyword) {
+        if (keyword == "center") {
+            orders_.centre_m = vector("the centre");
+        } else if (keyword == "metric") {
+            take_metric();
+        } else if (keyword == "faces") {
+            const long faces = static_cast<long>(orders_.faces);
+            count("as many faces as the model has", faces, faces);
+        } else if (keyword == "twosided") {
+            orders_.two_sided = different_faces();
+        } else if (keyword == "parents") {
+            take_parents();
+        } else {
+            take_cell();
+        }
+    }
+
+    void take_metric() {
+        if (!next_is("l1") && !next_is("l2")) {
+            refuse("l1 or l2");
+        }
+        orders_.metric = next_is("l1") ? Metric::L1 : Metric::L2;
+        ++at_;
+    }
+
+    void take_parents() {
+        for (std::size_t i = 0; i < orders_.faces; ++i) {
+            orders_.parents.push_back(
+                static_cast<std::uint32_t>(count("a polygon of the whole model", 0, 999'999'999)));
+        }
+    }
+
+    void take_cell() {
+        if (!seen_.contains("faces")) {
+            at_ = 0;
+            refuse("faces before the first cell");
+        }
+        if (orders_.cells.size() == most_cells) {
+            refuse(fmt::format("at most {} cells", most_cells));
+        }
+        ListedCell cell;
+        take_region(cell);
+        if (skip("min")) {
+            cell.min_m = least_zero("the least distance");
+        }
+        if (skip("max")) {
+            cell.max_m = least_zero("the greatest distance");
+            if (cell.max_m <= cell.min_m) {
+                --at_;
+                refuse("a greatest distance above the least");
+            }
+        }
+        if (!skip("order")) {
+            refuse("min R, max R or order");
+        }
+        cell.list = different_faces();
+        orders_.cells.push_back(std::move(cell));
+    }
+
+    double least_zero(const char* what) {
+        const double value = number(what);
+        if (value < 0.0) {
+            --at_;
+            refuse(fmt::format("{} of 0 or more", what));
+        }
+        return value;
+    }
+
+    void take_region(ListedCell& cell) {
+        if (skip("cone")) {
+            const long directions = count("how many directions", 3, most_directions);
+            for (long i = 0; i < directions; ++i) {
+                cell.directions.push_back(long_vector("a direction"));
+            }
+        } else if (skip("half")) {
+            take_planes(cell);
+            return;
+        } else if (at_ < words_.size() && is_octant_path(words_[at_])) {
+            cell.path = path_in_body(std::string(words_[at_]), axes_);
+            const auto corners = corners_of_path(cell.path);
+            cell.directions.assign(corners.begin(), corners.end());
+            ++at_;
+        } else {
+            refuse(fmt::format(
+                "a region: an octant path such as +-+/0/3 (at most {} levels), cone or half",
+                most_path_levels));
+        }
+        const auto planes = planes_of_cone(cell.directions, orders_.centre_m);
+        if (!planes) {
+            --at_;
+            refuse("directions that do not lie in one plane");
+        }
+        cell.planes = *planes;
+    }
+
+    void take_planes(ListedCell& cell) {
+        const long planes = count("how many planes", 0, most_planes);
+        for (long i = 0; i < planes; ++i) {
+            const glm::dvec3 normal = long_vector("a normal");
+            const double length = glm::length(normal);
+            // A unit vector stays as written, bit for bit.
+            const double factor = std::abs(length - 1.0) < 1e-14 ? 1.0 : 1.0 / length;
+            cell.planes.push_back({normal * factor, number("an offset") * factor});
+        }
+    }
+
+    std::filesystem::path path_;
+    models::FileAxes axes_;
+    CellOrders orders_;
+    std::vector<bool> used_; ///< all false between lines
+    std::set<std::string> seen_;
+    std::vector<std::string_view> words_;
+    std::size_t at_ = 0;
+    int line_ = 0;
+};
+
+} // namespace
+
+CellOrders read_order_file(
+    const std::filesystem::path& path, std::size_t faces, const models::FileAxes& axes) {
+    return OrderReading(path, faces, axes).read();
+}
+
+} // namespace octant::visuals::draworder

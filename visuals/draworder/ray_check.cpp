@@ -1,0 +1,197 @@
+#include "visuals/draworder/ray_check.h"
+
+#include "sim/base/units.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+constexpr double missed = std::numeric_limits<double>::infinity();
+
+/// A polygon as inner half-spaces, for quick ray tests.
+struct Facet {
+    glm::dvec3 normal{0.0};
+    glm::dvec3 point_m{0.0};
+    bool two_sided = false;
+    std::vector<glm::dvec3> corners_m;
+    std::vector<glm::dvec3> inward;
+};
+
+Facet facet_of(const models::PolygonModel& model, std::size_t polygon, double turn_rad) {
+    Facet facet;
+    facet.normal = models::normal_of(model, polygon);
+    for (const std::uint32_t vertex : model.corners(polygon)) {
+        facet.corners_m.push_back(model.vertices_m[vertex]);
+    }
+    const auto pivot = models::pivot_of(model, polygon);
+    if (pivot && turn_rad != 0.0) {
+        models::Pivot turn = model.pivots[*pivot];
+        for (glm::dvec3& corner_m : facet.corners_m) {
+            corner_m = models::turned(turn, corner_m, turn_rad);
+        }
+        turn.point_m = glm::dvec3(0.0);
+        facet.normal = models::turned(turn, facet.normal, turn_rad);
+    }
+    facet.point_m = facet.corners_m[0];
+    for (std::size_t i = 0; i < facet.corners_m.size(); ++i) {
+        const glm::dvec3& next = facet.corners_m[(i + 1) % facet.corners_m.size()];
+        facet.inward.push_back(glm::cross(facet.normal, next - facet.corners_m[i]));
+    }
+    return facet;
+}
+
+/// Distance along the ray to the facet's front.
+double front_hit(const Facet& facet, const glm::dvec3& eye_m, const glm::dvec3& ray) {
+    const double slope = glm::dot(ray, facet.normal);
+    const double height_m = glm::dot(eye_m - facet.point_m, facet.normal);
+    if (slope * height_m >= 0.0 || (height_m <= 0.0 && !facet.two_sided)) {
+        return missed;
+    }
+    const double at = -height_m / slope;
+    const glm::dvec3 hit_m = eye_m + ray * at;
+    for (std::size_t i = 0; i < facet.inward.size(); ++i) {
+        if (glm::dot(hit_m - facet.corners_m[i], facet.inward[i]) < 0.0) {
+            return missed;
+        }
+    }
+    return at;
+}
+
+/// A target on the disc of radius R around the origin, across the line of sight.
+glm::dvec3 target_on_disc(Dice& dice, const glm::dvec3& eye_m, double radius_m) {
+    const glm::dvec3 ahead = glm::normalize(eye_m);
+    const glm::dvec3 aside = std::abs(ahead.x) > 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 right = glm::normalize(glm::cross(aside, ahead));
+    const glm::dvec3 up = glm::cross(ahead, right);
+    const double from_middle_m = radius_m * std::sqrt(dice.next());
+    const double angle_rad = dice.between(0.0, 2.0 * pi);
+    return right * (from_middle_m * std::cos(angle_rad)) +
+           up * (from_middle_m * std::sin(angle_rad));
+}
+
+class Sampling {
+public:
+    Sampling(
+        const models::PolygonModel& model,
+        const EyeSamples& samples,
+        std::span<const std::uint32_t> two_sided)
+        : samples_(samples)
+        , radius_m_(models::radius_m(model))
+        , dice_(samples.seed) {
+        for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+            facets_.push_back(facet_of(model, i, samples.turn_rad));
+        }
+        for (const std::uint32_t polygon : two_sided) {
+            facets_[polygon].two_sided = true;
+        }
+        hit_.resize(facets_.size());
+    }
+
+    glm::dvec3 next_eye_m() {
+        glm::dvec3 direction = dice_.direction();
+        if (samples_.octant >= 0) {
+            direction = glm::abs(direction) * octant_signs(samples_.octant);
+        }
+        const double spread =
+            std::log(samples_.most_distance_radii / samples_.least_distance_radii);
+        return direction *
+               (radius_m_ * samples_.least_distance_radii * std::exp(spread * dice_.next()));
+    }
+
+    void look(const glm::dvec3& eye_m, std::span<const std::uint32_t> painted, RayCount& count) {
+        const double away_m = glm::length(eye_m);
+        for (int i = 0; i < samples_.rays_per_eye; ++i) {
+            const glm::dvec3 ray =
+                away_m < radius_m_
+                    ? dice_.direction()
+                    : glm::normalize(target_on_disc(dice_, eye_m, radius_m_) - eye_m);
+            std::ranges::transform(
+                facets_, hit_.begin(), [&](const Facet& f) { return front_hit(f, eye_m, ray); });
+            const double nearest = *std::ranges::min_element(hit_);
+            if (nearest == missed) {
+                continue;
+            }
+            double seen = missed;
+            for (const std::uint32_t polygon : painted) {
+                seen = hit_[polygon] == missed ? seen : hit_[polygon];
+            }
+            ++count.hits;
+            count.wrong += seen - nearest > 1e-9 * std::max(away_m, radius_m_) ? 1 : 0;
+        }
+    }
+
+private:
+    EyeSamples samples_;
+    double radius_m_;
+    Dice dice_;
+    std::vector<Facet> facets_;
+    std::vector<double> hit_;
+};
+
+} // namespace
+
+glm::dvec3 Dice::direction() {
+    const double z = between(-1.0, 1.0);
+    const double angle_rad = between(0.0, 2.0 * pi);
+    const double across = std::sqrt(1.0 - z * z);
+    return {across * std::cos(angle_rad), across * std::sin(angle_rad), z};
+}
+
+RayCount& RayCount::operator+=(const RayCount& other) {
+    eyes += other.eyes;
+    eyes_in_gap += other.eyes_in_gap;
+    hits += other.hits;
+    wrong += other.wrong;
+    return *this;
+}
+
+RayCount count_wrong_rays(
+    const models::PolygonModel& model, const DrawOrder& order, const EyeSamples& samples) {
+    Sampling sampling(model, samples, {});
+    RayCount count;
+    for (int eye = 0; eye < samples.eyes; ++eye) {
+        const glm::dvec3 eye_m = sampling.next_eye_m();
+        ++count.eyes;
+        sampling.look(eye_m, order.polygons_of(order.cell_of(eye_m)), count);
+    }
+    return count;
+}
+
+RayCount count_wrong_rays(
+    const models::PolygonModel& model, const CellOrders& orders, const EyeSamples& samples) {
+    Sampling sampling(model, samples, orders.two_sided);
+    RayCount count;
+    for (int eye = 0; eye < samples.eyes; ++eye) {
+        const glm::dvec3 eye_m = sampling.next_eye_m();
+        if (!in_range(orders, eye_m)) {
+            continue;
+        }
+        if (const auto cell = cell_of(orders, eye_m)) {
+            ++count.eyes;
+            sampling.look(eye_m, orders.cells[*cell].list, count);
+        } else {
+            ++count.eyes_in_gap;
+        }
+    }
+    return count;
+}
+
+RayCount count_wrong_rays_from(
+    const models::PolygonModel& model,
+    std::span<const std::uint32_t> painted,
+    const glm::dvec3& eye_m,
+    int rays) {
+    Sampling sampling(model, {.rays_per_eye = rays}, {});
+    RayCount count;
+    count.eyes = 1;
+    sampling.look(eye_m, painted, count);
+    return count;
+}
+
+} // namespace octant::visuals::draworder

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "models/polygon_model.h"
+#include "visuals/draworder/cell_orders.h"
+#include "visuals/draworder/draw_order.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <span>
+
+namespace octant::visuals::draworder {
+
+/// Numbers 0 <= x < 1 from a small generator of its own.
+class Dice {
+public:
+    explicit Dice(std::uint64_t seed)
+        : state_(seed) {}
+
+    double next() {
+        state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+        return static_cast<double>(state_ >> 11U) / 9007199254740992.0;
+    }
+
+    double between(double least, double most) { return least + (most - least) * next(); }
+
+    /// Unit vector, all directions alike.
+    glm::dvec3 direction();
+
+private:
+    std::uint64_t state_;
+};
+
+struct EyeSamples {
+    int eyes = 1000;
+    int rays_per_eye = 20;
+    double least_distance_radii = 1.0; ///< from the origin, in the model's radius
+    double most_distance_radii = 20.0; ///< distances spread evenly in their logarithm
+    int octant = -1;                   ///< only eyes of this octant; -1 = all
+    std::uint64_t seed = 1989;
+    double turn_rad = 0.0; ///< how far the parts with a pivot have turned
+};
+
+struct RayCount {
+    long eyes = 0;        ///< that have a list
+    long eyes_in_gap = 0; ///< that no cell contains, although cells reach nearer and farther
+    long hits = 0;        ///< rays that meet a polygon's front
+    long wrong = 0;       ///< of these, rays whose last painted polygon is not the nearest
+
+    double wrong_share() const {
+        return hits == 0 ? 0.0 : static_cast<double>(wrong) / static_cast<double>(hits);
+    }
+
+    RayCount& operator+=(const RayCount& other);
+};
+
+/// Rays from random eyes in perspective, spread evenly over the disc of the model's radius around
+/// the origin as an eye that looks at it sees it, so that shares are shares of pixels; eyes inside
+/// that radius look in all directions. Polygons that face away from the eye are not painted.
+RayCount count_wrong_rays(
+    const models::PolygonModel& model, const DrawOrder& order, const EyeSamples& samples);
+
+/// The same for orders by cells: eyes out of their range are passed over.
+RayCount count_wrong_rays(
+    const models::PolygonModel& model, const CellOrders& orders, const EyeSamples& samples);
+
+/// Rays from one eye for one list.
+RayCount count_wrong_rays_from(
+    const models::PolygonModel& model,
+    std::span<const std::uint32_t> painted,
+    const glm::dvec3& eye_m,
+    int rays);
+
+} // namespace octant::visuals::draworder

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "visuals/draworder/eye_region.h"
+#include "visuals/draworder/hiding.h"
+#include "visuals/draworder/hiding_graph.h"
+#include "visuals/draworder/model_faces.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::draworder {
+
+/// Where the polygons lie to a plane that cuts a region, seen from one of its sides.
+struct SideSets {
+    PolygonSet front_or_on;
+    PolygonSet back_or_on;
+};
+
+/// Builds the hiding graphs of a model's faces over regions of eye space. Keeps a reference to the
+/// faces. Counts its work, so that searches can be bounded alike on every machine.
+class RegionGraphs {
+public:
+    explicit RegionGraphs(const ModelFaces& faces)
+        : faces_(faces)
+        , test_(faces.tolerances) {}
+
+    const ModelFaces& model() const { return faces_; }
+
+    /// All pairs, for all eyes of a region. Between polygons that meet as they turn there are none.
+    HidingGraph all(const EyeRegion& region);
+
+    /// Of the pairs of `parent`, a graph of a region that holds this one, those of this region: a
+    /// pair that hides nothing in a region hides nothing in a part of it. Rows of `among` only. If
+    /// the region lies in front of a plane, `sides` of that plane save tests: what lies behind or
+    /// on it hides nothing that lies before or on it.
+    HidingGraph surviving(
+        const EyeRegion& region,
+        const HidingGraph& parent,
+        std::span<const std::uint32_t> among,
+        const SideSets* sides = nullptr);
+
+    /// The same for one eye.
+    HidingGraph
+    at_eye(const glm::dvec3& eye, const HidingGraph& parent, std::span<const std::uint32_t> among);
+
+    /// Polygons that face some eye of a region.
+    PolygonSet listed(const EyeRegion& region) const;
+
+    /// Hiding tests made so far.
+    std::size_t tests() const { return tests_; }
+
+private:
+    bool hides(std::size_t b, std::size_t a, const EyeRegion& before_a);
+
+    const ModelFaces& faces_;
+    HidingTest test_;
+    std::vector<glm::dvec4> generators_;
+    std::size_t tests_ = 0;
+};
+
+} // namespace octant::visuals::draworder

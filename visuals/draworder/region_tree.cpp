@@ -1,0 +1,262 @@
+#include "visuals/draworder/region_tree.h"
+
+#include "sim/base/error.h"
+#include "visuals/draworder/candidate_planes.h"
+#include "visuals/draworder/components.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+#include <utility>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+constexpr std::size_t most_edge_planes = 8'000;
+constexpr std::size_t looked_at_closer = 48;
+/// Graphs with more edges are judged by sides alone.
+constexpr std::size_t most_exact_edges = 4'000;
+constexpr std::size_t most_depth = 100;
+
+/// A cell to be, or a cut.
+struct Branch {
+    std::optional<Plane> plane;
+    std::unique_ptr<Branch> front;
+    std::unique_ptr<Branch> back;
+    std::vector<std::uint32_t> list;
+    std::vector<Plane> planes;
+    std::size_t leaves = 1;
+};
+
+struct Choice {
+    Plane plane;
+    PlaneSides sides;
+    double cost = 0.0;
+    std::size_t number = 0;
+
+    bool operator<(const Choice& other) const {
+        return std::pair(cost, number) < std::pair(other.cost, other.number);
+    }
+};
+
+Plane reversed(const Plane& plane) {
+    return {-plane.normal, -plane.offset_m};
+}
+
+class TreeBuilder {
+public:
+    TreeBuilder(RegionGraphs& graphs, const TreeSearch& search)
+        : graphs_(graphs)
+        , search_(search) {}
+
+    std::unique_ptr<Branch> grow(const EyeNode& node, std::size_t depth);
+
+    std::optional<Deadlock> deadlock;
+
+private:
+    std::unique_ptr<Branch> leaf(const EyeNode& node);
+    std::vector<Choice> by_sides(const EyeNode& node, const std::vector<Plane>& planes);
+    void count_cyclic(const Cycles& cycles, std::vector<Choice>& choices);
+    std::vector<Choice> choices(const EyeNode& node);
+    std::optional<std::pair<EyeNode, EyeNode>> children(const EyeNode& node, const Choice& choice);
+    double cost(std::size_t front_edges, std::size_t back_edges, std::size_t before) const;
+
+    RegionGraphs& graphs_;
+    const TreeSearch& search_;
+    CyclicEdges cyclic_;
+    std::size_t entries_ = 0;
+};
+
+/// Lower is better. A side that stays as it was is no gain, and infinitely bad.
+double
+TreeBuilder::cost(std::size_t front_edges, std::size_t back_edges, std::size_t before) const {
+    if (front_edges >= before || back_edges >= before) {
+        return HUGE_VAL;
+    }
+    return std::pow(static_cast<double>(front_edges), search_.power) +
+           std::pow(static_cast<double>(back_edges), search_.power);
+}
+
+/// Edges of `inner` that end on one side of a plane because of where its polygons lie.
+std::size_t ended_edges(
+    const Cycles& cycles,
+    const PolygonSet& hidden,
+    const PolygonSet& hiding,
+    const PolygonSet& unseen) {
+    std::size_t ended = 0;
+    for (const std::uint32_t a : cycles.polygons) {
+        const auto row = cycles.inner.row(a);
+        const std::uint64_t whole = unseen.has(a) ? ~std::uint64_t{0} : 0;
+        const std::uint64_t parted = hidden.has(a) ? ~std::uint64_t{0} : 0;
+        for (std::size_t word = 0; word < row.size(); ++word) {
+            const std::uint64_t mask =
+                whole | unseen.words()[word] | (parted & hiding.words()[word]);
+            ended += static_cast<std::size_t>(std::popcount(row[word] & mask));
+        }
+    }
+    return ended;
+}
+
+std::vector<Choice> TreeBuilder::by_sides(const EyeNode& node, const std::vector<Plane>& planes) {
+    const Cycles& cycles = node.cycles;
+    std::vector<Choice> best;
+    std::size_t number = 0;
+    for (const Plane& plane : planes) {
+        ++number;
+        if (!node.region.reaches_front_of(plane) ||
+            !node.region.reaches_front_of(reversed(plane))) {
+            continue;
+        }
+        PlaneSides sides = sides_of(plane, graphs_.model(), cycles.polygons);
+        const auto& [front, back] = sides.sets;
+        const std::size_t front_edges =
+            cycles.edges - ended_edges(cycles, front, back, sides.unseen_in_front);
+        const std::size_t back_edges =
+            cycles.edges - ended_edges(cycles, back, front, sides.unseen_behind);
+        const double value = cost(front_edges, back_edges, cycles.edges);
+        if (value == HUGE_VAL || (best.size() == looked_at_closer && value >= best.back().cost)) {
+            continue;
+        }
+        Choice choice{plane, std::move(sides), value, number};
+        best.insert(std::upper_bound(best.begin(), best.end(), choice), std::move(choice));
+        if (best.size() > looked_at_closer) {
+            best.pop_back();
+        }
+    }
+    count_cyclic(cycles, best);
+    return best;
+}
+
+/// Judges choices by what stays on rings, and sorts them.
+void TreeBuilder::count_cyclic(const Cycles& cycles, std::vector<Choice>& choices) {
+    for (Choice& choice : choices) {
+        const auto& [front, back] = choice.sides.sets;
+        const auto front_edges =
+            cyclic_.count(cycles.inner, cycles.polygons, back, front, choice.sides.unseen_in_front);
+        const auto back_edges =
+            cyclic_.count(cycles.inner, cycles.polygons, front, back, choice.sides.unseen_behind);
+        choice.cost = cost(front_edges, back_edges, cycles.edges);
+    }
+    std::sort(choices.begin(), choices.end());
+}
+
+std::optional<std::pair<EyeNode, EyeNode>>
+TreeBuilder::children(const EyeNode& node, const Choice& choice) {
+    auto front = node.region.cut(choice.plane);
+    auto back = node.region.cut(reversed(choice.plane));
+    if (!front || !back) {
+        return std::nullopt;
+    }
+    const SideSets& sides = choice.sides.sets;
+    const SideSets turned{sides.back_or_on, sides.front_or_on};
+    return std::pair(
+        part_of(graphs_, node, std::move(*front), &sides),
+        part_of(graphs_, node, std::move(*back), &turned));
+}
+
+/// The planes that promise most, best first; for graphs of some size as judged by sides.
+std::vector<Choice> TreeBuilder::choices(const EyeNode& node) {
+    const Cycles& cycles = node.cycles;
+    std::vector<Choice> ranked =
+        by_sides(node, candidate_planes(graphs_.model(), cycles.polygons, most_edge_planes));
+    if (ranked.empty()) {
+        // Of many polygons not all planes were made. Those of one ring end it in time.
+        const auto ring = shortest_ring(cycles.inner, cycles.polygons);
+        ranked = by_sides(node, candidate_planes(graphs_.model(), ring, most_edge_planes));
+    }
+    if (cycles.edges > most_exact_edges || ranked.size() < 2) {
+        return ranked;
+    }
+    ranked.erase(
+        ranked.begin() + static_cast<std::ptrdiff_t>(std::min(search_.exact, ranked.size())),
+        ranked.end());
+    for (Choice& choice : ranked) {
+        const auto pair = children(node, choice);
+        choice.cost = pair ? cost(pair->first.cycles.edges, pair->second.cycles.edges, cycles.edges)
+                           : HUGE_VAL;
+    }
+    std::sort(ranked.begin(), ranked.end());
+    return ranked;
+}
+
+std::unique_ptr<Branch> TreeBuilder::leaf(const EyeNode& node) {
+    auto out = std::make_unique<Branch>();
+    out->list = list_of(graphs_, node);
+    out->planes = node.region.planes();
+    entries_ += out->list.size();
+    check_entries(entries_, node.graph.count());
+    return out;
+}
+
+std::unique_ptr<Branch> TreeBuilder::grow(const EyeNode& node, std::size_t depth) {
+    if (node.cycles.edges == 0) {
+        return leaf(node);
+    }
+    if (depth == most_depth) {
+        throw Error(fmt::format(
+            "expected a model with painting orders, got one of {} polygons that no {} planes order",
+            node.graph.count(),
+            most_depth));
+    }
+    deadlock = ring_at_eye(graphs_, node);
+    if (deadlock) {
+        return nullptr;
+    }
+    const std::vector<Choice> ranked = choices(node);
+    const std::size_t width = depth < search_.widths.size() ? search_.widths[depth] : 1;
+    std::unique_ptr<Branch> best;
+    for (std::size_t i = 0; i < std::min(width, ranked.size()); ++i) {
+        auto pair = children(node, ranked[i]);
+        if (!pair) {
+            continue;
+        }
+        auto out = std::make_unique<Branch>();
+        out->plane = ranked[i].plane;
+        out->front = grow(pair->first, depth + 1);
+        out->back = out->front ? grow(pair->second, depth + 1) : nullptr;
+        if (!out->back) {
+            return nullptr;
+        }
+        out->leaves = out->front->leaves + out->back->leaves;
+        if (!best || out->leaves < best->leaves) {
+            best = std::move(out);
+        }
+    }
+    if (!best && !deadlock) {
+        deadlock = Deadlock{node.cycles.components.front(), node.region, std::nullopt};
+    }
+    return best;
+}
+
+/// The number of a branch, as a child of a node.
+int flatten(Branch& branch, RegionTree& out) {
+    if (!branch.plane) {
+        out.lists.push_back(std::move(branch.list));
+        out.cell_planes.push_back(std::move(branch.planes));
+        return ~static_cast<int>(out.lists.size() - 1);
+    }
+    const std::size_t at = out.nodes.size();
+    out.nodes.push_back({*branch.plane, 0, 0});
+    const int front = flatten(*branch.front, out);
+    const int back = flatten(*branch.back, out);
+    out.nodes[at].front = front;
+    out.nodes[at].back = back;
+    return static_cast<int>(at);
+}
+
+} // namespace
+
+TreeResult region_tree(RegionGraphs& graphs, const EyeNode& root_node, const TreeSearch& search) {
+    TreeBuilder builder(graphs, search);
+    const auto root = builder.grow(root_node, 0);
+    TreeResult result{.tree = {}, .deadlock = builder.deadlock};
+    if (root) {
+        flatten(*root, result.tree);
+    }
+    return result;
+}
+
+} // namespace octant::visuals::draworder

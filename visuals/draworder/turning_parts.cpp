@@ -1,0 +1,72 @@
+#include "visuals/draworder/turning_parts.h"
+
+#include "sim/base/units.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+constexpr int ring_corners = 24;
+constexpr double perpendicular = 1.0 - 1e-10;
+
+/// A regular polygon around a circle across the axis, counter-clockwise about it.
+void append_ring(
+    std::vector<glm::dvec3>& corners,
+    const glm::dvec3& middle,
+    const glm::dvec3& axis,
+    double radius) {
+    const glm::dvec3 aside = std::abs(axis.x) > 0.7 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 right = glm::normalize(glm::cross(aside, axis));
+    const glm::dvec3 up = glm::cross(axis, right);
+    const double reach = radius / std::cos(pi / ring_corners);
+    for (int i = 0; i < ring_corners; ++i) {
+        const double angle_rad = 2.0 * pi * i / ring_corners;
+        corners.push_back(
+            middle + (right * std::cos(angle_rad) + up * std::sin(angle_rad)) * reach);
+    }
+}
+
+} // namespace
+
+Face turning_face(
+    const models::PolygonModel& model,
+    std::size_t polygon,
+    const models::Pivot& pivot,
+    const glm::dvec3& origin_m,
+    double scale,
+    double inset) {
+    const glm::dvec3 foot = (pivot.point_m - origin_m) * scale;
+    const glm::dvec3 normal = models::normal_of(model, polygon);
+    const double facing = glm::dot(normal, pivot.axis);
+    double farthest = 0.0;
+    double height_sum = 0.0;
+    std::vector<glm::dvec3> rings;
+    for (const std::uint32_t vertex : model.corners(polygon)) {
+        const glm::dvec3 from_foot = (model.vertices_m[vertex] - origin_m) * scale - foot;
+        const double height = glm::dot(from_foot, pivot.axis);
+        const double radius = glm::length(from_foot - pivot.axis * height);
+        farthest = std::max(farthest, radius);
+        height_sum += height;
+        append_ring(rings, foot + pivot.axis * height, pivot.axis, std::max(radius, inset));
+    }
+    if (std::abs(facing) < perpendicular) {
+        Face body;
+        body.corners = rings;
+        body.outline = std::move(rings);
+        return body;
+    }
+    const glm::dvec3 up = pivot.axis * (facing > 0.0 ? 1.0 : -1.0);
+    const auto count = static_cast<double>(model.corners(polygon).size());
+    const glm::dvec3 middle = foot + pivot.axis * (height_sum / count);
+    std::vector<glm::dvec3> disc;
+    append_ring(disc, middle, up, farthest);
+    return outline_face(disc, {up, -glm::dot(up, middle)}, inset);
+}
+
+} // namespace octant::visuals::draworder

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "visuals/scene/frame_plan.h"
+#include "visuals/scene/planner.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace octant::visuals::scene {
+
+/// Turns plans into plans whose picture says in each pixel's colour which polygon it shows: of an
+/// aircraft (a split polygon counts as one, each aircraft for itself) or which triangle of the
+/// ground; 0 is nothing. The drawing steps stay those of the plan, so that a renderer paints both
+/// alike. For pictures with one sample a pixel, of plans without shadows.
+class IdPlan {
+public:
+    /// The scene must outlive it.
+    explicit IdPlan(const Scene& scene);
+
+    /// What a renderer has to load for these plans, in place of the scene's models.
+    const std::vector<ModelBuffers>& models() const { return models_; }
+
+    /// Valid until the next call, and as long as `plan`. A triangle of the ground has the same
+    /// number in every plan in which its corners lie in the same places.
+    const FramePlan& of(const FramePlan& plan);
+
+private:
+    void add_ground(const FramePlan& plan, std::span<const std::uint32_t> indices);
+
+    std::vector<ModelBuffers> models_;         ///< one for each aircraft, then the cockpit
+    std::vector<std::uint32_t> model_of_part_; ///< by AircraftDraw::first_part
+    std::vector<models::ColourVertex> vertices_;
+    std::vector<std::uint32_t> indices_;
+    FramePlan plan_;
+};
+
+} // namespace octant::visuals::scene
