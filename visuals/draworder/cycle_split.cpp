@@ -28,24 +28,6 @@ HidingGraph graph_of(RegionGraphs& graphs, const Deadlock& deadlock) {
                         : graphs.surviving(deadlock.region, pairs, among);
 }
 
-/// The part of an outline in front of a plane.
-std::vector<glm::dvec3> front_part(const std::vector<glm::dvec3>& outline, const Plane& plane) {
-    std::vector<glm::dvec3> part;
-    glm::dvec3 last = outline.back();
-    for (const glm::dvec3& corner : outline) {
-        const double height = distance_m(plane, corner);
-        const double last_height = distance_m(plane, last);
-        if ((height >= 0.0) != (last_height >= 0.0)) {
-            part.push_back(last + (corner - last) * (last_height / (last_height - height)));
-        }
-        if (height >= 0.0) {
-            part.push_back(corner);
-        }
-        last = corner;
-    }
-    return part;
-}
-
 bool straddles(const Face& face, const Plane& plane, double margin) {
     const auto heights = [&](const glm::dvec3& corner) { return distance_m(plane, corner); };
     const auto [least, most] = std::ranges::minmax(face.outline, {}, heights);

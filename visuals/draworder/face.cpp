@@ -68,4 +68,21 @@ bool behind_or_on(const Face& face, const Plane& plane, double on_plane) {
     });
 }
 
+std::vector<glm::dvec3> front_part(const std::vector<glm::dvec3>& outline, const Plane& plane) {
+    std::vector<glm::dvec3> part;
+    glm::dvec3 last = outline.back();
+    for (const glm::dvec3& corner : outline) {
+        const double height = distance_m(plane, corner);
+        const double last_height = distance_m(plane, last);
+        if ((height >= 0.0) != (last_height >= 0.0)) {
+            part.push_back(last + (corner - last) * (last_height / (last_height - height)));
+        }
+        if (height >= 0.0) {
+            part.push_back(corner);
+        }
+        last = corner;
+    }
+    return part;
+}
+
 } // namespace octant::visuals::draworder

@@ -36,6 +36,9 @@ struct Tolerances {
 /// distance between a corner and the middle.
 Face outline_face(std::span<const glm::dvec3> corners, const Plane& plane, double inset);
 
+/// The part of a convex outline in front of a plane that it straddles.
+std::vector<glm::dvec3> front_part(const std::vector<glm::dvec3>& outline, const Plane& plane);
+
 /// Whether all corners lie behind a plane or on it.
 bool behind_or_on(const Face& face, const Plane& plane, double on_plane);
 

@@ -1,6 +1,21 @@
 #include "visuals/draworder/hiding_graph.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace octant::visuals::draworder {
+
+void HidingGraph::add_twin(std::size_t polygon) {
+    HidingGraph bigger(count_ + 1);
+    for (std::size_t a = 0; a <= count_; ++a) {
+        const std::size_t as = a < count_ ? a : polygon;
+        std::ranges::copy(row(as), bigger.row(a).begin());
+        if (hides(polygon, as)) {
+            bigger.add(count_, a);
+        }
+    }
+    *this = std::move(bigger);
+}
 
 std::vector<Precedence> HidingGraph::precedences(const PolygonSet& among) const {
     std::vector<Precedence> pairs;

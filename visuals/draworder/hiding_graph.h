@@ -63,6 +63,9 @@ public:
         return std::span(bits_).subspan(a * stride_, stride_);
     }
 
+    /// Adds a polygon with the pairs of another.
+    void add_twin(std::size_t polygon);
+
     /// All pairs between polygons of a set.
     std::vector<Precedence> precedences(const PolygonSet& among) const;
 

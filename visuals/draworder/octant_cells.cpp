@@ -43,28 +43,37 @@ EyeRegion octant_region(const glm::dvec3& signs, double least_distance) {
     return *region.cut({signs / std::sqrt(3.0), -least_distance / std::sqrt(3.0)});
 }
 
+struct Cell {
+    std::vector<std::uint32_t> list;
+    std::string path;
+    std::vector<Plane> planes;
+};
+
 class CellBuilder {
 public:
-    CellBuilder(RegionGraphs& graphs, double least_distance)
-        : graphs_(graphs)
+    CellBuilder(WorkingModel& work, double least_distance)
+        : work_(work)
+        , graphs_(work.faces)
         , least_distance_(least_distance) {}
 
     void build();
 
-    OctantCellsResult result;
+    OctantCells cells;
 
 private:
     int octants(int first, int axis);
-    int divide(const EyeNode& node, const Triangle& corners, const std::string& path, int level);
-    int cell(const EyeNode& node, const Triangle& corners, const std::string& path);
+    int divide(EyeNode node, const Triangle& corners, const std::string& path, int level);
+    int add_cell(Cell cell);
     int by_planes(const EyeNode& node, const Triangle& corners, const std::string& path);
     int add_node(const Plane& plane);
 
-    std::vector<DrawOrder::Node>& nodes() { return result.cells.nodes; }
+    std::vector<DrawOrder::Node>& nodes() { return cells.nodes; }
 
-    RegionGraphs& graphs_;
+    WorkingModel& work_;
+    RegionGraphs graphs_;
     double least_distance_;
     std::size_t entries_ = 0;
+    std::vector<std::size_t> made_at_; ///< how many polygons there were then
 };
 
 int CellBuilder::add_node(const Plane& plane) {
@@ -78,59 +87,63 @@ std::vector<Plane> cone_of(const Triangle& corners) {
     return {through_origin(b, c, a), through_origin(c, a, b), through_origin(a, b, c)};
 }
 
-int CellBuilder::cell(const EyeNode& node, const Triangle& corners, const std::string& path) {
-    result.cells.lists.push_back(list_of(graphs_, node));
-    entries_ += result.cells.lists.back().size();
-    check_entries(entries_, node.graph.count());
-    result.cells.paths.push_back(path);
-    result.cells.cell_planes.push_back(cone_of(corners));
-    return ~static_cast<int>(result.cells.lists.size() - 1);
+int CellBuilder::add_cell(Cell cell) {
+    entries_ += cell.list.size();
+    check_entries(entries_, work_.faces.faces.size());
+    cells.lists.push_back(std::move(cell.list));
+    cells.paths.push_back(std::move(cell.path));
+    cells.cell_planes.push_back(std::move(cell.planes));
+    made_at_.push_back(work_.faces.faces.size());
+    return ~static_cast<int>(cells.lists.size() - 1);
+}
+
+/// Goes down a tree of planes and collects the fronts that make up each of its cells.
+void collect_fronts(
+    const RegionTree& tree,
+    int at,
+    const std::vector<Plane>& so_far,
+    std::vector<std::vector<Plane>>& fronts) {
+    if (at < 0) {
+        fronts[static_cast<std::size_t>(~at)] = so_far;
+        return;
+    }
+    const DrawOrder::Node& node = tree.nodes[static_cast<std::size_t>(at)];
+    std::vector<Plane> next = so_far;
+    next.push_back(node.plane);
+    collect_fronts(tree, node.front, next, fronts);
+    next.back() = {-node.plane.normal, -node.plane.offset_m};
+    collect_fronts(tree, node.back, next, fronts);
 }
 
 int CellBuilder::by_planes(const EyeNode& node, const Triangle& corners, const std::string& path) {
-    TreeResult tree = region_tree(graphs_, node, {});
-    result.deadlock = std::move(tree.deadlock);
+    RegionTree tree = region_tree(work_, node, {});
     const int first_node = static_cast<int>(nodes().size());
-    const int first_cell = static_cast<int>(result.cells.lists.size());
+    const int first_cell = static_cast<int>(cells.lists.size());
     const auto moved = [&](int child) {
         return child >= 0 ? first_node + child : ~(first_cell + ~child);
     };
-    for (const DrawOrder::Node& part : tree.tree.nodes) {
+    for (const DrawOrder::Node& part : tree.nodes) {
         nodes().push_back({part.plane, moved(part.front), moved(part.back)});
     }
-    std::vector<std::vector<Plane>> cuts(tree.tree.lists.size());
-    const auto mark = [&](auto&& self, int at, const std::vector<Plane>& so_far) -> void {
-        if (at < 0) {
-            cuts[static_cast<std::size_t>(~at)] = so_far;
-            return;
-        }
-        const DrawOrder::Node& part = tree.tree.nodes[static_cast<std::size_t>(at)];
-        std::vector<Plane> next = so_far;
-        next.push_back(part.plane);
-        self(self, part.front, next);
-        next.back() = {-part.plane.normal, -part.plane.offset_m};
-        self(self, part.back, next);
-    };
-    if (!tree.tree.nodes.empty()) {
-        mark(mark, 0, cone_of(corners));
+    std::vector<std::vector<Plane>> fronts(tree.lists.size());
+    const int top = tree.nodes.empty() ? ~0 : 0;
+    collect_fronts(tree, top, cone_of(corners), fronts);
+    for (std::size_t i = 0; i < tree.lists.size(); ++i) {
+        add_cell({std::move(tree.lists[i]), path, std::move(fronts[i])});
     }
-    for (std::size_t i = 0; i < tree.tree.lists.size(); ++i) {
-        result.cells.lists.push_back(std::move(tree.tree.lists[i]));
-        result.cells.paths.push_back(path);
-        result.cells.cell_planes.push_back(std::move(cuts[i]));
-    }
-    return first_node;
+    return moved(top);
 }
 
 /// The number of the node or cell made.
-int CellBuilder::divide(
-    const EyeNode& node, const Triangle& corners, const std::string& path, int level) {
-    if (node.cycles.edges == 0) {
-        return cell(node, corners, path);
+int CellBuilder::divide(EyeNode node, const Triangle& corners, const std::string& path, int level) {
+    work_.catch_up(node);
+    while (const auto deadlock = ring_at_eye(graphs_, node)) {
+        work_.resolve(*deadlock);
+        work_.catch_up(node);
+        node = part_of(graphs_, node, node.region);
     }
-    result.deadlock = ring_at_eye(graphs_, node);
-    if (result.deadlock) {
-        return 0;
+    if (node.cycles.edges == 0) {
+        return add_cell({list_of(graphs_, node), path, cone_of(corners)});
     }
     if (level == most_levels) {
         return by_planes(node, corners, path);
@@ -142,7 +155,8 @@ int CellBuilder::divide(
             add_node(through_origin(parts[3][(i + 1) % 3], parts[3][(i + 2) % 3], corners.at(i)));
     }
     std::array<int, 4> child{};
-    for (std::size_t i = 0; i < 4 && !result.deadlock; ++i) {
+    for (std::size_t i = 0; i < 4; ++i) {
+        work_.catch_up(node);
         EyeRegion part = node.region;
         for (const Plane& plane : cone_of(parts.at(i))) {
             part = *part.cut(plane);
@@ -166,14 +180,14 @@ int CellBuilder::octants(int first, int axis) {
     if (axis < 0) {
         const glm::dvec3 signs = octant_signs(first);
         const Triangle corners{{{signs.x, 0.0, 0.0}, {0.0, signs.y, 0.0}, {0.0, 0.0, signs.z}}};
-        const EyeNode node = eye_node(graphs_, octant_region(signs, least_distance_));
-        return divide(node, corners, octant_name(first), 0);
+        const EyeRegion region = octant_region(signs, least_distance_);
+        return divide(eye_node(graphs_, region), corners, octant_name(first), 0);
     }
     glm::dvec3 normal(0.0);
     normal[axis] = 1.0;
     const int at = add_node({normal, 0.0});
     const int front = octants(first, axis - 1);
-    const int back = result.deadlock ? 0 : octants(first + (1 << axis), axis - 1);
+    const int back = octants(first + (1 << axis), axis - 1);
     nodes()[static_cast<std::size_t>(at)].front = front;
     nodes()[static_cast<std::size_t>(at)].back = back;
     return at;
@@ -181,14 +195,17 @@ int CellBuilder::octants(int first, int axis) {
 
 void CellBuilder::build() {
     octants(0, 2);
+    for (std::size_t i = 0; i < cells.lists.size(); ++i) {
+        work_.catch_up(cells.lists[i], made_at_[i]);
+    }
 }
 
 } // namespace
 
-OctantCellsResult octant_cells(RegionGraphs& graphs, double least_distance) {
-    CellBuilder builder(graphs, least_distance);
+OctantCells octant_cells(WorkingModel& work, double least_distance) {
+    CellBuilder builder(work, least_distance);
     builder.build();
-    return std::move(builder.result);
+    return std::move(builder.cells);
 }
 
 } // namespace octant::visuals::draworder

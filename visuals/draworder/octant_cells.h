@@ -1,10 +1,9 @@
 #pragma once
 
 #include "visuals/draworder/draw_order.h"
-#include "visuals/draworder/eye_node.h"
+#include "visuals/draworder/working_model.h"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,11 +18,6 @@ struct OctantCells {
     std::vector<std::vector<Plane>> cell_planes; ///< without the distance
 };
 
-struct OctantCellsResult {
-    OctantCells cells;
-    std::optional<Deadlock> deadlock; ///< then the cells are not complete
-};
-
 /// Section IV of the 1989 paper: "divide the viewing directions further until all hidden surfaces
 /// are removed". Lists are right for eyes with |x| + |y| + |z| >= least_distance from the origin.
 ///
@@ -32,7 +26,8 @@ struct OctantCellsResult {
 /// (A, AB, CA), 1 = (AB, B, BC), 2 = (CA, BC, C), 3 = (BC, CA, AB), and so on. A cell that is still
 /// cyclic six levels down is divided by planes as in region_tree.h.
 ///
-/// Throws Error when there are more cells than can be held.
-OctantCellsResult octant_cells(RegionGraphs& graphs, double least_distance);
+/// Splits polygons of the model where there would be no order. Throws Error when there are more
+/// cells than can be held.
+OctantCells octant_cells(WorkingModel& work, double least_distance);
 
 } // namespace octant::visuals::draworder

@@ -1,29 +1,34 @@
 #include "visuals/draworder/ordered_model.h"
 
-#include "visuals/draworder/cycle_split.h"
+#include "visuals/draworder/cell_centres.h"
 #include "visuals/draworder/octant_cells.h"
 #include "visuals/draworder/region_tree.h"
 #include "visuals/draworder/split.h"
+#include "visuals/draworder/working_model.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <fmt/format.h>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace octant::visuals::draworder {
 
 namespace {
 
+/// Larger models have their octants meet at the origin.
+constexpr std::size_t most_polygons_with_choice = 200;
 /// Models with more pairs on rings get the first search only.
 constexpr std::size_t most_edges_searched_again = 2'000;
 
 const std::array<TreeSearch, 3> tree_searches{{
-    {.power = 1.0, .exact = 16, .widths = {}},
-    {.power = 0.5, .exact = 16, .widths = {}},
-    {.power = 1.0, .exact = 12, .widths = {2, 2}},
+    {.power = 1.0, .edge_planes = 8000, .exact = 16, .widths = {}},
+    {.power = 0.5, .edge_planes = 8000, .exact = 16, .widths = {}},
+    {.power = 1.0, .edge_planes = 8000, .exact = 12, .widths = {2, 2}},
 }};
+const TreeSearch quick_search{.power = 1.0, .edge_planes = 300, .exact = 2, .widths = {}};
 
 OrderedModel by_paper(models::PolygonModel model, const OrderOptions& options) {
     const OctantOrders orders = paper_orders(model, options.paper);
@@ -39,127 +44,90 @@ OrderedModel by_paper(models::PolygonModel model, const OrderOptions& options) {
     return out;
 }
 
-/// Orders of a model as it is, or why there are none. Planes are in the faces' space.
-struct Attempt {
+/// Cells and lists of a model, planes in the space of its faces.
+struct Orders {
+    WorkingModel work;
     std::vector<DrawOrder::Node> nodes;
     std::vector<std::vector<std::uint32_t>> lists;
     std::vector<OrderCell> cells;
-    std::optional<Deadlock> deadlock;
 };
 
-Attempt try_tree(RegionGraphs& graphs) {
-    const EyeNode root = eye_node(graphs, EyeRegion::everywhere());
-    std::optional<RegionTree> best;
-    for (const TreeSearch& search : tree_searches) {
-        TreeResult result = region_tree(graphs, root, search);
-        if (result.deadlock) {
-            return {.nodes = {}, .lists = {}, .cells = {}, .deadlock = std::move(result.deadlock)};
-        }
-        if (!best || result.tree.lists.size() < best->lists.size()) {
-            best = std::move(result.tree);
-        }
-        if (root.cycles.edges > most_edges_searched_again) {
-            break;
-        }
+bool fewer(const Orders& a, const Orders& b) {
+    return std::pair(a.work.twins.size(), a.cells.size()) <
+           std::pair(b.work.twins.size(), b.cells.size());
+}
+
+void keep_better(std::optional<Orders>& best, Orders orders) {
+    if (!best || fewer(orders, *best)) {
+        best = std::move(orders);
     }
-    Attempt out{
-        .nodes = std::move(best->nodes),
-        .lists = std::move(best->lists),
-        .cells = {},
-        .deadlock = std::nullopt};
-    for (std::vector<Plane>& planes : best->cell_planes) {
+}
+
+Orders tree_orders(WorkingModel work, const EyeNode& root, const TreeSearch& search) {
+    RegionTree tree = region_tree(work, root, search);
+    Orders out{std::move(work), std::move(tree.nodes), std::move(tree.lists), {}};
+    for (std::vector<Plane>& planes : tree.cell_planes) {
         out.cells.push_back({"", std::move(planes)});
     }
     return out;
 }
 
-Attempt try_cells(RegionGraphs& graphs, double least_distance) {
-    OctantCellsResult result = octant_cells(graphs, least_distance);
-    Attempt out{
-        .nodes = std::move(result.cells.nodes),
-        .lists = std::move(result.cells.lists),
-        .cells = {},
-        .deadlock = std::move(result.deadlock)};
-    for (std::size_t i = 0; i < result.cells.paths.size(); ++i) {
-        out.cells.push_back(
-            {std::move(result.cells.paths[i]), std::move(result.cells.cell_planes[i])});
+Orders best_tree(const models::PolygonModel& model) {
+    const WorkingModel work(model, glm::dvec3(0.0));
+    RegionGraphs graphs(work.faces);
+    const EyeNode root = eye_node(graphs, EyeRegion::everywhere());
+    if (root.cycles.edges > most_edges_searched_again) {
+        return tree_orders(work, root, quick_search);
+    }
+    std::optional<Orders> best;
+    for (const TreeSearch& search : tree_searches) {
+        keep_better(best, tree_orders(work, root, search));
+    }
+    return std::move(*best);
+}
+
+Orders cell_orders(WorkingModel work, double least_distance) {
+    OctantCells cells = octant_cells(work, least_distance);
+    Orders out{std::move(work), std::move(cells.nodes), std::move(cells.lists), {}};
+    for (std::size_t i = 0; i < cells.paths.size(); ++i) {
+        out.cells.push_back({std::move(cells.paths[i]), std::move(cells.cell_planes[i])});
     }
     return out;
 }
 
-/// Finds exact orders, and splits polygons while there are none.
-class Orderer {
-public:
-    Orderer(models::PolygonModel model, const OrderOptions& options)
-        : options_(options)
-        , out_{
-              .model = std::move(model),
-              .order = DrawOrder(std::vector<std::uint32_t>{}),
-              .cells = {},
-              .notes = {}} {}
-
-    OrderedModel ordered();
-
-private:
-    bool try_once(const glm::dvec3& centre_m);
-    void resolve(RegionGraphs& graphs, const Deadlock& deadlock);
-
-    const OrderOptions& options_;
-    OrderedModel out_;
-    std::vector<Precedence> given_up_; ///< pairs with turning polygons that no order is right for
-};
-
-bool Orderer::try_once(const glm::dvec3& centre_m) {
-    ModelFaces faces = model_faces(out_.model, centre_m);
-    for (const Precedence& pair : given_up_) {
-        faces.ignored.add(pair.later, pair.first);
+Orders best_cells(const models::PolygonModel& model, double least_distance) {
+    std::optional<Orders> best;
+    const auto centres = cell_centres(WorkingModel(model, glm::dvec3(0.0)));
+    for (const glm::dvec3& centre_m : centres) {
+        if (best && model.polygons.size() > most_polygons_with_choice) {
+            break;
+        }
+        keep_better(best, cell_orders(WorkingModel(model, centre_m), least_distance));
     }
-    RegionGraphs graphs(faces);
-    const bool cells = options_.method == Method::Cells;
-    Attempt attempt = cells ? try_cells(graphs, options_.min_distance_radii) : try_tree(graphs);
-    if (attempt.deadlock) {
-        resolve(graphs, *attempt.deadlock);
-        return false;
-    }
-    for (DrawOrder::Node& node : attempt.nodes) {
+    return std::move(*best);
+}
+
+OrderedModel exact(models::PolygonModel model, const OrderOptions& options) {
+    const int penetrating = split_penetrating(model);
+    const bool by_cells = options.method == Method::Cells;
+    Orders orders = by_cells ? best_cells(model, options.min_distance_radii) : best_tree(model);
+    const ModelFaces& faces = orders.work.faces;
+    for (DrawOrder::Node& node : orders.nodes) {
         node.plane = faces.in_model(node.plane);
     }
-    for (OrderCell& cell : attempt.cells) {
+    for (OrderCell& cell : orders.cells) {
         for (Plane& plane : cell.planes) {
             plane = faces.in_model(plane);
         }
     }
-    out_.order = DrawOrder(std::move(attempt.nodes), attempt.lists);
-    out_.cells = std::move(attempt.cells);
-    out_.centre_m = centre_m;
-    out_.min_distance_m = cells ? options_.min_distance_radii * faces.unit_m : 0.0;
-    out_.notes.insert(out_.notes.end(), faces.notes.begin(), faces.notes.end());
-    return true;
-}
-
-/// Splits a polygon of the ring; where only turning polygons are in the way, gives up one pair.
-void Orderer::resolve(RegionGraphs& graphs, const Deadlock& deadlock) {
-    if (const auto cut = best_cut(graphs, deadlock)) {
-        split_polygon(out_.model, cut->polygon, models::plane_of(out_.model, cut->along));
-        ++out_.splits;
-        return;
-    }
-    const Precedence pair = weakest_pair(graphs, deadlock);
-    given_up_.push_back(pair);
-    const auto part_of = [&](std::uint32_t polygon) {
-        return out_.model.parts[out_.model.polygons[polygon].part];
-    };
-    out_.notes.push_back(fmt::format(
-        "{} and {} hide one another as they turn; no order is right at every angle",
-        part_of(pair.first),
-        part_of(pair.later)));
-}
-
-OrderedModel Orderer::ordered() {
-    out_.splits = split_penetrating(out_.model);
-    while (!try_once(glm::dvec3(0.0))) {
-    }
-    return std::move(out_);
+    return {
+        .model = std::move(orders.work.model),
+        .order = DrawOrder(std::move(orders.nodes), orders.lists),
+        .cells = std::move(orders.cells),
+        .centre_m = faces.origin_m,
+        .min_distance_m = by_cells ? options.min_distance_radii * faces.unit_m : 0.0,
+        .splits = penetrating + static_cast<int>(orders.work.twins.size()),
+        .notes = std::move(orders.work.notes)};
 }
 
 } // namespace
@@ -168,7 +136,7 @@ OrderedModel ordered(models::PolygonModel model, const OrderOptions& options) {
     if (options.method == Method::Paper) {
         return by_paper(std::move(model), options);
     }
-    return Orderer(std::move(model), options).ordered();
+    return exact(std::move(model), options);
 }
 
 } // namespace octant::visuals::draworder

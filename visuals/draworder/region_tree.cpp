@@ -15,7 +15,6 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-constexpr std::size_t most_edge_planes = 8'000;
 constexpr std::size_t looked_at_closer = 48;
 /// Graphs with more edges are judged by sides alone.
 constexpr std::size_t most_exact_edges = 4'000;
@@ -28,6 +27,7 @@ struct Branch {
     std::unique_ptr<Branch> back;
     std::vector<std::uint32_t> list;
     std::vector<Plane> planes;
+    std::size_t polygons = 0; ///< when the list was made
     std::size_t leaves = 1;
 };
 
@@ -48,23 +48,24 @@ Plane reversed(const Plane& plane) {
 
 class TreeBuilder {
 public:
-    TreeBuilder(RegionGraphs& graphs, const TreeSearch& search)
-        : graphs_(graphs)
+    TreeBuilder(WorkingModel& work, const TreeSearch& search)
+        : work_(work)
+        , graphs_(work.faces)
         , search_(search) {}
 
-    std::unique_ptr<Branch> grow(const EyeNode& node, std::size_t depth);
-
-    std::optional<Deadlock> deadlock;
+    std::unique_ptr<Branch> grow(EyeNode node, std::size_t depth);
 
 private:
     std::unique_ptr<Branch> leaf(const EyeNode& node);
     std::vector<Choice> by_sides(const EyeNode& node, const std::vector<Plane>& planes);
     void count_cyclic(const Cycles& cycles, std::vector<Choice>& choices);
     std::vector<Choice> choices(const EyeNode& node);
-    std::optional<std::pair<EyeNode, EyeNode>> children(const EyeNode& node, const Choice& choice);
+    std::pair<EyeNode, EyeNode> children(const EyeNode& node, const Choice& choice);
+    std::vector<Choice> settle(EyeNode& node);
     double cost(std::size_t front_edges, std::size_t back_edges, std::size_t before) const;
 
-    RegionGraphs& graphs_;
+    WorkingModel& work_;
+    RegionGraphs graphs_;
     const TreeSearch& search_;
     CyclicEdges cyclic_;
     std::size_t entries_ = 0;
@@ -143,29 +144,23 @@ void TreeBuilder::count_cyclic(const Cycles& cycles, std::vector<Choice>& choice
     std::sort(choices.begin(), choices.end());
 }
 
-std::optional<std::pair<EyeNode, EyeNode>>
-TreeBuilder::children(const EyeNode& node, const Choice& choice) {
-    auto front = node.region.cut(choice.plane);
-    auto back = node.region.cut(reversed(choice.plane));
-    if (!front || !back) {
-        return std::nullopt;
-    }
+std::pair<EyeNode, EyeNode> TreeBuilder::children(const EyeNode& node, const Choice& choice) {
     const SideSets& sides = choice.sides.sets;
     const SideSets turned{sides.back_or_on, sides.front_or_on};
-    return std::pair(
-        part_of(graphs_, node, std::move(*front), &sides),
-        part_of(graphs_, node, std::move(*back), &turned));
+    return {
+        part_of(graphs_, node, *node.region.cut(choice.plane), &sides),
+        part_of(graphs_, node, *node.region.cut(reversed(choice.plane)), &turned)};
 }
 
 /// The planes that promise most, best first; for graphs of some size as judged by sides.
 std::vector<Choice> TreeBuilder::choices(const EyeNode& node) {
     const Cycles& cycles = node.cycles;
     std::vector<Choice> ranked =
-        by_sides(node, candidate_planes(graphs_.model(), cycles.polygons, most_edge_planes));
+        by_sides(node, candidate_planes(graphs_.model(), cycles.polygons, search_.edge_planes));
     if (ranked.empty()) {
         // Of many polygons not all planes were made. Those of one ring end it in time.
         const auto ring = shortest_ring(cycles.inner, cycles.polygons);
-        ranked = by_sides(node, candidate_planes(graphs_.model(), ring, most_edge_planes));
+        ranked = by_sides(node, candidate_planes(graphs_.model(), ring, search_.edge_planes));
     }
     if (cycles.edges > most_exact_edges || ranked.size() < 2) {
         return ranked;
@@ -174,9 +169,8 @@ std::vector<Choice> TreeBuilder::choices(const EyeNode& node) {
         ranked.begin() + static_cast<std::ptrdiff_t>(std::min(search_.exact, ranked.size())),
         ranked.end());
     for (Choice& choice : ranked) {
-        const auto pair = children(node, choice);
-        choice.cost = pair ? cost(pair->first.cycles.edges, pair->second.cycles.edges, cycles.edges)
-                           : HUGE_VAL;
+        const auto [front, back] = children(node, choice);
+        choice.cost = cost(front.cycles.edges, back.cycles.edges, cycles.edges);
     }
     std::sort(ranked.begin(), ranked.end());
     return ranked;
@@ -186,62 +180,74 @@ std::unique_ptr<Branch> TreeBuilder::leaf(const EyeNode& node) {
     auto out = std::make_unique<Branch>();
     out->list = list_of(graphs_, node);
     out->planes = node.region.planes();
+    out->polygons = node.graph.count();
     entries_ += out->list.size();
     check_entries(entries_, node.graph.count());
     return out;
 }
 
-std::unique_ptr<Branch> TreeBuilder::grow(const EyeNode& node, std::size_t depth) {
-    if (node.cycles.edges == 0) {
-        return leaf(node);
+/// Splits polygons until an eye in the middle of the node meets no ring, and some plane makes it
+/// simpler. No choices if none is needed any more.
+std::vector<Choice> TreeBuilder::settle(EyeNode& node) {
+    while (node.cycles.edges > 0) {
+        std::optional<Deadlock> deadlock = ring_at_eye(graphs_, node);
+        if (!deadlock) {
+            std::vector<Choice> ranked = choices(node);
+            if (!ranked.empty()) {
+                return ranked;
+            }
+            deadlock = Deadlock{node.cycles.components.front(), node.region, std::nullopt};
+        }
+        work_.resolve(*deadlock);
+        work_.catch_up(node);
+        node = part_of(graphs_, node, node.region);
     }
+    return {};
+}
+
+std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
     if (depth == most_depth) {
         throw Error(fmt::format(
             "expected a model with painting orders, got one of {} polygons that no {} planes order",
             node.graph.count(),
             most_depth));
     }
-    deadlock = ring_at_eye(graphs_, node);
-    if (deadlock) {
-        return nullptr;
+    work_.catch_up(node);
+    const std::vector<Choice> ranked = settle(node);
+    if (ranked.empty()) {
+        return leaf(node);
     }
-    const std::vector<Choice> ranked = choices(node);
     const std::size_t width = depth < search_.widths.size() ? search_.widths[depth] : 1;
     std::unique_ptr<Branch> best;
     for (std::size_t i = 0; i < std::min(width, ranked.size()); ++i) {
-        auto pair = children(node, ranked[i]);
-        if (!pair) {
-            continue;
-        }
+        auto [front, back] = children(node, ranked[i]);
         auto out = std::make_unique<Branch>();
         out->plane = ranked[i].plane;
-        out->front = grow(pair->first, depth + 1);
-        out->back = out->front ? grow(pair->second, depth + 1) : nullptr;
-        if (!out->back) {
-            return nullptr;
-        }
+        out->front = grow(std::move(front), depth + 1);
+        out->back = grow(std::move(back), depth + 1);
         out->leaves = out->front->leaves + out->back->leaves;
         if (!best || out->leaves < best->leaves) {
             best = std::move(out);
         }
-    }
-    if (!best && !deadlock) {
-        deadlock = Deadlock{node.cycles.components.front(), node.region, std::nullopt};
+        if (work_.catch_up(node)) {
+            break; // the sides are those of a model that is no more
+        }
     }
     return best;
 }
 
 /// The number of a branch, as a child of a node.
-int flatten(Branch& branch, RegionTree& out) {
+int flatten(Branch& branch, const WorkingModel& work, RegionTree& out) {
     if (!branch.plane) {
+        work.catch_up(branch.list, branch.polygons);
         out.lists.push_back(std::move(branch.list));
         out.cell_planes.push_back(std::move(branch.planes));
         return ~static_cast<int>(out.lists.size() - 1);
     }
     const std::size_t at = out.nodes.size();
     out.nodes.push_back({*branch.plane, 0, 0});
-    const int front = flatten(*branch.front, out);
-    const int back = flatten(*branch.back, out);
+    const int front = flatten(*branch.front, work, out);
+    const int back = flatten(*branch.back, work, out);
     out.nodes[at].front = front;
     out.nodes[at].back = back;
     return static_cast<int>(at);
@@ -249,14 +255,11 @@ int flatten(Branch& branch, RegionTree& out) {
 
 } // namespace
 
-TreeResult region_tree(RegionGraphs& graphs, const EyeNode& root_node, const TreeSearch& search) {
-    TreeBuilder builder(graphs, search);
-    const auto root = builder.grow(root_node, 0);
-    TreeResult result{.tree = {}, .deadlock = builder.deadlock};
-    if (root) {
-        flatten(*root, result.tree);
-    }
-    return result;
+RegionTree region_tree(WorkingModel& work, const EyeNode& root, const TreeSearch& search) {
+    const auto branch = TreeBuilder(work, search).grow(root, 0);
+    RegionTree tree;
+    flatten(*branch, work, tree);
+    return tree;
 }
 
 } // namespace octant::visuals::draworder

@@ -2,9 +2,9 @@
 
 #include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/eye_node.h"
+#include "visuals/draworder/working_model.h"
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace octant::visuals::draworder {
@@ -20,17 +20,13 @@ struct RegionTree {
 /// How a tree is looked for.
 struct TreeSearch {
     double power = 1.0;              ///< a graph with E cyclic edges is taken to cost E^power
+    std::size_t edge_planes = 8000;  ///< about how many planes through an edge and a corner to try
     std::size_t exact = 16;          ///< planes of which both sides are tested exactly
     std::vector<std::size_t> widths; ///< how many planes are followed up at depth 0, 1, ...; then 1
 };
 
-/// A tree whose cells have no cycles, or why there is none.
-struct TreeResult {
-    RegionTree tree;
-    std::optional<Deadlock> deadlock; ///< then the tree is empty
-};
-
-/// A tree over a node's region. Throws Error when it grows beyond what can be held.
-TreeResult region_tree(RegionGraphs& graphs, const EyeNode& root, const TreeSearch& search);
+/// A tree over a node's region whose cells have no cycles. Splits polygons of the model where there
+/// would be no order. Throws Error when it grows beyond what can be held.
+RegionTree region_tree(WorkingModel& work, const EyeNode& root, const TreeSearch& search);
 
 } // namespace octant::visuals::draworder

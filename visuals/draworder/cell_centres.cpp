@@ -1,0 +1,79 @@
+#include "visuals/draworder/cell_centres.h"
+
+#include "visuals/draworder/candidate_planes.h"
+#include "visuals/draworder/components.h"
+#include "visuals/draworder/eye_node.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+std::size_t left_on_rings(const Plane& plane, const WorkingModel& work, const Cycles& cycles) {
+    const PlaneSides sides = sides_of(plane, work.faces, cycles.polygons);
+    const auto& [front, back] = sides.sets;
+    CyclicEdges rings;
+    return rings.count(cycles.inner, cycles.polygons, back, front, sides.unseen_in_front) +
+           rings.count(cycles.inner, cycles.polygons, front, back, sides.unseen_behind);
+}
+
+/// The best coordinate along each axis, in the faces' space.
+glm::dvec3 best_coordinates(const WorkingModel& work, const Cycles& cycles) {
+    glm::dvec3 best(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 normal(0.0);
+        normal[axis] = 1.0;
+        std::size_t fewest = left_on_rings({normal, 0.0}, work, cycles);
+        for (const Plane& plane : candidate_planes(work.faces, cycles.polygons, 1)) {
+            if (plane.normal != normal) {
+                continue;
+            }
+            const std::size_t left = left_on_rings(plane, work, cycles);
+            if (left < fewest) {
+                fewest = left;
+                best[axis] = -plane.offset_m;
+            }
+        }
+    }
+    return best;
+}
+
+glm::dvec3 middle_m(const models::PolygonModel& model) {
+    glm::dvec3 least(std::numeric_limits<double>::max());
+    glm::dvec3 most(-std::numeric_limits<double>::max());
+    for (const std::uint32_t vertex : model.corner_vertices) {
+        least = glm::min(least, model.vertices_m[vertex]);
+        most = glm::max(most, model.vertices_m[vertex]);
+    }
+    return (least + most) / 2.0;
+}
+
+} // namespace
+
+std::vector<glm::dvec3> cell_centres(const WorkingModel& work) {
+    RegionGraphs graphs(work.faces);
+    const EyeNode root = eye_node(graphs, EyeRegion::everywhere());
+    const glm::dvec3 best_m = best_coordinates(work, root.cycles) * work.faces.unit_m;
+    std::vector<glm::dvec3> centres;
+    const auto add = [&](const glm::dvec3& centre_m) {
+        if (std::ranges::find(centres, centre_m) == centres.end()) {
+            centres.push_back(centre_m);
+        }
+    };
+    for (int mask = 0; mask < 8; ++mask) {
+        glm::dvec3 centre_m(0.0);
+        for (int axis = 0; axis < 3; ++axis) {
+            centre_m[axis] = (mask >> axis) % 2 == 0 ? 0.0 : best_m[axis];
+        }
+        add(centre_m);
+    }
+    add(middle_m(work.model));
+    return centres;
+}
+
+} // namespace octant::visuals::draworder

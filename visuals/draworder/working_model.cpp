@@ -1,0 +1,72 @@
+#include "visuals/draworder/working_model.h"
+
+#include "sim/base/error.h"
+#include "visuals/draworder/cycle_split.h"
+#include "visuals/draworder/split.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+/// Splits beyond one a polygon mean a model that no painting order suits.
+constexpr std::uint32_t most_splits_a_polygon = 2;
+constexpr std::uint32_t splits_always_allowed = 100;
+
+} // namespace
+
+void WorkingModel::resolve(const Deadlock& deadlock) {
+    RegionGraphs graphs(faces);
+    if (const auto cut = best_cut(graphs, deadlock)) {
+        if (twins.size() > splits_always_allowed + most_splits_a_polygon * first_count) {
+            throw Error(fmt::format(
+                "expected a model that painting orders suit, got one whose {} polygons need more "
+                "than {} splits",
+                first_count,
+                twins.size() - 1));
+        }
+        split_polygon(model, cut->polygon, models::plane_of(model, cut->along));
+        twins.push_back(cut->polygon);
+        const Face whole = faces.faces[cut->polygon];
+        const Plane plane = *faces.faces[cut->along].plane;
+        const double inset = faces.tolerances.inset;
+        faces.faces[cut->polygon] =
+            outline_face(front_part(whole.outline, plane), *whole.plane, inset);
+        const Plane back{-plane.normal, -plane.offset_m};
+        faces.faces.push_back(outline_face(front_part(whole.outline, back), *whole.plane, inset));
+        faces.rigid.add_twin(cut->polygon);
+        faces.ignored.add_twin(cut->polygon);
+        return;
+    }
+    const Precedence pair = weakest_pair(graphs, deadlock);
+    faces.ignored.add(pair.later, pair.first);
+    notes.push_back(fmt::format(
+        "{} and {} hide one another as they turn; no order is right at every angle",
+        model.parts[model.polygons[pair.first].part],
+        model.parts[model.polygons[pair.later].part]));
+}
+
+bool WorkingModel::catch_up(EyeNode& node) const {
+    const std::size_t before = node.graph.count();
+    while (node.graph.count() < faces.faces.size()) {
+        node.graph.add_twin(twins[node.graph.count() - first_count]);
+    }
+    if (node.graph.count() > before) {
+        node.cycles = cycles_of(node.graph);
+    }
+    return node.graph.count() > before;
+}
+
+void WorkingModel::catch_up(std::vector<std::uint32_t>& list, std::size_t polygons) const {
+    for (std::size_t made = polygons; made < faces.faces.size(); ++made) {
+        const auto twin = std::ranges::find(list, twins[made - first_count]);
+        if (twin != list.end()) {
+            list.insert(twin + 1, static_cast<std::uint32_t>(made));
+        }
+    }
+}
+
+} // namespace octant::visuals::draworder

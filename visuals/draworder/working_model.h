@@ -1,0 +1,45 @@
+#pragma once
+
+#include "models/polygon_model.h"
+#include "visuals/draworder/eye_node.h"
+#include "visuals/draworder/model_faces.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace octant::visuals::draworder {
+
+/// A model that may still be split while its orders are being found, with its faces.
+///
+/// What was found before a split stays right after it: each piece hides and is hidden by no
+/// more than the whole was, and the pieces, being in one plane, do not hide one another. So in a
+/// finished list the new piece goes behind its twin, and in an unfinished graph it gets its twin's
+/// pairs until they are tested again.
+struct WorkingModel {
+    WorkingModel(models::PolygonModel of, const glm::dvec3& origin_m)
+        : model(std::move(of))
+        , faces(model_faces(model, origin_m))
+        , first_count(static_cast<std::uint32_t>(model.polygons.size()))
+        , notes(faces.notes) {}
+
+    /// Splits a polygon of a deadlock; where only turning polygons are in the way, gives up a pair.
+    /// Throws Error when a model has been split beyond what can be held.
+    void resolve(const Deadlock& deadlock);
+
+    /// Gives a node what was split since it was made; true if that was anything.
+    bool catch_up(EyeNode& node) const;
+
+    /// The same for a list that was made when there were so many polygons.
+    void catch_up(std::vector<std::uint32_t>& list, std::size_t polygons) const;
+
+    models::PolygonModel model;
+    ModelFaces faces;
+    std::uint32_t first_count = 0;
+    std::vector<std::uint32_t> twins; ///< of polygon first_count + i: whose other piece it is
+    std::vector<std::string> notes;
+};
+
+} // namespace octant::visuals::draworder
