@@ -28,8 +28,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int default_rays = 200000;
-
 struct DrawOrderOptions {
     std::string model;
     std::string axes = "right,up,back";
@@ -39,7 +37,7 @@ struct DrawOrderOptions {
     std::string export_model;
     bool check = false;
     std::string check_file; ///< empty: what was computed
-    int rays = -1;          ///< -1: default_rays with a check, else none
+    int rays = 200000;      ///< 0: none
     bool json = false;
     bool quiet = false;
 };
@@ -135,7 +133,8 @@ std::string doubt_in_words(const Work& work, const draworder::Doubt& doubt) {
 
 /// Adds to the figures; false when something could not be certified.
 bool certified(const Work& work, const DrawOrderOptions& options, Json& figures) {
-    Progress progress("checking cells", static_cast<int>(work.orders.cells.size()), options.quiet);
+    Progress progress(
+        "checking cells", static_cast<int>(work.orders.cells.size()), options.quiet, "cells");
     const draworder::OrderCheck check =
         draworder::certify(work.model, work.orders, [&](std::size_t done, std::size_t) {
             progress.show(static_cast<int>(done));
@@ -221,11 +220,10 @@ void draw_order(const DrawOrderOptions& options) {
     if (options.check) {
         good = certified(work, options, figures);
     }
-    const int rays = options.rays >= 0 ? options.rays : options.check ? default_rays : 0;
-    if (rays > 0) {
-        good = rays_are_right(work, rays, figures) && good;
+    if (options.rays > 0) {
+        good = rays_are_right(work, options.rays, figures) && good;
     }
-    if (options.check || rays > 0) {
+    if (options.check || options.rays > 0) {
         figures["right"] = good;
     }
     print_results(work, options, figures);
@@ -276,7 +274,7 @@ void add_result_options(CLI::App& command, DrawOrderOptions& options) {
         ->expected(0, 1);
     add_number_option(
         command,
-        {"rays", "N", "try with so many rays (with --check 200000; 0 = none)", 0, 1e9},
+        {"rays", "N", "try with so many rays, also without --check; 0 = none", 0, 1e9},
         options.rays);
     command.add_flag("--json", options.json, "results as JSON");
     command.add_flag("--quiet", options.quiet, "no progress, no notes");
@@ -290,6 +288,9 @@ void add_draw_order_command(CLI::App& program) {
         "draw-order", "Finds, shows, exports and checks the painting orders of a model");
     add_order_options(*command, *options);
     add_result_options(*command, *options);
+    for (const char* option : {"--min-distance", "--rays"}) {
+        command->get_option(option)->group("Options");
+    }
     command->footer(
         "Exit code 1: a check said no. A file of orders speaks of the model that --export-model "
         "writes, in the axes of that file.\n"
@@ -299,6 +300,9 @@ void add_draw_order_command(CLI::App& program) {
         "  octant draw-order f15-split.obj --check f15-orders.txt");
     command->callback([options, command] {
         options->check = command->count("--check") > 0;
+        if (!options->check && command->count("--rays") == 0) {
+            options->rays = 0;
+        }
         draw_order(*options);
     });
 }

@@ -7,8 +7,9 @@
 
 namespace octant::ui {
 
-Progress::Progress(std::string what, int total, bool quiet)
+Progress::Progress(std::string what, int total, bool quiet, std::string steps)
     : what_(std::move(what))
+    , steps_(std::move(steps))
     , total_(total)
     , quiet_(quiet)
     , terminal_(isatty(STDERR_FILENO) == 1)
@@ -27,11 +28,12 @@ void Progress::show(int done, const std::string& note) {
     const double per_s = done / elapsed_s;
     const double left_s = done > 0 ? (total_ - done) / per_s : 0.0;
     const std::string line = fmt::format(
-        "{}: {} of {}, {:.0f} frames/s, {:.0f} s left{}{}",
+        "{}: {} of {}, {:.0f} {}/s, {:.0f} s left{}{}",
         what_,
         done,
         total_,
         per_s,
+        steps_,
         left_s,
         note.empty() ? "" : ", ",
         note);

@@ -9,7 +9,8 @@ namespace octant::ui {
 /// plain line every few seconds; nothing when quiet.
 class Progress {
 public:
-    Progress(std::string what, int total, bool quiet);
+    /// `steps`: what is counted.
+    Progress(std::string what, int total, bool quiet, std::string steps = "frames");
 
     ~Progress() { finish(); }
 
@@ -27,6 +28,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
     std::string what_;
+    std::string steps_;
     int total_;
     bool quiet_;
     bool terminal_;

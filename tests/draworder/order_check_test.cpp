@@ -1,5 +1,8 @@
+#include "sim/base/output_file.h"
+#include "tests/scratch.h"
 #include "visuals/draworder/linear_programme.h"
 #include "visuals/draworder/order_check.h"
+#include "visuals/draworder/order_text.h"
 #include "visuals/draworder/separation.h"
 
 #include <catch2/catch.hpp>
@@ -8,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapes.h"
 #include "wrong_rays.h"
 
 using namespace octant;
@@ -190,4 +194,29 @@ TEST_CASE("planes that others make needless are dropped") {
     CHECK(
         without_redundant(std::vector<Plane>{farther_left, left, above, near_corner}) ==
         std::vector<Plane>{left, above});
+}
+
+TEST_CASE("orders found for all kinds of shapes are certified, and come back from a file") {
+    const auto path = tests::scratch_folder() / "shapes.txt";
+    for (const auto& model :
+         {tests::u_channel(),
+          tests::plate_between_boxes(),
+          tests::three_bars(),
+          tests::fig_14(true),
+          tests::pile(3, 4)}) {
+        for (const Method method : {Method::Cells, Method::Tree}) {
+            const OrderedModel found = ordered(model, {.method = method, .paper = {}});
+            const CellOrders orders = cell_orders(found);
+            INFO(model.name << " " << static_cast<int>(method));
+            CHECK(certify(found.model, orders).good());
+            write_file(path, order_text(orders));
+            const CellOrders read = read_order_file(path, found.model.polygons.size());
+            CHECK(certify(found.model, read).good());
+            const RayCount rays =
+                count_wrong_rays(found.model, read, {.eyes = 300, .least_distance_radii = 0.1});
+            CHECK(rays.hits > 100);
+            CHECK(rays.wrong == 0);
+            CHECK(rays.eyes_in_gap == 0);
+        }
+    }
 }

@@ -1,8 +1,9 @@
 // H. Fuchs, Z. M. Kedem, B. F. Naylor, "On Visible Surface Generation by A Priori Tree Structures",
 // SIGGRAPH 1980: auto-partition, back-to-front walk.
 // Deviations:
-// - The plane of a node is the best of all by number of cuts, not of a sample; of three rules for
-//   equals the tree with the fewest cuts is kept.
+// - The plane of a node is the best of all by number of cuts, not of a sample; of two rules for
+// equals
+//   the tree with the fewest cuts is kept.
 // - Polygons in a node's plane that face the other way stay in the node; each is painted on the way
 //   through when the eye is on its side.
 
@@ -22,10 +23,15 @@ namespace {
 
 constexpr std::size_t most_candidates = 200;
 
+using Polygons = std::vector<std::uint32_t>;
+
 enum class Side { In, Front, Back, Both };
 
 /// What decides among planes that cut equally many polygons.
-enum class Among { Even, Uneven, First };
+enum class Among {
+    Even,   ///< sides nearest in number
+    Settled ///< fewest polygons left whose planes cut others on their side
+};
 
 class BspBuilding {
 public:
@@ -37,7 +43,7 @@ public:
 
     BspTree build() {
         const std::size_t polygons = tree_.model.polygons.size();
-        std::vector<std::uint32_t> all;
+        Polygons all;
         for (std::uint32_t i = 0; i < polygons; ++i) {
             all.push_back(i);
         }
@@ -55,7 +61,7 @@ public:
 private:
     /// Polygons that a new node below `parent` has to hold.
     struct Task {
-        std::vector<std::uint32_t> polygons;
+        Polygons polygons;
         int parent = BspTree::nothing;
         bool in_front = false;
         int level = 1;
@@ -75,34 +81,62 @@ private:
         return front ? Side::Front : back ? Side::Back : Side::In;
     }
 
-    /// (cuts, what decides among equals): less is better.
-    std::pair<int, int>
-    cost_of(const Plane& plane, const std::vector<std::uint32_t>& polygons) const {
-        int cuts = 0;
-        int balance = 0;
+    /// The plane of `cutter` cuts `cut`; both are places in the list of a task.
+    struct Conflict {
+        std::size_t cutter = 0;
+        std::size_t cut = 0;
+    };
+
+    std::vector<Side> sides_of(std::uint32_t cutter, const Polygons& polygons) const {
+        const Plane plane = models::plane_of(tree_.model, cutter);
+        std::vector<Side> sides;
         for (const std::uint32_t polygon : polygons) {
-            const Side side = side_of(polygon, plane);
-            cuts += side == Side::Both ? 1 : 0;
-            balance += side == Side::Front ? 1 : side == Side::Back ? -1 : 0;
+            sides.push_back(polygon == cutter ? Side::In : side_of(polygon, plane));
         }
-        switch (among_) {
-        case Among::Even:
-            return {cuts, std::abs(balance)};
-        case Among::Uneven:
-            return {cuts, -std::abs(balance)};
-        case Among::First:
-            break;
-        }
-        return {cuts, 0};
+        return sides;
     }
 
-    std::uint32_t best_of(const std::vector<std::uint32_t>& polygons) const {
+    std::vector<Conflict> conflicts_of(const Polygons& polygons) const {
+        std::vector<Conflict> conflicts;
+        for (std::size_t i = 0; i < polygons.size(); ++i) {
+            const std::vector<Side> sides = sides_of(polygons[i], polygons);
+            for (std::size_t j = 0; j < sides.size(); ++j) {
+                if (sides[j] == Side::Both) {
+                    conflicts.push_back({i, j});
+                }
+            }
+        }
+        return conflicts;
+    }
+
+    /// (cuts, what decides among equals): less is better.
+    std::pair<int, int>
+    cost_of(const std::vector<Side>& sides, const std::vector<Conflict>& conflicts) const {
+        const auto count = [&](Side side) {
+            return static_cast<int>(std::ranges::count(sides, side));
+        };
+        const int cuts = count(Side::Both);
+        if (among_ == Among::Even) {
+            return {cuts, std::abs(count(Side::Front) - count(Side::Back))};
+        }
+        const auto left = std::ranges::count_if(conflicts, [&](const Conflict& conflict) {
+            const Side cutter = sides[conflict.cutter];
+            const Side cut = sides[conflict.cut];
+            return cutter != Side::In && cut != Side::In &&
+                   (cutter == cut || cutter == Side::Both || cut == Side::Both);
+        });
+        return {cuts, static_cast<int>(left)};
+    }
+
+    std::uint32_t best_of(const Polygons& polygons) const {
         const std::size_t tried = std::min(polygons.size(), most_candidates);
+        const std::vector<Conflict> conflicts =
+            among_ == Among::Settled ? conflicts_of(polygons) : std::vector<Conflict>{};
         std::uint32_t best = polygons.front();
-        std::pair<int, int> least = cost_of(models::plane_of(tree_.model, best), polygons);
+        std::pair<int, int> least = cost_of(sides_of(best, polygons), conflicts);
         for (std::size_t i = 1; i < tried; ++i) {
             const std::uint32_t polygon = polygons[i * polygons.size() / tried];
-            const auto cost = cost_of(models::plane_of(tree_.model, polygon), polygons);
+            const auto cost = cost_of(sides_of(polygon, polygons), conflicts);
             if (cost < least) {
                 least = cost;
                 best = polygon;
@@ -162,14 +196,9 @@ private:
 } // namespace
 
 BspTree bsp_tree(const models::PolygonModel& model) {
-    BspTree best = BspBuilding(model, Among::Even).build();
-    for (const Among among : {Among::Uneven, Among::First}) {
-        BspTree tree = BspBuilding(model, among).build();
-        if (std::pair(tree.splits, tree.depth) < std::pair(best.splits, best.depth)) {
-            best = std::move(tree);
-        }
-    }
-    return best;
+    BspTree even = BspBuilding(model, Among::Even).build();
+    BspTree settled = BspBuilding(model, Among::Settled).build();
+    return settled.splits < even.splits ? settled : even;
 }
 
 void append_painted(

@@ -36,9 +36,9 @@ struct BspTree {
 
 /// Builds a tree. At each node the plane is taken that cuts the fewest polygons; all polygons there
 /// are tried, or 200 spread evenly over them where there are more. Among equals it is the one that
-/// leaves the two sides nearest in number, or farthest apart, or the first: of these three trees
-/// the one with the fewest cuts is returned, the flattest among equals. The time grows with the
-/// square of the polygons at least.
+/// leaves the two sides nearest in number, or the one that leaves the fewest polygons whose planes
+/// cut others: of these two trees the one with fewer cuts. The time grows with the square of the
+/// polygons at least.
 BspTree bsp_tree(const models::PolygonModel& model);
 
 /// The polygons that face an eye, first painted first, appended to `painted`. Takes no memory once

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <map>
 
 namespace octant::visuals::draworder {
 
@@ -27,6 +28,22 @@ ListedCell cell_of_path(const std::string& path, const glm::dvec3& centre_m) {
     cell.directions.assign(corners.begin(), corners.end());
     cell.planes = planes_of_cone(corners, centre_m).value();
     return cell;
+}
+
+/// Planes of a cell that is one of several of its path. All of its octant's eyes at the least
+/// distance lie on one plane, which helps checks.
+std::vector<Plane>
+planes_within_path(const ListedCell& cell, const OrderCell& from, const glm::dvec3& centre_m) {
+    std::vector<Plane> planes = cell.planes;
+    planes.insert(planes.end(), from.planes.begin(), from.planes.end());
+    glm::dvec3 signs(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        signs[axis] = cell.path[static_cast<std::size_t>(axis)] == '+' ? 1.0 : -1.0;
+    }
+    const double diagonal = std::sqrt(3.0);
+    const glm::dvec3 outward = signs / diagonal;
+    planes.push_back({outward, -cell.min_m / diagonal - glm::dot(outward, centre_m)});
+    return planes;
 }
 
 /// The plane that cuts each direction at the least distance: what lies farther from the centre, by
@@ -74,6 +91,13 @@ CellOrders cell_orders(const OrderedModel& ordered) {
     orders.faces = ordered.model.polygons.size();
     orders.parents = ordered.model.parents;
     orders.centre_m = ordered.centre_m;
+    std::map<std::string, int> cells_of_path;
+    for (const OrderCell& cell : ordered.cells) {
+        ++cells_of_path[cell.path];
+    }
+    const double least_m = ordered.min_distance_m > 0.0
+                               ? ordered.min_distance_m
+                               : std::sqrt(3.0) * models::radius_m(ordered.model);
     for (std::size_t i = 0; i < ordered.cells.size(); ++i) {
         const OrderCell& from = ordered.cells[i];
         ListedCell cell;
@@ -82,9 +106,12 @@ CellOrders cell_orders(const OrderedModel& ordered) {
         } else {
             orders.metric = Metric::L1;
             cell = cell_of_path(from.path, ordered.centre_m);
-            cell.min_m = ordered.min_distance_m > 0.0
-                             ? ordered.min_distance_m
-                             : std::sqrt(3.0) * models::radius_m(ordered.model);
+            cell.min_m = least_m;
+            if (cells_of_path[from.path] > 1) {
+                cell.planes = planes_within_path(cell, from, ordered.centre_m);
+                cell.path.clear();
+                cell.directions.clear();
+            }
         }
         const auto list = ordered.order.polygons_of(static_cast<int>(i));
         cell.list.assign(list.begin(), list.end());

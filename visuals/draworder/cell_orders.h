@@ -46,7 +46,8 @@ struct CellOrders {
 };
 
 /// The cells of a model in this form. Octant cells are made from their paths, not from the planes
-/// that the model gives them, and begin where the model's orders are meant for: at its
+/// that the model gives them, except where several share a path (a cell divided by planes); they
+/// begin where the model's orders are meant for: at its
 /// min_distance_m, or for Method::Paper (which has none) at sqrt(3) times the model's radius, so
 /// that no eye of them lies inside the radius.
 CellOrders cell_orders(const OrderedModel& ordered);
