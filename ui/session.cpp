@@ -146,6 +146,7 @@ report::FrameRecord Session::draw(int frame) {
     record.terrain_fans = counts.ground.fans;
     record.aircraft_polygons = counts.aircraft_polygons;
     record.draw_cell = counts.draw_cell;
+    record.draw_calls = renderer_->draw_calls();
     record.shadow_triangles = counts.shadow_triangles;
     record.cuts = counts.cuts;
     record.unordered = counts.unordered;
