@@ -1,12 +1,13 @@
 #include "models/polygon_check.h"
+#include "visuals/draworder/octant_order.h"
 #include "visuals/draworder/split.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "shapes.h"
 
@@ -257,6 +258,13 @@ TEST_CASE("the test shapes have the polygons they promise, convex, planar and fa
         CHECK(bad_polygons(model) == 0);
         CHECK(closed(model));
     }
+}
+
+TEST_CASE("the three bars overlap in a circle from both sides") {
+    const OctantOrders orders = paper_orders(three_bars(), {.listed = Listed::FromPoint});
+    CHECK(orders.lists[0].size() == 3);
+    CHECK(orders.lists[7].size() == 3);
+    CHECK(orders.broken_cycles >= 2);
 }
 
 TEST_CASE("the bodies of a pile face outward, lie close together and are the same every time") {

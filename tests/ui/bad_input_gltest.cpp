@@ -114,8 +114,8 @@ TEST_CASE("a wrong aircraft is refused in one line with exit code 2") {
     check_refused(
         {"straight",
          "--aircraft",
-         file_with("bent.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nf 1 2 3 4\n")},
-        "bent.obj:5:");
+         file_with("crossed.obj", "v 0 0 0\nv 4 0 0\nv 1 2 0\nv 3 3 0\nf 1 2 3 4\n")},
+        "crossed.obj:5:");
 }
 
 TEST_CASE("a wrong terrain is refused in one line with exit code 2") {
