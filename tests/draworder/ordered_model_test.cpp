@@ -114,6 +114,13 @@ TEST_CASE("rings of bars and polygons that pass through one another are split") 
     CHECK(count_wrong_rays(crossed.model, crossed.order, all_eyes(2000)).wrong == 0);
 }
 
+TEST_CASE("a pile whose bodies hide one another in rings is ordered with few splits") {
+    const OrderedModel pile = by(Method::Tree, octant::tests::pile(1989, 25));
+    CHECK(pile.splits >= 1);
+    CHECK(pile.splits <= 3);
+    CHECK(count_wrong_rays(pile.model, pile.order, all_eyes(300)).wrong == 0);
+}
+
 TEST_CASE("octant paths give right lists from twice the radius outwards") {
     const std::vector<std::pair<PolygonModel, int>> models{
         {paper_example(), 8},

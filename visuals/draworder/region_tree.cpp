@@ -210,7 +210,9 @@ std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
             node.graph.count(),
             most_depth));
     }
-    work_.catch_up(node);
+    if (work_.catch_up(node)) {
+        node = part_of(graphs_, node, node.region);
+    }
     const std::vector<Choice> ranked = settle(node);
     if (ranked.empty()) {
         return leaf(node);
