@@ -6,6 +6,7 @@
 #include "visuals/draworder/components.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -94,6 +95,7 @@ std::optional<Cut> best_cut(RegionGraphs& graphs, const Deadlock& deadlock) {
 Precedence weakest_pair(RegionGraphs& graphs, const Deadlock& deadlock) {
     const auto ring = shortest_ring(graph_of(graphs, deadlock), deadlock.polygons);
     const auto& faces = graphs.model().faces;
+    assert(!ring.empty());
     std::size_t weakest = 0;
     for (std::size_t i = ring.size(); i-- > 0;) {
         if (faces[ring[i]].pivot || faces[ring[(i + 1) % ring.size()]].pivot) {

@@ -14,7 +14,7 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-constexpr int most_levels = 6;
+constexpr int most_levels = 2;
 
 using Triangle = std::array<glm::dvec3, 3>;
 
@@ -136,7 +136,9 @@ int CellBuilder::by_planes(const EyeNode& node, const Triangle& corners, const s
 
 /// The number of the node or cell made.
 int CellBuilder::divide(EyeNode node, const Triangle& corners, const std::string& path, int level) {
-    work_.catch_up(node);
+    if (work_.catch_up(node)) {
+        node = part_of(graphs_, node, node.region);
+    }
     while (const auto deadlock = ring_at_eye(graphs_, node)) {
         work_.resolve(*deadlock);
         work_.catch_up(node);

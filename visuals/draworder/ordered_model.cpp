@@ -23,12 +23,8 @@ constexpr std::size_t most_polygons_with_choice = 200;
 /// Models with more pairs on rings get the first search only.
 constexpr std::size_t most_edges_searched_again = 2'000;
 
-const std::array<TreeSearch, 3> tree_searches{{
-    {.power = 1.0, .edge_planes = 8000, .exact = 16, .widths = {}},
-    {.power = 0.5, .edge_planes = 8000, .exact = 16, .widths = {}},
-    {.power = 1.0, .edge_planes = 8000, .exact = 12, .widths = {2, 2}},
-}};
-const TreeSearch quick_search{.power = 1.0, .edge_planes = 300, .exact = 2, .widths = {}};
+const std::array<TreeSearch, 3> tree_searches{{{.power = 1.0}, {.power = 0.5}, {.power = 1.5}}};
+const TreeSearch quick_search{.edge_planes = 300, .closer = 48, .exact = 2};
 
 OrderedModel by_paper(models::PolygonModel model, const OrderOptions& options) {
     const OctantOrders orders = paper_orders(model, options.paper);

@@ -15,7 +15,6 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-constexpr std::size_t looked_at_closer = 48;
 /// Graphs with more edges are judged by sides alone.
 constexpr std::size_t most_exact_edges = 4'000;
 constexpr std::size_t most_depth = 100;
@@ -28,7 +27,6 @@ struct Branch {
     std::vector<std::uint32_t> list;
     std::vector<Plane> planes;
     std::size_t polygons = 0; ///< when the list was made
-    std::size_t leaves = 1;
 };
 
 struct Choice {
@@ -118,12 +116,12 @@ std::vector<Choice> TreeBuilder::by_sides(const EyeNode& node, const std::vector
         const std::size_t back_edges =
             cycles.edges - ended_edges(cycles, back, front, sides.unseen_behind);
         const double value = cost(front_edges, back_edges, cycles.edges);
-        if (value == HUGE_VAL || (best.size() == looked_at_closer && value >= best.back().cost)) {
+        if (value == HUGE_VAL || (best.size() == search_.closer && value >= best.back().cost)) {
             continue;
         }
         Choice choice{plane, std::move(sides), value, number};
         best.insert(std::upper_bound(best.begin(), best.end(), choice), std::move(choice));
-        if (best.size() > looked_at_closer) {
+        if (best.size() > search_.closer) {
             best.pop_back();
         }
     }
@@ -212,28 +210,19 @@ std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
             node.graph.count(),
             most_depth));
     }
-    work_.catch_up(node);
+    if (work_.catch_up(node)) {
+        node = part_of(graphs_, node, node.region);
+    }
     const std::vector<Choice> ranked = settle(node);
     if (ranked.empty()) {
         return leaf(node);
     }
-    const std::size_t width = depth < search_.widths.size() ? search_.widths[depth] : 1;
-    std::unique_ptr<Branch> best;
-    for (std::size_t i = 0; i < std::min(width, ranked.size()); ++i) {
-        auto [front, back] = children(node, ranked[i]);
-        auto out = std::make_unique<Branch>();
-        out->plane = ranked[i].plane;
-        out->front = grow(std::move(front), depth + 1);
-        out->back = grow(std::move(back), depth + 1);
-        out->leaves = out->front->leaves + out->back->leaves;
-        if (!best || out->leaves < best->leaves) {
-            best = std::move(out);
-        }
-        if (work_.catch_up(node)) {
-            break; // the sides are those of a model that is no more
-        }
-    }
-    return best;
+    auto [front, back] = children(node, ranked.front());
+    auto out = std::make_unique<Branch>();
+    out->plane = ranked.front().plane;
+    out->front = grow(std::move(front), depth + 1);
+    out->back = grow(std::move(back), depth + 1);
+    return out;
 }
 
 /// The number of a branch, as a child of a node.

@@ -19,10 +19,10 @@ struct RegionTree {
 
 /// How a tree is looked for.
 struct TreeSearch {
-    double power = 1.0;              ///< a graph with E cyclic edges is taken to cost E^power
-    std::size_t edge_planes = 8000;  ///< about how many planes through an edge and a corner to try
-    std::size_t exact = 16;          ///< planes of which both sides are tested exactly
-    std::vector<std::size_t> widths; ///< how many planes are followed up at depth 0, 1, ...; then 1
+    double power = 1.0;             ///< a graph with E cyclic edges is taken to cost E^power
+    std::size_t edge_planes = 8000; ///< about how many planes through an edge and a corner to try
+    std::size_t closer = 400;       ///< planes of which the rings left on both sides are counted
+    std::size_t exact = 48;         ///< planes of which both sides are tested exactly
 };
 
 /// A tree over a node's region whose cells have no cycles. Splits polygons of the model where there
