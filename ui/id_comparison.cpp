@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <memory>
 
 namespace octant::ui {
 
@@ -22,16 +23,42 @@ std::uint32_t id_at(const gl::Picture& picture, int x, int y) {
     return id;
 }
 
-bool occurs_around(const gl::Picture& reference, int x, int y, std::uint32_t id) {
-    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, reference.height - 1); ++v) {
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, reference.width - 1); ++u) {
-            if (id_at(reference, u, v) == id) {
+/// Whether a number occurs in the picture within `reach` pixels of a place, in either direction.
+bool occurs_around(const gl::Picture& picture, const glm::ivec2& at, int reach, std::uint32_t id) {
+    for (int v = std::max(at.y - reach, 0); v <= std::min(at.y + reach, picture.height - 1); ++v) {
+        for (int u = std::max(at.x - reach, 0); u <= std::min(at.x + reach, picture.width - 1);
+             ++u) {
+            if (id_at(picture, u, v) == id) {
                 return true;
             }
         }
     }
     return false;
 }
+
+/// Draws a frame by depth, three times as large, when it is asked for.
+class LargeReference {
+public:
+    static constexpr int scale = 3; // odd: the middles of the pixels are middles here too
+
+    explicit LargeReference(const scene::Settings& settings)
+        : settings_(settings) {
+        settings_.size_px *= scale;
+    }
+
+    const gl::Picture& picture(int frame) {
+        if (!session_) {
+            session_ = std::make_unique<Session>(settings_, Shows::PolygonNumbers);
+        }
+        session_->make_current();
+        session_->draw(frame);
+        return session_->picture();
+    }
+
+private:
+    scene::Settings settings_;
+    std::unique_ptr<Session> session_;
+};
 
 } // namespace
 
@@ -46,10 +73,24 @@ IdDifference difference_of(const gl::Picture& picture, const gl::Picture& refere
                 continue;
             }
             ++difference.differing;
-            difference.wrong += occurs_around(reference, x, y, id) ? 0 : 1;
+            if (!occurs_around(reference, {x, y}, 1, id)) {
+                difference.apart.emplace_back(x, y);
+            }
         }
     }
     return difference;
+}
+
+long wrong_among(
+    std::span<const glm::ivec2> pixels,
+    const gl::Picture& picture,
+    const gl::Picture& large_reference,
+    int scale) {
+    return std::ranges::count_if(pixels, [&](const glm::ivec2& pixel) {
+        const glm::ivec2 middle = pixel * scale + scale / 2;
+        const int reach = scale + scale / 2;
+        return !occurs_around(large_reference, middle, reach, id_at(picture, pixel.x, pixel.y));
+    });
 }
 
 IdComparison compare_with_depth_buffer(
@@ -63,6 +104,7 @@ IdComparison compare_with_depth_buffer(
     tested.hidden_surface = scene::HiddenSurface::DepthBuffer;
     Session painter(painted, Shows::PolygonNumbers);
     Session reference(tested, Shows::PolygonNumbers);
+    LargeReference large(tested);
     IdComparison sum;
     const int frames = (painter.frames() + every - 1) / every;
     for (int frame = 0; frame < painter.frames(); frame += every) {
@@ -71,15 +113,18 @@ IdComparison compare_with_depth_buffer(
         reference.make_current();
         reference.draw(frame);
         const IdDifference difference = difference_of(painter.picture(), reference.picture());
-        sum.difference.pixels += difference.pixels;
-        sum.difference.differing += difference.differing;
-        sum.difference.wrong += difference.wrong;
+        sum.pixels += difference.pixels;
+        sum.differing += difference.differing;
+        if (!difference.apart.empty()) {
+            sum.apart += static_cast<long>(difference.apart.size());
+            const long wrong = wrong_among(
+                difference.apart, painter.picture(), large.picture(frame), LargeReference::scale);
+            sum.first_wrong_frame = wrong > 0 && sum.wrong == 0 ? frame : sum.first_wrong_frame;
+            sum.wrong += wrong;
+        }
         sum.cuts += record.cuts;
         sum.unordered += record.unordered;
         sum.frames_with_cuts += record.cuts > 0 ? 1 : 0;
-        if (difference.wrong > 0 && sum.first_wrong_frame < 0) {
-            sum.first_wrong_frame = frame;
-        }
         seen(++sum.frames, frames);
     }
     return sum;

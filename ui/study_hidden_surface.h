@@ -20,7 +20,8 @@ struct HiddenSurfaceStudy {
 /// Two tables. Frames a second of octant order, depth buffer and removal of back faces, drawn in
 /// turn, for 1 to 1000 aircraft over the 60-polygon background and over terrain, 640x480 and
 /// 1280x720. And pictures of polygon numbers, octant order against the depth buffer, for four
-/// paths, two aircraft and chase, tower and orbit view over terrain. Prints them and writes them to
+/// paths, two aircraft and four views over terrain: chase, tower, a tower that sees the aircraft go
+/// behind ridges, and orbit. Prints them and writes them to
 /// `out` as CSV and Markdown. True when no pixel was wrong. Throws Error.
 bool study_hidden_surface(const HiddenSurfaceStudy& study);
 

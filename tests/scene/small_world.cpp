@@ -37,8 +37,6 @@ public:
 
     glm::vec3 mean_colour() const override { return glm::vec3(0.5F); }
 
-    bool is_ordered() const override { return true; }
-
     void settle(const scene::Camera& /*camera*/, double /*aspect*/) override {}
 
     scene::TriangleDraw triangles(
@@ -126,8 +124,6 @@ public:
     double mean_height_m() const override { return 0.0; }
 
     glm::vec3 mean_colour() const override { return glm::vec3(0.5F); }
-
-    bool is_ordered() const override { return true; }
 
     void settle(const scene::Camera& /*camera*/, double /*aspect*/) override {}
 

@@ -20,6 +20,10 @@ constexpr GLint planes_uniform = 0; ///< place in the shaders, where CUT is defi
 constexpr float towards_eye_px = 1.0F;
 constexpr float towards_eye_steps = 16.0F; ///< of the float nearest to the triangle's depths
 
+// What is edge-on has depths without meaning and closes holes between triangles that have: it is
+// pushed back by one to two per cent of its distance, so that these are before it.
+constexpr float edge_on_steps = -0x1p23F * 0.02F;
+
 } // namespace
 
 ProgramPair make_program_pair(
@@ -38,7 +42,6 @@ void DrawState::begin_picture() {
     gl_.provoking_vertex(GL_FIRST_VERTEX_CONVENTION);
     gl_.disable(GL_DITHER);
     gl_.depth_mask(GL_TRUE);
-    gl_.polygon_offset(towards_eye_px, towards_eye_steps);
     cut_by_planes(false);
     draw_calls_ = 0;
 }
@@ -49,10 +52,14 @@ void DrawState::use_depth(Depth depth) {
         return;
     }
     gl_.enable(GL_DEPTH_TEST);
-    gl_.depth_func(depth == Depth::Nearest ? GL_GREATER : GL_GEQUAL);
+    gl_.depth_func(depth == Depth::Nearest || depth == Depth::EdgeOn ? GL_GREATER : GL_GEQUAL);
     gl_.depth_mask(depth == Depth::InfinitelyFar ? GL_FALSE : GL_TRUE);
     if (depth == Depth::OnGround) {
         gl_.enable(GL_POLYGON_OFFSET_FILL);
+        gl_.polygon_offset(towards_eye_px, towards_eye_steps);
+    } else if (depth == Depth::EdgeOn) {
+        gl_.enable(GL_POLYGON_OFFSET_FILL);
+        gl_.polygon_offset(0.0F, edge_on_steps);
     } else {
         gl_.disable(GL_POLYGON_OFFSET_FILL);
     }

@@ -9,6 +9,7 @@ namespace octant::visuals::gl {
 enum class Depth {
     Unused,       ///< drawn over whatever is there
     Nearest,      ///< drawn where nearer than what is there, and written
+    EdgeOn,       ///< drawn where there is nothing but what lies well behind it; written
     OnGround,     ///< drawn where it lies on what is there, a little towards the eye; written
     InfinitelyFar ///< drawn where nothing is; not written
 };

@@ -45,8 +45,9 @@ void TrianglePainter::upload(const scene::FramePlan& plan) {
          std::as_bytes(std::span(plan.repaint_indices)),
          std::as_bytes(std::span(plan.shadow_indices)),
          std::as_bytes(plan.sky.indices)});
-    ground_ = {0, plan.ground.indices.size()};
-    repainted_ = {ground_.count, plan.repaint_indices.size()};
+    ground_ = {0, plan.ground.indices.size() - plan.edge_on_indices};
+    edge_on_ = {ground_.count, plan.edge_on_indices};
+    repainted_ = {plan.ground.indices.size(), plan.repaint_indices.size()};
     shadows_ = {repainted_.first + repainted_.count, plan.shadow_indices.size()};
     sky_ = {shadows_.first + shadows_.count, plan.sky.indices.size()};
     first_sky_vertex_ = static_cast<GLint>(plan.ground.vertices.size() + shadow_vertices.size());
@@ -65,6 +66,11 @@ void TrianglePainter::draw_ground(Depth depth) {
         state_.use_depth(depth);
         state_.use_program(ground_programs_);
         draw(ground_, 0);
+    }
+    if (edge_on_.count > 0) {
+        state_.use_depth(Depth::EdgeOn);
+        state_.use_program(ground_programs_);
+        draw(edge_on_, 0);
     }
 }
 

@@ -44,6 +44,7 @@ private:
     StreamBuffer indices_;  ///< ground, repainted, shadows, sky
     Object array_;
     Range ground_;
+    Range edge_on_;
     Range repainted_;
     Range shadows_;
     Range sky_;

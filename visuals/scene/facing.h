@@ -3,6 +3,7 @@
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/ground_frame.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,5 +17,13 @@ namespace octant::visuals::scene {
 /// angle that a pixel covers in the middle of the picture.
 TriangleDraw
 facing_the_eye(const GroundFrame& ground, double pixel_rad, std::vector<std::uint32_t>& kept);
+
+/// The same triangles without shadows, those that face away but for rounding at the end:
+/// `edge_on_indices` is how many indices these have.
+TriangleDraw facing_first(
+    const TriangleDraw& draw,
+    double pixel_rad,
+    std::vector<std::uint32_t>& kept,
+    std::size_t& edge_on_indices);
 
 } // namespace octant::visuals::scene

@@ -93,8 +93,6 @@ public:
 
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
-    bool is_ordered() const override { return order_ == terrain::PaintOrder::BackToFront; }
-
     void settle(const Camera& camera, double aspect) override {
         if (exact_) {
             return;

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -84,10 +85,12 @@ struct FramePlan {
     glm::vec3 background{0.0F};    ///< what the picture is cleared to
     Haze haze;
     TriangleDraw sky; ///< no depth, no haze; empty when the sky is off
-    TriangleDraw
-        ground; ///< facing the eye or edge-on; depth tested and written unless ground_is_ordered
-    bool ground_is_ordered =
-        false; ///< the ground's triangles are in painting order: no depth needed
+    /// Facing the eye or edge-on. Octant, BackFace: in painting order, with shadow pieces in place.
+    /// DepthBuffer: nearest first.
+    TriangleDraw ground;
+    /// DepthBuffer: how many of ground.indices, at their end, belong to triangles that face away
+    /// but for rounding. They only close holes along edges; elsewhere their depths mean nothing.
+    std::size_t edge_on_indices = 0;
     HiddenSurface hidden_surface = HiddenSurface::Octant;
     std::vector<AircraftDraw> aircraft; ///< in the order in which `steps` first names them
     std::vector<glm::mat4> parts; ///< AircraftDraw::first_part: body, then each pivot of the model

@@ -44,9 +44,6 @@ public:
     virtual double mean_height_m() const = 0;
     virtual glm::vec3 mean_colour() const = 0;
 
-    /// True when the triangles come in painting order and need no depth.
-    virtual bool is_ordered() const = 0;
-
     /// Sets the detail so that the first frame, seen by this camera, meets its target. Loading
     /// work.
     virtual void settle(const Camera& camera, double aspect) = 0;

@@ -53,8 +53,6 @@ public:
 
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
-    bool is_ordered() const override { return true; }
-
     void settle(const Camera& /*camera*/, double /*aspect*/) override {}
 
     TriangleDraw triangles(const Camera& camera, double /*aspect*/, GroundCounts& counts) override {

@@ -45,7 +45,6 @@ Planner::Planner(Scene& scene, const Settings& settings)
     plan_.background = settings.background;
     plan_.haze = {settings.background, static_cast<float>(settings.visibility_m)};
     plan_.hidden_surface = settings.hidden_surface;
-    plan_.ground_is_ordered = scene.ground->is_ordered();
     plan_.to_sun = glm::vec3(to_sun_);
     plan_.ambient = glm::vec3(ambient_light);
     plan_.sunlight = glm::vec3(sun_light);
@@ -170,7 +169,8 @@ void Planner::cast_shadows(const Camera& camera) {
 void Planner::plan_ground() {
     plan_.shadow_indices.clear();
     if (settings_.hidden_surface == HiddenSurface::DepthBuffer) {
-        plan_.ground = facing_the_eye({ground_.all, {}, {}}, pixel_rad_, facing_indices_);
+        plan_.ground =
+            facing_first(ground_.all, pixel_rad_, facing_indices_, plan_.edge_on_indices);
         plan_.shadow_indices.assign(ground_.shadow_indices.begin(), ground_.shadow_indices.end());
     } else {
         plan_.ground = facing_the_eye(ground_, pixel_rad_, facing_indices_);
