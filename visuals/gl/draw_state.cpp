@@ -42,7 +42,6 @@ void DrawState::begin_picture() {
     gl_.provoking_vertex(GL_FIRST_VERTEX_CONVENTION);
     gl_.disable(GL_DITHER);
     gl_.depth_mask(GL_TRUE);
-    cut_by_planes(false);
     draw_calls_ = 0;
 }
 
@@ -77,29 +76,14 @@ void DrawState::use_program(const ProgramPair& programs, const Clip* clip) {
     const bool cut = clip != nullptr;
     const Object& program = cut ? programs.cut : programs.whole;
     gl_.use_program(program.name());
-    if (cut != cuts_) {
-        cut_by_planes(cut);
-    }
     if (cut) {
         assert(clip->count >= 0 && clip->count <= Clip::most_planes);
-        // All planes are always on: their number would be one more thing to compile for.
         std::array<glm::vec4, Clip::most_planes> planes;
         planes.fill(glm::vec4(0.0F, 0.0F, 0.0F, 1.0F)); // cuts nothing
         std::copy_n(clip->planes.begin(), clip->count, planes.begin());
         gl_.program_uniform_4fv(
             program.name(), planes_uniform, Clip::most_planes, glm::value_ptr(planes.front()));
     }
-}
-
-void DrawState::cut_by_planes(bool cut) {
-    for (GLenum plane = 0; plane < GLenum{Clip::most_planes}; ++plane) {
-        if (cut) {
-            gl_.enable(GL_CLIP_DISTANCE0 + plane);
-        } else {
-            gl_.disable(GL_CLIP_DISTANCE0 + plane);
-        }
-    }
-    cuts_ = cut;
 }
 
 } // namespace octant::visuals::gl

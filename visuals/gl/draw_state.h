@@ -46,10 +46,7 @@ public:
     int draw_calls() const { return draw_calls_; }
 
 private:
-    void cut_by_planes(bool cut);
-
     const Functions& gl_;
-    bool cuts_ = false;
     int draw_calls_ = 0;
 };
 

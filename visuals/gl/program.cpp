@@ -49,7 +49,8 @@ Object make_program(
     const char* defined) {
     const std::string vertex_code = with_definition(vertex_text, defined);
     const Object vertex = make_shader(gl, name, GL_VERTEX_SHADER, vertex_code.c_str());
-    const Object fragment = make_shader(gl, name, GL_FRAGMENT_SHADER, fragment_text);
+    const std::string fragment_code = with_definition(fragment_text, defined);
+    const Object fragment = make_shader(gl, name, GL_FRAGMENT_SHADER, fragment_code.c_str());
     Object program(
         gl, gl.create_program(), [](const Functions& f, GLuint n) { f.delete_program(n); });
     gl.attach_shader(program.name(), vertex.name());

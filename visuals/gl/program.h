@@ -6,7 +6,7 @@ namespace octant::visuals::gl {
 
 /// A linked program of a vertex and a fragment shader. Throws Error with the first line of what
 /// the driver complains about; `name` says which program. `defined`, where given, is defined for
-/// the vertex shader's preprocessor.
+/// the preprocessor of both.
 Object make_program(
     const Functions& gl,
     const char* name,

@@ -27,16 +27,29 @@ struct PictureValues {
     glm::vec4 to_sun;
     glm::vec4 ambient;
     glm::vec4 sunlight;
+    glm::mat4 ray_from_pixel;
 };
 
-PictureValues values_of(const FramePlan& plan) {
+/// Places in the picture from the upper left, in pixels, to world axes, one unit deep.
+glm::mat4 ray_from_pixel(const FramePlan& plan, int width, int height) {
+    const float across = 1.0F / plan.view_to_clip[0][0];
+    const float up = 1.0F / plan.view_to_clip[1][1];
+    glm::mat4 view_ray(0.0F);
+    view_ray[0].x = 2.0F * across / static_cast<float>(width);
+    view_ray[1].y = -2.0F * up / static_cast<float>(height);
+    view_ray[2] = glm::vec4(-across, up, -1.0F, 0.0F);
+    return glm::transpose(plan.world_to_view) * view_ray;
+}
+
+PictureValues values_of(const FramePlan& plan, int width, int height) {
     const float visibility_m = plan.haze.visibility_m;
     return {
         plan.view_to_clip * plan.world_to_view,
         glm::vec4(plan.haze.colour, visibility_m > 0.0F ? 1.0F / visibility_m : 0.0F),
         glm::vec4(plan.to_sun, 0.0F),
         glm::vec4(plan.ambient, 0.0F),
-        glm::vec4(plan.sunlight, 0.0F)};
+        glm::vec4(plan.sunlight, 0.0F),
+        ray_from_pixel(plan, width, height)};
 }
 
 } // namespace
@@ -78,7 +91,7 @@ void Renderer::begin(const FramePlan& plan) {
 }
 
 void Renderer::upload(const FramePlan& plan) {
-    const PictureValues values = values_of(plan);
+    const PictureValues values = values_of(plan, framebuffer_.width(), framebuffer_.height());
     picture_values_.fill({std::as_bytes(std::span(&values, 1))});
     gl_.bind_buffer_base(GL_UNIFORM_BUFFER, picture_binding, picture_values_.name());
     triangles_.upload(plan);

@@ -1,6 +1,5 @@
 #version 450 core
 // Aircraft: light from everywhere and from the sun, then haze; one colour for a whole polygon.
-// CUT: only what lies in front of all planes.
 
 layout(location = 0) in vec3 position_m; // body axes
 layout(location = 1) in vec4 own_colour;
@@ -14,6 +13,7 @@ layout(std140, binding = 0) uniform Picture {
     vec4 to_sun; // unit, world axes
     vec4 ambient;
     vec4 sunlight;
+    mat4 ray_from_pixel;
 };
 
 layout(std430, binding = 0) readonly buffer Parts {
@@ -21,11 +21,6 @@ layout(std430, binding = 0) readonly buffer Parts {
 };
 
 flat out vec3 colour;
-
-#ifdef CUT
-layout(location = 0) uniform vec4 planes[8];
-out float gl_ClipDistance[8];
-#endif
 
 void main() {
     mat4 part_to_eye_world = body_to_eye_world[first_part + part];
@@ -36,9 +31,4 @@ void main() {
     float haze_share = 1.0 - exp(-length(place.xyz) * haze.w);
     colour = mix(lit, haze.rgb, haze_share);
     gl_Position = world_to_clip * place;
-#ifdef CUT
-    for (int i = 0; i < 8; ++i) {
-        gl_ClipDistance[i] = dot(planes[i], place);
-    }
-#endif
 }

@@ -1,9 +1,36 @@
 #version 450 core
+// CUT: only pixels in front of all planes.
 
 flat in vec3 colour;
 
 layout(location = 0) out vec4 pixel;
 
+#ifdef CUT
+layout(std140, binding = 0) uniform Picture {
+    mat4 world_to_clip;
+    vec4 haze;
+    vec4 to_sun;
+    vec4 ambient;
+    vec4 sunlight;
+    mat4 ray_from_pixel; // world axes, one unit deep
+};
+
+layout(location = 0) uniform vec4 planes[8]; // world axes, eye at the origin
+
+// By the pixel's own line of sight, so that all triangles that cover it are cut alike.
+void cut() {
+    vec3 ray = mat3(ray_from_pixel) * vec3(gl_FragCoord.xy, 1.0);
+    for (int i = 0; i < 8; ++i) {
+        if (dot(planes[i].xyz, ray) + planes[i].w * gl_FragCoord.w < 0.0) {
+            discard;
+        }
+    }
+}
+#endif
+
 void main() {
+#ifdef CUT
+    cut();
+#endif
     pixel = vec4(colour, 1.0);
 }

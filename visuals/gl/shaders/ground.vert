@@ -1,6 +1,5 @@
 #version 450 core
-// Ground: colours come lit; haze by the distance of the vertex. CUT: only what lies in front of
-// all planes.
+// Ground: colours come lit; haze by the distance of the vertex.
 
 layout(location = 0) in vec3 position_m; // world axes, eye at the origin
 layout(location = 1) in vec4 own_colour;
@@ -11,23 +10,14 @@ layout(std140, binding = 0) uniform Picture {
     vec4 to_sun;
     vec4 ambient;
     vec4 sunlight;
+    mat4 ray_from_pixel;
 };
 
 out vec3 colour;
-
-#ifdef CUT
-layout(location = 0) uniform vec4 planes[8];
-out float gl_ClipDistance[8];
-#endif
 
 void main() {
     vec4 place = vec4(position_m, 1.0);
     float haze_share = 1.0 - exp(-length(position_m) * haze.w);
     colour = mix(own_colour.rgb, haze.rgb, haze_share);
     gl_Position = world_to_clip * place;
-#ifdef CUT
-    for (int i = 0; i < 8; ++i) {
-        gl_ClipDistance[i] = dot(planes[i], place);
-    }
-#endif
 }
