@@ -60,7 +60,7 @@ void add_draw_order(CLI::App& study) {
     auto options = std::make_shared<DrawOrderStudyOptions>();
     CLI::App* orders = study.add_subcommand(
         "draw-order",
-        "Table 4 of the 1989 paper, and cells, splits, wrong pixels and BSP trees for its models");
+        "Tables 1 and 4 of the 1989 paper, and cells, splits, wrong pixels and BSP trees");
     add_out(*orders, options->out);
     orders->add_flag("--json", options->json, "print the tables as JSON");
     orders->add_flag("--quiet", options->quiet, "no progress, no notes");
