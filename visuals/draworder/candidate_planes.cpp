@@ -145,21 +145,23 @@ candidate_planes(const ModelFaces& model, std::span<const std::uint32_t> among, 
     return each_once(planes);
 }
 
+FaceSide side_of(const Plane& plane, const Face& face, double on_plane) {
+    double least = on_plane;
+    double largest = -on_plane;
+    for (const glm::dvec3& corner : face.corners) {
+        const double height = distance_m(plane, corner);
+        least = std::min(least, height);
+        largest = std::max(largest, height);
+    }
+    return {least >= -on_plane, largest <= on_plane};
+}
+
 PlaneSides
 sides_of(const Plane& plane, const ModelFaces& model, std::span<const std::uint32_t> among) {
     PlaneSides sides(model.faces.size());
-    const double on = model.tolerances.on_plane;
     for (const std::uint32_t polygon : among) {
         const Face& face = model.faces[polygon];
-        double least = on;
-        double largest = -on;
-        for (const glm::dvec3& corner : face.corners) {
-            const double height = distance_m(plane, corner);
-            least = std::min(least, height);
-            largest = std::max(largest, height);
-        }
-        const bool before = least >= -on;
-        const bool behind = largest <= on;
+        const auto [before, behind] = side_of(plane, face, model.tolerances.on_plane);
         if (before) {
             sides.sets.front_or_on.add(polygon);
         }

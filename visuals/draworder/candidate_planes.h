@@ -19,6 +19,14 @@ namespace octant::visuals::draworder {
 std::vector<Plane>
 candidate_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most);
 
+/// How a face lies to a plane: both when it lies on it, neither when it straddles it.
+struct FaceSide {
+    bool before = false;
+    bool behind = false;
+};
+
+FaceSide side_of(const Plane& plane, const Face& face, double on_plane);
+
 /// How polygons lie to a plane. For each side of it the polygons that no eye there can face.
 struct PlaneSides {
     explicit PlaneSides(std::size_t count)

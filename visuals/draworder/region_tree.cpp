@@ -3,9 +3,9 @@
 #include "sim/base/error.h"
 #include "visuals/draworder/candidate_planes.h"
 #include "visuals/draworder/components.h"
+#include "visuals/draworder/plane_judge.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
@@ -31,7 +31,6 @@ struct Branch {
 
 struct Choice {
     Plane plane;
-    PlaneSides sides;
     double cost = 0.0;
     std::size_t number = 0;
 
@@ -79,28 +78,10 @@ TreeBuilder::cost(std::size_t front_edges, std::size_t back_edges, std::size_t b
            std::pow(static_cast<double>(back_edges), search_.power);
 }
 
-/// Edges of `inner` that end on one side of a plane because of where its polygons lie.
-std::size_t ended_edges(
-    const Cycles& cycles,
-    const PolygonSet& hidden,
-    const PolygonSet& hiding,
-    const PolygonSet& unseen) {
-    std::size_t ended = 0;
-    for (const std::uint32_t a : cycles.polygons) {
-        const auto row = cycles.inner.row(a);
-        const std::uint64_t whole = unseen.has(a) ? ~std::uint64_t{0} : 0;
-        const std::uint64_t parted = hidden.has(a) ? ~std::uint64_t{0} : 0;
-        for (std::size_t word = 0; word < row.size(); ++word) {
-            const std::uint64_t mask =
-                whole | unseen.words()[word] | (parted & hiding.words()[word]);
-            ended += static_cast<std::size_t>(std::popcount(row[word] & mask));
-        }
-    }
-    return ended;
-}
-
+/// The planes that leave least on both sides, as judged by sides and then by what stays on rings.
 std::vector<Choice> TreeBuilder::by_sides(const EyeNode& node, const std::vector<Plane>& planes) {
     const Cycles& cycles = node.cycles;
+    PlaneJudge judge(graphs_.model(), cycles);
     std::vector<Choice> best;
     std::size_t number = 0;
     for (const Plane& plane : planes) {
@@ -109,18 +90,13 @@ std::vector<Choice> TreeBuilder::by_sides(const EyeNode& node, const std::vector
             !node.region.reaches_front_of(reversed(plane))) {
             continue;
         }
-        PlaneSides sides = sides_of(plane, graphs_.model(), cycles.polygons);
-        const auto& [front, back] = sides.sets;
-        const std::size_t front_edges =
-            cycles.edges - ended_edges(cycles, front, back, sides.unseen_in_front);
-        const std::size_t back_edges =
-            cycles.edges - ended_edges(cycles, back, front, sides.unseen_behind);
+        const auto [front_edges, back_edges] = judge.left(plane);
         const double value = cost(front_edges, back_edges, cycles.edges);
         if (value == HUGE_VAL || (best.size() == search_.closer && value >= best.back().cost)) {
             continue;
         }
-        Choice choice{plane, std::move(sides), value, number};
-        best.insert(std::upper_bound(best.begin(), best.end(), choice), std::move(choice));
+        const Choice choice{plane, value, number};
+        best.insert(std::upper_bound(best.begin(), best.end(), choice), choice);
         if (best.size() > search_.closer) {
             best.pop_back();
         }
@@ -132,18 +108,19 @@ std::vector<Choice> TreeBuilder::by_sides(const EyeNode& node, const std::vector
 /// Judges choices by what stays on rings, and sorts them.
 void TreeBuilder::count_cyclic(const Cycles& cycles, std::vector<Choice>& choices) {
     for (Choice& choice : choices) {
-        const auto& [front, back] = choice.sides.sets;
+        const PlaneSides sides = sides_of(choice.plane, graphs_.model(), cycles.polygons);
+        const auto& [front, back] = sides.sets;
         const auto front_edges =
-            cyclic_.count(cycles.inner, cycles.polygons, back, front, choice.sides.unseen_in_front);
+            cyclic_.count(cycles.inner, cycles.polygons, back, front, sides.unseen_in_front);
         const auto back_edges =
-            cyclic_.count(cycles.inner, cycles.polygons, front, back, choice.sides.unseen_behind);
+            cyclic_.count(cycles.inner, cycles.polygons, front, back, sides.unseen_behind);
         choice.cost = cost(front_edges, back_edges, cycles.edges);
     }
     std::sort(choices.begin(), choices.end());
 }
 
 std::pair<EyeNode, EyeNode> TreeBuilder::children(const EyeNode& node, const Choice& choice) {
-    const SideSets& sides = choice.sides.sets;
+    const SideSets sides = sides_of(choice.plane, graphs_.model(), node.cycles.polygons).sets;
     const SideSets turned{sides.back_or_on, sides.front_or_on};
     return {
         part_of(graphs_, node, *node.region.cut(choice.plane), &sides),

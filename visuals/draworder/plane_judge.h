@@ -1,0 +1,60 @@
+#pragma once
+
+#include "sim/base/plane.h"
+#include "visuals/draworder/components.h"
+#include "visuals/draworder/model_faces.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::draworder {
+
+/// Judges planes by what they leave of the edges on cycles, from where polygons lie to them alone:
+/// quickly, so that thousands can be looked at. Holds each component's edges in rows of its own, so
+/// that small components of large models cost little. Keeps a reference to the faces.
+class PlaneJudge {
+public:
+    PlaneJudge(const ModelFaces& model, const Cycles& cycles);
+
+    /// Edges of the cycles that a plane leaves on each of its sides, in rings or not.
+    struct Left {
+        std::size_t front = 0;
+        std::size_t back = 0;
+    };
+
+    Left left(const Plane& plane);
+
+private:
+    /// A polygon, the ball around it, and where its component's words begin.
+    struct Member {
+        std::uint32_t polygon = 0;
+        glm::dvec3 middle{0.0};
+        double radius = 0.0;
+        std::size_t first_word = 0;
+        std::size_t bit = 0; ///< from the first word on
+        std::size_t first_row_word = 0;
+        std::size_t words = 0;
+    };
+
+    using Words = std::vector<std::uint64_t>;
+
+    void add(const HidingGraph& graph, const std::vector<std::uint32_t>& component);
+    void sort_members(const Plane& plane);
+    std::size_t ended(const Words& hidden, const Words& hiding, const Words& unseen) const;
+
+    const ModelFaces& model_;
+    std::vector<Member> members_;
+    Words rows_;
+    Words front_or_on_;
+    Words back_or_on_;
+    Words unseen_in_front_;
+    Words unseen_behind_;
+    bool some_unseen_ = false;
+    std::size_t edges_ = 0;
+};
+
+} // namespace octant::visuals::draworder
