@@ -3,6 +3,8 @@
 #include "sim/base/error.h"
 
 #include <fmt/format.h>
+#include <functional>
+#include <queue>
 #include <utility>
 
 namespace octant::visuals::draworder {
@@ -56,12 +58,26 @@ std::optional<Deadlock> ring_at_eye(RegionGraphs& graphs, const EyeNode& node) {
 
 std::vector<std::uint32_t> list_of(const RegionGraphs& graphs, const EyeNode& node) {
     const PolygonSet listed = graphs.listed(node.region);
-    const auto pairs = node.graph.precedences(listed);
-    std::vector<std::uint32_t> list;
-    for (const std::uint32_t polygon : paint_sequence(node.graph.count(), pairs).order) {
-        if (listed.has(polygon)) {
-            list.push_back(polygon);
+    std::vector<std::uint32_t> waits_for(node.graph.count(), 0);
+    for_each_bit(listed.words(), [&](std::size_t a) {
+        for_each_bit(node.graph.row(a), [&](std::size_t b) { ++waits_for[b]; });
+    });
+    std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> ready;
+    const auto release = [&](std::size_t polygon) {
+        if (waits_for[polygon] == 0 && listed.has(polygon)) {
+            ready.push(polygon);
         }
+    };
+    for_each_bit(listed.words(), release);
+    std::vector<std::uint32_t> list;
+    while (!ready.empty()) {
+        const std::size_t next = ready.top();
+        ready.pop();
+        list.push_back(static_cast<std::uint32_t>(next));
+        for_each_bit(node.graph.row(next), [&](std::size_t later) {
+            --waits_for[later];
+            release(later);
+        });
     }
     return list;
 }

@@ -62,7 +62,7 @@ void PlaneJudge::add(const HidingGraph& graph, const std::vector<std::uint32_t>&
     }
 }
 
-void PlaneJudge::sort_members(const Plane& plane) {
+void PlaneJudge::look_at(const Plane& plane) {
     for (Words* sets : {&front_or_on_, &back_or_on_, &unseen_in_front_, &unseen_behind_}) {
         std::ranges::fill(*sets, std::uint64_t{0});
     }
@@ -113,11 +113,12 @@ std::size_t PlaneJudge::ended(const Words& hidden, const Words& hiding, const Wo
     return ended;
 }
 
-PlaneJudge::Left PlaneJudge::left(const Plane& plane) {
-    sort_members(plane);
-    return {
-        edges_ - ended(front_or_on_, back_or_on_, unseen_in_front_),
-        edges_ - ended(back_or_on_, front_or_on_, unseen_behind_)};
+std::size_t PlaneJudge::left_in_front() const {
+    return edges_ - ended(front_or_on_, back_or_on_, unseen_in_front_);
+}
+
+std::size_t PlaneJudge::left_behind() const {
+    return edges_ - ended(back_or_on_, front_or_on_, unseen_behind_);
 }
 
 } // namespace octant::visuals::draworder

@@ -20,13 +20,11 @@ class PlaneJudge {
 public:
     PlaneJudge(const ModelFaces& model, const Cycles& cycles);
 
-    /// Edges of the cycles that a plane leaves on each of its sides, in rings or not.
-    struct Left {
-        std::size_t front = 0;
-        std::size_t back = 0;
-    };
+    void look_at(const Plane& plane);
 
-    Left left(const Plane& plane);
+    /// Edges of the cycles that the plane looked at leaves on one of its sides, in rings or not.
+    std::size_t left_in_front() const;
+    std::size_t left_behind() const;
 
 private:
     /// A polygon, the ball around it, and where its component's words begin.
@@ -43,7 +41,6 @@ private:
     using Words = std::vector<std::uint64_t>;
 
     void add(const HidingGraph& graph, const std::vector<std::uint32_t>& component);
-    void sort_members(const Plane& plane);
     std::size_t ended(const Words& hidden, const Words& hiding, const Words& unseen) const;
 
     const ModelFaces& model_;

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,10 +54,13 @@ public:
     std::size_t tests() const { return tests_; }
 
 private:
-    bool hides(std::size_t b, std::size_t a, const EyeRegion& before_a);
+    bool go_before(const EyeRegion& region, const Face& a);
+    bool hides(std::size_t b, std::size_t a);
 
     const ModelFaces& faces_;
     HidingTest test_;
+    std::optional<EyeRegion> before_a_; ///< what of a region sees A from its front
+    std::vector<glm::dvec4> generators_of_a_;
     std::vector<glm::dvec4> generators_;
     std::size_t tests_ = 0;
 };

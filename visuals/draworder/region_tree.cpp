@@ -39,6 +39,13 @@ struct Choice {
     }
 };
 
+/// A node cut in two.
+struct Fork {
+    Plane plane;
+    EyeNode front;
+    EyeNode back;
+};
+
 Plane reversed(const Plane& plane) {
     return {-plane.normal, -plane.offset_m};
 }
@@ -56,9 +63,9 @@ private:
     std::unique_ptr<Branch> leaf(const EyeNode& node);
     std::vector<Choice> by_sides(const EyeNode& node, const std::vector<Plane>& planes);
     void count_cyclic(const Cycles& cycles, std::vector<Choice>& choices);
-    std::vector<Choice> choices(const EyeNode& node);
-    std::pair<EyeNode, EyeNode> children(const EyeNode& node, const Choice& choice);
-    std::vector<Choice> settle(EyeNode& node);
+    std::optional<Fork> best_fork(const EyeNode& node);
+    Fork fork(const EyeNode& node, const Plane& plane);
+    std::optional<Fork> settle(EyeNode& node);
     double cost(std::size_t front_edges, std::size_t back_edges, std::size_t before) const;
 
     WorkingModel& work_;
@@ -90,9 +97,14 @@ std::vector<Choice> TreeBuilder::by_sides(const EyeNode& node, const std::vector
             !node.region.reaches_front_of(reversed(plane))) {
             continue;
         }
-        const auto [front_edges, back_edges] = judge.left(plane);
-        const double value = cost(front_edges, back_edges, cycles.edges);
-        if (value == HUGE_VAL || (best.size() == search_.closer && value >= best.back().cost)) {
+        const double limit = best.size() == search_.closer ? best.back().cost : HUGE_VAL;
+        judge.look_at(plane);
+        const std::size_t front_edges = judge.left_in_front();
+        if (cost(front_edges, 0, cycles.edges) >= limit) {
+            continue;
+        }
+        const double value = cost(front_edges, judge.left_behind(), cycles.edges);
+        if (value >= limit) {
             continue;
         }
         const Choice choice{plane, value, number};
@@ -119,16 +131,18 @@ void TreeBuilder::count_cyclic(const Cycles& cycles, std::vector<Choice>& choice
     std::sort(choices.begin(), choices.end());
 }
 
-std::pair<EyeNode, EyeNode> TreeBuilder::children(const EyeNode& node, const Choice& choice) {
-    const SideSets sides = sides_of(choice.plane, graphs_.model(), node.cycles.polygons).sets;
+Fork TreeBuilder::fork(const EyeNode& node, const Plane& plane) {
+    const SideSets sides = sides_of(plane, graphs_.model(), node.cycles.polygons).sets;
     const SideSets turned{sides.back_or_on, sides.front_or_on};
     return {
-        part_of(graphs_, node, *node.region.cut(choice.plane), &sides),
-        part_of(graphs_, node, *node.region.cut(reversed(choice.plane)), &turned)};
+        plane,
+        part_of(graphs_, node, *node.region.cut(plane), &sides),
+        part_of(graphs_, node, *node.region.cut(reversed(plane)), &turned)};
 }
 
-/// The planes that promise most, best first; for graphs of some size as judged by sides.
-std::vector<Choice> TreeBuilder::choices(const EyeNode& node) {
+/// By the plane that leaves least on rings; for graphs of some size as judged by sides. Nothing
+/// when no plane makes the node simpler.
+std::optional<Fork> TreeBuilder::best_fork(const EyeNode& node) {
     const Cycles& cycles = node.cycles;
     std::vector<Choice> ranked =
         by_sides(node, candidate_planes(graphs_.model(), cycles.polygons, search_.edge_planes));
@@ -137,18 +151,19 @@ std::vector<Choice> TreeBuilder::choices(const EyeNode& node) {
         const auto ring = shortest_ring(cycles.inner, cycles.polygons);
         ranked = by_sides(node, candidate_planes(graphs_.model(), ring, search_.edge_planes));
     }
-    if (cycles.edges > most_exact_edges || ranked.size() < 2) {
-        return ranked;
+    const std::size_t tried = cycles.edges > most_exact_edges ? 1 : search_.exact;
+    ranked.resize(std::min(tried, ranked.size()));
+    std::optional<Fork> best;
+    Choice least{.plane = {}, .cost = HUGE_VAL, .number = ranked.size()};
+    for (const Choice& choice : ranked) {
+        Fork made = fork(node, choice.plane);
+        const double left = cost(made.front.cycles.edges, made.back.cycles.edges, cycles.edges);
+        if (const Choice exact{choice.plane, left, choice.number}; !best || exact < least) {
+            least = exact;
+            best = std::move(made);
+        }
     }
-    ranked.erase(
-        ranked.begin() + static_cast<std::ptrdiff_t>(std::min(search_.exact, ranked.size())),
-        ranked.end());
-    for (Choice& choice : ranked) {
-        const auto [front, back] = children(node, choice);
-        choice.cost = cost(front.cycles.edges, back.cycles.edges, cycles.edges);
-    }
-    std::sort(ranked.begin(), ranked.end());
-    return ranked;
+    return best;
 }
 
 std::unique_ptr<Branch> TreeBuilder::leaf(const EyeNode& node) {
@@ -162,14 +177,13 @@ std::unique_ptr<Branch> TreeBuilder::leaf(const EyeNode& node) {
 }
 
 /// Splits polygons until an eye in the middle of the node meets no ring, and some plane makes it
-/// simpler. No choices if none is needed any more.
-std::vector<Choice> TreeBuilder::settle(EyeNode& node) {
+/// simpler. No fork if none is needed any more.
+std::optional<Fork> TreeBuilder::settle(EyeNode& node) {
     while (node.cycles.edges > 0) {
         std::optional<Deadlock> deadlock = ring_at_eye(graphs_, node);
         if (!deadlock) {
-            std::vector<Choice> ranked = choices(node);
-            if (!ranked.empty()) {
-                return ranked;
+            if (auto fork = best_fork(node)) {
+                return fork;
             }
             deadlock = Deadlock{node.cycles.components.front(), node.region, std::nullopt};
         }
@@ -177,7 +191,7 @@ std::vector<Choice> TreeBuilder::settle(EyeNode& node) {
         work_.catch_up(node);
         node = part_of(graphs_, node, node.region);
     }
-    return {};
+    return std::nullopt;
 }
 
 std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
@@ -190,15 +204,14 @@ std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
     if (work_.catch_up(node)) {
         node = part_of(graphs_, node, node.region);
     }
-    const std::vector<Choice> ranked = settle(node);
-    if (ranked.empty()) {
+    std::optional<Fork> fork = settle(node);
+    if (!fork) {
         return leaf(node);
     }
-    auto [front, back] = children(node, ranked.front());
     auto out = std::make_unique<Branch>();
-    out->plane = ranked.front().plane;
-    out->front = grow(std::move(front), depth + 1);
-    out->back = grow(std::move(back), depth + 1);
+    out->plane = fork->plane;
+    out->front = grow(std::move(fork->front), depth + 1);
+    out->back = grow(std::move(fork->back), depth + 1);
     return out;
 }
 
