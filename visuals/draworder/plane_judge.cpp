@@ -12,6 +12,8 @@ namespace octant::visuals::draworder {
 
 namespace {
 
+constexpr std::size_t most_rows = 192;
+
 bool has(const std::vector<std::uint64_t>& words, std::size_t first_word, std::size_t bit) {
     return ((words[first_word + bit / 64] >> (bit % 64)) & 1U) != 0;
 }
@@ -45,6 +47,7 @@ PlaneJudge::PlaneJudge(const ModelFaces& model, const Cycles& cycles)
 
 void PlaneJudge::add(const HidingGraph& graph, const std::vector<std::uint32_t>& component) {
     const std::size_t words = (component.size() + 63) / 64;
+    const std::size_t step = component.size() / most_rows + 1;
     const std::size_t first_word = front_or_on_.size();
     for (Words* sets : {&front_or_on_, &back_or_on_, &unseen_in_front_, &unseen_behind_}) {
         sets->resize(first_word + words, 0);
@@ -52,7 +55,11 @@ void PlaneJudge::add(const HidingGraph& graph, const std::vector<std::uint32_t>&
     for (std::size_t bit = 0; bit < component.size(); ++bit) {
         const std::uint32_t polygon = component[bit];
         const auto [middle, radius] = ball_around(model_.faces[polygon].corners);
-        members_.push_back({polygon, middle, radius, first_word, bit, rows_.size(), words});
+        const std::size_t weight = bit % step == 0 ? step : 0;
+        members_.push_back({polygon, middle, radius, first_word, bit, rows_.size(), words, weight});
+        if (weight == 0) {
+            continue;
+        }
         rows_.resize(rows_.size() + words, 0);
         for (std::size_t other = 0; other < component.size(); ++other) {
             if (graph.hides(component[other], polygon)) {
@@ -89,16 +96,19 @@ void PlaneJudge::look_at(const Plane& plane) {
     }
 }
 
-/// Edges that end on one side of a plane.
-std::size_t PlaneJudge::ended(const Words& hidden, const Words& hiding, const Words& unseen) const {
+/// Edges that do not end on one side of a plane.
+std::size_t PlaneJudge::left(const Words& hidden, const Words& hiding, const Words& unseen) const {
     std::size_t ended = 0;
     Words mask;
     for (const Member& member : members_) {
         const auto row = std::span(rows_).subspan(member.first_row_word, member.words);
+        if (member.weight == 0) {
+            continue;
+        }
         const bool parted = has(hidden, member.first_word, member.bit);
         if (!some_unseen_) {
             const auto others = std::span(hiding).subspan(member.first_word, member.words);
-            ended += parted ? count_common(row, others) : 0;
+            ended += parted ? member.weight * count_common(row, others) : 0;
             continue;
         }
         const bool gone = has(unseen, member.first_word, member.bit);
@@ -108,17 +118,17 @@ std::size_t PlaneJudge::ended(const Words& hidden, const Words& hiding, const Wo
             mask[word] =
                 gone ? ~std::uint64_t{0} : unseen[at] | (parted ? hiding[at] : std::uint64_t{0});
         }
-        ended += count_common(row, mask);
+        ended += member.weight * count_common(row, mask);
     }
-    return ended;
+    return edges_ - std::min(ended, edges_);
 }
 
 std::size_t PlaneJudge::left_in_front() const {
-    return edges_ - ended(front_or_on_, back_or_on_, unseen_in_front_);
+    return left(front_or_on_, back_or_on_, unseen_in_front_);
 }
 
 std::size_t PlaneJudge::left_behind() const {
-    return edges_ - ended(back_or_on_, front_or_on_, unseen_behind_);
+    return left(back_or_on_, front_or_on_, unseen_behind_);
 }
 
 } // namespace octant::visuals::draworder

@@ -15,7 +15,8 @@ namespace octant::visuals::draworder {
 
 /// Judges planes by what they leave of the edges on cycles, from where polygons lie to them alone:
 /// quickly, so that thousands can be looked at. Holds each component's edges in rows of its own, so
-/// that small components of large models cost little. Keeps a reference to the faces.
+/// that small components of large models cost little; of large components it looks at some rows
+/// only, evenly spread, which stand for all. Keeps a reference to the faces.
 class PlaneJudge {
 public:
     PlaneJudge(const ModelFaces& model, const Cycles& cycles);
@@ -36,12 +37,13 @@ private:
         std::size_t bit = 0; ///< from the first word on
         std::size_t first_row_word = 0;
         std::size_t words = 0;
+        std::size_t weight = 0; ///< how many rows its row stands for
     };
 
     using Words = std::vector<std::uint64_t>;
 
     void add(const HidingGraph& graph, const std::vector<std::uint32_t>& component);
-    std::size_t ended(const Words& hidden, const Words& hiding, const Words& unseen) const;
+    std::size_t left(const Words& hidden, const Words& hiding, const Words& unseen) const;
 
     const ModelFaces& model_;
     std::vector<Member> members_;

@@ -2,6 +2,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+
 namespace octant::visuals::draworder {
 
 namespace {
@@ -25,7 +27,6 @@ bool RegionGraphs::go_before(const EyeRegion& region, const Face& a) {
 /// Asks first whether B hides part of A for those corners of the region alone that lie before B:
 /// it often does, and the region need not be cut.
 bool RegionGraphs::hides(std::size_t b, std::size_t a) {
-    ++tests_;
     const Face& near_one = faces_.faces[b];
     const Face& far_one = faces_.faces[a];
     if (!near_one.plane) {
@@ -33,12 +34,15 @@ bool RegionGraphs::hides(std::size_t b, std::size_t a) {
     }
     const glm::dvec4 front(near_one.plane->normal, near_one.plane->offset_m);
     generators_.clear();
+    double highest = 0.0;
     for (const glm::dvec4& generator : generators_of_a_) {
-        if (glm::dot(front, generator) >= 0.0) {
+        const double height = glm::dot(front, generator);
+        highest = std::max(highest, height);
+        if (height >= 0.0) {
             generators_.push_back(generator);
         }
     }
-    if (!before_a_->reaches_front_of(*near_one.plane)) {
+    if (highest <= EyeRegion::on_plane) {
         return false;
     }
     if (test_.hides(near_one, far_one, generators_)) {
@@ -103,7 +107,6 @@ HidingGraph RegionGraphs::at_eye(
             continue;
         }
         for_each_bit(parent.row(a), [&](std::size_t b) {
-            ++tests_;
             const bool hidden =
                 faces_eye(b) &&
                 (faces_.rigid.hides(b, a) || test_.hides(faces_.faces[b], faces_.faces[a], eyes));

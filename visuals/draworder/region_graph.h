@@ -21,7 +21,7 @@ struct SideSets {
 };
 
 /// Builds the hiding graphs of a model's faces over regions of eye space. Keeps a reference to the
-/// faces. Counts its work, so that searches can be bounded alike on every machine.
+/// faces. Reuses its storage.
 class RegionGraphs {
 public:
     explicit RegionGraphs(const ModelFaces& faces)
@@ -50,9 +50,6 @@ public:
     /// Polygons that face some eye of a region.
     PolygonSet listed(const EyeRegion& region) const;
 
-    /// Hiding tests made so far.
-    std::size_t tests() const { return tests_; }
-
 private:
     bool go_before(const EyeRegion& region, const Face& a);
     bool hides(std::size_t b, std::size_t a);
@@ -62,7 +59,6 @@ private:
     std::optional<EyeRegion> before_a_; ///< what of a region sees A from its front
     std::vector<glm::dvec4> generators_of_a_;
     std::vector<glm::dvec4> generators_;
-    std::size_t tests_ = 0;
 };
 
 } // namespace octant::visuals::draworder

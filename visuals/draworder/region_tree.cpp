@@ -3,12 +3,15 @@
 #include "sim/base/error.h"
 #include "visuals/draworder/candidate_planes.h"
 #include "visuals/draworder/components.h"
+#include "visuals/draworder/parallel.h"
 #include "visuals/draworder/plane_judge.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace octant::visuals::draworder {
@@ -18,6 +21,8 @@ namespace {
 /// Graphs with more edges are judged by sides alone.
 constexpr std::size_t most_exact_edges = 4'000;
 constexpr std::size_t most_depth = 100;
+/// How many times as many planes are tried where the first lead nowhere.
+constexpr std::size_t more_planes = 16;
 
 /// A cell to be, or a cut.
 struct Branch {
@@ -50,6 +55,11 @@ Plane reversed(const Plane& plane) {
     return {-plane.normal, -plane.offset_m};
 }
 
+/// Whether its work is worth a second thread.
+bool is_large(const EyeNode& node) {
+    return node.cycles.edges > 500;
+}
+
 class TreeBuilder {
 public:
     TreeBuilder(WorkingModel& work, const TreeSearch& search)
@@ -61,17 +71,19 @@ public:
 
 private:
     std::unique_ptr<Branch> leaf(const EyeNode& node);
-    std::vector<Choice> by_sides(const EyeNode& node, const std::vector<Plane>& planes);
-    void count_cyclic(const Cycles& cycles, std::vector<Choice>& choices);
-    std::optional<Fork> best_fork(const EyeNode& node);
-    Fork fork(const EyeNode& node, const Plane& plane);
+    std::vector<Choice>
+    by_sides(const EyeNode& node, std::span<const Plane> planes, std::size_t first_number) const;
+    std::vector<Choice> by_rings(const EyeNode& node, std::span<const Choice> choices) const;
+    std::vector<Choice> ranked(const EyeNode& node, std::span<const Plane> planes) const;
+    std::optional<Fork> best_fork(const EyeNode& node) const;
+    Fork fork(const EyeNode& node, const Plane& plane) const;
     std::optional<Fork> settle(EyeNode& node);
     double cost(std::size_t front_edges, std::size_t back_edges, std::size_t before) const;
+    double little_gain(std::size_t before) const;
 
     WorkingModel& work_;
     RegionGraphs graphs_;
     const TreeSearch& search_;
-    CyclicEdges cyclic_;
     std::size_t entries_ = 0;
 };
 
@@ -85,14 +97,20 @@ TreeBuilder::cost(std::size_t front_edges, std::size_t back_edges, std::size_t b
            std::pow(static_cast<double>(back_edges), search_.power);
 }
 
-/// The planes that leave least on both sides, as judged by sides and then by what stays on rings.
-std::vector<Choice> TreeBuilder::by_sides(const EyeNode& node, const std::vector<Plane>& planes) {
+/// The cost of a plane that leaves nearly all on both sides.
+double TreeBuilder::little_gain(std::size_t before) const {
+    const std::size_t left = before - before / 16;
+    return cost(left, left, before + 1);
+}
+
+/// The best of some planes, as judged by sides. The first has a number that tells equals apart.
+std::vector<Choice> TreeBuilder::by_sides(
+    const EyeNode& node, std::span<const Plane> planes, std::size_t first_number) const {
     const Cycles& cycles = node.cycles;
-    PlaneJudge judge(graphs_.model(), cycles);
+    PlaneJudge judge(work_.faces, cycles);
     std::vector<Choice> best;
-    std::size_t number = 0;
-    for (const Plane& plane : planes) {
-        ++number;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const Plane& plane = planes[i];
         if (!node.region.reaches_front_of(plane) ||
             !node.region.reaches_front_of(reversed(plane))) {
             continue;
@@ -107,55 +125,89 @@ std::vector<Choice> TreeBuilder::by_sides(const EyeNode& node, const std::vector
         if (value >= limit) {
             continue;
         }
-        const Choice choice{plane, value, number};
+        const Choice choice{plane, value, first_number + i};
         best.insert(std::upper_bound(best.begin(), best.end(), choice), choice);
         if (best.size() > search_.closer) {
             best.pop_back();
         }
     }
-    count_cyclic(cycles, best);
     return best;
 }
 
-/// Judges choices by what stays on rings, and sorts them.
-void TreeBuilder::count_cyclic(const Cycles& cycles, std::vector<Choice>& choices) {
-    for (Choice& choice : choices) {
-        const PlaneSides sides = sides_of(choice.plane, graphs_.model(), cycles.polygons);
+/// Judges choices by what stays on rings.
+std::vector<Choice>
+TreeBuilder::by_rings(const EyeNode& node, std::span<const Choice> choices) const {
+    const Cycles& cycles = node.cycles;
+    CyclicEdges rings;
+    std::vector<Choice> out(choices.begin(), choices.end());
+    for (Choice& choice : out) {
+        const PlaneSides sides = sides_of(choice.plane, work_.faces, cycles.polygons);
         const auto& [front, back] = sides.sets;
         const auto front_edges =
-            cyclic_.count(cycles.inner, cycles.polygons, back, front, sides.unseen_in_front);
+            rings.count(cycles.inner, cycles.polygons, back, front, sides.unseen_in_front);
         const auto back_edges =
-            cyclic_.count(cycles.inner, cycles.polygons, front, back, sides.unseen_behind);
+            rings.count(cycles.inner, cycles.polygons, front, back, sides.unseen_behind);
         choice.cost = cost(front_edges, back_edges, cycles.edges);
     }
-    std::sort(choices.begin(), choices.end());
+    return out;
 }
 
-Fork TreeBuilder::fork(const EyeNode& node, const Plane& plane) {
-    const SideSets sides = sides_of(plane, graphs_.model(), node.cycles.polygons).sets;
+/// The planes that leave least on rings, as judged by where polygons lie, best first.
+std::vector<Choice> TreeBuilder::ranked(const EyeNode& node, std::span<const Plane> planes) const {
+    const bool large = is_large(node);
+    const std::size_t half = planes.size() / 2;
+    auto [choices, others] = both(
+        large,
+        [&] { return by_sides(node, planes.first(half), 0); },
+        [&] { return by_sides(node, planes.subspan(half), half); });
+    choices.insert(choices.end(), others.begin(), others.end());
+    std::sort(choices.begin(), choices.end());
+    choices.resize(std::min(search_.closer, choices.size()));
+    const std::size_t middle = choices.size() / 2;
+    const std::span<const Choice> all(choices);
+    auto [judged, rest] = both(
+        large,
+        [&] { return by_rings(node, all.first(middle)); },
+        [&] { return by_rings(node, all.subspan(middle)); });
+    judged.insert(judged.end(), rest.begin(), rest.end());
+    std::sort(judged.begin(), judged.end());
+    return judged;
+}
+
+Fork TreeBuilder::fork(const EyeNode& node, const Plane& plane) const {
+    const SideSets sides = sides_of(plane, work_.faces, node.cycles.polygons).sets;
     const SideSets turned{sides.back_or_on, sides.front_or_on};
-    return {
-        plane,
-        part_of(graphs_, node, *node.region.cut(plane), &sides),
-        part_of(graphs_, node, *node.region.cut(reversed(plane)), &turned)};
+    const auto part = [&](const Plane& before, const SideSets& sets) {
+        RegionGraphs graphs(work_.faces);
+        return part_of(graphs, node, *node.region.cut(before), &sets);
+    };
+    auto [front, back] = both(
+        is_large(node),
+        [&] { return part(plane, sides); },
+        [&] { return part(reversed(plane), turned); });
+    return {plane, std::move(front), std::move(back)};
 }
 
 /// By the plane that leaves least on rings; for graphs of some size as judged by sides. Nothing
 /// when no plane makes the node simpler.
-std::optional<Fork> TreeBuilder::best_fork(const EyeNode& node) {
+std::optional<Fork> TreeBuilder::best_fork(const EyeNode& node) const {
     const Cycles& cycles = node.cycles;
-    std::vector<Choice> ranked =
-        by_sides(node, candidate_planes(graphs_.model(), cycles.polygons, search_.edge_planes));
-    if (ranked.empty()) {
+    const auto of_planes = [&](std::span<const std::uint32_t> among, std::size_t most) {
+        return ranked(node, candidate_planes(work_.faces, among, most));
+    };
+    std::vector<Choice> choices = of_planes(cycles.polygons, search_.edge_planes);
+    if (choices.empty() || choices.front().cost > little_gain(cycles.edges)) {
+        choices = of_planes(cycles.polygons, more_planes * search_.edge_planes);
+    }
+    if (choices.empty()) {
         // Of many polygons not all planes were made. Those of one ring end it in time.
-        const auto ring = shortest_ring(cycles.inner, cycles.polygons);
-        ranked = by_sides(node, candidate_planes(graphs_.model(), ring, search_.edge_planes));
+        choices = of_planes(shortest_ring(cycles.inner, cycles.polygons), search_.edge_planes);
     }
     const std::size_t tried = cycles.edges > most_exact_edges ? 1 : search_.exact;
-    ranked.resize(std::min(tried, ranked.size()));
+    choices.resize(std::min(tried, choices.size()));
     std::optional<Fork> best;
-    Choice least{.plane = {}, .cost = HUGE_VAL, .number = ranked.size()};
-    for (const Choice& choice : ranked) {
+    Choice least{.plane = {}, .cost = HUGE_VAL, .number = choices.size()};
+    for (const Choice& choice : choices) {
         Fork made = fork(node, choice.plane);
         const double left = cost(made.front.cycles.edges, made.back.cycles.edges, cycles.edges);
         if (const Choice exact{choice.plane, left, choice.number}; !best || exact < least) {
