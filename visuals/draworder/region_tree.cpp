@@ -20,7 +20,6 @@ namespace {
 
 /// Graphs with more edges are judged by sides alone.
 constexpr std::size_t most_exact_edges = 4'000;
-constexpr std::size_t most_depth = 100;
 /// How many times as many planes are tried where the first lead nowhere.
 constexpr std::size_t more_planes = 16;
 
@@ -247,11 +246,11 @@ std::optional<Fork> TreeBuilder::settle(EyeNode& node) {
 }
 
 std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
-    if (depth == most_depth) {
+    if (depth == search_.most_depth) {
         throw Error(fmt::format(
             "expected a model with painting orders, got one of {} polygons that no {} planes order",
             node.graph.count(),
-            most_depth));
+            search_.most_depth));
     }
     if (work_.catch_up(node)) {
         node = part_of(graphs_, node, node.region);
