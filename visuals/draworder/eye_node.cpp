@@ -33,17 +33,20 @@ EyeNode eye_node(RegionGraphs& graphs, const EyeRegion& region) {
 }
 
 EyeNode part_of(RegionGraphs& graphs, const EyeNode& node, EyeRegion part, const SideSets* sides) {
+    const HidingGraph& inner = node.cycles.inner;
     const auto& among = node.cycles.polygons;
-    const HidingGraph left = graphs.surviving(part, node.cycles.inner, among, sides);
+    const HidingGraph unparted = sides != nullptr ? graphs.not_parted(inner, among, *sides) : inner;
+    const Cycles tested = sides != nullptr ? cycles_of(unparted, among) : node.cycles;
+    const HidingGraph left = graphs.surviving(part, tested.inner, tested.polygons);
     HidingGraph graph = node.graph;
     for (const std::uint32_t a : among) {
-        const auto inner = node.cycles.inner.row(a);
         const auto row = graph.row(a);
         for (std::size_t word = 0; word < row.size(); ++word) {
-            row[word] = (row[word] & ~inner[word]) | left.row(a)[word];
+            const std::uint64_t off_rings = unparted.row(a)[word] & ~tested.inner.row(a)[word];
+            row[word] = (row[word] & ~inner.row(a)[word]) | off_rings | left.row(a)[word];
         }
     }
-    return {std::move(part), std::move(graph), cycles_of(left, among)};
+    return {std::move(part), std::move(graph), cycles_of(left, tested.polygons)};
 }
 
 std::optional<Deadlock> ring_at_eye(RegionGraphs& graphs, const EyeNode& node) {

@@ -74,22 +74,33 @@ HidingGraph RegionGraphs::all(const EyeRegion& region) {
 }
 
 HidingGraph RegionGraphs::surviving(
-    const EyeRegion& region,
-    const HidingGraph& parent,
-    std::span<const std::uint32_t> among,
-    const SideSets* sides) {
+    const EyeRegion& region, const HidingGraph& parent, std::span<const std::uint32_t> among) {
     HidingGraph graph(parent.count());
     for (const std::uint32_t a : among) {
         if (!go_before(region, faces_.faces[a])) {
             continue;
         }
-        const bool a_before = sides != nullptr && sides->front_or_on.has(a);
         for_each_bit(parent.row(a), [&](std::size_t b) {
-            const bool parted = a_before && sides->back_or_on.has(b);
-            if (faces_.rigid.hides(b, a) || (!parted && hides(b, a))) {
+            if (faces_.rigid.hides(b, a) || hides(b, a)) {
                 graph.add(b, a);
             }
         });
+    }
+    return graph;
+}
+
+HidingGraph RegionGraphs::not_parted(
+    const HidingGraph& parent, std::span<const std::uint32_t> among, const SideSets& sides) const {
+    HidingGraph graph(parent.count());
+    for (const std::uint32_t a : among) {
+        const auto from = parent.row(a);
+        const auto rigid = faces_.rigid.row(a);
+        const auto parted = sides.back_or_on.words();
+        const std::uint64_t before = sides.front_or_on.has(a) ? ~std::uint64_t{0} : 0;
+        const auto to = graph.row(a);
+        for (std::size_t word = 0; word < to.size(); ++word) {
+            to[word] = from[word] & (rigid[word] | ~(parted[word] & before));
+        }
     }
     return graph;
 }

@@ -34,16 +34,18 @@ public:
     HidingGraph all(const EyeRegion& region);
 
     /// Of the pairs of `parent`, a graph of a region that holds this one, those of this region: a
-    /// pair that hides nothing in a region hides nothing in a part of it. Rows of `among` only. If
-    /// the region lies in front of a plane, `sides` of that plane save tests: what lies behind or
-    /// on it hides nothing that lies before or on it.
+    /// pair that hides nothing in a region hides nothing in a part of it. Rows of `among` only.
     HidingGraph surviving(
-        const EyeRegion& region,
+        const EyeRegion& region, const HidingGraph& parent, std::span<const std::uint32_t> among);
+
+    /// What the place of polygons alone leaves of them before a plane: what lies behind or on it
+    /// hides nothing that lies before or on it. Rows of `among` only.
+    HidingGraph not_parted(
         const HidingGraph& parent,
         std::span<const std::uint32_t> among,
-        const SideSets* sides = nullptr);
+        const SideSets& sides) const;
 
-    /// The same for one eye.
+    /// The surviving pairs for one eye.
     HidingGraph
     at_eye(const glm::dvec3& eye, const HidingGraph& parent, std::span<const std::uint32_t> among);
 
