@@ -64,20 +64,26 @@ Outlines outlines_of(const ModelFaces& model, std::span<const std::uint32_t> amo
     return out;
 }
 
-void add_axis_planes(std::vector<Plane>& planes, const Outlines& outlines) {
-    for (int axis = 0; axis < 3; ++axis) {
+/// How far to go on so as to take about `most` of so many.
+std::size_t stride(std::size_t all, std::size_t most) {
+    return all / most + 1;
+}
+
+std::vector<Plane> axis_planes_of(const Outlines& outlines, std::size_t most) {
+    std::vector<Plane> planes;
+    const std::size_t all = 3 * outlines.corners.size();
+    for (std::size_t i = 0; i < all; i += stride(all, most)) {
+        const auto axis = static_cast<int>(i / outlines.corners.size());
         glm::dvec3 normal(0.0);
         normal[axis] = 1.0;
-        for (const glm::dvec3& corner : outlines.corners) {
-            planes.push_back({normal, -corner[axis]});
-        }
+        planes.push_back({normal, -outlines.corners[i % outlines.corners.size()][axis]});
     }
+    return planes;
 }
 
 void add_edge_planes(std::vector<Plane>& planes, const Outlines& outlines, std::size_t most) {
     const std::size_t all = outlines.edges.size() * outlines.corners.size();
-    const std::size_t step = all / most + 1;
-    for (std::size_t i = 0; i < all; i += step) {
+    for (std::size_t i = 0; i < all; i += stride(all, most)) {
         const Edge& edge = outlines.edges[i / outlines.corners.size()];
         const glm::dvec3& corner = outlines.corners[i % outlines.corners.size()];
         const glm::dvec3& from = outlines.corners[edge.first];
@@ -132,10 +138,14 @@ std::vector<Plane> each_once(const std::vector<Plane>& planes) {
 } // namespace
 
 std::vector<Plane>
+axis_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most) {
+    return each_once(axis_planes_of(outlines_of(model, among), most));
+}
+
+std::vector<Plane>
 candidate_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most) {
     const Outlines outlines = outlines_of(model, among);
-    std::vector<Plane> planes;
-    add_axis_planes(planes, outlines);
+    std::vector<Plane> planes = axis_planes_of(outlines, 2 * most);
     for (const std::uint32_t polygon : among) {
         if (model.faces[polygon].plane) {
             planes.push_back(*model.faces[polygon].plane);
@@ -145,21 +155,23 @@ candidate_planes(const ModelFaces& model, std::span<const std::uint32_t> among, 
     return each_once(planes);
 }
 
+FaceSide side_of(const Plane& plane, const Face& face, double on_plane) {
+    double least = on_plane;
+    double largest = -on_plane;
+    for (const glm::dvec3& corner : face.corners) {
+        const double height = distance_m(plane, corner);
+        least = std::min(least, height);
+        largest = std::max(largest, height);
+    }
+    return {least >= -on_plane, largest <= on_plane};
+}
+
 PlaneSides
 sides_of(const Plane& plane, const ModelFaces& model, std::span<const std::uint32_t> among) {
     PlaneSides sides(model.faces.size());
-    const double on = model.tolerances.on_plane;
     for (const std::uint32_t polygon : among) {
         const Face& face = model.faces[polygon];
-        double least = on;
-        double largest = -on;
-        for (const glm::dvec3& corner : face.corners) {
-            const double height = distance_m(plane, corner);
-            least = std::min(least, height);
-            largest = std::max(largest, height);
-        }
-        const bool before = least >= -on;
-        const bool behind = largest <= on;
+        const auto [before, behind] = side_of(plane, face, model.tolerances.on_plane);
         if (before) {
             sides.sets.front_or_on.add(polygon);
         }

@@ -14,6 +14,8 @@ namespace octant::visuals::draworder {
 
 namespace {
 
+constexpr std::size_t most_axis_planes = 3'000;
+
 std::size_t left_on_rings(const Plane& plane, const WorkingModel& work, const Cycles& cycles) {
     const PlaneSides sides = sides_of(plane, work.faces, cycles.polygons);
     const auto& [front, back] = sides.sets;
@@ -29,7 +31,7 @@ glm::dvec3 best_coordinates(const WorkingModel& work, const Cycles& cycles) {
         glm::dvec3 normal(0.0);
         normal[axis] = 1.0;
         std::size_t fewest = left_on_rings({normal, 0.0}, work, cycles);
-        for (const Plane& plane : candidate_planes(work.faces, cycles.polygons, 1)) {
+        for (const Plane& plane : axis_planes(work.faces, cycles.polygons, most_axis_planes)) {
             if (plane.normal != normal) {
                 continue;
             }

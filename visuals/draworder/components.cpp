@@ -1,5 +1,7 @@
 #include "visuals/draworder/components.h"
 
+#include "visuals/draworder/bit_count.h"
+
 #include <algorithm>
 #include <bit>
 #include <numeric>
@@ -27,9 +29,9 @@ void CyclicEdges::close(std::uint32_t polygon) {
         }
         for (auto it = first; it != open_.end(); ++it) {
             for (std::size_t word = 0; word < members_.size(); ++word) {
-                edges_ +=
-                    static_cast<std::size_t>(std::popcount(row_word(*it, word) & members_[word]));
+                row_[word] = row_word(*it, word);
             }
+            edges_ += count_common(row_, members_);
         }
     }
     for (auto it = first; it != open_.end(); ++it) {
@@ -86,6 +88,7 @@ std::size_t CyclicEdges::count(
     const std::size_t words = hiding.words().size();
     allowed_.assign(words, 0);
     members_.assign(words, 0);
+    row_.assign(words, 0);
     number_.resize(graph.count());
     low_.resize(graph.count());
     component_.resize(graph.count());

@@ -64,6 +64,7 @@ private:
     std::vector<std::uint32_t> low_;
     std::vector<std::uint32_t> component_;
     std::vector<std::uint64_t> members_;
+    std::vector<std::uint64_t> row_;
     std::vector<std::uint32_t> open_;
     std::vector<Visit> visits_;
     std::uint32_t next_number_ = 0;

@@ -3,6 +3,8 @@
 #include "sim/base/error.h"
 
 #include <fmt/format.h>
+#include <functional>
+#include <queue>
 #include <utility>
 
 namespace octant::visuals::draworder {
@@ -31,17 +33,20 @@ EyeNode eye_node(RegionGraphs& graphs, const EyeRegion& region) {
 }
 
 EyeNode part_of(RegionGraphs& graphs, const EyeNode& node, EyeRegion part, const SideSets* sides) {
+    const HidingGraph& inner = node.cycles.inner;
     const auto& among = node.cycles.polygons;
-    const HidingGraph left = graphs.surviving(part, node.cycles.inner, among, sides);
+    const HidingGraph unparted = sides != nullptr ? graphs.not_parted(inner, among, *sides) : inner;
+    const Cycles tested = sides != nullptr ? cycles_of(unparted, among) : node.cycles;
+    const HidingGraph left = graphs.surviving(part, tested.inner, tested.polygons);
     HidingGraph graph = node.graph;
     for (const std::uint32_t a : among) {
-        const auto inner = node.cycles.inner.row(a);
         const auto row = graph.row(a);
         for (std::size_t word = 0; word < row.size(); ++word) {
-            row[word] = (row[word] & ~inner[word]) | left.row(a)[word];
+            const std::uint64_t off_rings = unparted.row(a)[word] & ~tested.inner.row(a)[word];
+            row[word] = (row[word] & ~inner.row(a)[word]) | off_rings | left.row(a)[word];
         }
     }
-    return {std::move(part), std::move(graph), cycles_of(left, among)};
+    return {std::move(part), std::move(graph), cycles_of(left, tested.polygons)};
 }
 
 std::optional<Deadlock> ring_at_eye(RegionGraphs& graphs, const EyeNode& node) {
@@ -56,12 +61,26 @@ std::optional<Deadlock> ring_at_eye(RegionGraphs& graphs, const EyeNode& node) {
 
 std::vector<std::uint32_t> list_of(const RegionGraphs& graphs, const EyeNode& node) {
     const PolygonSet listed = graphs.listed(node.region);
-    const auto pairs = node.graph.precedences(listed);
-    std::vector<std::uint32_t> list;
-    for (const std::uint32_t polygon : paint_sequence(node.graph.count(), pairs).order) {
-        if (listed.has(polygon)) {
-            list.push_back(polygon);
+    std::vector<std::uint32_t> waits_for(node.graph.count(), 0);
+    for_each_bit(listed.words(), [&](std::size_t a) {
+        for_each_bit(node.graph.row(a), [&](std::size_t b) { ++waits_for[b]; });
+    });
+    std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> ready;
+    const auto release = [&](std::size_t polygon) {
+        if (waits_for[polygon] == 0 && listed.has(polygon)) {
+            ready.push(polygon);
         }
+    };
+    for_each_bit(listed.words(), release);
+    std::vector<std::uint32_t> list;
+    while (!ready.empty()) {
+        const std::size_t next = ready.top();
+        ready.pop();
+        list.push_back(static_cast<std::uint32_t>(next));
+        for_each_bit(node.graph.row(next), [&](std::size_t later) {
+            --waits_for[later];
+            release(later);
+        });
     }
     return list;
 }

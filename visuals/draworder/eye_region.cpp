@@ -17,13 +17,24 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-constexpr double on_plane = 1e-10;
-
 glm::dvec4 front_of(const Plane& plane) {
     return {plane.normal, plane.offset_m};
 }
 
 } // namespace
+
+EyeRegion::Facets EyeRegion::Facets::operator&(const Facets& other) const {
+    Facets both;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        both.words[i] = words[i] & other.words[i];
+    }
+    return both;
+}
+
+bool EyeRegion::Facets::more_than_one() const {
+    const auto [low, high] = words;
+    return (low != 0 && high != 0) || (low & (low - 1)) != 0 || (high & (high - 1)) != 0;
+}
 
 EyeRegion EyeRegion::everywhere() {
     EyeRegion all;
@@ -92,11 +103,11 @@ EyeRegion EyeRegion::cut_across_line(const glm::dvec4& front, std::size_t line) 
     }
     Ray added{inward, {}};
     for (std::size_t facet = 0; facet < facets_.size(); ++facet) {
-        added.on.set(facet);
+        added.on.add(facet);
     }
     for (Ray& ray : out.rays_) {
         ray.at = slid(ray.at);
-        ray.on.set(facets_.size());
+        ray.on.add(facets_.size());
     }
     out.rays_.push_back(added);
     out.facets_.push_back(front);
@@ -106,7 +117,9 @@ EyeRegion EyeRegion::cut_across_line(const glm::dvec4& front, std::size_t line) 
 /// Two rays of a cone span an edge of it unless a third lies on all facets that both lie on.
 bool EyeRegion::adjacent(std::size_t a, std::size_t b) const {
     const Facets both = rays_[a].on & rays_[b].on;
-    if (both.count() + lines_.size() + 2 < 4) {
+    const bool share_enough =
+        lines_.empty() ? both.more_than_one() : lines_.size() > 1 || both.any();
+    if (!share_enough) {
         return false;
     }
     for (std::size_t i = 0; i < rays_.size(); ++i) {
@@ -127,15 +140,17 @@ EyeRegion EyeRegion::cut_rays(const glm::dvec4& front, const std::vector<double>
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         if (heights[i] >= -on_plane) {
             out.rays_.push_back(rays_[i]);
-            out.rays_.back().on.set(facets_.size(), heights[i] <= on_plane);
+            if (heights[i] <= on_plane) {
+                out.rays_.back().on.add(facets_.size());
+            }
         }
     }
     for (std::size_t i = 0; i < rays_.size(); ++i) {
-        for (std::size_t j = 0; j < rays_.size(); ++j) {
-            if (heights[i] > on_plane && heights[j] < -on_plane && adjacent(i, j)) {
+        for (std::size_t j = 0; heights[i] > on_plane && j < rays_.size(); ++j) {
+            if (heights[j] < -on_plane && adjacent(i, j)) {
                 const glm::dvec4 at = rays_[j].at * heights[i] - rays_[i].at * heights[j];
                 Ray added{glm::normalize(at), rays_[i].on & rays_[j].on};
-                added.on.set(facets_.size());
+                added.on.add(facets_.size());
                 out.rays_.push_back(added);
             }
         }
@@ -169,7 +184,7 @@ std::vector<Plane> EyeRegion::planes() const {
         for (std::size_t other = 0; other < facets_.size() && kept[i]; ++other) {
             bool within = other != i && kept[other];
             for (const Ray& ray : rays_) {
-                within = within && (!ray.on[i] || ray.on[other]);
+                within = within && (!ray.on.has(i) || ray.on.has(other));
             }
             kept[i] = !within;
         }

@@ -5,8 +5,9 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include <bitset>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,9 @@ class EyeRegion {
 public:
     /// How many planes a region can have been cut by.
     static constexpr std::size_t most_planes = 126;
+
+    /// What is no higher above a plane, or no deeper below it, counts as on it.
+    static constexpr double on_plane = 1e-10;
 
     /// All of space.
     static EyeRegion everywhere();
@@ -44,7 +48,23 @@ public:
     std::vector<Plane> planes() const;
 
 private:
-    using Facets = std::bitset<most_planes + 2>;
+    /// A set of facets.
+    struct Facets {
+        std::array<std::uint64_t, (most_planes + 2) / 64> words{};
+
+        bool has(std::size_t facet) const {
+            return ((words[facet / 64] >> (facet % 64)) & 1U) != 0;
+        }
+
+        void add(std::size_t facet) { words[facet / 64] |= std::uint64_t{1} << (facet % 64); }
+
+        Facets operator&(const Facets& other) const;
+        bool operator==(const Facets&) const = default;
+
+        bool any() const { return words != Facets{}.words; }
+
+        bool more_than_one() const;
+    };
 
     /// A point or direction, and the facets on which it lies.
     struct Ray {

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace octant::visuals::draworder {
 
@@ -16,6 +17,12 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
+/// Whether a sine is, told from its product with a length whose square is given.
+bool is_negative(double product, double square) {
+    return product < 0.0 && square > rounding * rounding &&
+           product * product > rounding * rounding * square;
+}
+
 /// A sector of at most half a turn, counter-clockwise from `low` to `high`.
 class Sector {
 public:
@@ -25,20 +32,16 @@ public:
 
     /// Widens it to hold a direction; false when it would exceed half a turn.
     bool take(const glm::dvec2& direction) {
-        const double length = glm::length(direction);
-        if (length <= rounding) {
-            return true;
-        }
-        const glm::dvec2 unit = direction / length;
-        const double past_low = cross(low_, unit);
-        const double short_of_high = cross(unit, high_);
-        if (past_low < -rounding && short_of_high < -rounding) {
+        const double square = glm::dot(direction, direction);
+        const bool below = is_negative(cross(low_, direction), square);
+        const bool above = is_negative(cross(direction, high_), square);
+        if (below && above) {
             return false;
         }
-        if (past_low < -rounding) {
-            low_ = unit;
-        } else if (short_of_high < -rounding) {
-            high_ = unit;
+        if (below) {
+            low_ = direction / std::sqrt(square);
+        } else if (above) {
+            high_ = direction / std::sqrt(square);
         }
         return true;
     }

@@ -98,7 +98,8 @@ void find_meetings(const models::PolygonModel& model, std::size_t polygon, Model
     std::vector<std::uint32_t> noted;
     for (std::size_t other = 0; other < out.faces.size(); ++other) {
         const Face& met = out.faces[other];
-        const bool apart = met.pivot == face.pivot || !test.possible(face, met) ||
+        const bool known = met.pivot && other < polygon;
+        const bool apart = known || met.pivot == face.pivot || !test.possible(face, met) ||
                            !test.possible(met, face) || separable(face.corners, met.corners, {});
         if (apart) {
             continue;

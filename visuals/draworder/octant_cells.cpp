@@ -14,7 +14,7 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-constexpr int most_levels = 2;
+constexpr int most_levels = 1;
 
 using Triangle = std::array<glm::dvec3, 3>;
 

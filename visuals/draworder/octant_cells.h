@@ -23,9 +23,9 @@ struct OctantCells {
 ///
 /// Octant "sx sy sz" is the flat triangle A = (sx, 0, 0), B = (0, sy, 0), C = (0, 0, sz) as seen
 /// from the origin. Where its graph has a cycle it is divided at the middles of its sides into 0 =
-/// (A, AB, CA), 1 = (AB, B, BC), 2 = (CA, BC, C), 3 = (BC, CA, AB), and so on. A cell that is still
-/// cyclic six levels down is divided by planes as in region_tree.h: cones about one centre do not
-/// come close to a plane that misses it, however fine they are.
+/// (A, AB, CA), 1 = (AB, B, BC), 2 = (CA, BC, C), 3 = (BC, CA, AB). A quarter that is still cyclic
+/// is divided by planes as in region_tree.h: cones about one centre do not come close to a plane
+/// that misses it, however fine they are, and each level of them means more cells than it saves.
 ///
 /// Splits polygons of the model where there would be no order. Throws Error when there are more
 /// cells than can be held.

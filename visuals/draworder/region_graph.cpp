@@ -1,6 +1,8 @@
 #include "visuals/draworder/region_graph.h"
 
-#include <optional>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
 
 namespace octant::visuals::draworder {
 
@@ -12,26 +14,58 @@ std::optional<EyeRegion> before(const EyeRegion& region, const Face& face) {
 
 } // namespace
 
-bool RegionGraphs::hides(std::size_t b, std::size_t a, const EyeRegion& before_a) {
-    ++tests_;
-    const auto before_both = before(before_a, faces_.faces[b]);
-    if (!before_both) {
+/// Makes a region ready for hides(); false when it has no eyes that see A from its front.
+bool RegionGraphs::go_before(const EyeRegion& region, const Face& a) {
+    before_a_ = before(region, a);
+    generators_of_a_.clear();
+    if (before_a_) {
+        before_a_->append_generators(generators_of_a_);
+    }
+    return before_a_.has_value();
+}
+
+/// Asks first whether B hides part of A for those corners of the region alone that lie before B:
+/// it often does, and the region need not be cut.
+bool RegionGraphs::hides(std::size_t b, std::size_t a) {
+    const Face& near_one = faces_.faces[b];
+    const Face& far_one = faces_.faces[a];
+    if (!near_one.plane) {
+        return test_.hides(near_one, far_one, generators_of_a_);
+    }
+    const glm::dvec4 front(near_one.plane->normal, near_one.plane->offset_m);
+    generators_.clear();
+    double highest = 0.0;
+    for (const glm::dvec4& generator : generators_of_a_) {
+        const double height = glm::dot(front, generator);
+        highest = std::max(highest, height);
+        if (height >= 0.0) {
+            generators_.push_back(generator);
+        }
+    }
+    if (highest <= EyeRegion::on_plane) {
         return false;
     }
+    if (test_.hides(near_one, far_one, generators_)) {
+        return true;
+    }
+    if (generators_.size() == generators_of_a_.size()) {
+        return false;
+    }
+    const EyeRegion before_both = *before_a_->cut(*near_one.plane);
     generators_.clear();
-    before_both->append_generators(generators_);
-    return test_.hides(faces_.faces[b], faces_.faces[a], generators_);
+    before_both.append_generators(generators_);
+    return test_.hides(near_one, far_one, generators_);
 }
 
 HidingGraph RegionGraphs::all(const EyeRegion& region) {
     const std::vector<Face>& faces = faces_.faces;
     HidingGraph graph = faces_.rigid;
     for (std::size_t a = 0; a < faces.size(); ++a) {
-        const auto before_a = before(region, faces[a]);
-        for (std::size_t b = 0; b < faces.size() && before_a; ++b) {
+        const bool seen = go_before(region, faces[a]);
+        for (std::size_t b = 0; b < faces.size() && seen; ++b) {
             const bool compared = b != a && !(faces[a].pivot && faces[a].pivot == faces[b].pivot) &&
                                   !faces_.ignored.hides(b, a);
-            if (compared && test_.possible(faces[b], faces[a]) && hides(b, a, *before_a)) {
+            if (compared && test_.possible(faces[b], faces[a]) && hides(b, a)) {
                 graph.add(b, a);
             }
         }
@@ -40,23 +74,33 @@ HidingGraph RegionGraphs::all(const EyeRegion& region) {
 }
 
 HidingGraph RegionGraphs::surviving(
-    const EyeRegion& region,
-    const HidingGraph& parent,
-    std::span<const std::uint32_t> among,
-    const SideSets* sides) {
+    const EyeRegion& region, const HidingGraph& parent, std::span<const std::uint32_t> among) {
     HidingGraph graph(parent.count());
     for (const std::uint32_t a : among) {
-        const auto before_a = before(region, faces_.faces[a]);
-        if (!before_a) {
+        if (!go_before(region, faces_.faces[a])) {
             continue;
         }
-        const bool a_before = sides != nullptr && sides->front_or_on.has(a);
         for_each_bit(parent.row(a), [&](std::size_t b) {
-            const bool parted = a_before && sides->back_or_on.has(b);
-            if (faces_.rigid.hides(b, a) || (!parted && hides(b, a, *before_a))) {
+            if (faces_.rigid.hides(b, a) || hides(b, a)) {
                 graph.add(b, a);
             }
         });
+    }
+    return graph;
+}
+
+HidingGraph RegionGraphs::not_parted(
+    const HidingGraph& parent, std::span<const std::uint32_t> among, const SideSets& sides) const {
+    HidingGraph graph(parent.count());
+    for (const std::uint32_t a : among) {
+        const auto from = parent.row(a);
+        const auto rigid = faces_.rigid.row(a);
+        const auto parted = sides.back_or_on.words();
+        const std::uint64_t before = sides.front_or_on.has(a) ? ~std::uint64_t{0} : 0;
+        const auto to = graph.row(a);
+        for (std::size_t word = 0; word < to.size(); ++word) {
+            to[word] = from[word] & (rigid[word] | ~(parted[word] & before));
+        }
     }
     return graph;
 }
@@ -74,7 +118,6 @@ HidingGraph RegionGraphs::at_eye(
             continue;
         }
         for_each_bit(parent.row(a), [&](std::size_t b) {
-            ++tests_;
             const bool hidden =
                 faces_eye(b) &&
                 (faces_.rigid.hides(b, a) || test_.hides(faces_.faces[b], faces_.faces[a], eyes));

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct SideSets {
 };
 
 /// Builds the hiding graphs of a model's faces over regions of eye space. Keeps a reference to the
-/// faces. Counts its work, so that searches can be bounded alike on every machine.
+/// faces. Reuses its storage.
 class RegionGraphs {
 public:
     explicit RegionGraphs(const ModelFaces& faces)
@@ -33,32 +34,33 @@ public:
     HidingGraph all(const EyeRegion& region);
 
     /// Of the pairs of `parent`, a graph of a region that holds this one, those of this region: a
-    /// pair that hides nothing in a region hides nothing in a part of it. Rows of `among` only. If
-    /// the region lies in front of a plane, `sides` of that plane save tests: what lies behind or
-    /// on it hides nothing that lies before or on it.
+    /// pair that hides nothing in a region hides nothing in a part of it. Rows of `among` only.
     HidingGraph surviving(
-        const EyeRegion& region,
+        const EyeRegion& region, const HidingGraph& parent, std::span<const std::uint32_t> among);
+
+    /// What the place of polygons alone leaves of them before a plane: what lies behind or on it
+    /// hides nothing that lies before or on it. Rows of `among` only.
+    HidingGraph not_parted(
         const HidingGraph& parent,
         std::span<const std::uint32_t> among,
-        const SideSets* sides = nullptr);
+        const SideSets& sides) const;
 
-    /// The same for one eye.
+    /// The surviving pairs for one eye.
     HidingGraph
     at_eye(const glm::dvec3& eye, const HidingGraph& parent, std::span<const std::uint32_t> among);
 
     /// Polygons that face some eye of a region.
     PolygonSet listed(const EyeRegion& region) const;
 
-    /// Hiding tests made so far.
-    std::size_t tests() const { return tests_; }
-
 private:
-    bool hides(std::size_t b, std::size_t a, const EyeRegion& before_a);
+    bool go_before(const EyeRegion& region, const Face& a);
+    bool hides(std::size_t b, std::size_t a);
 
     const ModelFaces& faces_;
     HidingTest test_;
+    std::optional<EyeRegion> before_a_; ///< what of a region sees A from its front
+    std::vector<glm::dvec4> generators_of_a_;
     std::vector<glm::dvec4> generators_;
-    std::size_t tests_ = 0;
 };
 
 } // namespace octant::visuals::draworder

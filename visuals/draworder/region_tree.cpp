@@ -3,12 +3,15 @@
 #include "sim/base/error.h"
 #include "visuals/draworder/candidate_planes.h"
 #include "visuals/draworder/components.h"
+#include "visuals/draworder/parallel.h"
+#include "visuals/draworder/plane_judge.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace octant::visuals::draworder {
@@ -17,7 +20,8 @@ namespace {
 
 /// Graphs with more edges are judged by sides alone.
 constexpr std::size_t most_exact_edges = 4'000;
-constexpr std::size_t most_depth = 100;
+/// How many times as many planes are tried where the first lead nowhere.
+constexpr std::size_t more_planes = 16;
 
 /// A cell to be, or a cut.
 struct Branch {
@@ -31,7 +35,6 @@ struct Branch {
 
 struct Choice {
     Plane plane;
-    PlaneSides sides;
     double cost = 0.0;
     std::size_t number = 0;
 
@@ -40,8 +43,20 @@ struct Choice {
     }
 };
 
+/// A node cut in two.
+struct Fork {
+    Plane plane;
+    EyeNode front;
+    EyeNode back;
+};
+
 Plane reversed(const Plane& plane) {
     return {-plane.normal, -plane.offset_m};
+}
+
+/// Whether its work is worth a second thread.
+bool is_large(const EyeNode& node) {
+    return node.cycles.edges > 500;
 }
 
 class TreeBuilder {
@@ -55,17 +70,19 @@ public:
 
 private:
     std::unique_ptr<Branch> leaf(const EyeNode& node);
-    std::vector<Choice> by_sides(const EyeNode& node, const std::vector<Plane>& planes);
-    void count_cyclic(const Cycles& cycles, std::vector<Choice>& choices);
-    std::vector<Choice> choices(const EyeNode& node);
-    std::pair<EyeNode, EyeNode> children(const EyeNode& node, const Choice& choice);
-    std::vector<Choice> settle(EyeNode& node);
+    std::vector<Choice>
+    by_sides(const EyeNode& node, std::span<const Plane> planes, std::size_t first_number) const;
+    std::vector<Choice> by_rings(const EyeNode& node, std::span<const Choice> choices) const;
+    std::vector<Choice> ranked(const EyeNode& node, std::span<const Plane> planes) const;
+    std::optional<Fork> best_fork(const EyeNode& node) const;
+    Fork fork(const EyeNode& node, const Plane& plane) const;
+    std::optional<Fork> settle(EyeNode& node);
     double cost(std::size_t front_edges, std::size_t back_edges, std::size_t before) const;
+    double little_gain(std::size_t before) const;
 
     WorkingModel& work_;
     RegionGraphs graphs_;
     const TreeSearch& search_;
-    CyclicEdges cyclic_;
     std::size_t entries_ = 0;
 };
 
@@ -79,99 +96,125 @@ TreeBuilder::cost(std::size_t front_edges, std::size_t back_edges, std::size_t b
            std::pow(static_cast<double>(back_edges), search_.power);
 }
 
-/// Edges of `inner` that end on one side of a plane because of where its polygons lie.
-std::size_t ended_edges(
-    const Cycles& cycles,
-    const PolygonSet& hidden,
-    const PolygonSet& hiding,
-    const PolygonSet& unseen) {
-    std::size_t ended = 0;
-    for (const std::uint32_t a : cycles.polygons) {
-        const auto row = cycles.inner.row(a);
-        const std::uint64_t whole = unseen.has(a) ? ~std::uint64_t{0} : 0;
-        const std::uint64_t parted = hidden.has(a) ? ~std::uint64_t{0} : 0;
-        for (std::size_t word = 0; word < row.size(); ++word) {
-            const std::uint64_t mask =
-                whole | unseen.words()[word] | (parted & hiding.words()[word]);
-            ended += static_cast<std::size_t>(std::popcount(row[word] & mask));
-        }
-    }
-    return ended;
+/// The cost of a plane that leaves nearly all on both sides.
+double TreeBuilder::little_gain(std::size_t before) const {
+    const std::size_t left = before - before / 16;
+    return cost(left, left, before + 1);
 }
 
-std::vector<Choice> TreeBuilder::by_sides(const EyeNode& node, const std::vector<Plane>& planes) {
+/// The best of some planes, as judged by sides. The first has a number that tells equals apart.
+std::vector<Choice> TreeBuilder::by_sides(
+    const EyeNode& node, std::span<const Plane> planes, std::size_t first_number) const {
     const Cycles& cycles = node.cycles;
+    PlaneJudge judge(work_.faces, cycles);
     std::vector<Choice> best;
-    std::size_t number = 0;
-    for (const Plane& plane : planes) {
-        ++number;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const Plane& plane = planes[i];
         if (!node.region.reaches_front_of(plane) ||
             !node.region.reaches_front_of(reversed(plane))) {
             continue;
         }
-        PlaneSides sides = sides_of(plane, graphs_.model(), cycles.polygons);
-        const auto& [front, back] = sides.sets;
-        const std::size_t front_edges =
-            cycles.edges - ended_edges(cycles, front, back, sides.unseen_in_front);
-        const std::size_t back_edges =
-            cycles.edges - ended_edges(cycles, back, front, sides.unseen_behind);
-        const double value = cost(front_edges, back_edges, cycles.edges);
-        if (value == HUGE_VAL || (best.size() == search_.closer && value >= best.back().cost)) {
+        const double limit = best.size() == search_.closer ? best.back().cost : HUGE_VAL;
+        judge.look_at(plane);
+        const std::size_t front_edges = judge.left_in_front();
+        if (cost(front_edges, 0, cycles.edges) >= limit) {
             continue;
         }
-        Choice choice{plane, std::move(sides), value, number};
-        best.insert(std::upper_bound(best.begin(), best.end(), choice), std::move(choice));
+        const double value = cost(front_edges, judge.left_behind(), cycles.edges);
+        if (value >= limit) {
+            continue;
+        }
+        const Choice choice{plane, value, first_number + i};
+        best.insert(std::upper_bound(best.begin(), best.end(), choice), choice);
         if (best.size() > search_.closer) {
             best.pop_back();
         }
     }
-    count_cyclic(cycles, best);
     return best;
 }
 
-/// Judges choices by what stays on rings, and sorts them.
-void TreeBuilder::count_cyclic(const Cycles& cycles, std::vector<Choice>& choices) {
-    for (Choice& choice : choices) {
-        const auto& [front, back] = choice.sides.sets;
+/// Judges choices by what stays on rings.
+std::vector<Choice>
+TreeBuilder::by_rings(const EyeNode& node, std::span<const Choice> choices) const {
+    const Cycles& cycles = node.cycles;
+    CyclicEdges rings;
+    std::vector<Choice> out(choices.begin(), choices.end());
+    for (Choice& choice : out) {
+        const PlaneSides sides = sides_of(choice.plane, work_.faces, cycles.polygons);
+        const auto& [front, back] = sides.sets;
         const auto front_edges =
-            cyclic_.count(cycles.inner, cycles.polygons, back, front, choice.sides.unseen_in_front);
+            rings.count(cycles.inner, cycles.polygons, back, front, sides.unseen_in_front);
         const auto back_edges =
-            cyclic_.count(cycles.inner, cycles.polygons, front, back, choice.sides.unseen_behind);
+            rings.count(cycles.inner, cycles.polygons, front, back, sides.unseen_behind);
         choice.cost = cost(front_edges, back_edges, cycles.edges);
     }
+    return out;
+}
+
+/// The planes that leave least on rings, as judged by where polygons lie, best first.
+std::vector<Choice> TreeBuilder::ranked(const EyeNode& node, std::span<const Plane> planes) const {
+    const bool large = is_large(node);
+    const std::size_t half = planes.size() / 2;
+    auto [choices, others] = both(
+        large,
+        [&] { return by_sides(node, planes.first(half), 0); },
+        [&] { return by_sides(node, planes.subspan(half), half); });
+    choices.insert(choices.end(), others.begin(), others.end());
     std::sort(choices.begin(), choices.end());
+    choices.resize(std::min(search_.closer, choices.size()));
+    const std::size_t middle = choices.size() / 2;
+    const std::span<const Choice> all(choices);
+    auto [judged, rest] = both(
+        large,
+        [&] { return by_rings(node, all.first(middle)); },
+        [&] { return by_rings(node, all.subspan(middle)); });
+    judged.insert(judged.end(), rest.begin(), rest.end());
+    std::sort(judged.begin(), judged.end());
+    return judged;
 }
 
-std::pair<EyeNode, EyeNode> TreeBuilder::children(const EyeNode& node, const Choice& choice) {
-    const SideSets& sides = choice.sides.sets;
+Fork TreeBuilder::fork(const EyeNode& node, const Plane& plane) const {
+    const SideSets sides = sides_of(plane, work_.faces, node.cycles.polygons).sets;
     const SideSets turned{sides.back_or_on, sides.front_or_on};
-    return {
-        part_of(graphs_, node, *node.region.cut(choice.plane), &sides),
-        part_of(graphs_, node, *node.region.cut(reversed(choice.plane)), &turned)};
+    const auto part = [&](const Plane& before, const SideSets& sets) {
+        RegionGraphs graphs(work_.faces);
+        return part_of(graphs, node, *node.region.cut(before), &sets);
+    };
+    auto [front, back] = both(
+        is_large(node),
+        [&] { return part(plane, sides); },
+        [&] { return part(reversed(plane), turned); });
+    return {plane, std::move(front), std::move(back)};
 }
 
-/// The planes that promise most, best first; for graphs of some size as judged by sides.
-std::vector<Choice> TreeBuilder::choices(const EyeNode& node) {
+/// By the plane that leaves least on rings; for graphs of some size as judged by sides. Nothing
+/// when no plane makes the node simpler.
+std::optional<Fork> TreeBuilder::best_fork(const EyeNode& node) const {
     const Cycles& cycles = node.cycles;
-    std::vector<Choice> ranked =
-        by_sides(node, candidate_planes(graphs_.model(), cycles.polygons, search_.edge_planes));
-    if (ranked.empty()) {
+    const auto of_planes = [&](std::span<const std::uint32_t> among, std::size_t most) {
+        return ranked(node, candidate_planes(work_.faces, among, most));
+    };
+    std::vector<Choice> choices = of_planes(cycles.polygons, search_.edge_planes);
+    if (choices.empty() || choices.front().cost > little_gain(cycles.edges)) {
+        choices = of_planes(cycles.polygons, more_planes * search_.edge_planes);
+    }
+    if (choices.empty()) {
         // Of many polygons not all planes were made. Those of one ring end it in time.
-        const auto ring = shortest_ring(cycles.inner, cycles.polygons);
-        ranked = by_sides(node, candidate_planes(graphs_.model(), ring, search_.edge_planes));
+        choices = of_planes(shortest_ring(cycles.inner, cycles.polygons), search_.edge_planes);
     }
-    if (cycles.edges > most_exact_edges || ranked.size() < 2) {
-        return ranked;
+    const std::size_t tried = cycles.edges > most_exact_edges ? 1 : search_.exact;
+    choices.resize(std::min(tried, choices.size()));
+    std::optional<Fork> best;
+    Choice least{.plane = {}, .cost = HUGE_VAL, .number = choices.size()};
+    for (const Choice& choice : choices) {
+        Fork made = fork(node, choice.plane);
+        const double left = cost(made.front.cycles.edges, made.back.cycles.edges, cycles.edges);
+        if (const Choice exact{choice.plane, left, choice.number}; !best || exact < least) {
+            least = exact;
+            best = std::move(made);
+        }
     }
-    ranked.erase(
-        ranked.begin() + static_cast<std::ptrdiff_t>(std::min(search_.exact, ranked.size())),
-        ranked.end());
-    for (Choice& choice : ranked) {
-        const auto [front, back] = children(node, choice);
-        choice.cost = cost(front.cycles.edges, back.cycles.edges, cycles.edges);
-    }
-    std::sort(ranked.begin(), ranked.end());
-    return ranked;
+    return best;
 }
 
 std::unique_ptr<Branch> TreeBuilder::leaf(const EyeNode& node) {
@@ -185,14 +228,13 @@ std::unique_ptr<Branch> TreeBuilder::leaf(const EyeNode& node) {
 }
 
 /// Splits polygons until an eye in the middle of the node meets no ring, and some plane makes it
-/// simpler. No choices if none is needed any more.
-std::vector<Choice> TreeBuilder::settle(EyeNode& node) {
+/// simpler. No fork if none is needed any more.
+std::optional<Fork> TreeBuilder::settle(EyeNode& node) {
     while (node.cycles.edges > 0) {
         std::optional<Deadlock> deadlock = ring_at_eye(graphs_, node);
         if (!deadlock) {
-            std::vector<Choice> ranked = choices(node);
-            if (!ranked.empty()) {
-                return ranked;
+            if (auto fork = best_fork(node)) {
+                return fork;
             }
             deadlock = Deadlock{node.cycles.components.front(), node.region, std::nullopt};
         }
@@ -200,28 +242,27 @@ std::vector<Choice> TreeBuilder::settle(EyeNode& node) {
         work_.catch_up(node);
         node = part_of(graphs_, node, node.region);
     }
-    return {};
+    return std::nullopt;
 }
 
 std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
-    if (depth == most_depth) {
+    if (depth == search_.most_depth) {
         throw Error(fmt::format(
             "expected a model with painting orders, got one of {} polygons that no {} planes order",
             node.graph.count(),
-            most_depth));
+            search_.most_depth));
     }
     if (work_.catch_up(node)) {
         node = part_of(graphs_, node, node.region);
     }
-    const std::vector<Choice> ranked = settle(node);
-    if (ranked.empty()) {
+    std::optional<Fork> fork = settle(node);
+    if (!fork) {
         return leaf(node);
     }
-    auto [front, back] = children(node, ranked.front());
     auto out = std::make_unique<Branch>();
-    out->plane = ranked.front().plane;
-    out->front = grow(std::move(front), depth + 1);
-    out->back = grow(std::move(back), depth + 1);
+    out->plane = fork->plane;
+    out->front = grow(std::move(fork->front), depth + 1);
+    out->back = grow(std::move(fork->back), depth + 1);
     return out;
 }
 

@@ -23,6 +23,7 @@ struct TreeSearch {
     std::size_t edge_planes = 8000; ///< about how many planes through an edge and a corner to try
     std::size_t closer = 400;       ///< planes of which the rings left on both sides are counted
     std::size_t exact = 48;         ///< planes of which both sides are tested exactly
+    std::size_t most_depth = 100;   ///< cuts one behind another; more is an Error
 };
 
 /// A tree over a node's region whose cells have no cycles. Splits polygons of the model where there

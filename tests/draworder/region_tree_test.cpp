@@ -1,0 +1,202 @@
+#include "sim/base/error.h"
+#include "visuals/draworder/bit_count.h"
+#include "visuals/draworder/candidate_planes.h"
+#include "visuals/draworder/components.h"
+#include "visuals/draworder/cycle_split.h"
+#include "visuals/draworder/plane_judge.h"
+#include "visuals/draworder/region_tree.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "shapes.h"
+#include "wrong_rays.h"
+
+using namespace octant::visuals::draworder;
+using octant::Plane;
+using octant::tests::Dice;
+using octant::tests::three_bars;
+
+namespace {
+
+/// Five polygons: 0 and 1 hide one another, 2, 3 and 4 hide one another in a ring, and 1 hides 2.
+HidingGraph two_rings() {
+    HidingGraph graph(5);
+    graph.add(1, 0);
+    graph.add(0, 1);
+    graph.add(3, 2);
+    graph.add(4, 3);
+    graph.add(2, 4);
+    graph.add(1, 2);
+    return graph;
+}
+
+/// Unit squares across x at x = 0, 1, 2, ..., seen from +x.
+ModelFaces row_of_plates(std::size_t count) {
+    ModelFaces model{
+        .faces = {},
+        .tolerances = {},
+        .rigid = HidingGraph(count),
+        .ignored = HidingGraph(count),
+        .notes = {}};
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto x = static_cast<double>(i);
+        const std::vector<glm::dvec3> corners{{x, 0, 0}, {x, 1, 0}, {x, 1, 1}, {x, 0, 1}};
+        model.faces.push_back(outline_face(corners, {{1, 0, 0}, -x}, 1e-6));
+    }
+    return model;
+}
+
+/// Every polygon hides every other.
+HidingGraph complete(std::size_t count) {
+    HidingGraph graph(count);
+    for (std::size_t a = 0; a < count; ++a) {
+        for (std::size_t b = 0; b < count; ++b) {
+            if (a != b) {
+                graph.add(b, a);
+            }
+        }
+    }
+    return graph;
+}
+
+bool holds(const std::vector<Plane>& planes, const Plane& wanted) {
+    return std::ranges::any_of(planes, [&](const Plane& plane) {
+        const double turn = glm::dot(plane.normal, wanted.normal);
+        return std::abs(turn) > 1.0 - 1e-9 &&
+               std::abs(plane.offset_m * turn - wanted.offset_m) < 1e-9;
+    });
+}
+
+/// The bars as the eye at (1, 1, 1) sees them: each over the next.
+Deadlock of_bars() {
+    return {{0, 1, 2}, EyeRegion::everywhere(), glm::dvec3(5.0)};
+}
+
+} // namespace
+
+TEST_CASE("bits that two rows share are counted, however long the rows") {
+    for (const std::size_t words :
+         {std::size_t{0}, std::size_t{1}, std::size_t{31}, std::size_t{70}}) {
+        const std::vector<std::uint64_t> all(words, ~std::uint64_t{0});
+        const std::vector<std::uint64_t> ends(words, 0x8000000000000001);
+        CHECK(count_common(all, all) == 64 * words);
+        CHECK(count_common(all, ends) == 2 * words);
+    }
+}
+
+TEST_CASE("components are the rings of a graph, and edges between them do not count") {
+    const Cycles cycles = cycles_of(two_rings());
+    CHECK(cycles.edges == 5);
+    CHECK(cycles.polygons == std::vector<std::uint32_t>{0, 1, 2, 3, 4});
+    CHECK(cycles.components.size() == 2);
+    CHECK(std::ranges::count(cycles.components, std::vector<std::uint32_t>{0, 1}) == 1);
+    CHECK(std::ranges::count(cycles.components, std::vector<std::uint32_t>{2, 3, 4}) == 1);
+    CHECK_FALSE(cycles.inner.hides(1, 2));
+    const std::vector<std::uint32_t> without_four{0, 1, 2, 3};
+    CHECK(cycles_of(two_rings(), without_four).polygons == std::vector<std::uint32_t>{0, 1});
+}
+
+TEST_CASE("the shortest ring is found, each hidden by the next") {
+    const std::vector<std::uint32_t> all{0, 1, 2, 3, 4};
+    CHECK(shortest_ring(two_rings(), all) == std::vector<std::uint32_t>{0, 1});
+    const std::vector<std::uint32_t> three{2, 3, 4};
+    CHECK(shortest_ring(two_rings(), three) == three);
+    HidingGraph line(3);
+    line.add(1, 0);
+    line.add(2, 1);
+    CHECK(shortest_ring(line, std::vector<std::uint32_t>{0, 1, 2}).empty());
+}
+
+TEST_CASE("edges on cycles are counted without polygons and pairs that are gone") {
+    const std::vector<std::uint32_t> all{0, 1, 2, 3, 4};
+    const PolygonSet none(5);
+    PolygonSet four(5);
+    four.add(4);
+    PolygonSet one(5);
+    one.add(1);
+    PolygonSet zero(5);
+    zero.add(0);
+    CyclicEdges rings;
+    CHECK(rings.count(two_rings(), all, none, none, none) == 5);
+    CHECK(rings.count(two_rings(), all, none, none, four) == 2);
+    CHECK(rings.count(two_rings(), all, one, zero, none) == 3);
+    CHECK(rings.count(two_rings(), all, one, zero, four) == 0);
+}
+
+TEST_CASE("planes are offered through corners, faces, and edges with corners, each once") {
+    const ModelFaces model = row_of_plates(2);
+    const std::vector<std::uint32_t> both{0, 1};
+    const auto planes = candidate_planes(model, both, 1000);
+    CHECK(holds(planes, {{1, 0, 0}, 0}));
+    CHECK(holds(planes, {{1, 0, 0}, -1}));
+    CHECK(holds(planes, {{0, 0, 1}, -1}));
+    const double half = std::sqrt(0.5);
+    CHECK(holds(planes, {{half, half, 0}, -half}));
+    CHECK_FALSE(holds(planes, {{1, 0, 0}, -0.5}));
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const std::vector<Plane> before(planes.begin(), planes.begin() + static_cast<long>(i));
+        CHECK_FALSE(holds(before, planes[i]));
+    }
+    CHECK(axis_planes(model, both, 1000).size() == 6);
+    CHECK(candidate_planes(model, both, 5).size() < planes.size());
+}
+
+TEST_CASE("sides of a plane: before, behind, across, and on it") {
+    const ModelFaces model = row_of_plates(3);
+    const std::vector<std::uint32_t> all{0, 1, 2};
+    const PlaneSides on_middle = sides_of({{1, 0, 0}, -1}, model, all);
+    CHECK_FALSE(on_middle.sets.front_or_on.has(0));
+    CHECK(on_middle.sets.front_or_on.has(1));
+    CHECK(on_middle.sets.back_or_on.has(1));
+    CHECK(on_middle.sets.front_or_on.has(2));
+    CHECK(on_middle.unseen_behind.has(1));
+    CHECK_FALSE(on_middle.unseen_in_front.has(1));
+    const PlaneSides across = sides_of({{0, 1, 0}, -0.5}, model, all);
+    CHECK_FALSE(across.sets.front_or_on.has(0));
+    CHECK_FALSE(across.sets.back_or_on.has(0));
+}
+
+TEST_CASE("a plane is judged by the pairs that it leaves on each side") {
+    const ModelFaces model = row_of_plates(4);
+    const Cycles cycles = cycles_of(complete(4));
+    PlaneJudge judge(model, cycles);
+    judge.look_at({{1, 0, 0}, -1.5}); // two on each side: 2 * 2 of 12 pairs end
+    CHECK(judge.left_in_front() == 8);
+    CHECK(judge.left_behind() == 8);
+    judge.look_at({{0, 1, 0}, -0.5}); // across all
+    CHECK(judge.left_in_front() == 12);
+    CHECK(judge.left_behind() == 12);
+    judge.look_at({{1, 0, 0}, -1}); // plate 1 lies on it and is seen in front only
+    CHECK(judge.left_in_front() == 7);
+    CHECK(judge.left_behind() == 4);
+}
+
+TEST_CASE("of three bars in a ring one is cut along the plane of another") {
+    WorkingModel work(three_bars(), glm::dvec3(0.0));
+    RegionGraphs graphs(work.faces);
+    const auto cut = best_cut(graphs, of_bars());
+    REQUIRE(cut);
+    CHECK(cut->polygon < 3);
+    CHECK(cut->along < 3);
+    CHECK(cut->along != cut->polygon);
+    work.resolve(of_bars());
+    CHECK(work.twins == std::vector<std::uint32_t>{cut->polygon});
+    CHECK(work.faces.faces.size() == 7);
+}
+
+TEST_CASE("models that need too many splits, planes or entries are refused") {
+    WorkingModel bars(three_bars(), glm::dvec3(0.0));
+    bars.twins.resize(113);
+    CHECK_THROWS_AS(bars.resolve(of_bars()), octant::Error);
+    WorkingModel pile(octant::tests::pile(7, 6), glm::dvec3(0.0));
+    RegionGraphs graphs(pile.faces);
+    const EyeNode root = eye_node(graphs, EyeRegion::everywhere());
+    CHECK_THROWS_AS(region_tree(pile, root, {.most_depth = 2}), octant::Error);
+    CHECK(region_tree(pile, root, {}).lists.size() > 4);
+    CHECK_NOTHROW(check_entries(8'000'000, 1'000));
+    CHECK_THROWS_AS(check_entries(8'000'001, 1'000), octant::Error);
+}

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <future>
+#include <utility>
+
+namespace octant::visuals::draworder {
+
+/// Calls both, the first on a thread of its own if `worthwhile`, and gives what they return. They
+/// share nothing that either writes to, so that the result is the same either way.
+template <typename First, typename Second>
+auto both(bool worthwhile, First first, Second second) {
+    auto there =
+        std::async(worthwhile ? std::launch::async : std::launch::deferred, std::move(first));
+    auto here = second();
+    return std::pair(there.get(), std::move(here));
+}
+
+} // namespace octant::visuals::draworder
