@@ -19,7 +19,8 @@ ProgramRun run_octant(
     const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
 
 /// Starts it and kills it (SIGKILL) once `file` is there, at the latest after two minutes.
-void run_octant_and_kill(const std::vector<std::string>& arguments, const std::filesystem::path& file);
+void run_octant_and_kill(
+    const std::vector<std::string>& arguments, const std::filesystem::path& file);
 
 /// An empty folder for one test, removed and made anew.
 std::filesystem::path empty_folder(const std::string& name);

@@ -179,7 +179,8 @@ TEST_CASE("the study of draw orders writes its tables") {
         CHECK((row["eyes"] != "2 to 20 R" || row["cells"] == 0));
         CHECK(row["back faces removed only"] > 0.1);
     }
-    for (const char* name : {"table-1.csv", "table-4.csv", "methods.csv", "wrong-pixels.csv", "bsp.csv"}) {
+    for (const char* name :
+         {"table-1.csv", "table-4.csv", "methods.csv", "wrong-pixels.csv", "bsp.csv"}) {
         CHECK(std::filesystem::exists(folder() / "study" / name));
     }
     CHECK(run_octant({"study", "draw-order", "--out", "/proc/x"}).exit_code == 2);
