@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -99,6 +100,26 @@ Work prepared(const DrawOrderOptions& options, Json& figures) {
     figures["notes"] = ordered.notes;
     draworder::CellOrders orders = draworder::cell_orders(ordered);
     return {std::move(ordered.model), input.axes, std::move(orders)};
+}
+
+/// Throws Error where one file would be written over another, or over the model.
+void refuse_overwriting(const DrawOrderOptions& options) {
+    const auto same = [](const std::string& a, const std::string& b) {
+        return !a.empty() && !b.empty() &&
+               std::filesystem::weakly_canonical(a) == std::filesystem::weakly_canonical(b);
+    };
+    if (same(options.export_file, options.export_model)) {
+        throw Error(fmt::format(
+            "--export: expected another file than --export-model, got '{}' for both",
+            printable(options.export_file)));
+    }
+    for (const std::string& written : {options.export_file, options.export_model}) {
+        if (same(written, options.model) && std::filesystem::exists(options.model)) {
+            throw Error(fmt::format(
+                "--export, --export-model: expected another file than the model, got '{}'",
+                printable(written)));
+        }
+    }
 }
 
 void export_files(const Work& work, const DrawOrderOptions& options) {
@@ -208,6 +229,7 @@ void print_results(const Work& work, const DrawOrderOptions& options, Json figur
 }
 
 void draw_order(const DrawOrderOptions& options) {
+    refuse_overwriting(options);
     if (!options.export_model.empty() && !options.export_model.ends_with(".obj")) {
         throw Error(fmt::format(
             "--export-model: expected a file name that ends in .obj, got '{}'",

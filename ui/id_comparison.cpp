@@ -117,10 +117,8 @@ IdComparison compare_with_depth_buffer(
         sum.differing += difference.differing;
         if (!difference.apart.empty()) {
             sum.apart += static_cast<long>(difference.apart.size());
-            const long wrong = wrong_among(
+            sum.wrong += wrong_among(
                 difference.apart, painter.picture(), large.picture(frame), LargeReference::scale);
-            sum.first_wrong_frame = wrong > 0 && sum.wrong == 0 ? frame : sum.first_wrong_frame;
-            sum.wrong += wrong;
         }
         sum.cuts += record.cuts;
         sum.unordered += record.unordered;

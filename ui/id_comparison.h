@@ -41,7 +41,6 @@ struct IdComparison {
     int frames_with_cuts = 0; ///< in which something stood in front of an aircraft
     long cuts = 0;
     long unordered = 0;
-    int first_wrong_frame = -1; ///< -1: none
 };
 
 /// Draws every `every`th frame of a run as polygon numbers, with the settings' way of removing

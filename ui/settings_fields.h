@@ -119,9 +119,9 @@ void visit_time_settings(SomeSettings& s, Visit& visit) {
         s.pictures);
 }
 
-/// Fields that say how hidden surfaces are removed and the ground is refined.
+/// Fields that say how hidden surfaces are removed.
 template <class SomeSettings, class Visit>
-void visit_ground_settings(SomeSettings& s, Visit& visit) {
+void visit_surface_settings(SomeSettings& s, Visit& visit) {
     using Info = FieldInfo;
     visit(
         Info{
@@ -138,6 +138,12 @@ void visit_ground_settings(SomeSettings& s, Visit& visit) {
             "or paper (8 octants as printed)"},
         s.order_method);
     visit(Info{"shadows", "", "shadows of aircraft on the ground"}, s.shadows);
+}
+
+/// Fields that say how the ground is refined.
+template <class SomeSettings, class Visit>
+void visit_ground_settings(SomeSettings& s, Visit& visit) {
+    using Info = FieldInfo;
     visit(
         Info{"mesh", "METRIC", "roughness of the ground: printed (corner slopes) or midpoint"},
         s.mesh);
@@ -223,6 +229,7 @@ void visit_settings(SomeSettings& s, Visit&& visit) {
     visit_path_settings(s, visit);
     visit_view_settings(s, visit);
     visit_time_settings(s, visit);
+    visit_surface_settings(s, visit);
     visit_ground_settings(s, visit);
     visit_air_settings(s, visit);
 }

@@ -6,6 +6,7 @@
 #include "ui/ridge_tower.h"
 #include "ui/surface_race.h"
 #include "ui/table_text.h"
+#include "ui/world.h"
 
 #include <array>
 #include <cstdio>
@@ -184,6 +185,7 @@ picture_table(const std::vector<Compared>& compared, const HiddenSurfaceStudy& s
 } // namespace
 
 bool study_hidden_surface(const HiddenSurfaceStudy& study) {
+    load_world(study.settings); // says what is wrong with them before there is a folder
     make_folder(study.out);
     std::vector<report::HtmlTable> tables;
     bool right = true;

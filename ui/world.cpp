@@ -232,7 +232,10 @@ void check_wingmen(const World& world) {
                 sim::Trajectory(std::move(states)),
                 [&](double x_m, double y_m) { return world.scene.ground->height_at(x_m, y_m); });
         } catch (const Error& fault) {
-            throw Error(fmt::format("wingman {}: {}", number, fault.what()));
+            throw Error(fmt::format(
+                "wingman {}: {}; fewer --aircraft, another --place or another --heading may do",
+                number,
+                fault.what()));
         }
     }
 }

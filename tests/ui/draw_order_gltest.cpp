@@ -149,6 +149,10 @@ TEST_CASE("draw-order refuses wrong input in one line with exit code 2") {
     check_refused({"f15", "--rays", "-1"}, "--rays");
     check_refused({"f15", "--export", "/nowhere/x.txt"}, "/nowhere/x.txt");
     check_refused({"f15", "--export-model", file("x.txt")}, "ends in .obj");
+    check_refused(
+        {"f15", "--export", file("x.obj"), "--export-model", file("x.obj")},
+        "expected another file than --export-model");
+    CHECK_FALSE(std::filesystem::exists(folder() / "x.obj"));
     check_refused({"f15", "--check", "/nowhere/x.txt"}, "/nowhere/x.txt: expected a file");
     write_file(file("wrong.txt"), "draworder 1\nfaces 43\ncell ++- order 0 43\n");
     check_refused(
@@ -156,6 +160,9 @@ TEST_CASE("draw-order refuses wrong input in one line with exit code 2") {
         "wrong.txt:3: expected a polygon of the model (0 to 42), got '43'");
     write_file(file("plates.obj"), crossing_plates);
     check_refused({file("plates.obj"), "--axes", "up,up,up"}, "axes: expected");
+    check_refused(
+        {file("plates.obj"), "--export-model", file("plates.obj")},
+        "expected another file than the model");
     CHECK_FALSE(std::filesystem::exists(folder() / "x.txt"));
 }
 

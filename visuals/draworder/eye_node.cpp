@@ -1,7 +1,9 @@
 #include "visuals/draworder/eye_node.h"
 
 #include "sim/base/error.h"
+#include "visuals/draworder/bit_count.h"
 
+#include <cassert>
 #include <fmt/format.h>
 #include <functional>
 #include <queue>
@@ -82,6 +84,7 @@ std::vector<std::uint32_t> list_of(const RegionGraphs& graphs, const EyeNode& no
             release(later);
         });
     }
+    assert(list.size() == count_common(listed.words(), listed.words()));
     return list;
 }
 

@@ -95,7 +95,6 @@ void add_rigid_pairs(const models::PolygonModel& model, std::uint32_t pivot, Mod
 void find_meetings(const models::PolygonModel& model, std::size_t polygon, ModelFaces& out) {
     const HidingTest test(out.tolerances);
     const Face& face = out.faces[polygon];
-    std::vector<std::uint32_t> noted;
     for (std::size_t other = 0; other < out.faces.size(); ++other) {
         const Face& met = out.faces[other];
         const bool known = met.pivot && other < polygon;

@@ -13,10 +13,6 @@ struct ShadowPieces {
     std::uint32_t triangle = 0; ///< number in Ground::triangles
     std::uint32_t first = 0;    ///< place of the first index among the pieces' indices
     std::uint32_t count = 0;
-
-    bool operator<(const ShadowPieces& other) const {
-        return triangle != other.triangle ? triangle < other.triangle : first < other.first;
-    }
 };
 
 /// The ground of one frame before facing, with the shadows on it.

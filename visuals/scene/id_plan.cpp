@@ -49,12 +49,17 @@ ModelBuffers numbered(const AircraftModel& model, std::uint32_t first) {
 
 IdPlan::IdPlan(const Scene& scene) {
     std::uint32_t first = 0;
+    std::uint32_t next = 0;
     const auto add = [&](const AircraftModel& model) {
         const std::size_t parts = model.polygons.pivots.size() + 1;
         model_of_part_.insert(
             model_of_part_.end(), parts, static_cast<std::uint32_t>(models_.size()));
         models_.push_back(numbered(model, first));
-        first += static_cast<std::uint32_t>(model.polygons.polygons.size());
+        // Not the number of polygons: a model may be split in one way of drawing, whole in another.
+        for (std::size_t polygon = 0; polygon < model.polygons.polygons.size(); ++polygon) {
+            next = std::max(next, first + model.polygons.parent_of(polygon) + 1);
+        }
+        first = next;
     };
     for (const std::uint32_t model : scene.aircraft) {
         add(scene.models[model]);

@@ -1,5 +1,5 @@
 #version 450 core
-// CUT: only pixels in front of all planes.
+// CUT: only samples in front of all planes.
 
 flat in vec3 colour;
 
@@ -17,9 +17,10 @@ layout(std140, binding = 0) uniform Picture {
 
 layout(location = 0) uniform vec4 planes[8]; // world axes, eye at the origin
 
-// By the pixel's own line of sight, so that all triangles that cover it are cut alike.
+// By the sample's own line of sight, so that all triangles that cover it are cut alike.
 void cut() {
-    vec3 ray = mat3(ray_from_pixel) * vec3(gl_FragCoord.xy, 1.0);
+    vec2 sample_at = floor(gl_FragCoord.xy) + gl_SamplePosition;
+    vec3 ray = mat3(ray_from_pixel) * vec3(sample_at, 1.0);
     for (int i = 0; i < 8; ++i) {
         if (dot(planes[i].xyz, ray) + planes[i].w * gl_FragCoord.w < 0.0) {
             discard;
