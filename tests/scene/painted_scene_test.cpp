@@ -145,6 +145,47 @@ TEST_CASE("aircraft close together, in rings and through each other are painted 
     }
 }
 
+TEST_CASE("27 aircraft in any attitudes 20 m apart are painted right") {
+    int next = 0;
+    const Total total = paint_scenes(
+        30,
+        27,
+        cells(level),
+        [&](Dice& /*dice*/) {
+            const int i = next++;
+            return 20.0 * glm::dvec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 % 3 + 4);
+        },
+        [](Dice& dice) {
+            return dice.in_box({70, 70, 40}) + glm::dvec3(0, 0, 100);
+        });
+    CHECK(total.seen > 10000);
+    CHECK(total.wrong == 0);
+    CHECK(total.unordered == 0);
+    CHECK(total.knots > 30);
+    CHECK(total.cuts > 0);
+}
+
+TEST_CASE("27 aircraft in any attitudes among ridges are painted right") {
+    int next = 0;
+    const Total total = paint_scenes(
+        60,
+        27,
+        cells(rugged),
+        [&](Dice& /*dice*/) {
+            const int i = next++;
+            const glm::dvec3 at = 21.0 * glm::dvec3(i % 9 - 4, i / 9 % 3 - 1, 0);
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + 9.0);
+        },
+        [](Dice& dice) {
+            const glm::dvec3 at = dice.in_box({250, 250, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 30.0));
+        });
+    CHECK(total.seen > 10000);
+    CHECK(total.wrong == 0);
+    CHECK(total.unordered == 0);
+    CHECK(total.knots > 50);
+}
+
 TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {
     std::vector<float> heights_m;
     for (int row = 0; row < 65; ++row) {
