@@ -145,6 +145,93 @@ TEST_CASE("aircraft close together, in rings and through each other are painted 
     }
 }
 
+TEST_CASE("27 aircraft in any attitudes 20 m apart are painted right") {
+    int next = 0;
+    const Total total = paint_scenes(
+        30,
+        27,
+        cells(level),
+        [&](Dice& /*dice*/) {
+            const int i = next++;
+            return 20.0 * glm::dvec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 % 3 + 4);
+        },
+        [](Dice& dice) {
+            return dice.in_box({70, 70, 40}) + glm::dvec3(0, 0, 100);
+        });
+    CHECK(total.seen > 10000);
+    CHECK(total.wrong == 0);
+    CHECK(total.unordered == 0);
+    CHECK(total.knots > 30);
+    CHECK(total.cuts > 0);
+}
+
+TEST_CASE("125 aircraft in any attitudes 20 m apart are planned without giving up") {
+    Scene scene;
+    scene.ground = cells(level);
+    scene.models.push_back(convex_aircraft(box_model({9.7, 6.5, 2.2})));
+    scene.models.push_back(concave_aircraft(0.1));
+    Dice dice(1989);
+    std::vector<sim::AircraftState> states;
+    for (int i = 0; i < 125; ++i) {
+        scene.aircraft.push_back(static_cast<std::uint32_t>(i % 2));
+        states.push_back(
+            state_at(20.0 * glm::dvec3(i % 5, i / 5 % 5, i / 25 + 4), dice.attitude()));
+    }
+    const Settings settings = plain_settings();
+    Planner planner(scene, settings);
+    const Camera camera = camera_looking_at({-120, -90, 140}, {40, 40, 120});
+    PlanCounts counts;
+    planner.plan(camera, states, counts);
+    CHECK(counts.unordered == 0);
+    CHECK(counts.knots > 1);
+    CHECK(counts.cuts < 500);
+}
+
+TEST_CASE("ground before a knot stays behind what is seen between the members") {
+    // Two bars meet in a corner. Before the box around both stands a wall, before it a small box
+    // that is painted first, as its sphere is farther than theirs.
+    Scene scene;
+    scene.ground = triangle_ground({{{{20, 7, 20}, {100, 7, 20}, {20, 7, 100}}}});
+    scene.models.push_back(convex_aircraft(box_model({50, 1, 1})));
+    scene.models.push_back(convex_aircraft(box_model({1, 1, 50})));
+    scene.models.push_back(convex_aircraft(box_model({1, 1, 1})));
+    scene.aircraft = {0, 1, 2};
+    const std::vector states = {
+        state_at({50, 11, 0}), state_at({0, 11, 50}), state_at({40, 5, 40})};
+    const Settings settings = plain_settings();
+    Planner planner(scene, settings);
+    const Camera camera = camera_looking_at({0, 0, 0}, states[2].position_m);
+    PlanCounts counts;
+    const FramePlan& plan = planner.plan(camera, states, counts);
+    REQUIRE(counts.knots == 1);
+    CHECK(plan.aircraft.front().model == 2);
+    Dice dice(1);
+    const SightCount count = count_wrong_sights(plan, scene, states, camera, dice);
+    CHECK(count.seen > 50);
+    CHECK(count.wrong == 0);
+}
+
+TEST_CASE("27 aircraft in any attitudes among ridges are painted right") {
+    int next = 0;
+    const Total total = paint_scenes(
+        30,
+        27,
+        cells(rugged),
+        [&](Dice& /*dice*/) {
+            const int i = next++;
+            const glm::dvec3 at = 21.0 * glm::dvec3(i % 9 - 4, i / 9 % 3 - 1, 0);
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + 9.0);
+        },
+        [](Dice& dice) {
+            const glm::dvec3 at = dice.in_box({250, 250, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 30.0));
+        });
+    CHECK(total.seen > 10000);
+    CHECK(total.wrong == 0);
+    CHECK(total.unordered == 0);
+    CHECK(total.knots > 30);
+}
+
 TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {
     std::vector<float> heights_m;
     for (int row = 0; row < 65; ++row) {

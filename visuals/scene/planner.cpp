@@ -227,8 +227,13 @@ void Planner::paint_knot(const Knot& knot, const Camera& camera, PlanCounts& cou
     } else {
         steps_.paint(draw_of(*members_.front()));
     }
-    if (!in_front_.found().empty() && !holds_eye(knot.box)) {
-        steps_.paint_before(ground_, in_front_.found(), knot.box);
+    if (in_front_.found().empty() || holds_eye(knot.box)) {
+        return;
+    }
+    // Not in the cone of a knot's box: between the members a farther knot may be seen before the
+    // ground. What was painted earlier and is seen in a member's cone lies behind the member.
+    for (const std::uint32_t member : order_.members(knot)) {
+        steps_.paint_before(ground_, in_front_.found(), knot.box, cone_of(hulls_[member]));
         counts.cuts += static_cast<int>(in_front_.found().size());
     }
 }

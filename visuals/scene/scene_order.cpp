@@ -1,3 +1,7 @@
+// Knots are the strongly connected components of "waits for": R. Tarjan, Depth-First Search and
+// Linear Graph Algorithms, SIAM Journal on Computing 1(2), 1972, section 4.
+// Deviations: a path kept in memory stands in for the recursion.
+
 #include "visuals/scene/scene_order.h"
 
 #include <glm/common.hpp>
@@ -9,80 +13,54 @@
 
 namespace octant::visuals::scene {
 
-namespace {
-
-/// False when the spheres around two boxes are seen apart, with nothing said about the boxes.
-bool spheres_may_overlap_on_screen(
-    const glm::dvec3& a_m, double a_radius_m, const glm::dvec3& b_m, double b_radius_m) {
-    const double a_distance_m = glm::length(a_m);
-    const double b_distance_m = glm::length(b_m);
-    if (a_distance_m <= a_radius_m || b_distance_m <= b_radius_m) {
-        return true;
-    }
-    const double cosine = glm::dot(a_m, b_m) / (a_distance_m * b_distance_m);
-    const double between_rad = std::acos(glm::clamp(cosine, -1.0, 1.0));
-    return between_rad <=
-           std::asin(a_radius_m / a_distance_m) + std::asin(b_radius_m / b_distance_m) + 1e-7;
-}
-
-} // namespace
-
 void SceneOrder::arrange(std::span<const HullBox> boxes) {
-    roots_.resize(boxes.size());
-    std::iota(roots_.begin(), roots_.end(), 0U);
-    // Each failed try joins knots, so that there are fewer of them in the next.
-    while (!try_to_arrange(boxes)) {
-    }
-    list_members();
-}
-
-bool SceneOrder::try_to_arrange(std::span<const HullBox> boxes) {
-    gather(boxes);
-    if (!compare_near_pairs()) {
-        return false;
-    }
-    std::ranges::sort(windows_);
+    place_bodies(boxes);
+    find_windows();
+    knots_.clear();
+    members_.clear();
+    std::uint32_t body = 0;
+    const auto add_singles_before = [&](std::size_t end) {
+        for (; body < end; ++body) {
+            add_knot(std::span(&body, 1), 0);
+        }
+    };
     std::size_t next = 0;
     while (next < windows_.size()) {
         auto [first, last] = windows_[next++];
         while (next < windows_.size() && windows_[next].first <= last) {
             last = std::max(last, windows_[next++].second);
         }
-        if (!sort_window(first, last)) {
-            return false;
-        }
+        add_singles_before(first);
+        arrange_window(first, last);
+        body = last + 1;
     }
-    return true;
+    add_singles_before(bodies_.size());
 }
 
-/// One body for each root, farthest first.
-void SceneOrder::gather(std::span<const HullBox> boxes) {
+void SceneOrder::place_bodies(std::span<const HullBox> boxes) {
     bodies_.clear();
-    body_of_root_.resize(boxes.size());
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-        if (roots_[i] == i) {
-            body_of_root_[i] = static_cast<std::uint32_t>(bodies_.size());
-            bodies_.push_back({boxes[i], 0.0, 0.0, i});
-            continue;
-        }
-        Body& body = bodies_[body_of_root_[roots_[i]]];
-        const HullExtent a = world_extent(body.box);
-        const HullExtent b = world_extent(boxes[i]);
-        body.box = box_between({glm::min(a.least_m, b.least_m), glm::max(a.most_m, b.most_m)});
-    }
-    for (Body& body : bodies_) {
+        Body& body = bodies_.emplace_back();
+        body.box = boxes[i];
+        body.index = i;
         body.radius_m = radius_m(body.box);
-        body.power_m2 =
-            glm::dot(body.box.centre_m, body.box.centre_m) - body.radius_m * body.radius_m;
+        const double distance_m = glm::length(body.box.centre_m);
+        body.power_m2 = distance_m * distance_m - body.radius_m * body.radius_m;
+        body.around_eye = distance_m <= body.radius_m;
+        if (!body.around_eye) {
+            body.towards = body.box.centre_m / distance_m;
+            body.sine = body.radius_m / distance_m;
+            body.cosine = std::sqrt(1.0 - body.sine * body.sine);
+        }
     }
     std::ranges::sort(bodies_, [](const Body& a, const Body& b) {
-        return a.power_m2 != b.power_m2 ? a.power_m2 > b.power_m2 : a.root < b.root;
+        return a.power_m2 != b.power_m2 ? a.power_m2 > b.power_m2 : a.index < b.index;
     });
 }
 
-/// Sweeps along x for bodies whose spheres meet. Notes the windows of the list in which a body
-/// stands before one that it hides; false when bodies were joined.
-bool SceneOrder::compare_near_pairs() {
+/// Sweeps along x for bodies whose spheres meet, and notes the windows of the list in which a body
+/// stands before one that it hides.
+void SceneOrder::find_windows() {
     windows_.clear();
     by_x_.resize(bodies_.size());
     std::iota(by_x_.begin(), by_x_.end(), 0U);
@@ -92,7 +70,6 @@ bool SceneOrder::compare_near_pairs() {
     std::ranges::sort(by_x_, [&](std::uint32_t a, std::uint32_t b) {
         return least_x(a) != least_x(b) ? least_x(a) < least_x(b) : a < b;
     });
-    bool joined = false;
     for (std::size_t i = 0; i < by_x_.size(); ++i) {
         const Body& body = bodies_[by_x_[i]];
         const double most_x = body.box.centre_m.x + body.radius_m;
@@ -104,114 +81,116 @@ bool SceneOrder::compare_near_pairs() {
                 continue;
             }
             const auto [earlier, later] = std::minmax(by_x_[i], by_x_[k]);
-            const HidingPair pair = hiding_pair(bodies_[earlier].box, bodies_[later].box);
-            if (pair.meet) {
-                join(bodies_[earlier].root, bodies_[later].root);
-                joined = true;
-            } else if (pair.a_hides_b) {
+            if (hiding_pair(bodies_[earlier].box, bodies_[later].box).a_hides_b) {
                 windows_.emplace_back(earlier, later);
             }
         }
     }
-    return !joined;
+    std::ranges::sort(windows_);
 }
 
-void SceneOrder::fill_precedences(std::uint32_t first, std::uint32_t count) {
-    precedes_.assign(std::size_t{count} * count, 0);
+/// Adds the knots of bodies first .. last, those of great power first where that leaves a choice.
+void SceneOrder::arrange_window(std::uint32_t first, std::uint32_t last) {
+    const std::uint32_t count = last - first + 1;
+    fill_waits(first, count);
+    visited_ = 0;
+    for (std::uint32_t body = 0; body < count; ++body) {
+        if (visits_[body].number == 0) {
+            add_with_all_it_waits_for(first, body);
+        }
+    }
+}
+
+/// False when the spheres around two boxes are seen apart, with nothing said about the boxes.
+bool SceneOrder::may_overlap_on_screen(const Body& a, const Body& b) {
+    return a.around_eye || b.around_eye ||
+           glm::dot(a.towards, b.towards) >= a.cosine * b.cosine - a.sine * b.sine - 1e-9;
+}
+
+void SceneOrder::fill_waits(std::uint32_t first, std::uint32_t count) {
+    waits_.clear();
     for (std::uint32_t a = 0; a < count; ++a) {
         const Body& earlier = bodies_[first + a];
         for (std::uint32_t b = a + 1; b < count; ++b) {
             const Body& later = bodies_[first + b];
-            if (!spheres_may_overlap_on_screen(
-                    earlier.box.centre_m, earlier.radius_m, later.box.centre_m, later.radius_m)) {
+            if (!may_overlap_on_screen(earlier, later)) {
                 continue;
             }
             const HidingPair pair = hiding_pair(earlier.box, later.box);
-            precedes_[std::size_t{a} * count + b] = pair.b_hides_a ? 1 : 0;
-            precedes_[std::size_t{b} * count + a] = pair.a_hides_b ? 1 : 0;
-        }
-    }
-}
-
-/// Sorts bodies first .. last so that none hides a later one, those of great power first where that
-/// leaves a choice; false when a ring was joined.
-bool SceneOrder::sort_window(std::uint32_t first, std::uint32_t last) {
-    const std::uint32_t count = last - first + 1;
-    fill_precedences(first, count);
-    placed_.assign(count, 0);
-    sorted_.clear();
-    while (sorted_.size() < count) {
-        std::uint32_t next = 0;
-        const auto must_wait = [&](std::uint32_t body) {
-            for (std::uint32_t other = 0; other < count; ++other) {
-                if (placed_[other] == 0 && precedes_[std::size_t{other} * count + body] != 0) {
-                    return true;
-                }
+            if (pair.a_hides_b) {
+                waits_.emplace_back(a, b);
             }
-            return false;
-        };
-        while (next < count && (placed_[next] != 0 || must_wait(next))) {
-            ++next;
+            if (pair.b_hides_a) {
+                waits_.emplace_back(b, a);
+            }
         }
-        if (next == count) {
-            join_a_ring(first, count);
-            return false;
-        }
-        placed_[next] = 1;
-        sorted_.push_back(bodies_[first + next]);
     }
-    std::ranges::copy(sorted_, bodies_.begin() + first);
-    return true;
-}
-
-/// Walks from a body that cannot be placed to one that it waits for, until a body comes again.
-void SceneOrder::join_a_ring(std::uint32_t first, std::uint32_t count) {
-    const auto waits_for = [&](std::uint32_t body) {
-        std::uint32_t other = 0;
-        while (placed_[other] != 0 || precedes_[std::size_t{other} * count + body] == 0) {
-            ++other;
-        }
-        return other;
-    };
-    std::uint32_t start = 0;
-    while (placed_[start] != 0) {
-        ++start;
-    }
-    for (std::uint32_t step = 0; step < count; ++step) {
-        start = waits_for(start); // after so many steps within the ring
-    }
-    for (std::uint32_t body = waits_for(start); body != start; body = waits_for(body)) {
-        join(bodies_[first + start].root, bodies_[first + body].root);
+    std::ranges::sort(waits_);
+    visits_.assign(count, {});
+    for (std::uint32_t i = 0; i < waits_.size(); ++i) {
+        Visit& visit = visits_[waits_[i].first];
+        visit.next = visit.end == 0 ? i : visit.next;
+        visit.end = i + 1;
     }
 }
 
-void SceneOrder::join(std::uint32_t root, std::uint32_t other) {
-    const std::uint32_t a = roots_[root]; // may have been joined since
-    const std::uint32_t b = roots_[other];
-    const auto [kept, lost] = std::minmax(a, b);
-    std::ranges::replace(roots_, std::uint32_t{lost}, std::uint32_t{kept});
+void SceneOrder::begin_visit(std::uint32_t body) {
+    visits_[body].number = ++visited_;
+    visits_[body].least = visited_;
+    path_.push_back(body);
+    open_.push_back(body);
 }
 
-void SceneOrder::list_members() {
-    knots_.clear();
-    members_.clear();
-    std::uint32_t place = 0;
-    for (const Body& body : bodies_) {
-        body_of_root_[body.root] = static_cast<std::uint32_t>(knots_.size());
-        knots_.push_back({body.box, 0, 0});
+/// Walks along what each body waits for. A body from which no lesser number is reached than its own
+/// closes a knot with all that are open since.
+void SceneOrder::add_with_all_it_waits_for(std::uint32_t first, std::uint32_t body) {
+    path_.clear();
+    open_.clear();
+    begin_visit(body);
+    while (!path_.empty()) {
+        const std::uint32_t at = path_.back();
+        Visit& visit = visits_[at];
+        if (visit.next < visit.end) {
+            const std::uint32_t other = waits_[visit.next++].second;
+            if (visits_[other].number == 0) {
+                begin_visit(other);
+            } else if (!visits_[other].in_knot) {
+                visit.least = std::min(visit.least, visits_[other].number);
+            }
+            continue;
+        }
+        path_.pop_back();
+        if (!path_.empty()) {
+            Visit& back = visits_[path_.back()];
+            back.least = std::min(back.least, visit.least);
+        }
+        if (visit.least == visit.number) {
+            std::size_t knot = open_.size();
+            do {
+                visits_[open_[--knot]].in_knot = true;
+            } while (open_[knot] != at);
+            add_knot(std::span(open_).subspan(knot), first);
+            open_.resize(knot);
+        }
     }
-    for (const std::uint32_t root : roots_) {
-        ++knots_[body_of_root_[root]].count;
+}
+
+/// `bodies` count from body `first`.
+void SceneOrder::add_knot(std::span<const std::uint32_t> bodies, std::uint32_t first) {
+    Knot& knot = knots_.emplace_back();
+    knot.first = static_cast<std::uint32_t>(members_.size());
+    knot.count = static_cast<std::uint32_t>(bodies.size());
+    knot.box = bodies_[first + bodies.front()].box;
+    HullExtent extent = world_extent(knot.box);
+    for (const std::uint32_t body : bodies) {
+        const HullExtent own = world_extent(bodies_[first + body].box);
+        extent.least_m = glm::min(extent.least_m, own.least_m);
+        extent.most_m = glm::max(extent.most_m, own.most_m);
+        members_.push_back(bodies_[first + body].index);
     }
-    for (Knot& knot : knots_) {
-        knot.first = place;
-        place += knot.count;
-        knot.count = 0;
-    }
-    members_.resize(roots_.size());
-    for (std::uint32_t i = 0; i < roots_.size(); ++i) {
-        Knot& knot = knots_[body_of_root_[roots_[i]]];
-        members_[knot.first + knot.count++] = i;
+    if (knot.count > 1) {
+        knot.box = box_between(extent);
+        std::ranges::sort(std::span(members_).subspan(knot.first));
     }
 }
 

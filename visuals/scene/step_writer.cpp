@@ -97,8 +97,10 @@ void StepWriter::add_indices(const GroundFrame& ground, std::uint32_t triangle) 
 }
 
 void StepWriter::paint_before(
-    const GroundFrame& ground, std::span<const NearTriangle> triangles, const HullBox& box) {
-    const SightCone cone = cone_of(box);
+    const GroundFrame& ground,
+    std::span<const NearTriangle> triangles,
+    const HullBox& box,
+    const SightCone& cone) {
     std::uint32_t cone_clip = PaintStep::whole;
     bool continues = false; // the last step, with the cone alone
     for (const NearTriangle& near : triangles) {

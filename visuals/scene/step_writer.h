@@ -22,11 +22,14 @@ public:
     /// Paints an aircraft's range once more where `region` is seen: a part of one of its polygons.
     void paint_within(const AircraftDraw& draw, const SightPolygon& region);
 
-    /// Paints triangles once more where they lie before a box, with their shadows. They are in
-    /// painting order; those that meet the box are cut to the outside of its sides. The eye is
-    /// outside the box.
+    /// Paints triangles once more where they lie before a box, with their shadows, as far as they
+    /// are seen in `cone`: of the box or of one inside it. They are in painting order; those that
+    /// meet the box are cut to the outside of its sides. The eye is outside the box.
     void paint_before(
-        const GroundFrame& ground, std::span<const NearTriangle> triangles, const HullBox& box);
+        const GroundFrame& ground,
+        std::span<const NearTriangle> triangles,
+        const HullBox& box,
+        const SightCone& cone);
 
     /// Paints one triangle once more where `region`, a part of it, is seen.
     void
