@@ -59,7 +59,8 @@ ConvexRoom sight_lines_to(const HullBox& box) {
     room.extent.most_m = glm::max(room.extent.most_m, glm::dvec3(0.0));
     add_lowest_sight_plane(room, box);
     if (!holds_eye(box)) {
-        for (const glm::dvec3& normal : cone_of(box).planes()) {
+        const SightCone cone = cone_of(box);
+        for (const glm::dvec3& normal : cone.planes()) {
             room.add({normal, 0.0});
         }
     }
