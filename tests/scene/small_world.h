@@ -1,5 +1,6 @@
 #pragma once
 
+#include "visuals/draworder/ray_check.h"
 #include "visuals/scene/planner.h"
 
 #include <array>
@@ -10,18 +11,10 @@
 
 namespace octant::tests {
 
-/// Numbers 0 <= x < 1 from a small generator of its own.
-class Dice {
+/// Random places and attitudes.
+class Dice : public visuals::draworder::Dice {
 public:
-    explicit Dice(std::uint64_t seed)
-        : state_(seed) {}
-
-    double next() {
-        state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-        return static_cast<double>(state_ >> 11U) / 9007199254740992.0;
-    }
-
-    double between(double least, double most) { return least + (most - least) * next(); }
+    using visuals::draworder::Dice::Dice;
 
     glm::dvec3 in_box(const glm::dvec3& half) {
         return {between(-half.x, half.x), between(-half.y, half.y), between(-half.z, half.z)};
@@ -29,9 +22,6 @@ public:
 
     /// Any attitude.
     glm::dquat attitude();
-
-private:
-    std::uint64_t state_;
 };
 
 using Height = std::function<double(double x_m, double y_m)>;

@@ -95,9 +95,6 @@ CellOrders cell_orders(const OrderedModel& ordered) {
     for (const OrderCell& cell : ordered.cells) {
         ++cells_of_path[cell.path];
     }
-    const double least_m = ordered.min_distance_m > 0.0
-                               ? ordered.min_distance_m
-                               : std::sqrt(3.0) * models::radius_m(ordered.model);
     for (std::size_t i = 0; i < ordered.cells.size(); ++i) {
         const OrderCell& from = ordered.cells[i];
         ListedCell cell;
@@ -106,7 +103,7 @@ CellOrders cell_orders(const OrderedModel& ordered) {
         } else {
             orders.metric = Metric::L1;
             cell = cell_of_path(from.path, ordered.centre_m);
-            cell.min_m = least_m;
+            cell.min_m = ordered.min_distance_m;
             if (cells_of_path[from.path] > 1) {
                 cell.planes = planes_within_path(cell, from, ordered.centre_m);
                 cell.path.clear();

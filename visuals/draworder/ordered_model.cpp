@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <fmt/format.h>
 #include <optional>
 #include <span>
@@ -37,6 +38,8 @@ OrderedModel by_paper(models::PolygonModel model, const OrderOptions& options) {
              {{{signs.x, 0.0, 0.0}, 0.0}, {{0.0, signs.y, 0.0}, 0.0}, {{0.0, 0.0, signs.z}, 0.0}}});
     }
     out.cyclic_cells = orders.cyclic_octants;
+    // Lists are for eyes at the radius or beyond: all with |x| + |y| + |z| of sqrt(3) radii are.
+    out.min_distance_m = std::sqrt(3.0) * models::radius_m(out.model);
     return out;
 }
 

@@ -34,10 +34,10 @@ struct OrderedModel {
     models::PolygonModel model; ///< polygons split where no order exists; parents say of what
     DrawOrder order;            ///< cell i is cells[i]
     std::vector<OrderCell> cells;
-    glm::dvec3 centre_m{0.0};    ///< Paper, Cells: where the octants meet, body axes
-    double min_distance_m = 0.0; ///< Cells: exact for eyes with |x|+|y|+|z| >= this, from centre_m
-    int splits = 0;              ///< polygons added by splitting
-    int cyclic_cells = 0;        ///< Paper: octants that kept a cycle; else 0
+    glm::dvec3 centre_m{0.0};       ///< Paper, Cells: where the octants meet, body axes
+    double min_distance_m = 0.0;    ///< Paper, Cells: made for |x|+|y|+|z| >= this, from centre_m
+    int splits = 0;                 ///< polygons added by splitting
+    int cyclic_cells = 0;           ///< Paper: octants that kept a cycle; else 0
     std::vector<std::string> notes; ///< what a person should be told; often none
 };
 

@@ -32,7 +32,7 @@ constexpr double skyline_margin_rad = rad_from_deg(0.6);
 constexpr double tower_reach = 0.5; ///< of the flight's extent around its origin
 constexpr double tower_least_fov_rad = rad_from_deg(0.7);
 constexpr double tower_lowered =
-    0.3; ///< of the picture's height that the aircraft stands above its middle
+    0.3; ///< of the picture's height that the aircraft may stand above its middle
 constexpr double tower_height_m = 25.0;
 
 void lift_above_ground(glm::dvec3& eye_m, const GroundHeight& ground) {
@@ -71,8 +71,8 @@ double fov_for_share(const Subject& subject, double distance_m, double share) {
     return 2.0 * std::atan(subject.radius_m / share / distance_m);
 }
 
-/// Close enough to know the aircraft; wider where that brings the skyline into the picture below
-/// it.
+/// Close enough to know the aircraft, which stands in the middle; wider and tilted down where that
+/// brings the skyline into the picture below it.
 Camera tower(const sim::AircraftState& state, const Subject& subject, const glm::dvec3& eye_m) {
     Camera camera = camera_looking_at(eye_m, state.position_m);
     const glm::dvec3 to_aircraft_m = state.position_m - eye_m;
@@ -80,14 +80,17 @@ Camera tower(const sim::AircraftState& state, const Subject& subject, const glm:
     const double close_rad = fov_for_share(subject, distance_m, tower_share);
     const double wide_rad = fov_for_share(subject, distance_m, tower_least_share);
     const double elevation_rad = std::asin(std::clamp(to_aircraft_m.z / distance_m, -1.0, 1.0));
-    const double wanted_rad =
-        (std::max(elevation_rad, 0.0) + skyline_margin_rad) / (0.5 + tower_lowered);
+    const double skyline_below_rad = std::max(elevation_rad, 0.0) + skyline_margin_rad;
+    const double wanted_rad = skyline_below_rad / (0.5 + tower_lowered);
     const double reach = 1.0 - glm::smoothstep(1.0, 3.0, wanted_rad / wide_rad);
     camera.vertical_fov_rad = std::max(
         glm::mix(close_rad, std::clamp(wanted_rad, close_rad, wide_rad), reach),
         tower_least_fov_rad);
-    const glm::dquat down =
-        glm::angleAxis(-reach * tower_lowered * camera.vertical_fov_rad, glm::dvec3(1, 0, 0));
+    const double tilt_rad = std::clamp(
+        skyline_below_rad - 0.5 * camera.vertical_fov_rad,
+        0.0,
+        tower_lowered * camera.vertical_fov_rad);
+    const glm::dquat down = glm::angleAxis(-reach * tilt_rad, glm::dvec3(1, 0, 0));
     camera.view_to_world = glm::normalize(camera.view_to_world * down);
     return camera;
 }
