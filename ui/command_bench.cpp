@@ -102,7 +102,7 @@ void add_bench_command(CLI::App& program) {
         ->default_str(text_of(options.settings.size_px));
     command->add_option("--triangles", options.settings.triangles, "triangles of ground")
         ->type_name("N")
-        ->capture_default_str()
+        ->default_str("20000")
         ->check(CLI::Range(100, 10000000));
     command
         ->add_option_function<std::string>(

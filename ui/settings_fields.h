@@ -145,7 +145,11 @@ template <class SomeSettings, class Visit>
 void visit_ground_settings(SomeSettings& s, Visit& visit) {
     using Info = FieldInfo;
     visit(
-        Info{"mesh", "METRIC", "roughness of the ground: printed (corner slopes) or midpoint"},
+        Info{
+            "mesh",
+            "METRIC",
+            "what refines the ground: screen-error (error in pixels, bisection), or the paper's "
+            "quadtree by midpoint or printed (corner slopes) roughness"},
         s.mesh);
     visit(
         Info{
@@ -162,8 +166,27 @@ void visit_ground_settings(SomeSettings& s, Visit& visit) {
             "literal, or fixed C"},
         s.detail);
     visit(
-        Info{"triangles", "N", "triangles of ground that the control holds", 100, 10000000},
+        Info{
+            "triangles",
+            "N",
+            "triangles of ground that are held [20000; no end with error-px]",
+            100,
+            10000000},
         s.triangles);
+    visit(
+        Info{
+            "error-px",
+            "PIXELS",
+            "screen-error: refine to this error and no further [0.25, within the triangles]",
+            0.01,
+            1000.0},
+        s.error_px);
+    visit(
+        Info{"geomorphs", "", "screen-error: vertices move into place instead of jumping"},
+        s.geomorphs);
+    visit(
+        Info{"earth-curvature", "", "screen-error: distant ground and aircraft sink by d^2 / 2R"},
+        s.earth_curvature);
     visit(
         Info{
             "resolution-c",

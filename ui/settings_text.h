@@ -87,7 +87,7 @@ struct EnumNames<visuals::scene::ContextKind> {
 
 template <>
 struct EnumNames<visuals::scene::GroundMetric> {
-    static std::vector<std::string_view> names() { return {"printed", "midpoint"}; }
+    static std::vector<std::string_view> names() { return {"printed", "midpoint", "screen-error"}; }
 };
 
 template <>

@@ -34,7 +34,7 @@ terrain::QuadtreeOptions quadtree_options(const Settings& settings) {
 
 terrain::ControlSettings control_settings(const Settings& settings) {
     terrain::ControlSettings control;
-    control.target_triangles = settings.triangles;
+    control.target_triangles = triangle_target(settings);
     control.triangles_per_resolution = settings.control_a;
     control.remembered_frames = settings.control_r;
     switch (settings.detail) {
@@ -69,7 +69,7 @@ public:
         , exact_(settings.detail == DetailControl::Exact)
         , fixed_resolution_(settings.detail == DetailControl::Fixed)
         , first_resolution_(settings.resolution_c) {
-        budget_.triangles = settings.triangles;
+        budget_.triangles = triangle_target(settings);
         detail_.roughness_weight = settings.roughness_c.value_or(
             settings.mesh == GroundMetric::Printed ? printed_weight : midpoint_weight);
         detail_.fans =
@@ -109,7 +109,7 @@ public:
 
     TriangleDraw triangles(const Camera& camera, double aspect, GroundCounts& counts) override {
         const terrain::GroundMesh mesh = next_mesh(view_of(camera, aspect));
-        counts = {mesh.counters.triangles, mesh.counters.fans, mesh.resolution};
+        counts = {mesh.counters.triangles, mesh.counters.fans, mesh.resolution, mesh.error_px};
         return {mesh.vertices, mesh.indices};
     }
 

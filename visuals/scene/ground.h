@@ -20,7 +20,8 @@ namespace octant::visuals::scene {
 struct GroundCounts {
     int triangles = 0;
     int fans = 0;
-    double resolution = 0.0; ///< C
+    double resolution = 0.0; ///< C; 0 where the screen-space error decides
+    double error_px = 0.0;   ///< screen-space error the mesh was made for; 0 where C decides
 };
 
 /// What stands below the aircraft: a height field under a quadtree, or polygons painted in one

@@ -15,7 +15,7 @@ namespace octant::visuals::scene {
 enum class View { Chase, Cockpit, Tower, Orbit, Free };
 enum class HeightMode { Clear, Follow, Datum };
 enum class ContextKind { OsMesa, Egl };
-enum class GroundMetric { Printed, Midpoint };
+enum class GroundMetric { Printed, Midpoint, ScreenError };
 enum class Propagation { CrackFree, Printed };
 enum class GroundFans { Partial, Full };
 enum class DetailControl { Exact, Damped, Previous, Literal, Fixed };
@@ -59,7 +59,10 @@ struct Settings {
     Propagation propagation = Propagation::CrackFree;
     GroundFans fans = GroundFans::Partial;
     DetailControl detail = DetailControl::Exact;
-    int triangles = 20000;
+    std::optional<int> triangles;   ///< none = 20,000, or without end where error_px is given
+    std::optional<double> error_px; ///< screen-error: refined no further than this; none = 0.25
+    bool geomorphs = true;          ///< screen-error: vertices move into place instead of jumping
+    bool earth_curvature = true;    ///< screen-error: distant ground and aircraft sink
     double resolution_c = 0.0; ///< C of the first frame; 0 = the one that meets the triangle target
     std::optional<double>
         roughness_c;        ///< c, weight of roughness; none = 20 for midpoint, 5 for printed
@@ -74,5 +77,10 @@ struct Settings {
     double water_level_m = 0.0;     ///< ground at or below it is drawn as water
     std::optional<Palette> palette; ///< none = arid for the canyon, else temperate
 };
+
+/// Triangles of ground that are held; a number beyond all meshes where the error alone decides.
+inline int triangle_target(const Settings& settings) {
+    return settings.triangles.value_or(settings.error_px ? 10000000 : 20000);
+}
 
 } // namespace octant::visuals::scene

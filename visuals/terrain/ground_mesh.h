@@ -27,12 +27,27 @@ struct MeshView {
     /// tan(field of view / 2). Multiplies C. At least 1 (asserted).
     double magnification = 1.0;
     PaintOrder order = PaintOrder::BackToFront;
+    /// Pixels that a metre covers one metre before the eye, in the middle of the picture: picture
+    /// height / (2 tan(vertical field of view / 2)). For meshes by screen-space error.
+    double focal_px = 869.1;
+    /// The ground is lowered by d^2 / (2 R), d = level distance from the eye; 0 = flat earth. For
+    /// meshes by screen-space error.
+    double earth_radius_m = 0.0;
 };
 
 struct MeshCounters {
     int triangles = 0;
     int fans = 0;          ///< nodes that gave at least one triangle
     int nodes_visited = 0; ///< how often nodes were tested for culling or splitting
+};
+
+/// Where the vertex of a mesh with geomorphs comes from. 16 bytes.
+struct VertexOrigin {
+    std::uint16_t column = 0; ///< its sample
+    std::uint16_t row = 0;
+    std::uint32_t end_a = 0; ///< vertices in the middle of which it appears, both before it; itself
+    std::uint32_t end_b = 0; ///< for those that are always there
+    float weight = 1.0F;     ///< 0 = wholly as the middle of its ends, 1 = wholly its sample
 };
 
 /// The ground for one view. The memory is the mesher's and lasts until its next mesh.
@@ -42,6 +57,8 @@ struct GroundMesh {
                                             ///< seen from above
     MeshCounters counters;
     double resolution = 0.0; ///< C it was made with, before magnification
+    double error_px = 0.0;   ///< screen-space error it was made for; 0 where C decides
+    std::span<const VertexOrigin> origins; ///< of the vertices; empty where C decides
 };
 
 /// A node that is in the mesh: its centre is a vertex, unless all four quadrants are split.

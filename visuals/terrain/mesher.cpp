@@ -107,7 +107,9 @@ GroundMesh Mesher::finished(double resolution) {
         std::span(vertices_).first(vertex_count_),
         std::span(indices_).first(index_count_),
         counters_,
-        resolution};
+        resolution,
+        0.0,
+        {}};
 }
 
 /// Whether a node is in the unculled mesh.

@@ -1,0 +1,1 @@
+#include "visuals/terrain/ground_tiles.h"

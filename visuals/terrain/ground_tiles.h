@@ -1,0 +1,182 @@
+#pragma once
+
+#include "models/height_field.h"
+#include "visuals/terrain/ground_layout.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace octant::visuals::terrain {
+
+/// What is known of a ground besides its numbers.
+struct GroundFacts {
+    std::string name;
+    std::optional<models::GeoPlace> place; ///< nothing for made ground
+    std::int64_t filled_voids = 0;         ///< samples without data that were filled in
+    float lowest_m = 0.0F;
+    float highest_m = 0.0F;
+    float mean_m = 0.0F;
+};
+
+/// Heights of a ground and, for each sample that a mesh may leave out, the error of doing so: the
+/// one thing that meshes by screen-space error are made from. Reads GroundLayout memory, which may
+/// be a mapped file. World axes as in HeightField: x east, y north, z up, metres, origin at the
+/// field's centre at datum; column 0 west, row 0 south.
+///
+/// The error of a sample is for the longest-edge bisection of the field. A sample halves the
+/// longest edge of two triangles (one at the border). Its own error is how far the field's samples
+/// lie above or below those two triangles, at most; stored is the largest of its own and those of
+/// all samples that need it, so that errors never grow from a sample to one that needs it. A sample
+/// needs: the middle of an edge, the centres of both nodes beside the edge; the centre of a node,
+/// the middles of the two edges through its parent's other samples: those two of its corners that
+/// are neither its parent's centre nor its parent's corner.
+class GroundTiles {
+public:
+    /// `memory`: laid out as GroundLayout(shape.columns, shape.rows) says, its size asserted, kept
+    /// alive by `owner`.
+    GroundTiles(
+        const GroundShape& shape,
+        GroundFacts facts,
+        std::span<const std::byte> memory,
+        std::shared_ptr<const void> owner);
+
+    const GroundShape& shape() const { return shape_; }
+
+    const GroundFacts& facts() const { return facts_; }
+
+    const GroundLayout& layout() const { return layout_; }
+
+    std::span<const std::byte> memory() const { return memory_; }
+
+    int levels() const { return layout_.levels(); }
+
+    int columns() const { return shape_.columns; }
+
+    int rows() const { return shape_.rows; }
+
+    double spacing_m() const { return shape_.spacing_m; }
+
+    /// Height of the root's corners: south-west, south-east, north-west, north-east.
+    float corner_m(unsigned corner) const {
+        return height_of(heights_at(layout_.corners())[corner]);
+    }
+
+    /// Height of a sample by its node. South also of row rows(level), West also of column
+    /// columns(level) (each beyond the last node).
+    float height_m(int level, NodePart part, int column, int row) const {
+        return height_of(*stored_height(layout_.level(level), part, column, row));
+    }
+
+    /// Number of the error of a sample by its node, as height_m; error_of makes it metres. 0 only
+    /// where the error is 0.
+    std::uint8_t error_code(int level, NodePart part, int column, int row) const {
+        return *stored_error(layout_.level(level), part, column, row);
+    }
+
+    /// Metres of an error's number, at or above every error so numbered, at most 5 % above.
+    /// Ascending.
+    static float error_m_of(std::uint8_t code) { return error_metres()[code]; }
+
+    /// Smallest code whose metres are at or above; 255 for errors beyond all.
+    static std::uint8_t error_code_of(float error_m);
+
+    /// Heights between which all samples of a node lie, for levels up to
+    /// layout().range_level(): nodes below have none of their own.
+    float lowest_m(int level, int column, int row) const {
+        return height_of(range(level, column, row).lowest);
+    }
+
+    float highest_m(int level, int column, int row) const {
+        return height_of(range(level, column, row).highest);
+    }
+
+    /// Height of any sample (asserted to be one).
+    float height_m(int column, int row) const;
+
+    /// World position of a sample.
+    glm::dvec3 sample_m(int column, int row) const;
+
+    /// Half the extent of the field from its centre, east and north, metres.
+    glm::dvec2 half_extent_m() const;
+
+    /// Height of the ground between samples (bilinear); nothing outside the field.
+    std::optional<double> height_at(double x_m, double y_m) const;
+
+private:
+    static const std::array<float, 256>& error_metres();
+
+    float height_of(std::int16_t stored) const {
+        return static_cast<float>(base_m_ + unit_m_ * static_cast<double>(stored));
+    }
+
+    const std::int16_t* heights_at(std::size_t offset) const {
+        return reinterpret_cast<const std::int16_t*>(memory_.data() + offset);
+    }
+
+    const HeightRange& range(int level, int column, int row) const {
+        const GroundLayout::Level& at = layout_.level(level);
+        return reinterpret_cast<const HeightRange*>(memory_.data() + at.ranges)
+            [static_cast<std::size_t>(row) * static_cast<std::size_t>(at.columns) +
+             static_cast<std::size_t>(column)];
+    }
+
+    /// Offset of a node's tile and place of the node in it.
+    struct TilePlace {
+        std::size_t tile;
+        std::size_t node;
+    };
+
+    static TilePlace place_of(const GroundLayout::Level& at, int column, int row) {
+        const int mask = (1 << at.tile_shift) - 1;
+        const auto tile = static_cast<std::size_t>(
+            (row >> at.tile_shift) * at.tiles_across + (column >> at.tile_shift));
+        return {
+            at.first_tile + tile * at.tile_bytes,
+            static_cast<std::size_t>(((row & mask) << at.tile_shift) + (column & mask))};
+    }
+
+    const std::int16_t*
+    stored_height(const GroundLayout::Level& at, NodePart part, int column, int row) const {
+        if (row == at.rows) {
+            return heights_at(at.north_heights) + column;
+        }
+        if (column == at.columns) {
+            return heights_at(at.east_heights) + row;
+        }
+        const TilePlace place = place_of(at, column, row);
+        return heights_at(place.tile) + static_cast<std::size_t>(part) * at.tile_nodes + place.node;
+    }
+
+    const std::uint8_t*
+    stored_error(const GroundLayout::Level& at, NodePart part, int column, int row) const {
+        const auto* const bytes = reinterpret_cast<const std::uint8_t*>(memory_.data());
+        if (row == at.rows) {
+            return bytes + at.north_errors + column;
+        }
+        if (column == at.columns) {
+            return bytes + at.east_errors + row;
+        }
+        const TilePlace place = place_of(at, column, row);
+        return bytes + place.tile + (6 + static_cast<std::size_t>(part)) * at.tile_nodes +
+               place.node;
+    }
+
+    GroundShape shape_;
+    GroundFacts facts_;
+    GroundLayout layout_;
+    std::span<const std::byte> memory_;
+    std::shared_ptr<const void> owner_;
+    double base_m_;
+    double unit_m_;
+};
+
+} // namespace octant::visuals::terrain
