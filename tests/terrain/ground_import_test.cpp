@@ -180,6 +180,12 @@ TEST_CASE("voids and gaps between files are filled from their rims and counted")
     CHECK(ground.error_code(0, NodePart::Centre, 0, 0) == 0);
 }
 
+TEST_CASE("files without any height are refused and leave nothing behind") {
+    const path file = write_tiff("void.tif", {0, 9, 0, 9}, [](int, int) { return no_data; });
+    CHECK_THROWS_WITH(imported({file}, "void.ground"), Contains("at least one height"));
+    CHECK_FALSE(std::filesystem::exists(scratch("void.ground.part")));
+}
+
 TEST_CASE("files that do not fit together are refused by name") {
     const Made made;
     const path west = write_tiff("fits.tif", {0, 100, 0, 80}, made);

@@ -252,6 +252,8 @@ void Import::read() {
         file_->write(offset, std::as_bytes(std::span(band)));
     });
     if (static_cast<std::size_t>(progress_.voids) == samples()) {
+        std::error_code code;
+        std::filesystem::remove(part_, code);
         error_in(source_.name(), "expected at least one height, got only samples without data");
     }
 }
