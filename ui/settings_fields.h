@@ -149,7 +149,8 @@ void visit_ground_settings(SomeSettings& s, Visit& visit) {
             "mesh",
             "METRIC",
             "what refines the ground: screen-error (error in pixels, bisection), or the paper's "
-            "quadtree by midpoint or printed (corner slopes) roughness"},
+            "quadtree by midpoint or printed (corner slopes) roughness [screen-error; midpoint "
+            "where only the quadtree has what is asked for]"},
         s.mesh);
     visit(
         Info{

@@ -11,6 +11,7 @@
 #include "ui/place_text.h"
 #include "ui/terrain_file.h"
 #include "visuals/draworder/ordered_model.h"
+#include "visuals/terrain/ground_builder.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -37,30 +38,56 @@ struct Script {
     std::vector<flightpaths::LegBegin> legs;
 };
 
+template <class Field>
+void describe_ground(
+    const Field& field,
+    const std::string& name,
+    const std::optional<models::GeoPlace>& place,
+    std::int64_t filled_voids,
+    World& world) {
+    world.ground_name = fmt::format(
+        "{}, {} x {} samples, {:.4g} m apart",
+        name,
+        field.columns(),
+        field.rows(),
+        field.spacing_m());
+    world.ground_place = place;
+    if (filled_voids > 0) {
+        world.notes.push_back(
+            fmt::format("{}: {} samples without data were filled in", name, filled_voids));
+    }
+}
+
+void check_detail(const scene::Settings& settings) {
+    scene::Settings unasked = settings;
+    unasked.mesh.reset();
+    if (settings.mesh == scene::GroundMetric::ScreenError &&
+        scene::ground_metric(unasked) != scene::GroundMetric::ScreenError) {
+        throw Error("--mesh screen-error: expected --detail exact without --roughness-c, --fans or "
+                    "--propagation, got one that only --mesh midpoint or printed has");
+    }
+    if (settings.error_px && scene::ground_metric(settings) != scene::GroundMetric::ScreenError) {
+        throw Error("--error-px: expected --mesh screen-error, got a mesh that goes by roughness");
+    }
+}
+
 void load_ground(const scene::Settings& settings, World& world) {
+    check_detail(settings);
     world.ground_name = settings.terrain;
     if (settings.terrain == "background60" || settings.terrain == "none") {
         world.scene.ground = scene::ground_from_polygons(
             settings.terrain == "none" ? models::PolygonModel{} : models::background60(), settings);
         return;
     }
-    models::HeightField field = load_height_field(settings.terrain, settings.terrain_spacing_m);
-    world.ground_name = fmt::format(
-        "{}, {} x {} samples, {:.4g} m apart",
-        field.name,
-        field.columns(),
-        field.rows(),
-        field.spacing_m());
-    world.ground_place = field.place;
-    if (field.filled_voids > 0) {
-        world.notes.push_back(fmt::format(
-            "{}: {} samples without data were filled in", field.name, field.filled_voids));
-    }
     scene::Settings colours = settings;
     if (!settings.palette && settings.terrain == "canyon") {
         colours.palette = scene::Palette::Arid;
     }
-    world.scene.ground = scene::ground_from_field(std::move(field), colours);
+    models::HeightField field = load_height_field(settings.terrain, settings.terrain_spacing_m);
+    describe_ground(field, field.name, field.place, field.filled_voids, world);
+    world.scene.ground = scene::ground_metric(settings) == scene::GroundMetric::ScreenError
+                             ? scene::ground_from_tiles(visuals::terrain::ground_of(field), colours)
+                             : scene::ground_from_field(std::move(field), colours);
 }
 
 /// Looking for orders takes time with the square of the polygons and more.

@@ -57,6 +57,10 @@ public:
     /// Prepares the ground for the camera of the first frame. Loading work.
     void settle(const Camera& camera);
 
+    /// Begins the work on the ground of the next plan() beside the caller, for the camera that it
+    /// will be given; the last plan stays valid. May be left out: changes no plan.
+    void prepare(const Camera& camera);
+
     /// The plan of the next frame; `states` are those of Scene::aircraft. Valid until the next
     /// call. No allocation once the first frames have been planned.
     const FramePlan&

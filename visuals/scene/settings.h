@@ -54,8 +54,8 @@ struct Settings {
 
     HiddenSurface hidden_surface = HiddenSurface::Octant;
     draworder::Method order_method = draworder::Method::Tree;
-    bool shadows = true; ///< of aircraft on the ground
-    GroundMetric mesh = GroundMetric::Midpoint;
+    bool shadows = true;              ///< of aircraft on the ground
+    std::optional<GroundMetric> mesh; ///< none = as ground_metric says
     Propagation propagation = Propagation::CrackFree;
     GroundFans fans = GroundFans::Partial;
     DetailControl detail = DetailControl::Exact;
@@ -77,6 +77,16 @@ struct Settings {
     double water_level_m = 0.0;     ///< ground at or below it is drawn as water
     std::optional<Palette> palette; ///< none = arid for the canyon, else temperate
 };
+
+/// What refines the ground: unless told, the screen-space error; the paper's quadtree by mid-point
+/// roughness where something is asked for that only it has.
+inline GroundMetric ground_metric(const Settings& settings) {
+    const bool of_the_paper = settings.detail != DetailControl::Exact || settings.roughness_c ||
+                              settings.fans != GroundFans::Partial ||
+                              settings.propagation != Propagation::CrackFree;
+    return settings.mesh.value_or(
+        of_the_paper ? GroundMetric::Midpoint : GroundMetric::ScreenError);
+}
 
 /// Triangles of ground that are held; a number beyond all meshes where the error alone decides.
 inline int triangle_target(const Settings& settings) {
