@@ -73,8 +73,11 @@ public:
 
 private:
     void make(const terrain::MeshView& view) {
-        mesh_ = mesher_.mesh(view, target_);
-        colours_.fill(mesher_.vertices(), mesh_.origins);
+        const terrain::GroundMesh mesh = mesher_.mesh(view, target_);
+        if (mesh.vertices.data() != mesh_.vertices.data()) {
+            colours_.fill(mesher_.vertices(), mesh.origins);
+        }
+        mesh_ = mesh;
     }
 
     terrain::MeshView view_of(const Camera& camera, double aspect) const {

@@ -19,6 +19,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace octant::visuals::terrain {
 
@@ -64,6 +65,8 @@ GroundMesh ErrorMesher::mesh(const MeshView& view, const ErrorTarget& target) {
     counters_ = {};
     counters_.nodes_visited = survey_.nodes_tested();
     drawn_measured_ = false;
+    std::swap(vertices_, last_vertices_);
+    std::swap(indices_, last_indices_);
     make_room();
     EmittedFan root = root_fan();
     emit(root);
@@ -84,6 +87,8 @@ void ErrorMesher::make_room() {
     const std::size_t count = nodes_.size();
     if (vertices_.size() < 5 * count + 4) {
         vertices_.resize(6 * count + 4);
+    }
+    if (origins_.size() < vertices_.size()) {
         origins_.resize(vertices_.size());
         height_m_.resize(vertices_.size());
     }

@@ -41,9 +41,13 @@ public:
 
     /// The mesh at the smallest error, at or above the target's, up from which none has more
     /// triangles than the target's, whatever was meshed before; the same as before, without work,
-    /// where view and target are. Colours are 0. Beside used samples, vertices may be ends of
-    /// others.
+    /// where view and target are. Colours are left to vertices(). Beside used samples, vertices may
+    /// be ends of others. The memory lasts until the next mesh but one, so that a mesh can be drawn
+    /// while the next is made.
     GroundMesh mesh(const MeshView& view, const ErrorTarget& target);
+
+    /// Those of the last mesh, to be coloured.
+    std::span<models::ColourVertex> vertices() { return std::span(vertices_).first(vertex_count_); }
 
     /// Whether a box (world axes, metres) is looked for.
     using BoxTest = std::function<bool(const glm::dvec3& least_m, const glm::dvec3& most_m)>;
@@ -122,6 +126,8 @@ private:
     std::vector<VertexOrigin> origins_;
     std::vector<float> height_m_; ///< of vertices_ before they are lowered, eye subtracted
     std::vector<std::uint32_t> indices_;
+    std::vector<models::ColourVertex> last_vertices_; ///< of the last mesh but one
+    std::vector<std::uint32_t> last_indices_;
     std::uint32_t vertex_count_ = 0;
     std::size_t index_count_ = 0;
     MeshCounters counters_;
