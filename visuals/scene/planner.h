@@ -57,6 +57,9 @@ public:
     /// Prepares the ground for the camera of the first frame. Loading work.
     void settle(const Camera& camera);
 
+    /// Ground::set_triangle_target.
+    void set_triangle_target(int triangles);
+
     /// The plan of the next frame; `states` are those of Scene::aircraft. Valid until the next
     /// call. No allocation once the first frames have been planned.
     const FramePlan&
