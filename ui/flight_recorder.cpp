@@ -34,7 +34,7 @@ std::string adaptation_text(const scene::LoadSettings& load) {
     return fmt::format(
         "terrain: {} to {} triangles; left alone at a stress of {:.2f} to {:.2f}, else brought to "
         "the middle by at most {:.1f} % down and {:.1f} % up a frame; stress filtered over "
-        "{:.1f} s, longer frames counted as {:.1f}",
+        "{:.1f} s, for the control with no frame above {:.1f} and carried over to each new target",
         load.lowest,
         load.highest,
         load.least_stress,

@@ -177,10 +177,13 @@ TEST_CASE("the stress is none before a frame is measured and the filtered share 
     LoadState state = starting_at(20000.0, settings);
     CHECK_FALSE(state.stress.has_value());
     state = next_state(state, settings, {0.85 * settings.share_ms, 20000});
-    CHECK(state.stress == Approx(0.825 + (1.0 - std::exp(-1.0 / 30.0)) * 0.025));
-    state = with_target(state, 10000);
-    CHECK(state.triangles() == 10000);
-    CHECK(state.expected_stress == Approx(0.5 * *state.stress));
+    CHECK(state.stress == Approx(0.85));
+    state = next_state(state, settings, {3.85 * settings.share_ms, 20000});
+    CHECK(state.stress == Approx(0.85 + (1.0 - std::exp(-1.0 / 30.0)) * 3.0));
+    const LoadState other = with_target(state, 10000);
+    CHECK(other.triangles() == 10000);
+    CHECK(other.stress == state.stress);
+    CHECK(other.expected_stress == Approx(state.expected_stress * 10000.0 / state.target));
 }
 
 TEST_CASE("whatever frames take, the budget changes in small steps within its limits") {

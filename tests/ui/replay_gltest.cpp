@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -177,5 +178,6 @@ TEST_CASE("adaptation is refused where there is nothing to adapt") {
     check_refused(fly({"--detail", "damped"}), "--adapt terrain: expected --detail exact");
     check_refused(fly({"--terrain", "background60"}), "expected ground with levels of detail");
     check_refused(
-        fly({"--adapt", "sound"}), "--adapt: expected none or a list of terrain, got 'sound'");
+        run_octant({"fly", "straight", "--adapt", "terrain,sound"}),
+        "--adapt: expected none or a list of terrain, got 'terrain,sound'");
 }

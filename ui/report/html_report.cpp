@@ -145,8 +145,7 @@ std::string figures_table(Recordings recordings) {
             "simulation step to its pixels complete and read; writing pictures and video is "
             "outside it. n is the number of frames counted. Stress (frames.csv) is the share of a "
             "frame's time, the simulated time from it to the next, that frame_ms is; where the "
-            "ground adapts it is that share through a first-order filter, carried over to each new "
-            "triangle target as if all of the frame were ground.";
+            "ground adapts it is that share through a first-order filter.";
     html += recordings.size() > 1 ? " In brackets: against the first recording.</p>\n" : "</p>\n";
     return card(html);
 }

@@ -29,9 +29,8 @@ double time_constant_frames(const LoadSettings& settings) {
     return std::max(1000.0 * settings.filter_s / settings.share_ms, settings.filter_frames);
 }
 
-double filtered(double before, const LoadSettings& settings, double frame_ms) {
-    const double counted = std::min(frame_ms / settings.share_ms, settings.most_counted_stress);
-    return before + (1.0 - std::exp(-1.0 / time_constant_frames(settings))) * (counted - before);
+double filtered(double before, const LoadSettings& settings, double stress) {
+    return before + (1.0 - std::exp(-1.0 / time_constant_frames(settings))) * (stress - before);
 }
 
 Course next_course(Course course, const LoadSettings& settings, double stress, bool budget_used) {
@@ -89,10 +88,12 @@ LoadState next_state(const LoadState& state, const LoadSettings& settings, const
     assert(settings.least_stress > 0.0 && settings.most_stress >= settings.least_stress);
     assert(settings.most_counted_stress > settings.most_stress && settings.filter_frames >= 1.0);
     assert(load.frame_ms >= 0.0);
-    const double stress = filtered(state.expected_stress, settings, load.frame_ms);
+    const double share_used = load.frame_ms / settings.share_ms;
+    const double stress = filtered(
+        state.expected_stress, settings, std::min(share_used, settings.most_counted_stress));
     const bool used = load.triangles >= settings.used_share * state.target;
     LoadState next;
-    next.stress = stress;
+    next.stress = filtered(state.stress.value_or(share_used), settings, share_used);
     next.course = next_course(state.course, settings, stress, used);
     const double factor = next.course == Course::Held ? 1.0 : change_of_target(settings, stress);
     next.target = std::clamp<double>(state.target * factor, settings.lowest, settings.highest);

@@ -35,7 +35,9 @@ struct LoadState {
     double target = 0.0; ///< triangles of the next frame, within the settings' limits
     Course course = Course::Held;
     std::optional<double> stress; ///< filtered, with the last frame measured; none before the first
-    double expected_stress = 0.0; ///< what the next frame would have to use to leave it as it is
+    /// What the control goes by: filtered too, but with long frames counted less and carried over
+    /// to each new target. At rest the same as `stress`.
+    double expected_stress = 0.0;
 
     /// The target as a whole number.
     int triangles() const;
