@@ -8,8 +8,11 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 #include <span>
+#include <utility>
 
 namespace octant::ui {
 
@@ -55,6 +58,8 @@ Session::Session(const scene::Settings& settings, Shows shows)
     gl::spread_raster_threads();
     states_.resize(world_.scene.aircraft.size());
     make_frame_times();
+    load_settings_ = scene::load_settings(settings_, rate_hz_);
+    load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
     states_at(frame_times_s_.front());
     rig_ = scene::advanced(rig_, states_.front());
     planner_.settle(camera());
@@ -108,6 +113,33 @@ void Session::simulate_to(double time_s) {
     states_at(time_s);
 }
 
+void Session::replay(std::vector<int> triangle_targets) {
+    assert(triangle_targets.size() <= frame_times_s_.size());
+    frame_times_s_.resize(triangle_targets.size());
+    replayed_targets_ = std::move(triangle_targets);
+}
+
+int Session::choose_triangle_target(int frame) {
+    if (!replayed_targets_.empty()) {
+        load_ = scene::with_target(load_, replayed_targets_[static_cast<std::size_t>(frame)]);
+    }
+    return settings_.adapt.terrain || !replayed_targets_.empty()
+               ? load_.triangles()
+               : scene::triangle_target(settings_);
+}
+
+/// What the frame's row says as its stress; decides the next frame's target where it adapts.
+double Session::stress_after(const report::FrameRecord& record) {
+    if (!settings_.adapt.terrain) {
+        return record.frame_ms * rate_hz_ / 1000.0;
+    }
+    if (!record.warm_up) {
+        load_ =
+            scene::next_state(load_, load_settings_, {record.frame_ms, record.terrain_triangles});
+    }
+    return load_.stress.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
 scene::Camera Session::camera() const {
     scene::Subject subject = world_.scene.models[world_.scene.aircraft.front()].subject;
     subject.radius_m = formation_.framed_radius_m(subject.radius_m);
@@ -130,6 +162,8 @@ report::FrameRecord Session::draw(int frame) {
     simulate_to(record.sim_time_s);
     record.sim_ms = stage.lap_ms();
 
+    record.triangle_target = choose_triangle_target(frame);
+    planner_.set_triangle_target(record.triangle_target);
     const scene::Camera seen_from = camera();
     scene::PlanCounts counts;
     const scene::FramePlan& plan = planner_.plan(seen_from, states_, counts);
@@ -151,9 +185,10 @@ report::FrameRecord Session::draw(int frame) {
     record.cuts = counts.cuts;
     record.unordered = counts.unordered;
     record.resolution_c = counts.ground.resolution;
+    record.error_px = counts.ground.error_px;
     record.triangle_change = frame == 0 ? 0 : counts.ground.triangles - last_triangles_;
     last_triangles_ = counts.ground.triangles;
-    record.stress = record.frame_ms * rate_hz_ / 1000.0;
+    record.stress = stress_after(record);
     record.overrun = record.frame_ms > report::overrun_16_ms ? 1 : 0;
     record.eye_m = seen_from.eye_m;
     record.aircraft_m = states_.front().position_m;

@@ -10,6 +10,7 @@
 #include "visuals/gl/renderer.h"
 #include "visuals/scene/camera_rig.h"
 #include "visuals/scene/id_plan.h"
+#include "visuals/scene/load_controller.h"
 #include "visuals/scene/planner.h"
 #include "visuals/scene/settings.h"
 
@@ -56,6 +57,10 @@ public:
     /// turns.
     void make_current() { context_->make_current(); }
 
+    /// Flies as many frames as there are numbers, at most frames() (asserted), each with that
+    /// triangle target whatever the clock says. Before the first draw().
+    void replay(std::vector<int> triangle_targets);
+
     /// Simulates up to the frame's time, plans, draws and reads the picture. Frames come in order.
     report::FrameRecord draw(int frame);
 
@@ -74,6 +79,8 @@ public:
 private:
     void make_frame_times();
     void simulate_to(double time_s);
+    int choose_triangle_target(int frame);
+    double stress_after(const report::FrameRecord& record);
     void states_at(double time_s);
     visuals::scene::Camera camera() const;
 
@@ -92,6 +99,9 @@ private:
     std::vector<sim::AircraftState> states_;
     visuals::gl::Picture picture_;
     int last_triangles_ = 0;
+    visuals::scene::LoadSettings load_settings_;
+    visuals::scene::LoadState load_;
+    std::vector<int> replayed_targets_; ///< by frame; empty = nothing is replayed
     Hash state_hash_;
     Hash picture_hash_;
     Stopwatch since_first_frame_;

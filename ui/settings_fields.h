@@ -117,6 +117,13 @@ void visit_time_settings(SomeSettings& s, Visit& visit) {
             0,
             100000000},
         s.pictures);
+    visit(
+        Info{
+            "adapt",
+            "WHAT,...",
+            "what follows the frame time: terrain (its triangles, from an eighth to four times "
+            "--triangles, so that a frame uses 75 to 90 % of its time), or none"},
+        s.adapt);
 }
 
 /// Fields that say how hidden surfaces are removed.

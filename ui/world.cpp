@@ -71,10 +71,15 @@ void check_detail(const scene::Settings& settings) {
     }
 }
 
+/// Ground of polygons: there is no detail to choose.
+bool is_drawn_whole(const std::string& terrain) {
+    return terrain == "background60" || terrain == "none";
+}
+
 void load_ground(const scene::Settings& settings, World& world) {
     check_detail(settings);
     world.ground_name = settings.terrain;
-    if (settings.terrain == "background60" || settings.terrain == "none") {
+    if (is_drawn_whole(settings.terrain)) {
         world.scene.ground = scene::ground_from_polygons(
             settings.terrain == "none" ? models::PolygonModel{} : models::background60(), settings);
         return;
@@ -267,6 +272,19 @@ void check_wingmen(const World& world) {
     }
 }
 
+void check_adaptation(const scene::Settings& settings) {
+    if (!settings.adapt.terrain) {
+        return;
+    }
+    if (settings.detail != scene::DetailControl::Exact) {
+        throw Error("--adapt terrain: expected --detail exact beside it, got another control");
+    }
+    if (is_drawn_whole(settings.terrain)) {
+        throw Error(fmt::format(
+            "--adapt terrain: expected ground with levels of detail, got {}", settings.terrain));
+    }
+}
+
 void check_eye_point(const scene::Settings& settings) {
     const bool free = settings.view == scene::View::Free;
     if (free && (!settings.eye_m || !settings.look_m)) {
@@ -323,6 +341,7 @@ World load_world(const scene::Settings& settings) {
     if (settings.samples != 1 && settings.samples != 4) {
         throw Error(fmt::format("--samples: expected 1 or 4, got {}", settings.samples));
     }
+    check_adaptation(settings);
     World world;
     load_aircraft(settings, world);
     Script script = load_script(settings, world);

@@ -107,6 +107,11 @@ public:
         state_ = terrain::starting_at(resolution, control_);
     }
 
+    void set_triangle_target(int triangles) override {
+        budget_.triangles = triangles;
+        control_.target_triangles = triangles;
+    }
+
     TriangleDraw triangles(const Camera& camera, double aspect, GroundCounts& counts) override {
         const terrain::GroundMesh mesh = next_mesh(view_of(camera, aspect));
         counts = {mesh.counters.triangles, mesh.counters.fans, mesh.resolution, mesh.error_px};

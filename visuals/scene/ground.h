@@ -50,6 +50,10 @@ public:
     /// work.
     virtual void settle(const Camera& camera, double aspect) = 0;
 
+    /// How many triangles the frames from the next one on may have, at least 1. Before the first
+    /// call it is triangle_target(settings). Ground that is always drawn whole does not care.
+    virtual void set_triangle_target(int /*triangles*/) {}
+
     /// The triangles of one frame in painting order, farthest first, valid until the next call, and
     /// what they cost. Advances the detail control by one frame.
     virtual TriangleDraw triangles(const Camera& camera, double aspect, GroundCounts& counts) = 0;

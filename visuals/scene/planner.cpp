@@ -86,6 +86,10 @@ void Planner::prepare(const Camera& camera) {
     scene_.ground->prepare(camera, aspect_);
 }
 
+void Planner::set_triangle_target(int triangles) {
+    scene_.ground->set_triangle_target(triangles);
+}
+
 const FramePlan& Planner::plan(
     const Camera& camera, std::span<const sim::AircraftState> states, PlanCounts& counts) {
     plan_.world_to_view = world_to_view(camera);

@@ -61,6 +61,9 @@ public:
     /// will be given; the last plan stays valid. May be left out: changes no plan.
     void prepare(const Camera& camera);
 
+    /// Ground::set_triangle_target.
+    void set_triangle_target(int triangles);
+
     /// The plan of the next frame; `states` are those of Scene::aircraft. Valid until the next
     /// call. No allocation once the first frames have been planned.
     const FramePlan&

@@ -21,6 +21,13 @@ enum class GroundFans { Partial, Full };
 enum class DetailControl { Exact, Damped, Previous, Literal, Fixed };
 enum class Palette { Temperate, Arid };
 
+/// What follows the clock: each frame's choice then depends on how long the frames before it took.
+struct Adaptation {
+    bool terrain = false; ///< triangles of ground, exact control only
+
+    bool operator==(const Adaptation&) const = default;
+};
+
 /// Everything that decides what a run shows. A run is repeated by repeating its Settings; each
 /// field is an option of the command line of the same name (ui/settings_fields.h says unit and
 /// meaning). Fields that only say where results go are not here.
@@ -49,7 +56,8 @@ struct Settings {
     int warm_up = 10;
     bool realtime = false; ///< no faster than the clock
     std::optional<int>
-        pictures; ///< every Nth frame as PNG, 0 = none; none = one a simulated second
+        pictures;     ///< every Nth frame as PNG, 0 = none; none = one a simulated second
+    Adaptation adapt; ///< what follows the frame time
     ContextKind context = ContextKind::OsMesa;
 
     HiddenSurface hidden_surface = HiddenSurface::Octant;
@@ -88,9 +96,11 @@ inline GroundMetric ground_metric(const Settings& settings) {
         of_the_paper ? GroundMetric::Midpoint : GroundMetric::ScreenError);
 }
 
-/// Triangles of ground that are held; a number beyond all meshes where the error alone decides.
+/// Triangles of ground that are held, in the first frame where that number follows the clock; a
+/// number beyond all meshes where the error alone decides.
 inline int triangle_target(const Settings& settings) {
-    return settings.triangles.value_or(settings.error_px ? 10000000 : 20000);
+    const bool error_alone = settings.error_px && !settings.adapt.terrain;
+    return settings.triangles.value_or(error_alone ? 10000000 : 20000);
 }
 
 } // namespace octant::visuals::scene

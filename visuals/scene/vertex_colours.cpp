@@ -14,7 +14,7 @@ namespace {
 
 /// Footprint as a share of the distance: about the distance of neighbouring vertices where the
 /// ground is rough, 14 pixels of 720 lines over 45 degrees.
-constexpr double footprint_share = 1.0 / 64.0;
+constexpr double footprint_share = 1.0 / 192.0;
 constexpr std::size_t least_places = 1U << 14U;
 constexpr int mean_samples = 16; ///< a side
 
