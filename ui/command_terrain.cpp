@@ -3,10 +3,12 @@
 #include "models/made_terrain.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
+#include "ui/command_terrain_import.h"
 #include "ui/commands.h"
 #include "ui/progress.h"
 #include "ui/settings_options.h"
 #include "ui/terrain_file.h"
+#include "visuals/terrain/ground_file.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -27,6 +29,7 @@ struct TerrainOptions {
     double spacing_m = 30.0;
     bool json = false;
     bool quiet = false;
+    bool verify = false;
     std::string kind = "hills";
     models::MadeOptions made;
     int seed = 1;
@@ -79,6 +82,10 @@ void print(const nlohmann::ordered_json& figures, bool json) {
 }
 
 void show(const TerrainOptions& options) {
+    if (visuals::terrain::is_ground_file(options.terrain)) {
+        show_ground_file(options.terrain, options.verify, options.json);
+        return;
+    }
     print(figures_of(load_height_field(options.terrain, options.spacing_m)), options.json);
 }
 
@@ -113,6 +120,7 @@ void add_info(CLI::App& terrain) {
         {"terrain-spacing", "METRES", "sample spacing of files that do not say", 0.01, 1e5},
         options->spacing_m);
     info->add_flag("--json", options->json, "as JSON");
+    info->add_flag("--verify", options->verify, "check all of an imported ground");
     info->footer("Example:\n  octant terrain info map.tif --json");
     info->callback([options] { show(*options); });
 }
@@ -143,12 +151,13 @@ void add_make(CLI::App& terrain) {
 } // namespace
 
 void add_terrain_command(CLI::App& program) {
-    CLI::App* terrain = program.add_subcommand("terrain", "Height fields: show, make");
+    CLI::App* terrain = program.add_subcommand("terrain", "Height fields: show, make, import");
     terrain->require_subcommand(1);
     terrain->footer("Examples:\n  octant terrain info map.tif\n  octant terrain make --kind canyon "
                     "--seed 7 --out made.tif");
     add_info(*terrain);
     add_make(*terrain);
+    add_terrain_import(*terrain);
 }
 
 } // namespace octant::ui
