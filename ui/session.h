@@ -33,7 +33,7 @@ enum class Shows {
 /// The only place that reads the clock during a flight.
 class Session {
 public:
-    /// Loads the world, makes the context and draws once in every drawing state. Throws Error.
+    /// Makes the context, loads the world and draws once in every drawing state. Throws Error.
     /// Stays in its place: parts of it point at others.
     explicit Session(const visuals::scene::Settings& settings, Shows shows = Shows::World);
     ~Session();
@@ -72,14 +72,15 @@ public:
     void hash_picture();
 
 private:
+    void load_into_renderer(Shows shows);
     void make_frame_times();
     void simulate_to(double time_s);
     void states_at(double time_s);
     visuals::scene::Camera camera() const;
 
     visuals::scene::Settings settings_;
-    World world_;
     std::unique_ptr<visuals::gl::Context> context_;
+    World world_;
     std::unique_ptr<visuals::gl::Renderer> renderer_; ///< goes before its context
     visuals::scene::Planner planner_;
     std::optional<visuals::scene::IdPlan> ids_;

@@ -37,9 +37,10 @@ struct Script {
     std::vector<flightpaths::LegBegin> legs;
 };
 
-void load_ground(const scene::Settings& settings, World& world) {
+void load_ground(const scene::Settings& settings, DrawnBy drawn_by, World& world) {
     world.ground_name = settings.terrain;
     if (settings.terrain == "background60" || settings.terrain == "none") {
+        check_untextured_ground(settings);
         world.scene.ground = scene::ground_from_polygons(
             settings.terrain == "none" ? models::PolygonModel{} : models::background60(), settings);
         return;
@@ -59,6 +60,10 @@ void load_ground(const scene::Settings& settings, World& world) {
     scene::Settings colours = settings;
     if (!settings.palette && settings.terrain == "canyon") {
         colours.palette = scene::Palette::Arid;
+    }
+    world.scene.ground_texture = load_ground_texture(field, colours, drawn_by, world.notes);
+    if (world.scene.ground_texture) {
+        world.ground_name += settings.drape ? ", draped" : ", textured";
     }
     world.scene.ground = scene::ground_from_field(std::move(field), colours);
 }
@@ -292,14 +297,14 @@ Formation formation_of(const scene::Scene& scene) {
     return {static_cast<int>(scene.aircraft.size()), largest_m};
 }
 
-World load_world(const scene::Settings& settings) {
+World load_world(const scene::Settings& settings, DrawnBy drawn_by) {
     if (settings.samples != 1 && settings.samples != 4) {
         throw Error(fmt::format("--samples: expected 1 or 4, got {}", settings.samples));
     }
     World world;
     load_aircraft(settings, world);
     Script script = load_script(settings, world);
-    load_ground(settings, world);
+    load_ground(settings, drawn_by, world);
     world.flight = place_flight(settings, std::move(script), world);
     check_wingmen(world);
     world.points = fixed_points(settings, world);

@@ -163,23 +163,35 @@ glm::vec3 direction_to_sun(const Settings& settings) {
         std::sin(elevation_rad)));
 }
 
+float light_on(const glm::vec3& normal, const glm::vec3& to_sun) {
+    return ambient_light + sun_light * std::max(glm::dot(normal, to_sun), 0.0F);
+}
+
+glm::vec3 own_ground_colour(
+    const models::HeightField& field,
+    int column,
+    int row,
+    const glm::vec3& normal,
+    const Settings& settings) {
+    const auto water_m = static_cast<float>(settings.water_level_m);
+    const Site site = site_of(field, column, row, 1.0F - normal.z, water_m);
+    if (site.height_m <= 0.0F && site.steepness < 1e-4F) {
+        return water_colour;
+    }
+    return settings.palette == Palette::Arid ? arid(site) : temperate(site);
+}
+
 std::vector<std::uint32_t>
 ground_colours(const models::HeightField& field, const Settings& settings) {
     const glm::vec3 sun = direction_to_sun(settings);
-    const auto water_m = static_cast<float>(settings.water_level_m);
     std::vector<std::uint32_t> colours;
     colours.reserve(
         static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()));
     for (int row = 0; row < field.rows(); ++row) {
         for (int column = 0; column < field.columns(); ++column) {
             const glm::vec3 normal = field.normal_at_sample(column, row);
-            const Site site = site_of(field, column, row, 1.0F - normal.z, water_m);
-            glm::vec3 own = settings.palette == Palette::Arid ? arid(site) : temperate(site);
-            if (site.height_m <= 0.0F && site.steepness < 1e-4F) {
-                own = water_colour;
-            }
-            const float light = ambient_light + sun_light * std::max(glm::dot(normal, sun), 0.0F);
-            colours.push_back(models::packed_colour(own * light));
+            const glm::vec3 own = own_ground_colour(field, column, row, normal, settings);
+            colours.push_back(models::packed_colour(own * light_on(normal, sun)));
         }
     }
     return colours;

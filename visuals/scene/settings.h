@@ -20,6 +20,7 @@ enum class Propagation { CrackFree, Printed };
 enum class GroundFans { Partial, Full };
 enum class DetailControl { Exact, Damped, Previous, Literal, Fixed };
 enum class Palette { Temperate, Arid };
+enum class GroundShading { Auto, Vertex, Texture };
 
 /// Everything that decides what a run shows. A run is repeated by repeating its Settings; each
 /// field is an option of the command line of the same name (ui/settings_fields.h says unit and
@@ -76,6 +77,9 @@ struct Settings {
     double sun_elevation_deg = 35.0;
     double water_level_m = 0.0;     ///< ground at or below it is drawn as water
     std::optional<Palette> palette; ///< none = arid for the canyon, else temperate
+    GroundShading ground_shading =
+        GroundShading::Auto;          ///< auto = texture under a drape or on a GPU, else vertex
+    std::optional<std::string> drape; ///< image file that is laid over the ground
 };
 
 /// Triangles of ground that are held; a number beyond all meshes where the error alone decides.
