@@ -25,6 +25,10 @@ std::unique_ptr<gl::Context> make_context(scene::ContextKind kind) {
 
 namespace {
 
+DrawnBy drawn_by(const gl::Context& context) {
+    return gl::draws_on_processor(context.description()) ? DrawnBy::Processor : DrawnBy::Gpu;
+}
+
 void add_state(Hash& hash, const sim::AircraftState& state) {
     hash.add(std::as_bytes(std::span(glm::value_ptr(state.position_m), 3)));
     hash.add(std::as_bytes(std::span(glm::value_ptr(state.velocity_mps), 3)));
@@ -35,8 +39,8 @@ void add_state(Hash& hash, const sim::AircraftState& state) {
 
 Session::Session(const scene::Settings& settings, Shows shows)
     : settings_(settings)
-    , world_(load_world(settings))
     , context_(make_context(settings.context))
+    , world_(load_world(settings, drawn_by(*context_)))
     , renderer_(std::make_unique<gl::Renderer>(
           context_->functions(), settings.size_px.x, settings.size_px.y, settings.samples))
     , planner_(world_.scene, settings_)
@@ -44,16 +48,7 @@ Session::Session(const scene::Settings& settings, Shows shows)
     , ground_height_(
           [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); })
     , next_step_(sim::step_at(world_.flight.trajectory.start_s())) {
-    if (shows == Shows::PolygonNumbers) {
-        ids_.emplace(world_.scene);
-        renderer_->load_models(ids_->models());
-    } else {
-        std::vector<scene::ModelBuffers> buffers;
-        for (const scene::AircraftModel& model : world_.scene.models) {
-            buffers.push_back(model.buffers);
-        }
-        renderer_->load_models(buffers);
-    }
+    load_into_renderer(shows);
     renderer_->warm_up();
     gl::spread_raster_threads();
     states_.resize(world_.scene.aircraft.size());
@@ -67,6 +62,24 @@ Session::Session(const scene::Settings& settings, Shows shows)
 
 Session::~Session() {
     context_->make_current();
+}
+
+void Session::load_into_renderer(Shows shows) {
+    if (shows == Shows::PolygonNumbers) {
+        ids_.emplace(world_.scene);
+        renderer_->load_models(ids_->models());
+        return;
+    }
+    std::vector<scene::ModelBuffers> buffers;
+    for (const scene::AircraftModel& model : world_.scene.models) {
+        buffers.push_back(model.buffers);
+    }
+    renderer_->load_models(buffers);
+    if (world_.scene.ground_texture) {
+        renderer_->load_ground_texture(*world_.scene.ground_texture);
+        world_.scene.ground_texture->albedo.texels = {};
+        world_.scene.ground_texture->normal.texels = {};
+    }
 }
 
 void Session::make_frame_times() {

@@ -34,7 +34,7 @@ enum class Shows {
 /// The only place that reads the clock during a flight.
 class Session {
 public:
-    /// Loads the world, makes the context and draws once in every drawing state. Throws Error.
+    /// Makes the context, loads the world and draws once in every drawing state. Throws Error.
     /// Stays in its place: parts of it point at others.
     explicit Session(const visuals::scene::Settings& settings, Shows shows = Shows::World);
     ~Session();
@@ -77,6 +77,7 @@ public:
     void hash_picture();
 
 private:
+    void load_into_renderer(Shows shows);
     void make_frame_times();
     void simulate_to(double time_s);
     int choose_triangle_target(int frame);
@@ -85,8 +86,8 @@ private:
     visuals::scene::Camera camera() const;
 
     visuals::scene::Settings settings_;
-    World world_;
     std::unique_ptr<visuals::gl::Context> context_;
+    World world_;
     std::unique_ptr<visuals::gl::Renderer> renderer_; ///< goes before its context
     visuals::scene::Planner planner_;
     std::optional<visuals::scene::IdPlan> ids_;

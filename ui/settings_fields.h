@@ -251,6 +251,21 @@ void visit_air_settings(SomeSettings& s, Visit& visit) {
             "NAME",
             "ground colours: temperate or arid [arid for the canyon, else temperate]"},
         s.palette);
+    visit(
+        Info{
+            "ground-shading",
+            "KIND",
+            "ground lit at each vertex, or at each pixel by texture (without a GPU 4 times "
+            "slower); "
+            "auto: texture with a drape or a GPU"},
+        s.ground_shading);
+    visit(
+        Info{
+            "drape",
+            "FILE",
+            "image laid over the ground: by its coordinate system, or from edge to edge, north up, "
+            "where it has none"},
+        s.drape);
 }
 
 /// Calls visit(FieldInfo, field) for every field of Settings: the one list from which command line,

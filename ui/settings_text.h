@@ -115,6 +115,11 @@ struct EnumNames<visuals::scene::Palette> {
 };
 
 template <>
+struct EnumNames<visuals::scene::GroundShading> {
+    static std::vector<std::string_view> names() { return {"auto", "vertex", "texture"}; }
+};
+
+template <>
 struct EnumNames<visuals::scene::HiddenSurface> {
     static std::vector<std::string_view> names() { return {"octant", "depth-buffer", "back-face"}; }
 };

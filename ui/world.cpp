@@ -76,10 +76,11 @@ bool is_drawn_whole(const std::string& terrain) {
     return terrain == "background60" || terrain == "none";
 }
 
-void load_ground(const scene::Settings& settings, World& world) {
+void load_ground(const scene::Settings& settings, DrawnBy drawn_by, World& world) {
     check_detail(settings);
     world.ground_name = settings.terrain;
     if (is_drawn_whole(settings.terrain)) {
+        check_untextured_ground(settings);
         world.scene.ground = scene::ground_from_polygons(
             settings.terrain == "none" ? models::PolygonModel{} : models::background60(), settings);
         return;
@@ -90,6 +91,10 @@ void load_ground(const scene::Settings& settings, World& world) {
     }
     models::HeightField field = load_height_field(settings.terrain, settings.terrain_spacing_m);
     describe_ground(field, field.name, field.place, field.filled_voids, world);
+    world.scene.ground_texture = load_ground_texture(field, colours, drawn_by, world.notes);
+    if (world.scene.ground_texture) {
+        world.ground_name += settings.drape ? ", draped" : ", textured";
+    }
     world.scene.ground = scene::ground_metric(settings) == scene::GroundMetric::ScreenError
                              ? scene::ground_from_tiles(visuals::terrain::ground_of(field), colours)
                              : scene::ground_from_field(std::move(field), colours);
@@ -337,7 +342,7 @@ Formation formation_of(const scene::Scene& scene) {
     return {static_cast<int>(scene.aircraft.size()), largest_m};
 }
 
-World load_world(const scene::Settings& settings) {
+World load_world(const scene::Settings& settings, DrawnBy drawn_by) {
     if (settings.samples != 1 && settings.samples != 4) {
         throw Error(fmt::format("--samples: expected 1 or 4, got {}", settings.samples));
     }
@@ -345,7 +350,7 @@ World load_world(const scene::Settings& settings) {
     World world;
     load_aircraft(settings, world);
     Script script = load_script(settings, world);
-    load_ground(settings, world);
+    load_ground(settings, drawn_by, world);
     world.flight = place_flight(settings, std::move(script), world);
     check_wingmen(world);
     world.points = fixed_points(settings, world);

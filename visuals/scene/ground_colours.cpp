@@ -7,6 +7,15 @@
 
 namespace octant::visuals::scene {
 
+GroundPoint ground_point(const models::HeightField& field, int column, int row) {
+    const auto spacing_m = static_cast<float>(field.spacing_m());
+    return {
+        spacing_m * static_cast<float>(column),
+        spacing_m * static_cast<float>(row),
+        field.height_m(column, row),
+        field.normal_at_sample(column, row)};
+}
+
 std::vector<std::uint32_t>
 ground_colours(const models::HeightField& field, const Settings& settings) {
     const GroundPalette palette(settings);
@@ -16,11 +25,7 @@ ground_colours(const models::HeightField& field, const Settings& settings) {
         static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()));
     for (int row = 0; row < field.rows(); ++row) {
         for (int column = 0; column < field.columns(); ++column) {
-            const GroundPoint point{
-                spacing_m * static_cast<float>(column),
-                spacing_m * static_cast<float>(row),
-                field.height_m(column, row),
-                field.normal_at_sample(column, row)};
+            const GroundPoint point = ground_point(field, column, row);
             colours.push_back(models::packed_colour(palette.lit(point, spacing_m)));
         }
     }

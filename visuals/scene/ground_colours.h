@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/height_field.h"
+#include "visuals/scene/ground_palette.h"
 #include "visuals/scene/settings.h"
 
 #include <glm/vec3.hpp>
@@ -9,6 +10,9 @@
 #include <vector>
 
 namespace octant::visuals::scene {
+
+/// A sample of the field at full resolution.
+GroundPoint ground_point(const models::HeightField& field, int column, int row);
 
 /// The ground as seen: one packed colour a sample (layout of the field: row 0 south, column 0
 /// west), coloured by height, slope and water level and lit by the sun with the full-resolution

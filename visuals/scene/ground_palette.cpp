@@ -180,6 +180,10 @@ glm::vec3 direction_to_sun(const Settings& settings) {
         std::sin(elevation_rad)));
 }
 
+float light_on(const glm::vec3& normal, const glm::vec3& to_sun) {
+    return ambient_light + sun_light * std::max(glm::dot(normal, to_sun), 0.0F);
+}
+
 GroundPalette::GroundPalette(const Settings& settings)
     : to_sun_(direction_to_sun(settings))
     , water_m_(static_cast<float>(settings.water_level_m))
@@ -194,8 +198,7 @@ glm::vec3 GroundPalette::own(const GroundPoint& point, float footprint_m) const 
 }
 
 glm::vec3 GroundPalette::lit(const GroundPoint& point, float footprint_m) const {
-    const float light = ambient_light + sun_light * std::max(glm::dot(point.normal, to_sun_), 0.0F);
-    return own(point, footprint_m) * light;
+    return own(point, footprint_m) * light_on(point.normal, to_sun_);
 }
 
 } // namespace octant::visuals::scene

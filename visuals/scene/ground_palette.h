@@ -14,6 +14,9 @@ glm::vec3 direction_to_sun(const Settings& settings);
 inline constexpr float ambient_light = 0.42F;
 inline constexpr float sun_light = 0.78F;
 
+/// Light on a surface: 1 would leave its colour as it is. Both unit vectors, world axes.
+float light_on(const glm::vec3& normal, const glm::vec3& to_sun);
+
 /// A place on the ground.
 struct GroundPoint {
     float east_m = 0.0F;   ///< of the field's south-west corner

@@ -96,6 +96,9 @@ const FramePlan& Planner::plan(
     plan_.view_to_clip = view_to_clip(camera, aspect_);
     pixel_rad_ = 2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings_.size_px.y;
     frustum_ = frustum_normals(camera, aspect_);
+    if (scene_.ground_texture) {
+        plan_.ground_texture = texture_places(*scene_.ground_texture, camera.eye_m);
+    }
     plan_.aircraft.clear();
     plan_.steps.clear();
     plan_.clips.clear();
@@ -127,7 +130,7 @@ void Planner::plan_sky(const Camera& camera) {
     plan_.sky = sky_.around(
         {camera.eye_m.z - ground.mean_height_m(),
          distance_to_edge_m(ground, camera.eye_m),
-         ground.mean_colour(),
+         scene_.ground_texture ? scene_.ground_texture->mean_colour : ground.mean_colour(),
          ground.earth_radius_m()},
         plan_.haze);
 }

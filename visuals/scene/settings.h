@@ -20,6 +20,7 @@ enum class Propagation { CrackFree, Printed };
 enum class GroundFans { Partial, Full };
 enum class DetailControl { Exact, Damped, Previous, Literal, Fixed };
 enum class Palette { Temperate, Arid };
+enum class GroundShading { Auto, Vertex, Texture };
 
 /// What follows the clock: each frame's choice then depends on how long the frames before it took.
 struct Adaptation {
@@ -84,6 +85,9 @@ struct Settings {
     double sun_elevation_deg = 35.0;
     double water_level_m = 0.0;     ///< ground at or below it is drawn as water
     std::optional<Palette> palette; ///< none = arid for the canyon, else temperate
+    GroundShading ground_shading =
+        GroundShading::Auto;          ///< auto = texture under a drape or on a GPU, else vertex
+    std::optional<std::string> drape; ///< image file that is laid over the ground
 };
 
 /// What refines the ground: unless told, the screen-space error; the paper's quadtree by mid-point
