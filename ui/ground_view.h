@@ -30,7 +30,7 @@ struct GroundViewOptions {
 
 /// Which mesh.
 struct GroundMeshOptions {
-    visuals::scene::GroundMetric mesh = visuals::scene::GroundMetric::Midpoint;
+    visuals::scene::GroundMetric mesh = visuals::scene::GroundMetric::ScreenError;
     visuals::scene::GroundFans fans = visuals::scene::GroundFans::Partial;
     std::optional<double> roughness_c; ///< as in Settings
     bool geomorphs = false;

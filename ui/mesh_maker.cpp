@@ -1,6 +1,8 @@
 #include "ui/mesh_maker.h"
 
 #include "sim/base/error.h"
+#include "visuals/terrain/error_mesher.h"
+#include "visuals/terrain/ground_builder.h"
 #include "visuals/terrain/mesher.h"
 #include "visuals/terrain/quadtree.h"
 
@@ -64,10 +66,45 @@ private:
     terrain::Detail detail_;
 };
 
+/// The default; coarseness is pixels.
+class ErrorMaker final : public MeshMaker {
+public:
+    ErrorMaker(const models::HeightField& field, const GroundMeshOptions& options)
+        : tiles_(terrain::ground_of(field))
+        , mesher_(tiles_)
+        , finest_px_(options.error_px.value_or(0.0))
+        , geomorphs_(options.geomorphs) {}
+
+    terrain::GroundSamples ground() const override { return terrain::GroundSamples(tiles_); }
+
+    Range range() const override {
+        constexpr double finest_px = 0.01;
+        constexpr double coarsest_px = 200.0;
+        return {finest_px, coarsest_px};
+    }
+
+    terrain::GroundMesh mesh(const terrain::MeshView& view, double coarseness) override {
+        return mesher_.mesh(view, {coarseness, terrain::any_triangles, geomorphs_});
+    }
+
+    terrain::GroundMesh mesh_within(const terrain::MeshView& view, int triangles) override {
+        return mesher_.mesh(view, {finest_px_, triangles, geomorphs_});
+    }
+
+private:
+    terrain::GroundTiles tiles_;
+    terrain::ErrorMesher mesher_;
+    double finest_px_;
+    bool geomorphs_;
+};
+
 } // namespace
 
 std::unique_ptr<MeshMaker>
 make_mesh_maker(const models::HeightField& field, const GroundMeshOptions& options) {
+    if (options.mesh == scene::GroundMetric::ScreenError) {
+        return std::make_unique<ErrorMaker>(field, options);
+    }
     return std::make_unique<QuadtreeMaker>(field, options);
 }
 

@@ -80,7 +80,7 @@ TEST_CASE("edge matching sees each fault by its name") {
 
 TEST_CASE("the printed propagation is caught with corners on edges") {
     int caught = 0;
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         QuadtreeOptions options;
         options.propagation = Propagation::Printed;
         Ground ground(rough_field(65, 65, seed), options);

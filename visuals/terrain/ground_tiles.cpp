@@ -1,1 +1,90 @@
 #include "visuals/terrain/ground_tiles.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <utility>
+
+namespace octant::visuals::terrain {
+
+GroundTiles::GroundTiles(
+    const GroundShape& shape,
+    GroundFacts facts,
+    std::span<const std::byte> memory,
+    std::shared_ptr<const void> owner)
+    : shape_(shape)
+    , facts_(std::move(facts))
+    , layout_(shape.columns, shape.rows)
+    , memory_(memory)
+    , owner_(std::move(owner))
+    , base_m_(shape.height_base_m)
+    , unit_m_(shape.height_unit_m) {
+    assert(memory.size() == layout_.total_bytes());
+}
+
+const std::array<float, 256>& GroundTiles::error_metres() {
+    static const std::array<float, 256> table = [] {
+        constexpr double smallest_m = 0.01;
+        constexpr double ratio = 1.0567; ///< 254 steps to 12,100 m
+        std::array<float, 256> metres{};
+        double error_m = smallest_m;
+        for (std::size_t code = 1; code < metres.size(); ++code) {
+            metres[code] = static_cast<float>(error_m);
+            error_m *= ratio;
+        }
+        return metres;
+    }();
+    return table;
+}
+
+std::uint8_t GroundTiles::error_code_of(float error_m) {
+    const std::array<float, 256>& metres = error_metres();
+    const auto at = std::lower_bound(metres.begin(), metres.end(), error_m);
+    return static_cast<std::uint8_t>(std::min<std::ptrdiff_t>(at - metres.begin(), 255));
+}
+
+float GroundTiles::height_m(int column, int row) const {
+    assert(column >= 0 && row >= 0 && column < columns() && row < rows());
+    const auto steps = static_cast<unsigned>(column | row);
+    const int root_edge = layout_.level(0).edge;
+    if (steps % static_cast<unsigned>(root_edge) == 0) {
+        return corner_m((column != 0 ? 1U : 0U) + (row != 0 ? 2U : 0U));
+    }
+    const int zeros = std::countr_zero(steps);
+    const int level = levels() - 1 - zeros;
+    const int half = 1 << zeros;
+    const NodePart part = (column & half) == 0 ? NodePart::West
+                          : (row & half) == 0  ? NodePart::South
+                                               : NodePart::Centre;
+    return height_m(level, part, column >> (zeros + 1), row >> (zeros + 1));
+}
+
+glm::dvec3 GroundTiles::sample_m(int column, int row) const {
+    const glm::dvec2 half = half_extent_m();
+    return {
+        column * spacing_m() - half.x,
+        row * spacing_m() - half.y,
+        static_cast<double>(height_m(column, row))};
+}
+
+glm::dvec2 GroundTiles::half_extent_m() const {
+    return {0.5 * (columns() - 1) * spacing_m(), 0.5 * (rows() - 1) * spacing_m()};
+}
+
+std::optional<double> GroundTiles::height_at(double x_m, double y_m) const {
+    const glm::dvec2 half = half_extent_m();
+    if (!(std::abs(x_m) <= half.x && std::abs(y_m) <= half.y)) {
+        return std::nullopt;
+    }
+    const double across = (x_m + half.x) / spacing_m();
+    const double up = (y_m + half.y) / spacing_m();
+    const int column = std::min(static_cast<int>(across), columns() - 2);
+    const int row = std::min(static_cast<int>(up), rows() - 2);
+    const double u = across - column;
+    const double v = up - row;
+    const double south = height_m(column, row) * (1.0 - u) + height_m(column + 1, row) * u;
+    const double north = height_m(column, row + 1) * (1.0 - u) + height_m(column + 1, row + 1) * u;
+    return south * (1.0 - v) + north * v;
+}
+
+} // namespace octant::visuals::terrain

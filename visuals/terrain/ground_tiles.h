@@ -82,8 +82,8 @@ public:
         return *stored_error(layout_.level(level), part, column, row);
     }
 
-    /// Metres of an error's number, at or above every error so numbered, at most 5 % above.
-    /// Ascending.
+    /// Metres of an error's number, at or above every error so numbered, at most 6 % above (up to
+    /// 12 km). Ascending.
     static float error_m_of(std::uint8_t code) { return error_metres()[code]; }
 
     /// Smallest code whose metres are at or above; 255 for errors beyond all.

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "visuals/terrain/ground_tiles.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+namespace octant::visuals::terrain {
+
+/// GroundTiles::error_code_of for errors in steps of a stored number, by table: the leading bits of
+/// a float choose a code, one comparison corrects it.
+class ErrorCoder {
+public:
+    explicit ErrorCoder(double unit_m)
+        : unit_m_(static_cast<float>(unit_m)) {
+        for (std::size_t code = 0; code < metres_.size(); ++code) {
+            metres_[code] = GroundTiles::error_m_of(static_cast<std::uint8_t>(code));
+        }
+        first_ = bin_of(metres_[1]);
+        const std::uint32_t last = bin_of(metres_[255]) + 1;
+        for (std::uint32_t bin = first_; bin <= last; ++bin) {
+            const auto lowest_m = std::bit_cast<float>(bin << dropped_bits);
+            codes_.push_back(GroundTiles::error_code_of(lowest_m));
+        }
+    }
+
+    std::uint8_t code_of(float steps) const {
+        const float error_m = steps * unit_m_;
+        const std::uint32_t bin = bin_of(error_m);
+        if (bin < first_) {
+            return error_m > 0.0F ? 1 : 0;
+        }
+        const std::uint8_t code = codes_[std::min<std::size_t>(bin - first_, codes_.size() - 1)];
+        return static_cast<std::uint8_t>(code + (code < 255 && error_m > metres_[code] ? 1 : 0));
+    }
+
+private:
+    /// Bins 1/64 of an octave to 1/32 wide: narrower than a step between codes.
+    static constexpr unsigned dropped_bits = 17;
+
+    static std::uint32_t bin_of(float error_m) {
+        return std::bit_cast<std::uint32_t>(error_m) >> dropped_bits;
+    }
+
+    float unit_m_;
+    std::array<float, 256> metres_{};
+    std::uint32_t first_ = 0;
+    std::vector<std::uint8_t> codes_;
+};
+
+} // namespace octant::visuals::terrain

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "visuals/terrain/error_coder.h"
+#include "visuals/terrain/ground_layout.h"
+#include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/stored_heights.h"
+#include "visuals/terrain/tile_builder.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::terrain {
+
+/// Size, base and unit of a ground whose heights lie between two: the finest power of two of a
+/// metre (not below 2^-12) with which their range is at most 65,000 units, and a base that is a
+/// whole number of them, so that whole metres are stored exactly where the unit is at most 1 m.
+GroundShape shape_of(int columns, int rows, double spacing_m, double lowest_m, double highest_m);
+
+/// What the numbers themselves tell of a ground.
+struct HeightFigures {
+    float lowest_m = 0.0F;
+    float highest_m = 0.0F;
+    float mean_m = 0.0F;
+};
+
+/// Fills GroundLayout memory from a field's numbers, tile by tile from the finest level up. Same
+/// bytes for every number of threads.
+class GroundAssembly {
+public:
+    /// Takes a tile's bytes at its offset; called by several threads, each tile once. The tile can
+    /// be read in `memory` when it returns.
+    using TileSink = std::function<void(std::size_t offset, std::span<const std::byte> bytes)>;
+
+    /// `memory`: layout.total_bytes(); what lies before the tiles is written into it. All but the
+    /// sink and the shape outlive the assembly.
+    GroundAssembly(
+        const GroundShape& shape,
+        const GroundLayout& layout,
+        const StoredHeights& heights,
+        std::span<std::byte> memory,
+        int threads);
+
+    /// Corners and ranges.
+    HeightFigures put_outline();
+
+    /// Number of tiles, all levels; they are numbered as they are built.
+    std::size_t tiles() const;
+
+    /// Builds about `wanted` tiles from `first` on, at least one, and returns the number of the
+    /// next.
+    std::size_t build(std::size_t first, std::size_t wanted, const TileSink& sink);
+
+private:
+    std::int64_t put_finest_ranges();
+    void put_coarser_ranges(int level);
+
+    HeightRange* ranges(int level) {
+        return reinterpret_cast<HeightRange*>(memory_.data() + layout_.level(level).ranges);
+    }
+
+    GroundShape shape_;
+    const GroundLayout& layout_;
+    const StoredHeights& heights_;
+    std::span<std::byte> memory_;
+    int threads_;
+    ErrorCoder coder_;
+    std::vector<TileBuilder> builders_; ///< one a thread
+};
+
+} // namespace octant::visuals::terrain

@@ -1,0 +1,84 @@
+#pragma once
+
+#include "visuals/terrain/bisection_error.h"
+#include "visuals/terrain/error_coder.h"
+#include "visuals/terrain/ground_layout.h"
+#include "visuals/terrain/stored_heights.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::terrain {
+
+/// A tile by its level and its place among the level's tiles.
+struct TilePlace {
+    int level = 0;
+    int column = 0;
+    int row = 0;
+};
+
+/// Makes tiles one by one, heights and saturated errors, each after all tiles of the next finer
+/// level. One builder a thread; it keeps its memory, at most 10 MB.
+class TileBuilder {
+public:
+    /// `memory`: GroundLayout memory where finished tiles of the finer level can be read and where
+    /// the strips are written. All three outlive the builder.
+    TileBuilder(
+        const GroundLayout& layout,
+        const StoredHeights& heights,
+        const ErrorCoder& coder,
+        std::span<std::byte> memory);
+
+    /// The bytes of a tile, until the next call. Writes those parts of the strips that lie beside
+    /// it.
+    std::span<const std::byte> build(const TilePlace& place);
+
+private:
+    /// Nodes of a tile, last ones excluded, and what their level has in common.
+    struct Extent {
+        GroundLayout::Level at;
+        int first_column = 0;
+        int first_row = 0;
+        int columns = 0;
+        int rows = 0;
+        int half = 0;   ///< samples
+        int stride = 1; ///< samples between those looked at
+    };
+
+    static constexpr int most = GroundLayout::tile_edge;
+
+    void choose_lattice();
+    DiamondRow lattice_row(int column, int row, int count) const;
+    void fetch_children();
+    std::uint8_t children(int column, int row) const;
+    void measure_souths();
+    void measure_wests();
+    void measure_centres();
+    void measure(int row, Diamond diamond, std::span<std::uint8_t> codes);
+    std::int16_t height(int column, int row) const;
+    void put_heights();
+    void put_errors();
+    void put_strips();
+
+    const GroundLayout& layout_;
+    const StoredHeights& heights_;
+    const ErrorCoder& coder_;
+    std::span<std::byte> memory_;
+    int level_ = 0;
+    Extent extent_;
+    std::vector<std::int16_t> copied_; ///< every stride-th sample about the tile
+    const std::int16_t* lattice_ = nullptr;
+    std::ptrdiff_t pitch_ = 0;
+    int lattice_column_ = 0; ///< of lattice_[0], samples
+    int lattice_row_ = 0;
+    std::vector<std::uint8_t> children_; ///< of centres a level finer, one more on each side
+    std::vector<std::uint8_t> souths_;   ///< codes, row after row, one row more than nodes
+    std::vector<std::uint8_t> wests_;    ///< one column more than nodes
+    std::vector<std::uint8_t> centres_;
+    std::vector<float> errors_;
+    std::vector<std::byte> tile_;
+};
+
+} // namespace octant::visuals::terrain
