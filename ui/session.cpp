@@ -57,7 +57,7 @@ Session::Session(const scene::Settings& settings, Shows shows)
     load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
     states_at(frame_times_s_.front());
     rig_ = scene::advanced(rig_, states_.front());
-    planner_.settle(camera());
+    planner_.settle(camera(states_.front(), rig_));
 }
 
 Session::~Session() {
@@ -153,11 +153,25 @@ double Session::stress_after(const report::FrameRecord& record) {
     return load_.stress.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-scene::Camera Session::camera() const {
+scene::Camera Session::camera(const sim::AircraftState& state, const scene::RigMemory& rig) const {
     scene::Subject subject = world_.scene.models[world_.scene.aircraft.front()].subject;
     subject.radius_m = formation_.framed_radius_m(subject.radius_m);
-    return scene::camera_of(
-        settings_, states_.front(), rig_, subject, world_.points, ground_height_);
+    return scene::camera_of(settings_, state, rig, subject, world_.points, ground_height_);
+}
+
+/// Begins on the ground of a frame to come, with the camera that it is going to have.
+void Session::mesh_ahead(int frame) {
+    if (!settings_.mesh_ahead) {
+        return;
+    }
+    const double time_s = frame_times_s_[static_cast<std::size_t>(frame)];
+    const sim::Trajectory& path = world_.flight.trajectory;
+    scene::RigMemory rig = rig_;
+    for (long step = next_step_; step <= sim::step_at(time_s); ++step) {
+        rig = scene::advanced(rig, path.state_at(sim::time_of_step(step)));
+    }
+    planner_.set_triangle_target(next_triangle_target_);
+    planner_.prepare(camera(path.state_at(time_s), rig));
 }
 
 report::FrameRecord Session::draw(int frame) {
@@ -175,13 +189,17 @@ report::FrameRecord Session::draw(int frame) {
     simulate_to(record.sim_time_s);
     record.sim_ms = stage.lap_ms();
 
-    record.triangle_target = choose_triangle_target(frame);
+    record.triangle_target = frame == 0 ? choose_triangle_target(0) : next_triangle_target_;
     planner_.set_triangle_target(record.triangle_target);
-    const scene::Camera seen_from = camera();
+    const scene::Camera seen_from = camera(states_.front(), rig_);
     scene::PlanCounts counts;
     const scene::FramePlan& plan = planner_.plan(seen_from, states_, counts);
     record.plan_ms = stage.lap_ms();
 
+    if (frame + 1 < frames()) {
+        next_triangle_target_ = choose_triangle_target(frame + 1);
+        mesh_ahead(frame + 1);
+    }
     renderer_->draw(ids_ ? ids_->of(plan) : plan);
     renderer_->finish();
     record.draw_ms = stage.lap_ms();

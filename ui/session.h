@@ -83,7 +83,9 @@ private:
     int choose_triangle_target(int frame);
     double stress_after(const report::FrameRecord& record);
     void states_at(double time_s);
-    visuals::scene::Camera camera() const;
+    visuals::scene::Camera
+    camera(const sim::AircraftState& state, const visuals::scene::RigMemory& rig) const;
+    void mesh_ahead(int frame);
 
     visuals::scene::Settings settings_;
     std::unique_ptr<visuals::gl::Context> context_;
@@ -102,6 +104,7 @@ private:
     int last_triangles_ = 0;
     visuals::scene::LoadSettings load_settings_;
     visuals::scene::LoadState load_;
+    int next_triangle_target_ = 0;
     std::vector<int> replayed_targets_; ///< by frame; empty = nothing is replayed
     Hash state_hash_;
     Hash picture_hash_;

@@ -193,6 +193,12 @@ void visit_ground_settings(SomeSettings& s, Visit& visit) {
         Info{"geomorphs", "", "screen-error: vertices move into place instead of jumping"},
         s.geomorphs);
     visit(
+        Info{
+            "mesh-ahead",
+            "",
+            "screen-error: mesh the ground of the next frame while this one is drawn"},
+        s.mesh_ahead);
+    visit(
         Info{"earth-curvature", "", "screen-error: distant ground and aircraft sink by d^2 / 2R"},
         s.earth_curvature);
     visit(

@@ -12,6 +12,7 @@
 #include "ui/terrain_file.h"
 #include "visuals/draworder/ordered_model.h"
 #include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/ground_file.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -66,6 +67,13 @@ void check_detail(const scene::Settings& settings) {
         throw Error("--mesh screen-error: expected --detail exact without --roughness-c, --fans or "
                     "--propagation, got one that only --mesh midpoint or printed has");
     }
+    if (visuals::terrain::is_ground_file(settings.terrain) &&
+        scene::ground_metric(settings) != scene::GroundMetric::ScreenError) {
+        throw Error(fmt::format(
+            "{}: expected --mesh screen-error for an imported ground, got a mesh that goes by "
+            "roughness",
+            printable(settings.terrain)));
+    }
     if (settings.error_px && scene::ground_metric(settings) != scene::GroundMetric::ScreenError) {
         throw Error("--error-px: expected --mesh screen-error, got a mesh that goes by roughness");
     }
@@ -88,6 +96,14 @@ void load_ground(const scene::Settings& settings, DrawnBy drawn_by, World& world
     scene::Settings colours = settings;
     if (!settings.palette && settings.terrain == "canyon") {
         colours.palette = scene::Palette::Arid;
+    }
+    if (visuals::terrain::is_ground_file(settings.terrain)) {
+        check_untextured_ground(settings);
+        visuals::terrain::GroundTiles ground = visuals::terrain::open_ground(settings.terrain);
+        const visuals::terrain::GroundFacts& facts = ground.facts();
+        describe_ground(ground, facts.name, facts.place, facts.filled_voids, world);
+        world.scene.ground = scene::ground_from_tiles(std::move(ground), colours);
+        return;
     }
     models::HeightField field = load_height_field(settings.terrain, settings.terrain_spacing_m);
     describe_ground(field, field.name, field.place, field.filled_voids, world);

@@ -71,6 +71,7 @@ struct Settings {
     std::optional<int> triangles;   ///< none = 20,000, or without end where error_px is given
     std::optional<double> error_px; ///< screen-error: refined no further than this; none = 0.25
     bool geomorphs = true;          ///< screen-error: vertices move into place instead of jumping
+    bool mesh_ahead = true;         ///< the next frame's ground is meshed while this one is drawn
     bool earth_curvature = true;    ///< screen-error: distant ground and aircraft sink
     double resolution_c = 0.0; ///< C of the first frame; 0 = the one that meets the triangle target
     std::optional<double>
@@ -100,11 +101,14 @@ inline GroundMetric ground_metric(const Settings& settings) {
         of_the_paper ? GroundMetric::Midpoint : GroundMetric::ScreenError);
 }
 
+/// A triangle target beyond all meshes.
+inline constexpr int unlimited_triangles = 10000000;
+
 /// Triangles of ground that are held, in the first frame where that number follows the clock; a
 /// number beyond all meshes where the error alone decides.
 inline int triangle_target(const Settings& settings) {
     const bool error_alone = settings.error_px && !settings.adapt.terrain;
-    return settings.triangles.value_or(error_alone ? 10000000 : 20000);
+    return settings.triangles.value_or(error_alone ? unlimited_triangles : 20000);
 }
 
 } // namespace octant::visuals::scene

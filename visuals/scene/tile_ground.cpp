@@ -3,6 +3,7 @@
 #include "visuals/scene/vertex_colours.h"
 #include "visuals/scene/worker.h"
 #include "visuals/terrain/error_mesher.h"
+#include "visuals/terrain/ground_prefetcher.h"
 #include "visuals/terrain/ground_tiles.h"
 
 #include <cmath>
@@ -17,6 +18,7 @@ namespace octant::visuals::scene {
 namespace {
 
 constexpr double mean_earth_radius_m = 6371000.0;
+constexpr double frames_ahead = 120.0;  ///< how far along the eye's way pages are asked for
 constexpr double least_error_px = 0.25; ///< what is finer than this nobody sees
 
 class TileGround final : public Ground {
@@ -31,11 +33,11 @@ public:
               settings.hidden_surface == HiddenSurface::DepthBuffer
                   ? terrain::PaintOrder::FrontToBack
                   : terrain::PaintOrder::BackToFront)
-        , target_{
-              .error_px = settings.error_px.value_or(least_error_px),
-              .most_triangles = triangle_target(settings),
-              .geomorphs = settings.geomorphs}
-        , earth_radius_m_(settings.earth_curvature ? mean_earth_radius_m : 0.0) {}
+        , target_{.error_px = settings.error_px.value_or(least_error_px), .geomorphs = settings.geomorphs}
+        , earth_radius_m_(settings.earth_curvature ? mean_earth_radius_m : 0.0)
+        , prefetcher_(ground_) {
+        set_triangle_target(triangle_target(settings));
+    }
 
     std::optional<double> height_at(double x_m, double y_m) const override {
         return ground_.height_at(x_m, y_m);
@@ -48,6 +50,15 @@ public:
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
     void settle(const Camera& /*camera*/, double /*aspect*/) override {}
+
+    void set_triangle_target(int triangles) override {
+        const int most = triangles >= unlimited_triangles ? terrain::any_triangles : triangles;
+        if (most != target_.most_triangles) {
+            worker_.wait();
+            prepared_.reset();
+            target_.most_triangles = most;
+        }
+    }
 
     double earth_radius_m() const override { return earth_radius_m_; }
 
@@ -63,6 +74,8 @@ public:
             make(view);
         }
         prepared_.reset();
+        prefetcher_.go_to(glm::dvec2(camera.eye_m + frames_ahead * (camera.eye_m - last_eye_m_)));
+        last_eye_m_ = camera.eye_m;
         counts = {mesh_.counters.triangles, mesh_.counters.fans, 0.0, mesh_.error_px};
         return {mesh_.vertices, mesh_.indices};
     }
@@ -99,7 +112,9 @@ private:
     double earth_radius_m_;
     terrain::GroundMesh mesh_;
     std::optional<terrain::MeshView> prepared_;
-    Worker worker_;
+    glm::dvec3 last_eye_m_{0.0};
+    terrain::GroundPrefetcher prefetcher_;
+    Worker worker_; ///< goes first: it uses the others
 };
 
 } // namespace
