@@ -35,7 +35,7 @@ struct AllCriticals {
                 for (int column = 0; column < at.columns; ++column) {
                     const auto block =
                         static_cast<std::size_t>((row >> finer) * blocks + (column >> finer));
-                    rule.criticals_of({level, column, row, &gaps[block]}, criticals.emplace_back());
+                    criticals.push_back(rule.criticals_of({level, column, row, &gaps[block]}));
                 }
             }
             columns.push_back(at.columns);
@@ -121,8 +121,7 @@ TEST_CASE("a critical value is the squared distance to the region of influence o
     rule.look_from(view);
     const HeightGaps gaps = rule.gaps_around(0, 0, 0);
     CHECK(gaps.squared_m2[0] == 9.0F);
-    FanCriticals criticals;
-    rule.criticals_of({0, 0, 0, &gaps}, criticals);
+    FanCriticals criticals = rule.criticals_of({0, 0, 0, &gaps});
     // 4 m to each side of the middle of the south side, 1 m east of the eye. Beside the bump the
     // ground lies 4 m below the slope from there up to it.
     CHECK(criticals.middle[0] == Approx(10.0 / 16.0).epsilon(0.15));
@@ -134,7 +133,7 @@ TEST_CASE("a critical value is the squared distance to the region of influence o
     ErrorRule of_level(level.tiles);
     of_level.look_from(view);
     const HeightGaps none = of_level.gaps_around(0, 0, 0);
-    of_level.criticals_of({0, 0, 0, &none}, criticals);
+    criticals = of_level.criticals_of({0, 0, 0, &none});
     CHECK(criticals.middle[0] == std::numeric_limits<float>::infinity());
     CHECK(rule.error_px_of(rule.limit_of(1.5)) == Approx(1.5));
     CHECK(rule.limit_of(1.0) == Approx(869.1 * 869.1));

@@ -60,6 +60,7 @@ GroundMesh ErrorMesher::mesh(const MeshView& view, const ErrorTarget& target) {
     limit_ = survey_.limit_for(target);
     nodes_ = survey_.nodes();
     resting_limit_ = target.geomorphs ? limit_ / (morph_ratio * morph_ratio) : limit_;
+    height_base_m_ = ground_->shape().height_base_m - view.eye_m.z;
     orders_ = painting_orders(view.order).data();
     eye_ = glm::dvec2(-rule_.west_m(), -rule_.south_m()) / ground_->spacing_m();
     counters_ = {};
@@ -105,30 +106,34 @@ void ErrorMesher::make_room() {
 }
 
 ErrorMesher::EmittedFan ErrorMesher::root_fan() {
-    const FanSamples samples(*ground_, ground_->layout().level(0).edge, 0, 0);
+    const LevelMemory& memory = rule_.memory(0);
+    const FanSamples samples(*ground_, memory.edge(), 0, 0);
     EmittedFan root;
-    for (unsigned q = 0; q < 4; ++q) {
+    root.node = 0;
+    root.beyond = {};
+    for (std::size_t q = 0; q < 4; ++q) {
         const std::size_t place = ring_of_quadrant[q];
-        root.ring[place] = fixed_vertex(samples.ring(place), ground_->corner_m(q));
+        root.ring[place] = fixed_vertex(samples.ring(place), memory.corner_height(q));
     }
     root.ring[centre_of_ring] =
-        fixed_vertex(samples.at(1, 1), ground_->height_m(0, NodePart::Centre, 0, 0));
+        fixed_vertex(samples.at(1, 1), memory.centre_height(memory.spot(0, 0)));
     return root;
 }
 
 /// A vertex that is always there; one that is at the same sample, if there is one.
-std::uint32_t ErrorMesher::fixed_vertex(Sample at, float height_m) {
+std::uint32_t ErrorMesher::fixed_vertex(Sample at, std::int16_t height) {
     for (std::uint32_t k = 0; k < vertex_count_; ++k) {
         if (is_at(at, k)) {
             return k;
         }
     }
-    return add_vertex({at, vertex_count_, vertex_count_, 0.5F, height_m, 0.0F});
+    return add_vertex({at, vertex_count_, vertex_count_, 0.5F, height, 0.0F});
 }
 
 inline std::uint32_t ErrorMesher::add_vertex(const NewVertex& made) {
     const std::uint32_t vertex = vertex_count_++;
-    float height_m = static_cast<float>(static_cast<double>(made.height_m) - view_.eye_m.z);
+    float height_m = static_cast<float>(
+        height_base_m_ + ground_->shape().height_unit_m * static_cast<double>(made.height));
     float weight = 1.0F;
     if (made.critical > resting_limit_) {
         const float from_a = height_m_[made.end_a];
@@ -178,15 +183,19 @@ bool ErrorMesher::is_drawn(const ErrorNode& node, unsigned quadrant) const {
 /// Puts a node's triangles and those of all below it into the mesh.
 void ErrorMesher::emit(EmittedFan& fan) {
     const ErrorNode& node = nodes_[fan.node];
-    const FanSamples samples(
-        *ground_, ground_->layout().level(node.level).edge, node.column, node.row);
+    const LevelMemory& memory = rule_.memory(node.level);
+    const FanSamples samples(*ground_, memory.edge(), node.column, node.row);
+    const LevelMemory::Spot spot = memory.spot(node.column, node.row);
+    if (fan.node != 0) {
+        add_centre(samples, memory.centre_height(spot), fan);
+    }
     unsigned middles = 0;
     unsigned split = 0;
     for (unsigned k = 0; k < 4; ++k) {
         middles |= node.middle[k] < limit_ ? 1U << k : 0U;
         split |= node.quadrant[k] < limit_ ? 1U << k : 0U;
     }
-    add_middles(samples, fan);
+    add_middles(samples, spot, fan);
     const unsigned covered = split | node.hidden;
     const unsigned children = split & ~unsigned{node.hidden};
     const Sample centre = samples.at(1, 1);
@@ -236,35 +245,30 @@ ErrorMesher::EmittedFan ErrorMesher::child_of(const EmittedFan& fan, unsigned qu
         const unsigned across = quadrant ^ (k % 2 == 0 ? 2U : 1U);
         if (!is_outer(quadrant, k)) {
             child.beyond[k] = node.child[across];
-        } else if (fan.beyond[k] != 0) {
-            child.beyond[k] = nodes_[fan.beyond[k]].child[across];
+        } else {
+            child.beyond[k] = fan.beyond[k] != 0 ? nodes_[fan.beyond[k]].child[across] : 0;
         }
     }
-    child.ring[centre_of_ring] = add_centre(fan, quadrant, child);
+    child.end_a = fan.ring[centre_of_ring];
+    child.end_b = fan.ring[ring_of_quadrant[quadrant]];
     return child;
 }
 
-std::uint32_t
-ErrorMesher::add_centre(const EmittedFan& parent, unsigned quadrant, const EmittedFan& fan) {
-    const ErrorNode& node = nodes_[fan.node];
-    const FanSamples samples(
-        *ground_, ground_->layout().level(node.level).edge, node.column, node.row);
-    const NewVertex made{
-        samples.at(1, 1),
-        parent.ring[centre_of_ring],
-        parent.ring[ring_of_quadrant[quadrant]],
-        0.5F,
-        ground_->height_m(node.level, NodePart::Centre, node.column, node.row),
-        node.on};
+inline void
+ErrorMesher::add_centre(const FanSamples& samples, std::int16_t height, EmittedFan& fan) {
+    const NewVertex made{samples.at(1, 1), fan.end_a, fan.end_b, 0.5F, height, nodes_[fan.node].on};
+    std::uint32_t& centre = fan.ring[centre_of_ring];
     if (!samples.is_cut()) {
-        return add_vertex(made);
+        centre = add_vertex(made);
+    } else {
+        const std::uint32_t north_east = fan.ring[4];
+        centre = is_at(made.at, north_east) ? north_east : cut_vertex(made);
     }
-    const std::uint32_t north_east = fan.ring[4];
-    return is_at(made.at, north_east) ? north_east : cut_vertex(made);
 }
 
 /// Fills in the mid-points beside quadrants that are not hidden.
-void ErrorMesher::add_middles(const FanSamples& samples, EmittedFan& fan) {
+inline void ErrorMesher::add_middles(
+    const FanSamples& samples, const LevelMemory::Spot& spot, EmittedFan& fan) {
     const ErrorNode& node = nodes_[fan.node];
     for (std::size_t k = 0; k < 4; ++k) {
         const FanEdge& edge = fan_edges[k];
@@ -274,7 +278,9 @@ void ErrorMesher::add_middles(const FanSamples& samples, EmittedFan& fan) {
         }
         std::uint32_t vertex = middle_vertex_[fan.node][k];
         if (vertex == 0) {
-            vertex = add_middle(samples, fan, k);
+            const std::int16_t height =
+                rule_.memory(node.level).middle_height(spot, node.column, node.row, k);
+            vertex = add_middle(samples, height, fan, k);
             if (fan.beyond[k] != 0) {
                 middle_vertex_[fan.beyond[k]][(k + 2) % 4] = vertex;
             }
@@ -283,94 +289,20 @@ void ErrorMesher::add_middles(const FanSamples& samples, EmittedFan& fan) {
     }
 }
 
-std::uint32_t
-ErrorMesher::add_middle(const FanSamples& samples, const EmittedFan& fan, std::size_t edge) {
-    const ErrorNode& node = nodes_[fan.node];
-    constexpr std::array<NodePart, 4> parts = {
-        NodePart::South, NodePart::West, NodePart::South, NodePart::West};
-    const int column = node.column + (edge == 1 ? 1 : 0);
-    const int row = node.row + (edge == 2 ? 1 : 0);
+inline std::uint32_t ErrorMesher::add_middle(
+    const FanSamples& samples, std::int16_t height, const EmittedFan& fan, std::size_t edge) {
     const NewVertex made{
         samples.ring(2 * edge + 1),
         fan.ring[2 * edge],
         fan.ring[(2 * edge + 2) % 8],
         0.5F,
-        ground_->height_m(node.level, parts[edge], column, row),
-        node.middle[edge]};
+        height,
+        nodes_[fan.node].middle[edge]};
     if (!samples.is_cut()) {
         return add_vertex(made);
     }
     const std::uint32_t centre = fan.ring[centre_of_ring];
     return is_at(made.at, centre) ? centre : cut_vertex(made);
-}
-
-void ErrorMesher::triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const {
-    if (meshed_) {
-        if (!drawn_measured_) {
-            drawn_.resize(nodes_.size());
-            measure_drawn(0);
-            drawn_measured_ = true;
-        }
-        add_triangles_in(0, wanted, triangles);
-    }
-}
-
-ErrorMesher::Four ErrorMesher::drawn_children(const ErrorNode& node) const {
-    Four children = node.child;
-    for (unsigned q = 0; q < 4; ++q) {
-        children[q] = is_drawn(node, q) ? children[q] : 0;
-    }
-    return children;
-}
-
-/// Fills in drawn_ of a node and all below it.
-void ErrorMesher::measure_drawn(std::uint32_t node) const {
-    DrawnHeights heights;
-    const auto add = [&](float lowest_m, float highest_m) {
-        heights.lowest_m = std::min(heights.lowest_m, lowest_m);
-        heights.highest_m = std::max(heights.highest_m, highest_m);
-    };
-    for_each_in_run(
-        runs_[node],
-        drawn_children(nodes_[node]),
-        [&](std::uint32_t child) { return runs_[child]; },
-        [&](std::uint32_t triangle) {
-            for (std::size_t k = 3 * std::size_t{triangle}; k < 3 * std::size_t{triangle} + 3;
-                 ++k) {
-                const float z_m = vertices_[indices_[k]].position_m.z;
-                add(z_m, z_m);
-            }
-        },
-        [&](std::uint32_t child) {
-            measure_drawn(child);
-            add(drawn_[child].lowest_m, drawn_[child].highest_m);
-        });
-    drawn_[node] = heights;
-}
-
-void ErrorMesher::add_triangles_in(
-    std::uint32_t own, const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const {
-    const ErrorNode& node = nodes_[own];
-    const FanSamples samples(
-        *ground_, ground_->layout().level(node.level).edge, node.column, node.row);
-    const Sample least = samples.at(0, 0);
-    const Sample most = samples.at(2, 2);
-    const glm::dvec2 half_m = ground_->half_extent_m();
-    const glm::dvec2 west_south =
-        glm::dvec2(least.column, least.row) * ground_->spacing_m() - half_m;
-    const glm::dvec2 east_north = glm::dvec2(most.column, most.row) * ground_->spacing_m() - half_m;
-    if (runs_[own].first == runs_[own].end ||
-        !wanted(
-            {west_south, static_cast<double>(drawn_[own].lowest_m) + view_.eye_m.z},
-            {east_north, static_cast<double>(drawn_[own].highest_m) + view_.eye_m.z})) {
-        return;
-    }
-    for_each_in_run(
-        runs_[own],
-        drawn_children(node),
-        [&](std::uint32_t child) { return runs_[child]; },
-        [&](std::uint32_t triangle) { triangles.push_back(triangle); },
-        [&](std::uint32_t child) { add_triangles_in(child, wanted, triangles); });
 }
 
 } // namespace octant::visuals::terrain

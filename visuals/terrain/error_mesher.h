@@ -70,10 +70,12 @@ private:
 
     /// A fan while it is put into the mesh.
     struct EmittedFan {
-        std::uint32_t node = 0;
-        std::array<std::uint32_t, 9> ring{}; ///< vertices by fan_ring, mid-points only where they
-                                             ///< are used, then the centre
-        Four beyond{};                       ///< nodes beyond fan_edges; 0 = not known
+        std::uint32_t node;
+        std::array<std::uint32_t, 9> ring; ///< vertices by fan_ring, mid-points only where they are
+                                           ///< used, then the centre
+        std::uint32_t end_a;               ///< of the centre
+        std::uint32_t end_b;
+        Four beyond; ///< nodes beyond fan_edges; 0 = not known
     };
 
     /// A vertex to be made.
@@ -81,23 +83,24 @@ private:
         Sample at{};
         std::uint32_t end_a = 0;
         std::uint32_t end_b = 0;
-        float share = 0.5F; ///< of end b where it appears
-        float height_m = 0.0F;
+        float share = 0.5F;      ///< of end b where it appears
+        std::int16_t height = 0; ///< as stored
         float critical = 0.0F;
     };
 
     void make_room();
     EmittedFan root_fan();
-    std::uint32_t fixed_vertex(Sample at, float height_m);
+    std::uint32_t fixed_vertex(Sample at, std::int16_t height);
     std::uint32_t add_vertex(const NewVertex& made);
     std::uint32_t cut_vertex(NewVertex made);
     void emit(EmittedFan& fan);
     void emit_cut(EmittedFan& fan, const FanSamples& samples, const glm::dvec2& eye);
     void emit_part(const EmittedFan& fan, unsigned part);
     EmittedFan child_of(const EmittedFan& fan, unsigned quadrant);
-    void add_middles(const FanSamples& samples, EmittedFan& fan);
-    std::uint32_t add_middle(const FanSamples& samples, const EmittedFan& fan, std::size_t edge);
-    std::uint32_t add_centre(const EmittedFan& parent, unsigned quadrant, const EmittedFan& fan);
+    void add_centre(const FanSamples& samples, std::int16_t height, EmittedFan& fan);
+    void add_middles(const FanSamples& samples, const LevelMemory::Spot& spot, EmittedFan& fan);
+    std::uint32_t add_middle(
+        const FanSamples& samples, std::int16_t height, const EmittedFan& fan, std::size_t edge);
     bool is_at(Sample at, std::uint32_t vertex) const;
     bool is_drawn(const ErrorNode& node, unsigned quadrant) const;
     Four drawn_children(const ErrorNode& node) const;
@@ -120,6 +123,7 @@ private:
     mutable bool drawn_measured_ = false;
     float limit_ = 0.0F;
     float resting_limit_ = 0.0F;        ///< below it vertices are at their samples
+    double height_base_m_ = 0.0;        ///< of the stored 0, eye subtracted
     const PartOrder* orders_ = nullptr; ///< painting_orders of the view
     glm::dvec2 eye_{0.0};               ///< samples east and north of the field's first
     std::vector<models::ColourVertex> vertices_;

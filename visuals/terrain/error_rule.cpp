@@ -46,22 +46,43 @@ constexpr double farthest_eye = 4194304.0;
 /// More than double arithmetic with heights can be wrong by.
 constexpr double height_margin_m = 1e-3;
 
+// Ends of boxes of influence in half edges from a node's south-west corner: of the middles of its
+// south, east, north and west edge and of the centres of its quarters.
+constexpr FourFloats west_of_middles = {-1.0F, 0.0F, -1.0F, -2.0F};
+constexpr FourFloats east_of_middles = {3.0F, 4.0F, 3.0F, 2.0F};
+constexpr FourFloats south_of_middles = {-2.0F, -1.0F, 0.0F, -1.0F};
+constexpr FourFloats north_of_middles = {2.0F, 3.0F, 4.0F, 3.0F};
+constexpr FourFloats west_of_centres = {-1.0F, 0.0F, -1.0F, 0.0F};
+constexpr FourFloats east_of_centres = {2.0F, 3.0F, 2.0F, 3.0F};
+constexpr FourFloats south_of_centres = {-1.0F, -1.0F, 0.0F, 0.0F};
+constexpr FourFloats north_of_centres = {2.0F, 2.0F, 3.0F, 3.0F};
+
 int whole_below(double place) {
     return static_cast<int>(std::floor(std::clamp(place, -farthest_eye, farthest_eye)));
+}
+
+/// Squares of the distance along one axis from the eye to four boxes, samples^2. Their ends are
+/// given in half edges from `start`, which is exact and from the same sample as `eye`.
+inline FourFloats
+box_distance(FourFloats least, FourFloats most, float start, float half_edge, float eye) {
+    const FourFloats before = four(start) + least * four(half_edge) - four(eye);
+    const FourFloats after = four(eye) - (four(start) + most * four(half_edge));
+    const FourFloats off = larger(larger(before, after), four(0.0F));
+    return off * off;
 }
 
 } // namespace
 
 ErrorRule::ErrorRule(const GroundTiles& ground)
     : ground_(&ground)
-    , spacing_squared_m2_(static_cast<float>(ground.spacing_m() * ground.spacing_m())) {
+    , spacing_squared_m2_(static_cast<float>(ground.spacing_m() * ground.spacing_m()))
+    , range_level_(ground.layout().range_level()) {
     for (unsigned code = 0; code < 256; ++code) {
         error_m_[code] = GroundTiles::error_m_of(static_cast<std::uint8_t>(code));
     }
     for (int level = 0; level < ground.levels(); ++level) {
-        const GroundLayout::Level& at = ground.layout().level(level);
-        levels_.push_back(
-            {at.edge, at.columns, at.rows, 0.5F * static_cast<float>(at.edge), 0.0F, 0.0F});
+        const LevelMemory memory(ground, level);
+        levels_.push_back({memory, 0.5F * static_cast<float>(memory.edge())});
     }
 }
 
@@ -82,7 +103,7 @@ void ErrorRule::look_from(const MeshView& view) {
     // An edge that is halved by a node's side is 2h long, one by its child's centre sqrt(2) h.
     const double spacing_squared = ground_->spacing_m() * ground_->spacing_m();
     for (Level& level : levels_) {
-        const double half = 0.5 * level.edge;
+        const double half = 0.5 * level.memory.edge();
         const double middle_m = half * half * spacing_squared * half_curvature_;
         level.middle_error_m = static_cast<float>(middle_m);
         level.quadrant_error_m = static_cast<float>(0.5 * middle_m);
@@ -104,7 +125,7 @@ float ErrorRule::root_error_m() const {
 }
 
 HeightGaps ErrorRule::gaps_around(int level, int column, int row) const {
-    const Level& at = levels_[static_cast<std::size_t>(level)];
+    const LevelMemory& at = memory(level);
     std::array<std::array<float, 3>, 3> gap{}; // by row and column
     for (int j = 0; j < 3; ++j) {
         for (int i = 0; i < 3; ++i) {
@@ -112,7 +133,7 @@ HeightGaps ErrorRule::gaps_around(int level, int column, int row) const {
             const int r = row + j - 1;
             float& squared = gap[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)];
             squared = infinite;
-            if (c >= 0 && r >= 0 && c < at.columns && r < at.rows) {
+            if (c >= 0 && r >= 0 && c < at.columns() && r < at.rows()) {
                 const float low = ground_->lowest_m(level, c, r);
                 const float high = ground_->highest_m(level, c, r);
                 const float off = std::max({low - eye_z_m_, eye_z_m_ - high, 0.0F});
@@ -124,112 +145,83 @@ HeightGaps ErrorRule::gaps_around(int level, int column, int row) const {
     gaps.lowest_m = ground_->lowest_m(level, column, row);
     gaps.highest_m = ground_->highest_m(level, column, row);
     for (unsigned ns = 0; ns < 4; ++ns) {
-        Four line{}; // by reach to the west and east
         std::array<float, 3> lowest = gap[1];
         for (std::size_t i = 0; i < 3; ++i) {
             lowest[i] = (ns & 1U) != 0 ? std::min(lowest[i], gap[0][i]) : lowest[i];
             lowest[i] = (ns & 2U) != 0 ? std::min(lowest[i], gap[2][i]) : lowest[i];
         }
-        line = {
-            lowest[1],
-            std::min(lowest[1], lowest[0]),
-            std::min(lowest[1], lowest[2]),
-            std::min({lowest[0], lowest[1], lowest[2]})};
+        const std::array<float, 4> line = {// by reach to the west and east
+                                           lowest[1],
+                                           std::min(lowest[1], lowest[0]),
+                                           std::min(lowest[1], lowest[2]),
+                                           std::min({lowest[0], lowest[1], lowest[2]})};
         std::copy(line.begin(), line.end(), gaps.squared_m2.begin() + 4 * ns);
     }
     return gaps;
 }
 
-inline ErrorRule::Four ErrorRule::distances(
-    float start, float eye, float half, const Four& least, const Four& most) const {
-    Four squared;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const float before = start + least[k] * half - eye;
-        const float after = eye - (start + most[k] * half);
-        const float off = std::max(std::max(before, after), 0.0F);
-        squared[k] = off * off;
-    }
-    return squared;
-}
-
-void ErrorRule::criticals_of(const ErrorPlace& place, FanCriticals& criticals) const {
-    // Ends of boxes in half edges from the node's south-west corner.
-    constexpr Four west_of_middles = {-1.0F, 0.0F, -1.0F, -2.0F};
-    constexpr Four east_of_middles = {3.0F, 4.0F, 3.0F, 2.0F};
-    constexpr Four south_of_middles = {-2.0F, -1.0F, 0.0F, -1.0F};
-    constexpr Four north_of_middles = {2.0F, 3.0F, 4.0F, 3.0F};
-    constexpr Four west_of_centres = {-1.0F, 0.0F, -1.0F, 0.0F};
-    constexpr Four east_of_centres = {2.0F, 3.0F, 2.0F, 3.0F};
-    constexpr Four south_of_centres = {-1.0F, -1.0F, 0.0F, 0.0F};
-    constexpr Four north_of_centres = {2.0F, 2.0F, 3.0F, 3.0F};
-
+FanCriticals ErrorRule::criticals_of(const ErrorPlace& place) const {
     const Level& at = levels_[static_cast<std::size_t>(place.level)];
-    const auto x = static_cast<float>(place.column * at.edge - origin_column_);
-    const auto y = static_cast<float>(place.row * at.edge - origin_row_);
-    Four middle_m2 = distances(x, eye_east_, at.half, west_of_middles, east_of_middles);
-    Four centre_m2 = distances(x, eye_east_, at.half, west_of_centres, east_of_centres);
-    const Four middle_y = distances(y, eye_north_, at.half, south_of_middles, north_of_middles);
-    const Four centre_y = distances(y, eye_north_, at.half, south_of_centres, north_of_centres);
-
-    const int below_blocks = std::max(place.level - ground_->layout().range_level(), 0);
-    const int last = (1 << below_blocks) - 1; // of the nodes in a row of the block
+    const int edge = at.memory.edge();
+    const auto x = static_cast<float>(place.column * edge - origin_column_);
+    const auto y = static_cast<float>(place.row * edge - origin_row_);
+    const FourFloats middle_m2 =
+        four(spacing_squared_m2_) *
+        (box_distance(west_of_middles, east_of_middles, x, at.half_edge, eye_east_) +
+         box_distance(south_of_middles, north_of_middles, y, at.half_edge, eye_north_));
+    const FourFloats centre_m2 =
+        four(spacing_squared_m2_) *
+        (box_distance(west_of_centres, east_of_centres, x, at.half_edge, eye_east_) +
+         box_distance(south_of_centres, north_of_centres, y, at.half_edge, eye_north_));
+    // The sides of the block that boxes reach beyond.
+    const int last = (1 << std::max(place.level - range_level_, 0)) - 1; // node along the block
     const auto reach = [&](int along) {
-        return ((along & last) == 0 ? 1U : 0U) | ((along & last) == last ? 2U : 0U);
+        const int within = along & last;
+        return (within == 0 ? 1U : 0U) | (within == last ? 2U : 0U);
     };
     const unsigned across = reach(place.column);
     const unsigned up = reach(place.row) << 2U;
     const std::array<float, 16>& gap = place.gaps->squared_m2;
-    const Four middle_gap = {
-        gap[across | (up & 4U)],
-        gap[(across & 2U) | up],
-        gap[across | (up & 8U)],
-        gap[(across & 1U) | up]};
-    const Four centre_gap = {
-        gap[(across & 1U) | (up & 4U)],
-        gap[(across & 2U) | (up & 4U)],
-        gap[(across & 1U) | (up & 8U)],
-        gap[(across & 2U) | (up & 8U)]};
-
-    const auto error_m = [&](int level, NodePart part, int column, int row) {
-        return error_m_[ground_->error_code(level, part, column, row)];
-    };
-    const int c = place.column;
-    const int r = place.row;
-    const Four middle_error = {
-        error_m(place.level, NodePart::South, c, r),
-        error_m(place.level, NodePart::West, c + 1, r),
-        error_m(place.level, NodePart::South, c, r + 1),
-        error_m(place.level, NodePart::West, c, r)};
-    Four& centre_error = criticals.quadrant_error_m;
-    if (place.level + 1 < ground_->levels()) {
-        const Level& below = levels_[static_cast<std::size_t>(place.level) + 1];
-        const int east = 2 * c + (2 * c + 1 < below.columns ? 1 : 0);
-        const int north = 2 * r + (2 * r + 1 < below.rows ? 1 : 0);
-        centre_error = {
-            error_m(place.level + 1, NodePart::Centre, 2 * c, 2 * r),
-            error_m(place.level + 1, NodePart::Centre, east, 2 * r),
-            error_m(place.level + 1, NodePart::Centre, 2 * c, north),
-            error_m(place.level + 1, NodePart::Centre, east, north)};
-    } else {
-        centre_error = {};
+    FourFloats middle_gap = four(gap[0]);
+    FourFloats centre_gap = middle_gap;
+    if ((across | up) != 0) {
+        middle_gap = FourFloats{
+            gap[across | (up & 4U)],
+            gap[(across & 2U) | up],
+            gap[across | (up & 8U)],
+            gap[(across & 1U) | up]};
+        centre_gap = FourFloats{
+            gap[(across & 1U) | (up & 4U)],
+            gap[(across & 2U) | (up & 4U)],
+            gap[(across & 1U) | (up & 8U)],
+            gap[(across & 2U) | (up & 8U)]};
     }
-    const auto critical = [&](float x2, float y2, float gap2, float error) {
-        return std::max((x2 + y2) * spacing_squared_m2_ + gap2, 1.0F) / (error * error);
-    };
-    for (std::size_t k = 0; k < 4; ++k) {
-        criticals.middle[k] =
-            critical(middle_m2[k], middle_y[k], middle_gap[k], middle_error[k] + at.middle_error_m);
-        centre_error[k] += at.quadrant_error_m;
-        criticals.quadrant[k] = critical(centre_m2[k], centre_y[k], centre_gap[k], centre_error[k]);
-    }
+    FanCriticals criticals;
+    const FourFloats middle_error_m =
+        metres_of(at.memory.middle_codes(place.column, place.row)) + four(at.middle_error_m);
+    criticals.middle =
+        larger(middle_m2 + middle_gap, four(1.0F)) / (middle_error_m * middle_error_m);
     if (place.level + 1 == ground_->levels()) {
-        criticals.quadrant.fill(infinite);
+        criticals.quadrant = four(infinite);
+        criticals.quadrant_error_m = four(0.0F);
+        return criticals;
     }
+    const LevelMemory& below = levels_[static_cast<std::size_t>(place.level) + 1].memory;
+    const FourFloats error_m =
+        metres_of(below.child_codes(2 * place.column, 2 * place.row)) + four(at.quadrant_error_m);
+    criticals.quadrant = larger(centre_m2 + centre_gap, four(1.0F)) / (error_m * error_m);
+    criticals.quadrant_error_m = error_m;
+    return criticals;
+}
+
+inline FourFloats ErrorRule::metres_of(const LevelMemory::FourCodes& codes) const {
+    return FourFloats{
+        error_m_[codes[0]], error_m_[codes[1]], error_m_[codes[2]], error_m_[codes[3]]};
 }
 
 unsigned ErrorRule::planes_cutting_node(
     const ErrorPlace& place, const HeightGaps& gaps, float margin_m, unsigned planes) const {
-    const int edge = levels_[static_cast<std::size_t>(place.level)].edge;
+    const int edge = memory(place.level).edge();
     const int west = place.column * edge;
     const int south = place.row * edge;
     const int east = std::min(west + edge, ground_->columns() - 1);

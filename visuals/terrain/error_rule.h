@@ -1,7 +1,9 @@
 #pragma once
 
+#include "visuals/terrain/four_floats.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/level_memory.h"
 
 #include <array>
 #include <cstddef>
@@ -29,9 +31,9 @@ struct ErrorPlace {
 
 /// Critical values of the samples that a node's fan may have, and errors.
 struct FanCriticals {
-    std::array<float, 4> middle{};           ///< mid-points of fan_edges
-    std::array<float, 4> quadrant{};         ///< centres of the children; any where there is none
-    std::array<float, 4> quadrant_error_m{}; ///< of those centres
+    FourFloats middle;           ///< mid-points of fan_edges
+    FourFloats quadrant;         ///< centres of the children; any where there is none
+    FourFloats quadrant_error_m; ///< of those centres
 };
 
 /// Which samples of a ground a view wants by screen-space error.
@@ -43,6 +45,10 @@ public:
     void look_from(const MeshView& view);
 
     const GroundTiles& ground() const { return *ground_; }
+
+    const LevelMemory& memory(int level) const {
+        return levels_[static_cast<std::size_t>(level)].memory;
+    }
 
     const MeshView& view() const { return view_; }
 
@@ -62,7 +68,7 @@ public:
     float root_error_m() const;
 
     /// `place.gaps` is set.
-    void criticals_of(const ErrorPlace& place, FanCriticals& criticals) const;
+    FanCriticals criticals_of(const ErrorPlace& place) const;
 
     /// planes_cutting for all that a mesh may draw of a node. Drawn heights lie up to `margin_m`
     /// beyond those of the node's samples.
@@ -76,20 +82,15 @@ public:
     }
 
 private:
-    using Four = std::array<float, 4>;
-
-    /// Ends of boxes of influence, and errors by curvature, of the samples of a level's nodes.
+    /// A level of the ground, and errors by curvature.
     struct Level {
-        int edge = 0;
-        int columns = 0;
-        int rows = 0;
-        float half = 0.0F;
+        LevelMemory memory;
+        float half_edge;
         float middle_error_m = 0.0F;
         float quadrant_error_m = 0.0F;
     };
 
-    /// One axis of boxes of influence: squares of the distance to four, samples^2.
-    Four distances(float start, float eye, float half, const Four& least, const Four& most) const;
+    FourFloats metres_of(const LevelMemory::FourCodes& codes) const;
 
     const GroundTiles* ground_;
     MeshView view_;
@@ -100,6 +101,7 @@ private:
     double half_curvature_ = 0.0; ///< 1 / (2 R), 1/m
     float spacing_squared_m2_ = 0.0F;
     float eye_z_m_ = 0.0F;
+    int range_level_ = 0;
     int origin_column_ = 0; ///< sample at or south-west of the eye
     int origin_row_ = 0;
     float eye_east_ = 0.0F; ///< samples from there

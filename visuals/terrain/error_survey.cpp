@@ -84,8 +84,9 @@ std::uint32_t ErrorSurvey::visit(const Visit& from) {
     if (counting && steps_.at_high() > most_triangles_) {
         return static_cast<std::uint32_t>(own);
     }
-    FanCriticals criticals;
-    rule_->criticals_of(from.place, criticals);
+    const LevelMemory& memory = rule_->memory(from.place.level);
+    memory.expect(memory.spot(from.place.column, from.place.row));
+    const FanCriticals criticals = rule_->criticals_of(from.place);
     Children children;
     if (from.place.level + 1 < rule_->ground().levels()) {
         test_children(from, children);
@@ -160,16 +161,16 @@ inline void ErrorSurvey::test_children(const Visit& from, Children& children) {
 /// Adds the steps of a node's fan. `replaced`: the triangles of its quadrants where it is cut.
 inline void
 ErrorSurvey::count(const Visit& from, const ErrorNode& node, std::array<int, 4>& replaced) {
-    for (const float critical : node.middle) {
-        more_above_ = more_above_ || (critical >= high_ && critical < infinite);
-    }
-    for (unsigned q = 0; q < 4; ++q) {
-        more_above_ = more_above_ || (node.quadrant[q] >= high_ && node.quadrant[q] < infinite &&
-                                      (unsigned{node.hidden} >> q & 1U) == 0);
+    for (unsigned k = 0; k < 4; ++k) {
+        more_above_ = more_above_ || (node.middle[k] >= high_ && node.middle[k] < infinite) ||
+                      (node.quadrant[k] >= high_ && node.quadrant[k] < infinite &&
+                       (unsigned{node.hidden} >> k & 1U) == 0);
     }
     const GroundTiles& ground = rule_->ground();
     const FanSamples samples(ground, ground.layout().level(node.level).edge, node.column, node.row);
-    const FanLimits limits{node.on, node.middle, node.hidden, from.replaced};
+    const std::array<float, 4> middle = {
+        node.middle[0], node.middle[1], node.middle[2], node.middle[3]};
+    const FanLimits limits{node.on, middle, node.hidden, from.replaced};
     if (samples.is_cut()) {
         const FanTriangles triangles = triangles_with_area(samples);
         replaced = triangles.of_quadrant;
@@ -178,9 +179,9 @@ ErrorSurvey::count(const Visit& from, const ErrorNode& node, std::array<int, 4>&
         count_fan(limits, all_triangles, high_, steps_);
     } else {
         steps_.add(node.on, 4 - from.replaced);
-        for (const float critical : node.middle) {
-            if (critical < high_) {
-                steps_.add(critical, 1);
+        for (unsigned k = 0; k < 4; ++k) {
+            if (node.middle[k] < high_) {
+                steps_.add(node.middle[k], 1);
             }
         }
     }

@@ -27,8 +27,8 @@ inline constexpr int any_triangles = 1 << 30;
 
 /// A node whose fan is in the mesh at some limits, with the limits above which its parts are.
 struct alignas(64) ErrorNode {
-    std::array<float, 4> middle{};        ///< mid-points of fan_edges
-    std::array<float, 4> quadrant{};      ///< fans of the children
+    FourFloats middle;                    ///< mid-points of fan_edges
+    FourFloats quadrant;                  ///< fans of the children
     std::array<std::uint32_t, 4> child{}; ///< nodes of those that were looked at; 0 = none
     float on = 0.0F;                      ///< the fan: its centre
     std::uint16_t column = 0;
