@@ -10,7 +10,9 @@ namespace octant::models {
 /// A vertex as it goes to the graphics card. 16 bytes.
 struct ColourVertex {
     glm::vec3 position_m{0.0F}; ///< world axes, metres, eye point subtracted
-    std::uint32_t colour = 0;   ///< red in the lowest byte, then green, blue, alpha; each 0..255
+    /// Red in the lowest byte, then green, blue, alpha; each 0..255. Alpha of ground is 255, and in
+    /// a shadow the share of its light that is left.
+    std::uint32_t colour = 0;
 };
 
 /// Packs linear parts 0..1 (clamped, rounded) with full alpha.

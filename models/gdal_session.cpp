@@ -12,13 +12,15 @@ namespace octant::models {
 
 namespace {
 
-/// Only the drivers that read local rasters of heights: no plug-in is searched for, and none that
-/// follows references to other files or hosts is ever there.
+/// Only the drivers that read local rasters of heights or colours: no plug-in is searched for, and
+/// none that follows references to other files or hosts is ever there.
 void register_drivers() {
     GDALRegister_GTiff();
     GDALRegister_SRTMHGT();
     GDALRegister_USGSDEM();
     GDALRegister_PNG();
+    GDALRegister_JPEG();
+    GDALRegister_MEM();
     GDALRegister_PNM();
     GDALRegister_AAIGrid();
     OSRSetPROJEnableNetwork(0);

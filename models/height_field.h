@@ -15,6 +15,14 @@ struct GeoPlace {
     double longitude_deg = 0.0; ///< of the field's centre, WGS 84
 };
 
+/// A coordinate system whose x and y run along a field's own.
+struct MapSystem {
+    std::string wkt;
+    double centre_x = 0.0; ///< of the field, in the system's units
+    double centre_y = 0.0;
+    double unit_m = 1.0;
+};
+
 /// Ground heights on a square grid. World: x east, y north, z up, metres, origin at the field's
 /// centre at datum. Column 0 is the west edge, row 0 the south edge.
 class HeightField {
@@ -52,9 +60,10 @@ public:
 
     float highest_m() const { return highest_m_; }
 
-    std::string name;              ///< built-in name or file name, for reports
-    std::optional<GeoPlace> place; ///< nothing for made ground
-    long filled_voids = 0;         ///< samples without data that were filled in on reading
+    std::string name;                ///< built-in name or file name, for reports
+    std::optional<GeoPlace> place;   ///< nothing for made ground
+    std::optional<MapSystem> system; ///< nothing for ground without a place in any
+    long filled_voids = 0;           ///< samples without data that were filled in on reading
 
 private:
     int columns_;

@@ -3,8 +3,8 @@
 #include "sim/base/error.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cpl_conv.h>
 #include <fmt/format.h>
 #include <ogr_srs_api.h>
 #include <string>
@@ -63,6 +63,14 @@ void CloseTransformation::operator()(void* transformation) const {
     OCTDestroyCoordinateTransformation(transformation);
 }
 
+std::string wkt_of(SystemHandle system) {
+    char* text = nullptr;
+    const bool written = OSRExportToWkt(system, &text) == OGRERR_NONE;
+    std::string wkt = written ? text : "";
+    CPLFree(text);
+    return wkt;
+}
+
 std::optional<LocalFrame>
 LocalFrame::around(SystemHandle system, const GridFrame& frame, int columns, int rows) {
     const Point centre = {
@@ -85,6 +93,7 @@ LocalFrame::around(SystemHandle system, const GridFrame& frame, int columns, int
     if (!local) {
         return std::nullopt;
     }
+    result.wkt_ = wkt_of(local.get());
     result.to_local_ = between(system, local.get());
     result.from_local_ = between(local.get(), system);
     result.local_to_wgs84_ = between(local.get(), wgs84.get());
@@ -198,6 +207,7 @@ std::optional<LocalGrid> LocalFrame::resampled(const HeightGrid& grid) const {
         return std::nullopt;
     }
     local.place = {place->y, place->x};
+    local.system = {wkt_, centre.x, centre.y, 1.0};
     return local;
 }
 

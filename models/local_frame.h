@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace octant::models {
 
@@ -17,6 +18,9 @@ using Transformation = std::unique_ptr<void, CloseTransformation>;
 
 /// An OGRSpatialReferenceH, owned elsewhere.
 using SystemHandle = void*;
+
+/// A system as well-known text; empty when it cannot be written.
+std::string wkt_of(SystemHandle system);
 
 /// Where the samples of a grid lie in a coordinate system: sample (0, 0) and the steps, both above
 /// zero, in the system's own units.
@@ -32,6 +36,7 @@ struct LocalGrid {
     HeightGrid grid;
     double spacing_m = 0.0;
     GeoPlace place;
+    MapSystem system; ///< the frame's
 };
 
 /// The ground about the centre of a grid in some coordinate system: a transverse Mercator
@@ -70,6 +75,7 @@ private:
 
     GridFrame frame_;
     GeoPlace place_;
+    std::string wkt_; ///< of the frame's projection
     double step_east_m_ = 0.0;
     double step_north_m_ = 0.0;
     Transformation to_local_;

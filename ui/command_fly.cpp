@@ -3,16 +3,20 @@
 #include "ui/flight_recorder.h"
 #include "ui/input_files.h"
 #include "ui/progress.h"
+#include "ui/replay.h"
 #include "ui/report/statistics.h"
 #include "ui/session.h"
+#include "ui/settings_file.h"
 #include "ui/settings_options.h"
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 namespace octant::ui {
@@ -24,6 +28,7 @@ namespace {
 struct FlyOptions {
     scene::Settings settings;
     RecordOptions record;
+    std::optional<Replay> replay;
     bool json = false;
     bool quiet = false;
     bool if_new = false;
@@ -37,7 +42,7 @@ void wait_for(const Stopwatch& since_start, double time_s) {
     }
 }
 
-void print_summary(const FlightEnd& end, bool json) {
+void print_summary(const FlightEnd& end, const std::optional<ReplayVerdict>& verdict, bool json) {
     if (json) {
         nlohmann::ordered_json object;
         for (const report::Figure& figure : report::figures()) {
@@ -50,6 +55,10 @@ void print_summary(const FlightEnd& end, bool json) {
         }
         object["state_hash"] = fmt::format("{:016x}", end.state_hash);
         object["picture_hash"] = fmt::format("{:016x}", end.picture_hash);
+        if (verdict) {
+            object["replay"] = {
+                {"state_hash", verdict->state_hash}, {"picture_hash", verdict->picture_hash}};
+        }
         std::fputs(fmt::format("{}\n", object.dump(2)).c_str(), stdout);
         return;
     }
@@ -69,22 +78,48 @@ void print_summary(const FlightEnd& end, bool json) {
             end.picture_hash)
             .c_str(),
         stdout);
+    if (verdict) {
+        std::fputs(fmt::format("{:<28} {}\n", "replay", verdict->line).c_str(), stdout);
+    }
 }
 
-void fly(FlyOptions options) {
-    options.settings = with_absolute_files(options.settings);
+/// Throws Error where options contradict each other.
+void check_options(const CLI::App& command, const FlyOptions& options) {
     if (options.if_new && !options.record.folder) {
         throw Error("--if-new: expected --record DIR beside it, got none");
     }
-    if (options.if_new && is_recorded(options.record, options.settings)) {
-        say(options.quiet, fmt::format("{} is done already", options.record.folder->string()));
+    if (!options.replay) {
         return;
     }
-    Session session(options.settings);
-    for (const std::string& note : session.world().notes) {
-        say(options.quiet, fmt::format("note: {}", note));
+    refuse_settings_beside_replay(command);
+    if (options.if_new) {
+        throw Error("--if-new: expected no --replay beside it, got one");
     }
-    FlightRecorder recorder(options.record, options.settings, session);
+    std::error_code ignored;
+    if (options.record.folder &&
+        std::filesystem::equivalent(*options.record.folder, options.replay->folder, ignored)) {
+        throw Error(fmt::format(
+            "--record: expected another folder than that of --replay, got {}",
+            options.record.folder->string()));
+    }
+}
+
+/// Makes the session repeat the recording's rows. Throws Error when they do not fit it.
+void start_replay(const Replay& replay, Session& session, bool quiet) {
+    check_frames(replay, session.frames());
+    if (static_cast<int>(replay.triangle_targets.size()) < session.frames()) {
+        say(quiet,
+            fmt::format(
+                "note: {} has {} of {} frames; these are flown",
+                replay.folder.string(),
+                replay.triangle_targets.size(),
+                session.frames()));
+    }
+    session.replay(replay.triangle_targets);
+}
+
+/// Every frame of the session, recorded.
+void fly_frames(const FlyOptions& options, Session& session, FlightRecorder& recorder) {
     Progress progress(session.world().flight.title, session.frames(), options.quiet);
     const Stopwatch since_start;
     for (int frame = 0; frame < session.frames(); ++frame) {
@@ -96,6 +131,24 @@ void fly(FlyOptions options) {
         progress.show(frame + 1, fmt::format("{:.1f} ms", record.frame_ms));
     }
     progress.finish();
+}
+
+void fly(const CLI::App& command, FlyOptions options) {
+    check_options(command, options);
+    options.settings = with_absolute_files(options.settings);
+    if (options.if_new && is_recorded(options.record, options.settings)) {
+        say(options.quiet, fmt::format("{} is done already", options.record.folder->string()));
+        return;
+    }
+    Session session(options.settings);
+    for (const std::string& note : session.world().notes) {
+        say(options.quiet, fmt::format("note: {}", note));
+    }
+    if (options.replay) {
+        start_replay(*options.replay, session, options.quiet);
+    }
+    FlightRecorder recorder(options.record, options.settings, session);
+    fly_frames(options, session, recorder);
     const FlightEnd end = recorder.finish(session);
     for (const std::string& note : end.notes) {
         say(options.quiet, note);
@@ -109,9 +162,16 @@ void fly(FlyOptions options) {
                 "note: all {} frames are warm-up, so there are no figures; --warm-up 0 counts them",
                 session.frames()));
     }
-    print_summary(end, options.json);
+    std::optional<ReplayVerdict> verdict;
+    if (options.replay) {
+        verdict = verdict_on(*options.replay, end.state_hash, end.picture_hash);
+    }
+    print_summary(end, verdict, options.json);
     if (!end.fault.empty()) {
         throw Error(end.fault);
+    }
+    if (verdict && verdict->differs) {
+        throw CheckSaidNo();
     }
 }
 
@@ -133,6 +193,17 @@ void add_fly_command(CLI::App& program) {
             [options](const std::string& file) { options->record.video = file; },
             "write a video (needs ffmpeg; frame times then include the encoder's load)")
         ->type_name("FILE.mp4");
+    command
+        ->add_option_function<std::string>(
+            "--replay",
+            [options](const std::string& folder) {
+                options->replay = read_replay(folder);
+                options->record.replay_of = folder;
+                options->settings = read_settings(std::filesystem::path(folder) / "run.json");
+            },
+            "fly the recording in DIR again by its rows, as far as they go, and check that states "
+            "and pictures are the same (exit code 1 when not)")
+        ->type_name("DIR");
     command->add_flag(
         "--if-new", options->if_new, "do nothing when DIR holds this very run already");
     command->add_flag("--json", options->json, "summary as JSON");
@@ -144,8 +215,10 @@ void add_fly_command(CLI::App& program) {
         "  octant fly pop-up --aircraft f15 --terrain canyon --view chase --record my-flight\n"
         "  octant fly turn --aircraft 500md --terrain map.tif --height-mode follow --video "
         "turn.mp4\n"
-        "  octant fly --settings my-flight/run.json --record the-same");
-    command->callback([options] { fly(*options); });
+        "  octant fly --settings my-flight/run.json --record the-same\n"
+        "  octant fly turn --adapt terrain --rate 120 --record fitted\n"
+        "  octant fly --replay fitted");
+    command->callback([command, options] { fly(*command, *options); });
 }
 
 } // namespace octant::ui

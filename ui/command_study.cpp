@@ -1,8 +1,10 @@
 #include "ui/commands.h"
+#include "ui/read_option.h"
 #include "ui/settings_text.h"
 #include "ui/study_draw_order.h"
 #include "ui/study_flights.h"
 #include "ui/study_hidden_surface.h"
+#include "ui/study_popping.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -114,6 +116,33 @@ void add_hidden_surface(CLI::App& study) {
     });
 }
 
+void add_popping(CLI::App& study) {
+    auto options = std::make_shared<PoppingStudyOptions>();
+    options->settings.terrain = "canyon";
+    CLI::App* command = study.add_subcommand(
+        "popping", "Largest jump of a vertex in any frame of the four paths, and shimmer");
+    add_out(*command, options->out);
+    visuals::scene::Settings& settings = options->settings;
+    add_setting(*command, "--terrain", settings.terrain, "NAME|FILE", "the ground");
+    add_setting(*command, "--size", settings.size_px, "WIDTHxHEIGHT", "picture size in pixels");
+    add_read_option(*command, {"triangles", "N", "budget [20000]", 1, 1e8}, settings.triangles);
+    add_read_option(
+        *command,
+        {"error-px", "PIXELS", "screen-error: refined no further [0.25]", 0.001, 1e4},
+        settings.error_px);
+    add_read_option(
+        *command, {"frames", "N", "only the first of each path", 2, 1e7}, settings.frames);
+    command->add_flag("--shimmer", options->shimmer, "draw, and measure shimmer too");
+    command->add_option("--every", options->every, "shimmer: one pair of frames in N")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(CLI::Range(2, 100000));
+    command->add_flag("--json", options->json, "print the tables as JSON");
+    command->add_flag("--quiet", options->quiet, "no progress, no notes");
+    command->footer("Example:\n  octant study popping --out tables --terrain canyon");
+    command->callback([options] { study_popping(*options); });
+}
+
 } // namespace
 
 void add_study_command(CLI::App& program) {
@@ -125,6 +154,7 @@ void add_study_command(CLI::App& program) {
     add_flights(*study);
     add_draw_order(*study);
     add_hidden_surface(*study);
+    add_popping(*study);
 }
 
 } // namespace octant::ui

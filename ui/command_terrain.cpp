@@ -4,6 +4,7 @@
 #include "sim/base/error.h"
 #include "sim/base/units.h"
 #include "ui/command_terrain_import.h"
+#include "ui/command_terrain_measure.h"
 #include "ui/commands.h"
 #include "ui/progress.h"
 #include "ui/settings_options.h"
@@ -151,13 +152,18 @@ void add_make(CLI::App& terrain) {
 } // namespace
 
 void add_terrain_command(CLI::App& program) {
-    CLI::App* terrain = program.add_subcommand("terrain", "Height fields: show, make, import");
+    CLI::App* terrain = program.add_subcommand(
+        "terrain", "Height fields: show, make, import, mesh, measure, ask, check");
     terrain->require_subcommand(1);
     terrain->footer("Examples:\n  octant terrain info map.tif\n  octant terrain make --kind canyon "
                     "--seed 7 --out made.tif");
     add_info(*terrain);
     add_make(*terrain);
     add_terrain_import(*terrain);
+    add_terrain_mesh(*terrain);
+    add_terrain_error(*terrain);
+    add_terrain_query(*terrain);
+    add_terrain_check(*terrain);
 }
 
 } // namespace octant::ui

@@ -30,7 +30,23 @@ report::PictureView view_of(const visuals::gl::Picture& picture) {
     return {picture.width, picture.height, 4, std::as_bytes(std::span(picture.rgba)), false};
 }
 
-report::RunInfo run_info(const scene::Settings& settings, const Session& session) {
+std::string adaptation_text(const scene::LoadSettings& load) {
+    return fmt::format(
+        "terrain: {} to {} triangles; left alone at a stress of {:.2f} to {:.2f}, else brought to "
+        "the middle by at most {:.1f} % down and {:.1f} % up a frame; stress filtered over "
+        "{:.1f} s, for the control with no frame above {:.1f} and carried over to each new target",
+        load.lowest,
+        load.highest,
+        load.least_stress,
+        load.most_stress,
+        100.0 * load.largest_fall,
+        100.0 * load.largest_rise,
+        load.filter_s,
+        load.most_counted_stress);
+}
+
+report::RunInfo
+run_info(const RecordOptions& options, const scene::Settings& settings, const Session& session) {
     const Flight& flight = session.world().flight;
     report::RunInfo info;
     info.title = flight.title;
@@ -48,6 +64,13 @@ report::RunInfo run_info(const scene::Settings& settings, const Session& session
          fmt::format("{:.1f} m at {:.2f} s", flight.lowest_clearance_m, flight.lowest_clearance_s)},
         {"drawn by",
          fmt::format("{}, OpenGL {}", session.context().kind, session.context().version)}};
+    if (settings.adapt.terrain) {
+        info.facts.emplace_back(
+            "adaptation", adaptation_text(scene::load_settings(settings, session.rate_hz())));
+    }
+    if (options.replay_of) {
+        info.facts.emplace_back("replay of", options.replay_of->string());
+    }
     info.notes = session.world().notes;
     info.inputs = input_hashes(settings);
     return info;
@@ -85,7 +108,7 @@ FlightRecorder::FlightRecorder(
                 settings.size_px.x, settings.size_px.y, 4, false, session.rate_hz()});
     }
     if (options.folder) {
-        recording_.emplace(*options.folder, run_info(settings, session));
+        recording_.emplace(*options.folder, run_info(options, settings, session));
         // Whole at first: a killed flight's tracks are cut by its report.
         write_tracks(*options.folder, session.world(), session.world().flight.trajectory.end_s());
     }

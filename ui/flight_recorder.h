@@ -16,6 +16,7 @@ namespace octant::ui {
 struct RecordOptions {
     std::optional<std::filesystem::path> folder;
     std::optional<std::filesystem::path> video;
+    std::optional<std::filesystem::path> replay_of; ///< recording whose rows are flown again
 };
 
 /// What came out of a flight.

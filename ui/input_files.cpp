@@ -56,6 +56,9 @@ visuals::scene::Settings with_absolute_files(visuals::scene::Settings settings) 
     if (!built_in_ground && is_file(settings.terrain)) {
         settings.terrain = absolute(settings.terrain);
     }
+    if (settings.drape) {
+        settings.drape = absolute(*settings.drape);
+    }
     return settings;
 }
 
@@ -71,6 +74,9 @@ input_hashes(const visuals::scene::Settings& settings) {
     }
     if (is_file(settings.terrain)) {
         files.emplace_back(settings.terrain);
+    }
+    if (settings.drape) {
+        files.emplace_back(*settings.drape);
     }
     std::vector<std::pair<std::string, std::string>> hashes;
     for (const fs::path& file : files) {

@@ -8,8 +8,11 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 #include <span>
+#include <utility>
 
 namespace octant::ui {
 
@@ -22,6 +25,10 @@ std::unique_ptr<gl::Context> make_context(scene::ContextKind kind) {
 
 namespace {
 
+DrawnBy drawn_by(const gl::Context& context) {
+    return gl::draws_on_processor(context.description()) ? DrawnBy::Processor : DrawnBy::Gpu;
+}
+
 void add_state(Hash& hash, const sim::AircraftState& state) {
     hash.add(std::as_bytes(std::span(glm::value_ptr(state.position_m), 3)));
     hash.add(std::as_bytes(std::span(glm::value_ptr(state.velocity_mps), 3)));
@@ -32,8 +39,8 @@ void add_state(Hash& hash, const sim::AircraftState& state) {
 
 Session::Session(const scene::Settings& settings, Shows shows)
     : settings_(settings)
-    , world_(load_world(settings))
     , context_(make_context(settings.context))
+    , world_(load_world(settings, drawn_by(*context_)))
     , renderer_(std::make_unique<gl::Renderer>(
           context_->functions(), settings.size_px.x, settings.size_px.y, settings.samples))
     , planner_(world_.scene, settings_)
@@ -41,27 +48,38 @@ Session::Session(const scene::Settings& settings, Shows shows)
     , ground_height_(
           [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); })
     , next_step_(sim::step_at(world_.flight.trajectory.start_s())) {
-    if (shows == Shows::PolygonNumbers) {
-        ids_.emplace(world_.scene);
-        renderer_->load_models(ids_->models());
-    } else {
-        std::vector<scene::ModelBuffers> buffers;
-        for (const scene::AircraftModel& model : world_.scene.models) {
-            buffers.push_back(model.buffers);
-        }
-        renderer_->load_models(buffers);
-    }
+    load_into_renderer(shows);
     renderer_->warm_up();
     gl::spread_raster_threads();
     states_.resize(world_.scene.aircraft.size());
     make_frame_times();
+    load_settings_ = scene::load_settings(settings_, rate_hz_);
+    load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
     states_at(frame_times_s_.front());
     rig_ = scene::advanced(rig_, states_.front());
-    planner_.settle(camera());
+    planner_.settle(camera(states_.front(), rig_));
 }
 
 Session::~Session() {
     context_->make_current();
+}
+
+void Session::load_into_renderer(Shows shows) {
+    if (shows == Shows::PolygonNumbers) {
+        ids_.emplace(world_.scene);
+        renderer_->load_models(ids_->models());
+        return;
+    }
+    std::vector<scene::ModelBuffers> buffers;
+    for (const scene::AircraftModel& model : world_.scene.models) {
+        buffers.push_back(model.buffers);
+    }
+    renderer_->load_models(buffers);
+    if (world_.scene.ground_texture) {
+        renderer_->load_ground_texture(*world_.scene.ground_texture);
+        world_.scene.ground_texture->albedo.texels = {};
+        world_.scene.ground_texture->normal.texels = {};
+    }
 }
 
 void Session::make_frame_times() {
@@ -108,11 +126,52 @@ void Session::simulate_to(double time_s) {
     states_at(time_s);
 }
 
-scene::Camera Session::camera() const {
+void Session::replay(std::vector<int> triangle_targets) {
+    assert(triangle_targets.size() <= frame_times_s_.size());
+    frame_times_s_.resize(triangle_targets.size());
+    replayed_targets_ = std::move(triangle_targets);
+}
+
+int Session::choose_triangle_target(int frame) {
+    if (!replayed_targets_.empty()) {
+        load_ = scene::with_target(load_, replayed_targets_[static_cast<std::size_t>(frame)]);
+    }
+    return settings_.adapt.terrain || !replayed_targets_.empty()
+               ? load_.triangles()
+               : scene::triangle_target(settings_);
+}
+
+/// What the frame's row says as its stress; decides the next frame's target where it adapts.
+double Session::stress_after(const report::FrameRecord& record) {
+    if (!settings_.adapt.terrain) {
+        return record.frame_ms * rate_hz_ / 1000.0;
+    }
+    if (!record.warm_up) {
+        load_ =
+            scene::next_state(load_, load_settings_, {record.frame_ms, record.terrain_triangles});
+    }
+    return load_.stress.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+scene::Camera Session::camera(const sim::AircraftState& state, const scene::RigMemory& rig) const {
     scene::Subject subject = world_.scene.models[world_.scene.aircraft.front()].subject;
     subject.radius_m = formation_.framed_radius_m(subject.radius_m);
-    return scene::camera_of(
-        settings_, states_.front(), rig_, subject, world_.points, ground_height_);
+    return scene::camera_of(settings_, state, rig, subject, world_.points, ground_height_);
+}
+
+/// Begins on the ground of a frame to come, with the camera that it is going to have.
+void Session::mesh_ahead(int frame) {
+    if (!settings_.mesh_ahead) {
+        return;
+    }
+    const double time_s = frame_times_s_[static_cast<std::size_t>(frame)];
+    const sim::Trajectory& path = world_.flight.trajectory;
+    scene::RigMemory rig = rig_;
+    for (long step = next_step_; step <= sim::step_at(time_s); ++step) {
+        rig = scene::advanced(rig, path.state_at(sim::time_of_step(step)));
+    }
+    planner_.set_triangle_target(next_triangle_target_);
+    planner_.prepare(camera(path.state_at(time_s), rig));
 }
 
 report::FrameRecord Session::draw(int frame) {
@@ -130,11 +189,17 @@ report::FrameRecord Session::draw(int frame) {
     simulate_to(record.sim_time_s);
     record.sim_ms = stage.lap_ms();
 
-    const scene::Camera seen_from = camera();
+    record.triangle_target = frame == 0 ? choose_triangle_target(0) : next_triangle_target_;
+    planner_.set_triangle_target(record.triangle_target);
+    const scene::Camera seen_from = camera(states_.front(), rig_);
     scene::PlanCounts counts;
     const scene::FramePlan& plan = planner_.plan(seen_from, states_, counts);
     record.plan_ms = stage.lap_ms();
 
+    if (frame + 1 < frames()) {
+        next_triangle_target_ = choose_triangle_target(frame + 1);
+        mesh_ahead(frame + 1);
+    }
     renderer_->draw(ids_ ? ids_->of(plan) : plan);
     renderer_->finish();
     record.draw_ms = stage.lap_ms();
@@ -151,9 +216,10 @@ report::FrameRecord Session::draw(int frame) {
     record.cuts = counts.cuts;
     record.unordered = counts.unordered;
     record.resolution_c = counts.ground.resolution;
+    record.error_px = counts.ground.error_px;
     record.triangle_change = frame == 0 ? 0 : counts.ground.triangles - last_triangles_;
     last_triangles_ = counts.ground.triangles;
-    record.stress = record.frame_ms * rate_hz_ / 1000.0;
+    record.stress = stress_after(record);
     record.overrun = record.frame_ms > report::overrun_16_ms ? 1 : 0;
     record.eye_m = seen_from.eye_m;
     record.aircraft_m = states_.front().position_m;

@@ -10,6 +10,7 @@
 #include "visuals/gl/renderer.h"
 #include "visuals/scene/camera_rig.h"
 #include "visuals/scene/id_plan.h"
+#include "visuals/scene/load_controller.h"
 #include "visuals/scene/planner.h"
 #include "visuals/scene/settings.h"
 
@@ -33,7 +34,7 @@ enum class Shows {
 /// The only place that reads the clock during a flight.
 class Session {
 public:
-    /// Loads the world, makes the context and draws once in every drawing state. Throws Error.
+    /// Makes the context, loads the world and draws once in every drawing state. Throws Error.
     /// Stays in its place: parts of it point at others.
     explicit Session(const visuals::scene::Settings& settings, Shows shows = Shows::World);
     ~Session();
@@ -56,6 +57,10 @@ public:
     /// turns.
     void make_current() { context_->make_current(); }
 
+    /// Flies as many frames as there are numbers, at most frames() (asserted), each with that
+    /// triangle target whatever the clock says. Before the first draw().
+    void replay(std::vector<int> triangle_targets);
+
     /// Simulates up to the frame's time, plans, draws and reads the picture. Frames come in order.
     report::FrameRecord draw(int frame);
 
@@ -72,14 +77,19 @@ public:
     void hash_picture();
 
 private:
+    void load_into_renderer(Shows shows);
     void make_frame_times();
     void simulate_to(double time_s);
+    int choose_triangle_target(int frame);
+    double stress_after(const report::FrameRecord& record);
     void states_at(double time_s);
-    visuals::scene::Camera camera() const;
+    visuals::scene::Camera
+    camera(const sim::AircraftState& state, const visuals::scene::RigMemory& rig) const;
+    void mesh_ahead(int frame);
 
     visuals::scene::Settings settings_;
-    World world_;
     std::unique_ptr<visuals::gl::Context> context_;
+    World world_;
     std::unique_ptr<visuals::gl::Renderer> renderer_; ///< goes before its context
     visuals::scene::Planner planner_;
     std::optional<visuals::scene::IdPlan> ids_;
@@ -92,6 +102,10 @@ private:
     std::vector<sim::AircraftState> states_;
     visuals::gl::Picture picture_;
     int last_triangles_ = 0;
+    visuals::scene::LoadSettings load_settings_;
+    visuals::scene::LoadState load_;
+    int next_triangle_target_ = 0;
+    std::vector<int> replayed_targets_; ///< by frame; empty = nothing is replayed
     Hash state_hash_;
     Hash picture_hash_;
     Stopwatch since_first_frame_;

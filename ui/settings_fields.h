@@ -117,6 +117,13 @@ void visit_time_settings(SomeSettings& s, Visit& visit) {
             0,
             100000000},
         s.pictures);
+    visit(
+        Info{
+            "adapt",
+            "WHAT,...",
+            "what follows the frame time: terrain (its triangles, from an eighth to four times "
+            "--triangles, so that a frame uses 75 to 90 % of its time), or none"},
+        s.adapt);
 }
 
 /// Fields that say how hidden surfaces are removed.
@@ -149,7 +156,8 @@ void visit_ground_settings(SomeSettings& s, Visit& visit) {
             "mesh",
             "METRIC",
             "what refines the ground: screen-error (error in pixels, bisection), or the paper's "
-            "quadtree by midpoint or printed (corner slopes) roughness"},
+            "quadtree by midpoint or printed (corner slopes) roughness [screen-error; midpoint "
+            "where only the quadtree has what is asked for]"},
         s.mesh);
     visit(
         Info{
@@ -184,6 +192,12 @@ void visit_ground_settings(SomeSettings& s, Visit& visit) {
     visit(
         Info{"geomorphs", "", "screen-error: vertices move into place instead of jumping"},
         s.geomorphs);
+    visit(
+        Info{
+            "mesh-ahead",
+            "",
+            "screen-error: mesh the ground of the next frame while this one is drawn"},
+        s.mesh_ahead);
     visit(
         Info{"earth-curvature", "", "screen-error: distant ground and aircraft sink by d^2 / 2R"},
         s.earth_curvature);
@@ -243,6 +257,21 @@ void visit_air_settings(SomeSettings& s, Visit& visit) {
             "NAME",
             "ground colours: temperate or arid [arid for the canyon, else temperate]"},
         s.palette);
+    visit(
+        Info{
+            "ground-shading",
+            "KIND",
+            "ground lit at each vertex, or at each pixel by texture (without a GPU 4 times "
+            "slower); "
+            "auto: texture with a drape or a GPU"},
+        s.ground_shading);
+    visit(
+        Info{
+            "drape",
+            "FILE",
+            "image laid over the ground: by its coordinate system, or from edge to edge, north up, "
+            "where it has none"},
+        s.drape);
 }
 
 /// Calls visit(FieldInfo, field) for every field of Settings: the one list from which command line,

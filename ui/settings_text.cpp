@@ -3,16 +3,24 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <limits>
+#include <utility>
 
 namespace octant::ui {
 
+using visuals::scene::Adaptation;
+
 namespace {
+
+/// What can follow the clock, by name.
+constexpr std::array adaptations{
+    std::pair<std::string_view, bool Adaptation::*>{"terrain", &Adaptation::terrain}};
 
 [[noreturn]] void refuse(const FieldInfo& info, const std::string& expected, std::string_view got) {
     throw Error(
@@ -67,6 +75,17 @@ std::string text_of(const glm::vec3& colour) {
         std::lround(colour.x * 255.0F),
         std::lround(colour.y * 255.0F),
         std::lround(colour.z * 255.0F));
+}
+
+std::string text_of(const Adaptation& adapt) {
+    std::string text;
+    for (const auto& [name, follows] : adaptations) {
+        if (adapt.*follows) {
+            text += text.empty() ? "" : ",";
+            text += name;
+        }
+    }
+    return text;
 }
 
 void read_setting(const FieldInfo& info, std::string_view text, std::string& value) {
@@ -135,6 +154,24 @@ void read_setting(const FieldInfo& info, std::string_view text, glm::vec3& colou
         return static_cast<float>((packed >> shift) & 0xffU) / 255.0F;
     };
     colour = {part(16U), part(8U), part(0U)};
+}
+
+void read_setting(const FieldInfo& info, std::string_view text, Adaptation& adapt) {
+    Adaptation read;
+    if (!text.empty() && text != "none") {
+        std::vector<std::string_view> names;
+        for (const auto& each : adaptations) {
+            names.push_back(each.first);
+        }
+        for (const std::string_view word : split_fields(text, ',')) {
+            const auto found = std::find(names.begin(), names.end(), word);
+            if (found == names.end()) {
+                refuse(info, fmt::format("none or a list of {}", fmt::join(names, ", ")), text);
+            }
+            read.*adaptations[static_cast<std::size_t>(found - names.begin())].second = true;
+        }
+    }
+    adapt = read;
 }
 
 std::size_t read_choice(

@@ -29,6 +29,7 @@ std::string text_of(int value);
 std::string text_of(const glm::ivec2& value);
 std::string text_of(const glm::dvec3& value);
 std::string text_of(const glm::vec3& colour);
+std::string text_of(const visuals::scene::Adaptation& adapt);
 
 /// Reads a setting from text. Throws Error "NAME: expected ..., got ..." and leaves the value.
 void read_setting(const FieldInfo& info, std::string_view text, std::string& value);
@@ -38,6 +39,7 @@ void read_setting(const FieldInfo& info, std::string_view text, bool& value);
 void read_setting(const FieldInfo& info, std::string_view text, glm::ivec2& value);
 void read_setting(const FieldInfo& info, std::string_view text, glm::dvec3& value);
 void read_setting(const FieldInfo& info, std::string_view text, glm::vec3& colour);
+void read_setting(const FieldInfo& info, std::string_view text, visuals::scene::Adaptation& adapt);
 
 /// Index of `text` among `names`. Throws Error "NAME: expected one of ..., got ...".
 std::size_t read_choice(
@@ -110,6 +112,11 @@ struct EnumNames<visuals::scene::DetailControl> {
 template <>
 struct EnumNames<visuals::scene::Palette> {
     static std::vector<std::string_view> names() { return {"temperate", "arid"}; }
+};
+
+template <>
+struct EnumNames<visuals::scene::GroundShading> {
+    static std::vector<std::string_view> names() { return {"auto", "vertex", "texture"}; }
 };
 
 template <>

@@ -3,6 +3,7 @@
 #include "flightpaths/fly_script.h"
 #include "sim/trajectory.h"
 #include "ui/formation.h"
+#include "ui/ground_texture_file.h"
 #include "visuals/scene/camera_rig.h"
 #include "visuals/scene/planner.h"
 #include "visuals/scene/settings.h"
@@ -44,6 +45,6 @@ struct World {
 Formation formation_of(const visuals::scene::Scene& scene);
 
 /// Loads aircraft, ground and path of a run and lays the path over the ground. Throws Error.
-World load_world(const visuals::scene::Settings& settings);
+World load_world(const visuals::scene::Settings& settings, DrawnBy drawn_by = DrawnBy::Processor);
 
 } // namespace octant::ui

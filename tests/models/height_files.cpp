@@ -42,7 +42,13 @@ void write_raster(const std::filesystem::path& path, const char* driver, const R
     }
     for (int i = 1; i <= raster.bands; ++i) {
         const GDALRasterBandH band = GDALGetRasterBand(memory, i);
-        std::vector<double> values = raster.values;
+        const auto pixels =
+            static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows);
+        const std::size_t first =
+            raster.values.size() > pixels ? static_cast<std::size_t>(i - 1) * pixels : 0;
+        std::vector<double> values(
+            raster.values.begin() + static_cast<long>(first),
+            raster.values.begin() + static_cast<long>(first + pixels));
         const CPLErr written = GDALRasterIO(
             band,
             GF_Write,

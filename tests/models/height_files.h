@@ -16,7 +16,7 @@ struct RasterFile {
     int rows = 0;
     std::vector<double> values;
     GDALDataType type = GDT_Float32;
-    int bands = 1;                 ///< each band gets the same values
+    int bands = 1;                 ///< one behind the other in values, or each gets the same values
     std::vector<double> transform; ///< GDAL's six numbers, or none
     std::string system;            ///< "EPSG:4326", PROJ text or none
     std::string unit;

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <clocale>
 #include <cmath>
 #include <limits>
@@ -35,6 +36,8 @@ FrameRecord full_record() {
     record.eye_m = {1.5, -2.25, 3e6};
     record.aircraft_m = {4.0, 5.0, 6.0};
     record.aircraft_agl_m = 61.25;
+    record.triangle_target = 1200;
+    record.error_px = 0.75;
     return record;
 }
 
@@ -46,7 +49,7 @@ TEST_CASE("frames.csv begins with the columns that others rely on") {
     CHECK(
         header.substr(std::string(promised_columns).size()) ==
         ",warm_up,record_ms,draw_calls,shadow_triangles,cuts,unordered,eye_x_m,eye_y_m,eye_z_m,"
-        "aircraft_x_m,aircraft_y_m,aircraft_z_m,aircraft_agl_m\n");
+        "aircraft_x_m,aircraft_y_m,aircraft_z_m,aircraft_agl_m,triangle_target,error_px\n");
 }
 
 TEST_CASE("a line has fixed decimals whatever the locale") {
@@ -54,7 +57,7 @@ TEST_CASE("a line has fixed decimals whatever the locale") {
     CHECK(
         frame_csv_line(full_record()) ==
         "7,0.350000,0.140000,15.8457,1.0000,2.0000,12.3457,0.5000,1007,12,43,26,0.125000,-5,0.3169,"
-        "0,1,3.2500,3,24,5,1,1.500,-2.250,3000000.000,4.000,5.000,6.000,61.250\n");
+        "0,1,3.2500,3,24,5,1,1.500,-2.250,3000000.000,4.000,5.000,6.000,61.250,1200,0.7500\n");
     std::setlocale(LC_NUMERIC, "C");
 }
 
@@ -74,6 +77,8 @@ TEST_CASE("what is written is read back as it was written") {
     CHECK(got.triangle_change == -5);
     CHECK(got.eye_m.z == 3e6);
     CHECK(got.aircraft_agl_m == 61.25);
+    CHECK(got.triangle_target == 1200);
+    CHECK(got.error_px == 0.75);
 }
 
 TEST_CASE("what has no value is an empty field") {
@@ -117,6 +122,10 @@ TEST_CASE("columns are found by name, in any order and among strange ones") {
     CHECK(got.frame_ms == 38.0);
     CHECK(got.overrun == 1);
     CHECK_FALSE(got.warm_up);
+    constexpr std::array<std::string_view, 1> further{"triangle_target"};
+    CHECK_THROWS_WITH(
+        read_frame_csv(scratch / "frames.csv", further),
+        Catch::Contains(":1: expected a column triangle_target, got 'mood,overrun,"));
 }
 
 TEST_CASE("damage is named by file and line") {
@@ -128,7 +137,7 @@ TEST_CASE("damage is named by file and line") {
         return path.string() + ":";
     };
     std::string start = message(frame_csv_header() + line(0) + "1,2\n" + line(2));
-    CHECK_THROWS_WITH(read_frame_csv(path), start + "3: expected 29 fields, got 2");
+    CHECK_THROWS_WITH(read_frame_csv(path), start + "3: expected 31 fields, got 2");
     std::string bad = line(1);
     bad.replace(bad.find("4.5000"), 6, "4.5x");
     start = message(frame_csv_header() + line(0) + bad);

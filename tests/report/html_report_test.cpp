@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 using namespace octant;
 using namespace octant::ui::report;
 using Catch::Contains;
@@ -133,6 +135,30 @@ TEST_CASE("without gnuplot the page has no plots and says so in one line") {
     const std::string page = html_report(recordings);
     CHECK_THAT(page, Contains("There are no plots: gnuplot is not installed."));
     CHECK_THAT(page, !Contains("<svg"));
+}
+
+TEST_CASE("a flight whose triangle target moved shows its course and its stress") {
+    const ScratchFolder scratch;
+    std::vector<FrameRecord> records;
+    for (int frame = 0; frame < 6; ++frame) {
+        records.push_back(made_up_frame(frame, 5.0));
+        records.back().triangle_target = frame < 2 ? 90 : 100 + 10 * frame; // the first two warm up
+        records.back().stress = frame < 2 ? std::nan("") : 0.8;
+    }
+    CHECK(triangle_targets_of(records).least == 120);
+    CHECK(triangle_targets_of(records).greatest == 150);
+    CHECK(triangle_targets_of(records).mean == 135.0);
+    const auto plots = flight_plots(records, plot_ceiling_ms(records));
+    REQUIRE(plots.size() == 7);
+    CHECK(plots[5].title == "Triangle target");
+    CHECK(plots[5].series[0].y == std::vector<double>{120.0, 130.0, 140.0, 150.0});
+    CHECK(plots[6].title == "Stress");
+    LoadedRecording recording = made_up_recording(scratch / "one", "t", 5.0);
+    CHECK_THAT(html_report(std::vector{recording}), !Contains("<dt>Triangle target</dt>"));
+    recording.records = records;
+    CHECK_THAT(
+        html_report(std::vector{recording}),
+        Contains("<dt>Triangle target</dt><dd>135 <small>mean of 120 to 150</small>"));
 }
 
 TEST_CASE("a long flight is thinned without losing its peak") {

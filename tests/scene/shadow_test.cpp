@@ -1,4 +1,4 @@
-#include "visuals/scene/ground_colours.h"
+#include "visuals/scene/ground_palette.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>

@@ -94,14 +94,14 @@ directions_between(const std::vector<std::array<glm::dvec2, 3>>& triangles) {
     return directions;
 }
 
+} // namespace
+
 SampleTriangle smallest_first(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     if (a < b && a < c) {
         return {a, b, c};
     }
     return b < c ? SampleTriangle{b, c, a} : SampleTriangle{c, a, b};
 }
-
-} // namespace
 
 models::HeightField level_field(int columns, int rows) {
     return {columns, rows, 1.0, std::vector<float>(sample_count(columns, rows), 0.0F)};

@@ -66,6 +66,9 @@ struct SampleTriangle {
     auto operator<=>(const SampleTriangle&) const = default;
 };
 
+/// A triangle with its corners turned round.
+SampleTriangle smallest_first(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+
 /// The mesh in whole samples, in drawing order. Finds the sample of a vertex by its position and
 /// fails the test where there is none.
 std::vector<SampleTriangle>

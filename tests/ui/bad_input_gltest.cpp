@@ -97,6 +97,24 @@ TEST_CASE("a wrong path is refused in one line with exit code 2") {
     check_refused({file_with("track.csv", "t_s,north_m\n0,1\n")}, "track.csv:1:");
 }
 
+TEST_CASE("a drape that cannot be laid over the ground is refused in one line with exit code 2") {
+    check_refused(
+        {"straight", "--drape", "/nowhere/map.png"},
+        "/nowhere/map.png: expected a file, found none");
+    check_refused(
+        {"straight", "--drape", file_with("words.png", "words")},
+        "words.png: expected an image that GDAL can read");
+    check_refused(
+        {"straight", "--drape", "map.png", "--ground-shading", "vertex"},
+        "--drape: expected --ground-shading texture or auto beside it, got vertex");
+    check_refused(
+        {"straight", "--drape", "map.png", "--terrain", "background60"},
+        "--drape: expected ground with heights");
+    check_refused(
+        {"straight", "--ground-shading", "texture", "--terrain", "none"},
+        "--ground-shading texture: expected ground with heights");
+}
+
 TEST_CASE("a wrong aircraft is refused in one line with exit code 2") {
     check_refused(
         {"straight", "--aircraft", "f16"},

@@ -1,13 +1,16 @@
 #include "sim/base/output_file.h"
+#include "tests/scratch.h"
 #include "ui/report/png_file.h"
 #include "ui/session.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 using namespace octant;
 using octant::visuals::scene::Settings;
@@ -78,6 +81,34 @@ small(const std::string& path, const std::string& aircraft, const std::string& t
     return settings;
 }
 
+/// A checker of 8 x 8 fields with a red arrow that points north and a green corner in the
+/// north-east, as a file.
+std::filesystem::path made_drape() {
+    constexpr int side = 256;
+    const auto colour_at = [](int x, int y) -> std::array<int, 3> {
+        const bool head = y >= 32 && y < 128 && std::abs(x - 128) <= (y - 32) / 2;
+        const bool shaft = y >= 128 && y < 224 && std::abs(x - 128) <= 16;
+        if (head || shaft) {
+            return {210, 40, 30};
+        }
+        if (x >= 224 && y < 32) {
+            return {30, 180, 60};
+        }
+        return (x / 32 + y / 32) % 2 == 0 ? std::array{225, 225, 215} : std::array{70, 80, 110};
+    };
+    std::vector<std::byte> bytes;
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            for (const int part : colour_at(x, y)) {
+                bytes.push_back(static_cast<std::byte>(part));
+            }
+        }
+    }
+    const auto file = tests::scratch_folder() / "drape.png";
+    ui::report::write_png(file, {side, side, 3, bytes});
+    return file;
+}
+
 } // namespace
 
 // OCTANT_APPROVE=1 writes new golden pictures: look at them before they are committed.
@@ -94,4 +125,20 @@ TEST_CASE("pictures are those that were approved") {
         "500md-jinking-hills-cockpit", small("jinking", "500md", "hills", View::Cockpit));
     check_against_golden(
         "f15-straight-canyon-tower", small("straight", "f15", "canyon", View::Tower));
+}
+
+TEST_CASE("pictures of textured ground are those that were approved") {
+    Settings canyon = small("jinking", "f15", "canyon", View::Chase);
+    canyon.size_px = {320, 240};
+    canyon.ground_shading = visuals::scene::GroundShading::Texture;
+    check_against_golden("f15-jinking-canyon-textured", canyon);
+    Settings draped = small("straight", "f15", "hills", View::Free);
+    draped.size_px = {320, 240};
+    draped.drape = made_drape().string();
+    draped.visibility_m = 0.0;
+    draped.eye_m = glm::dvec3(0.0, -24000.0, 16000.0);
+    draped.look_m = glm::dvec3(0.0, -2000.0, 0.0);
+    check_against_golden("hills-draped-from-the-south", draped);
+    draped.hidden_surface = visuals::scene::HiddenSurface::DepthBuffer;
+    check_against_golden("hills-draped-from-the-south", draped);
 }

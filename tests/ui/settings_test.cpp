@@ -29,6 +29,7 @@ TEST_CASE("settings survive the way to a file and back") {
     settings.eye_m = glm::dvec3(1.5, -2.25, 1e-3);
     settings.size_px = {320, 200};
     settings.sky = false;
+    settings.adapt.terrain = true;
     settings.height_mode = visuals::scene::HeightMode::Follow;
     settings.background = {0.0F, 1.0F, 128.0F / 255.0F};
     const auto json = ui::settings_json(settings);
@@ -65,6 +66,10 @@ TEST_CASE("a missing key keeps its default and a wrong one is refused with its l
         "{\"warm-up\": 1.5}", ":1: warm-up: expected a whole number from 0 to 1000000, got '1.5'");
     expect("{\"aircraft\": []}", ":1: aircraft: expected a list of names, got []");
     expect("{\n\"samples\": 2}", ":2: samples: expected 1 or 4, got 2");
+    CHECK(ui::read_settings(settings_file("{\"adapt\": \"none\"}")).adapt == Settings{}.adapt);
+    expect(
+        "{\"adapt\": \"terrain,sound\"}",
+        ":1: adapt: expected none or a list of terrain, got 'terrain,sound'");
     expect("{\"sky\": 1}", ":1: sky: expected true or false, got '1'");
     expect(
         "{\"background\": \"red\"}",

@@ -198,7 +198,41 @@ Plot change_plot(std::span<const FrameRecord> records) {
     return plot;
 }
 
+Plot target_plot(std::span<const FrameRecord> records) {
+    Plot plot{"Triangle target", "frame", "triangles", {}, {}, 0.0, {}};
+    plot.series = {named(
+        curve(records, false, [](const FrameRecord& record) { return record.triangle_target; }),
+        "",
+        amber)};
+    return plot;
+}
+
+Plot stress_plot(std::span<const FrameRecord> records) {
+    Plot plot{"Stress", "frame", "share of the frame", {}, {}, 0.0, {}};
+    plot.series = {named(
+        curve(records, false, [](const FrameRecord& record) { return record.stress; }), "", blue)};
+    plot.levels = {{"whole frame", 1.0}};
+    return plot;
+}
+
 } // namespace
+
+TargetRange triangle_targets_of(std::span<const FrameRecord> records) {
+    TargetRange range;
+    double sum = 0.0;
+    int frames = 0;
+    for (const FrameRecord& record : records) {
+        if (!record.warm_up) {
+            const int target = record.triangle_target;
+            range.least = frames > 0 ? std::min(range.least, target) : target;
+            range.greatest = std::max(range.greatest, target);
+            sum += target;
+            ++frames;
+        }
+    }
+    range.mean = frames > 0 ? sum / frames : 0.0;
+    return range;
+}
 
 double plot_ceiling_ms(std::span<const FrameRecord> records) {
     const Statistics statistics = statistics_of(records);
@@ -206,12 +240,17 @@ double plot_ceiling_ms(std::span<const FrameRecord> records) {
 }
 
 std::vector<Plot> flight_plots(std::span<const FrameRecord> records, double ceiling_ms) {
-    return {
+    std::vector<Plot> plots = {
         frame_time_plot(records, ceiling_ms),
         histogram_plot(records),
         stage_plot(records, ceiling_ms),
         triangle_plot(records),
         change_plot(records)};
+    if (triangle_targets_of(records).moved()) {
+        plots.push_back(target_plot(records));
+        plots.push_back(stress_plot(records));
+    }
+    return plots;
 }
 
 } // namespace octant::ui::report

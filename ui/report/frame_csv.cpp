@@ -82,6 +82,8 @@ constexpr std::array columns{
     axis_column<&R::aircraft_m, 1>("aircraft_y_m"),
     axis_column<&R::aircraft_m, 2>("aircraft_z_m"),
     column<&R::aircraft_agl_m>("aircraft_agl_m", Kind::MayBeEmpty, 3),
+    column<&R::triangle_target>("triangle_target"),
+    column<&R::error_px>("error_px", Kind::MayBeEmpty, 4),
 };
 
 std::string header_line() {
@@ -112,7 +114,10 @@ std::optional<double> field_value(const Column& column, std::string_view text) {
 }
 
 /// For each field of the header its column, null for one that is not ours.
-std::vector<const Column*> read_header(const std::filesystem::path& path, std::string_view line) {
+std::vector<const Column*> read_header(
+    const std::filesystem::path& path,
+    std::string_view line,
+    std::span<const std::string_view> further) {
     std::vector<const Column*> order;
     for (const std::string_view name : split_fields(line, ',')) {
         const auto found = std::find_if(
@@ -123,15 +128,15 @@ std::vector<const Column*> read_header(const std::filesystem::path& path, std::s
         }
         order.push_back(column);
     }
-    for (std::size_t i = 0; i < required_columns; ++i) {
-        if (std::find(order.begin(), order.end(), &columns[i]) == order.end()) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const std::string_view name = columns[i].name;
+        const bool required = i < required_columns ||
+                              std::find(further.begin(), further.end(), name) != further.end();
+        if (required && std::find(order.begin(), order.end(), &columns[i]) == order.end()) {
             error_at(
                 path,
                 1,
-                fmt::format(
-                    "expected a column {}, got '{}'",
-                    columns[i].name,
-                    printable(std::string(line))));
+                fmt::format("expected a column {}, got '{}'", name, printable(std::string(line))));
         }
     }
     return order;
@@ -194,7 +199,8 @@ FrameRecord as_written(const FrameRecord& record) {
     return rounded;
 }
 
-FrameFile read_frame_csv(const std::filesystem::path& path) {
+FrameFile
+read_frame_csv(const std::filesystem::path& path, std::span<const std::string_view> further) {
     constexpr std::size_t largest_bytes = std::size_t{2} << 30; // two days at 60 frames a second
     const std::string text = read_text_file(path, largest_bytes);
     FrameFile file;
@@ -209,7 +215,7 @@ FrameFile read_frame_csv(const std::filesystem::path& path) {
     if (lines.empty()) {
         return file;
     }
-    const auto order = read_header(path, lines.front());
+    const auto order = read_header(path, lines.front(), further);
     file.records.reserve(lines.size() - 1);
     for (std::size_t i = 1; i < lines.size(); ++i) {
         const int line_number = static_cast<int>(i + 1);

@@ -3,7 +3,9 @@
 #include "ui/report/frame_record.h"
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace octant::ui::report {
@@ -12,7 +14,7 @@ namespace octant::ui::report {
 std::string frame_csv_header();
 
 /// One line of frames.csv with its line end: fixed decimals a column, C locale. What is not finite
-/// is an empty field; resolution_c, stress, eye and aircraft places may be that, nothing else.
+/// is an empty field; resolution_c, stress, error_px, eye and aircraft places may be that.
 std::string frame_csv_line(const FrameRecord& record);
 
 /// The record with its numbers rounded as its line gives them, so that figures computed now and
@@ -26,8 +28,10 @@ struct FrameFile {
 };
 
 /// Reads frames.csv by column name: columns may stand in any order, unknown ones are skipped, the
-/// sixteen up to `overrun` must be there. An empty file has no records. Frames must count upwards.
-/// Throws Error "file:line: expected ..., got ..." for anything else.
-FrameFile read_frame_csv(const std::filesystem::path& path);
+/// sixteen up to `overrun` and those of `further` must be there. An empty file has no records.
+/// Frames must count upwards; record i stands in line i + 2. Throws Error "file:line: expected ...,
+/// got ..." for anything else.
+FrameFile
+read_frame_csv(const std::filesystem::path& path, std::span<const std::string_view> further = {});
 
 } // namespace octant::ui::report

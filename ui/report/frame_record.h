@@ -22,8 +22,9 @@ struct FrameRecord {
     int draw_cell = 0;         ///< cell of the first aircraft's draw order
     double resolution_c = 0.0; ///< C of the terrain in this frame
     int triangle_change = 0;   ///< terrain triangles minus those of the frame before
-    double stress = 0.0;       ///< frame_ms over the frame's share of simulated time
-    int overrun = 0;           ///< 1 when frame_ms is above 16.67
+    double stress = 0.0; ///< frame_ms over the frame's share of simulated time; filtered where
+                         ///< the ground adapts, then not finite while warming up
+    int overrun = 0;     ///< 1 when frame_ms is above 16.67
     int draw_calls = 0;
     int shadow_triangles = 0;
     int cuts = 0;      ///< ground triangles and aircraft polygons painted again, cut by planes
@@ -31,6 +32,8 @@ struct FrameRecord {
     glm::dvec3 eye_m{0.0};
     glm::dvec3 aircraft_m{0.0};  ///< first aircraft, world
     double aircraft_agl_m = 0.0; ///< first aircraft above the ground below it
+    int triangle_target = 0;     ///< terrain triangles that this frame was to have
+    double error_px = 0.0;       ///< screen-space error the terrain was made for; 0 where C decides
 };
 
 } // namespace octant::ui::report

@@ -101,6 +101,12 @@ std::string overview(const LoadedRecording& recording) {
     html += tile("Longest", fmt::format("{:.2f}", figures_ms.max_ms), "ms");
     html += tile("1 % low", fmt::format("{:.1f}", figures_ms.low_1pct_fps), "frames/s");
     html += tile("Above 16.67 ms", fmt::format("{}", figures_ms.overruns_16ms), "frames");
+    if (const TargetRange targets = triangle_targets_of(recording.records); targets.moved()) {
+        html += tile(
+            "Triangle target",
+            fmt::format("{:.0f}", targets.mean),
+            fmt::format("mean of {} to {}", targets.least, targets.greatest));
+    }
     return html + "</dl>\n";
 }
 
@@ -137,7 +143,9 @@ std::string figures_table(Recordings recordings) {
     }
     html += "</tbody></table></div>\n<p class=\"note\">frame_ms runs from the start of the frame's "
             "simulation step to its pixels complete and read; writing pictures and video is "
-            "outside it. n is the number of frames counted.";
+            "outside it. n is the number of frames counted. Stress (frames.csv) is the share of a "
+            "frame's time, the simulated time from it to the next, that frame_ms is; where the "
+            "ground adapts it is that share through a first-order filter.";
     html += recordings.size() > 1 ? " In brackets: against the first recording.</p>\n" : "</p>\n";
     return card(html);
 }

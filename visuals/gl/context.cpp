@@ -1,5 +1,9 @@
 #include "visuals/gl/context.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 namespace octant::visuals::gl {
 namespace {
 
@@ -11,6 +15,14 @@ std::string text(const Functions& gl, GLenum what) {
 }
 
 } // namespace
+
+bool draws_on_processor(const ContextDescription& context) {
+    constexpr std::array<std::string_view, 5> known = {
+        "llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SwiftShader"};
+    return std::ranges::any_of(known, [&](std::string_view name) {
+        return context.renderer.find(name) != std::string::npos;
+    });
+}
 
 void Context::make_current() {
     if (current == this) {

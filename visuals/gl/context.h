@@ -14,6 +14,9 @@ struct ContextDescription {
     std::string version;  ///< the driver's GL_VERSION
 };
 
+/// Whether a processor draws, not a GPU: by the names of the renderers that do.
+bool draws_on_processor(const ContextDescription& context);
+
 /// An OpenGL 4.5 core context without a picture of its own: draw into a Framebuffer. Must outlive
 /// whatever was made with its functions.
 class Context {

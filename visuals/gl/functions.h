@@ -11,6 +11,7 @@
     X(bind_buffer_base, PFNGLBINDBUFFERBASEPROC, "glBindBufferBase")                               \
     X(bind_buffer, PFNGLBINDBUFFERPROC, "glBindBuffer")                                            \
     X(bind_framebuffer, PFNGLBINDFRAMEBUFFERPROC, "glBindFramebuffer")                             \
+    X(bind_texture_unit, PFNGLBINDTEXTUREUNITPROC, "glBindTextureUnit")                            \
     X(bind_vertex_array, PFNGLBINDVERTEXARRAYPROC, "glBindVertexArray")                            \
     X(blit_named_framebuffer, PFNGLBLITNAMEDFRAMEBUFFERPROC, "glBlitNamedFramebuffer")             \
     X(check_named_framebuffer_status,                                                              \
@@ -24,6 +25,7 @@
     X(create_program, PFNGLCREATEPROGRAMPROC, "glCreateProgram")                                   \
     X(create_renderbuffers, PFNGLCREATERENDERBUFFERSPROC, "glCreateRenderbuffers")                 \
     X(create_shader, PFNGLCREATESHADERPROC, "glCreateShader")                                      \
+    X(create_textures, PFNGLCREATETEXTURESPROC, "glCreateTextures")                                \
     X(create_vertex_arrays, PFNGLCREATEVERTEXARRAYSPROC, "glCreateVertexArrays")                   \
     X(cull_face, PFNGLCULLFACEPROC, "glCullFace")                                                  \
     X(delete_buffers, PFNGLDELETEBUFFERSPROC, "glDeleteBuffers")                                   \
@@ -31,6 +33,7 @@
     X(delete_program, PFNGLDELETEPROGRAMPROC, "glDeleteProgram")                                   \
     X(delete_renderbuffers, PFNGLDELETERENDERBUFFERSPROC, "glDeleteRenderbuffers")                 \
     X(delete_shader, PFNGLDELETESHADERPROC, "glDeleteShader")                                      \
+    X(delete_textures, PFNGLDELETETEXTURESPROC, "glDeleteTextures")                                \
     X(delete_vertex_arrays, PFNGLDELETEVERTEXARRAYSPROC, "glDeleteVertexArrays")                   \
     X(depth_func, PFNGLDEPTHFUNCPROC, "glDepthFunc")                                               \
     X(depth_mask, PFNGLDEPTHMASKPROC, "glDepthMask")                                               \
@@ -43,12 +46,15 @@
     X(enable_vertex_array_attrib, PFNGLENABLEVERTEXARRAYATTRIBPROC, "glEnableVertexArrayAttrib")   \
     X(finish, PFNGLFINISHPROC, "glFinish")                                                         \
     X(front_face, PFNGLFRONTFACEPROC, "glFrontFace")                                               \
+    X(generate_texture_mipmap, PFNGLGENERATETEXTUREMIPMAPPROC, "glGenerateTextureMipmap")          \
     X(get_error, PFNGLGETERRORPROC, "glGetError")                                                  \
+    X(get_floatv, PFNGLGETFLOATVPROC, "glGetFloatv")                                               \
     X(get_integerv, PFNGLGETINTEGERVPROC, "glGetIntegerv")                                         \
     X(get_program_info_log, PFNGLGETPROGRAMINFOLOGPROC, "glGetProgramInfoLog")                     \
     X(get_programiv, PFNGLGETPROGRAMIVPROC, "glGetProgramiv")                                      \
     X(get_shader_info_log, PFNGLGETSHADERINFOLOGPROC, "glGetShaderInfoLog")                        \
     X(get_shaderiv, PFNGLGETSHADERIVPROC, "glGetShaderiv")                                         \
+    X(get_stringi, PFNGLGETSTRINGIPROC, "glGetStringi")                                            \
     X(get_string, PFNGLGETSTRINGPROC, "glGetString")                                               \
     X(link_program, PFNGLLINKPROGRAMPROC, "glLinkProgram")                                         \
     X(multi_draw_elements_indirect,                                                                \
@@ -62,11 +68,16 @@
     X(named_renderbuffer_storage_multisample,                                                      \
       PFNGLNAMEDRENDERBUFFERSTORAGEMULTISAMPLEPROC,                                                \
       "glNamedRenderbufferStorageMultisample")                                                     \
+    X(pixel_storei, PFNGLPIXELSTOREIPROC, "glPixelStorei")                                         \
     X(polygon_offset, PFNGLPOLYGONOFFSETPROC, "glPolygonOffset")                                   \
     X(program_uniform_4fv, PFNGLPROGRAMUNIFORM4FVPROC, "glProgramUniform4fv")                      \
     X(provoking_vertex, PFNGLPROVOKINGVERTEXPROC, "glProvokingVertex")                             \
     X(read_pixels, PFNGLREADPIXELSPROC, "glReadPixels")                                            \
     X(shader_source, PFNGLSHADERSOURCEPROC, "glShaderSource")                                      \
+    X(texture_parameterf, PFNGLTEXTUREPARAMETERFPROC, "glTextureParameterf")                       \
+    X(texture_parameteri, PFNGLTEXTUREPARAMETERIPROC, "glTextureParameteri")                       \
+    X(texture_storage_2d, PFNGLTEXTURESTORAGE2DPROC, "glTextureStorage2D")                         \
+    X(texture_sub_image_2d, PFNGLTEXTURESUBIMAGE2DPROC, "glTextureSubImage2D")                     \
     X(use_program, PFNGLUSEPROGRAMPROC, "glUseProgram")                                            \
     X(vertex_array_attrib_binding,                                                                 \
       PFNGLVERTEXARRAYATTRIBBINDINGPROC,                                                           \

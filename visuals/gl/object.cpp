@@ -26,4 +26,10 @@ Object make_renderbuffer(const Functions& gl) {
     return {gl, name, [](const Functions& f, GLuint n) { f.delete_renderbuffers(1, &n); }};
 }
 
+Object make_texture(const Functions& gl) {
+    GLuint name = 0;
+    gl.create_textures(GL_TEXTURE_2D, 1, &name);
+    return {gl, name, [](const Functions& f, GLuint n) { f.delete_textures(1, &n); }};
+}
+
 } // namespace octant::visuals::gl

@@ -51,5 +51,6 @@ Object make_buffer(const Functions& gl);
 Object make_vertex_array(const Functions& gl);
 Object make_framebuffer(const Functions& gl);
 Object make_renderbuffer(const Functions& gl);
+Object make_texture(const Functions& gl); ///< two-dimensional
 
 } // namespace octant::visuals::gl

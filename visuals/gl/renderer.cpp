@@ -28,6 +28,7 @@ struct PictureValues {
     glm::vec4 ambient;
     glm::vec4 sunlight;
     glm::mat4 ray_from_pixel;
+    scene::TexturePlaces ground_texture;
 };
 
 /// Places in the picture from the upper left, in pixels, to world axes, one unit deep.
@@ -49,7 +50,8 @@ PictureValues values_of(const FramePlan& plan, int width, int height) {
         glm::vec4(plan.to_sun, 0.0F),
         glm::vec4(plan.ambient, 0.0F),
         glm::vec4(plan.sunlight, 0.0F),
-        ray_from_pixel(plan, width, height)};
+        ray_from_pixel(plan, width, height),
+        plan.ground_texture.value_or(scene::TexturePlaces())};
 }
 
 } // namespace
@@ -64,6 +66,10 @@ Renderer::Renderer(const Functions& gl, int width, int height, int samples)
 
 void Renderer::load_models(std::span<const scene::ModelBuffers> models) {
     aircraft_.load_models(models);
+}
+
+void Renderer::load_ground_texture(const scene::GroundTexture& texture) {
+    triangles_.load_texture(texture);
 }
 
 void Renderer::draw(const FramePlan& plan) {
@@ -155,6 +161,9 @@ void Renderer::warm_up() {
     plan.sky = {corners, triangle};
     plan.ground = {corners, triangle};
     plan.shadow_indices = {0, 1, 2};
+    if (triangles_.has_texture()) {
+        plan.ground_texture.emplace();
+    }
     plan.repaint_indices = {0, 1, 2};
     plan.clips.push_back({{glm::vec4(1.0F, 0.0F, 0.0F, 0.0F)}, 1});
     plan.steps = {

@@ -7,6 +7,7 @@
 #include "visuals/gl/stream_buffer.h"
 #include "visuals/gl/triangle_painter.h"
 #include "visuals/scene/frame_plan.h"
+#include "visuals/scene/ground_texture.h"
 
 #include <span>
 
@@ -33,8 +34,12 @@ public:
     /// in this list.
     void load_models(std::span<const scene::ModelBuffers> models);
 
+    /// Uploads the ground's texture, in place of one uploaded before: FramePlan::ground_texture
+    /// asks for it. Throws Error when the driver has no memory for it.
+    void load_ground_texture(const scene::GroundTexture& texture);
+
     /// Draws once in every state that a plan can ask for, because drivers compile on first use
-    /// (14-18 ms each). To be called after load_models; what the picture holds afterwards is
+    /// (14-18 ms each). To be called after loading; what the picture holds afterwards is
     /// undefined.
     void warm_up();
 

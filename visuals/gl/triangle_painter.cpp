@@ -2,6 +2,7 @@
 
 #include "visuals/gl/program.h"
 #include "visuals/gl/shader_sources.h"
+#include "visuals/gl/texture.h"
 #include "visuals/gl/vertex_array.h"
 
 #include <cassert>
@@ -11,6 +12,10 @@ namespace octant::visuals::gl {
 namespace {
 
 using models::ColourVertex;
+
+// Places in the shaders.
+constexpr GLuint albedo_unit = 0;
+constexpr GLuint normal_unit = 1;
 
 constexpr std::size_t first_capacity_bytes = std::size_t{1} << 20;
 
@@ -34,7 +39,21 @@ TrianglePainter::TrianglePainter(const Functions& gl, DrawState& state)
     , indices_(gl, first_capacity_bytes)
     , array_(make_array(gl, vertices_, indices_)) {}
 
+void TrianglePainter::load_texture(const scene::GroundTexture& texture) {
+    texture_.reset();
+    texture_ = {
+        make_program_pair(gl_, "textured ground", ground_textured_vert, ground_textured_frag),
+        make_texture(gl_, texture.albedo, TextureKind::Colours),
+        make_texture(gl_, texture.normal, TextureKind::Slopes)};
+}
+
 void TrianglePainter::upload(const scene::FramePlan& plan) {
+    textured_ = plan.ground_texture.has_value();
+    if (textured_) {
+        assert(texture_);
+        gl_.bind_texture_unit(albedo_unit, texture_->albedo.name());
+        gl_.bind_texture_unit(normal_unit, texture_->normal.name());
+    }
     const std::span shadow_vertices(plan.shadow_vertices);
     vertices_.fill(
         {std::as_bytes(plan.ground.vertices),
@@ -64,12 +83,12 @@ void TrianglePainter::draw_sky(Depth depth) {
 void TrianglePainter::draw_ground(Depth depth) {
     if (ground_.count > 0) {
         state_.use_depth(depth);
-        state_.use_program(ground_programs_);
+        state_.use_program(ground_programs());
         draw(ground_, 0);
     }
     if (edge_on_.count > 0) {
         state_.use_depth(Depth::EdgeOn);
-        state_.use_program(ground_programs_);
+        state_.use_program(ground_programs());
         draw(edge_on_, 0);
     }
 }
@@ -77,7 +96,7 @@ void TrianglePainter::draw_ground(Depth depth) {
 void TrianglePainter::draw_shadows() {
     if (shadows_.count > 0) {
         state_.use_depth(Depth::OnGround);
-        state_.use_program(ground_programs_);
+        state_.use_program(ground_programs());
         draw(shadows_, 0);
     }
 }
@@ -86,7 +105,7 @@ void TrianglePainter::repaint(std::uint32_t first, std::uint32_t count, const sc
     assert(std::size_t{first} + count <= repainted_.count);
     if (count > 0) {
         state_.use_depth(Depth::Unused);
-        state_.use_program(ground_programs_, clip);
+        state_.use_program(ground_programs(), clip);
         draw({repainted_.first + first, count}, 0);
     }
 }

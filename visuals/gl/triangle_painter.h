@@ -3,9 +3,11 @@
 #include "visuals/gl/draw_state.h"
 #include "visuals/gl/stream_buffer.h"
 #include "visuals/scene/frame_plan.h"
+#include "visuals/scene/ground_texture.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace octant::visuals::gl {
 
@@ -14,6 +16,11 @@ namespace octant::visuals::gl {
 class TrianglePainter {
 public:
     TrianglePainter(const Functions& gl, DrawState& state);
+
+    /// Throws Error when the driver has no memory for it.
+    void load_texture(const scene::GroundTexture& texture);
+
+    bool has_texture() const { return texture_.has_value(); }
 
     void upload(const scene::FramePlan& plan);
 
@@ -34,12 +41,25 @@ private:
         std::size_t count = 0;
     };
 
+    /// What the ground of a plan with a texture is drawn with.
+    struct GroundTexturing {
+        ProgramPair programs;
+        Object albedo;
+        Object normal;
+    };
+
+    const ProgramPair& ground_programs() const {
+        return textured_ ? texture_->programs : ground_programs_;
+    }
+
     void draw(Range indices, GLint first_vertex);
 
     const Functions& gl_;
     DrawState& state_;
     ProgramPair ground_programs_;
     ProgramPair sky_programs_;
+    std::optional<GroundTexturing> texture_;
+    bool textured_ = false; ///< the plan asks for it
     StreamBuffer vertices_; ///< ground, shadows, sky
     StreamBuffer indices_;  ///< ground, repainted, shadows, sky
     Object array_;

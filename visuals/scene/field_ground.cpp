@@ -25,7 +25,7 @@ constexpr double reference_fov_rad = rad_from_deg(45.0); ///< of the lens for wh
 
 terrain::QuadtreeOptions quadtree_options(const Settings& settings) {
     return {
-        .roughness = settings.mesh == GroundMetric::Printed ? terrain::Roughness::Literal
+        .roughness = ground_metric(settings) == GroundMetric::Printed ? terrain::Roughness::Literal
                                                             : terrain::Roughness::Midpoint,
         .propagation = settings.propagation == Propagation::Printed
                            ? terrain::Propagation::Printed
@@ -71,7 +71,7 @@ public:
         , first_resolution_(settings.resolution_c) {
         budget_.triangles = triangle_target(settings);
         detail_.roughness_weight = settings.roughness_c.value_or(
-            settings.mesh == GroundMetric::Printed ? printed_weight : midpoint_weight);
+            ground_metric(settings) == GroundMetric::Printed ? printed_weight : midpoint_weight);
         detail_.fans =
             settings.fans == GroundFans::Full ? terrain::FanKind::Full : terrain::FanKind::Partial;
         for (int row = 0; row < field_.rows(); ++row) {
@@ -105,6 +105,11 @@ public:
                                                                 control_.target_triangles,
                                                                 control_.max_resolution);
         state_ = terrain::starting_at(resolution, control_);
+    }
+
+    void set_triangle_target(int triangles) override {
+        budget_.triangles = triangles;
+        control_.target_triangles = triangles;
     }
 
     TriangleDraw triangles(const Camera& camera, double aspect, GroundCounts& counts) override {

@@ -3,11 +3,13 @@
 #include "models/colour_vertex.h"
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -71,6 +73,19 @@ struct TriangleDraw {
     std::span<const std::uint32_t> indices; ///< triangles, counter-clockwise seen from above
 };
 
+/// Where world axes with the eye subtracted lie in a texture: at_eye + position * per_m, in shares
+/// of its width from the west and of its height from the south.
+struct TexturePlace {
+    glm::vec2 at_eye{0.0F};
+    glm::vec2 per_m{0.0F};
+};
+
+/// Of both parts of the ground's texture.
+struct TexturePlaces {
+    TexturePlace albedo;
+    TexturePlace normal;
+};
+
 /// Air between the eye and what is seen: colour = mix(own, haze, 1 - exp(-distance / visibility)).
 struct Haze {
     glm::vec3 colour{0.0F};    ///< linear parts 0..1
@@ -103,9 +118,12 @@ struct FramePlan {
     std::vector<models::ColourVertex> shadow_vertices;
     std::vector<std::uint32_t> shadow_indices; ///< DepthBuffer: drawn on the ground; else empty,
                                                ///< because ground.indices holds them in their place
-    glm::vec3 to_sun{0.0F, 0.0F, 1.0F};        ///< unit vector, world axes
-    glm::vec3 ambient{0.45F};                  ///< light on an aircraft from everywhere, linear
-    glm::vec3 sunlight{0.65F};                 ///< light from the sun, times the cosine to it
+    /// Ground, repainted ground and shadows are coloured by the renderer's ground texture under
+    /// `ambient` and `sunlight`, times the vertices' alpha; nothing = by the vertices' colours.
+    std::optional<TexturePlaces> ground_texture;
+    glm::vec3 to_sun{0.0F, 0.0F, 1.0F}; ///< unit vector, world axes
+    glm::vec3 ambient{0.45F};           ///< light on what is lit here from everywhere, linear
+    glm::vec3 sunlight{0.65F};          ///< light from the sun, times the cosine to it
 };
 
 } // namespace octant::visuals::scene

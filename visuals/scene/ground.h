@@ -5,6 +5,7 @@
 #include "visuals/scene/camera.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
+#include "visuals/terrain/ground_tiles.h"
 
 #include <glm/vec2.hpp>
 
@@ -49,9 +50,22 @@ public:
     /// work.
     virtual void settle(const Camera& camera, double aspect) = 0;
 
+    /// How many triangles the frames from the next one on may have, at least 1. Before the first
+    /// call it is triangle_target(settings). Ground that is always drawn whole does not care.
+    virtual void set_triangle_target(int /*triangles*/) {}
+
     /// The triangles of one frame in painting order, farthest first, valid until the next call, and
     /// what they cost. Advances the detail control by one frame.
     virtual TriangleDraw triangles(const Camera& camera, double aspect, GroundCounts& counts) = 0;
+
+    /// Begins the work of the next triangles() beside the caller, for the camera that it will be
+    /// given. Until that call nothing else may be asked about triangles; those of the last one stay
+    /// valid. May be left out.
+    virtual void prepare(const Camera& /*camera*/, double /*aspect*/) {}
+
+    /// Radius of the earth by which what is drawn sinks with the square of its distance, metres; 0
+    /// = flat. Heights asked for are those above datum all the same.
+    virtual double earth_radius_m() const { return 0.0; }
 
     /// Whether something between two corners (world axes, metres) is looked for.
     using BoxTest = std::function<bool(const glm::dvec3& least_m, const glm::dvec3& most_m)>;
@@ -67,6 +81,9 @@ protected:
 
 /// A height field under a quadtree whose triangle count is held. Takes the field over.
 std::unique_ptr<Ground> ground_from_field(models::HeightField field, const Settings& settings);
+
+/// Ground under a mesh by screen-space error.
+std::unique_ptr<Ground> ground_from_tiles(terrain::GroundTiles ground, const Settings& settings);
 
 /// Polygons painted in file order over a level datum. Body axes of the model: x north, y east, z
 /// down. Without polygons: nothing to see and a map of 2,000 km, for aircraft alone.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/height_field.h"
+#include "visuals/scene/ground_palette.h"
 #include "visuals/scene/settings.h"
 
 #include <glm/vec3.hpp>
@@ -10,13 +11,8 @@
 
 namespace octant::visuals::scene {
 
-/// Unit vector towards the sun, world axes. Azimuth clockwise from north.
-glm::vec3 direction_to_sun(const Settings& settings);
-
-/// Colour of bare light on a level surface would be 1: what reaches a surface from everywhere, and
-/// from the sun times the cosine to it.
-inline constexpr float ambient_light = 0.42F;
-inline constexpr float sun_light = 0.78F;
+/// A sample of the field at full resolution.
+GroundPoint ground_point(const models::HeightField& field, int column, int row);
 
 /// The ground as seen: one packed colour a sample (layout of the field: row 0 south, column 0
 /// west), coloured by height, slope and water level and lit by the sun with the full-resolution

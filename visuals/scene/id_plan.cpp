@@ -90,6 +90,7 @@ const FramePlan& IdPlan::of(const FramePlan& plan) {
     plan_ = plan;
     plan_.background = glm::vec3(0.0F);
     plan_.haze = {};
+    plan_.ground_texture.reset();
     plan_.ambient = glm::vec3(1.0F);
     plan_.sunlight = glm::vec3(0.0F);
     plan_.sky = {};

@@ -1,6 +1,6 @@
 #include "models/colour_vertex.h"
 #include "visuals/scene/ground.h"
-#include "visuals/scene/ground_colours.h"
+#include "visuals/scene/ground_palette.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -2,7 +2,7 @@
 
 #include "visuals/draworder/octant_order.h"
 #include "visuals/scene/facing.h"
-#include "visuals/scene/ground_colours.h"
+#include "visuals/scene/ground_palette.h"
 
 #include <glm/geometric.hpp>
 
@@ -26,6 +26,15 @@ glm::dmat4 body_to_eye_world(const sim::AircraftState& state, const glm::dvec3& 
     glm::dmat4 matrix(glm::mat3_cast(state.body_to_world));
     matrix[3] = glm::dvec4(state.position_m - eye_m, 1.0);
     return matrix;
+}
+
+/// The state as it is seen over a round earth: sunk as the ground below it.
+sim::AircraftState sunk(sim::AircraftState state, const glm::dvec3& eye_m, double earth_radius_m) {
+    if (earth_radius_m > 0.0) {
+        const glm::dvec2 level_m(state.position_m - eye_m);
+        state.position_m.z -= glm::dot(level_m, level_m) / (2.0 * earth_radius_m);
+    }
+    return state;
 }
 
 double distance_to_edge_m(const Ground& ground, const glm::dvec3& eye_m) {
@@ -73,12 +82,23 @@ void Planner::settle(const Camera& camera) {
     scene_.ground->settle(camera, aspect_);
 }
 
+void Planner::prepare(const Camera& camera) {
+    scene_.ground->prepare(camera, aspect_);
+}
+
+void Planner::set_triangle_target(int triangles) {
+    scene_.ground->set_triangle_target(triangles);
+}
+
 const FramePlan& Planner::plan(
     const Camera& camera, std::span<const sim::AircraftState> states, PlanCounts& counts) {
     plan_.world_to_view = world_to_view(camera);
     plan_.view_to_clip = view_to_clip(camera, aspect_);
     pixel_rad_ = 2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings_.size_px.y;
     frustum_ = frustum_normals(camera, aspect_);
+    if (scene_.ground_texture) {
+        plan_.ground_texture = texture_places(*scene_.ground_texture, camera.eye_m);
+    }
     plan_.aircraft.clear();
     plan_.steps.clear();
     plan_.clips.clear();
@@ -110,14 +130,16 @@ void Planner::plan_sky(const Camera& camera) {
     plan_.sky = sky_.around(
         {camera.eye_m.z - ground.mean_height_m(),
          distance_to_edge_m(ground, camera.eye_m),
-         ground.mean_colour()},
+         scene_.ground_texture ? scene_.ground_texture->mean_colour : ground.mean_colour(),
+         ground.earth_radius_m()},
         plan_.haze);
 }
 
 /// Where each aircraft is, which list it is painted by and the box that stands in for it.
 void Planner::place_aircraft(const Camera& camera, std::span<const sim::AircraftState> states) {
     for (std::size_t i = 0; i < states.size(); ++i) {
-        const sim::AircraftState& state = states[i];
+        const sim::AircraftState state =
+            sunk(states[i], camera.eye_m, scene_.ground->earth_radius_m());
         place(placed_[i], state, camera.eye_m);
         const glm::dvec3 position_m = state.position_m - camera.eye_m;
         const double margin_m =

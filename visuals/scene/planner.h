@@ -6,6 +6,7 @@
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/ground.h"
 #include "visuals/scene/ground_in_front.h"
+#include "visuals/scene/ground_texture.h"
 #include "visuals/scene/placed_aircraft.h"
 #include "visuals/scene/polygon_repaint.h"
 #include "visuals/scene/scene_order.h"
@@ -26,8 +27,9 @@ namespace octant::visuals::scene {
 /// Everything that is loaded once and looked at in every frame.
 struct Scene {
     std::unique_ptr<Ground> ground;
-    std::vector<AircraftModel> models;    ///< each once, however many aircraft fly it
-    std::vector<std::uint32_t> aircraft;  ///< model of each aircraft
+    std::optional<GroundTexture> ground_texture; ///< nothing = ground shows its vertices' colours
+    std::vector<AircraftModel> models;           ///< each once, however many aircraft fly it
+    std::vector<std::uint32_t> aircraft;         ///< model of each aircraft
     std::optional<std::uint32_t> cockpit; ///< model of what the first pilot sees around the eye
 };
 
@@ -56,6 +58,13 @@ public:
 
     /// Prepares the ground for the camera of the first frame. Loading work.
     void settle(const Camera& camera);
+
+    /// Begins the work on the ground of the next plan() beside the caller, for the camera that it
+    /// will be given; the last plan stays valid. May be left out: changes no plan.
+    void prepare(const Camera& camera);
+
+    /// Ground::set_triangle_target.
+    void set_triangle_target(int triangles);
 
     /// The plan of the next frame; `states` are those of Scene::aircraft. Valid until the next
     /// call. No allocation once the first frames have been planned.

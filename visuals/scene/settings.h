@@ -20,6 +20,14 @@ enum class Propagation { CrackFree, Printed };
 enum class GroundFans { Partial, Full };
 enum class DetailControl { Exact, Damped, Previous, Literal, Fixed };
 enum class Palette { Temperate, Arid };
+enum class GroundShading { Auto, Vertex, Texture };
+
+/// What follows the clock: each frame's choice then depends on how long the frames before it took.
+struct Adaptation {
+    bool terrain = false; ///< triangles of ground, exact control only
+
+    bool operator==(const Adaptation&) const = default;
+};
 
 /// Everything that decides what a run shows. A run is repeated by repeating its Settings; each
 /// field is an option of the command line of the same name (ui/settings_fields.h says unit and
@@ -49,19 +57,21 @@ struct Settings {
     int warm_up = 10;
     bool realtime = false; ///< no faster than the clock
     std::optional<int>
-        pictures; ///< every Nth frame as PNG, 0 = none; none = one a simulated second
+        pictures;     ///< every Nth frame as PNG, 0 = none; none = one a simulated second
+    Adaptation adapt; ///< what follows the frame time
     ContextKind context = ContextKind::OsMesa;
 
     HiddenSurface hidden_surface = HiddenSurface::Octant;
     draworder::Method order_method = draworder::Method::Tree;
-    bool shadows = true; ///< of aircraft on the ground
-    GroundMetric mesh = GroundMetric::Midpoint;
+    bool shadows = true;              ///< of aircraft on the ground
+    std::optional<GroundMetric> mesh; ///< none = as ground_metric says
     Propagation propagation = Propagation::CrackFree;
     GroundFans fans = GroundFans::Partial;
     DetailControl detail = DetailControl::Exact;
     std::optional<int> triangles;   ///< none = 20,000, or without end where error_px is given
     std::optional<double> error_px; ///< screen-error: refined no further than this; none = 0.25
     bool geomorphs = true;          ///< screen-error: vertices move into place instead of jumping
+    bool mesh_ahead = true;         ///< the next frame's ground is meshed while this one is drawn
     bool earth_curvature = true;    ///< screen-error: distant ground and aircraft sink
     double resolution_c = 0.0; ///< C of the first frame; 0 = the one that meets the triangle target
     std::optional<double>
@@ -76,11 +86,29 @@ struct Settings {
     double sun_elevation_deg = 35.0;
     double water_level_m = 0.0;     ///< ground at or below it is drawn as water
     std::optional<Palette> palette; ///< none = arid for the canyon, else temperate
+    GroundShading ground_shading =
+        GroundShading::Auto;          ///< auto = texture under a drape or on a GPU, else vertex
+    std::optional<std::string> drape; ///< image file that is laid over the ground
 };
 
-/// Triangles of ground that are held; a number beyond all meshes where the error alone decides.
+/// What refines the ground: unless told, the screen-space error; the paper's quadtree by mid-point
+/// roughness where something is asked for that only it has.
+inline GroundMetric ground_metric(const Settings& settings) {
+    const bool of_the_paper = settings.detail != DetailControl::Exact || settings.roughness_c ||
+                              settings.fans != GroundFans::Partial ||
+                              settings.propagation != Propagation::CrackFree;
+    return settings.mesh.value_or(
+        of_the_paper ? GroundMetric::Midpoint : GroundMetric::ScreenError);
+}
+
+/// A triangle target beyond all meshes.
+inline constexpr int unlimited_triangles = 10000000;
+
+/// Triangles of ground that are held, in the first frame where that number follows the clock; a
+/// number beyond all meshes where the error alone decides.
 inline int triangle_target(const Settings& settings) {
-    return settings.triangles.value_or(settings.error_px ? 10000000 : 20000);
+    const bool error_alone = settings.error_px && !settings.adapt.terrain;
+    return settings.triangles.value_or(error_alone ? unlimited_triangles : 20000);
 }
 
 } // namespace octant::visuals::scene

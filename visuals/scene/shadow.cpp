@@ -26,6 +26,12 @@ glm::vec3 unpacked(std::uint32_t colour) {
            255.0F;
 }
 
+/// Darkened, with the share that is left for alpha.
+std::uint32_t shaded(const glm::vec3& colour) {
+    constexpr auto share = static_cast<std::uint32_t>(255.0F * shadow_share + 0.5F);
+    return (models::packed_colour(colour * shadow_share) & 0x00ffffffU) | share << 24U;
+}
+
 /// What the light through a hull reaches up to `path_m` below its middle and `reach_m` beyond.
 ConvexRoom lit_room(const HullBox& hull, const glm::dvec3& to_sun, double path_m, double reach_m) {
     const HullExtent extent = world_extent(hull);
@@ -204,7 +210,7 @@ void ShadowCaster::add_piece(std::uint32_t triangle) {
             unpacked(ground_.vertices[corner[1]].colour) * static_cast<float>(share_b) +
             unpacked(ground_.vertices[corner[2]].colour) *
                 static_cast<float>(1.0 - share_a - share_b);
-        vertices_->push_back({glm::vec3(at.at_m), models::packed_colour(colour * shadow_share)});
+        vertices_->push_back({glm::vec3(at.at_m), shaded(colour)});
     }
     for (std::uint32_t i = 2; i < part_.size(); ++i) {
         indices_.insert(indices_.end(), {base, base + i - 1, base + i});

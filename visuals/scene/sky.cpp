@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace octant::visuals::scene {
 
@@ -27,13 +28,30 @@ glm::vec3 colour_above(double elevation_rad, const glm::vec3& horizon) {
     return glm::mix(zenith_colour, horizon, share);
 }
 
-glm::vec3 colour_below(double depression_rad, const Plain& plain, const Haze& haze) {
+/// Distance at which a look down meets the plain; nothing above its horizon.
+std::optional<double> distance_to_plain_m(double depression_rad, const Plain& plain) {
     if (plain.height_below_eye_m <= 0.0 || depression_rad <= 0.0) {
+        return std::nullopt;
+    }
+    if (plain.earth_radius_m <= 0.0) {
+        return plain.height_below_eye_m / std::sin(depression_rad);
+    }
+    // The nearer root of h + d^2 / 2R = d tan(depression).
+    const double slope = std::tan(depression_rad);
+    const double under = slope * slope - 2.0 * plain.height_below_eye_m / plain.earth_radius_m;
+    if (under < 0.0) {
+        return std::nullopt;
+    }
+    return 2.0 * plain.height_below_eye_m / (slope + std::sqrt(under)) / std::cos(depression_rad);
+}
+
+glm::vec3 colour_below(double depression_rad, const Plain& plain, const Haze& haze) {
+    const auto distance_m = distance_to_plain_m(depression_rad, plain);
+    if (!distance_m) {
         return haze.colour;
     }
-    const double distance_m = plain.height_below_eye_m / std::sin(depression_rad);
     const double left = haze.visibility_m > 0.0F
-                            ? std::exp(-distance_m / static_cast<double>(haze.visibility_m))
+                            ? std::exp(-*distance_m / static_cast<double>(haze.visibility_m))
                             : 1.0;
     return glm::mix(haze.colour, plain.colour, static_cast<float>(left));
 }

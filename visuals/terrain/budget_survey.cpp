@@ -6,56 +6,20 @@
 // Deviations: none; this takes the place of section 3.
 #include "visuals/terrain/budget_survey.h"
 
+#include "visuals/terrain/fan_triangles.h"
 #include "visuals/terrain/frustum.h"
+#include "visuals/terrain/limit_search.h"
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <optional>
+#include <limits>
 
 namespace octant::visuals::terrain {
-
-/// Triangles of a fan that have an area: of each side without its mid-point and, with it, beside
-/// its quadrants.
-struct FanTriangles {
-    std::array<int, 4> whole{1, 1, 1, 1};
-    std::array<int, 4> a{1, 1, 1, 1};
-    std::array<int, 4> b{1, 1, 1, 1};
-    std::array<int, 4> of_quadrant{2, 2, 2, 2}; ///< those with mid-points
-};
 
 namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
-
-// How far a walk looks, as factors of C squared. They decide about time only.
-constexpr float look_below = 0.7F;    ///< from the last frame's: steps are told apart from here
-constexpr float look_above = 1.08F;   ///< from the last frame's: down to here
-constexpr float first_look = 64.0F;   ///< without a last frame: C = 8
-constexpr float step_back = 0.1F;     ///< after far too many triangles
-constexpr float least_growth = 1.25F; ///< after too few
-constexpr float most_growth = 8.0F;
-
-constexpr FanTriangles all_triangles;
-
-/// Those of a node at the field's north or east end.
-FanTriangles triangles_with_area(const FanSamples& samples) {
-    FanTriangles triangles;
-    triangles.of_quadrant = {};
-    const Sample centre = samples.at(1, 1);
-    for (std::size_t k = 0; k < 4; ++k) {
-        const FanEdge& edge = fan_edges[k];
-        const Sample a = samples.corner_a(edge);
-        const Sample b = samples.corner_b(edge);
-        const Sample middle = samples.middle(edge);
-        triangles.whole[k] = has_area(centre, a, b) ? 1 : 0;
-        triangles.a[k] = has_area(centre, a, middle) ? 1 : 0;
-        triangles.b[k] = has_area(centre, middle, b) ? 1 : 0;
-        triangles.of_quadrant[edge.quadrant_a] += triangles.a[k];
-        triangles.of_quadrant[edge.quadrant_b] += triangles.b[k];
-    }
-    return triangles;
-}
+constexpr float first_look = 64.0F; ///< without a last frame: C = 8
 
 /// All but the node's index.
 GroundFan child_of(const GroundFan& fan, unsigned quadrant) {
@@ -72,50 +36,32 @@ float BudgetSurvey::limit_for(const SplitRule& rule, const TriangleBudget& budge
     assert(budget.triangles >= 1);
     rule_ = &rule;
     nodes_tested_ = 0;
-    const float least = rule.limit_squared(0.0);
-    const float most = std::max(rule.limit_squared(budget.max_resolution), least);
     const float last = last_resolution_ > 0.0 ? rule.limit_squared(last_resolution_) : 0.0F;
-    float low = std::clamp(last * look_below, least, most);
-    float high = std::clamp(last > 0.0F ? last * look_above : first_look, least, most);
-    float too_high = infinite;
-    int most_triangles = 2 * budget.triangles + 1000;
-    std::optional<float> found;
-    while (!found) {
-        most_triangles_ = high > least ? most_triangles : std::numeric_limits<int>::max();
-        if (!survey(low, high)) {
-            too_high = high;
-            high = std::max(high * step_back, least);
-            low = least;
-            most_triangles += most_triangles / 4;
-        } else if (low > least && steps_.most_below_low() > budget.triangles) {
-            low = least;
-        } else if (steps_.at_low() > budget.triangles) {
-            found = least;
-        } else if (const auto place = steps_.first_above(budget.triangles)) {
-            found = *place;
-        } else if (high >= most || !more_above_) {
-            found = most;
-        } else {
-            const float missing = static_cast<float>(budget.triangles) /
-                                  static_cast<float>(std::max(steps_.at_high(), 1));
-            const float grown = high * std::clamp(1.1F * missing, least_growth, most_growth);
-            high = std::min({grown, std::sqrt(high) * std::sqrt(too_high), most});
-        }
-    }
-    last_resolution_ = rule.resolution_of(*found);
-    return *found;
+    const LimitSearch search{
+        budget.triangles,
+        rule.limit_squared(0.0),
+        rule.limit_squared(budget.max_resolution),
+        last,
+        first_look};
+    const float found =
+        limit_within(search, steps_, [&](float low, float high, int most_triangles) {
+            return survey(low, high, most_triangles);
+        });
+    last_resolution_ = rule.resolution_of(found);
+    return found;
 }
 
-/// Walks the tree. False: stopped at too many triangles.
-bool BudgetSurvey::survey(float low, float high) {
+/// Walks the tree. True: there is more above `high`.
+bool BudgetSurvey::survey(float low, float high, int most_triangles) {
     nodes_.clear();
     steps_.start(low, high);
     high_ = high;
+    most_triangles_ = most_triangles;
     more_above_ = false;
     Visit root;
     root.planes = planes_of(rule_->view().frustum_normals);
     visit(root);
-    return steps_.at_high() <= most_triangles_;
+    return more_above_;
 }
 
 void BudgetSurvey::visit(const Visit& from) {
@@ -144,7 +90,8 @@ void BudgetSurvey::visit(const Visit& from) {
         cut_triangles = triangles_with_area(samples);
         triangles = &cut_triangles;
     }
-    count(node, from.replaced, *triangles);
+    const FanLimits limits{node.on, node.middle, node.fan.hidden, from.replaced};
+    more_above_ = count_fan(limits, *triangles, high_, steps_) || more_above_;
     nodes_.push_back(node);
     for (unsigned q = 0; q < 4; ++q) {
         if ((unsigned{node.fan.hidden} >> q & 1U) != 0) {
@@ -184,31 +131,6 @@ void BudgetSurvey::test_quadrants(
             node.fan.hidden |= planes[q] == outside_frustum ? bit : std::uint8_t{0};
         }
     }
-}
-
-/// Adds the steps of N(C) at which the node's fan appears and its mid-points do. That of a quadrant
-/// which splits is the child's own.
-void BudgetSurvey::count(const SurveyedNode& node, int replaced, const FanTriangles& triangles) {
-    const auto unless_hidden = [&](unsigned quadrant, int some) {
-        return (node.fan.hidden >> quadrant & 1U) == 0 ? some : 0;
-    };
-    int first = -replaced;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const FanEdge& edge = fan_edges[k];
-        const int with_middle = unless_hidden(edge.quadrant_a, triangles.a[k]) +
-                                unless_hidden(edge.quadrant_b, triangles.b[k]);
-        if (node.middle[k] <= node.on) {
-            first += with_middle;
-            continue;
-        }
-        first += triangles.whole[k];
-        if (node.middle[k] < high_) {
-            steps_.add(node.middle[k], with_middle - triangles.whole[k]);
-        } else {
-            more_above_ = true;
-        }
-    }
-    steps_.add(node.on, first);
 }
 
 /// The visit to a child; planes and replaced triangles are the caller's to fill in.

@@ -22,8 +22,6 @@ struct SurveyedNode {
     std::array<float, 4> middle{}; ///< the mid-points of fan_edges
 };
 
-struct FanTriangles;
-
 /// Finds, before a mesh is made, the C at which it has a given number of triangles.
 ///
 /// The number of triangles at any C is known exactly: a node adds one triangle for each side; a
@@ -57,10 +55,9 @@ private:
         int replaced = 0;              ///< triangles of its parent that it takes the place of
     };
 
-    bool survey(float low, float high);
+    bool survey(float low, float high, int most_triangles);
     void visit(const Visit& from);
     void test_quadrants(const Visit& from, SurveyedNode& node, std::array<unsigned, 4>& planes);
-    void count(const SurveyedNode& node, int replaced, const FanTriangles& triangles);
     Visit below(const Visit& from, const SurveyedNode& node, unsigned quadrant) const;
     float on_beyond(float parent, int level, int column, int row) const;
 

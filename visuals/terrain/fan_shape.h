@@ -1,7 +1,5 @@
 #pragma once
 
-#include "models/height_field.h"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -51,9 +49,11 @@ struct Sample {
 /// last column and row.
 class FanSamples {
 public:
-    FanSamples(const models::HeightField& field, int edge, int column, int row)
-        : last_column_(field.columns() - 1)
-        , last_row_(field.rows() - 1)
+    /// `ground`: anything with columns() and rows(), samples.
+    template <typename Ground>
+    FanSamples(const Ground& ground, int edge, int column, int row)
+        : last_column_(ground.columns() - 1)
+        , last_row_(ground.rows() - 1)
         , half_(edge / 2)
         , west_(column * edge)
         , south_(row * edge) {}

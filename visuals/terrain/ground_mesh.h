@@ -33,6 +33,8 @@ struct MeshView {
     /// The ground is lowered by d^2 / (2 R), d = level distance from the eye; 0 = flat earth. For
     /// meshes by screen-space error.
     double earth_radius_m = 0.0;
+
+    bool operator==(const MeshView&) const = default;
 };
 
 struct MeshCounters {

@@ -218,7 +218,7 @@ unsigned Mesher::middles_of(const GroundFan& fan) const {
 void Mesher::emit(std::uint32_t own) {
     const GroundFan& fan = fans_[own];
     FanPlace& place = places_[own];
-    place.first_triangle = static_cast<std::uint32_t>(index_count_ / 3);
+    place.triangles.first = static_cast<std::uint32_t>(index_count_ / 3);
     const unsigned covered = fan.split | fan.hidden;
     const unsigned children = fan.split & ~unsigned{fan.hidden};
     const FanSamples samples(tree_->field(), rule_.level(fan.level).edge, fan.column, fan.row);
@@ -247,7 +247,7 @@ void Mesher::emit(std::uint32_t own) {
             emit_part(emitted, order.part[static_cast<std::size_t>(std::countr_zero(left))]);
         }
     }
-    place.end_triangle = static_cast<std::uint32_t>(index_count_ / 3);
+    place.triangles.end = static_cast<std::uint32_t>(index_count_ / 3);
 }
 
 inline void Mesher::emit_part(EmittedFan& fan, unsigned part) {
@@ -307,36 +307,17 @@ void Mesher::add_triangles_in(
     if (!wanted(box.least_m, box.most_m)) {
         return;
     }
-    const FanPlace& place = places_[own];
     const unsigned drawn = fans_[own].split & ~unsigned{fans_[own].hidden};
-    std::array<std::uint32_t, 4> children{}; // in drawing order
-    std::size_t count = 0;
+    std::array<std::uint32_t, 4> children = places_[own].child;
     for (unsigned q = 0; q < 4; ++q) {
-        const std::uint32_t child = place.child[q];
-        if ((drawn >> q & 1U) == 0 ||
-            places_[child].first_triangle == places_[child].end_triangle) {
-            continue;
-        }
-        children[count] = child;
-        for (std::size_t k = count++; k > 0; --k) {
-            if (places_[children[k - 1]].first_triangle > places_[children[k]].first_triangle) {
-                std::swap(children[k - 1], children[k]);
-            }
-        }
+        children[q] = (drawn >> q & 1U) != 0 ? children[q] : 0;
     }
-    std::uint32_t triangle = place.first_triangle;
-    const auto add_own = [&](std::uint32_t end) {
-        for (; triangle < end; ++triangle) {
-            triangles.push_back(triangle);
-        }
-    };
-    for (std::size_t k = 0; k < count; ++k) {
-        const FanPlace& below = places_[children[k]];
-        add_own(below.first_triangle);
-        add_triangles_in(children[k], wanted, triangles);
-        triangle = below.end_triangle;
-    }
-    add_own(place.end_triangle);
+    for_each_in_run(
+        places_[own].triangles,
+        children,
+        [&](std::uint32_t child) { return places_[child].triangles; },
+        [&](std::uint32_t triangle) { triangles.push_back(triangle); },
+        [&](std::uint32_t child) { add_triangles_in(child, wanted, triangles); });
 }
 
 } // namespace octant::visuals::terrain

@@ -8,6 +8,7 @@
 #include "visuals/terrain/paint_order.h"
 #include "visuals/terrain/quadtree.h"
 #include "visuals/terrain/split_rule.h"
+#include "visuals/terrain/triangle_runs.h"
 
 #include <array>
 #include <cstddef>
@@ -61,9 +62,8 @@ private:
     /// Where a fan stands in the mesh.
     struct FanPlace {
         std::array<std::uint32_t, 4> child{}; ///< fan by quadrant, where there is one
-        std::uint32_t first_triangle = 0;     ///< of its own and all below it
-        std::uint32_t end_triangle = 0;
-        std::uint8_t middles = 0; ///< bit k: edge k of fan_edges has a mid-point
+        TriangleRun triangles;                ///< its own and all below it
+        std::uint8_t middles = 0;             ///< bit k: edge k of fan_edges has a mid-point
     };
 
     /// Indices of the samples of fan_ring less the centre's.

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "models/height_field.h"
+#include "tests/terrain/ground_check.h"
+#include "visuals/terrain/error_mesher.h"
+#include "visuals/terrain/ground_builder.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace octant::visuals::terrain::test {
+
+/// A ground with errors, the field of its stored heights and a mesher.
+struct ErrorGround {
+    explicit ErrorGround(const models::HeightField& made)
+        : tiles(ground_of(made))
+        , field(stored_field(tiles))
+        , mesher(tiles) {}
+
+    static models::HeightField stored_field(const GroundTiles& tiles);
+
+    GroundTiles tiles;
+    models::HeightField field;
+    ErrorMesher mesher;
+};
+
+/// Level, rough or spiky ground of any size.
+models::HeightField any_field(int columns, int rows, Numbers& numbers);
+
+/// A view as random_view; half of them over a small curved earth.
+MeshView any_view(Numbers& numbers, const models::HeightField& field);
+
+/// An error that such grounds are meshed at.
+double any_error_px(Numbers& numbers);
+
+/// The mesh in whole samples by its origins, in drawing order. Fails the test where vertices are
+/// not in plan where their samples are, or two at the same one.
+std::vector<SampleTriangle>
+origin_triangles(const GroundMesh& mesh, const models::HeightField& field, const glm::dvec3& eye_m);
+
+/// What a copy of a mesh is compared by.
+struct MeshCopy {
+    explicit MeshCopy(const GroundMesh& mesh);
+    bool operator==(const MeshCopy& other) const;
+
+    std::vector<models::ColourVertex> vertices;
+    std::vector<VertexOrigin> origins;
+    std::vector<std::uint32_t> indices;
+    int triangles;
+    int fans;
+    double error_px;
+};
+
+/// Height of the mesh as drawn above datum at every sample of the field, row after row; not a
+/// number where there is no triangle.
+std::vector<double>
+drawn_heights_m(const GroundMesh& mesh, const models::HeightField& field, const glm::dvec3& eye_m);
+
+} // namespace octant::visuals::terrain::test

@@ -1,0 +1,117 @@
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "ui/command_terrain_measure.h"
+#include "ui/mesh_maker.h"
+#include "ui/read_option.h"
+#include "ui/terrain_answers.h"
+#include "ui/terrain_file.h"
+#include "visuals/terrain/ground_query.h"
+#include "visuals/terrain/mesh_surface.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace octant::ui {
+
+namespace {
+
+struct QueryOptions {
+    GroundViewOptions view;
+    GroundMeshOptions mesh;
+    std::vector<std::string> at;
+    std::string points;
+    std::optional<glm::dvec3> from_m;
+    std::optional<glm::dvec3> to_m;
+    bool flat = false;
+    bool as_drawn = false;
+    bool json = false;
+};
+
+std::vector<AskedPoint> asked_points(const QueryOptions& options) {
+    std::vector<AskedPoint> points;
+    for (const std::string& text : options.at) {
+        const auto point = point_from_text(text);
+        if (!point) {
+            throw Error(fmt::format("--at: expected X,Y or X,Y,Z, got '{}'", printable(text)));
+        }
+        points.push_back(*point);
+    }
+    if (!options.points.empty()) {
+        const std::vector<AskedPoint> more = read_points(options.points);
+        points.insert(points.end(), more.begin(), more.end());
+    }
+    return points;
+}
+
+void query(const QueryOptions& options) {
+    if (options.from_m.has_value() != options.to_m.has_value()) {
+        throw Error("expected --from X,Y,Z and --to X,Y,Z, got only one of them");
+    }
+    const std::vector<AskedPoint> points = asked_points(options);
+    if (points.empty() && !options.from_m) {
+        throw Error("expected --at, --points or --from and --to, got none");
+    }
+    const models::HeightField field =
+        load_height_field(options.view.terrain, options.view.spacing_m);
+    const visuals::terrain::GroundSamples ground(field);
+    Answers answers;
+    if (options.as_drawn) {
+        const visuals::scene::Camera camera = camera_of(options.view);
+        const auto maker = make_mesh_maker(field, options.mesh);
+        visuals::terrain::MeshSurface surface;
+        surface.take(
+            mesh_as_asked(*maker, mesh_view(camera, options.view), options.mesh), camera.eye_m);
+        answers.points = answers_as_drawn(surface, points);
+        if (options.from_m) {
+            answers.sight = sight_as_drawn(surface, *options.from_m, *options.to_m);
+        }
+    } else {
+        answers.points = answers_of(ground, points);
+        if (options.from_m) {
+            answers.sight = sight_over(
+                ground,
+                *options.from_m,
+                *options.to_m,
+                options.flat ? 0.0 : visuals::terrain::earth_radius_m);
+        }
+    }
+    std::fputs(text_of_answers(answers, options.json).c_str(), stdout);
+}
+
+} // namespace
+
+void add_terrain_query(CLI::App& terrain) {
+    auto options = std::make_shared<QueryOptions>();
+    CLI::App* command = terrain.add_subcommand(
+        "query", "Height of the ground, height above it and lines of sight, at full resolution");
+    add_terrain_argument(*command, options->view);
+    command->add_option("--at", options->at, "ground height there; with Z also the height above it")
+        ->type_name("X,Y[,Z]");
+    command->add_option("--points", options->points, "the same for each line of a CSV file x,y[,z]")
+        ->type_name("FILE");
+    add_read_option(
+        *command, {"from", "X,Y,Z", "where a line of sight begins", -1e7, 1e7}, options->from_m);
+    add_read_option(*command, {"to", "X,Y,Z", "where it ends", -1e7, 1e7}, options->to_m);
+    command->add_flag(
+        "--flat", options->flat, "lines of sight over a flat earth; else it curves, R = 6371 km");
+    command->add_flag(
+        "--as-drawn",
+        options->as_drawn,
+        "ask the mesh that is drawn from --eye, not the full field");
+    add_view_options(*command, options->view);
+    add_mesh_options(*command, options->mesh, true);
+    command->add_flag("--json", options->json, "as JSON; else CSV");
+    command->footer(
+        "Metres, x east, y north of the map centre, z up from datum. The ground between four "
+        "samples "
+        "is bilinear; the mesh's is flat triangles.\n"
+        "Example:\n  octant terrain query canyon --at 1200,-800\n  octant terrain query canyon "
+        "--from 0,0,900 --to 5000,3000,250 --json");
+    command->callback([options] { query(*options); });
+}
+
+} // namespace octant::ui

@@ -1,0 +1,46 @@
+#include "ui/ground_texture_file.h"
+
+#include "models/image.h"
+#include "models/image_on_ground.h"
+#include "sim/base/error.h"
+
+#include <fmt/format.h>
+
+namespace octant::ui {
+
+namespace scene = visuals::scene;
+using scene::GroundShading;
+
+void check_untextured_ground(const scene::Settings& settings) {
+    const bool draped = settings.drape.has_value();
+    if (draped || settings.ground_shading == GroundShading::Texture) {
+        throw Error(fmt::format(
+            "{}: expected ground with heights (hills, canyon or a file), got --terrain {}",
+            draped ? "--drape" : "--ground-shading texture",
+            printable(settings.terrain)));
+    }
+}
+
+std::optional<scene::GroundTexture> load_ground_texture(
+    const models::HeightField& field,
+    const scene::Settings& settings,
+    DrawnBy drawn_by,
+    std::vector<std::string>& notes) {
+    if (settings.drape) {
+        if (settings.ground_shading == GroundShading::Vertex) {
+            throw Error("--drape: expected --ground-shading texture or auto beside it, got vertex");
+        }
+        const models::Image drape = models::laid_on_ground(
+            models::read_image(*settings.drape), field, scene::largest_texture);
+        if (!drape.note.empty()) {
+            notes.push_back(drape.note);
+        }
+        return scene::ground_texture(field, settings, &drape);
+    }
+    const bool textured =
+        settings.ground_shading == GroundShading::Texture ||
+        (settings.ground_shading == GroundShading::Auto && drawn_by == DrawnBy::Gpu);
+    return textured ? std::optional(scene::ground_texture(field, settings, nullptr)) : std::nullopt;
+}
+
+} // namespace octant::ui

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "models/height_field.h"
+#include "visuals/scene/ground_texture.h"
+#include "visuals/scene/settings.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace octant::ui {
+
+/// What decides whether a texture is worth its time where the settings leave it open.
+enum class DrawnBy { Processor, Gpu };
+
+/// Throws Error where the settings ask for a texture and the ground has no heights to make one of.
+void check_untextured_ground(const visuals::scene::Settings& settings);
+
+/// The texture of the ground; nothing where it is drawn by its vertices' colours. What a person
+/// should be told goes to `notes`. Throws Error for a drape that cannot be read or laid over the
+/// field, and for one that the settings give no texture for.
+std::optional<visuals::scene::GroundTexture> load_ground_texture(
+    const models::HeightField& field,
+    const visuals::scene::Settings& settings,
+    DrawnBy drawn_by,
+    std::vector<std::string>& notes);
+
+} // namespace octant::ui

@@ -1,0 +1,78 @@
+#include "visuals/gl/texture.h"
+
+#include "sim/base/error.h"
+
+#include <algorithm>
+#include <bit>
+#include <fmt/format.h>
+#include <string_view>
+
+namespace octant::visuals::gl {
+namespace {
+
+constexpr float most_anisotropy = 8.0F;
+
+bool has_extension(const Functions& gl, std::string_view name) {
+    GLint count = 0;
+    gl.get_integerv(GL_NUM_EXTENSIONS, &count);
+    for (GLint i = 0; i < count; ++i) {
+        const GLubyte* const found = gl.get_stringi(GL_EXTENSIONS, static_cast<GLuint>(i));
+        if (found != nullptr && name == reinterpret_cast<const char*>(found)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void set_filters(const Functions& gl, const Object& texture) {
+    const auto set = [&](GLenum what, GLenum value) {
+        gl.texture_parameteri(texture.name(), what, static_cast<GLint>(value));
+    };
+    set(GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    set(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    set(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    set(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    if (has_extension(gl, "GL_EXT_texture_filter_anisotropic") ||
+        has_extension(gl, "GL_ARB_texture_filter_anisotropic")) {
+        GLfloat most = 1.0F;
+        gl.get_floatv(GL_MAX_TEXTURE_MAX_ANISOTROPY, &most);
+        gl.texture_parameterf(
+            texture.name(), GL_TEXTURE_MAX_ANISOTROPY, std::min(most, most_anisotropy));
+    }
+}
+
+} // namespace
+
+Object make_texture(const Functions& gl, const scene::GroundImage& image, TextureKind kind) {
+    const bool colours = kind == TextureKind::Colours;
+    Object texture = make_texture(gl);
+    const auto longer_side = static_cast<unsigned>(std::max(image.width, image.height));
+    gl.texture_storage_2d(
+        texture.name(),
+        static_cast<GLsizei>(std::bit_width(longer_side)),
+        colours ? GL_RGB8 : GL_RG8,
+        image.width,
+        image.height);
+    gl.pixel_storei(GL_UNPACK_ALIGNMENT, 1);
+    gl.texture_sub_image_2d(
+        texture.name(),
+        0,
+        0,
+        0,
+        image.width,
+        image.height,
+        colours ? GL_RGB : GL_RG,
+        GL_UNSIGNED_BYTE,
+        image.texels.data());
+    gl.generate_texture_mipmap(texture.name());
+    set_filters(gl, texture);
+    if (gl.get_error() != GL_NO_ERROR) {
+        throw Error(fmt::format(
+            "expected memory for a ground texture of {} x {} texels, got a refusal by the driver",
+            image.width,
+            image.height));
+    }
+    return texture;
+}
+
+} // namespace octant::visuals::gl

@@ -1,0 +1,104 @@
+// Load management: the ground's triangle budget follows the frame time.
+//
+// Source: the load management of image generators (overload control by smoothed frame time with a
+// dead band); no paper is followed.
+//
+// - The stress is smoothed by a first-order filter. Outside the dead band the budget glides to
+//   where the smoothed stress is in the band's middle, twice as fast as the filter but in small
+//   steps that geomorphs hide, and stays there: band and course together are the hysteresis.
+// - A new budget takes the filter's memory with it as if the whole frame were ground: without that
+//   the budget would overshoot by what it changes within the filter's time constant. What else a
+//   frame holds makes a course slower, or end early and be followed by another, never swing back.
+#include "visuals/scene/load_controller.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace octant::visuals::scene {
+
+namespace {
+
+using Course = LoadState::Course;
+
+double middle_of_band(const LoadSettings& settings) {
+    return 0.5 * (settings.least_stress + settings.most_stress);
+}
+
+double time_constant_frames(const LoadSettings& settings) {
+    return std::max(1000.0 * settings.filter_s / settings.share_ms, settings.filter_frames);
+}
+
+double filtered(double before, const LoadSettings& settings, double stress) {
+    return before + (1.0 - std::exp(-1.0 / time_constant_frames(settings))) * (stress - before);
+}
+
+Course next_course(Course course, const LoadSettings& settings, double stress, bool budget_used) {
+    const double above_middle = stress - middle_of_band(settings);
+    const bool goes_on = std::abs(above_middle) > settings.rest_stress;
+    if (stress > settings.most_stress ||
+        (course == Course::Falling && goes_on && above_middle > 0.0)) {
+        return Course::Falling;
+    }
+    const bool has_room = stress < settings.least_stress ||
+                          (course == Course::Rising && goes_on && above_middle < 0.0);
+    return has_room && budget_used ? Course::Rising : Course::Held;
+}
+
+/// What the target is multiplied with.
+double change_of_target(const LoadSettings& settings, double stress) {
+    const double share_of_way = 1.0 - std::exp(-2.0 / time_constant_frames(settings));
+    return std::clamp(
+        1.0 + share_of_way * (middle_of_band(settings) / stress - 1.0),
+        1.0 - settings.largest_fall,
+        1.0 + settings.largest_rise);
+}
+
+} // namespace
+
+int LoadState::triangles() const {
+    return static_cast<int>(std::lround(target));
+}
+
+LoadSettings load_settings(const Settings& settings, double rate_hz) {
+    const int budget = triangle_target(settings);
+    LoadSettings load;
+    load.share_ms = 1000.0 / rate_hz;
+    load.lowest = std::max(budget / 8, 1);
+    load.highest = 4 * budget;
+    return load;
+}
+
+LoadState starting_at(double triangles, const LoadSettings& settings) {
+    LoadState state;
+    state.target = std::clamp<double>(triangles, settings.lowest, settings.highest);
+    state.expected_stress = middle_of_band(settings);
+    return state;
+}
+
+LoadState with_target(const LoadState& state, int triangles) {
+    LoadState other = state;
+    other.target = triangles;
+    other.expected_stress = state.expected_stress * other.target / state.target;
+    return other;
+}
+
+LoadState next_state(const LoadState& state, const LoadSettings& settings, const FrameLoad& load) {
+    assert(settings.share_ms > 0.0 && settings.lowest >= 1 && settings.highest >= settings.lowest);
+    assert(settings.least_stress > 0.0 && settings.most_stress >= settings.least_stress);
+    assert(settings.most_counted_stress > settings.most_stress && settings.filter_frames >= 1.0);
+    assert(load.frame_ms >= 0.0);
+    const double share_used = load.frame_ms / settings.share_ms;
+    const double stress = filtered(
+        state.expected_stress, settings, std::min(share_used, settings.most_counted_stress));
+    const bool used = load.triangles >= settings.used_share * state.target;
+    LoadState next;
+    next.stress = filtered(state.stress.value_or(share_used), settings, share_used);
+    next.course = next_course(state.course, settings, stress, used);
+    const double factor = next.course == Course::Held ? 1.0 : change_of_target(settings, stress);
+    next.target = std::clamp<double>(state.target * factor, settings.lowest, settings.highest);
+    next.expected_stress = stress * next.target / state.target;
+    return next;
+}
+
+} // namespace octant::visuals::scene

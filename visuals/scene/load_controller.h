@@ -1,0 +1,64 @@
+#pragma once
+
+#include "visuals/scene/settings.h"
+
+#include <optional>
+
+namespace octant::visuals::scene {
+
+/// Every number by which the ground's triangle budget follows the frame time. "Stress", the word of
+/// image generators, is the share of its time that a frame uses: frame_ms / share_ms.
+struct LoadSettings {
+    double share_ms = 1000.0 / 60.0; ///< a frame's time, above zero
+    int lowest = 1000;               ///< triangles; at least 1
+    int highest = 100000;            ///< triangles; at least `lowest`
+    double least_stress = 0.75;      ///< the budget is left alone from here
+    double most_stress = 0.90;       ///< to here
+    /// A longer frame counts as no more than this, so that one slow frame cannot push the filtered
+    /// stress from the middle of the band over its edge; above `most_stress`.
+    double most_counted_stress = 2.0;
+    double filter_s = 0.5;     ///< time constant of the filter, in simulated time
+    double filter_frames = 20; ///< and no fewer frames than these; at least 1
+    /// A course ends this near to the middle of the band; below half the band's width.
+    double rest_stress = 0.02;
+    double largest_fall = 0.02; ///< share of the target that it may lose from frame to frame
+    double largest_rise = 0.005;
+    /// The target rises only while at least this share of it is drawn: a budget that nobody uses
+    /// says nothing of what it would cost.
+    double used_share = 0.9;
+};
+
+/// What is carried from one frame to the next: a value, so that a run can be replayed.
+struct LoadState {
+    enum class Course { Held, Falling, Rising };
+
+    double target = 0.0; ///< triangles of the next frame, within the settings' limits
+    Course course = Course::Held;
+    std::optional<double> stress; ///< filtered, with the last frame measured; none before the first
+    /// What the control goes by: filtered too, but with long frames counted less and carried over
+    /// to each new target. At rest the same as `stress`.
+    double expected_stress = 0.0;
+
+    /// The target as a whole number.
+    int triangles() const;
+};
+
+/// What a frame made with LoadState::triangles() took.
+struct FrameLoad {
+    double frame_ms = 0.0; ///< at least 0
+    int triangles = 0;     ///< of ground that were drawn
+};
+
+/// The settings of a run: from an eighth of its triangle budget to four times as many.
+LoadSettings load_settings(const Settings& settings, double rate_hz);
+
+/// State before the first frame, at rest in the middle of the band.
+LoadState starting_at(double triangles, const LoadSettings& settings);
+
+/// The state where somebody else chose the next frame's target, at least 1.
+LoadState with_target(const LoadState& state, int triangles);
+
+/// State after a frame. Settings are as their comments demand (asserted).
+LoadState next_state(const LoadState& state, const LoadSettings& settings, const FrameLoad& load);
+
+} // namespace octant::visuals::scene

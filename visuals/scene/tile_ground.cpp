@@ -1,0 +1,126 @@
+#include "sim/base/units.h"
+#include "visuals/scene/ground.h"
+#include "visuals/scene/vertex_colours.h"
+#include "visuals/scene/worker.h"
+#include "visuals/terrain/error_mesher.h"
+#include "visuals/terrain/ground_prefetcher.h"
+#include "visuals/terrain/ground_tiles.h"
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace octant::visuals::scene {
+
+namespace {
+
+constexpr double mean_earth_radius_m = 6371000.0;
+constexpr double frames_ahead = 120.0;  ///< how far along the eye's way pages are asked for
+constexpr double least_error_px = 0.25; ///< what is finer than this nobody sees
+
+class TileGround final : public Ground {
+public:
+    TileGround(terrain::GroundTiles ground, const Settings& settings)
+        : ground_(std::move(ground))
+        , mesher_(ground_)
+        , colours_(ground_, settings)
+        , mean_colour_(colours_.mean())
+        , picture_height_px_(settings.size_px.y)
+        , order_(
+              settings.hidden_surface == HiddenSurface::DepthBuffer
+                  ? terrain::PaintOrder::FrontToBack
+                  : terrain::PaintOrder::BackToFront)
+        , target_{.error_px = settings.error_px.value_or(least_error_px), .geomorphs = settings.geomorphs}
+        , earth_radius_m_(settings.earth_curvature ? mean_earth_radius_m : 0.0)
+        , prefetcher_(ground_) {
+        set_triangle_target(triangle_target(settings));
+    }
+
+    std::optional<double> height_at(double x_m, double y_m) const override {
+        return ground_.height_at(x_m, y_m);
+    }
+
+    glm::dvec2 half_extent_m() const override { return ground_.half_extent_m(); }
+
+    double mean_height_m() const override { return static_cast<double>(ground_.facts().mean_m); }
+
+    glm::vec3 mean_colour() const override { return mean_colour_; }
+
+    void settle(const Camera& /*camera*/, double /*aspect*/) override {}
+
+    void set_triangle_target(int triangles) override {
+        const int most = triangles >= unlimited_triangles ? terrain::any_triangles : triangles;
+        if (most != target_.most_triangles) {
+            worker_.wait();
+            prepared_.reset();
+            target_.most_triangles = most;
+        }
+    }
+
+    double earth_radius_m() const override { return earth_radius_m_; }
+
+    void prepare(const Camera& camera, double aspect) override {
+        prepared_ = view_of(camera, aspect);
+        worker_.begin([this] { make(*prepared_); });
+    }
+
+    TriangleDraw triangles(const Camera& camera, double aspect, GroundCounts& counts) override {
+        worker_.wait();
+        const terrain::MeshView view = view_of(camera, aspect);
+        if (prepared_ != view) {
+            make(view);
+        }
+        prepared_.reset();
+        prefetcher_.go_to(glm::dvec2(camera.eye_m + frames_ahead * (camera.eye_m - last_eye_m_)));
+        last_eye_m_ = camera.eye_m;
+        counts = {mesh_.counters.triangles, mesh_.counters.fans, 0.0, mesh_.error_px};
+        return {mesh_.vertices, mesh_.indices};
+    }
+
+    void triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const override {
+        mesher_.triangles_in(wanted, triangles);
+    }
+
+private:
+    void make(const terrain::MeshView& view) {
+        const terrain::GroundMesh mesh = mesher_.mesh(view, target_);
+        if (mesh.vertices.data() != mesh_.vertices.data()) {
+            colours_.fill(mesher_.vertices(), mesh.origins);
+        }
+        mesh_ = mesh;
+    }
+
+    terrain::MeshView view_of(const Camera& camera, double aspect) const {
+        return {
+            .eye_m = camera.eye_m,
+            .frustum_normals = frustum_normals(camera, aspect),
+            .order = order_,
+            .focal_px = picture_height_px_ / (2.0 * std::tan(camera.vertical_fov_rad / 2.0)),
+            .earth_radius_m = earth_radius_m_};
+    }
+
+    terrain::GroundTiles ground_;
+    terrain::ErrorMesher mesher_;
+    VertexColours colours_;
+    glm::vec3 mean_colour_;
+    int picture_height_px_;
+    terrain::PaintOrder order_;
+    terrain::ErrorTarget target_;
+    double earth_radius_m_;
+    terrain::GroundMesh mesh_;
+    std::optional<terrain::MeshView> prepared_;
+    glm::dvec3 last_eye_m_{0.0};
+    terrain::GroundPrefetcher prefetcher_;
+    Worker worker_; ///< goes first: it uses the others
+};
+
+} // namespace
+
+std::unique_ptr<Ground> ground_from_tiles(terrain::GroundTiles ground, const Settings& settings) {
+    return std::make_unique<TileGround>(std::move(ground), settings);
+}
+
+} // namespace octant::visuals::scene

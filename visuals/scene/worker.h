@@ -1,0 +1,36 @@
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace octant::visuals::scene {
+
+/// A thread that does one piece of work at a time beside its owner.
+class Worker {
+public:
+    Worker() = default;
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
+    Worker(Worker&&) = delete;
+    Worker& operator=(Worker&&) = delete;
+    ~Worker(); ///< waits
+
+    /// Begins work, which must not throw, after waiting for what was begun before. The thread is
+    /// made at the first call.
+    void begin(std::function<void()> work);
+
+    /// Returns when nothing is being done.
+    void wait();
+
+private:
+    void run(const std::stop_token& stop);
+
+    std::mutex mutex_;
+    std::condition_variable_any changed_;
+    std::function<void()> work_; ///< empty: nothing to do
+    std::jthread thread_;
+};
+
+} // namespace octant::visuals::scene

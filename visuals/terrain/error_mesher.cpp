@@ -1,0 +1,308 @@
+// Triangle fans of a longest-edge bisection with geomorphs.
+//
+// Source: error_rule.cpp. A bisected field is a quadtree of fans around nodes' centres: a fan's
+// quadrant is left to the child whose centre is in the mesh, and an edge has its mid-point where
+// that is. So there is nothing to ask of neighbours; see paint_order.cpp for the order of drawing.
+// Geomorphs: a vertex is drawn between the middle of its two ends as drawn (an edge's corners; for
+// a child's centre its parent's and its parent's corner: always an edge of the mesh without it) and
+// its sample, by the weight (f - 1) / (k - 1) from 0 to 1, f = its error on the screen over the one
+// wanted, which is at least 1.
+// Deviations:
+// - Where the field's end cuts a node, a centre lies beside the line between its ends and appears
+//   at the height of the nearest place on it, so that the ground about it may move a little.
+// - Corners and centre of the root are always there, at their samples.
+#include "visuals/terrain/error_mesher.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace octant::visuals::terrain {
+
+namespace {
+
+/// k: how many times larger than wanted the error of a vertex is when it is at its sample.
+constexpr float morph_ratio = 2.0F;
+
+constexpr std::size_t centre_of_ring = 8;
+
+/// The corners of a child among its parent's ring and centre, as those of fan_ring.
+constexpr std::array<std::array<std::uint8_t, 4>, 4> child_corners = {
+    {{0, 1, 8, 7}, {1, 2, 3, 8}, {7, 8, 5, 6}, {8, 3, 4, 5}}};
+
+/// The place in fan_ring of a quadrant's corner.
+constexpr std::array<std::uint8_t, 4> ring_of_quadrant = {0, 2, 6, 4};
+
+/// Whether an edge of a child lies on its parent's.
+constexpr bool is_outer(unsigned quadrant, unsigned edge) {
+    constexpr std::array<unsigned, 4> inner_quadrants = {12, 5, 3, 10};
+    return (inner_quadrants[edge] >> quadrant & 1U) == 0;
+}
+
+} // namespace
+
+ErrorMesher::ErrorMesher(const GroundTiles& ground)
+    : ground_(&ground)
+    , rule_(ground)
+    , survey_(rule_) {}
+
+GroundMesh ErrorMesher::mesh(const MeshView& view, const ErrorTarget& target) {
+    if (meshed_ && view == view_ && target == target_) {
+        return mesh_;
+    }
+    view_ = view;
+    target_ = target;
+    rule_.look_from(view);
+    limit_ = survey_.limit_for(target);
+    nodes_ = survey_.nodes();
+    resting_limit_ = target.geomorphs ? limit_ / (morph_ratio * morph_ratio) : limit_;
+    height_base_m_ = ground_->shape().height_base_m - view.eye_m.z;
+    orders_ = painting_orders(view.order).data();
+    eye_ = glm::dvec2(-rule_.west_m(), -rule_.south_m()) / ground_->spacing_m();
+    counters_ = {};
+    counters_.nodes_visited = survey_.nodes_tested();
+    drawn_measured_ = false;
+    std::swap(vertices_, last_vertices_);
+    std::swap(indices_, last_indices_);
+    make_room();
+    EmittedFan root = root_fan();
+    emit(root);
+    counters_.triangles = static_cast<int>(index_count_ / 3);
+    mesh_ = {
+        std::span(vertices_).first(vertex_count_),
+        std::span(indices_).first(index_count_),
+        counters_,
+        0.0,
+        rule_.error_px_of(limit_),
+        std::span(origins_).first(vertex_count_)};
+    meshed_ = true;
+    return mesh_;
+}
+
+/// Room for five vertices and eight triangles a node, and the root's corners.
+void ErrorMesher::make_room() {
+    const std::size_t count = nodes_.size();
+    if (vertices_.size() < 5 * count + 4) {
+        vertices_.resize(6 * count + 4);
+    }
+    if (origins_.size() < vertices_.size()) {
+        origins_.resize(vertices_.size());
+        height_m_.resize(vertices_.size());
+    }
+    if (indices_.size() < 24 * count) {
+        indices_.resize(30 * count);
+    }
+    if (runs_.size() < count) {
+        runs_.resize(count + count / 4);
+        middle_vertex_.resize(runs_.size());
+    }
+    std::fill_n(middle_vertex_.begin(), count, Four{});
+    vertex_count_ = 0;
+    index_count_ = 0;
+}
+
+ErrorMesher::EmittedFan ErrorMesher::root_fan() {
+    const LevelMemory& memory = rule_.memory(0);
+    const FanSamples samples(*ground_, memory.edge(), 0, 0);
+    EmittedFan root;
+    root.node = 0;
+    root.beyond = {};
+    for (std::size_t q = 0; q < 4; ++q) {
+        const std::size_t place = ring_of_quadrant[q];
+        root.ring[place] = fixed_vertex(samples.ring(place), memory.corner_height(q));
+    }
+    root.ring[centre_of_ring] =
+        fixed_vertex(samples.at(1, 1), memory.centre_height(memory.spot(0, 0)));
+    return root;
+}
+
+/// A vertex that is always there; one that is at the same sample, if there is one.
+std::uint32_t ErrorMesher::fixed_vertex(Sample at, std::int16_t height) {
+    for (std::uint32_t k = 0; k < vertex_count_; ++k) {
+        if (is_at(at, k)) {
+            return k;
+        }
+    }
+    return add_vertex({at, vertex_count_, vertex_count_, 0.5F, height, 0.0F});
+}
+
+inline std::uint32_t ErrorMesher::add_vertex(const NewVertex& made) {
+    const std::uint32_t vertex = vertex_count_++;
+    float height_m = static_cast<float>(
+        height_base_m_ + ground_->shape().height_unit_m * static_cast<double>(made.height));
+    float weight = 1.0F;
+    if (made.critical > resting_limit_) {
+        const float from_a = height_m_[made.end_a];
+        const float middle_m = from_a + made.share * (height_m_[made.end_b] - from_a);
+        weight = (std::sqrt(limit_ / made.critical) - 1.0F) / (morph_ratio - 1.0F);
+        weight = std::clamp(weight, 0.0F, 1.0F);
+        height_m += (1.0F - weight) * (middle_m - height_m);
+    }
+    height_m_[vertex] = height_m;
+    const auto east_m = static_cast<float>(rule_.west_m() + made.at.column * ground_->spacing_m());
+    const auto north_m = static_cast<float>(rule_.south_m() + made.at.row * ground_->spacing_m());
+    vertices_[vertex] = {{east_m, north_m, height_m - rule_.drop_m(east_m, north_m)}, 0};
+    origins_[vertex] = {
+        static_cast<std::uint16_t>(made.at.column),
+        static_cast<std::uint16_t>(made.at.row),
+        made.end_a,
+        made.end_b,
+        weight};
+    return vertex;
+}
+
+bool ErrorMesher::is_at(Sample at, std::uint32_t vertex) const {
+    return origins_[vertex].column == at.column && origins_[vertex].row == at.row;
+}
+
+/// The vertex of a sample of a cut fan, which may have been moved onto one of its ends.
+std::uint32_t ErrorMesher::cut_vertex(NewVertex made) {
+    if (is_at(made.at, made.end_a)) {
+        return made.end_a;
+    }
+    if (is_at(made.at, made.end_b)) {
+        return made.end_b;
+    }
+    const VertexOrigin& a = origins_[made.end_a];
+    const VertexOrigin& b = origins_[made.end_b];
+    const glm::dvec2 along(b.column - a.column, b.row - a.row);
+    const glm::dvec2 own(made.at.column - a.column, made.at.row - a.row);
+    made.share =
+        static_cast<float>(std::clamp(glm::dot(own, along) / glm::dot(along, along), 0.0, 1.0));
+    return add_vertex(made);
+}
+
+bool ErrorMesher::is_drawn(const ErrorNode& node, unsigned quadrant) const {
+    return node.quadrant[quadrant] < limit_ && (unsigned{node.hidden} >> quadrant & 1U) == 0;
+}
+
+/// Puts a node's triangles and those of all below it into the mesh.
+void ErrorMesher::emit(EmittedFan& fan) {
+    const ErrorNode& node = nodes_[fan.node];
+    const LevelMemory& memory = rule_.memory(node.level);
+    const FanSamples samples(*ground_, memory.edge(), node.column, node.row);
+    const LevelMemory::Spot spot = memory.spot(node.column, node.row);
+    if (fan.node != 0) {
+        add_centre(samples, memory.centre_height(spot), fan);
+    }
+    unsigned middles = 0;
+    unsigned split = 0;
+    for (unsigned k = 0; k < 4; ++k) {
+        middles |= node.middle[k] < limit_ ? 1U << k : 0U;
+        split |= node.quadrant[k] < limit_ ? 1U << k : 0U;
+    }
+    add_middles(samples, spot, fan);
+    const unsigned covered = split | node.hidden;
+    const unsigned children = split & ~unsigned{node.hidden};
+    const Sample centre = samples.at(1, 1);
+    const glm::dvec2 eye = eye_ - glm::dvec2(centre.column, centre.row);
+    runs_[fan.node].first = static_cast<std::uint32_t>(index_count_ / 3);
+    if (samples.is_cut()) {
+        const PartRow row =
+            parts_of_cut_fan(samples, parts_of(middles, covered, children), eye, view_.order);
+        bool any = false;
+        for (unsigned k = 0; k < row.count; ++k) {
+            emit_part(fan, row.part[k]);
+            any = any || row.part[k] < first_child_part;
+        }
+        counters_.fans += any ? 1 : 0;
+    } else {
+        const PartOrder& order = orders_[wedge_towards(eye.x, eye.y)];
+        const unsigned triangles = order.triangles(middles, covered);
+        counters_.fans += triangles != 0 ? 1 : 0;
+        for (unsigned left = triangles | order.children[children]; left != 0; left &= left - 1) {
+            emit_part(fan, order.part[static_cast<std::size_t>(std::countr_zero(left))]);
+        }
+    }
+    runs_[fan.node].end = static_cast<std::uint32_t>(index_count_ / 3);
+}
+
+inline void ErrorMesher::emit_part(const EmittedFan& fan, unsigned part) {
+    if (part >= first_child_part) {
+        EmittedFan child = child_of(fan, part - first_child_part);
+        emit(child);
+        return;
+    }
+    std::uint32_t* const corner = indices_.data() + index_count_;
+    corner[0] = fan.ring[centre_of_ring];
+    corner[1] = fan.ring[part_sides[part].from];
+    corner[2] = fan.ring[part_sides[part].to];
+    index_count_ += 3;
+}
+
+ErrorMesher::EmittedFan ErrorMesher::child_of(const EmittedFan& fan, unsigned quadrant) {
+    const ErrorNode& node = nodes_[fan.node];
+    EmittedFan child;
+    child.node = node.child[quadrant];
+    for (std::size_t k = 0; k < 4; ++k) {
+        child.ring[2 * k] = fan.ring[child_corners[quadrant][k]];
+    }
+    for (unsigned k = 0; k < 4; ++k) {
+        const unsigned across = quadrant ^ (k % 2 == 0 ? 2U : 1U);
+        if (!is_outer(quadrant, k)) {
+            child.beyond[k] = node.child[across];
+        } else {
+            child.beyond[k] = fan.beyond[k] != 0 ? nodes_[fan.beyond[k]].child[across] : 0;
+        }
+    }
+    child.end_a = fan.ring[centre_of_ring];
+    child.end_b = fan.ring[ring_of_quadrant[quadrant]];
+    return child;
+}
+
+inline void
+ErrorMesher::add_centre(const FanSamples& samples, std::int16_t height, EmittedFan& fan) {
+    const NewVertex made{samples.at(1, 1), fan.end_a, fan.end_b, 0.5F, height, nodes_[fan.node].on};
+    std::uint32_t& centre = fan.ring[centre_of_ring];
+    if (!samples.is_cut()) {
+        centre = add_vertex(made);
+    } else {
+        const std::uint32_t north_east = fan.ring[4];
+        centre = is_at(made.at, north_east) ? north_east : cut_vertex(made);
+    }
+}
+
+/// Fills in the mid-points beside quadrants that are not hidden.
+inline void ErrorMesher::add_middles(
+    const FanSamples& samples, const LevelMemory::Spot& spot, EmittedFan& fan) {
+    const ErrorNode& node = nodes_[fan.node];
+    for (std::size_t k = 0; k < 4; ++k) {
+        const FanEdge& edge = fan_edges[k];
+        const unsigned beside = 1U << edge.quadrant_a | 1U << edge.quadrant_b;
+        if (node.middle[k] >= limit_ || (node.hidden & beside) == beside) {
+            continue;
+        }
+        std::uint32_t vertex = middle_vertex_[fan.node][k];
+        if (vertex == 0) {
+            const std::int16_t height =
+                rule_.memory(node.level).middle_height(spot, node.column, node.row, k);
+            vertex = add_middle(samples, height, fan, k);
+            if (fan.beyond[k] != 0) {
+                middle_vertex_[fan.beyond[k]][(k + 2) % 4] = vertex;
+            }
+        }
+        fan.ring[2 * k + 1] = vertex;
+    }
+}
+
+inline std::uint32_t ErrorMesher::add_middle(
+    const FanSamples& samples, std::int16_t height, const EmittedFan& fan, std::size_t edge) {
+    const NewVertex made{
+        samples.ring(2 * edge + 1),
+        fan.ring[2 * edge],
+        fan.ring[(2 * edge + 2) % 8],
+        0.5F,
+        height,
+        nodes_[fan.node].middle[edge]};
+    if (!samples.is_cut()) {
+        return add_vertex(made);
+    }
+    const std::uint32_t centre = fan.ring[centre_of_ring];
+    return is_at(made.at, centre) ? centre : cut_vertex(made);
+}
+
+} // namespace octant::visuals::terrain

@@ -1,0 +1,77 @@
+// Which triangles of a mesh by screen-space error lie in boxes, by those around what is drawn.
+#include "visuals/terrain/error_mesher.h"
+
+#include <algorithm>
+
+namespace octant::visuals::terrain {
+
+void ErrorMesher::triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const {
+    if (meshed_) {
+        if (!drawn_measured_) {
+            drawn_.resize(nodes_.size());
+            measure_drawn(0);
+            drawn_measured_ = true;
+        }
+        add_triangles_in(0, wanted, triangles);
+    }
+}
+
+ErrorMesher::Four ErrorMesher::drawn_children(const ErrorNode& node) const {
+    Four children = node.child;
+    for (unsigned q = 0; q < 4; ++q) {
+        children[q] = is_drawn(node, q) ? children[q] : 0;
+    }
+    return children;
+}
+
+/// Fills in drawn_ of a node and all below it.
+void ErrorMesher::measure_drawn(std::uint32_t node) const {
+    DrawnHeights heights;
+    const auto add = [&](float lowest_m, float highest_m) {
+        heights.lowest_m = std::min(heights.lowest_m, lowest_m);
+        heights.highest_m = std::max(heights.highest_m, highest_m);
+    };
+    for_each_in_run(
+        runs_[node],
+        drawn_children(nodes_[node]),
+        [&](std::uint32_t child) { return runs_[child]; },
+        [&](std::uint32_t triangle) {
+            for (std::size_t k = 3 * std::size_t{triangle}; k < 3 * std::size_t{triangle} + 3;
+                 ++k) {
+                const float z_m = vertices_[indices_[k]].position_m.z;
+                add(z_m, z_m);
+            }
+        },
+        [&](std::uint32_t child) {
+            measure_drawn(child);
+            add(drawn_[child].lowest_m, drawn_[child].highest_m);
+        });
+    drawn_[node] = heights;
+}
+
+void ErrorMesher::add_triangles_in(
+    std::uint32_t own, const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const {
+    const ErrorNode& node = nodes_[own];
+    const FanSamples samples(
+        *ground_, ground_->layout().level(node.level).edge, node.column, node.row);
+    const Sample least = samples.at(0, 0);
+    const Sample most = samples.at(2, 2);
+    const glm::dvec2 half_m = ground_->half_extent_m();
+    const glm::dvec2 west_south =
+        glm::dvec2(least.column, least.row) * ground_->spacing_m() - half_m;
+    const glm::dvec2 east_north = glm::dvec2(most.column, most.row) * ground_->spacing_m() - half_m;
+    if (runs_[own].first == runs_[own].end ||
+        !wanted(
+            {west_south, static_cast<double>(drawn_[own].lowest_m) + view_.eye_m.z},
+            {east_north, static_cast<double>(drawn_[own].highest_m) + view_.eye_m.z})) {
+        return;
+    }
+    for_each_in_run(
+        runs_[own],
+        drawn_children(node),
+        [&](std::uint32_t child) { return runs_[child]; },
+        [&](std::uint32_t triangle) { triangles.push_back(triangle); },
+        [&](std::uint32_t child) { add_triangles_in(child, wanted, triangles); });
+}
+
+} // namespace octant::visuals::terrain

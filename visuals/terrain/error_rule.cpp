@@ -1,0 +1,250 @@
+// Which samples of a ground are in its mesh: longest-edge bisection by screen-space error.
+//
+// Source: P. Lindstrom, V. Pascucci, "Terrain Simplification Simplified: A General Framework for
+// View-Dependent Out-of-Core Visualization", 2002: saturated errors and nested regions of
+// influence. A sample v, the middle of the longest edge of two triangles, is in the mesh where its
+// error e(v), seen from the nearest point of its region of influence, is larger than the error
+// wanted: where critical(v) = D2(v) / e(v)^2 < (focal length / error wanted)^2.
+// Deviations:
+// - Regions are boxes, not spheres. Horizontally squares of half size 3h about a node's centre and
+//   2h about the middle of an edge, h half the node's edge; they hold all triangles that v may
+//   split and those that samples needing v may. Vertically the bounds of all blocks (nodes with
+//   height bounds, of v's level where that has them) that the square overlaps.
+// - D2 is at least 1 m^2.
+// - Where the earth is curved, e(v) is the stored error and what the edge that v halves rises above
+//   the curve, L^2 / (8 R); heights in D2 are not lowered.
+//
+// No cracks, because critical values never shrink from a sample to one that needs it, to the last
+// bit. An edge's middle lies h from the centre it needs, 2h + h = 3h. A child's centre, box 3h/2,
+// lies (h/2, h/2) from the middles it needs, h/2 + 3h/2 = 2h. So the whole-numbered ends of boxes
+// are nested; subtracting the eye, rounded, keeps their order, and so do all steps from there to
+// the critical value: maximum, minimum, sum and product of numbers not below zero, quotient.
+// Bounds of blocks hold those of finer ones, and boxes overlap (a common line is none) no block
+// that is not within one that the larger box overlaps. Errors are nested as stored; those of
+// curvature halve from each step to the next.
+#include "visuals/terrain/error_rule.h"
+
+#include "visuals/terrain/frustum.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace octant::visuals::terrain {
+
+namespace {
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+/// An eye farther from the field than this, samples, is thought to be here: whole numbers of
+/// samples stay exact in float.
+constexpr double farthest_eye = 4194304.0;
+
+/// More than double arithmetic with heights can be wrong by.
+constexpr double height_margin_m = 1e-3;
+
+// Ends of boxes of influence in half edges from a node's south-west corner: of the middles of its
+// south, east, north and west edge and of the centres of its quarters.
+constexpr FourFloats west_of_middles = {-1.0F, 0.0F, -1.0F, -2.0F};
+constexpr FourFloats east_of_middles = {3.0F, 4.0F, 3.0F, 2.0F};
+constexpr FourFloats south_of_middles = {-2.0F, -1.0F, 0.0F, -1.0F};
+constexpr FourFloats north_of_middles = {2.0F, 3.0F, 4.0F, 3.0F};
+constexpr FourFloats west_of_centres = {-1.0F, 0.0F, -1.0F, 0.0F};
+constexpr FourFloats east_of_centres = {2.0F, 3.0F, 2.0F, 3.0F};
+constexpr FourFloats south_of_centres = {-1.0F, -1.0F, 0.0F, 0.0F};
+constexpr FourFloats north_of_centres = {2.0F, 2.0F, 3.0F, 3.0F};
+
+int whole_below(double place) {
+    return static_cast<int>(std::floor(std::clamp(place, -farthest_eye, farthest_eye)));
+}
+
+/// Squares of the distance along one axis from the eye to four boxes, samples^2. Their ends are
+/// given in half edges from `start`, which is exact and from the same sample as `eye`.
+inline FourFloats
+box_distance(FourFloats least, FourFloats most, float start, float half_edge, float eye) {
+    const FourFloats before = four(start) + least * four(half_edge) - four(eye);
+    const FourFloats after = four(eye) - (four(start) + most * four(half_edge));
+    const FourFloats off = larger(larger(before, after), four(0.0F));
+    return off * off;
+}
+
+} // namespace
+
+ErrorRule::ErrorRule(const GroundTiles& ground)
+    : ground_(&ground)
+    , spacing_squared_m2_(static_cast<float>(ground.spacing_m() * ground.spacing_m()))
+    , range_level_(ground.layout().range_level()) {
+    for (unsigned code = 0; code < 256; ++code) {
+        error_m_[code] = GroundTiles::error_m_of(static_cast<std::uint8_t>(code));
+    }
+    for (int level = 0; level < ground.levels(); ++level) {
+        const LevelMemory memory(ground, level);
+        levels_.push_back({memory, 0.5F * static_cast<float>(memory.edge())});
+    }
+}
+
+void ErrorRule::look_from(const MeshView& view) {
+    assert(view.focal_px > 0.0 && view.earth_radius_m >= 0.0);
+    const glm::dvec2 half_m = ground_->half_extent_m();
+    view_ = view;
+    west_m_ = -half_m.x - view.eye_m.x;
+    south_m_ = -half_m.y - view.eye_m.y;
+    eye_z_m_ = static_cast<float>(view.eye_m.z);
+    const double column = -west_m_ / ground_->spacing_m();
+    const double row = -south_m_ / ground_->spacing_m();
+    origin_column_ = whole_below(column);
+    origin_row_ = whole_below(row);
+    eye_east_ = static_cast<float>(std::clamp(column - origin_column_, 0.0, 1.0));
+    eye_north_ = static_cast<float>(std::clamp(row - origin_row_, 0.0, 1.0));
+    half_curvature_ = view.earth_radius_m > 0.0 ? 0.5 / view.earth_radius_m : 0.0;
+    // An edge that is halved by a node's side is 2h long, one by its child's centre sqrt(2) h.
+    const double spacing_squared = ground_->spacing_m() * ground_->spacing_m();
+    for (Level& level : levels_) {
+        const double half = 0.5 * level.memory.edge();
+        const double middle_m = half * half * spacing_squared * half_curvature_;
+        level.middle_error_m = static_cast<float>(middle_m);
+        level.quadrant_error_m = static_cast<float>(0.5 * middle_m);
+    }
+}
+
+float ErrorRule::limit_of(double error_px) const {
+    const double ratio = view_.focal_px / error_px;
+    return static_cast<float>(ratio * ratio);
+}
+
+double ErrorRule::error_px_of(float limit) const {
+    return view_.focal_px / std::sqrt(static_cast<double>(limit));
+}
+
+float ErrorRule::root_error_m() const {
+    return error_m_[ground_->error_code(0, NodePart::Centre, 0, 0)] +
+           2.0F * levels_.front().middle_error_m;
+}
+
+HeightGaps ErrorRule::gaps_around(int level, int column, int row) const {
+    const LevelMemory& at = memory(level);
+    std::array<std::array<float, 3>, 3> gap{}; // by row and column
+    for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 3; ++i) {
+            const int c = column + i - 1;
+            const int r = row + j - 1;
+            float& squared = gap[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)];
+            squared = infinite;
+            if (c >= 0 && r >= 0 && c < at.columns() && r < at.rows()) {
+                const float low = ground_->lowest_m(level, c, r);
+                const float high = ground_->highest_m(level, c, r);
+                const float off = std::max({low - eye_z_m_, eye_z_m_ - high, 0.0F});
+                squared = off * off;
+            }
+        }
+    }
+    HeightGaps gaps;
+    gaps.lowest_m = ground_->lowest_m(level, column, row);
+    gaps.highest_m = ground_->highest_m(level, column, row);
+    for (unsigned ns = 0; ns < 4; ++ns) {
+        std::array<float, 3> lowest = gap[1];
+        for (std::size_t i = 0; i < 3; ++i) {
+            lowest[i] = (ns & 1U) != 0 ? std::min(lowest[i], gap[0][i]) : lowest[i];
+            lowest[i] = (ns & 2U) != 0 ? std::min(lowest[i], gap[2][i]) : lowest[i];
+        }
+        const std::array<float, 4> line = {// by reach to the west and east
+                                           lowest[1],
+                                           std::min(lowest[1], lowest[0]),
+                                           std::min(lowest[1], lowest[2]),
+                                           std::min({lowest[0], lowest[1], lowest[2]})};
+        std::copy(line.begin(), line.end(), gaps.squared_m2.begin() + 4 * ns);
+    }
+    return gaps;
+}
+
+FanCriticals ErrorRule::criticals_of(const ErrorPlace& place) const {
+    const Level& at = levels_[static_cast<std::size_t>(place.level)];
+    const int edge = at.memory.edge();
+    const auto x = static_cast<float>(place.column * edge - origin_column_);
+    const auto y = static_cast<float>(place.row * edge - origin_row_);
+    const FourFloats middle_m2 =
+        four(spacing_squared_m2_) *
+        (box_distance(west_of_middles, east_of_middles, x, at.half_edge, eye_east_) +
+         box_distance(south_of_middles, north_of_middles, y, at.half_edge, eye_north_));
+    const FourFloats centre_m2 =
+        four(spacing_squared_m2_) *
+        (box_distance(west_of_centres, east_of_centres, x, at.half_edge, eye_east_) +
+         box_distance(south_of_centres, north_of_centres, y, at.half_edge, eye_north_));
+    // The sides of the block that boxes reach beyond.
+    const int last = (1 << std::max(place.level - range_level_, 0)) - 1; // node along the block
+    const auto reach = [&](int along) {
+        const int within = along & last;
+        return (within == 0 ? 1U : 0U) | (within == last ? 2U : 0U);
+    };
+    const unsigned across = reach(place.column);
+    const unsigned up = reach(place.row) << 2U;
+    const std::array<float, 16>& gap = place.gaps->squared_m2;
+    FourFloats middle_gap = four(gap[0]);
+    FourFloats centre_gap = middle_gap;
+    if ((across | up) != 0) {
+        middle_gap = FourFloats{
+            gap[across | (up & 4U)],
+            gap[(across & 2U) | up],
+            gap[across | (up & 8U)],
+            gap[(across & 1U) | up]};
+        centre_gap = FourFloats{
+            gap[(across & 1U) | (up & 4U)],
+            gap[(across & 2U) | (up & 4U)],
+            gap[(across & 1U) | (up & 8U)],
+            gap[(across & 2U) | (up & 8U)]};
+    }
+    FanCriticals criticals;
+    const FourFloats middle_error_m =
+        metres_of(at.memory.middle_codes(place.column, place.row)) + four(at.middle_error_m);
+    criticals.middle =
+        larger(middle_m2 + middle_gap, four(1.0F)) / (middle_error_m * middle_error_m);
+    if (place.level + 1 == ground_->levels()) {
+        criticals.quadrant = four(infinite);
+        criticals.quadrant_error_m = four(0.0F);
+        return criticals;
+    }
+    const LevelMemory& below = levels_[static_cast<std::size_t>(place.level) + 1].memory;
+    const FourFloats error_m =
+        metres_of(below.child_codes(2 * place.column, 2 * place.row)) + four(at.quadrant_error_m);
+    criticals.quadrant = larger(centre_m2 + centre_gap, four(1.0F)) / (error_m * error_m);
+    criticals.quadrant_error_m = error_m;
+    return criticals;
+}
+
+inline FourFloats ErrorRule::metres_of(const LevelMemory::FourCodes& codes) const {
+    return FourFloats{
+        error_m_[codes[0]], error_m_[codes[1]], error_m_[codes[2]], error_m_[codes[3]]};
+}
+
+unsigned ErrorRule::planes_cutting_node(
+    const ErrorPlace& place, const HeightGaps& gaps, float margin_m, unsigned planes) const {
+    const int edge = memory(place.level).edge();
+    const int west = place.column * edge;
+    const int south = place.row * edge;
+    const int east = std::min(west + edge, ground_->columns() - 1);
+    const int north = std::min(south + edge, ground_->rows() - 1);
+    const double half_spacing_m = 0.5 * ground_->spacing_m();
+    const glm::dvec2 centre_m(
+        west_m_ + (west + east) * half_spacing_m, south_m_ + (south + north) * half_spacing_m);
+    const glm::dvec2 half_m((east - west) * half_spacing_m, (north - south) * half_spacing_m);
+    const double margin = static_cast<double>(margin_m) + height_margin_m;
+    double low_m = static_cast<double>(gaps.lowest_m) - view_.eye_m.z - margin;
+    double high_m = static_cast<double>(gaps.highest_m) - view_.eye_m.z + margin;
+    if (half_curvature_ > 0.0) {
+        const glm::dvec2 off_m = glm::abs(centre_m);
+        const glm::dvec2 far_m = off_m + half_m;
+        const glm::dvec2 near_m = glm::max(off_m - half_m, glm::dvec2(0.0));
+        low_m -= drop_m(far_m.x, far_m.y);
+        high_m -= drop_m(near_m.x, near_m.y);
+    }
+    return planes_cutting(
+        view_.frustum_normals,
+        planes,
+        {centre_m.x, centre_m.y, 0.5 * (low_m + high_m)},
+        {half_m.x, half_m.y, 0.5 * (high_m - low_m)});
+}
+
+} // namespace octant::visuals::terrain

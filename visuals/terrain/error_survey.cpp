@@ -1,0 +1,190 @@
+// The smallest screen-space error that keeps a budget of triangles, exactly and in the frame it is
+// spent.
+//
+// No source; as budget_survey.cpp, over the critical values of error_rule.cpp.
+#include "visuals/terrain/error_survey.h"
+
+#include "visuals/terrain/frustum.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace octant::visuals::terrain {
+
+namespace {
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+constexpr float least_limit = 1e-30F; ///< below every critical value but the root's
+constexpr double first_look_px = 4.0; ///< error, without a last frame
+
+/// With geomorphs, how far a fan's vertices may be drawn from their samples, in errors of the
+/// fan's own centre. A vertex that is drawn elsewhere than its sample has an error of less than
+/// twice the one wanted as seen from its region of influence; those in and around the fan so of
+/// less than twice the centre's, which is in the mesh. It lies within the largest error of those
+/// ancestors that are not at their samples either, again less than twice its own.
+constexpr float morph_margin = 4.0F;
+
+} // namespace
+
+float ErrorSurvey::limit_for(const ErrorTarget& target) {
+    assert(target.error_px >= 0.0 && target.most_triangles >= 1);
+    nodes_tested_ = 0;
+    margin_ = target.geomorphs ? morph_margin : 0.0F;
+    const float most = std::max(rule_->limit_of(target.error_px), least_limit);
+    if (target.most_triangles >= any_triangles) {
+        start(most);
+        visit<false>(root_visit());
+        return most;
+    }
+    const LimitSearch search{
+        target.most_triangles,
+        least_limit,
+        most,
+        last_error_px_ > 0.0 ? rule_->limit_of(last_error_px_) : 0.0F,
+        rule_->limit_of(first_look_px)};
+    const float found =
+        limit_within(search, steps_, [&](float low, float high, int most_triangles) {
+            start(high);
+            steps_.start(low, high);
+            most_triangles_ = most_triangles;
+            visit<true>(root_visit());
+            return more_above_;
+        });
+    last_error_px_ = rule_->error_px_of(found);
+    return found;
+}
+
+void ErrorSurvey::start(float high) {
+    count_ = 0;
+    high_ = high;
+    more_above_ = false;
+    gaps_[0][0] = rule_->gaps_around(0, 0, 0);
+}
+
+ErrorSurvey::Visit ErrorSurvey::root_visit() const {
+    Visit root;
+    root.place.gaps = gaps_[0].data();
+    root.planes = planes_of(rule_->view().frustum_normals);
+    root.error_m = rule_->root_error_m();
+    return root;
+}
+
+inline std::size_t ErrorSurvey::next_node() {
+    if (count_ == nodes_.size()) {
+        nodes_.resize(2 * count_ + 1024);
+    }
+    return count_++;
+}
+
+/// Puts a node and all below it that may be in the mesh into nodes_.
+template <bool counting>
+std::uint32_t ErrorSurvey::visit(const Visit& from) {
+    const std::size_t own = next_node();
+    if (counting && steps_.at_high() > most_triangles_) {
+        return static_cast<std::uint32_t>(own);
+    }
+    const LevelMemory& memory = rule_->memory(from.place.level);
+    memory.expect(memory.spot(from.place.column, from.place.row));
+    const FanCriticals criticals = rule_->criticals_of(from.place);
+    Children children;
+    if (from.place.level + 1 < rule_->ground().levels()) {
+        test_children(from, children);
+    }
+    ErrorNode* node = &nodes_[own];
+    node->middle = criticals.middle;
+    node->quadrant = criticals.quadrant;
+    node->child = {};
+    node->on = from.on;
+    node->column = static_cast<std::uint16_t>(from.place.column);
+    node->row = static_cast<std::uint16_t>(from.place.row);
+    node->level = static_cast<std::uint8_t>(from.place.level);
+    node->hidden = static_cast<std::uint8_t>(children.hidden);
+    std::array<int, 4> replaced = all_triangles.of_quadrant;
+    if (counting) {
+        count(from, *node, replaced);
+    }
+    for (unsigned q = 0; q < 4; ++q) {
+        if ((children.hidden >> q & 1U) != 0 || criticals.quadrant[q] >= high_) {
+            continue;
+        }
+        Visit next;
+        next.place = child_place(from.place, q);
+        if (next.place.level <= rule_->ground().layout().range_level()) {
+            next.place.gaps = &gaps_[static_cast<std::size_t>(next.place.level)][q];
+        }
+        next.planes = children.planes[q];
+        next.on = criticals.quadrant[q];
+        next.error_m = criticals.quadrant_error_m[q];
+        next.replaced = replaced[q];
+        const std::uint32_t child = visit<counting>(next);
+        nodes_[own].child[q] = child;
+    }
+    return static_cast<std::uint32_t>(own);
+}
+
+/// All but gaps of their own.
+inline ErrorPlace ErrorSurvey::child_place(const ErrorPlace& place, unsigned quadrant) {
+    return {
+        place.level + 1,
+        2 * place.column + static_cast<int>(quadrant & 1U),
+        2 * place.row + static_cast<int>(quadrant >> 1U),
+        place.gaps};
+}
+
+/// Fills in which children are hidden, and what they take over.
+inline void ErrorSurvey::test_children(const Visit& from, Children& children) {
+    const GroundLayout& layout = rule_->ground().layout();
+    const GroundLayout::Level& at = layout.level(from.place.level + 1);
+    const bool own_gaps = from.place.level < layout.range_level();
+    std::array<HeightGaps, 4>& own = gaps_[static_cast<std::size_t>(from.place.level) + 1];
+    const float margin_m = margin_ * from.error_m;
+    for (unsigned q = 0; q < 4; ++q) {
+        const ErrorPlace place = child_place(from.place, q);
+        if (place.column >= at.columns || place.row >= at.rows) {
+            children.hidden |= 1U << q;
+            continue;
+        }
+        ++nodes_tested_;
+        const HeightGaps* gaps = from.place.gaps;
+        if (own_gaps) {
+            own[q] = rule_->gaps_around(place.level, place.column, place.row);
+            gaps = &own[q];
+        }
+        if (from.planes != 0) {
+            children.planes[q] = rule_->planes_cutting_node(place, *gaps, margin_m, from.planes);
+            children.hidden |= children.planes[q] == outside_frustum ? 1U << q : 0U;
+        }
+    }
+}
+
+/// Adds the steps of a node's fan. `replaced`: the triangles of its quadrants where it is cut.
+inline void
+ErrorSurvey::count(const Visit& from, const ErrorNode& node, std::array<int, 4>& replaced) {
+    for (unsigned k = 0; k < 4; ++k) {
+        more_above_ = more_above_ || (node.middle[k] >= high_ && node.middle[k] < infinite) ||
+                      (node.quadrant[k] >= high_ && node.quadrant[k] < infinite &&
+                       (unsigned{node.hidden} >> k & 1U) == 0);
+    }
+    const GroundTiles& ground = rule_->ground();
+    const FanSamples samples(ground, ground.layout().level(node.level).edge, node.column, node.row);
+    const std::array<float, 4> middle = {
+        node.middle[0], node.middle[1], node.middle[2], node.middle[3]};
+    const FanLimits limits{node.on, middle, node.hidden, from.replaced};
+    if (samples.is_cut()) {
+        const FanTriangles triangles = triangles_with_area(samples);
+        replaced = triangles.of_quadrant;
+        count_fan(limits, triangles, high_, steps_);
+    } else if (node.hidden != 0) {
+        count_fan(limits, all_triangles, high_, steps_);
+    } else {
+        steps_.add(node.on, 4 - from.replaced);
+        for (unsigned k = 0; k < 4; ++k) {
+            if (node.middle[k] < high_) {
+                steps_.add(node.middle[k], 1);
+            }
+        }
+    }
+}
+
+} // namespace octant::visuals::terrain

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "visuals/terrain/fan_shape.h"
+#include "visuals/terrain/step_count.h"
+
+#include <array>
+#include <cstddef>
+
+namespace octant::visuals::terrain {
+
+/// Triangles of a fan that have an area: of each side without its mid-point and, with it, beside
+/// its quadrants.
+struct FanTriangles {
+    std::array<int, 4> whole{1, 1, 1, 1};
+    std::array<int, 4> a{1, 1, 1, 1};
+    std::array<int, 4> b{1, 1, 1, 1};
+    std::array<int, 4> of_quadrant{2, 2, 2, 2}; ///< those with mid-points
+};
+
+/// Those of a node that is not cut.
+inline constexpr FanTriangles all_triangles;
+
+/// Those of a node at the field's north or east end.
+inline FanTriangles triangles_with_area(const FanSamples& samples) {
+    FanTriangles triangles;
+    triangles.of_quadrant = {};
+    const Sample centre = samples.at(1, 1);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const FanEdge& edge = fan_edges[k];
+        const Sample a = samples.corner_a(edge);
+        const Sample b = samples.corner_b(edge);
+        const Sample middle = samples.middle(edge);
+        triangles.whole[k] = has_area(centre, a, b) ? 1 : 0;
+        triangles.a[k] = has_area(centre, a, middle) ? 1 : 0;
+        triangles.b[k] = has_area(centre, middle, b) ? 1 : 0;
+        triangles.of_quadrant[edge.quadrant_a] += triangles.a[k];
+        triangles.of_quadrant[edge.quadrant_b] += triangles.b[k];
+    }
+    return triangles;
+}
+
+/// From which limits on the parts of a fan are in the mesh.
+struct FanLimits {
+    float on = 0.0F;                    ///< the fan
+    const std::array<float, 4>& middle; ///< the mid-points of fan_edges
+    unsigned hidden = 0;                ///< quadrants without triangles
+    int replaced = 0;                   ///< triangles of its parent that it takes the place of
+};
+
+/// Adds the steps of N at which a fan appears and its mid-points do, those below `high`. That of a
+/// quadrant which splits is the child's own. True: there are steps above.
+inline bool
+count_fan(const FanLimits& fan, const FanTriangles& triangles, float high, StepCount& steps) {
+    const auto unless_hidden = [&](unsigned quadrant, int some) {
+        return (fan.hidden >> quadrant & 1U) == 0 ? some : 0;
+    };
+    bool more_above = false;
+    int first = -fan.replaced;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const FanEdge& edge = fan_edges[k];
+        const int with_middle = unless_hidden(edge.quadrant_a, triangles.a[k]) +
+                                unless_hidden(edge.quadrant_b, triangles.b[k]);
+        if (fan.middle[k] <= fan.on) {
+            first += with_middle;
+            continue;
+        }
+        first += triangles.whole[k];
+        if (fan.middle[k] < high) {
+            steps.add(fan.middle[k], with_middle - triangles.whole[k]);
+        } else {
+            more_above = true;
+        }
+    }
+    steps.add(fan.on, first);
+    return more_above;
+}
+
+} // namespace octant::visuals::terrain

@@ -1,0 +1,243 @@
+// Lines against the full-resolution ground.
+//
+// Method: the line is cut at the grid's lines. Over one cell both the bilinear ground and the
+// earth's curvature along it are quadratic in the way gone, so that the line's height above them is
+// too: least value and first zero are exact.
+#include "visuals/terrain/ground_query.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace octant::visuals::terrain {
+
+namespace {
+
+/// A line that is this far below the ground is below it.
+constexpr double touch_m = 1e-6;
+
+/// Cell and place in it of a place within the grid.
+struct CellPlace {
+    int column;
+    int row;
+    double east;
+    double north;
+};
+
+CellPlace cell_at(const GroundSamples& ground, const glm::dvec2& grid) {
+    const int column = std::clamp(static_cast<int>(std::floor(grid.x)), 0, ground.columns() - 2);
+    const int row = std::clamp(static_cast<int>(std::floor(grid.y)), 0, ground.rows() - 2);
+    return {column, row, grid.x - column, grid.y - row};
+}
+
+/// Part of a line, in shares of it.
+struct Part {
+    double first = 0.0;
+    double last = 1.0;
+};
+
+void cut(Part& part, double start, double way, double least, double most) {
+    if (way == 0.0) {
+        if (start < least || start > most) {
+            part.last = -1.0;
+        }
+        return;
+    }
+    const double a = (least - start) / way;
+    const double b = (most - start) / way;
+    part.first = std::max(part.first, std::min(a, b));
+    part.last = std::min(part.last, std::max(a, b));
+}
+
+/// A line's height above the ground over one cell: constant + linear t + square t^2, t from 0.
+struct Gap {
+    double constant;
+    double linear;
+    double square;
+
+    double at(double t) const { return constant + t * (linear + t * square); }
+
+    /// Where it is least in 0 ... `last`.
+    double lowest(double last) const {
+        const double turn = square > 0.0 ? std::clamp(-linear / (2.0 * square), 0.0, last) : 0.0;
+        const double ends = at(last) < at(0.0) ? last : 0.0;
+        return at(turn) < at(ends) ? turn : ends;
+    }
+
+    /// The first zero in 0 ... `last`, of a gap that goes below zero there.
+    double first_zero(double last) const {
+        if (constant <= 0.0) {
+            return 0.0;
+        }
+        const double root = std::sqrt(std::max(linear * linear - 4.0 * square * constant, 0.0));
+        const double zero = 2.0 * constant / (root - linear);
+        return root - linear > 0.0 ? std::min(zero, last) : last;
+    }
+};
+
+/// A line in grid and height, lowered as seen from its start.
+struct Line {
+    glm::dvec2 start;
+    glm::dvec2 way;
+    double start_m;
+    double climb_m;
+    double drop_m; ///< at its end
+};
+
+Gap gap_over(const GroundSamples& ground, const Line& line, const CellPlace& cell, double share) {
+    const double south_west_m = ground.height_m(cell.column, cell.row);
+    const double east_m = ground.height_m(cell.column + 1, cell.row) - south_west_m;
+    const double north_m = ground.height_m(cell.column, cell.row + 1) - south_west_m;
+    const double twist_m =
+        ground.height_m(cell.column + 1, cell.row + 1) - south_west_m - east_m - north_m;
+    const double u = cell.east;
+    const double v = cell.north;
+    const double line_m = line.start_m + share * line.climb_m;
+    return {
+        line_m + share * share * line.drop_m -
+            (south_west_m + u * east_m + v * north_m + u * v * twist_m),
+        line.climb_m + 2.0 * share * line.drop_m -
+            (line.way.x * (east_m + v * twist_m) + line.way.y * (north_m + u * twist_m)),
+        line.drop_m - line.way.x * line.way.y * twist_m};
+}
+
+/// Calls visit(gap, share, length) for the cells below a part of the line, in order, until it says
+/// true.
+template <class Visit>
+void walk(const GroundSamples& ground, const Line& line, const Part& part, const Visit& visit) {
+    double share = part.first;
+    const auto next_line = [](double at, double way) {
+        if (way == 0.0) {
+            return std::numeric_limits<double>::infinity();
+        }
+        const double whole = way > 0.0 ? std::floor(at) + 1.0 : std::ceil(at) - 1.0;
+        return (whole - at) / way;
+    };
+    constexpr double least_step = 1e-12;
+    while (share < part.last) {
+        const glm::dvec2 at = line.start + line.way * share;
+        const double step = std::max(
+            std::min(next_line(at.x, line.way.x), next_line(at.y, line.way.y)), least_step);
+        const double length = std::min(step, part.last - share);
+        CellPlace cell = cell_at(ground, at + line.way * (0.5 * length));
+        cell.east = at.x - cell.column;
+        cell.north = at.y - cell.row;
+        if (visit(gap_over(ground, line, cell, share), share, length)) {
+            return;
+        }
+        share += length;
+    }
+}
+
+/// The part of a line that has ground below it.
+Part over_ground(const GroundSamples& ground, const Line& line) {
+    Part part;
+    cut(part, line.start.x, line.way.x, 0.0, ground.columns() - 1);
+    cut(part, line.start.y, line.way.y, 0.0, ground.rows() - 1);
+    return part;
+}
+
+glm::dvec3 ground_point(
+    const GroundSamples& ground, const glm::dvec3& from_m, const glm::dvec3& to_m, double share) {
+    const glm::dvec3 at_m = from_m + (to_m - from_m) * share;
+    const glm::dvec2 half_m = ground.half_extent_m();
+    const double x_m = std::clamp(at_m.x, -half_m.x, half_m.x);
+    const double y_m = std::clamp(at_m.y, -half_m.y, half_m.y);
+    return {x_m, y_m, ground_height_m(ground, x_m, y_m).value_or(0.0)};
+}
+
+/// The line from `from_m` to `to_m`, of which the latter is lowered already.
+Line line_between(
+    const GroundSamples& ground,
+    const glm::dvec3& from_m,
+    const glm::dvec3& to_m,
+    double radius_m) {
+    const glm::dvec2 start = ground.grid_from_world(from_m.x, from_m.y);
+    const glm::dvec2 level_m = glm::dvec2(to_m) - glm::dvec2(from_m);
+    return {
+        start,
+        level_m / ground.spacing_m(),
+        from_m.z,
+        to_m.z - from_m.z,
+        earth_drop_m(glm::dot(level_m, level_m), radius_m)};
+}
+
+} // namespace
+
+std::optional<double> ground_height_m(const GroundSamples& ground, double x_m, double y_m) {
+    const glm::dvec2 grid = ground.grid_from_world(x_m, y_m);
+    if (!(grid.x >= 0.0 && grid.y >= 0.0 && grid.x <= ground.columns() - 1 &&
+          grid.y <= ground.rows() - 1)) {
+        return std::nullopt;
+    }
+    const CellPlace cell = cell_at(ground, grid);
+    const double south_m = glm::mix(
+        ground.height_m(cell.column, cell.row),
+        ground.height_m(cell.column + 1, cell.row),
+        cell.east);
+    const double north_m = glm::mix(
+        ground.height_m(cell.column, cell.row + 1),
+        ground.height_m(cell.column + 1, cell.row + 1),
+        cell.east);
+    return glm::mix(south_m, north_m, cell.north);
+}
+
+SightLine sight_between(
+    const GroundSamples& ground,
+    const glm::dvec3& from_m,
+    const glm::dvec3& to_m,
+    double radius_m) {
+    glm::dvec3 lowered_m = to_m;
+    const glm::dvec2 level_m = glm::dvec2(to_m) - glm::dvec2(from_m);
+    lowered_m.z -= earth_drop_m(glm::dot(level_m, level_m), radius_m);
+    const Line line = line_between(ground, from_m, lowered_m, radius_m);
+    SightLine sight;
+    sight.clearance_m = std::numeric_limits<double>::infinity();
+    double lowest = 0.0;
+    walk(ground, line, over_ground(ground, line), [&](const Gap& gap, double share, double length) {
+        const double t = gap.lowest(length);
+        if (gap.at(t) < sight.clearance_m) {
+            sight.clearance_m = gap.at(t);
+            lowest = share + t;
+        }
+        if (gap.at(t) < -touch_m && !sight.hidden_at_m) {
+            sight.visible = false;
+            sight.hidden_at_m = ground_point(ground, from_m, to_m, share + gap.first_zero(length));
+        }
+        return false;
+    });
+    if (std::isfinite(sight.clearance_m)) {
+        sight.lowest_at_m = ground_point(ground, from_m, to_m, lowest);
+    }
+    return sight;
+}
+
+std::optional<glm::dvec3> first_ground(
+    const GroundSamples& ground,
+    const glm::dvec3& from_m,
+    const glm::dvec3& direction,
+    double reach_m,
+    double radius_m) {
+    const glm::dvec3 to_m = from_m + direction * reach_m;
+    const Line line = line_between(ground, from_m, to_m, radius_m);
+    Part part = over_ground(ground, line);
+    // Lowered ground is nowhere above its highest sample.
+    cut(part,
+        line.start_m,
+        line.climb_m,
+        -std::numeric_limits<double>::infinity(),
+        ground.highest_m());
+    std::optional<glm::dvec3> hit_m;
+    walk(ground, line, part, [&](const Gap& gap, double share, double length) {
+        if (gap.at(gap.lowest(length)) >= -touch_m) {
+            return false;
+        }
+        hit_m = ground_point(ground, from_m, to_m, share + gap.first_zero(length));
+        return true;
+    });
+    return hit_m;
+}
+
+} // namespace octant::visuals::terrain

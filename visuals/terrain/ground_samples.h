@@ -1,0 +1,84 @@
+#pragma once
+
+#include "models/height_field.h"
+#include "visuals/terrain/ground_tiles.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace octant::visuals::terrain {
+
+/// The samples of a ground, whoever stores them: what measures and queries look at. Refers to the
+/// ground, which must outlive it. World axes as in HeightField.
+class GroundSamples {
+public:
+    explicit GroundSamples(const models::HeightField& field)
+        : GroundSamples(field, field.highest_m(), [](const void* ground, int column, int row) {
+            return static_cast<const models::HeightField*>(ground)->height_m(column, row);
+        }) {}
+
+    explicit GroundSamples(const GroundTiles& tiles)
+        : GroundSamples(
+              tiles, tiles.facts().highest_m, [](const void* ground, int column, int row) {
+                  return static_cast<const GroundTiles*>(ground)->height_m(column, row);
+              }) {}
+
+    int columns() const { return columns_; }
+
+    int rows() const { return rows_; }
+
+    double spacing_m() const { return spacing_m_; }
+
+    /// Half the extent of the field from its centre, east and north, metres.
+    glm::dvec2 half_extent_m() const { return half_extent_m_; }
+
+    /// No sample is higher.
+    double highest_m() const { return highest_m_; }
+
+    /// Height of a sample. Column and row are within the grid.
+    double height_m(int column, int row) const {
+        return static_cast<double>(height_(ground_, column, row));
+    }
+
+    /// World position of a sample.
+    glm::dvec3 sample_m(int column, int row) const {
+        return {
+            column * spacing_m_ - half_extent_m_.x,
+            row * spacing_m_ - half_extent_m_.y,
+            height_m(column, row)};
+    }
+
+    /// A place in samples east and north of the first; whole numbers at samples.
+    glm::dvec2 grid_from_world(double x_m, double y_m) const {
+        return (glm::dvec2(x_m, y_m) + half_extent_m_) / spacing_m_;
+    }
+
+private:
+    using Height = float (*)(const void* ground, int column, int row);
+
+    template <class Ground>
+    GroundSamples(const Ground& ground, float highest_m, Height height)
+        : ground_(&ground)
+        , height_(height)
+        , highest_m_(static_cast<double>(highest_m))
+        , columns_(ground.columns())
+        , rows_(ground.rows())
+        , spacing_m_(ground.spacing_m())
+        , half_extent_m_(ground.half_extent_m()) {}
+
+    const void* ground_;
+    Height height_;
+    double highest_m_;
+    int columns_;
+    int rows_;
+    double spacing_m_;
+    glm::dvec2 half_extent_m_;
+};
+
+/// By how much the ground is lowered at a level distance from the eye, given squared: d^2 / (2 R);
+/// R = 0 is a flat earth.
+inline double earth_drop_m(double distance_squared_m2, double earth_radius_m) {
+    return earth_radius_m > 0.0 ? distance_squared_m2 / (2.0 * earth_radius_m) : 0.0;
+}
+
+} // namespace octant::visuals::terrain

@@ -1,0 +1,133 @@
+#pragma once
+
+#include "visuals/terrain/ground_tiles.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace octant::visuals::terrain {
+
+/// The numbers of a level of GroundTiles by node, quickly: those of a node's fan lie together.
+class LevelMemory {
+public:
+    using FourCodes = std::array<std::uint8_t, 4>;
+
+    /// Where a node's numbers lie.
+    struct Spot {
+        const std::byte* tile;
+        std::size_t node;
+    };
+
+    /// The ground's memory must outlive it.
+    LevelMemory(const GroundTiles& ground, int level)
+        : memory_(ground.memory().data())
+        , corners_(ground.layout().corners())
+        , at_(ground.layout().level(level))
+        , mask_((1 << at_.tile_shift) - 1) {}
+
+    int edge() const { return at_.edge; }
+
+    int columns() const { return at_.columns; }
+
+    int rows() const { return at_.rows; }
+
+    Spot spot(int column, int row) const {
+        const auto tile = static_cast<std::size_t>(
+            (row >> at_.tile_shift) * at_.tiles_across + (column >> at_.tile_shift));
+        return {
+            memory_ + at_.first_tile + tile * at_.tile_bytes,
+            static_cast<std::size_t>(((row & mask_) << at_.tile_shift) + (column & mask_))};
+    }
+
+    /// Numbers of the errors of the mid-points of a node's fan_edges.
+    FourCodes middle_codes(int column, int row) const {
+        const Spot own = spot(column, row);
+        return {
+            *error(own, NodePart::South),
+            *(column + 1 == at_.columns ? codes(at_.east_errors) + row
+                                        : error(east_of(own, column), NodePart::West)),
+            *(row + 1 == at_.rows ? codes(at_.north_errors) + column
+                                  : error(north_of(own, row), NodePart::South)),
+            *error(own, NodePart::West)};
+    }
+
+    /// Those of the centres of the four children of one node of the level above, the first at
+    /// (column, row); any for children that do not exist.
+    FourCodes child_codes(int column, int row) const {
+        const std::uint8_t* first = error(spot(column, row), NodePart::Centre);
+        const std::uint8_t* above = first + (std::ptrdiff_t{1} << at_.tile_shift);
+        return {first[0], first[1], above[0], above[1]};
+    }
+
+    /// Stored height of the root's corner in a quadrant.
+    std::int16_t corner_height(std::size_t quadrant) const { return heights(corners_)[quadrant]; }
+
+    /// Says that heights of a node will be asked for.
+    void expect(const Spot& own) const {
+        __builtin_prefetch(height(own, NodePart::Centre));
+        __builtin_prefetch(height(own, NodePart::South));
+        __builtin_prefetch(height(own, NodePart::West));
+    }
+
+    std::int16_t centre_height(const Spot& own) const { return *height(own, NodePart::Centre); }
+
+    /// Stored height of the mid-point of one of fan_edges of a node.
+    std::int16_t middle_height(const Spot& own, int column, int row, std::size_t edge) const {
+        switch (edge) {
+        case 0:
+            return *height(own, NodePart::South);
+        case 1:
+            return *(
+                column + 1 == at_.columns ? heights(at_.east_heights) + row
+                                          : height(east_of(own, column), NodePart::West));
+        case 2:
+            return *(
+                row + 1 == at_.rows ? heights(at_.north_heights) + column
+                                    : height(north_of(own, row), NodePart::South));
+        default:
+            return *height(own, NodePart::West);
+        }
+    }
+
+private:
+    const std::uint8_t* codes(std::size_t offset) const {
+        return reinterpret_cast<const std::uint8_t*>(memory_ + offset);
+    }
+
+    const std::int16_t* heights(std::size_t offset) const {
+        return reinterpret_cast<const std::int16_t*>(memory_ + offset);
+    }
+
+    const std::uint8_t* error(const Spot& spot, NodePart part) const {
+        const std::size_t plane = (6 + static_cast<std::size_t>(part)) * at_.tile_nodes;
+        return reinterpret_cast<const std::uint8_t*>(spot.tile) + plane + spot.node;
+    }
+
+    const std::int16_t* height(const Spot& spot, NodePart part) const {
+        const std::size_t plane = static_cast<std::size_t>(part) * at_.tile_nodes;
+        return reinterpret_cast<const std::int16_t*>(spot.tile) + plane + spot.node;
+    }
+
+    Spot east_of(const Spot& own, int column) const {
+        return (column & mask_) != mask_
+                   ? Spot{own.tile, own.node + 1}
+                   : Spot{own.tile + at_.tile_bytes, own.node - static_cast<std::size_t>(mask_)};
+    }
+
+    Spot north_of(const Spot& own, int row) const {
+        const auto across = static_cast<std::size_t>(at_.tiles_across);
+        return (row & mask_) != mask_
+                   ? Spot{own.tile, own.node + (std::size_t{1} << at_.tile_shift)}
+                   : Spot{
+                         own.tile + across * at_.tile_bytes,
+                         own.node - (static_cast<std::size_t>(mask_) << at_.tile_shift)};
+    }
+
+    const std::byte* memory_;
+    std::size_t corners_;
+    GroundLayout::Level at_;
+    int mask_;
+};
+
+} // namespace octant::visuals::terrain

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "visuals/terrain/step_count.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace octant::visuals::terrain {
+
+/// Where the number of triangles N of a mesh is looked at, over the limit that decides what is in
+/// it.
+struct LimitSearch {
+    int triangles = 0;  ///< budget
+    float least = 0.0F; ///< limits that are allowed, above zero
+    float most = 0.0F;
+    float last = 0.0F;  ///< limit found for the frame before; 0 = none
+    float first = 0.0F; ///< how far to look without it
+};
+
+/// The largest limit up to which no mesh has more triangles than the budget; the least where even
+/// that has more. The last frame's only makes the way short: the answer does not depend on it.
+///
+/// `walk(low, high, most_triangles)` starts `steps` with (low, high) and adds all steps of N below
+/// high; it may stop at more than `most_triangles`. True: there are steps above.
+template <typename Walk>
+float limit_within(const LimitSearch& search, StepCount& steps, const Walk& walk) {
+    // How far a walk looks, as factors of the limit. They decide about time only.
+    constexpr float look_below = 0.7F;    // from the last frame's: steps are told apart from here
+    constexpr float look_above = 1.08F;   // from the last frame's: down to here
+    constexpr float step_back = 0.1F;     // after far too many triangles
+    constexpr float least_growth = 1.25F; // after too few
+    constexpr float most_growth = 8.0F;
+
+    const float least = search.least;
+    const float most = std::max(search.most, least);
+    const bool first = search.last <= 0.0F;
+    float low = std::clamp(search.last * look_below, least, most);
+    float high = std::clamp(first ? search.first : search.last * look_above, least, most);
+    float too_high = std::numeric_limits<float>::infinity();
+    int most_triangles = 2 * search.triangles + 1000;
+    while (true) {
+        const int stop = high > least ? most_triangles : std::numeric_limits<int>::max();
+        const bool more_above = walk(low, high, stop);
+        if (steps.at_high() > stop) {
+            too_high = high;
+            high = std::max(high * step_back, least);
+            low = least;
+            most_triangles += most_triangles / 4;
+        } else if (low > least && steps.most_below_low() > search.triangles) {
+            low = least;
+        } else if (steps.at_low() > search.triangles) {
+            return least;
+        } else if (const auto place = steps.first_above(search.triangles)) {
+            return *place;
+        } else if (high >= most || !more_above) {
+            return most;
+        } else {
+            const float missing = static_cast<float>(search.triangles) /
+                                  static_cast<float>(std::max(steps.at_high(), 1));
+            const float grown = high * std::clamp(1.1F * missing, least_growth, most_growth);
+            high = std::min({grown, std::sqrt(high) * std::sqrt(too_high), most});
+        }
+    }
+}
+
+} // namespace octant::visuals::terrain

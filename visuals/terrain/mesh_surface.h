@@ -1,0 +1,65 @@
+#pragma once
+
+#include "visuals/terrain/ground_mesh.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace octant::visuals::terrain {
+
+/// The surface that a mesh draws, asked by place in plan. Keeps its memory from one mesh to the
+/// next; the mesh itself is not needed after take().
+class MeshSurface {
+public:
+    /// `eye_m`: what the mesh is relative to.
+    void take(const GroundMesh& mesh, const glm::dvec3& eye_m);
+
+    /// Number of the triangle above or below a place; one of them at an edge; nothing where there
+    /// is no mesh.
+    std::optional<std::uint32_t> triangle_at(double x_m, double y_m) const;
+
+    /// World height of the surface; nothing where there is no mesh.
+    std::optional<double> height_at(double x_m, double y_m) const;
+
+    /// The first place where the way between two world positions meets the mesh, as a share of it;
+    /// nothing where it does not.
+    std::optional<double> first_hit(const glm::dvec3& from_m, const glm::dvec3& to_m) const;
+
+private:
+    /// Cells of a size that halves from level to level; a triangle is in those of the smallest that
+    /// are as large as itself: four at most.
+    struct Entry {
+        std::uint32_t level = 0;
+        std::int32_t column = 0;
+        std::int32_t row = 0;
+        std::uint32_t triangle = 0;
+        std::uint32_t next = 0; ///< entry of the same slot; none = end
+    };
+
+    static constexpr int levels = 32;
+
+    struct Corners {
+        glm::dvec3 a;
+        glm::dvec3 b;
+        glm::dvec3 c;
+    };
+
+    Corners corners_of(std::uint32_t triangle) const;
+    std::size_t slot_of(std::uint32_t level, std::int32_t column, std::int32_t row) const;
+    void add(std::uint32_t triangle);
+    bool covers(std::uint32_t triangle, const glm::dvec2& place_m) const;
+
+    glm::dvec3 eye_m_{0.0};
+    std::uint32_t levels_used_ = 0;      ///< bits
+    std::vector<glm::dvec3> vertices_m_; ///< relative to the eye
+    std::vector<std::uint32_t> indices_;
+    std::vector<std::uint32_t> slots_; ///< first entry
+    std::vector<Entry> entries_;
+};
+
+} // namespace octant::visuals::terrain

@@ -1,0 +1,254 @@
+// The error of a mesh in pixels against the full-resolution ground.
+//
+// Method: each triangle is rasterised in plan over the samples it covers, its borders included; a
+// bit per sample sees to it that each counts once (both triangles at an edge have the same height
+// there). Rows are cut into bands, always the same ones, that threads share.
+#include "visuals/terrain/projected_error.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cassert>
+#include <cmath>
+#include <thread>
+
+namespace octant::visuals::terrain {
+
+namespace {
+
+constexpr int rows_of_band = 64;
+
+/// Vertices are put on this many parts of a sample, which floats far from the eye still tell.
+constexpr double grid_parts = 256.0;
+
+/// Wider than rounding, far narrower than a part.
+constexpr double border = 1e-7;
+
+/// Heights over a triangle: height of the first corner and slopes, metres per sample.
+struct Slope {
+    double east = 0.0;
+    double north = 0.0;
+};
+
+Slope slope_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double twice_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    if (twice_area == 0.0) {
+        return {};
+    }
+    return {
+        ((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) / twice_area,
+        ((c.z - a.z) * (b.x - a.x) - (b.z - a.z) * (c.x - a.x)) / twice_area};
+}
+
+/// The part of a row of samples within a triangle in plan.
+struct RowPart {
+    double first;
+    double last;
+};
+
+RowPart part_of_row(const std::array<glm::dvec3, 3>& corner, double row) {
+    RowPart part{1e30, -1e30};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec3& a = corner[k];
+        const glm::dvec3& b = corner[(k + 1) % 3];
+        if (row < std::min(a.y, b.y) || row > std::max(a.y, b.y)) {
+            continue;
+        }
+        const double at = a.y == b.y ? a.x : a.x + (row - a.y) * (b.x - a.x) / (b.y - a.y);
+        part.first = std::min({part.first, at, a.y == b.y ? b.x : at});
+        part.last = std::max({part.last, at, a.y == b.y ? b.x : at});
+    }
+    return part;
+}
+
+bool touches_frustum(const std::array<glm::dvec3, 3>& seen, const PictureView& view) {
+    const double wide = view.half_width_px / view.focal_px;
+    const double tall = view.half_height_px / view.focal_px;
+    const auto all = [&](const auto& outside) {
+        return std::all_of(seen.begin(), seen.end(), outside);
+    };
+    return !all([&](const glm::dvec3& p) { return p.z < view.near_m; }) &&
+           !all([&](const glm::dvec3& p) { return p.x > wide * p.z; }) &&
+           !all([&](const glm::dvec3& p) { return -p.x > wide * p.z; }) &&
+           !all([&](const glm::dvec3& p) { return p.y > tall * p.z; }) &&
+           !all([&](const glm::dvec3& p) { return -p.y > tall * p.z; });
+}
+
+int triangles_in_view(const GroundMesh& mesh, const PictureView& view) {
+    int count = 0;
+    for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
+        std::array<glm::dvec3, 3> seen{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            seen[i] = view.seen_m(glm::dvec3(mesh.vertices[mesh.indices[k + i]].position_m));
+        }
+        count += touches_frustum(seen, view) ? 1 : 0;
+    }
+    return count;
+}
+
+/// Value of the nearest rank; reorders.
+double nearest_rank(std::vector<float>& values, double share) {
+    const auto rank =
+        static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size()) - 1e-9));
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
+    std::nth_element(values.begin(), at, values.end());
+    return static_cast<double>(*at);
+}
+
+/// Figures of all errors; reorders them.
+void summarise(std::vector<float>& errors_px, ProjectedError& error) {
+    if (errors_px.empty()) {
+        return;
+    }
+    double sum = 0.0;
+    double sum_of_squares = 0.0;
+    for (const float value : errors_px) {
+        const auto error_px = static_cast<double>(value);
+        sum += error_px;
+        sum_of_squares += error_px * error_px;
+    }
+    const auto count = static_cast<double>(errors_px.size());
+    error.samples = static_cast<std::int64_t>(errors_px.size());
+    error.mean_px = sum / count;
+    error.rms_px = std::sqrt(sum_of_squares / count);
+    error.maximum_px = static_cast<double>(*std::max_element(errors_px.begin(), errors_px.end()));
+    error.p999_px = nearest_rank(errors_px, 0.999);
+    error.p99_px = nearest_rank(errors_px, 0.99);
+}
+
+} // namespace
+
+/// What is the same for all samples of a picture.
+struct ErrorMeter::Picture {
+    const PictureView& view;
+    double earth_radius_m;
+    glm::dvec2 first_m; ///< the first sample's place relative to the eye
+
+    /// Place relative to the eye of a sample.
+    glm::dvec3 sample_m(const GroundSamples& ground, int column, int row) const {
+        const double x = first_m.x + column * ground.spacing_m();
+        const double y = first_m.y + row * ground.spacing_m();
+        return {
+            x,
+            y,
+            ground.height_m(column, row) - view.eye_m.z -
+                earth_drop_m(x * x + y * y, earth_radius_m)};
+    }
+};
+
+ErrorMeter::ErrorMeter(GroundSamples ground, int threads)
+    : ground_(ground)
+    , threads_(threads)
+    , words_of_row_((static_cast<std::size_t>(ground.columns()) + 63) / 64) {
+    assert(threads >= 1);
+    for (int row = 0; row < ground.rows(); row += rows_of_band) {
+        Band& band = bands_.emplace_back();
+        band.first_row = row;
+        band.end_row = std::min(row + rows_of_band, ground.rows());
+    }
+}
+
+ProjectedError
+ErrorMeter::measure(const GroundMesh& mesh, const PictureView& view, double earth_radius_m) {
+    const Picture picture{view, earth_radius_m, -ground_.half_extent_m() - glm::dvec2(view.eye_m)};
+    corners_.clear();
+    for (const models::ColourVertex& vertex : mesh.vertices) {
+        const glm::dvec3 from_eye_m(vertex.position_m);
+        const glm::dvec2 grid = (glm::dvec2(from_eye_m) - picture.first_m) / ground_.spacing_m();
+        corners_.emplace_back(glm::round(grid * grid_parts) / grid_parts, from_eye_m.z);
+    }
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+        for (std::size_t k = next++; k < bands_.size(); k = next++) {
+            measure_band(bands_[k], mesh.indices, picture);
+        }
+    };
+    std::vector<std::thread> helpers;
+    for (int k = 1; k < threads_; ++k) {
+        helpers.emplace_back(work);
+    }
+    work();
+    std::for_each(helpers.begin(), helpers.end(), [](std::thread& helper) { helper.join(); });
+    ProjectedError error;
+    error.triangles_in_view = triangles_in_view(mesh, view);
+    errors_px_.clear();
+    for (const Band& band : bands_) {
+        errors_px_.insert(errors_px_.end(), band.errors_px.begin(), band.errors_px.end());
+        error.uncovered += band.uncovered;
+    }
+    summarise(errors_px_, error);
+    return error;
+}
+
+void ErrorMeter::measure_band(
+    Band& band, std::span<const std::uint32_t> indices, const Picture& picture) {
+    band.met.assign(words_of_row_ * static_cast<std::size_t>(band.end_row - band.first_row), 0);
+    band.errors_px.clear();
+    for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
+        const glm::dvec3& a = corners_[indices[k]];
+        const glm::dvec3& b = corners_[indices[k + 1]];
+        const glm::dvec3& c = corners_[indices[k + 2]];
+        if (std::max({a.y, b.y, c.y}) >= band.first_row &&
+            std::min({a.y, b.y, c.y}) <= band.end_row - 1) {
+            measure_triangle(band, {a, b, c}, picture);
+        }
+    }
+    count_uncovered(band, picture);
+}
+
+void ErrorMeter::measure_triangle(
+    Band& band, const Corners& corners, const Picture& picture) const {
+    const auto& [a, b, c] = corners;
+    const Slope slope = slope_of(a, b, c);
+    const int first_row =
+        std::max(band.first_row, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}))));
+    const int last_row =
+        std::min(band.end_row - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}))));
+    const PictureView& view = picture.view;
+    for (int row = first_row; row <= last_row; ++row) {
+        const RowPart part = part_of_row(corners, row);
+        const int first = std::max(0, static_cast<int>(std::ceil(part.first - border)));
+        const int last =
+            std::min(ground_.columns() - 1, static_cast<int>(std::floor(part.last + border)));
+        std::uint64_t* const met =
+            band.met.data() + static_cast<std::size_t>(row - band.first_row) * words_of_row_;
+        for (int column = first; column <= last; ++column) {
+            const auto at = static_cast<std::size_t>(column);
+            const std::uint64_t bit = std::uint64_t{1} << (at % 64);
+            if ((met[at / 64] & bit) != 0) {
+                continue;
+            }
+            met[at / 64] |= bit;
+            const glm::dvec3 sample_m = picture.sample_m(ground_, column, row);
+            const glm::dvec3 seen = view.seen_m(sample_m);
+            if (!view.shows(seen)) {
+                continue;
+            }
+            const double surface_m = a.z + slope.east * (column - a.x) + slope.north * (row - a.y);
+            glm::dvec3 drawn = view.seen_m({sample_m.x, sample_m.y, surface_m});
+            drawn.z = std::max(drawn.z, view.near_m);
+            band.errors_px.push_back(
+                static_cast<float>(glm::distance(view.pixel(seen), view.pixel(drawn))));
+        }
+    }
+}
+
+void ErrorMeter::count_uncovered(Band& band, const Picture& picture) const {
+    band.uncovered = 0;
+    for (int row = band.first_row; row < band.end_row; ++row) {
+        const std::uint64_t* const met =
+            band.met.data() + static_cast<std::size_t>(row - band.first_row) * words_of_row_;
+        for (int column = 0; column < ground_.columns(); ++column) {
+            const auto at = static_cast<std::size_t>(column);
+            if ((met[at / 64] >> (at % 64) & 1U) == 0) {
+                const glm::dvec3 sample_m = picture.sample_m(ground_, column, row);
+                band.uncovered += picture.view.shows(picture.view.seen_m(sample_m)) ? 1 : 0;
+            }
+        }
+    }
+}
+
+} // namespace octant::visuals::terrain

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "visuals/terrain/ground_mesh.h"
+#include "visuals/terrain/ground_samples.h"
+#include "visuals/terrain/picture_view.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::terrain {
+
+/// How far a mesh misses the full-resolution ground in one picture, pixels.
+struct ProjectedError {
+    double maximum_px = 0.0;
+    double p999_px = 0.0; ///< 99.9th percentile, nearest rank
+    double p99_px = 0.0;
+    double rms_px = 0.0;
+    double mean_px = 0.0;
+    std::int64_t samples = 0;   ///< measured: inside the frustum, above or below the mesh
+    std::int64_t uncovered = 0; ///< inside the frustum without mesh there: 0 unless it has holes
+    int triangles_in_view = 0;  ///< of the mesh, not wholly outside one plane of the frustum
+};
+
+/// Measures meshes against a ground. Keeps its memory from one to the next.
+class ErrorMeter {
+public:
+    /// `threads`: at least 1; figures do not depend on it.
+    explicit ErrorMeter(GroundSamples ground, int threads = 2);
+
+    /// Every sample of the ground inside the frustum (as it lies, the near plane too) counts once:
+    /// its error is the distance on the screen between it and the mesh's surface at the same x, y.
+    /// A surface nearer than the near plane is projected from there. `mesh`: relative to
+    /// `view.eye_m`, lowered by d^2 / (2 `earth_radius_m`), as the samples are then; 0 = flat
+    /// earth.
+    ProjectedError
+    measure(const GroundMesh& mesh, const PictureView& view, double earth_radius_m = 0.0);
+
+private:
+    struct Picture;
+
+    /// Some rows of samples, measured by one thread.
+    struct Band {
+        int first_row = 0;
+        int end_row = 0;
+        std::vector<std::uint64_t> met; ///< bit per sample, rows of whole words
+        std::vector<float> errors_px;
+        std::int64_t uncovered = 0;
+    };
+
+    using Corners = std::array<glm::dvec3, 3>;
+
+    void measure_band(Band& band, std::span<const std::uint32_t> indices, const Picture& picture);
+    void measure_triangle(Band& band, const Corners& corners, const Picture& picture) const;
+    void count_uncovered(Band& band, const Picture& picture) const;
+
+    GroundSamples ground_;
+    int threads_;
+    std::size_t words_of_row_;
+    std::vector<Band> bands_;
+    std::vector<float> errors_px_;
+    std::vector<glm::dvec3> corners_; ///< mesh vertices: samples east, north; metres above the eye
+};
+
+} // namespace octant::visuals::terrain
