@@ -3,7 +3,9 @@
 #include "models/height_field_import.h"
 #include "sim/base/error.h"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -22,14 +24,6 @@ namespace {
 
 using std::filesystem::path;
 using GeoTransform = std::array<double, 6>;
-
-/// How the raw numbers of a band become metres.
-struct Band {
-    GDALRasterBandH handle = nullptr;
-    std::optional<double> no_data;
-    double scale_m = 1.0;
-    double offset_m = 0.0;
-};
 
 [[noreturn]] void error_unreadable(const path& file, const std::string& got) {
     error_in(file, fmt::format("expected a height field that GDAL can read, got {}", got));
@@ -95,30 +89,30 @@ std::optional<double> declared_no_data(GDALRasterBandH band) {
     return declared != 0 ? std::optional(value) : std::nullopt;
 }
 
-Band first_band(const path& file, GDALDatasetH dataset) {
+/// Fills in all that concerns the first band.
+void take_first_band(const path& file, OpenRaster& raster) {
+    GDALDatasetH dataset = raster.dataset.get();
     if (GDALGetRasterCount(dataset) < 1) {
         error_unreadable(file, "no band");
     }
-    Band band;
-    band.handle = GDALGetRasterBand(dataset, 1);
-    const GDALColorInterp colour = GDALGetRasterColorInterpretation(band.handle);
-    if (GDALGetRasterColorTable(band.handle) != nullptr ||
+    raster.band = GDALGetRasterBand(dataset, 1);
+    const GDALColorInterp colour = GDALGetRasterColorInterpretation(raster.band);
+    if (GDALGetRasterColorTable(raster.band) != nullptr ||
         (colour != GCI_Undefined && colour != GCI_GrayIndex)) {
         error_in(file, "expected one band of heights, got a colour picture");
     }
-    if (GDALDataTypeIsComplex(GDALGetRasterDataType(band.handle)) != 0) {
+    if (GDALDataTypeIsComplex(GDALGetRasterDataType(raster.band)) != 0) {
         error_in(file, "expected real heights, got complex numbers");
     }
-    const std::string unit = GDALGetRasterUnitType(band.handle);
+    const std::string unit = GDALGetRasterUnitType(raster.band);
     const auto metres = metres_from_unit(unit);
     if (!metres) {
         error_in(
             file, fmt::format("expected heights in metres or feet, got '{}'", printable(unit)));
     }
-    band.no_data = declared_no_data(band.handle);
-    band.scale_m = GDALGetRasterScale(band.handle, nullptr) * *metres;
-    band.offset_m = GDALGetRasterOffset(band.handle, nullptr) * *metres;
-    return band;
+    raster.no_data = declared_no_data(raster.band);
+    raster.scale_m = GDALGetRasterScale(raster.band, nullptr) * *metres;
+    raster.offset_m = GDALGetRasterOffset(raster.band, nullptr) * *metres;
 }
 
 bool is_void(double raw, const std::optional<double>& no_data) {
@@ -134,7 +128,7 @@ bool is_void(double raw, const std::optional<double>& no_data) {
 }
 
 /// Raw numbers to metres, voids to NaN.
-float height_from_raw(const path& file, double raw, const Band& band) {
+float height_from_raw(const path& file, double raw, const OpenRaster& band) {
     if (is_void(raw, band.no_data)) {
         return std::numeric_limits<float>::quiet_NaN();
     }
@@ -162,7 +156,7 @@ std::optional<GeoTransform> transform_of(const path& file, GDALDatasetH dataset)
     return t;
 }
 
-GridFrame frame_from(const GeoTransform& t, const HeightGrid& grid) {
+GridFrame frame_from(const GeoTransform& t, const OpenRaster& grid) {
     const double first_x = t[0] + 0.5 * t[1];
     const double first_y = t[3] + 0.5 * t[5];
     return {
@@ -172,38 +166,37 @@ GridFrame frame_from(const GeoTransform& t, const HeightGrid& grid) {
         std::abs(t[5])};
 }
 
-/// Which way the file's lines run; GDAL's own order is from the north and the west.
-struct Order {
-    bool from_east = false;
-    bool from_south = false;
-};
-
-void read_lines(
-    const path& file, const Band& band, Order order, HeightGrid& grid, const GdalSession& gdal) {
-    const auto columns = static_cast<std::size_t>(grid.columns);
-    std::vector<double> line(columns);
-    for (int y = 0; y < grid.rows; ++y) {
-        const CPLErr result = GDALRasterIO(
-            band.handle,
-            GF_Read,
-            0,
-            y,
-            grid.columns,
-            1,
-            line.data(),
-            grid.columns,
-            1,
-            GDT_Float64,
-            0,
-            0);
-        if (result != CE_None || gdal.failed()) {
-            error_unreadable(file, gdal.reason(file));
-        }
-        const int row = order.from_south ? y : grid.rows - 1 - y;
-        for (std::size_t x = 0; x < columns; ++x) {
-            const std::size_t column = order.from_east ? columns - 1 - x : x;
-            grid.heights_m[grid.index(0, row) + column] = height_from_raw(file, line[x], band);
-        }
+/// Reads rows, counted from the south, into a buffer row after row from the south.
+template <typename Number>
+void read_rows(
+    const path& file,
+    const OpenRaster& raster,
+    RowBand rows,
+    GDALDataType type,
+    Number* numbers,
+    const GdalSession& gdal) {
+    const int line = raster.from_south ? rows.first : raster.rows - rows.first - rows.count;
+    const auto size = static_cast<GSpacing>(sizeof(Number));
+    const GSpacing line_size = size * raster.columns;
+    Number* const start =
+        numbers + (raster.from_east ? raster.columns - 1 : 0) +
+        (raster.from_south ? std::ptrdiff_t{0} : std::ptrdiff_t{rows.count - 1} * raster.columns);
+    const CPLErr result = GDALRasterIOEx(
+        raster.band,
+        GF_Read,
+        0,
+        line,
+        raster.columns,
+        rows.count,
+        start,
+        raster.columns,
+        rows.count,
+        type,
+        raster.from_east ? -size : size,
+        raster.from_south ? line_size : -line_size,
+        nullptr);
+    if (result != CE_None || gdal.failed()) {
+        error_unreadable(file, gdal.reason(file));
     }
 }
 
@@ -259,28 +252,90 @@ void check_height(const path& file, double height_m) {
     }
 }
 
-HeightRaster read_height_raster(const path& file, double picture_scale, GdalSession& gdal) {
-    HeightRaster raster;
+OpenRaster open_height_raster(const path& file, double picture_scale, GdalSession& gdal) {
+    OpenRaster raster;
     raster.dataset = open(file, gdal);
     GDALDatasetH dataset = raster.dataset.get();
     gdal.forget();
-    HeightGrid& grid = raster.grid;
-    grid.columns = GDALGetRasterXSize(dataset);
-    grid.rows = GDALGetRasterYSize(dataset);
-    check_import_size(file, grid.columns, grid.rows);
-    Band band = first_band(file, dataset);
-    Order order;
+    raster.columns = GDALGetRasterXSize(dataset);
+    raster.rows = GDALGetRasterYSize(dataset);
+    take_first_band(file, raster);
     if (const auto transform = transform_of(file, dataset)) {
-        raster.frame = frame_from(*transform, grid);
+        raster.frame = frame_from(*transform, raster);
         raster.system = GDALGetSpatialRef(dataset);
-        order = {(*transform)[1]<0.0, (*transform)[5]> 0.0};
+        raster.from_east = (*transform)[1] < 0.0;
+        raster.from_south = (*transform)[5] > 0.0;
     } else {
-        band.scale_m *= picture_scale;
-        band.offset_m *= picture_scale;
+        raster.scale_m *= picture_scale;
+        raster.offset_m *= picture_scale;
     }
+    const GDALDataType type = GDALGetRasterDataType(raster.band);
+    raster.whole_metres =
+        (type == GDT_Byte || type == GDT_Int16) && raster.scale_m == 1.0 && raster.offset_m == 0.0;
+    return raster;
+}
+
+void read_heights(
+    const path& file,
+    const OpenRaster& raster,
+    RowBand rows,
+    std::span<float> heights_m,
+    const GdalSession& gdal) {
+    const auto columns = static_cast<std::size_t>(raster.columns);
+    assert(heights_m.size() == columns * static_cast<std::size_t>(rows.count));
+    std::vector<double> line(columns);
+    for (int line_in_file = 0; line_in_file < rows.count; ++line_in_file) {
+        const int row = raster.from_south ? line_in_file : rows.count - 1 - line_in_file;
+        read_rows(file, raster, {rows.first + row, 1}, GDT_Float64, line.data(), gdal);
+        float* const out = heights_m.data() + static_cast<std::size_t>(row) * columns;
+        for (std::size_t x = 0; x < columns; ++x) {
+            out[x] = height_from_raw(file, line[x], raster);
+        }
+    }
+}
+
+void read_whole_metres(
+    const path& file,
+    const OpenRaster& raster,
+    RowBand rows,
+    std::span<std::int16_t> heights_m,
+    const GdalSession& gdal) {
+    assert(raster.whole_metres);
+    read_rows(file, raster, rows, GDT_Int16, heights_m.data(), gdal);
+    constexpr int nothing = 1 << 20;
+    std::array<int, 3> voids = {void_metres, -32767, -9999};
+    if (raster.no_data) {
+        const double no_data = *raster.no_data;
+        const bool whole = std::abs(no_data) <= 32768.0 && no_data == std::floor(no_data);
+        voids.fill(whole ? static_cast<int>(no_data) : nothing);
+    }
+    std::int16_t lowest_m = 0;
+    std::int16_t highest_m = 0;
+    for (std::int16_t& height_m : heights_m) {
+        const int metres = height_m;
+        const bool is_void = metres == voids[0] || metres == voids[1] || metres == voids[2];
+        const std::int16_t counted = is_void ? std::int16_t{0} : height_m;
+        lowest_m = std::min(lowest_m, counted);
+        highest_m = std::max(highest_m, counted);
+        height_m = is_void ? void_metres : height_m;
+    }
+    check_height(file, lowest_m);
+    check_height(file, highest_m);
+}
+
+HeightRaster read_height_raster(const path& file, double picture_scale, GdalSession& gdal) {
+    OpenRaster open_raster = open_height_raster(file, picture_scale, gdal);
+    check_import_size(file, open_raster.columns, open_raster.rows);
+    HeightRaster raster;
+    HeightGrid& grid = raster.grid;
+    grid.columns = open_raster.columns;
+    grid.rows = open_raster.rows;
     grid.heights_m.resize(
         static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
-    read_lines(file, band, order, grid, gdal);
+    read_heights(file, open_raster, {0, grid.rows}, grid.heights_m, gdal);
+    raster.dataset = std::move(open_raster.dataset);
+    raster.frame = open_raster.frame;
+    raster.system = open_raster.system;
     return raster;
 }
 

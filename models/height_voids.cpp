@@ -89,6 +89,15 @@ float from_coarser(const HeightGrid& coarse, int column, int row) {
     return interpolated(coarse, (column - 0.5) / 2.0, (row - 0.5) / 2.0);
 }
 
+template <typename Guess>
+void fill(HeightGrid& grid, const std::vector<std::size_t>& voids, const Guess& guess) {
+    const auto columns = static_cast<std::size_t>(grid.columns);
+    for (const std::size_t i : voids) {
+        grid.heights_m[i] = guess(static_cast<int>(i % columns), static_cast<int>(i / columns));
+    }
+    relax(grid, voids);
+}
+
 } // namespace
 
 long fill_voids(HeightGrid& grid) {
@@ -98,12 +107,13 @@ long fill_voids(HeightGrid& grid) {
     }
     HeightGrid coarse = halved(grid);
     fill_voids(coarse);
-    const auto columns = static_cast<std::size_t>(grid.columns);
-    for (const std::size_t i : voids) {
-        grid.heights_m[i] =
-            from_coarser(coarse, static_cast<int>(i % columns), static_cast<int>(i / columns));
-    }
-    relax(grid, voids);
+    fill(grid, voids, [&coarse](int column, int row) { return from_coarser(coarse, column, row); });
+    return static_cast<long>(voids.size());
+}
+
+long fill_voids_from(HeightGrid& grid, const std::function<float(int, int)>& guess) {
+    const std::vector<std::size_t> voids = voids_of(grid);
+    fill(grid, voids, guess);
     return static_cast<long>(voids.size());
 }
 

@@ -3,11 +3,13 @@
 #include "models/made_terrain.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
+#include "ui/command_terrain_import.h"
 #include "ui/command_terrain_measure.h"
 #include "ui/commands.h"
 #include "ui/progress.h"
 #include "ui/settings_options.h"
 #include "ui/terrain_file.h"
+#include "visuals/terrain/ground_file.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -28,6 +30,7 @@ struct TerrainOptions {
     double spacing_m = 30.0;
     bool json = false;
     bool quiet = false;
+    bool verify = false;
     std::string kind = "hills";
     models::MadeOptions made;
     int seed = 1;
@@ -80,6 +83,10 @@ void print(const nlohmann::ordered_json& figures, bool json) {
 }
 
 void show(const TerrainOptions& options) {
+    if (visuals::terrain::is_ground_file(options.terrain)) {
+        show_ground_file(options.terrain, options.verify, options.json);
+        return;
+    }
     print(figures_of(load_height_field(options.terrain, options.spacing_m)), options.json);
 }
 
@@ -114,6 +121,7 @@ void add_info(CLI::App& terrain) {
         {"terrain-spacing", "METRES", "sample spacing of files that do not say", 0.01, 1e5},
         options->spacing_m);
     info->add_flag("--json", options->json, "as JSON");
+    info->add_flag("--verify", options->verify, "check all of an imported ground");
     info->footer("Example:\n  octant terrain info map.tif --json");
     info->callback([options] { show(*options); });
 }
@@ -144,8 +152,8 @@ void add_make(CLI::App& terrain) {
 } // namespace
 
 void add_terrain_command(CLI::App& program) {
-    CLI::App* terrain =
-        program.add_subcommand("terrain", "Height fields: show, make, mesh, measure, ask, check");
+    CLI::App* terrain = program.add_subcommand(
+        "terrain", "Height fields: show, make, import, mesh, measure, ask, check");
     terrain->require_subcommand(1);
     terrain->footer("Examples:\n  octant terrain info map.tif\n  octant terrain make --kind canyon "
                     "--seed 7 --out made.tif");
@@ -155,6 +163,7 @@ void add_terrain_command(CLI::App& program) {
     add_terrain_error(*terrain);
     add_terrain_query(*terrain);
     add_terrain_check(*terrain);
+    add_terrain_import(*terrain);
 }
 
 } // namespace octant::ui

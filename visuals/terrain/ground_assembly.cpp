@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstring>
@@ -44,6 +45,14 @@ GroundShape shape_of(int columns, int rows, double spacing_m, double lowest_m, d
     }
     const double base_m = std::round(0.5 * (lowest_m + highest_m) / unit_m) * unit_m;
     return {columns, rows, spacing_m, base_m, unit_m};
+}
+
+std::int16_t stored_number(float height_m, const GroundShape& shape) {
+    // Leaves no room for a fraction.
+    constexpr double no_fraction = 0x1.8p52;
+    const double number =
+        (static_cast<double>(height_m) - shape.height_base_m) / shape.height_unit_m;
+    return static_cast<std::int16_t>(std::bit_cast<std::int64_t>(number + no_fraction));
 }
 
 GroundAssembly::GroundAssembly(
@@ -155,12 +164,13 @@ std::size_t GroundAssembly::build(std::size_t first, std::size_t wanted, const T
     }
     const GroundLayout::Level& at = layout_.level(level);
     const std::size_t count = std::min(wanted, begin + tiles_of(at) - first);
+    const std::size_t coarser = tiles() - begin - tiles_of(at);
     share_out(count, threads_, [&](std::size_t index, std::size_t worker) {
         const std::size_t tile = first + index - begin;
         const auto across = static_cast<std::size_t>(at.tiles_across);
         const TilePlace place{
             level, static_cast<int>(tile % across), static_cast<int>(tile / across)};
-        sink(at.first_tile + tile * at.tile_bytes, builders_[worker].build(place));
+        sink(coarser + tile, at.first_tile + tile * at.tile_bytes, builders_[worker].build(place));
     });
     return first + count;
 }

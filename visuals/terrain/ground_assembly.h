@@ -19,6 +19,9 @@ namespace octant::visuals::terrain {
 /// whole number of them, so that whole metres are stored exactly where the unit is at most 1 m.
 GroundShape shape_of(int columns, int rows, double spacing_m, double lowest_m, double highest_m);
 
+/// The stored number nearest to a height.
+std::int16_t stored_number(float height_m, const GroundShape& shape);
+
 /// What the numbers themselves tell of a ground.
 struct HeightFigures {
     float lowest_m = 0.0F;
@@ -30,9 +33,10 @@ struct HeightFigures {
 /// bytes for every number of threads.
 class GroundAssembly {
 public:
-    /// Takes a tile's bytes at its offset; called by several threads, each tile once. The tile can
-    /// be read in `memory` when it returns.
-    using TileSink = std::function<void(std::size_t offset, std::span<const std::byte> bytes)>;
+    /// Takes a tile's bytes at its offset; `index` counts tiles as they lie in memory. Called by
+    /// several threads, each tile once. The tile can be read in `memory` when it returns.
+    using TileSink = std::function<void(
+        std::size_t index, std::size_t offset, std::span<const std::byte> bytes)>;
 
     /// `memory`: layout.total_bytes(); what lies before the tiles is written into it. All but the
     /// sink and the shape outlive the assembly.

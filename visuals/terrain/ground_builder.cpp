@@ -3,7 +3,6 @@
 #include "visuals/terrain/ground_assembly.h"
 #include "visuals/terrain/worker_team.h"
 
-#include <bit>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -12,24 +11,16 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-/// Nearest whole number, by adding what leaves no room for a fraction.
-std::int16_t rounded(double value) {
-    constexpr double no_fraction = 0x1.8p52;
-    return static_cast<std::int16_t>(std::bit_cast<std::int64_t>(value + no_fraction));
-}
-
 std::vector<std::int16_t>
 numbers_of(const models::HeightField& field, const GroundShape& shape, int threads) {
     const auto columns = static_cast<std::size_t>(shape.columns);
-    const double units_per_m = 1.0 / shape.height_unit_m;
     std::vector<std::int16_t> numbers(columns * static_cast<std::size_t>(shape.rows));
     share_out(
         static_cast<std::size_t>(shape.rows), threads, [&](std::size_t row, std::size_t /*w*/) {
             for (std::size_t column = 0; column < columns; ++column) {
-                const double height_m =
+                const float height_m =
                     field.height_m(static_cast<int>(column), static_cast<int>(row));
-                numbers[row * columns + column] =
-                    rounded((height_m - shape.height_base_m) * units_per_m);
+                numbers[row * columns + column] = stored_number(height_m, shape);
             }
         });
     return numbers;
@@ -52,9 +43,10 @@ GroundTiles ground_of(const models::HeightField& field, int threads) {
     const std::span<std::byte> bytes(memory.get(), layout.total_bytes());
     GroundAssembly assembly(shape, layout, heights, bytes, threads);
     const HeightFigures figures = assembly.put_outline();
-    const auto put = [&bytes](std::size_t offset, std::span<const std::byte> tile) {
-        std::memcpy(bytes.data() + offset, tile.data(), tile.size());
-    };
+    const auto put =
+        [&bytes](std::size_t /*index*/, std::size_t offset, std::span<const std::byte> tile) {
+            std::memcpy(bytes.data() + offset, tile.data(), tile.size());
+        };
     for (std::size_t tile = 0; tile < assembly.tiles();) {
         tile = assembly.build(tile, assembly.tiles(), put);
     }

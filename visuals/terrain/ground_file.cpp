@@ -1,0 +1,107 @@
+#include "visuals/terrain/ground_file.h"
+
+#include "sim/base/error.h"
+#include "visuals/terrain/ground_header.h"
+#include "visuals/terrain/mapped_file.h"
+#include "visuals/terrain/worker_team.h"
+
+#include <atomic>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <memory>
+
+namespace octant::visuals::terrain {
+
+namespace {
+
+using std::filesystem::path;
+
+std::span<const std::byte> memory_of(const MappedFile& file, const GroundLayout& layout) {
+    return file.bytes().subspan(GroundHeader::bytes, layout.total_bytes());
+}
+
+std::uint64_t checksum_at(const MappedFile& file, const GroundFilePlan& plan, std::size_t index) {
+    std::uint64_t checksum = 0;
+    std::memcpy(&checksum, file.bytes().data() + plan.checksums + 8 * index, 8);
+    return checksum;
+}
+
+void check_before_tiles(const path& path, const MappedFile& file, const GroundHeader& header) {
+    const GroundLayout layout(header.columns, header.rows);
+    const GroundFilePlan plan(layout);
+    if (header.progress.stage != GroundProgress::Stage::Complete) {
+        error_in(path, "expected a finished ground, got one whose import was stopped");
+    }
+    if (file.bytes().size() != plan.file_bytes) {
+        error_in(
+            path,
+            fmt::format(
+                "expected {} bytes, got {}: copy or import it again",
+                plan.file_bytes,
+                file.bytes().size()));
+    }
+    if (hash_of(file.bytes().subspan(plan.checksums)) != header.checksums ||
+        hash_of(memory_of(file, layout).first(layout.first_tile())) != checksum_at(file, plan, 0)) {
+        error_in(path, "expected sound data before the tiles, got damage: import it again");
+    }
+}
+
+} // namespace
+
+bool is_ground_file(const path& path) {
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(path, code)) {
+        return false;
+    }
+    std::array<char, GroundHeader::right_magic.size()> magic = {};
+    std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
+    return magic == GroundHeader::right_magic;
+}
+
+GroundTiles open_ground(const path& path) {
+    const auto file = std::make_shared<const MappedFile>(path, MappedFile::Access::Read);
+    const GroundHeader header = read_header(path, file->bytes());
+    check_before_tiles(path, *file, header);
+    const GroundShape shape = shape_of(header);
+    const GroundLayout layout(shape.columns, shape.rows);
+    return {shape, facts_of(header), memory_of(*file, layout), file};
+}
+
+void verify_ground(const path& path, int threads) {
+    const MappedFile file(path, MappedFile::Access::Read);
+    const GroundHeader header = read_header(path, file.bytes());
+    check_before_tiles(path, file, header);
+    const GroundLayout layout(header.columns, header.rows);
+    const GroundFilePlan plan(layout);
+    std::size_t before = 1;
+    for (int level = 0; level < layout.levels(); ++level) {
+        const GroundLayout::Level& at = layout.level(level);
+        const std::size_t count =
+            static_cast<std::size_t>(at.tiles_across) * static_cast<std::size_t>(at.tiles_up);
+        std::atomic<std::size_t> first_bad = count;
+        share_out(count, threads, [&](std::size_t tile, std::size_t /*worker*/) {
+            const auto bytes = memory_of(file, layout)
+                                   .subspan(at.first_tile + tile * at.tile_bytes, at.tile_bytes);
+            if (hash_of(bytes) != checksum_at(file, plan, before + tile)) {
+                std::size_t known = first_bad;
+                while (tile < known && !first_bad.compare_exchange_weak(known, tile)) {
+                }
+            }
+        });
+        if (first_bad < count) {
+            const auto across = static_cast<std::size_t>(at.tiles_across);
+            error_in(
+                path,
+                fmt::format(
+                    "expected sound tiles, got damage in level {}, tile column {}, row {}: import "
+                    "it again",
+                    level,
+                    first_bad % across,
+                    first_bad / across));
+        }
+        before += count;
+    }
+}
+
+} // namespace octant::visuals::terrain

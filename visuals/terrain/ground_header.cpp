@@ -1,0 +1,150 @@
+#include "visuals/terrain/ground_header.h"
+
+#include "sim/base/error.h"
+#include "sim/base/hash.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <string>
+#include <type_traits>
+
+namespace octant::visuals::terrain {
+
+static_assert(std::is_trivially_copyable_v<GroundHeader> && sizeof(GroundHeader) <= 4096);
+static_assert(std::endian::native == std::endian::little);
+static_assert(std::has_unique_object_representations_v<GroundProgress::Stage>);
+
+namespace {
+
+constexpr std::size_t checksum_bytes = 8;
+
+std::uint64_t own_checksum(const GroundHeader& header) {
+    return hash_of(std::as_bytes(std::span(&header, 1)).first(offsetof(GroundHeader, checksum)));
+}
+
+bool is_sound(const GroundHeader& h) {
+    const auto fits = [](std::int32_t n) { return n >= 2 && n <= 65536; };
+    return fits(h.columns) && fits(h.rows) && std::isfinite(h.spacing_m) && h.spacing_m > 0.0 &&
+           std::isfinite(h.height_base_m) && std::isfinite(h.height_unit_m) &&
+           h.height_unit_m > 0.0 && h.name_length <= h.name.size() &&
+           h.progress.stage <= GroundProgress::Stage::Complete;
+}
+
+} // namespace
+
+GroundFilePlan::GroundFilePlan(const GroundLayout& layout) {
+    for (int level = 0; level < layout.levels(); ++level) {
+        const GroundLayout::Level& at = layout.level(level);
+        tiles += static_cast<std::size_t>(at.tiles_across) * static_cast<std::size_t>(at.tiles_up);
+    }
+    checksums = (GroundHeader::bytes + layout.total_bytes() + checksum_bytes - 1) / checksum_bytes *
+                checksum_bytes;
+    file_bytes = checksums + checksum_bytes * (tiles + 1);
+    const std::size_t page = GroundLayout::page_bytes;
+    numbers = (file_bytes + page - 1) / page * page;
+}
+
+std::uint64_t hash_of(std::span<const std::byte> bytes) {
+    Hash hash;
+    hash.add(bytes);
+    return hash.value();
+}
+
+std::uint64_t hash_of(const GroundLayout& layout) {
+    Hash hash;
+    for (int level = 0; level < layout.levels(); ++level) {
+        const GroundLayout::Level& at = layout.level(level);
+        for (const std::size_t place :
+             {at.tile_nodes,
+              at.tile_bytes,
+              at.first_tile,
+              at.north_heights,
+              at.north_errors,
+              at.east_heights,
+              at.east_errors,
+              at.ranges}) {
+            hash.add_word(place);
+        }
+    }
+    for (int code = 0; code < 256; ++code) {
+        hash.add_word(
+            std::bit_cast<std::uint32_t>(GroundTiles::error_m_of(static_cast<std::uint8_t>(code))));
+    }
+    return hash.value();
+}
+
+GroundHeader header_of(const GroundShape& shape, const GroundFacts& facts) {
+    GroundHeader header;
+    header.columns = shape.columns;
+    header.rows = shape.rows;
+    header.spacing_m = shape.spacing_m;
+    header.height_base_m = shape.height_base_m;
+    header.height_unit_m = shape.height_unit_m;
+    header.has_place = facts.place ? 1 : 0;
+    header.latitude_deg = facts.place ? facts.place->latitude_deg : 0.0;
+    header.longitude_deg = facts.place ? facts.place->longitude_deg : 0.0;
+    header.filled_voids = facts.filled_voids;
+    header.lowest_m = facts.lowest_m;
+    header.highest_m = facts.highest_m;
+    header.mean_m = facts.mean_m;
+    header.name_length =
+        static_cast<std::uint32_t>(std::min(facts.name.size(), header.name.size()));
+    std::copy_n(facts.name.begin(), header.name_length, header.name.begin());
+    header.layout = hash_of(GroundLayout(shape.columns, shape.rows));
+    return header;
+}
+
+GroundShape shape_of(const GroundHeader& h) {
+    return {h.columns, h.rows, h.spacing_m, h.height_base_m, h.height_unit_m};
+}
+
+GroundFacts facts_of(const GroundHeader& h) {
+    GroundFacts facts;
+    facts.name = std::string(h.name.data(), h.name_length);
+    if (h.has_place != 0) {
+        facts.place = models::GeoPlace{h.latitude_deg, h.longitude_deg};
+    }
+    facts.filled_voids = h.filled_voids;
+    facts.lowest_m = h.lowest_m;
+    facts.highest_m = h.highest_m;
+    facts.mean_m = h.mean_m;
+    return facts;
+}
+
+std::array<std::byte, GroundHeader::bytes> page_of(GroundHeader header) {
+    header.checksum = own_checksum(header);
+    std::array<std::byte, GroundHeader::bytes> page = {};
+    std::memcpy(page.data(), &header, sizeof header);
+    return page;
+}
+
+GroundHeader read_header(const std::filesystem::path& path, std::span<const std::byte> file) {
+    GroundHeader header;
+    const bool whole = file.size() >= GroundHeader::bytes;
+    if (whole) {
+        std::memcpy(&header, file.data(), sizeof header);
+    }
+    if (!whole || header.magic != GroundHeader::right_magic) {
+        error_in(path, "expected a ground made by terrain import, got another kind of file");
+    }
+    if (header.version != GroundHeader::right_version) {
+        error_in(
+            path,
+            fmt::format(
+                "expected a ground of version {}, got version {}: import it again",
+                GroundHeader::right_version,
+                header.version));
+    }
+    if (header.checksum != own_checksum(header) || !is_sound(header)) {
+        error_in(path, "expected a sound header, got a damaged one: import it again");
+    }
+    if (header.layout != hash_of(GroundLayout(header.columns, header.rows))) {
+        error_in(path, "expected today's layout, got that of another release: import it again");
+    }
+    return header;
+}
+
+} // namespace octant::visuals::terrain

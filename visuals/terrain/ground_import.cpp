@@ -1,0 +1,369 @@
+#include "visuals/terrain/ground_import.h"
+
+#include "models/height_raster.h"
+#include "models/height_source.h"
+#include "sim/base/error.h"
+#include "sim/base/hash.h"
+#include "visuals/terrain/ground_assembly.h"
+#include "visuals/terrain/ground_header.h"
+#include "visuals/terrain/mapped_file.h"
+#include "visuals/terrain/number_voids.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <limits>
+#include <memory>
+#include <utility>
+
+namespace octant::visuals::terrain {
+
+namespace {
+
+using std::filesystem::path;
+using Stage = GroundProgress::Stage;
+
+static_assert(void_number == models::void_metres);
+
+constexpr int samples_a_band = 1 << 22;
+constexpr std::size_t tiles_a_batch = 256;
+
+/// Tells the inputs and options of one import from those of another.
+std::uint64_t hash_of_inputs(const std::vector<path>& inputs, const GroundImportOptions& options) {
+    Hash hash;
+    hash.add_word(GroundHeader::right_version);
+    hash.add_word(std::bit_cast<std::uint64_t>(options.picture.spacing_m));
+    hash.add_word(std::bit_cast<std::uint64_t>(options.picture.height_scale));
+    for (const path& input : inputs) {
+        std::error_code code;
+        const std::string name = std::filesystem::absolute(input, code).string();
+        hash.add(std::as_bytes(std::span(name)));
+        hash.add_word(std::filesystem::file_size(input, code));
+        hash.add_word(static_cast<std::uint64_t>(
+            std::filesystem::last_write_time(input, code).time_since_epoch().count()));
+    }
+    return hash.value();
+}
+
+class Import {
+public:
+    Import(
+        const std::vector<path>& inputs,
+        path out,
+        const GroundImportOptions& options,
+        const ImportWatch& watch);
+
+    ImportSummary run();
+
+private:
+    bool goes_on();
+    void start_anew();
+    void tell(ImportStage stage, double done);
+    void save();
+    void scan();
+    void read();
+    void take_whole_metres(int first_row, std::span<std::int16_t> numbers);
+    void take_fractions(int first_row, std::span<std::int16_t> numbers);
+    void fill();
+    void build();
+    void finish();
+    void put_header();
+
+    /// Calls `work(first row, rows)` for the rows not yet done, from the north, and tells.
+    template <typename Work>
+    void by_bands(ImportStage stage, const Work& work);
+
+    std::span<std::byte> file_part(std::size_t offset, std::size_t size) {
+        return file_->bytes().subspan(offset, size);
+    }
+
+    std::size_t samples() const {
+        return static_cast<std::size_t>(source_.columns()) *
+               static_cast<std::size_t>(source_.rows());
+    }
+
+    /// The field's rows, behind what will be the ground.
+    std::span<std::int16_t> numbers() {
+        std::byte* const start = file_->bytes().data() + plan_.numbers;
+        return {reinterpret_cast<std::int16_t*>(start), samples()};
+    }
+
+    path out_;
+    path part_;
+    GroundImportOptions options_;
+    const ImportWatch& watch_;
+    models::HeightSource source_;
+    GroundLayout layout_;
+    GroundFilePlan plan_;
+    std::uint64_t inputs_;
+    std::unique_ptr<MappedFile> file_;
+    GroundProgress progress_;
+    GroundShape shape_;
+    GroundFacts facts_;
+    std::uint64_t checksums_ = 0;
+    std::string note_;
+};
+
+Import::Import(
+    const std::vector<path>& inputs,
+    path out,
+    const GroundImportOptions& options,
+    const ImportWatch& watch)
+    : out_(std::move(out))
+    , part_(out_)
+    , options_(options)
+    , watch_(watch)
+    , source_(inputs, options.picture)
+    , layout_(source_.columns(), source_.rows())
+    , plan_(layout_)
+    , inputs_(hash_of_inputs(inputs, options)) {
+    part_ += ".part";
+    std::error_code code;
+    for (const path& input : inputs) {
+        if (std::filesystem::equivalent(input, out_, code)) {
+            error_in(out_, "expected a file to write, got one of the inputs");
+        }
+    }
+    if (std::filesystem::exists(out_, code) && !std::filesystem::is_regular_file(out_, code)) {
+        error_in(out_, "expected a file to write, got a folder, device or pipe");
+    }
+}
+
+ImportSummary Import::run() {
+    shape_ = {source_.columns(), source_.rows(), source_.spacing_m(), 0.0, 1.0};
+    if (!goes_on()) {
+        start_anew();
+    }
+    if (progress_.stage == Stage::Scanning) {
+        scan();
+    }
+    if (progress_.stage == Stage::Reading) {
+        read();
+        fill();
+    }
+    build();
+    finish();
+    return {shape_, facts_, plan_.file_bytes, note_};
+}
+
+/// Takes up an unfinished file, if there is a fitting one.
+bool Import::goes_on() {
+    std::error_code code;
+    if (!std::filesystem::exists(part_, code)) {
+        return false;
+    }
+    note_ = part_.string() + ": of other inputs or damaged, started anew";
+    try {
+        file_ = std::make_unique<MappedFile>(part_, MappedFile::Access::ReadAndWrite);
+        progress_ = read_header(part_, std::as_const(*file_).bytes()).progress;
+    } catch (const Error&) {
+        return false;
+    }
+    if (progress_.inputs != inputs_ || file_->bytes().size() != plan_.numbers + 2 * samples() ||
+        progress_.stage == Stage::Filling || progress_.stage == Stage::Complete) {
+        return false;
+    }
+    const bool builds = progress_.stage == Stage::Building;
+    note_ = fmt::format(
+        "{}: goes on after {} of {} {}",
+        part_.string(),
+        builds ? progress_.tiles_done : progress_.rows_done,
+        builds ? plan_.tiles : static_cast<std::size_t>(source_.rows()),
+        builds ? "tiles" : "rows");
+    return true;
+}
+
+void Import::start_anew() {
+    file_.reset();
+    progress_ = {};
+    progress_.inputs = inputs_;
+    progress_.stage = source_.whole_metres() ? Stage::Reading : Stage::Scanning;
+    progress_.lowest_m = std::numeric_limits<double>::max();
+    progress_.highest_m = std::numeric_limits<double>::lowest();
+    file_ = std::make_unique<MappedFile>(part_, plan_.numbers + 2 * samples());
+    put_header();
+}
+
+void Import::tell(ImportStage stage, double done) {
+    if (watch_(stage, done)) {
+        save();
+    }
+}
+
+void Import::save() {
+    file_->sync();
+    put_header();
+    file_->sync();
+}
+
+void Import::put_header() {
+    GroundHeader header = header_of(shape_, facts_);
+    header.progress = progress_;
+    header.checksums = checksums_;
+    const auto page = page_of(header);
+    file_->write(0, page);
+}
+
+template <typename Work>
+void Import::by_bands(ImportStage stage, const Work& work) {
+    const int rows = source_.rows();
+    const int rows_a_band = std::max(1, samples_a_band / source_.columns());
+    tell(stage, static_cast<double>(progress_.rows_done) / rows);
+    while (progress_.rows_done < static_cast<std::uint64_t>(rows)) {
+        const int end = rows - static_cast<int>(progress_.rows_done);
+        const int first = std::max(0, end - rows_a_band);
+        work(first, end - first);
+        progress_.rows_done = static_cast<std::uint64_t>(rows - first);
+        tell(stage, static_cast<double>(progress_.rows_done) / rows);
+    }
+}
+
+void Import::scan() {
+    std::vector<float> heights_m;
+    by_bands(ImportStage::Scanning, [&](int first_row, int count) {
+        heights_m.resize(
+            static_cast<std::size_t>(count) * static_cast<std::size_t>(source_.columns()));
+        source_.read(first_row, heights_m);
+        for (const float height_m : heights_m) {
+            if (!std::isnan(height_m)) {
+                progress_.lowest_m = std::min(progress_.lowest_m, static_cast<double>(height_m));
+                progress_.highest_m = std::max(progress_.highest_m, static_cast<double>(height_m));
+            }
+        }
+    });
+    progress_.stage = Stage::Reading;
+    progress_.rows_done = 0;
+}
+
+void Import::read() {
+    std::vector<std::int16_t> band;
+    const auto columns = static_cast<std::size_t>(source_.columns());
+    by_bands(ImportStage::Reading, [&](int first_row, int count) {
+        band.resize(static_cast<std::size_t>(count) * columns);
+        if (source_.whole_metres()) {
+            take_whole_metres(first_row, band);
+        } else {
+            take_fractions(first_row, band);
+        }
+        const std::size_t offset =
+            plan_.numbers + 2 * static_cast<std::size_t>(first_row) * columns;
+        file_->write(offset, std::as_bytes(std::span(band)));
+    });
+    if (static_cast<std::size_t>(progress_.voids) == samples()) {
+        error_in(source_.name(), "expected at least one height, got only samples without data");
+    }
+}
+
+void Import::take_whole_metres(int first_row, std::span<std::int16_t> numbers) {
+    source_.read(first_row, numbers);
+    std::int16_t lowest_m = std::numeric_limits<std::int16_t>::max();
+    std::int16_t highest_m = void_number;
+    int voids = 0;
+    for (const std::int16_t number : numbers) {
+        const bool is_void = number == void_number;
+        voids += is_void ? 1 : 0;
+        lowest_m = std::min(lowest_m, is_void ? lowest_m : number);
+        highest_m = std::max(highest_m, number);
+    }
+    progress_.voids += voids;
+    if (static_cast<std::size_t>(voids) < numbers.size()) {
+        progress_.lowest_m = std::min(progress_.lowest_m, static_cast<double>(lowest_m));
+        progress_.highest_m = std::max(progress_.highest_m, static_cast<double>(highest_m));
+    }
+}
+
+void Import::take_fractions(int first_row, std::span<std::int16_t> numbers) {
+    std::vector<float> heights_m(numbers.size());
+    source_.read(first_row, heights_m);
+    const GroundShape shape = shape_of(1, 1, 1.0, progress_.lowest_m, progress_.highest_m);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const bool is_void = std::isnan(heights_m[i]);
+        progress_.voids += is_void ? 1 : 0;
+        numbers[i] = is_void ? void_number : stored_number(heights_m[i], shape);
+    }
+}
+
+/// From here on a stop must start anew until all voids are filled: they would not be found again.
+void Import::fill() {
+    if (progress_.voids > 0) {
+        tell(ImportStage::Filling, 0.0);
+        progress_.stage = Stage::Filling;
+        save();
+        fill_number_voids(numbers(), source_.columns(), source_.rows());
+        progress_.stage = Stage::Building;
+        tell(ImportStage::Filling, 1.0);
+    }
+    progress_.stage = Stage::Building;
+}
+
+void Import::build() {
+    shape_ = shape_of(
+        source_.columns(),
+        source_.rows(),
+        source_.spacing_m(),
+        progress_.lowest_m,
+        progress_.highest_m);
+    StoredHeights heights{numbers(), source_.columns(), source_.rows(), 1, 0, shape_.height_unit_m};
+    if (source_.whole_metres()) {
+        heights.multiplier = static_cast<int>(1.0 / shape_.height_unit_m);
+        heights.addend = static_cast<int>(-shape_.height_base_m / shape_.height_unit_m);
+        heights.number_unit_m = 1.0;
+    }
+    const std::span<std::byte> memory = file_part(GroundHeader::bytes, layout_.total_bytes());
+    const std::span<std::byte> table = file_part(plan_.checksums, 8 * (plan_.tiles + 1));
+    GroundAssembly assembly(shape_, layout_, heights, memory, options_.threads);
+    tell(ImportStage::Building, 0.0);
+    const HeightFigures figures = assembly.put_outline();
+    facts_ = {
+        source_.name(),
+        source_.place(),
+        source_.filled_voids() + progress_.voids,
+        figures.lowest_m,
+        figures.highest_m,
+        figures.mean_m};
+    const auto put = [&](std::size_t index, std::size_t offset, std::span<const std::byte> tile) {
+        const std::uint64_t checksum = hash_of(tile);
+        std::memcpy(table.data() + 8 * (index + 1), &checksum, 8);
+        file_->write(GroundHeader::bytes + offset, tile);
+    };
+    while (progress_.tiles_done < plan_.tiles) {
+        progress_.tiles_done = assembly.build(progress_.tiles_done, tiles_a_batch, put);
+        tell(
+            ImportStage::Building,
+            static_cast<double>(progress_.tiles_done) / static_cast<double>(plan_.tiles));
+    }
+    const std::uint64_t checksum = hash_of(memory.first(layout_.first_tile()));
+    std::memcpy(table.data(), &checksum, 8);
+    checksums_ = hash_of(table);
+}
+
+void Import::finish() {
+    tell(ImportStage::Writing, 0.0);
+    file_->cut(plan_.file_bytes);
+    file_->sync();
+    progress_ = {};
+    progress_.stage = Stage::Complete;
+    put_header();
+    file_->sync();
+    file_.reset();
+    std::error_code code;
+    std::filesystem::rename(part_, out_, code);
+    if (code) {
+        error_in(out_, fmt::format("cannot be written: {}", code.message()));
+    }
+    watch_(ImportStage::Writing, 1.0);
+}
+
+} // namespace
+
+ImportSummary import_ground(
+    const std::vector<path>& inputs,
+    const path& out,
+    const GroundImportOptions& options,
+    const ImportWatch& watch) {
+    return Import(inputs, out, options, watch).run();
+}
+
+} // namespace octant::visuals::terrain

@@ -1,0 +1,94 @@
+#include "visuals/terrain/ground_prefetcher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <sys/mman.h>
+
+namespace octant::visuals::terrain {
+
+GroundPrefetcher::GroundPrefetcher(const GroundTiles& ground)
+    : ground_(ground)
+    , asked_(static_cast<std::size_t>(ground.levels()))
+    , thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+GroundPrefetcher::~GroundPrefetcher() {
+    thread_.request_stop();
+    thread_.join();
+}
+
+void GroundPrefetcher::go_to(glm::dvec2 place_m) {
+    {
+        const std::scoped_lock lock(mutex_);
+        wanted_m_ = place_m;
+    }
+    wake_.notify_one();
+}
+
+void GroundPrefetcher::run(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+        glm::dvec2 place_m;
+        {
+            std::unique_lock lock(mutex_);
+            if (!wake_.wait(lock, stop, [this] { return wanted_m_.has_value(); })) {
+                return;
+            }
+            place_m = *wanted_m_;
+            wanted_m_.reset();
+        }
+        fetch(place_m);
+    }
+}
+
+void GroundPrefetcher::fetch(glm::dvec2 place_m) {
+    for (int level = 0; level < ground_.levels(); ++level) {
+        const GroundLayout::Level& at = ground_.layout().level(level);
+        Window& known = asked_[static_cast<std::size_t>(level)];
+        const Window window = window_about(at, place_m);
+        ask_for(at, window, known);
+        known = window;
+    }
+}
+
+GroundPrefetcher::Window
+GroundPrefetcher::window_about(const GroundLayout::Level& at, glm::dvec2 place_m) const {
+    const double node_m = at.edge * ground_.spacing_m();
+    const glm::dvec2 half_m = ground_.half_extent_m();
+    const auto tile_of = [&at](double node, int tiles) {
+        const double tile = std::floor(node / (1 << at.tile_shift));
+        return static_cast<int>(std::clamp(tile, -1.0, static_cast<double>(tiles)));
+    };
+    const double column = (place_m.x + half_m.x) / node_m;
+    const double row = (place_m.y + half_m.y) / node_m;
+    return {
+        std::max(0, tile_of(column - reach_nodes, at.tiles_across)),
+        std::min(at.tiles_across, tile_of(column + reach_nodes, at.tiles_across) + 1),
+        std::max(0, tile_of(row - reach_nodes, at.tiles_up)),
+        std::min(at.tiles_up, tile_of(row + reach_nodes, at.tiles_up) + 1)};
+}
+
+void GroundPrefetcher::ask_for(
+    const GroundLayout::Level& at, const Window& window, const Window& known) const {
+    for (int row = window.south; row < window.north; ++row) {
+        for (int column = window.west; column < window.east; ++column) {
+            if (column >= known.west && column < known.east && row >= known.south &&
+                row < known.north) {
+                continue;
+            }
+            const std::size_t tile =
+                static_cast<std::size_t>(row) * static_cast<std::size_t>(at.tiles_across) +
+                static_cast<std::size_t>(column);
+            const std::byte* const begin =
+                ground_.memory().data() + at.first_tile + tile * at.tile_bytes;
+            const std::size_t into_page =
+                reinterpret_cast<std::uintptr_t>(begin) % GroundLayout::page_bytes;
+            // Advice: that it was not taken matters to nobody.
+            ::madvise(
+                const_cast<std::byte*>(begin - into_page),
+                at.tile_bytes + into_page,
+                MADV_WILLNEED);
+        }
+    }
+}
+
+} // namespace octant::visuals::terrain

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "visuals/terrain/ground_tiles.h"
+
+#include <glm/vec2.hpp>
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+namespace octant::visuals::terrain {
+
+/// Asks the kernel, on a thread of its own, for the tiles about a place before they are needed, so
+/// that whoever draws seldom waits for the disk. Changes nothing that can be read.
+class GroundPrefetcher {
+public:
+    /// On every level: how many nodes away from the place tiles are asked for.
+    static constexpr int reach_nodes = 64;
+
+    /// The ground outlives it.
+    explicit GroundPrefetcher(const GroundTiles& ground);
+    ~GroundPrefetcher();
+    GroundPrefetcher(const GroundPrefetcher&) = delete;
+    GroundPrefetcher& operator=(const GroundPrefetcher&) = delete;
+    GroundPrefetcher(GroundPrefetcher&&) = delete;
+    GroundPrefetcher& operator=(GroundPrefetcher&&) = delete;
+
+    /// Where tiles are wanted next, world axes, in the field or not. Returns at once; an earlier
+    /// place that was not yet seen to is forgotten. Tiles that were asked for at the place before
+    /// are not asked for again.
+    void go_to(glm::dvec2 place_m);
+
+private:
+    /// Tiles of a level, last ones excluded.
+    struct Window {
+        int west = 0;
+        int east = 0;
+        int south = 0;
+        int north = 0;
+    };
+
+    void run(const std::stop_token& stop);
+    void fetch(glm::dvec2 place_m);
+    Window window_about(const GroundLayout::Level& at, glm::dvec2 place_m) const;
+    void ask_for(const GroundLayout::Level& at, const Window& window, const Window& known) const;
+
+    const GroundTiles& ground_;
+    std::vector<Window> asked_; ///< by level
+    std::mutex mutex_;
+    std::condition_variable_any wake_;
+    std::optional<glm::dvec2> wanted_m_;
+    std::jthread thread_;
+};
+
+} // namespace octant::visuals::terrain

@@ -1,0 +1,139 @@
+#include "visuals/terrain/number_voids.h"
+
+#include "models/height_voids.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace octant::visuals::terrain {
+
+namespace {
+
+constexpr std::size_t most_at_once = std::size_t{1} << 22U; ///< samples
+constexpr int piece_edge = 1024;
+constexpr int margin = 32; ///< samples about a piece that take part in its smoothing
+
+struct Field {
+    std::span<std::int16_t> numbers;
+    int columns;
+    int rows;
+
+    std::int16_t& at(int column, int row) const {
+        return numbers
+            [static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+             static_cast<std::size_t>(column)];
+    }
+};
+
+float height_of(std::int16_t number) {
+    return number == void_number ? std::numeric_limits<float>::quiet_NaN()
+                                 : static_cast<float>(number);
+}
+
+float block_mean(const Field& field, int column, int row, int edge) {
+    double sum = 0.0;
+    int known = 0;
+    for (int y = row; y < std::min(row + edge, field.rows); ++y) {
+        for (int x = column; x < std::min(column + edge, field.columns); ++x) {
+            const std::int16_t number = field.at(x, y);
+            sum += number == void_number ? 0.0 : number;
+            known += number == void_number ? 0 : 1;
+        }
+    }
+    return known == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(sum / known);
+}
+
+models::HeightGrid block_means(const Field& field, int edge) {
+    models::HeightGrid means;
+    means.columns = (field.columns + edge - 1) / edge;
+    means.rows = (field.rows + edge - 1) / edge;
+    for (int row = 0; row < field.rows; row += edge) {
+        for (int column = 0; column < field.columns; column += edge) {
+            means.heights_m.push_back(block_mean(field, column, row, edge));
+        }
+    }
+    return means;
+}
+
+/// A rectangle of samples, last ones excluded.
+struct Piece {
+    int west;
+    int east;
+    int south;
+    int north;
+};
+
+bool has_voids(const Field& field, const Piece& piece) {
+    for (int row = piece.south; row < piece.north; ++row) {
+        const std::int16_t* const start = &field.at(0, row);
+        if (std::find(start + piece.west, start + piece.east, void_number) != start + piece.east) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void put_filled(const Field& field, const Piece& piece, const models::HeightGrid& grid, Piece of) {
+    for (int row = piece.south; row < piece.north; ++row) {
+        for (int column = piece.west; column < piece.east; ++column) {
+            std::int16_t& number = field.at(column, row);
+            if (number == void_number) {
+                number = static_cast<std::int16_t>(
+                    std::lround(grid.at(column - of.west, row - of.south)));
+            }
+        }
+    }
+}
+
+void fill_piece(
+    const Field& field, const Piece& piece, const models::HeightGrid& coarse, int edge) {
+    const Piece wide{
+        std::max(0, piece.west - margin),
+        std::min(field.columns, piece.east + margin),
+        std::max(0, piece.south - margin),
+        std::min(field.rows, piece.north + margin)};
+    models::HeightGrid grid;
+    grid.columns = wide.east - wide.west;
+    grid.rows = wide.north - wide.south;
+    for (int row = wide.south; row < wide.north; ++row) {
+        for (int column = wide.west; column < wide.east; ++column) {
+            grid.heights_m.push_back(height_of(field.at(column, row)));
+        }
+    }
+    models::fill_voids_from(grid, [&](int column, int row) {
+        return models::interpolated(
+            coarse, (wide.west + column + 0.5) / edge - 0.5, (wide.south + row + 0.5) / edge - 0.5);
+    });
+    put_filled(field, piece, grid, wide);
+}
+
+} // namespace
+
+void fill_number_voids(std::span<std::int16_t> numbers, int columns, int rows) {
+    const Field field{numbers, columns, rows};
+    int edge = 1;
+    while (numbers.size() > most_at_once * static_cast<std::size_t>(edge * edge)) {
+        edge *= 2;
+    }
+    models::HeightGrid coarse = block_means(field, edge);
+    models::fill_voids(coarse);
+    if (edge == 1) {
+        const Piece all{0, columns, 0, rows};
+        put_filled(field, all, coarse, all);
+        return;
+    }
+    for (int south = 0; south < rows; south += piece_edge) {
+        for (int west = 0; west < columns; west += piece_edge) {
+            const Piece piece{
+                west,
+                std::min(west + piece_edge, columns),
+                south,
+                std::min(south + piece_edge, rows)};
+            if (has_voids(field, piece)) {
+                fill_piece(field, piece, coarse, edge);
+            }
+        }
+    }
+}
+
+} // namespace octant::visuals::terrain
