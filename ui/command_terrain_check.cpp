@@ -1,10 +1,10 @@
 #include "ui/command_terrain_measure.h"
 #include "ui/commands.h"
+#include "ui/loaded_ground.h"
 #include "ui/mesh_maker.h"
 #include "ui/progress.h"
 #include "ui/settings_options.h"
 #include "ui/terrain_check.h"
-#include "ui/terrain_file.h"
 #include "visuals/terrain/ground_query.h"
 
 #include <CLI/CLI.hpp>
@@ -25,9 +25,8 @@ struct CheckOptions {
 };
 
 void check(const CheckOptions& options) {
-    const models::HeightField field =
-        load_height_field(options.view.terrain, options.view.spacing_m);
-    const auto maker = make_mesh_maker(field, options.mesh);
+    const LoadedGround ground = load_ground(options.view.terrain, options.view.spacing_m);
+    const auto maker = make_mesh_maker(ground, options.mesh);
     TerrainCheck asked = options.check;
     asked.by_error = options.mesh.mesh == visuals::scene::GroundMetric::ScreenError;
     const TerrainFaults faults = check_terrain(*maker, asked);

@@ -2,9 +2,9 @@
 #include "ui/command_terrain_measure.h"
 #include "ui/error_tables.h"
 #include "ui/eye_points.h"
+#include "ui/loaded_ground.h"
 #include "ui/read_option.h"
 #include "ui/table_text.h"
-#include "ui/terrain_file.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -32,8 +32,7 @@ void show_error(const ErrorOptions& options) {
     if (options.compare && !options.solve_px) {
         throw Error("--compare: expected --solve PIXELS beside it, got none");
     }
-    const models::HeightField field =
-        load_height_field(options.view.terrain, options.view.spacing_m);
+    const LoadedGround ground = load_ground(options.view.terrain, options.view.spacing_m);
     ErrorRun run{options.view, options.mesh, {}, options.solve_px, options.quiet};
     if (options.eye_points.empty()) {
         run.cameras.push_back(camera_of(options.view));
@@ -41,14 +40,14 @@ void show_error(const ErrorOptions& options) {
         const std::string map = options.map.empty()
                                     ? std::filesystem::path(options.view.terrain).stem().string()
                                     : options.map;
-        const visuals::terrain::GroundSamples ground(field);
+        const visuals::terrain::GroundSamples samples = ground.samples();
         for (const EyePoint& point : read_eye_points(options.eye_points, map)) {
-            run.cameras.push_back(camera_at(point, ground, options.view.fov_deg));
+            run.cameras.push_back(camera_at(point, samples, options.view.fov_deg));
         }
     }
-    std::vector<report::HtmlTable> tables = {error_table(field, run)};
+    std::vector<report::HtmlTable> tables = {error_table(ground, run)};
     if (options.compare) {
-        tables.push_back(comparison_table(field, run));
+        tables.push_back(comparison_table(ground, run));
     }
     std::string text;
     for (const report::HtmlTable& table : tables) {

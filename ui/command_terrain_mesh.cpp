@@ -1,9 +1,9 @@
 #include "sim/base/output_file.h"
 #include "ui/command_terrain_measure.h"
 #include "ui/ground_ply.h"
+#include "ui/loaded_ground.h"
 #include "ui/mesh_maker.h"
 #include "ui/progress.h"
-#include "ui/terrain_file.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -27,9 +27,8 @@ struct MeshOptions {
 
 void write_mesh(const MeshOptions& options) {
     const visuals::scene::Camera camera = camera_of(options.view);
-    const models::HeightField field =
-        load_height_field(options.view.terrain, options.view.spacing_m);
-    const auto maker = make_mesh_maker(field, options.mesh);
+    const LoadedGround ground = load_ground(options.view.terrain, options.view.spacing_m);
+    const auto maker = make_mesh_maker(ground, options.mesh);
     const visuals::terrain::GroundMesh mesh =
         mesh_as_asked(*maker, mesh_view(camera, options.view), options.mesh);
     write_file(options.out, ply_of(mesh, camera.eye_m, options.ascii));

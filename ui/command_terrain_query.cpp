@@ -1,10 +1,10 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/command_terrain_measure.h"
+#include "ui/loaded_ground.h"
 #include "ui/mesh_maker.h"
 #include "ui/read_option.h"
 #include "ui/terrain_answers.h"
-#include "ui/terrain_file.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/mesh_surface.h"
 
@@ -55,13 +55,12 @@ void query(const QueryOptions& options) {
     if (points.empty() && !options.from_m) {
         throw Error("expected --at, --points or --from and --to, got none");
     }
-    const models::HeightField field =
-        load_height_field(options.view.terrain, options.view.spacing_m);
-    const visuals::terrain::GroundSamples ground(field);
+    const LoadedGround ground = load_ground(options.view.terrain, options.view.spacing_m);
+    const visuals::terrain::GroundSamples samples = ground.samples();
     Answers answers;
     if (options.as_drawn) {
         const visuals::scene::Camera camera = camera_of(options.view);
-        const auto maker = make_mesh_maker(field, options.mesh);
+        const auto maker = make_mesh_maker(ground, options.mesh);
         visuals::terrain::MeshSurface surface;
         surface.take(
             mesh_as_asked(*maker, mesh_view(camera, options.view), options.mesh), camera.eye_m);
@@ -70,10 +69,10 @@ void query(const QueryOptions& options) {
             answers.sight = sight_as_drawn(surface, *options.from_m, *options.to_m);
         }
     } else {
-        answers.points = answers_of(ground, points);
+        answers.points = answers_of(samples, points);
         if (options.from_m) {
             answers.sight = sight_over(
-                ground,
+                samples,
                 *options.from_m,
                 *options.to_m,
                 options.flat ? 0.0 : visuals::terrain::earth_radius_m);

@@ -20,8 +20,8 @@ namespace {
 
 /// Meshes of all cameras, by one maker.
 std::vector<MeasuredMesh>
-measured_meshes(const models::HeightField& field, const ErrorRun& run, const std::string& what) {
-    const auto maker = make_mesh_maker(field, run.mesh);
+measured_meshes(const LoadedGround& ground, const ErrorRun& run, const std::string& what) {
+    const auto maker = make_mesh_maker(ground, run.mesh);
     terrain::ErrorMeter meter(maker->ground());
     Progress progress(what, static_cast<int>(run.cameras.size()), run.quiet, "views");
     std::vector<MeasuredMesh> found;
@@ -87,7 +87,7 @@ struct BestRoughness {
 };
 
 BestRoughness
-best_of_roettger(const models::HeightField& field, const ErrorRun& run, scene::GroundFans fans) {
+best_of_roettger(const LoadedGround& ground, const ErrorRun& run, scene::GroundFans fans) {
     constexpr std::array<double, 5> weights = {5.0, 10.0, 20.0, 40.0, 80.0};
     BestRoughness best;
     for (const double weight : weights) {
@@ -97,7 +97,7 @@ best_of_roettger(const models::HeightField& field, const ErrorRun& run, scene::G
         other.mesh.fans = fans;
         other.mesh.roughness_c = weight;
         const double triangles = mean_triangles_in_view(
-            measured_meshes(field, other, fmt::format("{} fans, c = {}", text_of(fans), weight)));
+            measured_meshes(ground, other, fmt::format("{} fans, c = {}", text_of(fans), weight)));
         if (best.triangles == 0.0 || triangles < best.triangles) {
             best = {weight, triangles};
         }
@@ -107,9 +107,9 @@ best_of_roettger(const models::HeightField& field, const ErrorRun& run, scene::G
 
 } // namespace
 
-report::HtmlTable error_table(const models::HeightField& field, const ErrorRun& run) {
+report::HtmlTable error_table(const LoadedGround& ground, const ErrorRun& run) {
     const bool by_error = run.mesh.mesh == scene::GroundMetric::ScreenError;
-    const std::vector<MeasuredMesh> meshes = measured_meshes(field, run, text_of(run.mesh.mesh));
+    const std::vector<MeasuredMesh> meshes = measured_meshes(ground, run, text_of(run.mesh.mesh));
     report::HtmlTable table;
     table.title = fmt::format("Projected error of {} meshes", text_of(run.mesh.mesh));
     table.header = {
@@ -141,10 +141,10 @@ report::HtmlTable error_table(const models::HeightField& field, const ErrorRun& 
     return table;
 }
 
-report::HtmlTable comparison_table(const models::HeightField& field, const ErrorRun& run) {
-    const double own = mean_triangles_in_view(measured_meshes(field, run, text_of(run.mesh.mesh)));
-    const BestRoughness full = best_of_roettger(field, run, scene::GroundFans::Full);
-    const BestRoughness partial = best_of_roettger(field, run, scene::GroundFans::Partial);
+report::HtmlTable comparison_table(const LoadedGround& ground, const ErrorRun& run) {
+    const double own = mean_triangles_in_view(measured_meshes(ground, run, text_of(run.mesh.mesh)));
+    const BestRoughness full = best_of_roettger(ground, run, scene::GroundFans::Full);
+    const BestRoughness partial = best_of_roettger(ground, run, scene::GroundFans::Partial);
     report::HtmlTable table;
     table.title = fmt::format("Triangles in view at {:.4g} px", *run.solve_px);
     table.header = {"mesh", "triangles", "c", "ratio"};

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "models/height_field.h"
 #include "ui/ground_view.h"
+#include "ui/loaded_ground.h"
 #include "ui/report/html_text.h"
 #include "visuals/scene/camera.h"
 
@@ -21,10 +21,10 @@ struct ErrorRun {
 
 /// A row a camera, and the mean where there are several: triangles and error. Throws Error as
 /// mesh_as_asked.
-report::HtmlTable error_table(const models::HeightField& field, const ErrorRun& run);
+report::HtmlTable error_table(const LoadedGround& ground, const ErrorRun& run);
 
 /// Mean triangles at the same error: the run's mesh, Roettger's rule (mid-point roughness) with
 /// full and with partial fans, its c the best for it of some. `run.solve_px` is there.
-report::HtmlTable comparison_table(const models::HeightField& field, const ErrorRun& run);
+report::HtmlTable comparison_table(const LoadedGround& ground, const ErrorRun& run);
 
 } // namespace octant::ui

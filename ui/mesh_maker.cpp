@@ -2,7 +2,6 @@
 
 #include "sim/base/error.h"
 #include "visuals/terrain/error_mesher.h"
-#include "visuals/terrain/ground_builder.h"
 #include "visuals/terrain/mesher.h"
 #include "visuals/terrain/quadtree.h"
 
@@ -69,8 +68,8 @@ private:
 /// The default; coarseness is pixels.
 class ErrorMaker final : public MeshMaker {
 public:
-    ErrorMaker(const models::HeightField& field, const GroundMeshOptions& options)
-        : tiles_(terrain::ground_of(field))
+    ErrorMaker(const LoadedGround& ground, const GroundMeshOptions& options)
+        : tiles_(ground.tiles())
         , mesher_(tiles_)
         , finest_px_(options.error_px.value_or(0.0))
         , geomorphs_(options.geomorphs) {}
@@ -101,11 +100,14 @@ private:
 } // namespace
 
 std::unique_ptr<MeshMaker>
-make_mesh_maker(const models::HeightField& field, const GroundMeshOptions& options) {
+make_mesh_maker(const LoadedGround& ground, const GroundMeshOptions& options) {
     if (options.mesh == scene::GroundMetric::ScreenError) {
-        return std::make_unique<ErrorMaker>(field, options);
+        return std::make_unique<ErrorMaker>(ground, options);
     }
-    return std::make_unique<QuadtreeMaker>(field, options);
+    if (ground.field() == nullptr) {
+        throw Error("--mesh: expected screen-error for an imported ground, got another kind");
+    }
+    return std::make_unique<QuadtreeMaker>(*ground.field(), options);
 }
 
 terrain::GroundMesh

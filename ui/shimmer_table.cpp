@@ -2,10 +2,10 @@
 
 #include "ui/data_files.h"
 #include "ui/flight_cameras.h"
+#include "ui/loaded_ground.h"
 #include "ui/progress.h"
 #include "ui/session.h"
 #include "ui/shimmer.h"
-#include "ui/terrain_file.h"
 #include "visuals/terrain/ground_query.h"
 
 #include <array>
@@ -82,9 +82,9 @@ Change shimmer_along(
 } // namespace
 
 report::HtmlTable shimmer_table(const PoppingStudyOptions& options) {
-    const models::HeightField field =
-        load_height_field(options.settings.terrain, options.settings.terrain_spacing_m);
-    const terrain::GroundSamples ground(field);
+    const LoadedGround ground =
+        load_ground(options.settings.terrain, options.settings.terrain_spacing_m);
+    const terrain::GroundSamples samples = ground.samples();
     report::HtmlTable table;
     table.title = "Shimmer: mean change of luminance (0 to 255) after the motion is taken out";
     table.header = {
@@ -101,7 +101,7 @@ report::HtmlTable shimmer_table(const PoppingStudyOptions& options) {
         settings.path = path;
         settings.shadows = false;
         settings.mesh = scene::GroundMetric::ScreenError;
-        const Change change = shimmer_along(options, settings, ground);
+        const Change change = shimmer_along(options, settings, samples);
         add_row(table, path, change);
         for (std::size_t k = 0; k < ways.size(); ++k) {
             all.sum[k] += change.sum[k];

@@ -3,12 +3,12 @@
 #include "sim/base/output_file.h"
 #include "ui/data_files.h"
 #include "ui/flight_cameras.h"
+#include "ui/loaded_ground.h"
 #include "ui/mesh_maker.h"
 #include "ui/progress.h"
 #include "ui/report/html_text.h"
 #include "ui/shimmer_table.h"
 #include "ui/table_text.h"
-#include "ui/terrain_file.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/vertex_jump.h"
 
@@ -105,11 +105,11 @@ void add_row(
 }
 
 report::HtmlTable popping_table(const PoppingStudyOptions& options) {
-    const models::HeightField field =
-        load_height_field(options.settings.terrain, options.settings.terrain_spacing_m);
+    const LoadedGround ground =
+        load_ground(options.settings.terrain, options.settings.terrain_spacing_m);
     std::vector<std::unique_ptr<MeshMaker>> makers;
     for (const Way& way : ways) {
-        makers.push_back(make_mesh_maker(field, mesh_options(options.settings, way)));
+        makers.push_back(make_mesh_maker(ground, mesh_options(options.settings, way)));
     }
     report::HtmlTable table;
     table.title = "Largest jump of a vertex from frame to frame";

@@ -28,12 +28,12 @@ models::HeightField small_ground(const std::string& kind) {
 
 TEST_CASE("one in fifty of ten thousand random views shows no crack and no hole") {
     for (const std::string kind : {"hills", "canyon"}) {
-        const models::HeightField field = small_ground(kind);
+        const LoadedGround ground(small_ground(kind));
         for (const GroundMetric mesh : {GroundMetric::ScreenError, GroundMetric::Midpoint}) {
             GroundMeshOptions options;
             options.mesh = mesh;
             options.geomorphs = true;
-            const auto maker = make_mesh_maker(field, options);
+            const auto maker = make_mesh_maker(ground, options);
             TerrainCheck check;
             check.views = 10000;
             check.every = 50;
