@@ -26,7 +26,7 @@ std::unique_ptr<gl::Context> make_context(scene::ContextKind kind) {
 namespace {
 
 DrawnBy drawn_by(const gl::Context& context) {
-    return gl::draws_on_processor(context.description()) ? DrawnBy::Processor : DrawnBy::Gpu;
+    return gl::is_processor(context.description().renderer) ? DrawnBy::Processor : DrawnBy::Gpu;
 }
 
 void add_state(Hash& hash, const sim::AircraftState& state) {

@@ -261,9 +261,9 @@ void visit_air_settings(SomeSettings& s, Visit& visit) {
         Info{
             "ground-shading",
             "KIND",
-            "ground lit at each vertex, or at each pixel by texture (without a GPU 4 times "
-            "slower); "
-            "auto: texture with a drape or a GPU"},
+            "vertex: ground lit at each vertex; texture: at each pixel, frames about 3 times as "
+            "long "
+            "without a GPU; auto: texture with a drape or a GPU"},
         s.ground_shading);
     visit(
         Info{

@@ -16,11 +16,11 @@ struct RasterFile {
     int rows = 0;
     std::vector<double> values;
     GDALDataType type = GDT_Float32;
-    int bands = 1;                 ///< one behind the other in values, or each gets the same values
-    std::vector<double> transform; ///< GDAL's six numbers, or none
-    std::string system;            ///< "EPSG:4326", PROJ text or none
-    std::string unit;
-    std::optional<double> no_data;
+    int bands = 1; ///< one behind the other in values, or each gets the same values
+    std::vector<double> transform{}; ///< GDAL's six numbers, or none
+    std::string system{};            ///< "EPSG:4326", PROJ text or none
+    std::string unit{};
+    std::optional<double> no_data{};
     double scale = 1.0;
     double offset = 0.0;
     bool has_palette = false;

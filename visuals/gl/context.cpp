@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string_view>
 
 namespace octant::visuals::gl {
 namespace {
@@ -16,12 +15,16 @@ std::string text(const Functions& gl, GLenum what) {
 
 } // namespace
 
-bool draws_on_processor(const ContextDescription& context) {
+bool is_processor(std::string_view renderer) {
     constexpr std::array<std::string_view, 5> known = {
         "llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SwiftShader"};
     return std::ranges::any_of(known, [&](std::string_view name) {
-        return context.renderer.find(name) != std::string::npos;
+        return renderer.find(name) != std::string_view::npos;
     });
+}
+
+bool draws_on_processor(const Functions& gl) {
+    return is_processor(text(gl, GL_RENDERER));
 }
 
 void Context::make_current() {

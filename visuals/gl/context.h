@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace octant::visuals::gl {
 
@@ -14,8 +15,9 @@ struct ContextDescription {
     std::string version;  ///< the driver's GL_VERSION
 };
 
-/// Whether a processor draws, not a GPU: by the names of the renderers that do.
-bool draws_on_processor(const ContextDescription& context);
+/// Whether a processor draws, not a GPU: by the driver's GL_RENDERER.
+bool is_processor(std::string_view renderer);
+bool draws_on_processor(const Functions& gl);
 
 /// An OpenGL 4.5 core context without a picture of its own: draw into a Framebuffer. Must outlive
 /// whatever was made with its functions.

@@ -10,8 +10,8 @@ enum class TextureKind {
     Slopes   ///< 2 bytes a texel
 };
 
-/// A texture with all its smaller sizes, filtered between them, along the line of sight too where
-/// the driver can; beyond its edge it continues as at the edge. Throws Error when the driver has
+/// A texture with all its smaller sizes, filtered between them, on a GPU also along the line of
+/// sight; beyond its edge it continues as at the edge. Throws Error when the driver has
 /// no memory for it.
 Object make_texture(const Functions& gl, const scene::GroundImage& image, TextureKind kind);
 
