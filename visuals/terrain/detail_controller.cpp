@@ -9,7 +9,11 @@
 // - Equation (5) averages the results of (4), each counted from the C actually used. Averages of
 //   undamped results or of used values hardly damp.
 // - Weights are r+1, ..., 2, 1 over their sum, newest first: the paper only demands that they fall.
-// - Dead band, limits of C and automatic a are additions.
+// - Limits of C and automatic a are additions, and the dead band of Damped with what belongs to it:
+//   (5) averages r + 1 frames. Once that many and more were made of one standing view, they are
+//   points of one curve N(C), and C is read off between the two that enclose the target instead:
+//   a slow or ringing loop ends there. N(C) is a staircase. Where the two points are so close that
+//   only a step can lie between them, that step is the dead band, and the nearer one is held.
 #include "visuals/terrain/detail_controller.h"
 
 #include <algorithm>
@@ -31,11 +35,66 @@ triangles_per_resolution(const ControlSettings& settings, double resolution, dou
            (settings.loop_gain * resolution);
 }
 
+/// C stays for now and the past is forgotten.
 DetailState held(const DetailState& state, double triangles) {
     DetailState next = state;
     next.last_triangles = triangles;
     next.earlier.fill(state.resolution);
     return next;
+}
+
+/// N(C) between two points that are closer than this factor in C is one step: a smooth curve, N ~
+/// C^2 at most, would rise by less than half the usual dead band.
+constexpr double step_width = 1.001;
+constexpr double most_change = 2.0; ///< of C in a frame, where only one side is known
+
+/// `state` with the last mesh among the points of its view.
+DetailState measured(DetailState state, double target, double triangles, bool same_view) {
+    if (!same_view) {
+        state.standing_frames = 0;
+        state.below = {};
+        state.above = {};
+    }
+    ++state.standing_frames;
+    CountAt& nearest = triangles < target ? state.below : state.above;
+    const bool nearer = triangles < target ? state.resolution > nearest.resolution
+                                           : state.resolution < nearest.resolution;
+    if (nearest.resolution <= 0.0 || nearer) {
+        nearest = {state.resolution, triangles};
+    }
+    return state;
+}
+
+bool is_enclosed(const DetailState& state) {
+    return state.below.resolution > 0.0 && state.above.resolution > state.below.resolution;
+}
+
+/// Whether the target lies within a step of N(C) of which the last mesh is the nearer end.
+bool is_on_nearest_step(const DetailState& state, double target, double triangles) {
+    return is_enclosed(state) && state.above.resolution < step_width * state.below.resolution &&
+           std::abs(target - triangles) <=
+               std::min(target - state.below.triangles, state.above.triangles - target);
+}
+
+/// C at which the points of the view promise the target: on the line between their logarithms, in
+/// every third frame the middle, so that the points always close in.
+double read_off(const DetailState& state, double target, double triangles) {
+    if (!is_enclosed(state)) {
+        const double ratio = target / std::max(triangles, 1.0);
+        return state.resolution * std::clamp(ratio, 1.0 / most_change, most_change);
+    }
+    const CountAt& below = state.below;
+    const CountAt& above = state.above;
+    if (above.resolution < step_width * below.resolution) {
+        return target - below.triangles < above.triangles - target ? below.resolution
+                                                                   : above.resolution;
+    }
+    const double rise = std::log(above.triangles / std::max(below.triangles, 1.0));
+    const double share = state.standing_frames % 3 == 0 || rise <= 0.0
+                             ? 0.5
+                             : std::log(target / std::max(below.triangles, 1.0)) / rise;
+    return below.resolution *
+           std::pow(above.resolution / below.resolution, std::clamp(share, 0.02, 0.98));
 }
 
 /// Equation (5).
@@ -59,22 +118,31 @@ DetailState starting_at(double resolution, const ControlSettings& settings) {
     return held(state, 0.0);
 }
 
-DetailState
-next_state(const DetailState& state, const ControlSettings& settings, double triangles) {
-    assert(settings.target_triangles > 0.0 && triangles >= 0.0);
+DetailState next_state(
+    const DetailState& state, const ControlSettings& settings, double triangles, bool same_view) {
+    const double target = settings.target_triangles;
+    assert(target > 0.0 && triangles >= 0.0);
     assert(settings.loop_gain > 0.0 && settings.growth_exponent > 0.0);
     assert(settings.remembered_frames >= 0 && settings.remembered_frames <= max_remembered_frames);
-    const double missing = settings.target_triangles - triangles;
-    const bool holds_target = settings.method != ControlMethod::Literal;
-    if (holds_target && std::abs(missing) <= settings.dead_band * settings.target_triangles) {
-        return held(state, triangles);
+    const double missing = target - triangles;
+    DetailState next = measured(state, target, triangles, same_view);
+    const bool settles = settings.method == ControlMethod::Damped && settings.dead_band > 0.0;
+    if (settles && (std::abs(missing) <= settings.dead_band * target ||
+                    is_on_nearest_step(next, target, triangles))) {
+        return held(next, triangles);
     }
-    const double change = holds_target ? missing : state.last_triangles - triangles;
-    const double candidate = std::clamp(
-        state.resolution + change / triangles_per_resolution(settings, state.resolution, triangles),
-        settings.min_resolution,
-        settings.max_resolution);
-    DetailState next = state;
+    const auto limited = [&](double resolution) {
+        return std::clamp(resolution, settings.min_resolution, settings.max_resolution);
+    };
+    if (settles && next.standing_frames > settings.remembered_frames) {
+        next.resolution = limited(read_off(next, target, triangles));
+        return held(next, triangles);
+    }
+    const double change =
+        settings.method == ControlMethod::Literal ? state.last_triangles - triangles : missing;
+    const double candidate = limited(
+        state.resolution +
+        change / triangles_per_resolution(settings, state.resolution, triangles));
     next.last_triangles = triangles;
     next.resolution = settings.method == ControlMethod::Damped
                           ? weighted_mean(candidate, state, settings.remembered_frames)
