@@ -61,17 +61,23 @@ report::Plot path_plot(std::string title, const FlickerRun& run, const char* col
     return plot;
 }
 
-/// The same range for all, even about zero.
-void share_range(std::span<report::Plot> plots) {
+/// Largest size of the values from the `first` on.
+double largest(std::span<const report::Plot> plots, std::size_t first) {
     double most = 1.0;
     for (const report::Plot& plot : plots) {
-        for (const double y : plot.series.front().y) {
-            most = std::max(most, std::abs(y));
+        for (const report::PlotSeries& series : plot.series) {
+            for (std::size_t k = first; k < series.y.size(); ++k) {
+                most = std::max(most, std::abs(series.y[k]));
+            }
         }
     }
+    return most;
+}
+
+void set_range(std::span<report::Plot> plots, double most) {
     for (report::Plot& plot : plots) {
-        plot.y_min = -most;
-        plot.y_max = most;
+        plot.y_min = -1.05 * most;
+        plot.y_max = 1.05 * most;
     }
 }
 
@@ -112,7 +118,7 @@ FlickerFigure figure_5(const FlickerRuns& runs) {
             fmt::format("Figure 5 (b): previous control, c = 5, {}", runs.rugged.name),
             runs.rugged.path[previous_way],
             red)};
-    share_range(plots);
+    set_range(plots, largest(plots, 0));
     return figure(
         "figure-5.png",
         "dn along the path under the previous control, on one scale. The paper: calm all the way "
@@ -136,12 +142,13 @@ FlickerFigure figure_6(const FieldRuns& rugged) {
                 shown_frames));
         }
     }
+    set_range(plots, largest(std::span(plots).first(1), 0));
     return figure(
         "figure-6.png",
         "dn at a fixed view of rugged ground for c = 1, 2, 3, 5, both readings of equation (4). "
         "The "
         "paper: c = 1 is best, c = 2 comes to rest after a weak oscillation, from c = 3 on it "
-        "oscillates for ever.",
+        "oscillates for ever. Beyond the scale: literal (4) runs from end to end of C.",
         plots);
 }
 
@@ -165,11 +172,11 @@ FlickerFigure figure_9(const FieldRuns& rugged) {
             blue),
         path_plot("The same, enlarged", rugged.path[damped_way], blue),
         path_plot("Exact budget, scale as enlarged", rugged.path[exact_way], colours[1])};
-    std::array scale = {path_plot("", rugged.path[previous_way], red), plots[0]};
-    share_range(scale);
-    plots[0].y_min = scale[0].y_min;
-    plots[0].y_max = scale[0].y_max;
-    share_range(std::span(plots).subspan(1));
+    const report::Plot before = path_plot("", rugged.path[previous_way], red);
+    set_range(std::span(plots).first(1), largest(std::span(&before, 1), 0));
+    const auto enlarged = std::span(plots).subspan(1);
+    set_range(
+        enlarged, largest(enlarged, first_measured(rugged.path[damped_way].triangles.size())));
     return figure(
         "figure-9.png",
         "dn along the path with the damping. The paper: a small ripple only, level everywhere.",

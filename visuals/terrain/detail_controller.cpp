@@ -12,8 +12,8 @@
 // - Limits of C and automatic a are additions, and the dead band of Damped with what belongs to it:
 //   (5) averages r + 1 frames. Once that many and more were made of one standing view, they are
 //   points of one curve N(C), and C is read off between the two that enclose the target instead:
-//   a slow or ringing loop ends there. N(C) is a staircase. Where the two points are so close that
-//   only a step can lie between them, that step is the dead band, and the nearer one is held.
+//   a slow or ringing loop ends there. N(C) is a staircase: where nearly all between the two is a
+//   step, that step is the dead band, and the nearer end is held.
 #include "visuals/terrain/detail_controller.h"
 
 #include <algorithm>
@@ -43,10 +43,13 @@ DetailState held(const DetailState& state, double triangles) {
     return next;
 }
 
-/// N(C) between two points that are closer than this factor in C is one step: a smooth curve, N ~
-/// C^2 at most, would rise by less than half the usual dead band.
+/// Two points of N(C) closer than this factor in C always count as the ends of one step.
 constexpr double step_width = 1.001;
-constexpr double most_change = 2.0; ///< of C in a frame, where only one side is known
+/// So do two between which N rises this many times faster than N ~ C^2: the most that a smooth
+/// curve does.
+constexpr double step_steepness = 4.0;
+constexpr double most_change = 2.0;        ///< of C in a frame, where only one side is known
+constexpr double smallest_exponent = 0.25; ///< p that is believed there
 
 /// `state` with the last mesh among the points of its view.
 DetailState measured(DetailState state, double target, double triangles, bool same_view) {
@@ -69,28 +72,51 @@ bool is_enclosed(const DetailState& state) {
     return state.below.resolution > 0.0 && state.above.resolution > state.below.resolution;
 }
 
-/// Whether the target lies within a step of N(C) of which the last mesh is the nearer end.
-bool is_on_nearest_step(const DetailState& state, double target, double triangles) {
-    return is_enclosed(state) && state.above.resolution < step_width * state.below.resolution &&
-           std::abs(target - triangles) <=
-               std::min(target - state.below.triangles, state.above.triangles - target);
+/// Whether the two points around the target are the ends of one step.
+bool is_at_step(const DetailState& state) {
+    if (!is_enclosed(state)) {
+        return false;
+    }
+    const double width = std::log(state.above.resolution / state.below.resolution);
+    const double smooth = 2.0 * width * state.above.triangles;
+    return width < std::log(step_width) ||
+           state.above.triangles - state.below.triangles > step_steepness * smooth;
 }
 
-/// C at which the points of the view promise the target: on the line between their logarithms, in
-/// every third frame the middle, so that the points always close in.
-double read_off(const DetailState& state, double target, double triangles) {
-    if (!is_enclosed(state)) {
-        const double ratio = target / std::max(triangles, 1.0);
-        return state.resolution * std::clamp(ratio, 1.0 / most_change, most_change);
+const CountAt& nearer_end(const DetailState& state, double target) {
+    return target - state.below.triangles < state.above.triangles - target ? state.below
+                                                                           : state.above;
+}
+
+/// C towards the target from the only side that is known: along N ~ C^p, with p from the two
+/// points last nearest, but not above 1, so that the other side is soon met.
+double read_beyond(const CountAt& before, const CountAt& nearest, double target) {
+    double exponent = 1.0;
+    if (before.resolution > 0.0 && before.resolution != nearest.resolution) {
+        exponent = std::log(std::max(nearest.triangles, 1.0) / std::max(before.triangles, 1.0)) /
+                   std::log(nearest.resolution / before.resolution);
     }
+    const double ratio = std::pow(
+        target / std::max(nearest.triangles, 1.0),
+        1.0 / std::clamp(exponent, smallest_exponent, 1.0));
+    return nearest.resolution * std::clamp(ratio, 1.0 / most_change, most_change);
+}
+
+/// C at which the points of the view promise the target: between two on the line of their
+/// logarithms, in every other frame the middle, so that they always close in. `before`: the state
+/// without the last point.
+double read_off(const DetailState& before, const DetailState& state, double target) {
     const CountAt& below = state.below;
     const CountAt& above = state.above;
-    if (above.resolution < step_width * below.resolution) {
-        return target - below.triangles < above.triangles - target ? below.resolution
-                                                                   : above.resolution;
+    if (is_at_step(state)) {
+        return nearer_end(state, target).resolution;
+    }
+    if (!is_enclosed(state)) {
+        return above.resolution > 0.0 ? read_beyond(before.above, above, target)
+                                      : read_beyond(before.below, below, target);
     }
     const double rise = std::log(above.triangles / std::max(below.triangles, 1.0));
-    const double share = state.standing_frames % 3 == 0 || rise <= 0.0
+    const double share = state.standing_frames % 2 == 0 || rise <= 0.0
                              ? 0.5
                              : std::log(target / std::max(below.triangles, 1.0)) / rise;
     return below.resolution *
@@ -127,15 +153,14 @@ DetailState next_state(
     const double missing = target - triangles;
     DetailState next = measured(state, target, triangles, same_view);
     const bool settles = settings.method == ControlMethod::Damped && settings.dead_band > 0.0;
-    if (settles && (std::abs(missing) <= settings.dead_band * target ||
-                    is_on_nearest_step(next, target, triangles))) {
+    if (settles && std::abs(missing) <= settings.dead_band * target) {
         return held(next, triangles);
     }
     const auto limited = [&](double resolution) {
         return std::clamp(resolution, settings.min_resolution, settings.max_resolution);
     };
-    if (settles && next.standing_frames > settings.remembered_frames) {
-        next.resolution = limited(read_off(next, target, triangles));
+    if (settles && same_view && next.standing_frames > settings.remembered_frames) {
+        next.resolution = limited(read_off(state, next, target));
         return held(next, triangles);
     }
     const double change =
