@@ -1,7 +1,9 @@
 #include "ui/commands.h"
 #include "ui/read_option.h"
+#include "ui/settings_options.h"
 #include "ui/settings_text.h"
 #include "ui/study_draw_order.h"
+#include "ui/study_flicker.h"
 #include "ui/study_flights.h"
 #include "ui/study_hidden_surface.h"
 #include "ui/study_popping.h"
@@ -68,6 +70,36 @@ void add_draw_order(CLI::App& study) {
     orders->add_flag("--quiet", options->quiet, "no progress, no notes");
     orders->footer("Example:\n  octant study draw-order --out tables");
     orders->callback([options] { study_draw_order(*options); });
+}
+
+void add_flicker(CLI::App& study) {
+    auto options = std::make_shared<FlickerStudyOptions>();
+    CLI::App* flicker = study.add_subcommand(
+        "flicker",
+        "Triangle control of the quadtree paper: its figures 3, 5, 6, 8 and 9, and how quietly "
+        "previous, damped and exact control hold the count");
+    add_out(*flicker, options->out);
+    flicker->add_option("--gentle", options->gentle, "gentle ground: hills, canyon or a file")
+        ->type_name("NAME|FILE")
+        ->capture_default_str();
+    flicker->add_option("--rugged", options->rugged, "rugged ground: hills, canyon or a file")
+        ->type_name("NAME|FILE")
+        ->capture_default_str();
+    add_number_option(
+        *flicker,
+        {"terrain-spacing", "METRES", "sample spacing of files that do not say", 0.01, 1e5},
+        options->spacing_m);
+    flicker
+        ->add_option(
+            "--frames", options->frames, "frames of the path; a fifth of them at a fixed view")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(CLI::Range(100, 100000));
+    flicker->add_flag("--json", options->json, "print the tables as JSON");
+    flicker->add_flag("--quiet", options->quiet, "no progress, no notes");
+    flicker->footer("Examples:\n  octant study flicker --out tables\n  octant study flicker --out "
+                    "tables --gentle pugetsound.tif --rugged gcanyon.tif");
+    flicker->callback([options] { study_flicker(*options); });
 }
 
 void add_hidden_surface(CLI::App& study) {
@@ -153,6 +185,7 @@ void add_study_command(CLI::App& program) {
                   "tables");
     add_flights(*study);
     add_draw_order(*study);
+    add_flicker(*study);
     add_hidden_surface(*study);
     add_popping(*study);
 }

@@ -79,12 +79,9 @@ std::string bound(const std::optional<double>& value) {
 void append_axes(Out out, const Plot& plot) {
     fmt::format_to(
         out,
-        "set terminal svg size {},{} noenhanced font 'sans-serif,12'\n"
         "set encoding utf8\nset border 3 lw 0.8\nset tics nomirror out scale 0.6\nset grid y\n"
         "set key above right horizontal samplen 1.5 noenhanced\n"
         "set style fill solid 0.85 noborder\nset boxwidth {:.7g}\n",
-        plot.width_px,
-        plot.height_px,
         plot.bar_width);
     fmt::format_to(
         out,
@@ -96,6 +93,43 @@ void append_axes(Out out, const Plot& plot) {
     if (plot.y_logarithmic) {
         fmt::format_to(out, "set logscale y\n");
     }
+}
+
+/// All of a plot but the terminal.
+std::string axes_and_data(const Plot& plot) {
+    std::string script;
+    const Out out(script);
+    append_axes(out, plot);
+    std::string clauses;
+    for (std::size_t i = 0; i < plot.series.size(); ++i) {
+        if (has_points(plot.series[i])) {
+            append_data(out, i, plot.series[i]);
+            clauses += (clauses.empty() ? "" : ", ") + series_clause(i, plot.series[i]);
+        }
+    }
+    for (const PlotLevel& level : plot.levels) {
+        clauses += fmt::format(
+            "{}{:.7g} with lines dt 2 lw 1 lc rgb '#ef4444' title {}",
+            clauses.empty() ? "" : ", ",
+            level.y,
+            quoted(level.name));
+    }
+    return script + "plot " + clauses + "\n";
+}
+
+/// What gnuplot makes of a script; `end`: stands in every whole picture. Nothing when it is not
+/// installed.
+std::optional<std::string> drawn(const std::string& script, std::string_view end) {
+    auto gnuplot = ChildProgram::start({"gnuplot", "--default-settings", "-"});
+    if (!gnuplot) {
+        return std::nullopt;
+    }
+    gnuplot->send(script);
+    ProgramEnding ending = gnuplot->finish();
+    if (!ending.succeeded || ending.output.find(end) == std::string::npos) {
+        throw Error("gnuplot: " + printable(ending.last_complaint));
+    }
+    return std::move(ending.output);
 }
 
 /// `text` without everything from `from` up to and with `to`, wherever it occurs.
@@ -121,40 +155,41 @@ void replace_all(std::string& text, std::string_view what, std::string_view with
 } // namespace
 
 std::string gnuplot_script(const Plot& plot) {
-    std::string script;
-    const Out out(script);
-    append_axes(out, plot);
-    std::string clauses;
-    for (std::size_t i = 0; i < plot.series.size(); ++i) {
-        if (has_points(plot.series[i])) {
-            append_data(out, i, plot.series[i]);
-            clauses += (clauses.empty() ? "" : ", ") + series_clause(i, plot.series[i]);
-        }
+    return fmt::format(
+               "set terminal svg size {},{} noenhanced font 'sans-serif,12'\n",
+               plot.width_px,
+               plot.height_px) +
+           axes_and_data(plot);
+}
+
+std::string gnuplot_png_script(std::span<const Plot> panels) {
+    int width_px = 0;
+    int height_px = 0;
+    std::string body;
+    for (const Plot& plot : panels) {
+        width_px = std::max(width_px, plot.width_px);
+        height_px += plot.height_px;
+        body += fmt::format("set title {} noenhanced\n", quoted(plot.title)) + axes_and_data(plot) +
+                "unset logscale\n";
     }
-    for (const PlotLevel& level : plot.levels) {
-        clauses += fmt::format(
-            "{}{:.7g} with lines dt 2 lw 1 lc rgb '#ef4444' title {}",
-            clauses.empty() ? "" : ", ",
-            level.y,
-            quoted(level.name));
-    }
-    return script + "plot " + clauses + "\n";
+    return fmt::format(
+               "set terminal pngcairo size {},{} noenhanced font 'sans-serif,10'\n"
+               "set multiplot layout {},1\n",
+               width_px,
+               height_px,
+               panels.size()) +
+           body + "unset multiplot\n";
 }
 
 std::optional<std::string> plot_svg(const Plot& plot) {
     if (std::none_of(plot.series.begin(), plot.series.end(), has_points)) {
         return std::nullopt;
     }
-    auto gnuplot = ChildProgram::start({"gnuplot", "--default-settings", "-"});
-    if (!gnuplot) {
-        return std::nullopt;
-    }
-    gnuplot->send(gnuplot_script(plot));
-    ProgramEnding ending = gnuplot->finish();
-    if (!ending.succeeded || ending.output.find("</svg>") == std::string::npos) {
-        throw Error("gnuplot: " + printable(ending.last_complaint));
-    }
-    return std::move(ending.output);
+    return drawn(gnuplot_script(plot), "</svg>");
+}
+
+std::optional<std::string> plots_png(std::span<const Plot> panels) {
+    return drawn(gnuplot_png_script(panels), "IEND");
 }
 
 std::string inline_svg(std::string svg) {

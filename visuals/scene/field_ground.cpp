@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,11 @@ terrain::ControlSettings control_settings(const Settings& settings) {
         break;
     }
     return control;
+}
+
+bool is_same(const terrain::MeshView& a, const terrain::MeshView& b) {
+    return a.eye_m == b.eye_m && a.frustum_normals == b.frustum_normals &&
+           a.magnification == b.magnification;
 }
 
 class FieldGround final : public Ground {
@@ -105,6 +111,7 @@ public:
                                                                 control_.target_triangles,
                                                                 control_.max_resolution);
         state_ = terrain::starting_at(resolution, control_);
+        last_view_.reset();
     }
 
     void set_triangle_target(int triangles) override {
@@ -130,7 +137,9 @@ private:
         detail_.resolution = state_.resolution;
         const terrain::GroundMesh mesh = mesher_.mesh(view, detail_);
         if (!fixed_resolution_) {
-            state_ = terrain::next_state(state_, control_, mesh.counters.triangles);
+            const bool same_view = last_view_ && is_same(*last_view_, view);
+            state_ = terrain::next_state(state_, control_, mesh.counters.triangles, same_view);
+            last_view_ = view;
         }
         return mesh;
     }
@@ -149,6 +158,7 @@ private:
     terrain::TriangleBudget budget_;
     terrain::Detail detail_;
     terrain::DetailState state_;
+    std::optional<terrain::MeshView> last_view_; ///< that `state_` has seen
     terrain::PaintOrder order_;
     glm::vec3 mean_colour_;
     double mean_height_m_ = 0.0;

@@ -9,7 +9,11 @@
 // - Equation (5) averages the results of (4), each counted from the C actually used. Averages of
 //   undamped results or of used values hardly damp.
 // - Weights are r+1, ..., 2, 1 over their sum, newest first: the paper only demands that they fall.
-// - Dead band, limits of C and automatic a are additions.
+// - Limits of C and automatic a are additions, and the dead band of Damped with what belongs to it:
+//   (5) averages r + 1 frames. Once that many and more were made of one standing view, they are
+//   points of one curve N(C), and C is read off between the two that enclose the target instead:
+//   a slow or ringing loop ends there. N(C) is a staircase: where nearly all between the two is a
+//   step, that step is the dead band, and the nearer end is held.
 #include "visuals/terrain/detail_controller.h"
 
 #include <algorithm>
@@ -31,11 +35,92 @@ triangles_per_resolution(const ControlSettings& settings, double resolution, dou
            (settings.loop_gain * resolution);
 }
 
+/// C stays for now and the past is forgotten.
 DetailState held(const DetailState& state, double triangles) {
     DetailState next = state;
     next.last_triangles = triangles;
     next.earlier.fill(state.resolution);
     return next;
+}
+
+/// Two points of N(C) closer than this factor in C always count as the ends of one step.
+constexpr double step_width = 1.001;
+/// So do two between which N rises this many times faster than N ~ C^2: the most that a smooth
+/// curve does.
+constexpr double step_steepness = 4.0;
+constexpr double most_change = 2.0;        ///< of C in a frame, where only one side is known
+constexpr double smallest_exponent = 0.25; ///< p that is believed there
+
+/// `state` with the last mesh among the points of its view.
+DetailState measured(DetailState state, double target, double triangles, bool same_view) {
+    if (!same_view) {
+        state.standing_frames = 0;
+        state.below = {};
+        state.above = {};
+    }
+    ++state.standing_frames;
+    CountAt& nearest = triangles < target ? state.below : state.above;
+    const bool nearer = triangles < target ? state.resolution > nearest.resolution
+                                           : state.resolution < nearest.resolution;
+    if (nearest.resolution <= 0.0 || nearer) {
+        nearest = {state.resolution, triangles};
+    }
+    return state;
+}
+
+bool is_enclosed(const DetailState& state) {
+    return state.below.resolution > 0.0 && state.above.resolution > state.below.resolution;
+}
+
+/// Whether the two points around the target are the ends of one step.
+bool is_at_step(const DetailState& state) {
+    if (!is_enclosed(state)) {
+        return false;
+    }
+    const double width = std::log(state.above.resolution / state.below.resolution);
+    const double smooth = 2.0 * width * state.above.triangles;
+    return width < std::log(step_width) ||
+           state.above.triangles - state.below.triangles > step_steepness * smooth;
+}
+
+const CountAt& nearer_end(const DetailState& state, double target) {
+    return target - state.below.triangles < state.above.triangles - target ? state.below
+                                                                           : state.above;
+}
+
+/// C towards the target from the only side that is known: along N ~ C^p, with p from the two
+/// points last nearest, but not above 1, so that the other side is soon met.
+double read_beyond(const CountAt& before, const CountAt& nearest, double target) {
+    double exponent = 1.0;
+    if (before.resolution > 0.0 && before.resolution != nearest.resolution) {
+        exponent = std::log(std::max(nearest.triangles, 1.0) / std::max(before.triangles, 1.0)) /
+                   std::log(nearest.resolution / before.resolution);
+    }
+    const double ratio = std::pow(
+        target / std::max(nearest.triangles, 1.0),
+        1.0 / std::clamp(exponent, smallest_exponent, 1.0));
+    return nearest.resolution * std::clamp(ratio, 1.0 / most_change, most_change);
+}
+
+/// C at which the points of the view promise the target: between two on the line of their
+/// logarithms, in every other frame the middle, so that they always close in. `before`: the state
+/// without the last point.
+double read_off(const DetailState& before, const DetailState& state, double target) {
+    const CountAt& below = state.below;
+    const CountAt& above = state.above;
+    if (is_at_step(state)) {
+        return nearer_end(state, target).resolution;
+    }
+    if (!is_enclosed(state)) {
+        return above.resolution > 0.0 ? read_beyond(before.above, above, target)
+                                      : read_beyond(before.below, below, target);
+    }
+    const double rise = std::log(above.triangles / std::max(below.triangles, 1.0));
+    const double share = state.standing_frames % 2 == 0 || rise <= 0.0
+                             ? 0.5
+                             : std::log(target / std::max(below.triangles, 1.0)) / rise;
+    return below.resolution *
+           std::pow(above.resolution / below.resolution, std::clamp(share, 0.02, 0.98));
 }
 
 /// Equation (5).
@@ -59,22 +144,30 @@ DetailState starting_at(double resolution, const ControlSettings& settings) {
     return held(state, 0.0);
 }
 
-DetailState
-next_state(const DetailState& state, const ControlSettings& settings, double triangles) {
-    assert(settings.target_triangles > 0.0 && triangles >= 0.0);
+DetailState next_state(
+    const DetailState& state, const ControlSettings& settings, double triangles, bool same_view) {
+    const double target = settings.target_triangles;
+    assert(target > 0.0 && triangles >= 0.0);
     assert(settings.loop_gain > 0.0 && settings.growth_exponent > 0.0);
     assert(settings.remembered_frames >= 0 && settings.remembered_frames <= max_remembered_frames);
-    const double missing = settings.target_triangles - triangles;
-    const bool holds_target = settings.method != ControlMethod::Literal;
-    if (holds_target && std::abs(missing) <= settings.dead_band * settings.target_triangles) {
-        return held(state, triangles);
+    const double missing = target - triangles;
+    DetailState next = measured(state, target, triangles, same_view);
+    const bool settles = settings.method == ControlMethod::Damped && settings.dead_band > 0.0;
+    if (settles && std::abs(missing) <= settings.dead_band * target) {
+        return held(next, triangles);
     }
-    const double change = holds_target ? missing : state.last_triangles - triangles;
-    const double candidate = std::clamp(
-        state.resolution + change / triangles_per_resolution(settings, state.resolution, triangles),
-        settings.min_resolution,
-        settings.max_resolution);
-    DetailState next = state;
+    const auto limited = [&](double resolution) {
+        return std::clamp(resolution, settings.min_resolution, settings.max_resolution);
+    };
+    if (settles && same_view && next.standing_frames > settings.remembered_frames) {
+        next.resolution = limited(read_off(state, next, target));
+        return held(next, triangles);
+    }
+    const double change =
+        settings.method == ControlMethod::Literal ? state.last_triangles - triangles : missing;
+    const double candidate = limited(
+        state.resolution +
+        change / triangles_per_resolution(settings, state.resolution, triangles));
     next.last_triangles = triangles;
     next.resolution = settings.method == ControlMethod::Damped
                           ? weighted_mean(candidate, state, settings.remembered_frames)

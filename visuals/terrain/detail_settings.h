@@ -74,8 +74,10 @@ struct ControlSettings {
     /// r of equation (5): how many earlier frames are averaged, weights r+1, ..., 2, 1 over their
     /// sum, newest first. Even, so that up and down cancel; 0 to max_remembered_frames. Paper: 4.
     int remembered_frames = 4;
-    /// Share of the target by which N may miss it without C being touched (N(C) is a staircase:
-    /// without this C creeps over the same step for ever). 0 to about 0.05. Paper: none.
+    /// Of Damped: share of the target by which N may miss it without C being touched, or one step
+    /// of N(C) where that is higher (without this C creeps over the same step for ever). At a
+    /// standing view it is reached within 15 frames and kept, whatever the gain up to 5. 0 to about
+    /// 0.05; 0: equation (5) as printed. Paper: none.
     double dead_band = 0.005;
     double min_resolution = 2.0;    ///< C is kept at or above it; that of the quadtree
     double max_resolution = 1000.0; ///< C is kept at or below it

@@ -1,0 +1,56 @@
+// How quietly the number of triangles is held.
+//
+// Source: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize Flickering Effect",
+// section 4, which plots dn for each frame.
+// Deviations: the paper gives no figures. Sign changes of dn alone mean nothing, since the quietest
+// run alternates by a few triangles; they are weighted with what is taken back.
+#include "visuals/terrain/count_series.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace octant::visuals::terrain {
+
+ChangeFigures change_figures(std::span<const int> triangles, std::size_t first) {
+    ChangeFigures figures;
+    if (first < 1 || first >= triangles.size()) {
+        return figures;
+    }
+    const auto change = [&](std::size_t k) { return triangles[k] - triangles[k - 1]; };
+    const auto frames = static_cast<double>(triangles.size() - first);
+    for (std::size_t k = first; k < triangles.size(); ++k) {
+        const int size = std::abs(change(k));
+        figures.mean += size / frames;
+        figures.largest = std::max(figures.largest, size);
+        if (k > first && (change(k) > 0) != (change(k - 1) > 0)) {
+            figures.alternation += std::min(size, std::abs(change(k - 1))) / frames;
+        }
+    }
+    return figures;
+}
+
+std::optional<int> frames_until_still(std::span<const int> triangles) {
+    if (triangles.size() < 2 || triangles.back() != triangles[triangles.size() - 2]) {
+        return std::nullopt;
+    }
+    std::size_t first = triangles.size() - 1;
+    while (first > 0 && triangles[first - 1] == triangles.back()) {
+        --first;
+    }
+    return static_cast<int>(first);
+}
+
+std::optional<int>
+frames_until_near(std::span<const int> triangles, int target, double share, int standing) {
+    int near = 0;
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+        near = std::abs(triangles[k] - target) <= share * target ? near + 1 : 0;
+        if (near == standing) {
+            return static_cast<int>(k) + 1 - standing;
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace octant::visuals::terrain
