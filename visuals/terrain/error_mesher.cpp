@@ -37,11 +37,21 @@ constexpr std::array<std::array<std::uint8_t, 4>, 4> child_corners = {
 /// The place in fan_ring of a quadrant's corner.
 constexpr std::array<std::uint8_t, 4> ring_of_quadrant = {0, 2, 6, 4};
 
-/// Whether an edge of a child lies on its parent's.
-constexpr bool is_outer(unsigned quadrant, unsigned edge) {
-    constexpr std::array<unsigned, 4> inner_quadrants = {12, 5, 3, 10};
-    return (inner_quadrants[edge] >> quadrant & 1U) == 0;
-}
+/// By child, which of its fan_edges lie inside its parent.
+constexpr std::array<std::array<std::uint8_t, 4>, 4> inner_edges = {
+    {{0, 1, 1, 0}, {0, 0, 1, 1}, {1, 1, 0, 0}, {1, 0, 0, 1}}};
+
+/// By the set of quadrants that are hidden, the edges beside one that is not.
+constexpr std::array<std::uint8_t, 16> edges_beside = [] {
+    std::array<std::uint8_t, 16> edges{};
+    for (unsigned hidden = 0; hidden < 16; ++hidden) {
+        for (unsigned k = 0; k < 4; ++k) {
+            const unsigned beside = 1U << fan_edges[k].quadrant_a | 1U << fan_edges[k].quadrant_b;
+            edges[hidden] |= static_cast<std::uint8_t>((beside & ~hidden) != 0 ? 1U << k : 0U);
+        }
+    }
+    return edges;
+}();
 
 } // namespace
 
@@ -59,7 +69,7 @@ GroundMesh ErrorMesher::mesh(const MeshView& view, const ErrorTarget& target) {
     rule_.look_from(view);
     limit_ = survey_.limit_for(target);
     nodes_ = survey_.nodes();
-    resting_limit_ = target.geomorphs ? limit_ / (morph_ratio * morph_ratio) : limit_;
+    morph_limit_ = target.geomorphs ? limit_ : std::numeric_limits<float>::infinity();
     height_base_m_ = ground_->shape().height_base_m - view.eye_m.z;
     orders_ = painting_orders(view.order).data();
     eye_ = glm::dvec2(-rule_.west_m(), -rule_.south_m()) / ground_->spacing_m();
@@ -109,7 +119,7 @@ ErrorMesher::EmittedFan ErrorMesher::root_fan() {
     const LevelMemory& memory = rule_.memory(0);
     const FanSamples samples(*ground_, memory.edge(), 0, 0);
     EmittedFan root;
-    root.node = 0;
+    root.node = root_node;
     root.beyond = {};
     for (std::size_t q = 0; q < 4; ++q) {
         const std::size_t place = ring_of_quadrant[q];
@@ -134,14 +144,12 @@ inline std::uint32_t ErrorMesher::add_vertex(const NewVertex& made) {
     const std::uint32_t vertex = vertex_count_++;
     float height_m = static_cast<float>(
         height_base_m_ + ground_->shape().height_unit_m * static_cast<double>(made.height));
-    float weight = 1.0F;
-    if (made.critical > resting_limit_) {
-        const float from_a = height_m_[made.end_a];
-        const float middle_m = from_a + made.share * (height_m_[made.end_b] - from_a);
-        weight = (std::sqrt(limit_ / made.critical) - 1.0F) / (morph_ratio - 1.0F);
-        weight = std::clamp(weight, 0.0F, 1.0F);
-        height_m += (1.0F - weight) * (middle_m - height_m);
-    }
+    height_m_[vertex] = height_m; // its own end, if it is always there
+    const float ratio = std::sqrt(morph_limit_ / made.critical);
+    const float weight = std::clamp((ratio - 1.0F) / (morph_ratio - 1.0F), 0.0F, 1.0F);
+    const float from_a = height_m_[made.end_a];
+    const float middle_m = from_a + made.share * (height_m_[made.end_b] - from_a);
+    height_m += (1.0F - weight) * (middle_m - height_m);
     height_m_[vertex] = height_m;
     const auto east_m = static_cast<float>(rule_.west_m() + made.at.column * ground_->spacing_m());
     const auto north_m = static_cast<float>(rule_.south_m() + made.at.row * ground_->spacing_m());
@@ -186,7 +194,7 @@ void ErrorMesher::emit(EmittedFan& fan) {
     const LevelMemory& memory = rule_.memory(node.level);
     const FanSamples samples(*ground_, memory.edge(), node.column, node.row);
     const LevelMemory::Spot spot = memory.spot(node.column, node.row);
-    if (fan.node != 0) {
+    if (fan.node != root_node) {
         add_centre(samples, memory.centre_height(spot), fan);
     }
     unsigned middles = 0;
@@ -195,7 +203,7 @@ void ErrorMesher::emit(EmittedFan& fan) {
         middles |= node.middle[k] < limit_ ? 1U << k : 0U;
         split |= node.quadrant[k] < limit_ ? 1U << k : 0U;
     }
-    add_middles(samples, spot, fan);
+    add_middles(samples, spot, middles, fan);
     const unsigned covered = split | node.hidden;
     const unsigned children = split & ~unsigned{node.hidden};
     const Sample centre = samples.at(1, 1);
@@ -241,13 +249,11 @@ ErrorMesher::EmittedFan ErrorMesher::child_of(const EmittedFan& fan, unsigned qu
     for (std::size_t k = 0; k < 4; ++k) {
         child.ring[2 * k] = fan.ring[child_corners[quadrant][k]];
     }
-    for (unsigned k = 0; k < 4; ++k) {
+    const std::array<std::uint8_t, 4>& inner = inner_edges[quadrant];
+    for (const unsigned k : {0U, 1U, 2U, 3U}) {
         const unsigned across = quadrant ^ (k % 2 == 0 ? 2U : 1U);
-        if (!is_outer(quadrant, k)) {
-            child.beyond[k] = node.child[across];
-        } else {
-            child.beyond[k] = fan.beyond[k] != 0 ? nodes_[fan.beyond[k]].child[across] : 0;
-        }
+        const ErrorNode& holder = nodes_[inner[k] != 0 ? fan.node : fan.beyond[k]];
+        child.beyond[k] = holder.child[across];
     }
     child.end_a = fan.ring[centre_of_ring];
     child.end_b = fan.ring[ring_of_quadrant[quadrant]];
@@ -268,24 +274,22 @@ ErrorMesher::add_centre(const FanSamples& samples, std::int16_t height, EmittedF
 
 /// Fills in the mid-points beside quadrants that are not hidden.
 inline void ErrorMesher::add_middles(
-    const FanSamples& samples, const LevelMemory::Spot& spot, EmittedFan& fan) {
+    const FanSamples& samples, const LevelMemory::Spot& spot, unsigned middles, EmittedFan& fan) {
     const ErrorNode& node = nodes_[fan.node];
+    const Four& known = middle_vertex_[fan.node];
+    unsigned missing = 0;
     for (std::size_t k = 0; k < 4; ++k) {
-        const FanEdge& edge = fan_edges[k];
-        const unsigned beside = 1U << edge.quadrant_a | 1U << edge.quadrant_b;
-        if (node.middle[k] >= limit_ || (node.hidden & beside) == beside) {
-            continue;
-        }
-        std::uint32_t vertex = middle_vertex_[fan.node][k];
-        if (vertex == 0) {
-            const std::int16_t height =
-                rule_.memory(node.level).middle_height(spot, node.column, node.row, k);
-            vertex = add_middle(samples, height, fan, k);
-            if (fan.beyond[k] != 0) {
-                middle_vertex_[fan.beyond[k]][(k + 2) % 4] = vertex;
-            }
-        }
+        fan.ring[2 * k + 1] = known[k];
+        missing |= (known[k] == 0 ? 1U : 0U) << k;
+    }
+    for (unsigned left = missing & middles & edges_beside[node.hidden]; left != 0;
+         left &= left - 1) {
+        const auto k = static_cast<std::size_t>(std::countr_zero(left));
+        const std::int16_t height =
+            rule_.memory(node.level).middle_height(spot, node.column, node.row, k);
+        const std::uint32_t vertex = add_middle(samples, height, fan, k);
         fan.ring[2 * k + 1] = vertex;
+        middle_vertex_[fan.beyond[k]][(k + 2) % 4] = vertex;
     }
 }
 

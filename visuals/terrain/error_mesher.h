@@ -60,6 +60,8 @@ public:
     const GroundTiles& ground() const { return *ground_; }
 
 private:
+    static constexpr std::uint32_t root_node = 1; ///< ErrorSurvey::nodes
+
     using Four = std::array<std::uint32_t, 4>; ///< vertices or nodes
 
     /// Lowest and highest of the triangles of a node as drawn, eye subtracted.
@@ -75,7 +77,7 @@ private:
                                            ///< used, then the centre
         std::uint32_t end_a;               ///< of the centre
         std::uint32_t end_b;
-        Four beyond; ///< nodes beyond fan_edges; 0 = not known
+        Four beyond; ///< nodes beyond fan_edges; 0 = none
     };
 
     /// A vertex to be made.
@@ -98,7 +100,11 @@ private:
     void emit_part(const EmittedFan& fan, unsigned part);
     EmittedFan child_of(const EmittedFan& fan, unsigned quadrant);
     void add_centre(const FanSamples& samples, std::int16_t height, EmittedFan& fan);
-    void add_middles(const FanSamples& samples, const LevelMemory::Spot& spot, EmittedFan& fan);
+    void add_middles(
+        const FanSamples& samples,
+        const LevelMemory::Spot& spot,
+        unsigned middles,
+        EmittedFan& fan);
     std::uint32_t add_middle(
         const FanSamples& samples, std::int16_t height, const EmittedFan& fan, std::size_t edge);
     bool is_at(Sample at, std::uint32_t vertex) const;
@@ -122,7 +128,7 @@ private:
     mutable std::vector<DrawnHeights> drawn_; ///< of nodes_ in the mesh
     mutable bool drawn_measured_ = false;
     float limit_ = 0.0F;
-    float resting_limit_ = 0.0F;        ///< below it vertices are at their samples
+    float morph_limit_ = 0.0F;          ///< limit_, infinite without geomorphs
     double height_base_m_ = 0.0;        ///< of the stored 0, eye subtracted
     const PartOrder* orders_ = nullptr; ///< painting_orders of the view
     glm::dvec2 eye_{0.0};               ///< samples east and north of the field's first

@@ -9,10 +9,10 @@ void ErrorMesher::triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>
     if (meshed_) {
         if (!drawn_measured_) {
             drawn_.resize(nodes_.size());
-            measure_drawn(0);
+            measure_drawn(root_node);
             drawn_measured_ = true;
         }
-        add_triangles_in(0, wanted, triangles);
+        add_triangles_in(root_node, wanted, triangles);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "visuals/terrain/frustum.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <limits>
 
@@ -57,6 +58,8 @@ float ErrorSurvey::limit_for(const ErrorTarget& target) {
 
 void ErrorSurvey::start(float high) {
     count_ = 0;
+    next_node();
+    nodes_.front() = ErrorNode();
     high_ = high;
     more_above_ = false;
     gaps_[0][0] = rule_->gaps_around(0, 0, 0);
@@ -84,8 +87,6 @@ std::uint32_t ErrorSurvey::visit(const Visit& from) {
     if (counting && steps_.at_high() > most_triangles_) {
         return static_cast<std::uint32_t>(own);
     }
-    const LevelMemory& memory = rule_->memory(from.place.level);
-    memory.expect(memory.spot(from.place.column, from.place.row));
     const FanCriticals criticals = rule_->criticals_of(from.place);
     Children children;
     if (from.place.level + 1 < rule_->ground().levels()) {
@@ -104,10 +105,12 @@ std::uint32_t ErrorSurvey::visit(const Visit& from) {
     if (counting) {
         count(from, *node, replaced);
     }
+    unsigned looked_at = 0;
     for (unsigned q = 0; q < 4; ++q) {
-        if ((children.hidden >> q & 1U) != 0 || criticals.quadrant[q] >= high_) {
-            continue;
-        }
+        looked_at |= (criticals.quadrant[q] < high_ ? 1U : 0U) << q;
+    }
+    for (unsigned left = looked_at & ~children.hidden; left != 0; left &= left - 1) {
+        const auto q = static_cast<unsigned>(std::countr_zero(left));
         Visit next;
         next.place = child_place(from.place, q);
         if (next.place.level <= rule_->ground().layout().range_level()) {
@@ -161,8 +164,8 @@ inline void ErrorSurvey::test_children(const Visit& from, Children& children) {
 /// Adds the steps of a node's fan. `replaced`: the triangles of its quadrants where it is cut.
 inline void
 ErrorSurvey::count(const Visit& from, const ErrorNode& node, std::array<int, 4>& replaced) {
-    for (unsigned k = 0; k < 4; ++k) {
-        more_above_ = more_above_ || (node.middle[k] >= high_ && node.middle[k] < infinite) ||
+    for (unsigned k = 0; k < 4 && !more_above_; ++k) {
+        more_above_ = (node.middle[k] >= high_ && node.middle[k] < infinite) ||
                       (node.quadrant[k] >= high_ && node.quadrant[k] < infinite &&
                        (unsigned{node.hidden} >> k & 1U) == 0);
     }

@@ -27,8 +27,8 @@ inline constexpr int any_triangles = 1 << 30;
 
 /// A node whose fan is in the mesh at some limits, with the limits above which its parts are.
 struct alignas(64) ErrorNode {
-    FourFloats middle;                    ///< mid-points of fan_edges
-    FourFloats quadrant;                  ///< fans of the children
+    FourFloats middle{};                  ///< mid-points of fan_edges
+    FourFloats quadrant{};                ///< fans of the children
     std::array<std::uint32_t, 4> child{}; ///< nodes of those that were looked at; 0 = none
     float on = 0.0F;                      ///< the fan: its centre
     std::uint16_t column = 0;
@@ -50,8 +50,8 @@ public:
     /// has more than its triangles. The root's fan is always there.
     float limit_for(const ErrorTarget& target);
 
-    /// The nodes of meshes up to the limit last found, and more; parents before children, the root
-    /// first.
+    /// The nodes of meshes up to the limit last found, and more; parents before children. The first
+    /// stands for none, then comes the root.
     std::span<const ErrorNode> nodes() const { return std::span(nodes_).first(count_); }
 
     int nodes_tested() const { return nodes_tested_; }

@@ -63,13 +63,6 @@ public:
     /// Stored height of the root's corner in a quadrant.
     std::int16_t corner_height(std::size_t quadrant) const { return heights(corners_)[quadrant]; }
 
-    /// Says that heights of a node will be asked for.
-    void expect(const Spot& own) const {
-        __builtin_prefetch(height(own, NodePart::Centre));
-        __builtin_prefetch(height(own, NodePart::South));
-        __builtin_prefetch(height(own, NodePart::West));
-    }
-
     std::int16_t centre_height(const Spot& own) const { return *height(own, NodePart::Centre); }
 
     /// Stored height of the mid-point of one of fan_edges of a node.
