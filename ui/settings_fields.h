@@ -261,9 +261,9 @@ void visit_air_settings(SomeSettings& s, Visit& visit) {
         Info{
             "ground-shading",
             "KIND",
-            "vertex: ground lit at each vertex; texture: at each pixel, frames about 3 times as "
-            "long "
-            "without a GPU; auto: texture with a drape or a GPU"},
+            "vertex: ground lit at each vertex; texture: at each pixel, which without a GPU takes "
+            "2 "
+            "to 3 times as long a frame; auto: texture with a drape or a GPU"},
         s.ground_shading);
     visit(
         Info{
