@@ -88,7 +88,7 @@ struct BestRoughness {
 
 BestRoughness
 best_of_roettger(const LoadedGround& ground, const ErrorRun& run, scene::GroundFans fans) {
-    constexpr std::array<double, 5> weights = {5.0, 10.0, 20.0, 40.0, 80.0};
+    constexpr std::array<double, 5> weights = {10.0, 20.0, 40.0, 80.0, 160.0};
     BestRoughness best;
     for (const double weight : weights) {
         ErrorRun other = run;

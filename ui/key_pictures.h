@@ -19,8 +19,9 @@ namespace octant::ui {
 /// Draws meshes over a colour that nothing else has and looks for it inside the ground.
 class KeyPictures {
 public:
-    /// Throws Error when there is no context.
-    explicit KeyPictures(const glm::ivec2& size_px);
+    /// For meshes of a ground that reaches `half_extent_m` from its centre. Throws Error when there
+    /// is no context.
+    KeyPictures(const glm::ivec2& size_px, const glm::dvec2& half_extent_m);
     ~KeyPictures();
     KeyPictures(const KeyPictures&) = delete;
     KeyPictures& operator=(const KeyPictures&) = delete;
@@ -37,12 +38,15 @@ private:
     bool goes_below(const glm::dvec3& ray) const;
 
     glm::ivec2 size_px_;
+    glm::dvec2 half_extent_m_;
     std::unique_ptr<visuals::gl::Context> context_;
     std::unique_ptr<visuals::gl::Renderer> renderer_; ///< goes before its context
     visuals::gl::Picture picture_;
     visuals::terrain::MeshSurface surface_;
     visuals::terrain::PictureView view_;
-    double reach_m_ = 0.0; ///< of the mesh from the eye
+    double reach_m_ = 0.0;  ///< of the mesh from the eye
+    double lowest_m_ = 0.0; ///< of the mesh, world height
+    double highest_m_ = 0.0;
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> facing_;
 };

@@ -29,7 +29,9 @@ void add(terrain::Conformity& sum, const terrain::Conformity& found) {
 
 TerrainFaults check_terrain(MeshMaker& maker, const TerrainCheck& check) {
     const std::unique_ptr<KeyPictures> pictures =
-        check.draw_every > 0 ? std::make_unique<KeyPictures>(size_px) : nullptr;
+        check.draw_every > 0
+            ? std::make_unique<KeyPictures>(size_px, maker.ground().half_extent_m())
+            : nullptr;
     terrain::ConformityCheck edges(maker.ground());
     GroundViewOptions seen;
     seen.size_px = size_px;

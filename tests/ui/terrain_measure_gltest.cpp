@@ -58,7 +58,7 @@ TEST_CASE("the key colour is seen through missing triangles and through printed 
     const terrain::Quadtree tree(field, printed);
     const std::vector<std::uint32_t> colours(257 * 257, 0xffffffffU);
     terrain::Mesher mesher(tree, colours);
-    KeyPictures pictures({320, 180});
+    KeyPictures pictures({320, 180}, field.half_extent_m());
     const auto camera = visuals::scene::camera_looking_at({0.0, -500.0, 2500.0}, {0.0, 0.0, 0.0});
     GroundViewOptions seen;
     const terrain::MeshView view = mesh_view(camera, seen);
