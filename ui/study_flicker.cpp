@@ -83,7 +83,7 @@ void run_stability(FlickerGround& ground, FieldRuns& runs, const Tick& tick) {
     const std::vector views(frames, view);
     FlickerSettings settings;
     const FlickerRun exact = run_along(flicker_ways()[exact_way], ground, settings, views);
-    runs.still_exact = terrain::frames_until_still(exact.triangles);
+    runs.still_exact = terrain::frames_until_still(exact.triangles, 10);
     const double gained =
         gained_at(ground, view, settings.roughness_weight, exact.resolution.back());
     for (const double gain : flicker_gains) {
@@ -92,7 +92,7 @@ void run_stability(FlickerGround& ground, FieldRuns& runs, const Tick& tick) {
         for (const double first : flicker_first) {
             settings.first_resolution = first;
             of_gain.push_back(terrain::frames_until_still(
-                run_along(flicker_ways()[settling_way], ground, settings, views).triangles));
+                run_along(flicker_ways()[settling_way], ground, settings, views).triangles, 10));
         }
         tick();
     }
@@ -108,15 +108,21 @@ run_field(FlickerGround& ground, std::string name, int frames, int still_frames,
     return runs;
 }
 
-/// Damped as printed with another r each, along a part of the path.
-std::vector<FlickerRun> run_memories(FlickerGround& ground, int frames, const Tick& tick) {
+/// Damped as printed along the path, with another r each; two of them were run before.
+std::vector<FlickerRun> run_memories(
+    FlickerGround& ground, int frames, const std::vector<FlickerRun>& path, const Tick& tick) {
     const std::vector<terrain::MeshView> views = ellipse_views(ground, frames);
-    const std::span part(views.data(), views.size() / 4);
     std::vector<FlickerRun> runs;
     for (const int memory : flicker_memories) {
         FlickerSettings settings;
-        settings.remembered_frames = memory;
-        runs.push_back(run_along(flicker_ways()[damped_way], ground, settings, part));
+        if (memory == 0) {
+            runs.push_back(path[previous_way]);
+        } else if (memory == settings.remembered_frames) {
+            runs.push_back(path[damped_way]);
+        } else {
+            settings.remembered_frames = memory;
+            runs.push_back(run_along(flicker_ways()[damped_way], ground, settings, views));
+        }
         tick();
     }
     return runs;
@@ -138,7 +144,7 @@ FlickerRuns run_all(const FlickerStudyOptions& options) {
     const Tick tick = [&] { progress.show(++done); };
     FlickerRuns runs;
     runs.rugged = run_field(rugged, rugged.field.name, options.frames, still, tick);
-    runs.memories = run_memories(rugged, options.frames, tick);
+    runs.memories = run_memories(rugged, options.frames, runs.rugged.path, tick);
     progress.finish();
     say(options.quiet, fmt::format("{}: waiting for its runs", gentle.field.name));
     runs.gentle = gentle_runs.get();

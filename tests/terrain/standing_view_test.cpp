@@ -45,7 +45,7 @@ void check_rest(int target, double gained, double most_missing, const Count& cou
             settings.loop_gain = gain;
             const std::vector<int> all = standing(settings, first, 100, count);
             INFO("gain " << gain << ", C_0 " << first);
-            CHECK(frames_until_still(all).value_or(100) <= 15);
+            CHECK(frames_until_still(all, 10).value_or(100) <= 15);
             CHECK(std::abs(all.back() - target) <= most_missing);
         }
     }
@@ -121,7 +121,7 @@ TEST_CASE("at a standing view the exact budget rests from the first frame on") {
             ground.mesher.mesh_within(over(2.0), {0.0, weight, FanKind::Partial}, {3000, 500.0})
                 .counters.triangles);
     }
-    CHECK(frames_until_still(all) == 0);
+    CHECK(frames_until_still(all, 10) == 0);
 }
 
 TEST_CASE("a view that moves off after it stood is controlled as before") {
@@ -163,8 +163,8 @@ TEST_CASE("figures of a series are those counted by hand") {
     CHECK(figures.alternation == Approx((6.0 + 3.0) / 7.0));
     CHECK(change_figures(all, 5).largest == 7);
     CHECK(change_figures(all, 8).mean == 0.0);
-    CHECK(frames_until_still(all) == 5);
-    CHECK_FALSE(frames_until_still(std::vector<int>{1, 1, 2}));
+    CHECK(frames_until_still(all, 3) == 5);
+    CHECK_FALSE(frames_until_still(all, 4));
     CHECK(frames_until_near(all, 100, 0.05, 2) == 2);
     CHECK_FALSE(frames_until_near(all, 200, 0.05, 1));
 }

@@ -30,15 +30,13 @@ ChangeFigures change_figures(std::span<const int> triangles, std::size_t first) 
     return figures;
 }
 
-std::optional<int> frames_until_still(std::span<const int> triangles) {
-    if (triangles.size() < 2 || triangles.back() != triangles[triangles.size() - 2]) {
-        return std::nullopt;
-    }
-    std::size_t first = triangles.size() - 1;
+std::optional<int> frames_until_still(std::span<const int> triangles, std::size_t standing) {
+    std::size_t first = triangles.size();
     while (first > 0 && triangles[first - 1] == triangles.back()) {
         --first;
     }
-    return static_cast<int>(first);
+    return triangles.size() - first < standing ? std::nullopt
+                                               : std::optional(static_cast<int>(first));
 }
 
 std::optional<int>

@@ -20,8 +20,9 @@ struct ChangeFigures {
 /// Of the changes dn_k with k >= `first`, first >= 1. All zero where there are none.
 ChangeFigures change_figures(std::span<const int> triangles, std::size_t first);
 
-/// Frames before the one from which on dn = 0 for ever; nothing where the last two frames differ.
-std::optional<int> frames_until_still(std::span<const int> triangles);
+/// Frames before the one from which on dn = 0 up to the end; nothing where those are fewer than
+/// `standing` frames.
+std::optional<int> frames_until_still(std::span<const int> triangles, std::size_t standing);
 
 /// Frames before the first from which on `standing` frames in a row miss `target` by at most
 /// `share` of it; nothing where there are none.
