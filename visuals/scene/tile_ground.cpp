@@ -89,6 +89,7 @@ private:
         const terrain::GroundMesh mesh = mesher_.mesh(view, target_);
         if (mesh.vertices.data() != mesh_.vertices.data()) {
             colours_.fill(mesher_.vertices(), mesh.origins);
+            mesher_.measure_boxes();
         }
         mesh_ = mesh;
     }

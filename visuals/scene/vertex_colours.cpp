@@ -16,7 +16,8 @@ namespace {
 /// ground is rough, 14 pixels of 720 lines over 45 degrees.
 constexpr double footprint_share = 1.0 / 192.0;
 constexpr std::size_t least_places = 1U << 14U;
-constexpr int mean_samples = 16; ///< a side
+constexpr std::size_t looked_ahead = 16; ///< vertices whose places are fetched into the cache
+constexpr int mean_samples = 16;         ///< a side
 
 /// Packed colours mixed by 256ths, rounded.
 std::uint32_t mixed(std::uint32_t a, std::uint32_t b, std::uint32_t share_of_b) {
@@ -40,6 +41,10 @@ Octave octave_of(float footprints) {
     return {(bits >> 23U) - 127U, (bits >> 15U) & 0xffU};
 }
 
+std::uint32_t sample_of(const terrain::VertexOrigin& origin) {
+    return std::uint32_t{origin.row} << 16U | origin.column;
+}
+
 std::size_t hashed(std::uint32_t sample) {
     const std::uint32_t h = sample * 0x9e3779b1U;
     return h ^ (h >> 15U);
@@ -60,8 +65,12 @@ void VertexColours::fill(
     std::span<models::ColourVertex> vertices, std::span<const terrain::VertexOrigin> origins) {
     assert(vertices.size() == origins.size());
     make_room(vertices.size());
+    const std::size_t mask = fresh_.size() - 1;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const terrain::VertexOrigin& origin = origins[i];
+        if (i + looked_ahead < origins.size()) {
+            __builtin_prefetch(&fresh_[hashed(sample_of(origins[i + looked_ahead])) & mask]);
+        }
         const Octave octave = octave_of(glm::length(vertices[i].position_m) * octaves_per_m_);
         const Entry& entry = entry_of(origin, std::min(octave.whole, last_octave_));
         std::uint32_t colour =
@@ -109,7 +118,7 @@ VertexColours::place_of(std::vector<Entry>& table, std::uint32_t sample) const {
 
 const VertexColours::Entry&
 VertexColours::entry_of(const terrain::VertexOrigin& origin, unsigned octave) {
-    const std::uint32_t sample = std::uint32_t{origin.row} << 16U | origin.column;
+    const std::uint32_t sample = sample_of(origin);
     Entry& entry = place_of(fresh_, sample);
     if (entry.octave == octave) {
         return entry;

@@ -25,9 +25,6 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-/// k: how many times larger than wanted the error of a vertex is when it is at its sample.
-constexpr float morph_ratio = 2.0F;
-
 constexpr std::size_t centre_of_ring = 8;
 
 /// The corners of a child among its parent's ring and centre, as those of fan_ring.

@@ -49,6 +49,9 @@ public:
     /// Those of the last mesh, to be coloured.
     std::span<models::ColourVertex> vertices() { return std::span(vertices_).first(vertex_count_); }
 
+    /// Does now the work that triangles_in() would else do first. Colours are not looked at.
+    void measure_boxes() const;
+
     /// Whether a box (world axes, metres) is looked for.
     using BoxTest = std::function<bool(const glm::dvec3& least_m, const glm::dvec3& most_m)>;
 

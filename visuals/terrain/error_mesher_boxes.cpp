@@ -7,12 +7,16 @@ namespace octant::visuals::terrain {
 
 void ErrorMesher::triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const {
     if (meshed_) {
-        if (!drawn_measured_) {
-            drawn_.resize(nodes_.size());
-            measure_drawn(root_node);
-            drawn_measured_ = true;
-        }
+        measure_boxes();
         add_triangles_in(root_node, wanted, triangles);
+    }
+}
+
+void ErrorMesher::measure_boxes() const {
+    if (meshed_ && !drawn_measured_) {
+        drawn_.resize(nodes_.size());
+        measure_drawn(root_node);
+        drawn_measured_ = true;
     }
 }
 

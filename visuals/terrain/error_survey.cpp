@@ -21,10 +21,11 @@ constexpr double first_look_px = 4.0; ///< error, without a last frame
 
 /// With geomorphs, how far a fan's vertices may be drawn from their samples, in errors of the
 /// fan's own centre. A vertex that is drawn elsewhere than its sample has an error of less than
-/// twice the one wanted as seen from its region of influence; those in and around the fan so of
-/// less than twice the centre's, which is in the mesh. It lies within the largest error of those
-/// ancestors that are not at their samples either, again less than twice its own.
-constexpr float morph_margin = 4.0F;
+/// morph_ratio times the one wanted as seen from its region of influence; those in and around the
+/// fan so of less than so many times the centre's, which is in the mesh. It lies within the largest
+/// error of those ancestors that are not at their samples either, again less than so many times its
+/// own.
+constexpr float morph_margin = morph_ratio * morph_ratio;
 
 } // namespace
 

@@ -23,6 +23,12 @@ struct ErrorTarget {
     bool operator==(const ErrorTarget&) const = default;
 };
 
+/// With geomorphs a vertex is at its sample where its error, as seen from its region of influence,
+/// is this many times the one wanted, and still between its ends where it is no more than that. A
+/// vertex on its way is so drawn up to 1.04 times the error wanted beside its sample; with 2 never
+/// above it, but half again as fast.
+inline constexpr float morph_ratio = 2.5F;
+
 inline constexpr int any_triangles = 1 << 30;
 
 /// A node whose fan is in the mesh at some limits, with the limits above which its parts are.
