@@ -83,7 +83,7 @@ void print(const nlohmann::ordered_json& figures, bool json) {
 }
 
 void show(const TerrainOptions& options) {
-    if (visuals::terrain::is_ground_file(options.terrain)) {
+    if (is_imported_ground(options.terrain)) {
         show_ground_file(options.terrain, options.verify, options.json);
         return;
     }

@@ -48,8 +48,8 @@ void write_mesh(const MeshOptions& options) {
             options.out,
             mesh.counters.triangles,
             mesh.vertices.size(),
-            mesh.error_px > 0.0 ? fmt::format("error {:.4g} px", mesh.error_px)
-                                : fmt::format("C = {:.4g}", mesh.resolution)));
+            mesh.resolution > 0.0 ? fmt::format("C = {:.4g}", mesh.resolution)
+                                  : fmt::format("error {:.4g} px", mesh.error_px)));
 }
 
 } // namespace

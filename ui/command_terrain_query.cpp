@@ -61,12 +61,12 @@ void query(const QueryOptions& options) {
     if (options.as_drawn) {
         const visuals::scene::Camera camera = camera_of(options.view);
         const auto maker = make_mesh_maker(ground, options.mesh);
-        visuals::terrain::MeshSurface surface;
-        surface.take(
-            mesh_as_asked(*maker, mesh_view(camera, options.view), options.mesh), camera.eye_m);
-        answers.points = answers_as_drawn(surface, points);
+        const visuals::terrain::MeshView view = mesh_view(camera, options.view);
+        DrawnGround drawn{{}, camera.eye_m, view.earth_radius_m};
+        drawn.surface.take(mesh_as_asked(*maker, view, options.mesh), camera.eye_m);
+        answers.points = answers_as_drawn(drawn, points);
         if (options.from_m) {
-            answers.sight = sight_as_drawn(surface, *options.from_m, *options.to_m);
+            answers.sight = sight_as_drawn(drawn, *options.from_m, *options.to_m);
         }
     } else {
         answers.points = answers_of(samples, points);

@@ -3,6 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "ui/data_files.h"
+#include "ui/terrain_file.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -51,9 +52,7 @@ visuals::scene::Settings with_absolute_files(visuals::scene::Settings settings) 
             name = absolute(name);
         }
     }
-    const bool built_in_ground = settings.terrain == "hills" || settings.terrain == "canyon" ||
-                                 settings.terrain == "background60" || settings.terrain == "none";
-    if (!built_in_ground && is_file(settings.terrain)) {
+    if (!is_built_in_ground(settings.terrain) && is_file(settings.terrain)) {
         settings.terrain = absolute(settings.terrain);
     }
     if (settings.drape) {

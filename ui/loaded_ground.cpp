@@ -18,7 +18,7 @@ terrain::GroundTiles LoadedGround::tiles() const {
 }
 
 LoadedGround load_ground(const std::string& name_or_file, double spacing_m) {
-    if (terrain::is_ground_file(name_or_file)) {
+    if (is_imported_ground(name_or_file)) {
         return LoadedGround(terrain::open_ground(name_or_file));
     }
     return LoadedGround(load_height_field(name_or_file, spacing_m));

@@ -27,7 +27,7 @@ void visit_path_settings(SomeSettings& s, Visit& visit) {
         Info{
             "terrain",
             "NAME|FILE",
-            "ground: hills, canyon, background60, none or a file that GDAL reads"},
+            "ground: hills, canyon, background60, none, a file that GDAL reads or an imported one"},
         s.terrain);
     visit(
         Info{

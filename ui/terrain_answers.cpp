@@ -118,10 +118,14 @@ answers_of(const terrain::GroundSamples& ground, std::span<const AskedPoint> poi
 }
 
 std::vector<PointAnswer>
-answers_as_drawn(const terrain::MeshSurface& surface, std::span<const AskedPoint> points) {
+answers_as_drawn(const DrawnGround& drawn, std::span<const AskedPoint> points) {
     std::vector<PointAnswer> answers;
     for (const AskedPoint& point : points) {
-        answers.push_back({point, surface.height_at(point.x_m, point.y_m)});
+        auto height_m = drawn.surface.height_at(point.x_m, point.y_m);
+        if (height_m) {
+            *height_m += drawn.drop_m({point.x_m, point.y_m});
+        }
+        answers.push_back({point, height_m});
     }
     return answers;
 }
@@ -138,12 +142,19 @@ SightAnswer sight_over(
     return {line.visible, line.hidden_at_m, line.clearance_m, line.lowest_at_m};
 }
 
-SightAnswer sight_as_drawn(
-    const terrain::MeshSurface& surface, const glm::dvec3& from_m, const glm::dvec3& to_m) {
+SightAnswer
+sight_as_drawn(const DrawnGround& drawn, const glm::dvec3& from_m, const glm::dvec3& to_m) {
+    const auto sunk = [&](const glm::dvec3& at_m) {
+        return glm::dvec3(at_m.x, at_m.y, at_m.z - drawn.drop_m(glm::dvec2(at_m)));
+    };
     SightAnswer sight;
-    if (const auto share = surface.first_hit(from_m, to_m)) {
+    const glm::dvec3 begin_m = sunk(from_m);
+    const glm::dvec3 way_m = sunk(to_m) - begin_m;
+    if (const auto share = drawn.surface.first_hit(begin_m, begin_m + way_m)) {
         sight.visible = false;
-        sight.hidden_at_m = from_m + (to_m - from_m) * *share;
+        glm::dvec3 hit_m = begin_m + way_m * *share;
+        hit_m.z += drawn.drop_m(glm::dvec2(hit_m));
+        sight.hidden_at_m = hit_m;
     }
     return sight;
 }

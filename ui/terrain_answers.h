@@ -3,6 +3,8 @@
 #include "visuals/terrain/ground_samples.h"
 #include "visuals/terrain/mesh_surface.h"
 
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <filesystem>
@@ -48,8 +50,22 @@ struct Answers {
 std::vector<PointAnswer>
 answers_of(const visuals::terrain::GroundSamples& ground, std::span<const AskedPoint> points);
 
+/// Ground as it is drawn for an eye point.
+struct DrawnGround {
+    visuals::terrain::MeshSurface surface;
+    glm::dvec3 eye_m{0.0};       ///< world
+    double earth_radius_m = 0.0; ///< by which it sinks away from the eye; 0 = flat
+
+    /// How far it is drawn below its height above datum.
+    double drop_m(const glm::dvec2& at_m) const {
+        const glm::dvec2 away_m = at_m - glm::dvec2(eye_m);
+        return visuals::terrain::earth_drop_m(glm::dot(away_m, away_m), earth_radius_m);
+    }
+};
+
+/// Heights above datum.
 std::vector<PointAnswer>
-answers_as_drawn(const visuals::terrain::MeshSurface& surface, std::span<const AskedPoint> points);
+answers_as_drawn(const DrawnGround& drawn, std::span<const AskedPoint> points);
 
 /// `radius_m`: of the earth, 0 = flat.
 SightAnswer sight_over(
@@ -58,9 +74,9 @@ SightAnswer sight_over(
     const glm::dvec3& to_m,
     double radius_m);
 
-/// Straight, against the mesh as it lies.
-SightAnswer sight_as_drawn(
-    const visuals::terrain::MeshSurface& surface, const glm::dvec3& from_m, const glm::dvec3& to_m);
+/// Straight between the ends where they are drawn.
+SightAnswer
+sight_as_drawn(const DrawnGround& drawn, const glm::dvec3& from_m, const glm::dvec3& to_m);
 
 /// CSV, or one JSON object with "points" and "sight".
 std::string text_of_answers(const Answers& answers, bool json);

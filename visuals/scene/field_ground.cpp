@@ -26,8 +26,9 @@ constexpr double reference_fov_rad = rad_from_deg(45.0); ///< of the lens for wh
 
 terrain::QuadtreeOptions quadtree_options(const Settings& settings) {
     return {
-        .roughness = ground_metric(settings) == GroundMetric::Printed ? terrain::Roughness::Literal
-                                                            : terrain::Roughness::Midpoint,
+        .roughness = ground_metric(settings) == GroundMetric::Printed
+                         ? terrain::Roughness::Literal
+                         : terrain::Roughness::Midpoint,
         .propagation = settings.propagation == Propagation::Printed
                            ? terrain::Propagation::Printed
                            : terrain::Propagation::CrackFree};

@@ -102,7 +102,7 @@ inline GroundMetric ground_metric(const Settings& settings) {
 }
 
 /// A triangle target beyond all meshes.
-inline constexpr int unlimited_triangles = 10000000;
+inline constexpr int unlimited_triangles = 1000000000;
 
 /// Triangles of ground that are held, in the first frame where that number follows the clock; a
 /// number beyond all meshes where the error alone decides.

@@ -4,6 +4,7 @@
 #include "visuals/scene/worker.h"
 #include "visuals/terrain/error_mesher.h"
 #include "visuals/terrain/ground_prefetcher.h"
+#include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/ground_tiles.h"
 
 #include <cmath>
@@ -17,7 +18,6 @@ namespace octant::visuals::scene {
 
 namespace {
 
-constexpr double mean_earth_radius_m = 6371000.0;
 constexpr double frames_ahead = 120.0;  ///< how far along the eye's way pages are asked for
 constexpr double least_error_px = 0.25; ///< what is finer than this nobody sees
 
@@ -34,7 +34,7 @@ public:
                   ? terrain::PaintOrder::FrontToBack
                   : terrain::PaintOrder::BackToFront)
         , target_{.error_px = settings.error_px.value_or(least_error_px), .geomorphs = settings.geomorphs}
-        , earth_radius_m_(settings.earth_curvature ? mean_earth_radius_m : 0.0)
+        , earth_radius_m_(settings.earth_curvature ? terrain::earth_radius_m : 0.0)
         , prefetcher_(ground_) {
         set_triangle_target(triangle_target(settings));
     }
@@ -74,7 +74,8 @@ public:
             make(view);
         }
         prepared_.reset();
-        prefetcher_.go_to(glm::dvec2(camera.eye_m + frames_ahead * (camera.eye_m - last_eye_m_)));
+        const glm::dvec3 way_m = camera.eye_m - last_eye_m_.value_or(camera.eye_m);
+        prefetcher_.go_to(glm::dvec2(camera.eye_m + frames_ahead * way_m));
         last_eye_m_ = camera.eye_m;
         counts = {mesh_.counters.triangles, mesh_.counters.fans, 0.0, mesh_.error_px};
         return {mesh_.vertices, mesh_.indices};
@@ -113,7 +114,7 @@ private:
     double earth_radius_m_;
     terrain::GroundMesh mesh_;
     std::optional<terrain::MeshView> prepared_;
-    glm::dvec3 last_eye_m_{0.0};
+    std::optional<glm::dvec3> last_eye_m_;
     terrain::GroundPrefetcher prefetcher_;
     Worker worker_; ///< goes first: it uses the others
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -15,13 +16,13 @@ public:
     Worker& operator=(const Worker&) = delete;
     Worker(Worker&&) = delete;
     Worker& operator=(Worker&&) = delete;
-    ~Worker(); ///< waits
+    ~Worker() = default; ///< waits
 
-    /// Begins work, which must not throw, after waiting for what was begun before. The thread is
+    /// Begins work after waiting for what was begun before. The thread is
     /// made at the first call.
     void begin(std::function<void()> work);
 
-    /// Returns when nothing is being done.
+    /// Returns when nothing is being done; throws what the work threw.
     void wait();
 
 private:
@@ -30,6 +31,7 @@ private:
     std::mutex mutex_;
     std::condition_variable_any changed_;
     std::function<void()> work_; ///< empty: nothing to do
+    std::exception_ptr fault_;
     std::jthread thread_;
 };
 

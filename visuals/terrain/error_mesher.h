@@ -42,8 +42,8 @@ public:
     /// The mesh at the smallest error, at or above the target's, up from which none has more
     /// triangles than the target's, whatever was meshed before; the same as before, without work,
     /// where view and target are. Colours are left to vertices(). Beside used samples, vertices may
-    /// be ends of others. The memory lasts until the next mesh but one, so that a mesh can be drawn
-    /// while the next is made.
+    /// be ends of others. Vertices and indices last until the next mesh but one, so that a mesh can
+    /// be drawn while the next is made; origins until the next.
     GroundMesh mesh(const MeshView& view, const ErrorTarget& target);
 
     /// Those of the last mesh, to be coloured.

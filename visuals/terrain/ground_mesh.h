@@ -52,7 +52,7 @@ struct VertexOrigin {
     float weight = 1.0F;     ///< 0 = wholly as the middle of its ends, 1 = wholly its sample
 };
 
-/// The ground for one view. The memory is the mesher's and lasts until its next mesh.
+/// The ground for one view. The memory is the mesher's and lasts at least until its next mesh.
 struct GroundMesh {
     std::span<const models::ColourVertex> vertices; ///< used samples, each once
     std::span<const std::uint32_t> indices; ///< triangles in the view's order, counter-clockwise

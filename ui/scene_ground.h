@@ -1,0 +1,18 @@
+#pragma once
+
+#include "ui/ground_texture_file.h"
+#include "ui/world.h"
+#include "visuals/scene/settings.h"
+
+#include <string>
+
+namespace octant::ui {
+
+/// Ground of polygons: there is no detail to choose.
+bool is_drawn_whole(const std::string& terrain);
+
+/// Loads the ground of a run into World::scene, and what is to be said of it into World. Throws
+/// Error for what cannot be read and for settings that do not go together.
+void load_scene_ground(const visuals::scene::Settings& settings, DrawnBy drawn_by, World& world);
+
+} // namespace octant::ui
