@@ -3,6 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "ui/data_files.h"
+#include "visuals/terrain/ground_file.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -20,6 +21,9 @@ std::string absolute(const std::string& file) {
 }
 
 std::string hash_of_file(const fs::path& file) {
+    if (visuals::terrain::is_ground_file(file)) {
+        return fmt::format("{:016x}", visuals::terrain::hash_of_ground(file));
+    }
     std::ifstream in(file, std::ios::binary);
     if (!in || fs::is_directory(file)) {
         error_in(file, "expected a file that can be read, got none");
