@@ -1,5 +1,6 @@
 #include "ui/command_terrain_import.h"
 
+#include "sim/base/error.h"
 #include "ui/progress.h"
 #include "ui/settings_options.h"
 #include "ui/stopwatch.h"
@@ -102,13 +103,18 @@ figures_of(const GroundShape& shape, const GroundFacts& facts, std::uintmax_t by
     return figures;
 }
 
+/// Names of files need not be UTF-8, JSON must.
+std::string dumped(const nlohmann::ordered_json& figures) {
+    return figures.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 void print(const nlohmann::ordered_json& figures, bool json) {
     if (json) {
-        std::fputs(fmt::format("{}\n", figures.dump(2)).c_str(), stdout);
+        std::fputs(fmt::format("{}\n", dumped(figures)).c_str(), stdout);
         return;
     }
     for (const auto& [key, value] : figures.items()) {
-        const std::string text = value.is_string() ? value.get<std::string>()
+        const std::string text = value.is_string() ? printable(value.get<std::string>())
                                  : value.is_number_float()
                                      ? fmt::format("{:.6g}", value.get<double>())
                                      : value.dump();

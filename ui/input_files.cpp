@@ -4,6 +4,7 @@
 #include "sim/base/hash.h"
 #include "ui/data_files.h"
 #include "ui/terrain_file.h"
+#include "visuals/terrain/ground_file.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -21,6 +22,9 @@ std::string absolute(const std::string& file) {
 }
 
 std::string hash_of_file(const fs::path& file) {
+    if (visuals::terrain::is_ground_file(file)) {
+        return fmt::format("{:016x}", visuals::terrain::hash_of_ground(file));
+    }
     std::ifstream in(file, std::ios::binary);
     if (!in || fs::is_directory(file)) {
         error_in(file, "expected a file that can be read, got none");

@@ -13,8 +13,8 @@ namespace octant::ui {
 visuals::scene::Settings with_absolute_files(visuals::scene::Settings settings);
 
 /// The files that a run reads for these settings, built-in ones too, and hashes of their bytes (16
-/// hex digits): two runs with the same settings and hashes show the same. Throws Error when one
-/// cannot be read.
+/// hex digits; of an imported ground all but its tiles, whose checksums count): two runs with the
+/// same settings and hashes show the same. Throws Error when one cannot be read.
 std::vector<std::pair<std::string, std::string>>
 input_hashes(const visuals::scene::Settings& settings);
 

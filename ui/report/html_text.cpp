@@ -1,6 +1,7 @@
 #include "ui/report/html_text.h"
 
 #include "sim/base/text_file.h"
+#include "sim/base/utf8.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -10,36 +11,6 @@ namespace octant::ui::report {
 namespace {
 
 constexpr std::string_view replacement = "\xEF\xBF\xBD";
-
-/// Bytes of the UTF-8 character that `text` starts with, 0 when it starts with none.
-std::size_t utf8_length(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned first = byte(0);
-    std::size_t length = 0;
-    if (first < 0x80) {
-        return 1;
-    }
-    if (first >= 0xC2 && first < 0xE0) {
-        length = 2;
-    } else if (first >= 0xE0 && first < 0xF0) {
-        length = 3;
-    } else if (first >= 0xF0 && first < 0xF5) {
-        length = 4;
-    }
-    if (length == 0 || text.size() < length) {
-        return 0;
-    }
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(i) & 0xC0U) != 0x80U) {
-            return 0;
-        }
-    }
-    // Too long forms, surrogates and what lies past U+10FFFF.
-    const unsigned second = byte(1);
-    const bool bad = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
-                     (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
-    return bad ? 0 : length;
-}
 
 void append_escaped(std::string& out, char c) {
     switch (c) {

@@ -1,6 +1,7 @@
 #include "visuals/terrain/ground_file.h"
 
 #include "sim/base/error.h"
+#include "sim/base/hash.h"
 #include "visuals/terrain/ground_header.h"
 #include "visuals/terrain/mapped_file.h"
 #include "visuals/terrain/worker_team.h"
@@ -66,6 +67,17 @@ GroundTiles open_ground(const path& path) {
     const GroundShape shape = shape_of(header);
     const GroundLayout layout(shape.columns, shape.rows);
     return {shape, facts_of(header), memory_of(*file, layout), file};
+}
+
+std::uint64_t hash_of_ground(const path& path) {
+    const MappedFile file(path, MappedFile::Access::Read);
+    const GroundHeader header = read_header(path, file.bytes());
+    check_before_tiles(path, file, header);
+    const GroundLayout layout(header.columns, header.rows);
+    Hash hash;
+    hash.add(file.bytes().first(GroundHeader::bytes + layout.first_tile()));
+    hash.add(file.bytes().subspan(GroundFilePlan(layout).checksums));
+    return hash.value();
 }
 
 void verify_ground(const path& path, int threads) {

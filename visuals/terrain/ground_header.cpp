@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
+#include "sim/base/utf8.h"
 
 #include <algorithm>
 #include <bit>
@@ -9,6 +10,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 namespace octant::visuals::terrain {
@@ -25,12 +27,53 @@ std::uint64_t own_checksum(const GroundHeader& header) {
     return hash_of(std::as_bytes(std::span(&header, 1)).first(offsetof(GroundHeader, checksum)));
 }
 
+bool is_power_of_two(double x) {
+    int exponent = 0;
+    return std::frexp(x, &exponent) == 0.5;
+}
+
+/// False for what is no number, too.
+bool lies_within(double x, double largest) {
+    return std::abs(x) <= largest;
+}
+
 bool is_sound(const GroundHeader& h) {
     const auto fits = [](std::int32_t n) { return n >= 2 && n <= 65536; };
-    return fits(h.columns) && fits(h.rows) && std::isfinite(h.spacing_m) && h.spacing_m > 0.0 &&
-           std::isfinite(h.height_base_m) && std::isfinite(h.height_unit_m) &&
-           h.height_unit_m > 0.0 && h.name_length <= h.name.size() &&
+    const bool has_numbers = std::isfinite(h.lowest_m) && std::isfinite(h.highest_m) &&
+                             std::isfinite(h.mean_m) && std::isfinite(h.progress.lowest_m) &&
+                             std::isfinite(h.progress.highest_m);
+    const bool lies_on_earth = h.has_place == 0 || (lies_within(h.latitude_deg, 90.0) &&
+                                                    lies_within(h.longitude_deg, 360.0));
+    return fits(h.columns) && fits(h.rows) && may_be_stored(shape_of(h)) && has_numbers &&
+           lies_on_earth && h.name_length <= h.name.size() &&
            h.progress.stage <= GroundProgress::Stage::Complete;
+}
+
+/// Length of the longest beginning of at most `longest` bytes that ends with a whole character.
+std::size_t length_cut(std::string_view text, std::size_t longest) {
+    std::size_t length = 0;
+    while (length < text.size()) {
+        const std::size_t next =
+            length + std::max(utf8_length(text.substr(length)), std::size_t{1});
+        if (next > longest) {
+            break;
+        }
+        length = next;
+    }
+    return length;
+}
+
+std::string cleaned(std::string_view text) {
+    constexpr std::string_view replacement = "\xEF\xBF\xBD";
+    std::string out;
+    while (!text.empty()) {
+        const std::size_t length = utf8_length(text);
+        const auto first = static_cast<unsigned char>(text.front());
+        const bool is_control = first < 0x20 || first == 0x7f;
+        out += length == 0 || is_control ? replacement : text.substr(0, length);
+        text.remove_prefix(std::max(length, std::size_t{1}));
+    }
+    return out;
 }
 
 } // namespace
@@ -90,8 +133,7 @@ GroundHeader header_of(const GroundShape& shape, const GroundFacts& facts) {
     header.lowest_m = facts.lowest_m;
     header.highest_m = facts.highest_m;
     header.mean_m = facts.mean_m;
-    header.name_length =
-        static_cast<std::uint32_t>(std::min(facts.name.size(), header.name.size()));
+    header.name_length = static_cast<std::uint32_t>(length_cut(facts.name, header.name.size()));
     std::copy_n(facts.name.begin(), header.name_length, header.name.begin());
     header.layout = hash_of(GroundLayout(shape.columns, shape.rows));
     return header;
@@ -103,7 +145,7 @@ GroundShape shape_of(const GroundHeader& h) {
 
 GroundFacts facts_of(const GroundHeader& h) {
     GroundFacts facts;
-    facts.name = std::string(h.name.data(), h.name_length);
+    facts.name = cleaned({h.name.data(), h.name_length});
     if (h.has_place != 0) {
         facts.place = models::GeoPlace{h.latitude_deg, h.longitude_deg};
     }
@@ -112,6 +154,13 @@ GroundFacts facts_of(const GroundHeader& h) {
     facts.highest_m = h.highest_m;
     facts.mean_m = h.mean_m;
     return facts;
+}
+
+bool may_be_stored(const GroundShape& shape) {
+    const double unit_m = shape.height_unit_m;
+    return shape.spacing_m >= 1e-3 && shape.spacing_m <= 1e6 &&
+           lies_within(shape.height_base_m, 1e5) && unit_m >= 0x1p-12 && unit_m <= 1.0 &&
+           is_power_of_two(unit_m);
 }
 
 std::array<std::byte, GroundHeader::bytes> page_of(GroundHeader header) {

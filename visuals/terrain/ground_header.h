@@ -68,9 +68,16 @@ struct GroundFilePlan {
 std::uint64_t hash_of(std::span<const std::byte> bytes);
 std::uint64_t hash_of(const GroundLayout& layout);
 
+/// A name that is too long is cut between two characters.
 GroundHeader header_of(const GroundShape& shape, const GroundFacts& facts);
 GroundShape shape_of(const GroundHeader& header);
+
+/// The name as UTF-8 without control characters, whatever the bytes in the file.
 GroundFacts facts_of(const GroundHeader& header);
+
+/// Whether spacing (1e-3 to 1e6 m), base (1e5 m up or down) and unit (a power of two from 2^-12 to
+/// 1 m) are such as a file may have.
+bool may_be_stored(const GroundShape& shape);
 
 /// The page to write, with its checksum.
 std::array<std::byte, GroundHeader::bytes> page_of(GroundHeader header);

@@ -1,17 +1,15 @@
 #include "visuals/terrain/ground_import.h"
 
-#include "models/height_raster.h"
 #include "models/height_source.h"
 #include "sim/base/error.h"
-#include "sim/base/hash.h"
 #include "visuals/terrain/ground_assembly.h"
 #include "visuals/terrain/ground_header.h"
+#include "visuals/terrain/import_files.h"
+#include "visuals/terrain/import_rows.h"
 #include "visuals/terrain/mapped_file.h"
 #include "visuals/terrain/number_voids.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <limits>
@@ -25,27 +23,8 @@ namespace {
 using std::filesystem::path;
 using Stage = GroundProgress::Stage;
 
-static_assert(void_number == models::void_metres);
-
 constexpr int samples_a_band = 1 << 22;
 constexpr std::size_t tiles_a_batch = 256;
-
-/// Tells the inputs and options of one import from those of another.
-std::uint64_t hash_of_inputs(const std::vector<path>& inputs, const GroundImportOptions& options) {
-    Hash hash;
-    hash.add_word(GroundHeader::right_version);
-    hash.add_word(std::bit_cast<std::uint64_t>(options.picture.spacing_m));
-    hash.add_word(std::bit_cast<std::uint64_t>(options.picture.height_scale));
-    for (const path& input : inputs) {
-        std::error_code code;
-        const std::string name = std::filesystem::absolute(input, code).string();
-        hash.add(std::as_bytes(std::span(name)));
-        hash.add_word(std::filesystem::file_size(input, code));
-        hash.add_word(static_cast<std::uint64_t>(
-            std::filesystem::last_write_time(input, code).time_since_epoch().count()));
-    }
-    return hash.value();
-}
 
 class Import {
 public:
@@ -64,8 +43,6 @@ private:
     void save();
     void scan();
     void read();
-    void take_whole_metres(int first_row, std::span<std::int16_t> numbers);
-    void take_fractions(int first_row, std::span<std::int16_t> numbers);
     void fill();
     void build();
     void finish();
@@ -120,14 +97,12 @@ Import::Import(
     , plan_(layout_)
     , inputs_(hash_of_inputs(inputs, options)) {
     part_ += ".part";
-    std::error_code code;
-    for (const path& input : inputs) {
-        if (std::filesystem::equivalent(input, out_, code)) {
-            error_in(out_, "expected a file to write, got one of the inputs");
-        }
-    }
-    if (std::filesystem::exists(out_, code) && !std::filesystem::is_regular_file(out_, code)) {
-        error_in(out_, "expected a file to write, got a folder, device or pipe");
+    check_out(inputs, out_, part_);
+    if (!may_be_stored(shape_of(2, 2, source_.spacing_m(), 0.0, 0.0))) {
+        error_in(
+            source_.name(),
+            fmt::format(
+                "expected samples from 1 mm to 1000 km apart, got {:g} m", source_.spacing_m()));
     }
 }
 
@@ -154,9 +129,10 @@ bool Import::goes_on() {
     if (!std::filesystem::exists(part_, code)) {
         return false;
     }
+    file_ = std::make_unique<MappedFile>(part_, MappedFile::Access::ReadAndWrite);
+    check_unfinished(part_);
     note_ = part_.string() + ": of other inputs or damaged, started anew";
     try {
-        file_ = std::make_unique<MappedFile>(part_, MappedFile::Access::ReadAndWrite);
         progress_ = read_header(part_, std::as_const(*file_).bytes()).progress;
     } catch (const Error&) {
         return false;
@@ -221,17 +197,8 @@ void Import::by_bands(ImportStage stage, const Work& work) {
 }
 
 void Import::scan() {
-    std::vector<float> heights_m;
     by_bands(ImportStage::Scanning, [&](int first_row, int count) {
-        heights_m.resize(
-            static_cast<std::size_t>(count) * static_cast<std::size_t>(source_.columns()));
-        source_.read(first_row, heights_m);
-        for (const float height_m : heights_m) {
-            if (!std::isnan(height_m)) {
-                progress_.lowest_m = std::min(progress_.lowest_m, static_cast<double>(height_m));
-                progress_.highest_m = std::max(progress_.highest_m, static_cast<double>(height_m));
-            }
-        }
+        scan_rows(source_, first_row, count, progress_);
     });
     progress_.stage = Stage::Reading;
     progress_.rows_done = 0;
@@ -242,11 +209,7 @@ void Import::read() {
     const auto columns = static_cast<std::size_t>(source_.columns());
     by_bands(ImportStage::Reading, [&](int first_row, int count) {
         band.resize(static_cast<std::size_t>(count) * columns);
-        if (source_.whole_metres()) {
-            take_whole_metres(first_row, band);
-        } else {
-            take_fractions(first_row, band);
-        }
+        read_rows(source_, first_row, band, progress_);
         const std::size_t offset =
             plan_.numbers + 2 * static_cast<std::size_t>(first_row) * columns;
         file_->write(offset, std::as_bytes(std::span(band)));
@@ -255,35 +218,6 @@ void Import::read() {
         std::error_code code;
         std::filesystem::remove(part_, code);
         error_in(source_.name(), "expected at least one height, got only samples without data");
-    }
-}
-
-void Import::take_whole_metres(int first_row, std::span<std::int16_t> numbers) {
-    source_.read(first_row, numbers);
-    std::int16_t lowest_m = std::numeric_limits<std::int16_t>::max();
-    std::int16_t highest_m = void_number;
-    int voids = 0;
-    for (const std::int16_t number : numbers) {
-        const bool is_void = number == void_number;
-        voids += is_void ? 1 : 0;
-        lowest_m = std::min(lowest_m, is_void ? lowest_m : number);
-        highest_m = std::max(highest_m, number);
-    }
-    progress_.voids += voids;
-    if (static_cast<std::size_t>(voids) < numbers.size()) {
-        progress_.lowest_m = std::min(progress_.lowest_m, static_cast<double>(lowest_m));
-        progress_.highest_m = std::max(progress_.highest_m, static_cast<double>(highest_m));
-    }
-}
-
-void Import::take_fractions(int first_row, std::span<std::int16_t> numbers) {
-    std::vector<float> heights_m(numbers.size());
-    source_.read(first_row, heights_m);
-    const GroundShape shape = shape_of(1, 1, 1.0, progress_.lowest_m, progress_.highest_m);
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const bool is_void = std::isnan(heights_m[i]);
-        progress_.voids += is_void ? 1 : 0;
-        numbers[i] = is_void ? void_number : stored_number(heights_m[i], shape);
     }
 }
 
@@ -349,12 +283,8 @@ void Import::finish() {
     progress_.stage = Stage::Complete;
     put_header();
     file_->sync();
+    put_in_place(part_, out_); // while the part is locked
     file_.reset();
-    std::error_code code;
-    std::filesystem::rename(part_, out_, code);
-    if (code) {
-        error_in(out_, fmt::format("cannot be written: {}", code.message()));
-    }
     watch_(ImportStage::Writing, 1.0);
 }
 

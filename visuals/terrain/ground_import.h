@@ -43,13 +43,14 @@ struct ImportSummary {
 ///
 /// Works in OUT.part, which stays when the import is stopped: the next import of the same inputs
 /// (names, sizes, times, options) goes on from what was brought to the disk last, else starts anew;
-/// a stop while voids are filled starts anew, too. Heights that are not whole metres are read
-/// twice. OUT appears when all is done and on the disk.
+/// a stop while voids are filled starts anew, too. One import at a time works in it. Heights that
+/// are not whole metres are read twice. OUT appears when all is done and on the disk.
 ///
 /// Memory beside the mapped file, which takes 2 bytes a sample more until it is done: 50 MB, 80
 /// more while voids are filled, GDAL's cache, and what models::HeightSource holds.
 ///
-/// Throws Error as models::HeightSource and for OUT (no permission, disk full, an input).
+/// Throws Error as models::HeightSource and for OUT and OUT.part (no permission, disk full, an
+/// input, in use by another import, a file of another kind in the place of OUT.part).
 ImportSummary import_ground(
     const std::vector<std::filesystem::path>& inputs,
     const std::filesystem::path& out,

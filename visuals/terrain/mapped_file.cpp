@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -19,47 +20,111 @@ namespace {
     error_in(path, fmt::format("cannot be {}: {}", what, std::strerror(errno)));
 }
 
+/// Holds a descriptor until all went well.
+class Opened {
+public:
+    explicit Opened(int descriptor)
+        : descriptor_(descriptor) {}
+
+    ~Opened() {
+        if (descriptor_ >= 0) {
+            ::close(descriptor_);
+        }
+    }
+
+    Opened(const Opened&) = delete;
+    Opened& operator=(const Opened&) = delete;
+    Opened(Opened&&) = delete;
+    Opened& operator=(Opened&&) = delete;
+
+    int get() const { return descriptor_; }
+
+    int release() { return std::exchange(descriptor_, -1); }
+
+private:
+    int descriptor_;
+};
+
+std::size_t size_of_regular(const std::filesystem::path& path, int descriptor) {
+    struct stat status {};
+
+    if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
+        error_in(path, "expected a regular file, got a folder, device or pipe");
+    }
+    return static_cast<std::size_t>(status.st_size);
+}
+
+/// Also refuses a file that was renamed by the import that held the lock until now.
+void lock(const std::filesystem::path& path, int descriptor) {
+    const bool is_held =
+        ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || errno == EINTR);
+
+    struct stat ours {};
+
+    struct stat named {};
+
+    const bool is_there = ::fstat(descriptor, &ours) == 0 && ::stat(path.c_str(), &named) == 0 &&
+                          ours.st_ino == named.st_ino && ours.st_dev == named.st_dev;
+    if (is_held || !is_there) {
+        error_in(path, "expected a file to write, but another import is writing it");
+    }
+}
+
+/// Sets the length of an empty file. Returns 0 or the error number.
+int take_room(int descriptor, off_t length) {
+    while (::fallocate(descriptor, 0, 0, length) != 0) {
+        if (errno == EOPNOTSUPP) {
+            return ::ftruncate(descriptor, length) == 0 ? 0 : errno;
+        }
+        if (errno != EINTR) {
+            return errno;
+        }
+    }
+    return 0;
+}
+
 } // namespace
 
 MappedFile::MappedFile(std::filesystem::path path, Access access)
     : path_(std::move(path)) {
     const bool writes = access == Access::ReadAndWrite;
-    descriptor_ = ::open(path_.c_str(), (writes ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor_ < 0) {
+    Opened file(::open(path_.c_str(), (writes ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NONBLOCK));
+    if (file.get() < 0) {
         cannot(path_, writes ? "opened for writing" : "opened for reading");
     }
-
-    struct stat status {};
-
-    if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
-        ::close(descriptor_);
-        error_in(path_, "expected a regular file, got a folder, device or pipe");
+    size_ = size_of_regular(path_, file.get());
+    if (writes) {
+        lock(path_, file.get());
     }
-    size_ = static_cast<std::size_t>(status.st_size);
+    descriptor_ = file.get();
     map(writes ? PROT_READ | PROT_WRITE : PROT_READ);
+    file.release();
 }
 
 MappedFile::MappedFile(std::filesystem::path path, std::size_t size)
     : path_(std::move(path))
     , size_(size) {
-    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-    if (descriptor_ < 0) {
+    Opened file(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644));
+    if (file.get() < 0) {
         cannot(path_, "written");
     }
-    const auto length = static_cast<off_t>(size);
-    const bool taken = ::fallocate(descriptor_, 0, 0, length) == 0;
-    if (!taken && (errno != EOPNOTSUPP || ::ftruncate(descriptor_, length) != 0)) {
-        const int kept_errno = errno;
-        ::close(descriptor_);
+    size_of_regular(path_, file.get());
+    lock(path_, file.get());
+    if (::ftruncate(file.get(), 0) != 0) {
+        cannot(path_, "written");
+    }
+    if (const int fault = take_room(file.get(), static_cast<off_t>(size)); fault != 0) {
         ::unlink(path_.c_str());
         error_in(
             path_,
             fmt::format(
                 "expected room for {} MB on the disk: {}",
                 size / 1000000 + 1,
-                std::strerror(kept_errno)));
+                std::strerror(fault)));
     }
+    descriptor_ = file.get();
     map(PROT_READ | PROT_WRITE);
+    file.release();
 }
 
 void MappedFile::map(int protection) {
@@ -68,9 +133,6 @@ void MappedFile::map(int protection) {
     }
     void* const start = ::mmap(nullptr, size_, protection, MAP_SHARED, descriptor_, 0);
     if (start == MAP_FAILED) {
-        const int kept_errno = errno;
-        ::close(descriptor_);
-        errno = kept_errno;
         cannot(path_, "mapped");
     }
     start_ = static_cast<std::byte*>(start);
@@ -107,6 +169,14 @@ void MappedFile::sync() {
 void MappedFile::cut(std::size_t size) {
     if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) {
         cannot(path_, "written");
+    }
+}
+
+void sync_folder_of(const std::filesystem::path& path) {
+    const std::filesystem::path parent = path.parent_path();
+    const Opened folder(::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_CLOEXEC));
+    if (folder.get() >= 0 && ::fsync(folder.get()) != 0 && errno != EINVAL) {
+        cannot(path, "written");
     }
 }
 

@@ -12,11 +12,13 @@ class MappedFile {
 public:
     enum class Access { Read, ReadAndWrite };
 
-    /// Maps all of a regular file. Throws Error when that is not possible.
+    /// Maps all of a regular file. To write it locks the file against other writers (not readers),
+    /// where the file system can. Throws Error when that is not possible.
     MappedFile(std::filesystem::path path, Access access);
 
     /// Creates or empties a file of `size` bytes, its room on the disk taken where the file system
-    /// can, and maps it to read and write. Throws Error (no permission, disk full).
+    /// can, and maps it to read and write, locked as above. Throws Error (no permission, disk
+    /// full, locked by another: then the file stays as it is).
     MappedFile(std::filesystem::path path, std::size_t size);
 
     ~MappedFile();
@@ -48,5 +50,8 @@ private:
     std::byte* start_ = nullptr;
     std::size_t size_ = 0;
 };
+
+/// Brings the names in a file's folder to the disk, where the file system can. Throws Error.
+void sync_folder_of(const std::filesystem::path& path);
 
 } // namespace octant::visuals::terrain

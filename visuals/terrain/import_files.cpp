@@ -1,0 +1,69 @@
+#include "visuals/terrain/import_files.h"
+
+#include "sim/base/error.h"
+#include "sim/base/hash.h"
+#include "visuals/terrain/ground_file.h"
+#include "visuals/terrain/ground_header.h"
+#include "visuals/terrain/mapped_file.h"
+
+#include <bit>
+#include <fmt/format.h>
+#include <span>
+#include <string>
+#include <system_error>
+
+namespace octant::visuals::terrain {
+
+using std::filesystem::path;
+
+std::uint64_t hash_of_inputs(const std::vector<path>& inputs, const GroundImportOptions& options) {
+    Hash hash;
+    hash.add_word(GroundHeader::right_version);
+    hash.add_word(std::bit_cast<std::uint64_t>(options.picture.spacing_m));
+    hash.add_word(std::bit_cast<std::uint64_t>(options.picture.height_scale));
+    for (const path& input : inputs) {
+        std::error_code code;
+        const std::string name = std::filesystem::absolute(input, code).string();
+        hash.add(std::as_bytes(std::span(name)));
+        hash.add_word(std::filesystem::file_size(input, code));
+        hash.add_word(static_cast<std::uint64_t>(
+            std::filesystem::last_write_time(input, code).time_since_epoch().count()));
+    }
+    return hash.value();
+}
+
+void check_out(const std::vector<path>& inputs, const path& out, const path& part) {
+    std::error_code code;
+    for (const path& written : {out, part}) {
+        for (const path& input : inputs) {
+            if (std::filesystem::equivalent(input, written, code)) {
+                error_in(written, "expected a file to write, got one of the inputs");
+            }
+        }
+        if (std::filesystem::exists(written, code) &&
+            !std::filesystem::is_regular_file(written, code)) {
+            error_in(written, "expected a file to write, got a folder, device or pipe");
+        }
+    }
+}
+
+void check_unfinished(const path& part) {
+    std::error_code code;
+    if (!is_ground_file(part) && std::filesystem::file_size(part, code) > 0) {
+        error_in(
+            part,
+            "expected what an earlier import left, got another kind of file: move it away or "
+            "choose another --out");
+    }
+}
+
+void put_in_place(const path& part, const path& out) {
+    std::error_code code;
+    std::filesystem::rename(part, out, code);
+    if (code) {
+        error_in(out, fmt::format("cannot be written: {}", code.message()));
+    }
+    sync_folder_of(out);
+}
+
+} // namespace octant::visuals::terrain
