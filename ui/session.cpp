@@ -170,7 +170,7 @@ void Session::mesh_ahead(int frame) {
     for (long step = next_step_; step <= sim::step_at(time_s); ++step) {
         rig = scene::advanced(rig, path.state_at(sim::time_of_step(step)));
     }
-    planner_.set_triangle_target(next_triangle_target_);
+    planner_.set_triangle_target(triangle_target_ahead_);
     planner_.prepare(camera(path.state_at(time_s), rig));
 }
 
@@ -189,7 +189,8 @@ report::FrameRecord Session::draw(int frame) {
     simulate_to(record.sim_time_s);
     record.sim_ms = stage.lap_ms();
 
-    record.triangle_target = frame == 0 ? choose_triangle_target(0) : next_triangle_target_;
+    record.triangle_target =
+        frame == frame_ahead_ ? triangle_target_ahead_ : choose_triangle_target(frame);
     planner_.set_triangle_target(record.triangle_target);
     const scene::Camera seen_from = camera(states_.front(), rig_);
     scene::PlanCounts counts;
@@ -197,8 +198,9 @@ report::FrameRecord Session::draw(int frame) {
     record.plan_ms = stage.lap_ms();
 
     if (frame + 1 < frames()) {
-        next_triangle_target_ = choose_triangle_target(frame + 1);
-        mesh_ahead(frame + 1);
+        frame_ahead_ = frame + 1;
+        triangle_target_ahead_ = choose_triangle_target(frame_ahead_);
+        mesh_ahead(frame_ahead_);
     }
     renderer_->draw(ids_ ? ids_->of(plan) : plan);
     renderer_->finish();

@@ -104,7 +104,8 @@ private:
     int last_triangles_ = 0;
     visuals::scene::LoadSettings load_settings_;
     visuals::scene::LoadState load_;
-    int next_triangle_target_ = 0;
+    int frame_ahead_ = -1; ///< the one that triangle_target_ahead_ was chosen for
+    int triangle_target_ahead_ = 0;
     std::vector<int> replayed_targets_; ///< by frame; empty = nothing is replayed
     Hash state_hash_;
     Hash picture_hash_;
