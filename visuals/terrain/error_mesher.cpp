@@ -145,7 +145,10 @@ inline std::uint32_t ErrorMesher::add_vertex(const NewVertex& made) {
     const float ratio = std::sqrt(morph_limit_ / made.critical);
     const float weight = std::clamp((ratio - 1.0F) / (morph_ratio - 1.0F), 0.0F, 1.0F);
     const float from_a = height_m_[made.end_a];
-    const float middle_m = from_a + made.share * (height_m_[made.end_b] - from_a);
+    const float from_b = height_m_[made.end_b];
+    const float middle_m = made.share == 0.5F // the same whichever end comes first
+                               ? 0.5F * (from_a + from_b)
+                               : from_a + made.share * (from_b - from_a);
     height_m += (1.0F - weight) * (middle_m - height_m);
     height_m_[vertex] = height_m;
     const auto east_m = static_cast<float>(rule_.west_m() + made.at.column * ground_->spacing_m());
