@@ -89,9 +89,42 @@ void visit_view_settings(SomeSettings& s, Visit& visit) {
             1.0,
             150.0},
         s.fov_deg);
+    visit(
+        Info{
+            "azimuth",
+            "DEGREES",
+            "chase, orbit: eye turned around the aircraft, clockwise from above; else the look "
+            "turned right",
+            -360.0,
+            360.0},
+        s.azimuth_deg);
+    visit(Info{"elevation", "DEGREES", "the same upwards", -89.0, 89.0}, s.elevation_deg);
+    visit(
+        Info{
+            "zoom",
+            "FACTOR",
+            "chase, orbit: how many times nearer; else how many times larger",
+            0.05,
+            100.0},
+        s.zoom);
+    visit(
+        Info{
+            "inset",
+            "VIEW",
+            "a second view in a corner of the picture: chase, cockpit, ... [none]"},
+        s.inset);
+    visit(
+        Info{
+            "head-up-display", "", "speed, heading, pitch ladder and more before the cockpit view"},
+        s.head_up_display);
     visit(Info{"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, s.size_px);
     visit(Info{"samples", "N", "samples a pixel, 1 or 4", 1, 4}, s.samples);
-    visit(Info{"context", "KIND", "who draws: osmesa (no GPU, no display) or egl"}, s.context);
+    visit(
+        Info{
+            "context",
+            "KIND",
+            "who draws: osmesa (no GPU, no display), egl or window (the display's driver)"},
+        s.context);
 }
 
 /// Fields that say which frames are drawn, and how fast.
@@ -102,6 +135,7 @@ void visit_time_settings(SomeSettings& s, Visit& visit) {
     visit(
         Info{"frame-per-sample", "", "one frame a path sample, as the 1989 tables use"},
         s.frame_per_sample);
+    visit(Info{"start", "S", "begin so far into the path", 0.0, 1e6}, s.start_s);
     visit(
         Info{"frames", "N", "stop after so many frames [the whole path]", 1, 100000000}, s.frames);
     visit(

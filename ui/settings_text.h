@@ -84,7 +84,7 @@ struct EnumNames<visuals::scene::HeightMode> {
 
 template <>
 struct EnumNames<visuals::scene::ContextKind> {
-    static std::vector<std::string_view> names() { return {"osmesa", "egl"}; }
+    static std::vector<std::string_view> names() { return {"osmesa", "egl", "window"}; }
 };
 
 template <>

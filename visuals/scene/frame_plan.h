@@ -73,6 +73,20 @@ struct TriangleDraw {
     std::span<const std::uint32_t> indices; ///< triangles, counter-clockwise seen from above
 };
 
+/// A corner of what is drawn over the picture, in pixels from its upper left corner.
+struct OverlayVertex {
+    glm::vec2 at_px{0.0F};
+    std::uint32_t colour =
+        0; ///< as ColourVertex::colour; alpha = how much of the picture it covers
+};
+
+/// Triangles drawn over the picture in their order, either way round, blended by their alpha.
+/// Memory as TriangleDraw.
+struct OverlayDraw {
+    std::span<const OverlayVertex> vertices;
+    std::span<const std::uint32_t> indices;
+};
+
 /// Where world axes with the eye subtracted lie in a texture: at_eye + position * per_m, in shares
 /// of its width from the west and of its height from the south.
 struct TexturePlace {
@@ -124,6 +138,7 @@ struct FramePlan {
     glm::vec3 to_sun{0.0F, 0.0F, 1.0F}; ///< unit vector, world axes
     glm::vec3 ambient{0.45F};           ///< light on what is lit here from everywhere, linear
     glm::vec3 sunlight{0.65F};          ///< light from the sun, times the cosine to it
+    OverlayDraw overlay;                ///< over everything, without depth or haze; may be empty
 };
 
 } // namespace octant::visuals::scene

@@ -14,7 +14,7 @@ namespace octant::visuals::scene {
 
 enum class View { Chase, Cockpit, Tower, Orbit, Free };
 enum class HeightMode { Clear, Follow, Datum };
-enum class ContextKind { OsMesa, Egl };
+enum class ContextKind { OsMesa, Egl, Window };
 enum class GroundMetric { Printed, Midpoint, ScreenError };
 enum class Propagation { CrackFree, Printed };
 enum class GroundFans { Partial, Full };
@@ -48,10 +48,17 @@ struct Settings {
     std::optional<glm::dvec3> eye_m;  ///< of the tower and free views
     std::optional<glm::dvec3> look_m; ///< of the free view
     std::optional<double> fov_deg; ///< vertical; none = 45, and the tower zooms in on the aircraft
+    double azimuth_deg = 0.0;   ///< chase, orbit: the eye turned around the aircraft; else the look
+    double elevation_deg = 0.0; ///< the same, up
+    double zoom =
+        1.0; ///< chase, orbit: how many times nearer; else how many times larger it is seen
+    std::optional<View> inset;   ///< a second view, drawn small into a corner of the picture
+    bool head_up_display = true; ///< of the cockpit view
     glm::ivec2 size_px{1280, 720};
     int samples = 1;
     double rate_hz = 60.0;
     bool frame_per_sample = false;
+    double start_s = 0.0; ///< where in the path the flight begins, after the path's own start
     std::optional<int> frames;
     std::optional<double> seconds;
     int warm_up = 10;

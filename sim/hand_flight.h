@@ -1,0 +1,56 @@
+#pragma once
+
+#include "sim/aircraft_state.h"
+
+#include <memory>
+#include <string_view>
+
+namespace octant::sim {
+
+/// What a pilot asks of the aircraft. F-15: stick, rudder, throttle. 500MD: cyclic, pedals,
+/// collective. Values outside their range are clamped, not-a-numbers count as 0.
+struct PilotControls {
+    double pitch = 0.0;    ///< -1 pushed .. 1 pulled
+    double roll = 0.0;     ///< -1 left .. 1 right
+    double yaw = 0.0;      ///< -1 left .. 1 right
+    double throttle = 0.0; ///< 0 idle or lowest collective .. 1 full
+};
+
+/// Why a flight by hand is not quite in its pilot's hands.
+struct FlightWarnings {
+    bool stalled = false;    ///< more lift was asked for than the wing has
+    bool at_a_limit = false; ///< load factor, roll rate, bank, speed or climb is held at its limit
+};
+
+/// An aircraft flown by hand: a point mass with attitude, in fixed steps of sim::step_s. The same
+/// start and controls give the same states to the last bit.
+class HandFlight {
+public:
+    HandFlight() = default;
+    virtual ~HandFlight() = default;
+    HandFlight(const HandFlight&) = delete;
+    HandFlight& operator=(const HandFlight&) = delete;
+    HandFlight(HandFlight&&) = delete;
+    HandFlight& operator=(HandFlight&&) = delete;
+
+    /// One fixed step on. AircraftState::time_s is that of the start plus the steps.
+    virtual void step(const PilotControls& controls) = 0;
+
+    virtual const AircraftState& state() const = 0;
+
+    virtual FlightWarnings warnings() const = 0;
+
+    /// Throttle that holds speed and height from the start on with centred stick.
+    virtual double trim_throttle() const = 0;
+};
+
+/// Takes an aircraft ("f15" or "500md"; any other name flies as an f15) over in this state, as it
+/// is: position, velocity, attitude and load factor go on from there.
+std::unique_ptr<HandFlight> hand_flight(std::string_view aircraft, const AircraftState& start);
+
+/// Level, wings level, unaccelerated: where a flight from trim begins. `speed_mps` true airspeed;
+/// heading clockwise from north.
+AircraftState trimmed_state(
+    std::string_view aircraft, const glm::dvec3& position_m, double heading_rad, double speed_mps);
+
+} // namespace octant::sim

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "sim/aircraft_state.h"
+#include "visuals/scene/camera.h"
+#include "visuals/scene/frame_plan.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace octant::visuals::scene {
+
+/// What a head-up display shows beside the state's own values.
+struct HeadUpInputs {
+    sim::AircraftState state;
+    double height_m = 0.0;                       ///< above datum
+    std::optional<double> height_above_ground_m; ///< nothing outside the map
+};
+
+/// Head-up display of the cockpit view: true airspeed in knots, altitude in feet, heading tape,
+/// pitch ladder and flight-path marker that lie on the world behind them, load factor, height above
+/// ground. Lines and letters are triangles with soft edges, so that no multisampling is needed.
+/// Sizes go with the picture's height.
+class HeadUpDisplay {
+public:
+    /// Valid until the next call. No allocation once warmed up.
+    OverlayDraw draw(const HeadUpInputs& inputs, const Camera& camera, const glm::ivec2& size_px);
+
+private:
+    std::vector<OverlayVertex> vertices_;
+    std::vector<std::uint32_t> indices_;
+};
+
+} // namespace octant::visuals::scene
