@@ -254,7 +254,10 @@ PlacedPath place_over_ground(
     const sim::AircraftLimits& limits) {
     const std::vector<double> times_s = step_times(path);
     const Choice choice = chosen(places_along(path, times_s), times_s, placement, ground);
-    const sim::Trajectory over = moved(path, choice);
+    // A turn by 0 rounds attitudes once more and drops the signs of zeros.
+    const bool as_it_was = placement.mode == HeightMode::Datum && choice.heading_rad == 0.0 &&
+                           choice.origin_m == glm::dvec2(0.0);
+    const sim::Trajectory over = as_it_was ? path : moved(path, choice);
     std::vector<glm::dvec3> places_m = places_along(over, times_s);
     const std::vector<double> ground_m = heights_on_map(times_s, places_m, ground);
     sim::Trajectory placed = over;

@@ -21,7 +21,8 @@ enum class HeightMode {
             ///< ground is the wanted one
     Follow, ///< heights are heights over a smoothed ground; where the aircraft cannot follow any,
             ///< the whole path is lifted by one height, and a note says so
-    Datum   ///< heights as they are
+    Datum   ///< heights as they are; with place 0, 0 and heading 0 all of the path is as it was, to
+            ///< the last bit
 };
 
 struct Placement {

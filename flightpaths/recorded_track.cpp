@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,10 @@ constexpr double fastest_mps = 3000.0;
 constexpr double furthest_m = 1e7;
 constexpr double longest_s = 86400.0;
 constexpr double latest_s = 1e7;
+/// A quaternion whose length is as far from 1 is no attitude.
+constexpr double off_unit = 1e-6;
+/// Closer to 1 its length is rounding: it is taken as it stands, so that a state keeps its bits.
+constexpr double rounding = 1e-12;
 
 /// What a column means; the value of each column is in the unit of its name.
 enum Quantity {
@@ -37,6 +42,10 @@ enum Quantity {
     EastSpeed,
     UpSpeed,
     LoadFactor,
+    QuaternionW,
+    QuaternionX,
+    QuaternionY,
+    QuaternionZ,
     QuantityCount
 };
 
@@ -45,7 +54,7 @@ struct Known {
     std::string_view name;
 };
 
-constexpr std::array<Known, 11> own_columns{{
+constexpr std::array<Known, 15> own_columns{{
     {Time, "t_s"},
     {North, "north_m"},
     {East, "east_m"},
@@ -57,6 +66,10 @@ constexpr std::array<Known, 11> own_columns{{
     {EastSpeed, "v_east_mps"},
     {UpSpeed, "v_up_mps"},
     {LoadFactor, "n_g"},
+    {QuaternionW, "q_w"},
+    {QuaternionX, "q_x"},
+    {QuaternionY, "q_y"},
+    {QuaternionZ, "q_z"},
 }};
 
 // The geodetic latitude stands first: it is taken where both are there.
@@ -95,6 +108,10 @@ struct Header {
     }
 };
 
+std::span<const Known> columns_of(const Header& header) {
+    return header.jsbsim ? std::span<const Known>(jsbsim_columns) : own_columns;
+}
+
 struct Source {
     const std::filesystem::path& file;
     int line;
@@ -117,9 +134,21 @@ int field_of(const std::vector<std::string_view>& names, std::string_view name, 
 }
 
 void need_columns(const Header& header, const Source& at) {
-    for (const Known& known : header.jsbsim ? jsbsim_columns : own_columns) {
+    for (const Known& known : columns_of(header)) {
         if (known.quantity <= Altitude && !header.has({known.quantity})) {
             at.refuse(fmt::format("expected a column {}, got none", known.name));
+        }
+    }
+}
+
+/// All four columns of the quaternion, or none.
+void need_whole_quaternion(const Header& header, const Source& at) {
+    const bool any = header.has({QuaternionW}) || header.has({QuaternionX}) ||
+                     header.has({QuaternionY}) || header.has({QuaternionZ});
+    for (const Known& known : own_columns) {
+        if (any && known.quantity >= QuaternionW && !header.has({known.quantity})) {
+            at.refuse(fmt::format(
+                "expected all of the columns q_w, q_x, q_y, q_z, got no {}", known.name));
         }
     }
 }
@@ -139,13 +168,14 @@ Header header_from(std::string_view line, const Source& at) {
             "expected column names with t_s or Time among them, got {}",
             printable(std::string(line))));
     }
-    for (const Known& known : header.jsbsim ? jsbsim_columns : own_columns) {
+    for (const Known& known : columns_of(header)) {
         Column& column = header.columns[known.quantity];
         if (column.field < 0) {
             column = {field_of(names, known.name, at), known.name};
         }
     }
     need_columns(header, at);
+    need_whole_quaternion(header, at);
     return header;
 }
 
@@ -196,7 +226,23 @@ Row own_from_jsbsim(Row row, std::optional<GeoOrigin>& origin, const Source& at)
     return row;
 }
 
-sim::AircraftState state_from(const Row& row, const Source& at) {
+glm::dquat attitude_from(const Row& row, bool as_quaternion, const Source& at) {
+    if (!as_quaternion) {
+        return body_to_world_from_euler(
+            {rad_from_deg(row[Yaw]), rad_from_deg(row[Pitch]), rad_from_deg(row[Roll])});
+    }
+    const glm::dquat attitude(
+        row[QuaternionW], row[QuaternionX], row[QuaternionY], row[QuaternionZ]);
+    const double off = std::abs(glm::length(attitude) - 1.0);
+    if (!(off <= off_unit)) {
+        at.refuse(fmt::format(
+            "expected a unit quaternion q_w, q_x, q_y, q_z, got one of length {:.7g}",
+            glm::length(attitude)));
+    }
+    return off <= rounding ? attitude : glm::normalize(attitude);
+}
+
+sim::AircraftState state_from(const Row& row, bool as_quaternion, const Source& at) {
     sim::AircraftState state;
     state.time_s = row[Time];
     if (std::abs(state.time_s) > latest_s) {
@@ -214,8 +260,7 @@ sim::AircraftState state_from(const Row& row, const Source& at) {
             glm::length(state.position_m) / 1000.0));
     }
     state.velocity_mps = {row[EastSpeed], row[NorthSpeed], row[UpSpeed]};
-    state.body_to_world = body_to_world_from_euler(
-        {rad_from_deg(row[Yaw]), rad_from_deg(row[Pitch]), rad_from_deg(row[Roll])});
+    state.body_to_world = attitude_from(row, as_quaternion, at);
     state.load_factor = row[LoadFactor];
     return state;
 }
@@ -250,6 +295,7 @@ RecordedTrack read_recorded_track(const std::filesystem::path& file) {
         error_at(file, 1, "expected a line of column names, got an empty one");
     }
     const Header header = header_from(lines.front(), {file, 1});
+    const bool as_quaternion = header.has({QuaternionW});
     std::optional<GeoOrigin> origin;
     std::vector<sim::AircraftState> samples;
     for (std::size_t i = 1; i < lines.size(); ++i) {
@@ -261,7 +307,7 @@ RecordedTrack read_recorded_track(const std::filesystem::path& file) {
         if (header.jsbsim) {
             row = own_from_jsbsim(row, origin, at);
         }
-        samples.push_back(state_from(row, at));
+        samples.push_back(state_from(row, as_quaternion, at));
         if (samples.size() > 1) {
             const sim::AircraftState& before = samples[samples.size() - 2];
             check_times(samples.front().time_s, before.time_s, samples.back().time_s, at);
@@ -274,7 +320,7 @@ RecordedTrack read_recorded_track(const std::filesystem::path& file) {
     if (!header.has({NorthSpeed, EastSpeed, UpSpeed})) {
         fill_velocities(samples);
     }
-    if (!header.has({Roll, Pitch, Yaw})) {
+    if (!as_quaternion && !header.has({Roll, Pitch, Yaw})) {
         fill_attitudes(samples);
     }
     if (!header.has({LoadFactor})) {

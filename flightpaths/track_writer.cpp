@@ -101,6 +101,31 @@ std::string track_csv(const sim::Trajectory& trajectory) {
     return text;
 }
 
+std::string exact_track_csv(const sim::Trajectory& trajectory) {
+    std::string text =
+        "t_s,north_m,east_m,alt_m,v_north_mps,v_east_mps,v_up_mps,n_g,q_w,q_x,q_y,q_z\n";
+    for (const sim::AircraftState& state : trajectory.samples()) {
+        const glm::dquat& attitude = state.body_to_world;
+        // Without a precision fmt writes the shortest text that reads back as the same number.
+        fmt::format_to(
+            std::back_inserter(text),
+            "{},{},{},{},{},{},{},{},{},{},{},{}\n",
+            state.time_s,
+            state.position_m.y,
+            state.position_m.x,
+            state.position_m.z,
+            state.velocity_mps.y,
+            state.velocity_mps.x,
+            state.velocity_mps.z,
+            state.load_factor,
+            attitude.w,
+            attitude.x,
+            attitude.y,
+            attitude.z);
+    }
+    return text;
+}
+
 std::string track_acmi(const sim::Trajectory& trajectory, const AcmiHeader& header) {
     std::string text = fmt::format(
         "FileType=text/acmi/tacview\nFileVersion=2.2\n"

@@ -14,6 +14,12 @@ namespace octant::flightpaths {
 /// the same states back within 1e-3 (m, m/s, rad, g).
 std::string track_csv(const sim::Trajectory& trajectory);
 
+/// A flight as comma-separated text that repeats it: t_s, north_m, east_m, alt_m, v_north_mps,
+/// v_east_mps, v_up_mps, n_g, q_w, q_x, q_y, q_z, each number with as many digits as it takes.
+/// read_recorded_track gives the same states back to the last bit, if the reader takes them at all
+/// (two samples or more, unit attitudes, its limits of time, place and speed).
+std::string exact_track_csv(const sim::Trajectory& trajectory);
+
 /// What a Tacview file says beside the motion.
 struct AcmiHeader {
     std::string title;
