@@ -1,0 +1,17 @@
+#pragma once
+
+namespace octant::sim {
+
+/// Still air at one height of the ICAO standard atmosphere.
+struct Air {
+    double density_kgpm3 = 0.0;
+    double sound_mps = 0.0;         ///< speed of sound
+    double pressure_ratio = 0.0;    ///< to sea level
+    double temperature_ratio = 0.0; ///< to sea level
+};
+
+/// Air of a height above datum, taken as geopotential height above sea level. Heights below -2 km
+/// and above 80 km get the air of those.
+Air standard_air(double height_m);
+
+} // namespace octant::sim

@@ -1,0 +1,256 @@
+// A point mass under lift, drag, side force, thrust and gravity, with an attitude that a control
+// augmentation system turns: any text on flight mechanics, e.g. Stengel, Flight Dynamics (2004),
+// 3.2. Steps by the midpoint rule. Load-factor and roll-rate limits: sim/aircraft_limits.h; sources
+// of the forces: sim/fixed_wing_aero.cpp.
+// Deviations: no moments of inertia. The attitude turns with the velocity, and about it with the
+// lags below, which are those of a fighter that handles well (MIL-F-8785C, level 1, category A).
+// Less than full_authority_mps of airspeed leaves the tail less and less to turn with.
+
+#include "sim/fixed_wing_flight.h"
+
+#include "sim/base/axes.h"
+#include "sim/base/units.h"
+#include "sim/fixed_wing_aero.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace octant::sim {
+
+namespace {
+
+constexpr double weight_n = f15::mass_kg * gravity_mps2;
+constexpr double no_authority_mps = 10.0;
+constexpr double full_authority_mps = 40.0;
+constexpr double full_roll_mps = 170.0; ///< below it the roll rate falls with the airspeed
+constexpr double load_factor_lag_s = 0.15;
+constexpr double roll_lag_s = 0.2;
+constexpr double rudder_lag_s = 0.4;
+constexpr double engine_lag_s = 0.8;
+constexpr double incidence_lag_s = 0.8;
+constexpr double attitude_lag_s = 0.1; ///< errors of angle of attack and sideslip go as fast
+constexpr double fastest_pitch_radps = 1.2;
+constexpr double full_rudder_rad = rad_from_deg(6.0);
+/// Angle of attack that asking for a tenth more than the wing has adds, and its most, with the
+/// stick centred and all the way back.
+constexpr double beyond_stall_rad = rad_from_deg(4.0);
+constexpr double centred_beyond_rad = rad_from_deg(4.0);
+constexpr double pulled_beyond_rad = rad_from_deg(12.0);
+
+const glm::dvec3 body_forward(1.0, 0.0, 0.0);
+const glm::dvec3 body_right(0.0, 1.0, 0.0);
+const glm::dvec3 body_down(0.0, 0.0, 1.0);
+
+double authority(double speed_mps) {
+    return std::clamp(
+        (speed_mps - no_authority_mps) / (full_authority_mps - no_authority_mps), 0.0, 1.0);
+}
+
+/// Lift of one unit of the coefficient.
+double lift_scale_n(const Air& air, double speed_mps) {
+    return 0.5 * air.density_kgpm3 * speed_mps * speed_mps * f15::wing_m2;
+}
+
+struct Trim {
+    double alpha_rad = 0.0;
+    double lever = 0.0;
+};
+
+/// Level flight without acceleration: thrust along the body holds the drag and some weight.
+Trim level_trim(double speed_mps, const Air& air) {
+    const double scale_n = lift_scale_n(air, speed_mps);
+    const double mach = speed_mps / air.sound_mps;
+    Trim trim;
+    if (!(scale_n > 0.0)) {
+        return trim;
+    }
+    double thrust_n = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        const double lift_n = weight_n - thrust_n * std::sin(trim.alpha_rad);
+        trim.alpha_rad = f15::alpha_of_lift(
+            std::clamp(lift_n / scale_n, -f15::most_lift_coefficient, f15::most_lift_coefficient));
+        thrust_n =
+            scale_n * f15::drag_coefficient(trim.alpha_rad, 0.0, mach) / std::cos(trim.alpha_rad);
+    }
+    trim.lever = f15::lever_of_thrust(thrust_n, mach, air);
+    return trim;
+}
+
+} // namespace
+
+AircraftState
+trimmed_fixed_wing(const glm::dvec3& position_m, double heading_rad, double speed_mps) {
+    assert(speed_mps >= 0.0);
+    const Trim trim = level_trim(speed_mps, standard_air(position_m.z));
+    AircraftState state;
+    state.position_m = position_m;
+    state.velocity_mps = speed_mps * direction_from_heading(heading_rad);
+    state.body_to_world = body_to_world_from_euler({heading_rad, trim.alpha_rad, 0.0});
+    return state;
+}
+
+FixedWingFlight::FixedWingFlight(const AircraftState& start)
+    : limits_(*limits_of("f15"))
+    , state_(start)
+    , clock_(start.time_s)
+    , air_(standard_air(start.position_m.z)) {
+    now_ = flow(start.velocity_mps, start.body_to_world, 0.0);
+    trim_lever_ = level_trim(now_.speed_mps, air_).lever;
+    lever_ = trim_lever_;
+    now_ = flow(start.velocity_mps, start.body_to_world, 0.0);
+    asked_load_factor_ =
+        std::clamp(start.load_factor, limits_.least_load_factor, limits_.most_load_factor);
+    asked_alpha_rad_ = wanted_alpha_rad(asked_load_factor_, now_.speed_mps, 0.0);
+    warnings_ = {}; // of nothing before the first step
+    if (now_.speed_mps > full_authority_mps) {
+        incidence_rad_ = asked_alpha_rad_ - now_.alpha_rad;
+    } else {
+        asked_alpha_rad_ = now_.alpha_rad;
+    }
+    asked_beta_rad_ = std::clamp(now_.beta_rad, -full_rudder_rad, full_rudder_rad);
+    now_ = flow(start.velocity_mps, start.body_to_world, incidence_rad_);
+}
+
+FixedWingFlight::Flow FixedWingFlight::flow(
+    const glm::dvec3& velocity_mps, const glm::dquat& attitude, double incidence_rad) const {
+    Flow flow;
+    flow.speed_mps = glm::length(velocity_mps);
+    const double mach = flow.speed_mps / air_.sound_mps;
+    const glm::dvec3 thrust_n = f15::thrust_n(lever_, mach, air_) * (attitude * body_forward);
+    const glm::dvec3 gravity_n(0.0, 0.0, -weight_n);
+    if (!(flow.speed_mps > 1e-3)) {
+        flow.acceleration_mps2 = (thrust_n + gravity_n) / f15::mass_kg;
+        return flow;
+    }
+    flow.along = velocity_mps / flow.speed_mps;
+    const glm::dvec3 in_body = glm::conjugate(attitude) * flow.along;
+    flow.alpha_rad = std::atan2(in_body.z, in_body.x);
+    flow.beta_rad = std::asin(std::clamp(in_body.y, -1.0, 1.0));
+    const glm::dvec3 up = attitude * -body_down;
+    const glm::dvec3 across = up - glm::dot(up, flow.along) * flow.along;
+    const double across_size = glm::length(across);
+    const glm::dvec3 lifting = across_size > 1e-6 ? across / across_size : glm::dvec3(0.0);
+    const double scale_n = lift_scale_n(air_, flow.speed_mps);
+    const double alpha_rad = flow.alpha_rad + incidence_rad;
+    flow.thrust_lift_n = glm::dot(thrust_n, lifting);
+    const double lift_n = std::clamp(
+        scale_n * f15::lift_coefficient(alpha_rad),
+        limits_.least_load_factor * weight_n - flow.thrust_lift_n,
+        limits_.most_load_factor * weight_n - flow.thrust_lift_n);
+    const double drag_n = scale_n * f15::drag_coefficient(alpha_rad, flow.beta_rad, mach);
+    const double side_n = scale_n * f15::side_coefficient(flow.beta_rad);
+    flow.load_factor = (lift_n + flow.thrust_lift_n) / weight_n;
+    flow.acceleration_mps2 = (lift_n * lifting - drag_n * flow.along +
+                              side_n * glm::cross(flow.along, lifting) + thrust_n + gravity_n) /
+                             f15::mass_kg;
+    return flow;
+}
+
+/// Angle of attack, with incidence, that gives a load factor: beyond the stall when the wing has
+/// not that much. Sets the warning of a stall.
+double FixedWingFlight::wanted_alpha_rad(double load_factor, double speed_mps, double pull) {
+    const double scale_n = std::max(1.0, lift_scale_n(air_, speed_mps));
+    const double wanted = (load_factor * weight_n - now_.thrust_lift_n) / scale_n;
+    const double share = std::abs(wanted) / f15::most_lift_coefficient;
+    warnings_.stalled = share > 1.0;
+    double alpha_rad = f15::alpha_of_lift(wanted);
+    if (warnings_.stalled) {
+        const double most_rad =
+            centred_beyond_rad + (pulled_beyond_rad - centred_beyond_rad) * std::abs(pull);
+        const double beyond_rad = std::min(most_rad, (share - 1.0) * 10.0 * beyond_stall_rad);
+        alpha_rad += std::copysign(beyond_rad, wanted);
+    }
+    return alpha_rad * authority(speed_mps);
+}
+
+/// Rate of the attitude in world axes: with the velocity, about it as the pilot rolls, and towards
+/// the asked angles of attack and sideslip. `share` of the step has passed.
+glm::dvec3 FixedWingFlight::turn_radps(
+    const Flow& flow, const glm::dquat& attitude, const Pitching& pitching, double share) const {
+    const double held = authority(flow.speed_mps);
+    if (held == 0.0) {
+        return glm::dvec3(0.0);
+    }
+    const glm::dvec3 with_path = glm::cross(flow.along, flow.acceleration_mps2) / flow.speed_mps;
+    const double asked_rad = pitching.from_rad + share * (pitching.to_rad - pitching.from_rad);
+    const double incidence_rad = pitching.incidence_from_rad +
+                                 share * (pitching.incidence_to_rad - pitching.incidence_from_rad);
+    const double course_radps = (pitching.to_rad - pitching.from_rad -
+                                 (pitching.incidence_to_rad - pitching.incidence_from_rad)) /
+                                step_s;
+    const double error_rad = wrapped_to_pi(asked_rad - incidence_rad - flow.alpha_rad);
+    const double pitch_radps = std::clamp(
+        course_radps + error_rad / attitude_lag_s, -fastest_pitch_radps, fastest_pitch_radps);
+    const double yaw_radps = std::clamp(
+        (flow.beta_rad - asked_beta_rad_) / attitude_lag_s,
+        -fastest_pitch_radps,
+        fastest_pitch_radps);
+    return held * (with_path + roll_radps_ * flow.along + pitch_radps * (attitude * body_right) +
+                   yaw_radps * (attitude * body_down));
+}
+
+/// Brings what the pilot asks for one step on.
+void FixedWingFlight::ask(const PilotControls& controls) {
+    const glm::dvec3& velocity = state_.velocity_mps;
+    const double speed_mps = now_.speed_mps;
+    const double level = std::hypot(velocity.x, velocity.y);
+    const double centred = speed_mps > no_authority_mps ? level / speed_mps : 1.0;
+    const double range = controls.pitch >= 0.0 ? limits_.most_load_factor - centred
+                                               : centred - limits_.least_load_factor;
+    asked_load_factor_ = lagged(
+        asked_load_factor_,
+        centred + controls.pitch * range,
+        load_factor_lag_s,
+        limits_.load_factor_rate_gps);
+    const double most_roll_radps =
+        limits_.roll_rate_radps * std::min(1.0, speed_mps / full_roll_mps) *
+        (1.0 -
+         0.7 * smooth_step(rad_from_deg(15.0), f15::stall_alpha_rad, std::abs(now_.alpha_rad)));
+    roll_radps_ = lagged(roll_radps_, controls.roll * most_roll_radps, roll_lag_s);
+    roll_radps_ = std::clamp(roll_radps_, -most_roll_radps, most_roll_radps);
+    asked_beta_rad_ = lagged(asked_beta_rad_, -controls.yaw * full_rudder_rad, rudder_lag_s);
+    warnings_.at_a_limit = asked_load_factor_ > limits_.most_load_factor - 0.02 ||
+                           asked_load_factor_ < limits_.least_load_factor + 0.02 ||
+                           std::abs(roll_radps_) > 0.99 * most_roll_radps ||
+                           speed_mps > limits_.most_speed_mps;
+}
+
+void FixedWingFlight::move(const Pitching& pitching) {
+    const glm::dvec3 velocity = state_.velocity_mps;
+    const glm::dquat attitude = state_.body_to_world;
+    const double half_s = 0.5 * step_s;
+    const glm::dquat half_turned =
+        turned(attitude, turn_radps(now_, attitude, pitching, 0.0), half_s);
+    const Flow half = flow(
+        velocity + half_s * now_.acceleration_mps2,
+        half_turned,
+        0.5 * (pitching.incidence_from_rad + pitching.incidence_to_rad));
+    state_.velocity_mps = velocity + step_s * half.acceleration_mps2;
+    state_.position_m += half_s * (velocity + state_.velocity_mps);
+    state_.body_to_world = turned(attitude, turn_radps(half, half_turned, pitching, 0.5), step_s);
+}
+
+void FixedWingFlight::step(const PilotControls& controls) {
+    const PilotControls asked = clean(controls);
+    ask(asked);
+    const double coming_mps =
+        std::max(0.0, now_.speed_mps + step_s * glm::dot(now_.along, now_.acceleration_mps2));
+    Pitching pitching;
+    pitching.from_rad = asked_alpha_rad_;
+    pitching.to_rad = wanted_alpha_rad(asked_load_factor_, coming_mps, asked.pitch);
+    pitching.incidence_from_rad = incidence_rad_;
+    pitching.incidence_to_rad = lagged(incidence_rad_, 0.0, incidence_lag_s);
+    move(pitching);
+    asked_alpha_rad_ = pitching.to_rad;
+    incidence_rad_ = pitching.incidence_to_rad;
+    lever_ = lagged(lever_, asked.throttle, engine_lag_s);
+    air_ = standard_air(state_.position_m.z);
+    now_ = flow(state_.velocity_mps, state_.body_to_world, incidence_rad_);
+    state_.load_factor = now_.load_factor;
+    state_.time_s = clock_.next_s();
+}
+
+} // namespace octant::sim

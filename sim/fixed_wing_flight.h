@@ -1,0 +1,73 @@
+#pragma once
+
+#include "sim/aircraft_limits.h"
+#include "sim/atmosphere.h"
+#include "sim/flight_steps.h"
+#include "sim/hand_flight.h"
+
+namespace octant::sim {
+
+/// The F-15 by hand. The stick asks for load factor and roll rate, as a control augmentation system
+/// has it: centred it keeps the climb angle (cos of it, in g), so that in a bank the pilot pulls.
+/// The rudder asks for sideslip.
+class FixedWingFlight final : public HandFlight {
+public:
+    explicit FixedWingFlight(const AircraftState& start);
+
+    void step(const PilotControls& controls) override;
+
+    const AircraftState& state() const override { return state_; }
+
+    FlightWarnings warnings() const override { return warnings_; }
+
+    double trim_throttle() const override { return trim_lever_; }
+
+private:
+    /// What velocity and attitude bring about.
+    struct Flow {
+        double speed_mps = 0.0;
+        double alpha_rad = 0.0; ///< geometric, without incidence_rad_
+        double beta_rad = 0.0;
+        glm::dvec3 along{0.0}; ///< unit, of the velocity; 0 at rest
+        glm::dvec3 acceleration_mps2{0.0};
+        double thrust_lift_n = 0.0; ///< part of the thrust that lifts
+        double load_factor = 0.0;
+    };
+
+    /// Course of the angle of attack over one step.
+    struct Pitching {
+        double from_rad = 0.0;
+        double to_rad = 0.0;
+        double incidence_from_rad = 0.0;
+        double incidence_to_rad = 0.0;
+    };
+
+    Flow
+    flow(const glm::dvec3& velocity_mps, const glm::dquat& attitude, double incidence_rad) const;
+    glm::dvec3 turn_radps(
+        const Flow& flow, const glm::dquat& attitude, const Pitching& pitching, double share) const;
+    void ask(const PilotControls& controls);
+    double wanted_alpha_rad(double load_factor, double speed_mps, double pull);
+    void move(const Pitching& pitching);
+
+    AircraftLimits limits_;
+    AircraftState state_;
+    StepClock clock_;
+    Air air_;
+    Flow now_;
+    FlightWarnings warnings_;
+    double trim_lever_ = 0.0;
+    double lever_ = 0.0;             ///< of the engines, behind the pilot's
+    double asked_load_factor_ = 1.0; ///< on its way to what the stick asks for
+    double asked_alpha_rad_ = 0.0;   ///< that gives it, with incidence
+    double roll_radps_ = 0.0;        ///< about the velocity
+    double asked_beta_rad_ = 0.0;
+    /// What the start's attitude lacks of the angle of attack of its load factor; fades away.
+    double incidence_rad_ = 0.0;
+};
+
+/// See trimmed_state in hand_flight.h.
+AircraftState
+trimmed_fixed_wing(const glm::dvec3& position_m, double heading_rad, double speed_mps);
+
+} // namespace octant::sim

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "sim/fixed_step.h"
+#include "sim/hand_flight.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+namespace octant::sim {
+
+/// Controls within their ranges; a not-a-number becomes 0.
+PilotControls clean(const PilotControls& controls);
+
+/// First-order lag over one step.
+double lagged(double now, double target, double time_constant_s);
+
+/// As lagged, at most `fastest_per_s` in either direction.
+double lagged(double now, double target, double time_constant_s, double fastest_per_s);
+
+/// 0 up to `low`, 1 from `high` on, smooth between. low < high.
+double smooth_step(double low, double high, double value);
+
+/// Attitude after turning for `time_s` at a rate given in world axes. Unit again.
+glm::dquat turned(const glm::dquat& attitude, const glm::dvec3& world_radps, double time_s);
+
+/// Times of the steps after a start: start plus steps, and where the start is the time of a step,
+/// exactly time_of_step.
+class StepClock {
+public:
+    explicit StepClock(double start_s);
+
+    double next_s();
+
+private:
+    double start_s_ = 0.0;
+    long first_step_ = 0;
+    long steps_ = 0;
+};
+
+} // namespace octant::sim

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "sim/aircraft_limits.h"
+#include "sim/atmosphere.h"
+#include "sim/base/axes.h"
+#include "sim/flight_steps.h"
+#include "sim/hand_flight.h"
+#include "sim/rotor.h"
+
+namespace octant::sim {
+
+/// The 500MD by hand. The cyclic asks for pitch and bank, centred for wings level and the pitch
+/// that holds the speed (below a walking pace, that stops it); the throttle is the collective. The
+/// pedals turn on the spot when slow and ask for sideslip in forward flight.
+class HelicopterFlight final : public HandFlight {
+public:
+    explicit HelicopterFlight(const AircraftState& start);
+
+    void step(const PilotControls& controls) override;
+
+    const AircraftState& state() const override { return state_; }
+
+    FlightWarnings warnings() const override { return warnings_; }
+
+    double trim_throttle() const override { return trim_collective_; }
+
+private:
+    struct Flow {
+        md500::RotorFlow rotor;
+        double thrust_n = 0.0;
+        bool held = false; ///< the blades could lift more than power or strength allow
+        glm::dvec3 acceleration_mps2{0.0};
+        double load_factor = 0.0;
+    };
+
+    Flow flow(const glm::dvec3& velocity_mps, const glm::dquat& attitude) const;
+    glm::dvec3 turn_radps(const PilotControls& controls);
+    double asked_pitch_rad(const PilotControls& controls, double heading_rad);
+    double asked_yaw_radps(const PilotControls& controls, double heading_rad) const;
+    void move(const glm::dvec3& turn_radps);
+    void settle_downwash();
+
+    AircraftLimits limits_;
+    AircraftState state_;
+    StepClock clock_;
+    Air air_;
+    double trim_collective_ = 0.0;
+    double collective_ = 0.0; ///< of the blades, behind the pilot's
+    double induced_mps_ = 0.0;
+    EulerAngles angle_rates_radps_; ///< of heading, pitch and roll
+    FlightWarnings warnings_;
+    Flow now_;
+};
+
+/// See trimmed_state in hand_flight.h.
+AircraftState
+trimmed_helicopter(const glm::dvec3& position_m, double heading_rad, double speed_mps);
+
+} // namespace octant::sim

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "sim/atmosphere.h"
+
+namespace octant::sim::md500 {
+
+inline constexpr double mass_kg = 1361.0;
+
+/// The wind at the rotor, m/s.
+struct RotorFlow {
+    double through_mps = 0.0; ///< climb along the shaft
+    double across_mps = 0.0;  ///< in the disc; not negative
+    double induced_mps = 0.0; ///< downwash at the disc
+};
+
+/// What the blades lift at a collective of 0 .. 1 with no regard to power. May be negative.
+double blade_thrust_n(double collective, const RotorFlow& flow, const Air& air);
+
+/// Collective that lifts this; may lie outside 0 .. 1.
+double collective_of_thrust(double newtons, const RotorFlow& flow, const Air& air);
+
+/// The most that the engine's power can lift, infinite where the wind drives the rotor.
+double powered_thrust_n(const RotorFlow& flow, const Air& air);
+
+/// Downwash that this thrust ends at.
+double steady_induced_mps(double newtons, const RotorFlow& flow, const Air& air);
+
+} // namespace octant::sim::md500

@@ -1,0 +1,90 @@
+#pragma once
+
+#include "sim/base/axes.h"
+#include "sim/base/units.h"
+#include "sim/fixed_step.h"
+#include "sim/hand_flight.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <random>
+
+namespace octant::tests {
+
+inline long steps_of(double seconds) {
+    return std::lround(seconds * sim::steps_per_second);
+}
+
+/// Flies on with the controls that `pilot(seconds since the call)` gives; `look` sees every step.
+template <class Pilot, class Look>
+void fly(sim::HandFlight& flight, double seconds, Pilot&& pilot, const Look& look) {
+    for (long step = 0; step < steps_of(seconds); ++step) {
+        flight.step(pilot(sim::time_of_step(step)));
+        look(flight);
+    }
+}
+
+/// Flies on with the same controls.
+inline void hold(sim::HandFlight& flight, double seconds, const sim::PilotControls& controls) {
+    fly(
+        flight, seconds, [&](double) { return controls; }, [](const sim::HandFlight&) {});
+}
+
+inline double speed_mps(const sim::HandFlight& flight) {
+    return glm::length(flight.state().velocity_mps);
+}
+
+/// Height that the aircraft's energy is worth.
+inline double energy_height_m(const sim::HandFlight& flight) {
+    const sim::AircraftState& state = flight.state();
+    return state.position_m.z +
+           0.5 * glm::dot(state.velocity_mps, state.velocity_mps) / gravity_mps2;
+}
+
+inline EulerAngles angles_of(const sim::HandFlight& flight) {
+    return euler_from_body_to_world(flight.state().body_to_world);
+}
+
+/// Rate of turning between two attitudes a step apart.
+inline double turn_radps(const glm::dquat& before, const glm::dquat& after) {
+    const glm::dquat between = glm::conjugate(before) * after;
+    const double sine = std::hypot(between.x, between.y, between.z);
+    return 2.0 * std::atan2(sine, std::abs(between.w)) * sim::steps_per_second;
+}
+
+inline bool is_finite(const sim::AircraftState& state) {
+    double sum = state.time_s + state.load_factor;
+    for (int i = 0; i < 3; ++i) {
+        sum += state.position_m[i] + state.velocity_mps[i];
+    }
+    return std::isfinite(sum) && std::abs(glm::length(state.body_to_world) - 1.0) < 1e-12;
+}
+
+inline bool same_bits(const sim::AircraftState& a, const sim::AircraftState& b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+/// A pilot who moves each control to a new place about once a second, often to a stop.
+class WildPilot {
+public:
+    explicit WildPilot(std::uint32_t seed)
+        : random_(seed) {}
+
+    sim::PilotControls operator()(double) {
+        if (random_() % 120 < 4) {
+            double* const all[] = {
+                &controls_.pitch, &controls_.roll, &controls_.yaw, &controls_.throttle};
+            *all[random_() % 4] = 1e-3 * (static_cast<double>(random_() % 4001) - 2000.0);
+        }
+        return controls_;
+    }
+
+private:
+    std::mt19937 random_;
+    sim::PilotControls controls_;
+};
+
+} // namespace octant::tests
