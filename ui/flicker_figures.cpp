@@ -171,7 +171,9 @@ FlickerFigure figure_9(const FieldRuns& rugged) {
             rugged.path[damped_way],
             blue),
         path_plot("The same, enlarged", rugged.path[damped_way], blue),
-        path_plot("Exact budget, scale as enlarged", rugged.path[exact_way], colours[1])};
+        path_plot("Exact budget, scale as enlarged", rugged.path[exact_way], colours[1]),
+        path_plot(
+            "Screen-error mesh (default), scale as enlarged", rugged.path[error_way], colours[1])};
     const report::Plot before = path_plot("", rugged.path[previous_way], red);
     set_range(std::span(plots).first(1), largest(std::span(&before, 1), 0));
     const auto enlarged = std::span(plots).subspan(1);

@@ -8,6 +8,7 @@
 
 #include "visuals/scene/camera.h"
 #include "visuals/terrain/detail_controller.h"
+#include "visuals/terrain/ground_builder.h"
 
 #include <array>
 #include <cmath>
@@ -101,12 +102,23 @@ FrameMaker exact(FlickerGround& ground, const FlickerSettings& settings) {
     };
 }
 
+/// As flights are drawn by default, but for the error below which they leave triangles unused.
+FrameMaker by_screen_error(FlickerGround& ground, const FlickerSettings& settings) {
+    const terrain::ErrorTarget target{
+        .error_px = 0.0, .most_triangles = settings.target_triangles, .geomorphs = true};
+    return [&ground, target](const terrain::MeshView& view) {
+        const terrain::GroundMesh mesh = ground.error_mesher.mesh(view, target);
+        return CountedFrame{mesh.counters.triangles, mesh.counters.fans, 0.0};
+    };
+}
+
 constexpr std::array ways = {
     FlickerWay{"previous (4)", true, previous},
     FlickerWay{"damped (5), as printed", true, damped_as_printed},
     FlickerWay{"damped, dead band", true, damped},
     FlickerWay{"literal (4)", false, literal},
-    FlickerWay{"exact", true, exact}};
+    FlickerWay{"exact", true, exact},
+    FlickerWay{"screen error (default)", true, by_screen_error}};
 
 } // namespace
 
@@ -115,7 +127,9 @@ FlickerGround::FlickerGround(models::HeightField made)
     , tree(field, {.roughness = terrain::Roughness::Literal})
     , colours(
           static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()), 0U)
-    , mesher(tree, colours) {}
+    , mesher(tree, colours)
+    , tiles(terrain::ground_of(field))
+    , error_mesher(tiles) {}
 
 std::span<const FlickerWay> flicker_ways() {
     return ways;

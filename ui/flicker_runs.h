@@ -1,6 +1,8 @@
 #pragma once
 
 #include "models/height_field.h"
+#include "visuals/terrain/error_mesher.h"
+#include "visuals/terrain/ground_tiles.h"
 #include "visuals/terrain/mesher.h"
 
 #include <cstdint>
@@ -11,7 +13,7 @@
 namespace octant::ui {
 
 /// A height field under the paper's quadtree with literal roughness and crack-free propagation, K =
-/// 0.5 + 0.79 / C_min. Stays where it is.
+/// 0.5 + 0.79 / C_min, and under the default mesh. Stays where it is.
 struct FlickerGround {
     explicit FlickerGround(models::HeightField made);
 
@@ -19,6 +21,8 @@ struct FlickerGround {
     visuals::terrain::Quadtree tree;
     std::vector<std::uint32_t> colours; ///< nothing is drawn: all the same
     visuals::terrain::Mesher mesher;
+    visuals::terrain::GroundTiles tiles;
+    visuals::terrain::ErrorMesher error_mesher;
 };
 
 /// The paper's letters.
@@ -53,8 +57,10 @@ inline constexpr std::size_t damped_way = 1;
 inline constexpr std::size_t settling_way = 2;
 inline constexpr std::size_t literal_way = 3;
 inline constexpr std::size_t exact_way = 4;
+inline constexpr std::size_t error_way = 5;
 
-/// Previous, damped as printed, damped with dead band, literal and exact: the numbers above.
+/// Previous, damped as printed, damped with dead band, literal and exact, all with the paper's
+/// mesh, and the default mesh: the numbers above.
 std::span<const FlickerWay> flicker_ways();
 
 /// A run: each frame's count.

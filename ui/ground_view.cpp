@@ -101,6 +101,9 @@ scene::Camera camera_of(const GroundViewOptions& options) {
     if (!options.eye_m || !options.look_m) {
         throw Error("expected --eye X,Y,Z and --look X,Y,Z, got not both");
     }
+    if (*options.eye_m == *options.look_m) {
+        throw Error("--look: expected another point than --eye, got the same");
+    }
     scene::Camera camera = scene::camera_looking_at(*options.eye_m, *options.look_m);
     camera.vertical_fov_rad = rad_from_deg(options.fov_deg);
     return camera;

@@ -45,7 +45,7 @@ void add_view_options(CLI::App& command, GroundViewOptions& options);
 /// `with_detail`: also --error-px, --triangles and --resolution-c.
 void add_mesh_options(CLI::App& command, GroundMeshOptions& options, bool with_detail);
 
-/// Eye and look as options say. Throws Error when one is missing.
+/// Eye and look as options say. Throws Error when one is missing or both are the same point.
 visuals::scene::Camera camera_of(const GroundViewOptions& options);
 
 /// What a mesher is told of a camera.

@@ -63,6 +63,14 @@ bool is_drawn_whole(const std::string& terrain) {
     return terrain == "background60" || terrain == "none";
 }
 
+scene::Settings ground_settings(const scene::Settings& settings) {
+    scene::Settings own = settings;
+    if (!settings.palette && settings.terrain == "canyon") {
+        own.palette = scene::Palette::Arid;
+    }
+    return own;
+}
+
 void load_scene_ground(const scene::Settings& settings, DrawnBy drawn_by, World& world) {
     check_detail(settings);
     world.ground_name = settings.terrain;
@@ -72,10 +80,7 @@ void load_scene_ground(const scene::Settings& settings, DrawnBy drawn_by, World&
             settings.terrain == "none" ? models::PolygonModel{} : models::background60(), settings);
         return;
     }
-    scene::Settings colours = settings;
-    if (!settings.palette && settings.terrain == "canyon") {
-        colours.palette = scene::Palette::Arid;
-    }
+    const scene::Settings colours = ground_settings(settings);
     if (is_imported_ground(settings.terrain)) {
         check_untextured_ground(settings);
         visuals::terrain::GroundTiles ground = visuals::terrain::open_ground(settings.terrain);

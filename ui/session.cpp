@@ -1,15 +1,12 @@
 #include "ui/session.h"
 
-#include "sim/base/units.h"
-#include "sim/fixed_step.h"
 #include "ui/report/statistics.h"
+#include "ui/scene_ground.h"
+#include "ui/settings_change.h"
 #include "visuals/gl/platform_tuning.h"
-
-#include <glm/gtc/type_ptr.hpp>
+#include "visuals/gl/window_context.h"
 
 #include <algorithm>
-#include <cassert>
-#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -20,7 +17,15 @@ namespace scene = visuals::scene;
 namespace gl = visuals::gl;
 
 std::unique_ptr<gl::Context> make_context(scene::ContextKind kind) {
-    return kind == scene::ContextKind::Egl ? gl::make_egl_context() : gl::make_osmesa_context();
+    switch (kind) {
+    case scene::ContextKind::Egl:
+        return gl::make_egl_context();
+    case scene::ContextKind::Window:
+        return gl::make_window_context({.visible = false});
+    case scene::ContextKind::OsMesa:
+        break;
+    }
+    return gl::make_osmesa_context();
 }
 
 namespace {
@@ -29,35 +34,25 @@ DrawnBy drawn_by(const gl::Context& context) {
     return gl::is_processor(context.description().renderer) ? DrawnBy::Processor : DrawnBy::Gpu;
 }
 
-void add_state(Hash& hash, const sim::AircraftState& state) {
-    hash.add(std::as_bytes(std::span(glm::value_ptr(state.position_m), 3)));
-    hash.add(std::as_bytes(std::span(glm::value_ptr(state.velocity_mps), 3)));
-    hash.add(std::as_bytes(std::span(glm::value_ptr(state.body_to_world), 4)));
+std::unique_ptr<gl::Context> made(std::unique_ptr<gl::Context> context, scene::ContextKind kind) {
+    return context ? std::move(context) : make_context(kind);
 }
 
 } // namespace
 
-Session::Session(const scene::Settings& settings, Shows shows)
+Session::Session(const scene::Settings& settings, Shows shows, std::unique_ptr<gl::Context> context)
     : settings_(settings)
-    , context_(make_context(settings.context))
+    , context_(made(std::move(context), settings.context))
     , world_(load_world(settings, drawn_by(*context_)))
     , renderer_(std::make_unique<gl::Renderer>(
           context_->functions(), settings.size_px.x, settings.size_px.y, settings.samples))
-    , planner_(world_.scene, settings_)
-    , formation_(formation_of(world_.scene))
+    , times_(frame_times_of(settings_, world_.flight))
     , ground_height_(
-          [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); })
-    , next_step_(sim::step_at(world_.flight.trajectory.start_s())) {
+          [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); }) {
     load_into_renderer(shows);
     renderer_->warm_up();
     gl::spread_raster_threads();
-    states_.resize(world_.scene.aircraft.size());
-    make_frame_times();
-    load_settings_ = scene::load_settings(settings_, rate_hz_);
-    load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
-    states_at(frame_times_s_.front());
-    rig_ = scene::advanced(rig_, states_.front());
-    planner_.settle(camera(states_.front(), rig_));
+    start_flight();
 }
 
 Session::~Session() {
@@ -82,53 +77,25 @@ void Session::load_into_renderer(Shows shows) {
     }
 }
 
-void Session::make_frame_times() {
-    const sim::Trajectory& path = world_.flight.trajectory;
-    double until_s = path.end_s();
-    if (settings_.seconds) {
-        until_s = std::min(until_s, path.start_s() + *settings_.seconds);
+void Session::start_flight() {
+    simulation_.emplace(world_);
+    planner_.emplace(world_.scene, settings_);
+    if (settings_.inset) {
+        inset_ = std::make_unique<InsetView>(settings_, world_, drawn_by(*context_));
     }
-    rate_hz_ = settings_.frame_per_sample ? world_.flight.rate_hz : settings_.rate_hz;
-    const double half_frame_s = 0.5 / rate_hz_;
-    if (settings_.frame_per_sample) {
-        for (const sim::AircraftState& sample : path.samples()) {
-            frame_times_s_.push_back(sample.time_s);
-        }
-        std::erase_if(
-            frame_times_s_, [&](double time_s) { return time_s > until_s + half_frame_s; });
-    } else {
-        const auto count =
-            static_cast<long>(std::floor((until_s - path.start_s()) * rate_hz_ + 1e-6)) + 1;
-        for (long frame = 0; frame < count; ++frame) {
-            frame_times_s_.push_back(path.start_s() + static_cast<double>(frame) / rate_hz_);
-        }
-    }
-    if (settings_.frames && frame_times_s_.size() > static_cast<std::size_t>(*settings_.frames)) {
-        frame_times_s_.resize(static_cast<std::size_t>(*settings_.frames));
-    }
+    load_settings_ = scene::load_settings(settings_, rate_hz());
+    load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
+    begin_at(times_.at_s.front());
+    planner_->settle(camera_of(settings_));
 }
 
-void Session::states_at(double time_s) {
-    states_.front() = world_.flight.trajectory.state_at(time_s);
-    for (std::size_t i = 1; i < states_.size(); ++i) {
-        states_[i] = formation_.wingman_of(states_.front(), static_cast<int>(i));
-    }
-}
-
-void Session::simulate_to(double time_s) {
-    for (; next_step_ <= sim::step_at(time_s); ++next_step_) {
-        states_at(sim::time_of_step(next_step_));
-        rig_ = scene::advanced(rig_, states_.front());
-        for (const sim::AircraftState& state : states_) {
-            add_state(state_hash_, state);
-        }
-    }
-    states_at(time_s);
+void Session::begin_at(double time_s) {
+    simulation_->begin_at(time_s);
+    next_is_reached_ = false;
 }
 
 void Session::replay(std::vector<int> triangle_targets) {
-    assert(triangle_targets.size() <= frame_times_s_.size());
-    frame_times_s_.resize(triangle_targets.size());
+    times_.cut_to(triangle_targets.size());
     replayed_targets_ = std::move(triangle_targets);
 }
 
@@ -144,7 +111,7 @@ int Session::choose_triangle_target(int frame) {
 /// What the frame's row says as its stress; decides the next frame's target where it adapts.
 double Session::stress_after(const report::FrameRecord& record) {
     if (!settings_.adapt.terrain) {
-        return record.frame_ms * rate_hz_ / 1000.0;
+        return record.frame_ms * rate_hz() / 1000.0;
     }
     if (!record.warm_up) {
         load_ =
@@ -153,62 +120,106 @@ double Session::stress_after(const report::FrameRecord& record) {
     return load_.stress.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-scene::Camera Session::camera(const sim::AircraftState& state, const scene::RigMemory& rig) const {
+scene::Camera Session::camera_of(const scene::Settings& settings) const {
     scene::Subject subject = world_.scene.models[world_.scene.aircraft.front()].subject;
-    subject.radius_m = formation_.framed_radius_m(subject.radius_m);
-    return scene::camera_of(settings_, state, rig, subject, world_.points, ground_height_);
+    subject.radius_m = simulation_->formation().framed_radius_m(subject.radius_m);
+    return scene::camera_of(
+        settings,
+        simulation_->states().front(),
+        simulation_->rig(),
+        subject,
+        world_.points,
+        ground_height_);
 }
 
-/// Begins on the ground of a frame to come, with the camera that it is going to have.
-void Session::mesh_ahead(int frame) {
-    if (!settings_.mesh_ahead) {
-        return;
+void Session::reach(double time_s, int frame, Moment& moment) {
+    simulation_->advance_to(time_s);
+    moment.time_s = time_s;
+    moment.states.assign(simulation_->states().begin(), simulation_->states().end());
+    moment.state_hash = simulation_->state_hash();
+    moment.camera = camera_of(settings_);
+    if (inset_) {
+        moment.inset_camera = camera_of(inset_->settings());
     }
-    const double time_s = frame_times_s_[static_cast<std::size_t>(frame)];
-    const sim::Trajectory& path = world_.flight.trajectory;
-    scene::RigMemory rig = rig_;
-    for (long step = next_step_; step <= sim::step_at(time_s); ++step) {
-        rig = scene::advanced(rig, path.state_at(sim::time_of_step(step)));
+    moment.triangle_target = choose_triangle_target(frame);
+}
+
+/// Begins on the ground of the moment to come.
+void Session::mesh_ahead() {
+    planner_->set_triangle_target(next_.triangle_target);
+    planner_->prepare(next_.camera);
+    if (inset_) {
+        inset_->prepare(next_.inset_camera);
     }
-    planner_.set_triangle_target(triangle_target_ahead_);
-    planner_.prepare(camera(path.state_at(time_s), rig));
 }
 
 report::FrameRecord Session::draw(int frame) {
+    const auto number = static_cast<std::size_t>(frame);
+    const bool last = number + 1 == times_.at_s.size();
+    const report::FrameRecord record = picture_of(
+        frame, times_.at_s[number], last ? std::optional<double>() : times_.at_s[number + 1]);
+    if (last) {
+        simulation_->advance_to(std::max(times_.until_s, record.sim_time_s));
+    }
+    return record;
+}
+
+report::FrameRecord Session::draw_at(double time_s, std::optional<double> next_s) {
+    return picture_of(drawn_++, time_s, next_s);
+}
+
+report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<double> next_s) {
     if (frame == 0) {
         since_first_frame_ = Stopwatch();
     }
     report::FrameRecord record;
     record.frame = frame;
     record.warm_up = frame < settings_.warm_up;
-    record.sim_time_s = frame_times_s_[static_cast<std::size_t>(frame)];
+    record.sim_time_s = time_s;
     record.wall_s = since_first_frame_.s();
 
     const Stopwatch whole;
     Stopwatch stage;
-    simulate_to(record.sim_time_s);
+    if (next_is_reached_ && next_.time_s == time_s) {
+        std::swap(now_, next_);
+    } else {
+        reach(time_s, frame, now_);
+    }
+    next_is_reached_ = false;
     record.sim_ms = stage.lap_ms();
 
-    record.triangle_target =
-        frame == frame_ahead_ ? triangle_target_ahead_ : choose_triangle_target(frame);
-    planner_.set_triangle_target(record.triangle_target);
-    const scene::Camera seen_from = camera(states_.front(), rig_);
+    planner_->set_triangle_target(now_.triangle_target);
     scene::PlanCounts counts;
-    const scene::FramePlan& plan = planner_.plan(seen_from, states_, counts);
+    const scene::FramePlan& plan = planner_->plan(now_.camera, now_.states, counts);
+    const scene::FramePlan* const inset_plan =
+        inset_ ? &inset_->plan(now_.inset_camera, now_.states) : nullptr;
     record.plan_ms = stage.lap_ms();
 
-    if (frame + 1 < frames()) {
-        frame_ahead_ = frame + 1;
-        triangle_target_ahead_ = choose_triangle_target(frame_ahead_);
-        mesh_ahead(frame_ahead_);
+    if (next_s && settings_.mesh_ahead) {
+        reach(*next_s, frame + 1, next_);
+        next_is_reached_ = true;
+        record.sim_ms += stage.lap_ms();
+        mesh_ahead();
     }
     renderer_->draw(ids_ ? ids_->of(plan) : plan);
+    if (inset_plan != nullptr) {
+        renderer_->draw_inset(*inset_plan, inset_->rectangle());
+    }
     renderer_->finish();
     record.draw_ms = stage.lap_ms();
-    renderer_->finish_and_read(picture_);
+    if (presenter_) {
+        presenter_(*renderer_);
+    } else {
+        renderer_->finish_and_read(picture_);
+    }
     record.read_ms = stage.lap_ms();
     record.frame_ms = whole.ms();
+    fill_in(counts, record);
+    return record;
+}
 
+void Session::fill_in(const scene::PlanCounts& counts, report::FrameRecord& record) {
+    record.triangle_target = now_.triangle_target;
     record.terrain_triangles = counts.ground.triangles;
     record.terrain_fans = counts.ground.fans;
     record.aircraft_polygons = counts.aircraft_polygons;
@@ -219,19 +230,99 @@ report::FrameRecord Session::draw(int frame) {
     record.unordered = counts.unordered;
     record.resolution_c = counts.ground.resolution;
     record.error_px = counts.ground.error_px;
-    record.triangle_change = frame == 0 ? 0 : counts.ground.triangles - last_triangles_;
+    record.triangle_change = record.frame == 0 ? 0 : counts.ground.triangles - last_triangles_;
     last_triangles_ = counts.ground.triangles;
     record.stress = stress_after(record);
     record.overrun = record.frame_ms > report::overrun_16_ms ? 1 : 0;
-    record.eye_m = seen_from.eye_m;
-    record.aircraft_m = states_.front().position_m;
+    record.eye_m = now_.camera.eye_m;
+    record.aircraft_m = now_.states.front().position_m;
     record.aircraft_agl_m = record.aircraft_m.z -
                             ground_height_(record.aircraft_m.x, record.aircraft_m.y).value_or(0.0);
-    return record;
+}
+
+void Session::read_picture() {
+    renderer_->finish_and_read(picture_);
 }
 
 void Session::hash_picture() {
     picture_hash_.add(std::as_bytes(std::span(picture_.rgba)));
+}
+
+void Session::apply(const scene::Settings& settings) {
+    switch (change_between(settings_, settings)) {
+    case SettingsChange::None:
+        break;
+    case SettingsChange::Look:
+        if (settings.eye_m != settings_.eye_m || settings.look_m != settings_.look_m) {
+            world_.points = fixed_points(settings, world_);
+        }
+        settings_ = settings;
+        break;
+    case SettingsChange::Picture:
+        change_picture(settings);
+        break;
+    case SettingsChange::World:
+        change_world(settings);
+        break;
+    }
+}
+
+void Session::change_world(const scene::Settings& settings) {
+    World world = load_world(settings, drawn_by(*context_));
+    FrameTimes times = frame_times_of(settings, world.flight);
+    renderer_->resize(settings.size_px, settings.samples);
+    inset_.reset();
+    planner_.reset();
+    settings_ = settings;
+    world_ = std::move(world);
+    times_ = std::move(times);
+    load_into_renderer(Shows::World);
+    start_flight();
+}
+
+/// All that may fail comes before what could not be taken back.
+void Session::change_picture(const scene::Settings& settings) {
+    check_settings(settings);
+    const scene::FixedPoints points = fixed_points(settings, world_);
+    std::unique_ptr<InsetView> new_inset;
+    if (settings.inset && !inset_) {
+        new_inset = std::make_unique<InsetView>(settings, world_, drawn_by(*context_));
+    }
+    World other;
+    const bool follows = world_.scene.ground->can_follow(ground_settings(settings));
+    if (!follows) {
+        load_scene_ground(settings, drawn_by(*context_), other);
+    }
+    renderer_->resize(settings.size_px, settings.samples);
+
+    const bool other_control =
+        settings.detail != settings_.detail || settings.resolution_c != settings_.resolution_c;
+    planner_.reset();
+    settings_ = settings;
+    world_.points = points;
+    if (follows) {
+        world_.scene.ground->follow(ground_settings(settings_));
+    } else {
+        world_.scene.ground = std::move(other.scene.ground);
+    }
+    planner_.emplace(world_.scene, settings_);
+    if (other_control || !follows) {
+        planner_->settle(now_.camera);
+    }
+    follow_inset(std::move(new_inset));
+    load_settings_ = scene::load_settings(settings_, rate_hz());
+    load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
+}
+
+void Session::follow_inset(std::unique_ptr<InsetView> new_inset) {
+    if (new_inset) {
+        inset_ = std::move(new_inset);
+        next_is_reached_ = false;
+    } else if (!settings_.inset) {
+        inset_.reset();
+    } else {
+        inset_->follow(settings_);
+    }
 }
 
 } // namespace octant::ui

@@ -1,22 +1,25 @@
 #pragma once
 
-#include "sim/base/hash.h"
-#include "ui/formation.h"
+#include "ui/frame_times.h"
+#include "ui/inset_view.h"
 #include "ui/report/frame_record.h"
+#include "ui/simulation.h"
 #include "ui/stopwatch.h"
 #include "ui/world.h"
 #include "visuals/gl/context.h"
 #include "visuals/gl/picture.h"
 #include "visuals/gl/renderer.h"
-#include "visuals/scene/camera_rig.h"
 #include "visuals/scene/id_plan.h"
 #include "visuals/scene/load_controller.h"
 #include "visuals/scene/planner.h"
 #include "visuals/scene/settings.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace octant::ui {
@@ -32,11 +35,17 @@ enum class Shows {
 
 /// The conductor of a run: takes each frame from simulation through plan and picture to its record.
 /// The only place that reads the clock during a flight.
+///
+/// A flight without a window is frames() pictures by draw(frame). A window asks for pictures of its
+/// own times by draw_at(), and changes settings and simulation between them.
 class Session {
 public:
-    /// Makes the context, loads the world and draws once in every drawing state. Throws Error.
-    /// Stays in its place: parts of it point at others.
-    explicit Session(const visuals::scene::Settings& settings, Shows shows = Shows::World);
+    /// Loads the world and draws once in every drawing state, in this context or in one that it
+    /// makes as the settings say. Throws Error. Stays in its place: parts of it point at others.
+    explicit Session(
+        const visuals::scene::Settings& settings,
+        Shows shows = Shows::World,
+        std::unique_ptr<visuals::gl::Context> context = nullptr);
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
@@ -45,13 +54,15 @@ public:
 
     const World& world() const { return world_; }
 
+    const visuals::scene::Settings& settings() const { return settings_; }
+
     const visuals::gl::ContextDescription& context() const { return context_->description(); }
 
     /// Number of frames of the run.
-    int frames() const { return static_cast<int>(frame_times_s_.size()); }
+    int frames() const { return static_cast<int>(times_.at_s.size()); }
 
     /// Frames a second of simulated time, for video and stress.
-    double rate_hz() const { return rate_hz_; }
+    double rate_hz() const { return times_.rate_hz; }
 
     /// Makes the session's context current: to be called before draw() when several sessions take
     /// turns.
@@ -64,11 +75,48 @@ public:
     /// Simulates up to the frame's time, plans, draws and reads the picture. Frames come in order.
     report::FrameRecord draw(int frame);
 
-    /// Picture of the last frame, top row first.
+    /// The same for a time not before those of earlier frames, and the time of the next picture
+    /// where it is known: that one's ground is meshed while this one is drawn. Its camera is then
+    /// chosen now, so that what apply() or the simulation change later shows in the picture after
+    /// it.
+    report::FrameRecord draw_at(double time_s, std::optional<double> next_s);
+
+    /// Called in place of reading the picture: shows it.
+    using Presenter = std::function<void(visuals::gl::Renderer&)>;
+
+    void present_by(Presenter presenter) { presenter_ = std::move(presenter); }
+
+    /// Changes what the next frames show. Loads what has to be loaded anew; the flight then starts
+    /// again where its aircraft, path or ground are others. Throws Error and leaves everything as
+    /// it was.
+    void apply(const visuals::scene::Settings& settings);
+
+    /// To be changed between frames. Begin at another time by begin_at().
+    Simulation& simulation() { return *simulation_; }
+
+    /// Goes to a time of the path.
+    void begin_at(double time_s);
+
+    /// From the eye point that the last picture was seen from.
+    const visuals::scene::Camera& camera() const { return now_.camera; }
+
+    /// Simulation::state_hash when the last picture's time was reached.
+    std::uint64_t picture_state_hash() const { return now_.state_hash; }
+
+    /// States of all aircraft in the last picture.
+    std::span<const sim::AircraftState> states() const { return now_.states; }
+
+    const visuals::scene::Planner& planner() const { return *planner_; }
+
+    /// Reads the last picture where a presenter showed it.
+    void read_picture();
+
+    /// Picture of the last frame that was read, top row first.
     const visuals::gl::Picture& picture() const { return picture_; }
 
-    /// Over the aircraft states at every fixed step so far, and over the pixels of every frame.
-    std::uint64_t state_hash() const { return state_hash_.value(); }
+    /// Over the aircraft states at every fixed step so far, to the end of the run once its last
+    /// frame is drawn, and over the pixels of every frame.
+    std::uint64_t state_hash() const { return simulation_->state_hash(); }
 
     std::uint64_t picture_hash() const { return picture_hash_.value(); }
 
@@ -77,37 +125,49 @@ public:
     void hash_picture();
 
 private:
+    /// A frame that is simulated, with its camera chosen.
+    struct Moment {
+        double time_s = 0.0;
+        std::vector<sim::AircraftState> states;
+        visuals::scene::Camera camera;
+        visuals::scene::Camera inset_camera;
+        int triangle_target = 0;
+        std::uint64_t state_hash = 0;
+    };
+
     void load_into_renderer(Shows shows);
-    void make_frame_times();
-    void simulate_to(double time_s);
+    void start_flight();
+    report::FrameRecord picture_of(int frame, double time_s, std::optional<double> next_s);
+    void reach(double time_s, int frame, Moment& moment);
     int choose_triangle_target(int frame);
     double stress_after(const report::FrameRecord& record);
-    void states_at(double time_s);
-    visuals::scene::Camera
-    camera(const sim::AircraftState& state, const visuals::scene::RigMemory& rig) const;
-    void mesh_ahead(int frame);
+    visuals::scene::Camera camera_of(const visuals::scene::Settings& settings) const;
+    void mesh_ahead();
+    void fill_in(const visuals::scene::PlanCounts& counts, report::FrameRecord& record);
+    void change_world(const visuals::scene::Settings& settings);
+    void change_picture(const visuals::scene::Settings& settings);
+    void follow_inset(std::unique_ptr<InsetView> new_inset);
 
     visuals::scene::Settings settings_;
     std::unique_ptr<visuals::gl::Context> context_;
     World world_;
     std::unique_ptr<visuals::gl::Renderer> renderer_; ///< goes before its context
-    visuals::scene::Planner planner_;
+    std::optional<visuals::scene::Planner> planner_;
+    std::unique_ptr<InsetView> inset_;
     std::optional<visuals::scene::IdPlan> ids_;
-    Formation formation_;
+    std::optional<Simulation> simulation_;
+    FrameTimes times_;
     visuals::scene::GroundHeight ground_height_;
-    std::vector<double> frame_times_s_;
-    double rate_hz_ = 0.0;
-    long next_step_ = 0;
-    visuals::scene::RigMemory rig_;
-    std::vector<sim::AircraftState> states_;
+    Moment now_;
+    Moment next_;
+    bool next_is_reached_ = false;
+    Presenter presenter_;
     visuals::gl::Picture picture_;
     int last_triangles_ = 0;
     visuals::scene::LoadSettings load_settings_;
     visuals::scene::LoadState load_;
-    int frame_ahead_ = -1; ///< the one that triangle_target_ahead_ was chosen for
-    int triangle_target_ahead_ = 0;
     std::vector<int> replayed_targets_; ///< by frame; empty = nothing is replayed
-    Hash state_hash_;
+    int drawn_ = 0;                     ///< pictures by draw_at
     Hash picture_hash_;
     Stopwatch since_first_frame_;
 };

@@ -85,7 +85,7 @@ void load_aircraft(const scene::Settings& settings, World& world) {
     }
     const std::filesystem::path cockpit =
         data_folder() / "models" / (settings.aircraft.front() + "-cockpit.obj");
-    if (settings.view == scene::View::Cockpit && std::filesystem::exists(cockpit)) {
+    if (std::filesystem::exists(cockpit)) {
         models::PolygonModel model = models::read_obj(cockpit);
         draworder::DrawOrder order = draworder::file_order(model);
         world.scene.cockpit = static_cast<std::uint32_t>(world.scene.models.size());
@@ -243,6 +243,16 @@ void check_eye_point(const scene::Settings& settings) {
     }
 }
 
+} // namespace
+
+Formation formation_of(const scene::Scene& scene) {
+    double largest_m = 0.0;
+    for (const std::uint32_t model : scene.aircraft) {
+        largest_m = std::max(largest_m, scene.models[model].subject.radius_m);
+    }
+    return {static_cast<int>(scene.aircraft.size()), largest_m};
+}
+
 scene::FixedPoints fixed_points(const scene::Settings& settings, const World& world) {
     check_eye_point(settings);
     scene::FixedPoints points;
@@ -250,10 +260,10 @@ scene::FixedPoints fixed_points(const scene::Settings& settings, const World& wo
         points.free_eye_m = *settings.eye_m;
         points.free_look_m = *settings.look_m;
     }
-    if (settings.view != scene::View::Tower) {
+    if (settings.view != scene::View::Tower && settings.inset != scene::View::Tower) {
         return points;
     }
-    if (settings.eye_m) {
+    if (settings.view == scene::View::Tower && settings.eye_m) {
         points.tower_m = *settings.eye_m;
         return points;
     }
@@ -269,21 +279,18 @@ scene::FixedPoints fixed_points(const scene::Settings& settings, const World& wo
     return points;
 }
 
-} // namespace
-
-Formation formation_of(const scene::Scene& scene) {
-    double largest_m = 0.0;
-    for (const std::uint32_t model : scene.aircraft) {
-        largest_m = std::max(largest_m, scene.models[model].subject.radius_m);
-    }
-    return {static_cast<int>(scene.aircraft.size()), largest_m};
-}
-
-World load_world(const scene::Settings& settings, DrawnBy drawn_by) {
+void check_settings(const scene::Settings& settings) {
     if (settings.samples != 1 && settings.samples != 4) {
         throw Error(fmt::format("--samples: expected 1 or 4, got {}", settings.samples));
     }
+    if (settings.inset == scene::View::Free && settings.view != scene::View::Free) {
+        throw Error("--inset free: expected --view free beside it, got another view");
+    }
     check_adaptation(settings);
+}
+
+World load_world(const scene::Settings& settings, DrawnBy drawn_by) {
+    check_settings(settings);
     World world;
     load_aircraft(settings, world);
     Script script = load_script(settings, world);

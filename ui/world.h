@@ -44,6 +44,14 @@ struct World {
 /// The formation in which the scene's aircraft fly.
 Formation formation_of(const visuals::scene::Scene& scene);
 
+/// Throws Error where settings contradict each other.
+void check_settings(const visuals::scene::Settings& settings);
+
+/// Where the views of these settings stand that do not follow the aircraft. Throws Error for eye
+/// points that the view does not take.
+visuals::scene::FixedPoints
+fixed_points(const visuals::scene::Settings& settings, const World& world);
+
 /// Loads aircraft, ground and path of a run and lays the path over the ground. Throws Error.
 World load_world(const visuals::scene::Settings& settings, DrawnBy drawn_by = DrawnBy::Processor);
 

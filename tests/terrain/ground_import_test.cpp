@@ -186,6 +186,15 @@ TEST_CASE("files without any height are refused and leave nothing behind") {
     CHECK_FALSE(std::filesystem::exists(scratch("void.ground.part")));
 }
 
+TEST_CASE("an input that ends too early is refused and leaves nothing behind") {
+    const Made made;
+    const path file = made.whole("cut.tif");
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+    CHECK_THROWS_WITH(imported({file}, "cut.ground"), Contains("cut.tif"));
+    CHECK_FALSE(std::filesystem::exists(scratch("cut.ground")));
+    CHECK_FALSE(std::filesystem::exists(scratch("cut.ground.part")));
+}
+
 TEST_CASE("files that do not fit together are refused by name") {
     const Made made;
     const path west = write_tiff("fits.tif", {0, 100, 0, 80}, made);

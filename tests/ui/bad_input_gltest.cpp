@@ -219,6 +219,23 @@ TEST_CASE("a report on what is no recording is refused in one line with exit cod
     }
 }
 
+TEST_CASE("a mesh seen from the point it looks at is refused in one line with exit code 2") {
+    const std::string out = (folder() / "mesh.ply").string();
+    const std::vector<std::vector<std::string>> wrong = {
+        {"terrain", "mesh", "hills", "--triangles", "500", "--out", out},
+        {"terrain", "error", "hills", "--triangles", "500"},
+        {"terrain", "query", "hills", "--triangles", "500", "--at", "0,0", "--as-drawn"}};
+    for (auto arguments : wrong) {
+        arguments.insert(arguments.end(), {"--eye", "0,0,900", "--look", "0,0,900"});
+        const tests::ProgramRun run = run_octant(arguments);
+        INFO(run.err);
+        CHECK(run.exit_code == 2);
+        CHECK(run.err.find("--look: expected another point than --eye") != std::string::npos);
+        CHECK(tests::lines_in(run.err) == 1);
+    }
+    CHECK_FALSE(std::filesystem::exists(out));
+}
+
 TEST_CASE("terrain commands refuse wrong input in one line with exit code 2") {
     const std::vector<std::vector<std::string>> wrong = {
         {"terrain", "info", "/nowhere.tif"},

@@ -64,8 +64,12 @@ TEST_CASE("the flicker study writes its tables and figures, the same bytes each 
     CHECK(run.err.empty());
     const nlohmann::json tables = nlohmann::json::parse(run.out);
     REQUIRE(tables.size() == 5);
-    CHECK(tables[0]["rows"].size() == 20); // four c, five controls
-    CHECK(tables[2]["rows"].size() == 8);  // two fields, four controls that hold a target
+    CHECK(tables[0]["rows"].size() == 24); // four c, six controls
+    CHECK(tables[2]["rows"].size() == 10); // two fields, five controls that hold a target
+    const nlohmann::json& by_error = tables[0]["rows"][5];
+    CHECK(by_error["control"] == "screen error (default)");
+    CHECK(by_error["mean abs dn, last 50"] == 0);
+    CHECK(is_number_to_15(by_error["dn = 0 for ever after, frames"]));
     for (const nlohmann::json& row : tables[4]["rows"]) {
         for (const char* first : {"C_0 = 2", "C_0 = 16", "C_0 = 64"}) {
             INFO(row);

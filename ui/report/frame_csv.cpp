@@ -84,6 +84,8 @@ constexpr std::array columns{
     column<&R::aircraft_agl_m>("aircraft_agl_m", Kind::MayBeEmpty, 3),
     column<&R::triangle_target>("triangle_target"),
     column<&R::error_px>("error_px", Kind::MayBeEmpty, 4),
+    column<&R::latency_ms>("latency_ms", Kind::MayBeEmpty, milliseconds),
+    column<&R::missed>("missed"),
 };
 
 std::string header_line() {

@@ -2,6 +2,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <limits>
+
 namespace octant::ui::report {
 
 /// One line of frames.csv. Times in milliseconds are wall time; everything else is repeatable.
@@ -34,6 +36,10 @@ struct FrameRecord {
     double aircraft_agl_m = 0.0; ///< first aircraft above the ground below it
     int triangle_target = 0;     ///< terrain triangles that this frame was to have
     double error_px = 0.0;       ///< screen-space error the terrain was made for; 0 where C decides
+    /// By the clock only, else not finite: from the input that the frame shows, or from the moment
+    /// that it was due, to the picture finished.
+    double latency_ms = std::numeric_limits<double>::quiet_NaN();
+    int missed = 0; ///< by the clock: 1 when the picture came later than the next one was due
 };
 
 } // namespace octant::ui::report

@@ -31,7 +31,7 @@ void check_size(const Functions& gl, int width, int height, int samples) {
 } // namespace
 
 Framebuffer::Framebuffer(const Functions& gl, int width, int height, int samples)
-    : gl_(gl)
+    : gl_(&gl)
     , width_(width)
     , height_(height)
     , samples_(samples) {
@@ -47,23 +47,23 @@ Framebuffer::Framebuffer(const Functions& gl, int width, int height, int samples
 }
 
 Object Framebuffer::make_storage(int samples, GLenum format) const {
-    Object storage = make_renderbuffer(gl_);
-    gl_.named_renderbuffer_storage_multisample(
+    Object storage = make_renderbuffer(*gl_);
+    gl_->named_renderbuffer_storage_multisample(
         storage.name(), samples > 1 ? samples : 0, format, width_, height_);
     return storage;
 }
 
 Object Framebuffer::make_target(const Object& colour, const Object* depth) const {
-    Object target = make_framebuffer(gl_);
+    Object target = make_framebuffer(*gl_);
     const auto attach = [&](GLenum place, const Object& storage) {
-        gl_.named_framebuffer_renderbuffer(target.name(), place, GL_RENDERBUFFER, storage.name());
+        gl_->named_framebuffer_renderbuffer(target.name(), place, GL_RENDERBUFFER, storage.name());
     };
     attach(GL_COLOR_ATTACHMENT0, colour);
     if (depth != nullptr) {
         attach(GL_DEPTH_ATTACHMENT, *depth);
     }
-    const GLenum status = gl_.check_named_framebuffer_status(target.name(), GL_DRAW_FRAMEBUFFER);
-    if (gl_.get_error() != GL_NO_ERROR || status != GL_FRAMEBUFFER_COMPLETE) {
+    const GLenum status = gl_->check_named_framebuffer_status(target.name(), GL_DRAW_FRAMEBUFFER);
+    if (gl_->get_error() != GL_NO_ERROR || status != GL_FRAMEBUFFER_COMPLETE) {
         throw Error(fmt::format(
             "expected memory for a picture of {} x {} pixels with {} samples, got a refusal by the "
             "driver",
@@ -74,29 +74,50 @@ Object Framebuffer::make_target(const Object& colour, const Object* depth) const
     return target;
 }
 
+/// Several samples averaged.
+GLuint Framebuffer::averaged() const {
+    if (averaged_.name() == 0) {
+        return with_depth_.name();
+    }
+    gl_->blit_named_framebuffer(
+        with_depth_.name(),
+        averaged_.name(),
+        0,
+        0,
+        width_,
+        height_,
+        0,
+        0,
+        width_,
+        height_,
+        GL_COLOR_BUFFER_BIT,
+        GL_NEAREST);
+    return averaged_.name();
+}
+
 void Framebuffer::read(std::span<std::uint8_t> rgba) const {
     assert(
         rgba.size() ==
         std::size_t{4} * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-    GLuint source = with_depth_.name();
-    if (averaged_.name() != 0) {
-        gl_.blit_named_framebuffer(
-            source,
-            averaged_.name(),
-            0,
-            0,
-            width_,
-            height_,
-            0,
-            0,
-            width_,
-            height_,
-            GL_COLOR_BUFFER_BIT,
-            GL_NEAREST);
-        source = averaged_.name();
-    }
-    gl_.bind_framebuffer(GL_FRAMEBUFFER, source);
-    gl_.read_pixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    gl_->bind_framebuffer(GL_FRAMEBUFFER, averaged());
+    gl_->read_pixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+}
+
+void Framebuffer::copy_to(GLuint target, const glm::ivec2& size_px) const {
+    const bool same_size = size_px == glm::ivec2(width_, height_);
+    gl_->blit_named_framebuffer(
+        averaged(),
+        target,
+        0,
+        0,
+        width_,
+        height_,
+        0,
+        size_px.y,
+        size_px.x,
+        0,
+        GL_COLOR_BUFFER_BIT,
+        same_size ? GL_NEAREST : GL_LINEAR);
 }
 
 } // namespace octant::visuals::gl

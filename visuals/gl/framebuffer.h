@@ -2,6 +2,8 @@
 
 #include "visuals/gl/object.h"
 
+#include <glm/vec2.hpp>
+
 #include <cstdint>
 #include <span>
 
@@ -28,11 +30,20 @@ public:
     /// are averaged. Leaves another framebuffer bound.
     void read(std::span<std::uint8_t> rgba) const;
 
+    bool fits(const glm::ivec2& size_px, int samples) const {
+        return size_px == glm::ivec2(width_, height_) && samples == samples_;
+    }
+
+    /// Copies it upside down into the lower left corner of another framebuffer, so that rows drawn
+    /// from the top stand upright in a window; stretched where `size_px` is another size.
+    void copy_to(GLuint target, const glm::ivec2& size_px) const;
+
 private:
+    GLuint averaged() const;
     Object make_storage(int samples, GLenum format) const;
     Object make_target(const Object& colour, const Object* depth) const;
 
-    const Functions& gl_;
+    const Functions* gl_;
     int width_;
     int height_;
     int samples_;

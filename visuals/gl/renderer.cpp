@@ -64,6 +64,17 @@ Renderer::Renderer(const Functions& gl, int width, int height, int samples)
     , triangles_(gl, state_)
     , aircraft_(gl, state_) {}
 
+void Renderer::resize(const glm::ivec2& size_px, int samples) {
+    if (framebuffer_.fits(size_px, samples)) {
+        return;
+    }
+    framebuffer_ = Framebuffer(gl_, size_px.x, size_px.y, samples);
+}
+
+void Renderer::copy_to(GLuint framebuffer, const glm::ivec2& size_px) {
+    framebuffer_.copy_to(framebuffer, size_px);
+}
+
 void Renderer::load_models(std::span<const scene::ModelBuffers> models) {
     aircraft_.load_models(models);
 }
@@ -103,6 +114,8 @@ void Renderer::upload(const FramePlan& plan) {
     triangles_.upload(plan);
     aircraft_.upload(plan);
 }
+
+void Renderer::draw_inset(const FramePlan& /*plan*/, PixelRect /*rect*/) {}
 
 /// Background, sky, ground, then each step over what is there: no depth at all.
 void Renderer::paint(const FramePlan& plan) {

@@ -9,9 +9,19 @@
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/ground_texture.h"
 
+#include <glm/vec2.hpp>
+
 #include <span>
 
 namespace octant::visuals::gl {
+
+/// Part of a picture, from its upper left corner.
+struct PixelRect {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+};
 
 /// Draws frame plans into a picture of its own. The context whose functions it was given must be
 /// current in every call, the destructor too, and outlive it.
@@ -30,6 +40,14 @@ public:
     /// Picture size in pixels, 1 or 4 samples a pixel. Throws Error when the driver cannot.
     Renderer(const Functions& gl, int width, int height, int samples);
 
+    /// Draws pictures of another size or with other samples from now on. Throws Error and leaves it
+    /// as it is when the driver cannot.
+    void resize(const glm::ivec2& size_px, int samples);
+
+    /// Waits for the picture and copies it into the lower left corner of another framebuffer (0 =
+    /// the window's), stretched to `size_px`, upright there.
+    void copy_to(GLuint framebuffer, const glm::ivec2& size_px);
+
     /// Uploads the aircraft models, in place of those uploaded before. AircraftDraw::model counts
     /// in this list.
     void load_models(std::span<const scene::ModelBuffers> models);
@@ -45,6 +63,8 @@ public:
 
     /// Starts the drawing of a picture; the plan's memory is free again on return.
     void draw(const scene::FramePlan& plan);
+
+    void draw_inset(const scene::FramePlan& plan, PixelRect rect);
 
     /// Waits until the picture is drawn. Throws Error when the driver reports one.
     void finish();

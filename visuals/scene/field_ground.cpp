@@ -65,28 +65,43 @@ public:
     FieldGround(models::HeightField field, const Settings& settings)
         : field_(std::move(field))
         , tree_(field_, quadtree_options(settings))
+        , settings_(settings)
         , colours_(ground_colours(field_, settings))
         , mesher_(tree_, colours_)
-        , control_(control_settings(settings))
-        , order_(
-              settings.hidden_surface == HiddenSurface::DepthBuffer
-                  ? terrain::PaintOrder::FrontToBack
-                  : terrain::PaintOrder::BackToFront)
-        , mean_colour_(scene::mean_colour(colours_))
-        , exact_(settings.detail == DetailControl::Exact)
-        , fixed_resolution_(settings.detail == DetailControl::Fixed)
-        , first_resolution_(settings.resolution_c) {
-        budget_.triangles = triangle_target(settings);
-        detail_.roughness_weight = settings.roughness_c.value_or(
-            ground_metric(settings) == GroundMetric::Printed ? printed_weight : midpoint_weight);
-        detail_.fans =
-            settings.fans == GroundFans::Full ? terrain::FanKind::Full : terrain::FanKind::Partial;
+        , mean_colour_(scene::mean_colour(colours_)) {
+        follow(settings);
         for (int row = 0; row < field_.rows(); ++row) {
             double sum_m = 0.0;
             for (int column = 0; column < field_.columns(); ++column) {
                 sum_m += static_cast<double>(field_.height_m(column, row));
             }
             mean_height_m_ += sum_m / field_.columns() / field_.rows();
+        }
+    }
+
+    bool can_follow(const Settings& settings) const override {
+        const terrain::QuadtreeOptions wanted = quadtree_options(settings);
+        const terrain::QuadtreeOptions built = quadtree_options(settings_);
+        return ground_metric(settings) != GroundMetric::ScreenError &&
+               wanted.roughness == built.roughness && wanted.propagation == built.propagation &&
+               same_colours(settings, settings_);
+    }
+
+    void follow(const Settings& settings) override {
+        settings_ = settings;
+        control_ = control_settings(settings);
+        exact_ = settings.detail == DetailControl::Exact;
+        fixed_resolution_ = settings.detail == DetailControl::Fixed;
+        order_ = settings.hidden_surface == HiddenSurface::DepthBuffer
+                     ? terrain::PaintOrder::FrontToBack
+                     : terrain::PaintOrder::BackToFront;
+        budget_.triangles = triangle_target(settings);
+        detail_.roughness_weight = settings.roughness_c.value_or(
+            ground_metric(settings) == GroundMetric::Printed ? printed_weight : midpoint_weight);
+        detail_.fans =
+            settings.fans == GroundFans::Full ? terrain::FanKind::Full : terrain::FanKind::Partial;
+        if (fixed_resolution_ && settings.resolution_c > 0.0) {
+            state_ = terrain::starting_at(settings.resolution_c, control_);
         }
     }
 
@@ -104,13 +119,13 @@ public:
         if (exact_) {
             return;
         }
-        const double resolution = first_resolution_ > 0.0 ? first_resolution_
-                                                          : terrain::settled_resolution(
-                                                                mesher_,
-                                                                view_of(camera, aspect),
-                                                                detail_,
-                                                                control_.target_triangles,
-                                                                control_.max_resolution);
+        const double resolution = settings_.resolution_c > 0.0 ? settings_.resolution_c
+                                                               : terrain::settled_resolution(
+                                                                     mesher_,
+                                                                     view_of(camera, aspect),
+                                                                     detail_,
+                                                                     control_.target_triangles,
+                                                                     control_.max_resolution);
         state_ = terrain::starting_at(resolution, control_);
         last_view_.reset();
     }
@@ -153,6 +168,7 @@ private:
 
     models::HeightField field_;
     terrain::Quadtree tree_;
+    Settings settings_;
     std::vector<std::uint32_t> colours_;
     terrain::Mesher mesher_;
     terrain::ControlSettings control_;
@@ -160,12 +176,11 @@ private:
     terrain::Detail detail_;
     terrain::DetailState state_;
     std::optional<terrain::MeshView> last_view_; ///< that `state_` has seen
-    terrain::PaintOrder order_;
+    terrain::PaintOrder order_ = terrain::PaintOrder::BackToFront;
     glm::vec3 mean_colour_;
     double mean_height_m_ = 0.0;
-    bool exact_;
-    bool fixed_resolution_;
-    double first_resolution_;
+    bool exact_ = true;
+    bool fixed_resolution_ = false;
 };
 
 } // namespace

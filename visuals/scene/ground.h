@@ -50,6 +50,12 @@ public:
     /// work.
     virtual void settle(const Camera& camera, double aspect) = 0;
 
+    /// Whether follow() can do these settings of the same ground; else it is to be made anew.
+    virtual bool can_follow(const Settings& /*settings*/) const { return true; }
+
+    /// Draws by other settings from the next frame on. can_follow() them (asserted).
+    virtual void follow(const Settings& /*settings*/) {}
+
     /// How many triangles the frames from the next one on may have, at least 1. Before the first
     /// call it is triangle_target(settings). Ground that is always drawn whole does not care.
     virtual void set_triangle_target(int /*triangles*/) {}

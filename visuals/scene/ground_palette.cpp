@@ -184,6 +184,11 @@ float light_on(const glm::vec3& normal, const glm::vec3& to_sun) {
     return ambient_light + sun_light * std::max(glm::dot(normal, to_sun), 0.0F);
 }
 
+bool same_colours(const Settings& a, const Settings& b) {
+    return a.sun_azimuth_deg == b.sun_azimuth_deg && a.sun_elevation_deg == b.sun_elevation_deg &&
+           a.water_level_m == b.water_level_m && a.palette == b.palette;
+}
+
 GroundPalette::GroundPalette(const Settings& settings)
     : to_sun_(direction_to_sun(settings))
     , water_m_(static_cast<float>(settings.water_level_m))

@@ -17,6 +17,9 @@ inline constexpr float sun_light = 0.78F;
 /// Light on a surface: 1 would leave its colour as it is. Both unit vectors, world axes.
 float light_on(const glm::vec3& normal, const glm::vec3& to_sun);
 
+/// Whether ground has the same colours under both: its sun, water and palette.
+bool same_colours(const Settings& a, const Settings& b);
+
 /// A place on the ground.
 struct GroundPoint {
     float east_m = 0.0F;   ///< of the field's south-west corner

@@ -17,7 +17,8 @@ namespace {
 
 class PaintedGround final : public Ground {
 public:
-    PaintedGround(const models::PolygonModel& model, const Settings& settings) {
+    PaintedGround(const models::PolygonModel& model, const Settings& settings)
+        : settings_(settings) {
         const glm::vec3 sun = direction_to_sun(settings);
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
             const glm::vec3 normal(world_from_body(models::normal_of(model, i)));
@@ -38,6 +39,10 @@ public:
         if (model.polygons.empty()) {
             half_extent_m_ = glm::dvec2(1e6);
         }
+    }
+
+    bool can_follow(const Settings& settings) const override {
+        return same_colours(settings, settings_);
     }
 
     std::optional<double> height_at(double x_m, double y_m) const override {
@@ -88,6 +93,7 @@ private:
 
     static glm::dvec3 world_from_body(const glm::dvec3& v) { return {v.y, v.x, -v.z}; }
 
+    Settings settings_;
     std::vector<glm::dvec3> corners_m_;
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;

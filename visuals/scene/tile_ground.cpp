@@ -26,16 +26,32 @@ public:
     TileGround(terrain::GroundTiles ground, const Settings& settings)
         : ground_(std::move(ground))
         , mesher_(ground_)
-        , colours_(ground_, settings)
-        , mean_colour_(colours_.mean())
-        , picture_height_px_(settings.size_px.y)
-        , order_(
-              settings.hidden_surface == HiddenSurface::DepthBuffer
-                  ? terrain::PaintOrder::FrontToBack
-                  : terrain::PaintOrder::BackToFront)
-        , target_{.error_px = settings.error_px.value_or(least_error_px), .geomorphs = settings.geomorphs}
-        , earth_radius_m_(settings.earth_curvature ? terrain::earth_radius_m : 0.0)
+        , settings_(settings)
+        , colours_(std::in_place, ground_, settings)
+        , mean_colour_(colours_->mean())
         , prefetcher_(ground_) {
+        follow(settings);
+    }
+
+    bool can_follow(const Settings& settings) const override {
+        return ground_metric(settings) == GroundMetric::ScreenError;
+    }
+
+    void follow(const Settings& settings) override {
+        worker_.wait();
+        prepared_.reset();
+        if (!same_colours(settings, settings_)) {
+            colours_.emplace(ground_, settings);
+            mean_colour_ = colours_->mean();
+            mesh_ = {};
+        }
+        settings_ = settings;
+        order_ = settings.hidden_surface == HiddenSurface::DepthBuffer
+                     ? terrain::PaintOrder::FrontToBack
+                     : terrain::PaintOrder::BackToFront;
+        target_.error_px = settings.error_px.value_or(least_error_px);
+        target_.geomorphs = settings.geomorphs;
+        earth_radius_m_ = settings.earth_curvature ? terrain::earth_radius_m : 0.0;
         set_triangle_target(triangle_target(settings));
     }
 
@@ -89,7 +105,7 @@ private:
     void make(const terrain::MeshView& view) {
         const terrain::GroundMesh mesh = mesher_.mesh(view, target_);
         if (mesh.vertices.data() != mesh_.vertices.data()) {
-            colours_.fill(mesher_.vertices(), mesh.origins);
+            colours_->fill(mesher_.vertices(), mesh.origins);
             mesher_.measure_boxes();
         }
         mesh_ = mesh;
@@ -100,18 +116,18 @@ private:
             .eye_m = camera.eye_m,
             .frustum_normals = frustum_normals(camera, aspect),
             .order = order_,
-            .focal_px = picture_height_px_ / (2.0 * std::tan(camera.vertical_fov_rad / 2.0)),
+            .focal_px = settings_.size_px.y / (2.0 * std::tan(camera.vertical_fov_rad / 2.0)),
             .earth_radius_m = earth_radius_m_};
     }
 
     terrain::GroundTiles ground_;
     terrain::ErrorMesher mesher_;
-    VertexColours colours_;
+    Settings settings_;
+    std::optional<VertexColours> colours_;
     glm::vec3 mean_colour_;
-    int picture_height_px_;
-    terrain::PaintOrder order_;
+    terrain::PaintOrder order_ = terrain::PaintOrder::BackToFront;
     terrain::ErrorTarget target_;
-    double earth_radius_m_;
+    double earth_radius_m_ = 0.0;
     terrain::GroundMesh mesh_;
     std::optional<terrain::MeshView> prepared_;
     std::optional<glm::dvec3> last_eye_m_;

@@ -47,6 +47,11 @@ private:
     void build();
     void finish();
     void put_header();
+    void drop_part();
+
+    /// Lets `read` read the inputs; where they are at fault, nothing stays to go on from.
+    template <typename Read>
+    void from_inputs(const Read& read);
 
     /// Calls `work(first row, rows)` for the rows not yet done, from the north, and tells.
     template <typename Work>
@@ -182,6 +187,21 @@ void Import::put_header() {
     file_->write(0, page);
 }
 
+void Import::drop_part() {
+    std::error_code code;
+    std::filesystem::remove(part_, code);
+}
+
+template <typename Read>
+void Import::from_inputs(const Read& read) {
+    try {
+        read();
+    } catch (const Error&) {
+        drop_part();
+        throw;
+    }
+}
+
 template <typename Work>
 void Import::by_bands(ImportStage stage, const Work& work) {
     const int rows = source_.rows();
@@ -198,7 +218,7 @@ void Import::by_bands(ImportStage stage, const Work& work) {
 
 void Import::scan() {
     by_bands(ImportStage::Scanning, [&](int first_row, int count) {
-        scan_rows(source_, first_row, count, progress_);
+        from_inputs([&] { scan_rows(source_, first_row, count, progress_); });
     });
     progress_.stage = Stage::Reading;
     progress_.rows_done = 0;
@@ -209,14 +229,13 @@ void Import::read() {
     const auto columns = static_cast<std::size_t>(source_.columns());
     by_bands(ImportStage::Reading, [&](int first_row, int count) {
         band.resize(static_cast<std::size_t>(count) * columns);
-        read_rows(source_, first_row, band, progress_);
+        from_inputs([&] { read_rows(source_, first_row, band, progress_); });
         const std::size_t offset =
             plan_.numbers + 2 * static_cast<std::size_t>(first_row) * columns;
         file_->write(offset, std::as_bytes(std::span(band)));
     });
     if (static_cast<std::size_t>(progress_.voids) == samples()) {
-        std::error_code code;
-        std::filesystem::remove(part_, code);
+        drop_part();
         error_in(source_.name(), "expected at least one height, got only samples without data");
     }
 }

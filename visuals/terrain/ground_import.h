@@ -43,8 +43,9 @@ struct ImportSummary {
 ///
 /// Works in OUT.part, which stays when the import is stopped: the next import of the same inputs
 /// (names, sizes, times, options) goes on from what was brought to the disk last, else starts anew;
-/// a stop while voids are filled starts anew, too. One import at a time works in it. Heights that
-/// are not whole metres are read twice. OUT appears when all is done and on the disk.
+/// a stop while voids are filled starts anew, too. OUT.part goes when an input cannot be read. One
+/// import at a time works in it. Heights that are not whole metres are read twice. OUT appears when
+/// all is done and on the disk.
 ///
 /// Memory beside the mapped file, which takes 2 bytes a sample more until it is done: 50 MB, 80
 /// more while voids are filled, GDAL's cache, and what models::HeightSource holds.

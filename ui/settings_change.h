@@ -1,0 +1,18 @@
+#pragma once
+
+#include "visuals/scene/settings.h"
+
+namespace octant::ui {
+
+/// What must be made anew when settings change while a flight goes on.
+enum class SettingsChange {
+    None,
+    Look,    ///< from where it is seen
+    Picture, ///< what is planned and drawn from now on
+    World    ///< aircraft, path or ground are loaded again
+};
+
+SettingsChange
+change_between(const visuals::scene::Settings& before, const visuals::scene::Settings& after);
+
+} // namespace octant::ui

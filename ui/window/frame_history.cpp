@@ -1,0 +1,16 @@
+#include "ui/window/frame_history.h"
+
+namespace octant::ui {
+
+void FrameHistory::add(const report::FrameRecord& record) {
+    constexpr std::size_t renewed_every = 30;
+    if (records_.size() == most_frames) {
+        records_.erase(records_.begin());
+    }
+    records_.push_back(record);
+    if (added_++ % renewed_every == 0) {
+        statistics_ = report::statistics_of(records_);
+    }
+}
+
+} // namespace octant::ui

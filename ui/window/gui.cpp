@@ -1,0 +1,114 @@
+#include "ui/window/gui.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <imgui.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace octant::ui {
+
+namespace gl = visuals::gl;
+
+namespace {
+
+static_assert(sizeof(ImDrawVert) == sizeof(gl::PanelVertex));
+static_assert(offsetof(ImDrawVert, uv) == offsetof(gl::PanelVertex, atlas_at));
+static_assert(offsetof(ImDrawVert, col) == offsetof(gl::PanelVertex, colour));
+static_assert(sizeof(ImDrawIdx) == sizeof(std::uint16_t));
+
+float content_scale(GLFWwindow* window) {
+    float x = 1.0F;
+    float y = 1.0F;
+    glfwGetWindowContentScale(window, &x, &y);
+    return x;
+}
+
+void set_style(float scale) {
+    ImGui::StyleColorsDark();
+    ImGuiStyle& style = ImGui::GetStyle();
+    style.WindowRounding = 4.0F;
+    style.FrameRounding = 3.0F;
+    style.WindowBorderSize = 0.0F;
+    style.Colors[ImGuiCol_WindowBg].w = 0.82F;
+    style.ScaleAllSizes(scale);
+    ImFontConfig font;
+    font.SizePixels = std::floor(13.0F * scale);
+    ImGui::GetIO().Fonts->AddFontDefault(&font);
+}
+
+} // namespace
+
+Gui::Gui(
+    GLFWwindow* window, const gl::Functions& functions, const std::filesystem::path& layout_file)
+    : layout_file_(layout_file.string()) {
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = layout_file_.empty() ? nullptr : layout_file_.c_str();
+    io.ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
+    set_style(content_scale(window));
+    ImGui_ImplGlfw_InitForOther(window, true);
+    unsigned char* texels = nullptr;
+    glm::ivec2 size{0};
+    io.Fonts->GetTexDataAsAlpha8(&texels, &size.x, &size.y);
+    painter_.emplace(
+        functions,
+        std::span(texels, static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y)),
+        size);
+}
+
+Gui::~Gui() {
+    painter_.reset();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void Gui::begin_frame() {
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+}
+
+void Gui::end_frame() {
+    ImGui::Render();
+}
+
+void Gui::draw(const glm::ivec2& size_px) {
+    const ImDrawData* const data = ImGui::GetDrawData();
+    if (data == nullptr || data->TotalVtxCount == 0) {
+        return;
+    }
+    painter_->begin({0, size_px, {data->DisplaySize.x, data->DisplaySize.y}});
+    for (int i = 0; i < data->CmdListsCount; ++i) {
+        const ImDrawList& list = *data->CmdLists[i];
+        draws_.clear();
+        for (const ImDrawCmd& command : list.CmdBuffer) {
+            draws_.push_back(
+                {command.IdxOffset,
+                 command.ElemCount,
+                 command.VtxOffset,
+                 {command.ClipRect.x, command.ClipRect.y},
+                 {command.ClipRect.z, command.ClipRect.w}});
+        }
+        painter_->draw(
+            {reinterpret_cast<const gl::PanelVertex*>(list.VtxBuffer.Data),
+             static_cast<std::size_t>(list.VtxBuffer.Size)},
+            {list.IdxBuffer.Data, static_cast<std::size_t>(list.IdxBuffer.Size)},
+            draws_);
+    }
+    painter_->end();
+}
+
+bool Gui::wants_pointer() const {
+    return ImGui::GetIO().WantCaptureMouse;
+}
+
+bool Gui::wants_keys() const {
+    return ImGui::GetIO().WantTextInput;
+}
+
+} // namespace octant::ui

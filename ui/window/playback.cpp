@@ -1,0 +1,34 @@
+#include "ui/window/playback.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace octant::ui {
+
+Playback::Moved Playback::pass(double wall_s, bool open_ended) {
+    if (!playing) {
+        return Moved::On;
+    }
+    time_s += wall_s * speed;
+    if (open_ended || time_s <= end_s) {
+        return Moved::On;
+    }
+    if (loops) {
+        time_s = begin_s;
+        return Moved::Restarts;
+    }
+    time_s = end_s;
+    playing = false;
+    return Moved::On;
+}
+
+void Playback::step_frame(double frame_s, bool open_ended) {
+    playing = false;
+    time_s = open_ended ? time_s + frame_s : std::min(time_s + frame_s, end_s);
+}
+
+void Playback::change_speed(int steps) {
+    speed = std::clamp(speed * std::pow(2.0, steps), slowest, fastest);
+}
+
+} // namespace octant::ui

@@ -1,0 +1,103 @@
+#include "visuals/gl/panel_painter.h"
+
+#include "visuals/gl/program.h"
+#include "visuals/gl/shader_sources.h"
+#include "visuals/gl/vertex_array.h"
+
+#include <glm/common.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/vec4.hpp>
+
+#include <cassert>
+#include <cstddef>
+
+namespace octant::visuals::gl {
+namespace {
+
+// Places in the shaders.
+constexpr GLint window_uniform = 0;
+constexpr GLuint atlas_unit = 0;
+constexpr GLuint atlas_input = 2;
+
+constexpr std::size_t first_capacity_bytes = std::size_t{1} << 18;
+
+Object
+make_atlas(const Functions& gl, std::span<const std::uint8_t> texels, const glm::ivec2& size) {
+    assert(texels.size() == static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+    Object texture = make_texture(gl);
+    gl.texture_storage_2d(texture.name(), 1, GL_R8, size.x, size.y);
+    gl.pixel_storei(GL_UNPACK_ALIGNMENT, 1);
+    gl.texture_sub_image_2d(
+        texture.name(), 0, 0, 0, size.x, size.y, GL_RED, GL_UNSIGNED_BYTE, texels.data());
+    gl.texture_parameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl.texture_parameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    return texture;
+}
+
+Object make_array(const Functions& gl, const StreamBuffer& vertices, const StreamBuffer& indices) {
+    Object array = make_vertex_array(gl);
+    gl.vertex_array_vertex_buffer(array.name(), 0, vertices.name(), 0, sizeof(PanelVertex));
+    gl.vertex_array_element_buffer(array.name(), indices.name());
+    add_place_input(gl, array, position_input, offsetof(PanelVertex, at));
+    add_place_input(gl, array, atlas_input, offsetof(PanelVertex, atlas_at));
+    add_colour_input(gl, array, offsetof(PanelVertex, colour));
+    return array;
+}
+
+} // namespace
+
+PanelPainter::PanelPainter(
+    const Functions& gl, std::span<const std::uint8_t> atlas, const glm::ivec2& size)
+    : gl_(gl)
+    , program_(make_program(gl, "panels", panel_vert, panel_frag))
+    , atlas_(make_atlas(gl, atlas, size))
+    , vertices_(gl, first_capacity_bytes)
+    , indices_(gl, first_capacity_bytes)
+    , array_(make_array(gl, vertices_, indices_)) {}
+
+void PanelPainter::begin(const PanelSurface& surface) {
+    surface_ = surface;
+    gl_.bind_framebuffer(GL_FRAMEBUFFER, surface.framebuffer);
+    gl_.viewport(0, 0, surface.size_px.x, surface.size_px.y);
+    gl_.clip_control(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    gl_.disable(GL_DEPTH_TEST);
+    gl_.disable(GL_CULL_FACE);
+    gl_.enable(GL_BLEND);
+    gl_.blend_func(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    gl_.enable(GL_SCISSOR_TEST);
+    gl_.use_program(program_.name());
+    const glm::vec4 window(2.0F / surface.size.x, -2.0F / surface.size.y, 0.0F, 0.0F);
+    gl_.program_uniform_4fv(program_.name(), window_uniform, 1, glm::value_ptr(window));
+    gl_.bind_texture_unit(atlas_unit, atlas_.name());
+    gl_.bind_vertex_array(array_.name());
+}
+
+void PanelPainter::end() {
+    gl_.disable(GL_SCISSOR_TEST);
+    gl_.disable(GL_BLEND);
+}
+
+void PanelPainter::draw(
+    std::span<const PanelVertex> vertices,
+    std::span<const std::uint16_t> indices,
+    std::span<const PanelDraw> draws) {
+    vertices_.fill({std::as_bytes(vertices)});
+    indices_.fill({std::as_bytes(indices)});
+    const glm::vec2 px_per_unit = glm::vec2(surface_.size_px) / surface_.size;
+    for (const PanelDraw& each : draws) {
+        const glm::ivec2 least(glm::floor(each.least * px_per_unit));
+        const glm::ivec2 most(glm::ceil(each.most * px_per_unit));
+        if (each.index_count == 0 || most.x <= least.x || most.y <= least.y) {
+            continue;
+        }
+        gl_.scissor(least.x, surface_.size_px.y - most.y, most.x - least.x, most.y - least.y);
+        gl_.draw_elements_base_vertex(
+            GL_TRIANGLES,
+            static_cast<GLsizei>(each.index_count),
+            GL_UNSIGNED_SHORT,
+            reinterpret_cast<const void*>(each.first_index * sizeof(std::uint16_t)),
+            static_cast<GLint>(each.first_vertex));
+    }
+}
+
+} // namespace octant::visuals::gl

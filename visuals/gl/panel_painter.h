@@ -1,0 +1,62 @@
+#pragma once
+
+#include "visuals/gl/object.h"
+#include "visuals/gl/stream_buffer.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <span>
+
+namespace octant::visuals::gl {
+
+/// A corner of a panel's triangle. 20 bytes.
+struct PanelVertex {
+    glm::vec2 at{0.0F};       ///< from the window's upper left corner, in its own units
+    glm::vec2 atlas_at{0.0F}; ///< shares of the atlas's width and height
+    std::uint32_t colour = 0; ///< as ColourVertex::colour
+};
+
+/// Indices of one list that are seen through one rectangle of the window.
+struct PanelDraw {
+    std::uint32_t first_index = 0;
+    std::uint32_t index_count = 0;
+    std::uint32_t first_vertex = 0;
+    glm::vec2 least{0.0F}; ///< corners of the rectangle, in the window's own units
+    glm::vec2 most{0.0F};
+};
+
+/// A window's framebuffer and how its pixels lie in the window's own units.
+struct PanelSurface {
+    GLuint framebuffer = 0;
+    glm::ivec2 size_px{1};
+    glm::vec2 size{1.0F}; ///< in the window's own units
+};
+
+/// Draws user-interface triangles over a window.
+class PanelPainter {
+public:
+    /// `atlas`: one byte a texel, `size` of them, row by row: how much is covered.
+    PanelPainter(const Functions& gl, std::span<const std::uint8_t> atlas, const glm::ivec2& size);
+
+    /// Call before the draw()s of a picture and after them.
+    void begin(const PanelSurface& surface);
+    void end();
+
+    /// One list of triangles.
+    void draw(
+        std::span<const PanelVertex> vertices,
+        std::span<const std::uint16_t> indices,
+        std::span<const PanelDraw> draws);
+
+private:
+    const Functions& gl_;
+    Object program_;
+    Object atlas_;
+    StreamBuffer vertices_;
+    StreamBuffer indices_;
+    Object array_;
+    PanelSurface surface_;
+};
+
+} // namespace octant::visuals::gl
