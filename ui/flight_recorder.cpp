@@ -26,10 +26,6 @@ namespace scene = visuals::scene;
 
 namespace {
 
-report::PictureView view_of(const visuals::gl::Picture& picture) {
-    return {picture.width, picture.height, 4, std::as_bytes(std::span(picture.rgba)), false};
-}
-
 std::string adaptation_text(const scene::LoadSettings& load) {
     return fmt::format(
         "terrain: {} to {} triangles; left alone at a stress of {:.2f} to {:.2f}, else brought to "
@@ -45,8 +41,13 @@ std::string adaptation_text(const scene::LoadSettings& load) {
         load.most_counted_stress);
 }
 
-report::RunInfo
-run_info(const RecordOptions& options, const scene::Settings& settings, const Session& session) {
+} // namespace
+
+report::PictureView view_of(const visuals::gl::Picture& picture) {
+    return {picture.width, picture.height, 4, std::as_bytes(std::span(picture.rgba)), false};
+}
+
+report::RunInfo run_info(const scene::Settings& settings, const Session& session) {
     const Flight& flight = session.world().flight;
     report::RunInfo info;
     info.title = flight.title;
@@ -68,15 +69,10 @@ run_info(const RecordOptions& options, const scene::Settings& settings, const Se
         info.facts.emplace_back(
             "adaptation", adaptation_text(scene::load_settings(settings, session.rate_hz())));
     }
-    if (options.replay_of) {
-        info.facts.emplace_back("replay of", options.replay_of->string());
-    }
     info.notes = session.world().notes;
     info.inputs = input_hashes(settings);
     return info;
 }
-
-} // namespace
 
 bool is_recorded(const RecordOptions& options, const scene::Settings& settings) {
     const bool changed_checkout = program_commit().ends_with('+');
@@ -96,6 +92,13 @@ bool is_recorded(const RecordOptions& options, const scene::Settings& settings) 
            run.value("inputs", Json()) == inputs && run.value("program", Json()) == program;
 }
 
+std::string write_report(const std::filesystem::path& folder) {
+    const report::LoadedRecording loaded = report::load_recording(folder);
+    const auto file = folder / "report.html";
+    write_file(file, report::html_report(std::span(&loaded, 1)));
+    return fmt::format("report: {}", file.string());
+}
+
 FlightRecorder::FlightRecorder(
     const RecordOptions& options, const scene::Settings& settings, const Session& session)
     : options_(options)
@@ -108,7 +111,11 @@ FlightRecorder::FlightRecorder(
                 settings.size_px.x, settings.size_px.y, 4, false, session.rate_hz()});
     }
     if (options.folder) {
-        recording_.emplace(*options.folder, run_info(options, settings, session));
+        report::RunInfo info = run_info(settings, session);
+        if (options.replay_of) {
+            info.facts.emplace_back("replay of", options.replay_of->string());
+        }
+        recording_.emplace(*options.folder, std::move(info));
         // Whole at first: a killed flight's tracks are cut by its report.
         write_tracks(*options.folder, session.world(), session.world().flight.trajectory.end_s());
     }
@@ -130,13 +137,6 @@ void FlightRecorder::add(report::FrameRecord record, Session& session) {
     } else {
         records_.push_back(record);
     }
-}
-
-std::string FlightRecorder::write_report() const {
-    const report::LoadedRecording loaded = report::load_recording(*options_.folder);
-    const auto file = *options_.folder / "report.html";
-    write_file(file, report::html_report(std::span(&loaded, 1)));
-    return fmt::format("report: {}", file.string());
 }
 
 FlightEnd FlightRecorder::finish(const Session& session) {
@@ -161,7 +161,7 @@ FlightEnd FlightRecorder::finish(const Session& session) {
         end.statistics =
             recording_->finish({end.state_hash, end.picture_hash, report::read_cpu_times()});
         write_tracks(*options_.folder, session.world(), flown_until_s_);
-        end.notes.push_back(write_report());
+        end.notes.push_back(write_report(*options_.folder));
         if (!report::gnuplot_installed()) {
             end.missing.emplace_back("plots not made: gnuplot is not installed");
         }

@@ -33,6 +33,15 @@ struct FlightEnd {
 /// program. Never true for a program built from a changed checkout: two of them may differ.
 bool is_recorded(const RecordOptions& options, const visuals::scene::Settings& settings);
 
+/// What run.json says of a flight.
+report::RunInfo run_info(const visuals::scene::Settings& settings, const Session& session);
+
+/// Makes a folder's report.html anew; gives a line that says where it is. Throws Error.
+std::string write_report(const std::filesystem::path& folder);
+
+/// A picture as the report's files take it; refers to it.
+report::PictureView view_of(const visuals::gl::Picture& picture);
+
 /// Writes a flight as it is flown: recording folder, pictures, video. Without a folder only the
 /// figures are kept.
 class FlightRecorder {
@@ -50,8 +59,6 @@ public:
     FlightEnd finish(const Session& session);
 
 private:
-    std::string write_report() const;
-
     RecordOptions options_;
     int picture_every_ = 0;
     std::optional<report::Recording> recording_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "ui/session.h"
+#include "visuals/gl/functions.h"
 #include "visuals/gl/picture.h"
 #include "visuals/scene/settings.h"
 
@@ -52,5 +54,16 @@ IdComparison compare_with_depth_buffer(
     const visuals::scene::Settings& settings,
     int every,
     const std::function<void(int compared, int frames)>& seen);
+
+/// What the last picture of a session's window got wrong against a depth buffer.
+struct PixelCheck {
+    long pixels = 0;
+    long differing = 0; ///< show another polygon
+    long wrong = 0;     ///< of these, where a picture three times as large does not show it nearby
+};
+
+/// Draws the session's last moment by order and by depth and compares. Its context must be current,
+/// with these functions. Throws Error (driver).
+PixelCheck check_pixels(Session& session, const visuals::gl::Functions& gl);
 
 } // namespace octant::ui

@@ -33,6 +33,12 @@ Replay read_replay(const std::filesystem::path& folder) {
     if (rows.records.empty()) {
         error_in(file, "expected the rows of a flight, got none");
     }
+    if (run.ended && run.picture_hash.empty()) {
+        error_in(
+            folder / "run.json",
+            "expected a recording of octant fly, got one of a window, whose pictures follow the "
+            "clock; --settings with this file repeats its flight");
+    }
     Replay replay{folder, {}, run.ended, run.state_hash, run.picture_hash};
     for (const report::FrameRecord& row : rows.records) {
         const auto frame = static_cast<int>(replay.triangle_targets.size());

@@ -35,21 +35,25 @@ std::optional<double> time_of(std::string_view line) {
 
 } // namespace
 
-void write_tracks(const std::filesystem::path& folder, const World& world, double until_s) {
-    const sim::Trajectory path = flown(world.flight.trajectory, until_s);
-    write_file(folder / "track.csv", flightpaths::track_csv(path));
+void write_tracks(
+    const std::filesystem::path& folder, const World& world, const sim::Trajectory& flight) {
+    write_file(folder / "track.csv", flightpaths::track_csv(flight));
     flightpaths::AcmiHeader header;
     header.title = world.flight.title;
     header.aircraft = world.scene.models[world.scene.aircraft.front()].polygons.name;
     for (const flightpaths::LegBegin& leg : world.flight.legs) {
-        if (leg.time_s <= until_s) {
+        if (leg.time_s >= flight.start_s() && leg.time_s <= flight.end_s() + rounding_s) {
             header.bookmarks.push_back(leg);
         }
     }
     if (world.ground_place) {
         header.origin = {world.ground_place->latitude_deg, world.ground_place->longitude_deg};
     }
-    write_file(folder / "track.acmi", flightpaths::track_acmi(path, header));
+    write_file(folder / "track.acmi", flightpaths::track_acmi(flight, header));
+}
+
+void write_tracks(const std::filesystem::path& folder, const World& world, double until_s) {
+    write_tracks(folder, world, flown(world.flight.trajectory, until_s));
 }
 
 void cut_tracks(const std::filesystem::path& folder, double until_s) {

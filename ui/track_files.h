@@ -10,6 +10,10 @@ namespace octant::ui {
 /// Error.
 void write_tracks(const std::filesystem::path& folder, const World& world, double until_s);
 
+/// The same of a flight that left the world's path.
+void write_tracks(
+    const std::filesystem::path& folder, const World& world, const sim::Trajectory& flight);
+
 /// Shortens the tracks of a flight that was killed to what was flown. Files that are not there are
 /// left alone. Throws Error.
 void cut_tracks(const std::filesystem::path& folder, double until_s);

@@ -20,13 +20,14 @@ namespace fs = std::filesystem;
 
 /// True for the names that a recording gives its files, and for what a kill left of writing one.
 bool is_recording_name(std::string_view name) {
-    constexpr std::array<std::string_view, 7> names{
+    constexpr std::array<std::string_view, 8> names{
         "run.json",
         "frames.csv",
         "mangohud.csv",
         "trace.json",
         "track.acmi",
         "track.csv",
+        "flight.csv",
         "report.html"};
     if (name.starts_with("picture-")) {
         return name.ends_with(".png") || name.ends_with(".part");

@@ -81,7 +81,10 @@ Json summary_json(const Statistics& statistics, const RunEnd& end) {
         }
     }
     summary["state_hash"] = fmt::format("{:016x}", end.state_hash);
-    summary["picture_hash"] = fmt::format("{:016x}", end.picture_hash);
+    summary["picture_hash"] = nullptr;
+    if (end.picture_hash) {
+        summary["picture_hash"] = fmt::format("{:016x}", *end.picture_hash);
+    }
     return summary;
 }
 

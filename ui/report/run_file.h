@@ -34,7 +34,7 @@ struct RunInfo {
 /// What is known after the end.
 struct RunEnd {
     std::uint64_t state_hash = 0;
-    std::uint64_t picture_hash = 0;
+    std::optional<std::uint64_t> picture_hash; ///< nothing where pictures follow the clock
     CpuTimes cpu_times; ///< read after the last frame (and after the video is whole)
 };
 

@@ -96,6 +96,8 @@ struct Settings {
     GroundShading ground_shading =
         GroundShading::Auto;          ///< auto = texture under a drape or on a GPU, else vertex
     std::optional<std::string> drape; ///< image file that is laid over the ground
+
+    bool operator==(const Settings&) const = default;
 };
 
 /// What refines the ground: unless told, the screen-space error; the paper's quadtree by mid-point

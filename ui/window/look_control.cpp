@@ -1,0 +1,107 @@
+#include "ui/window/look_control.h"
+
+#include "sim/base/units.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace octant::ui {
+
+namespace scene = visuals::scene;
+using scene::Settings;
+using scene::View;
+
+namespace {
+
+constexpr double drag_deg = 180.0; ///< of turn for a drag over the picture's height
+constexpr double zoom_a_click = 1.15;
+constexpr double steepest_deg = 89.0;
+constexpr double move_mps = 60.0;
+constexpr double fast_factor = 8.0;
+
+double wrapped_deg(double deg) {
+    return std::remainder(deg, 360.0);
+}
+
+bool goes_around(View view) {
+    return view == View::Chase || view == View::Orbit;
+}
+
+/// Ahead as the free camera looks: its look turned by azimuth and elevation.
+glm::dvec3 ahead_of(const Settings& settings) {
+    const glm::dvec3 straight = glm::normalize(*settings.look_m - *settings.eye_m);
+    const double heading = std::atan2(straight.x, straight.y) + rad_from_deg(settings.azimuth_deg);
+    const double up = std::clamp(
+        std::asin(std::clamp(straight.z, -1.0, 1.0)) + rad_from_deg(settings.elevation_deg),
+        -rad_from_deg(steepest_deg),
+        rad_from_deg(steepest_deg));
+    return {std::cos(up) * std::sin(heading), std::cos(up) * std::cos(heading), std::sin(up)};
+}
+
+} // namespace
+
+Settings dragged(const Settings& settings, const glm::vec2& share_of_height) {
+    Settings changed = settings;
+    const double slower = goes_around(settings.view) ? 1.0 : 1.0 / std::max(settings.zoom, 1.0);
+    const double sense = goes_around(settings.view) ? 1.0 : -1.0;
+    changed.azimuth_deg = wrapped_deg(
+        settings.azimuth_deg +
+        sense * slower * drag_deg * static_cast<double>(share_of_height.x));
+    changed.elevation_deg = std::clamp(
+        settings.elevation_deg + slower * drag_deg * static_cast<double>(share_of_height.y),
+        -steepest_deg,
+        steepest_deg);
+    return changed;
+}
+
+Settings zoomed(const Settings& settings, double clicks) {
+    constexpr double least = 0.1;
+    constexpr double most = 50.0;
+    Settings changed = settings;
+    changed.zoom = std::clamp(settings.zoom * std::pow(zoom_a_click, clicks), least, most);
+    return changed;
+}
+
+Settings looking_straight(const Settings& settings) {
+    Settings changed = settings;
+    changed.azimuth_deg = 0.0;
+    changed.elevation_deg = 0.0;
+    changed.zoom = 1.0;
+    return changed;
+}
+
+Settings with_view(const Settings& settings, View view, const scene::Camera& camera) {
+    constexpr double look_ahead_m = 1000.0;
+    Settings changed = looking_straight(settings);
+    changed.view = view;
+    changed.eye_m.reset();
+    changed.look_m.reset();
+    if (view == View::Free) {
+        changed.eye_m = camera.eye_m;
+        changed.look_m =
+            camera.eye_m + camera.view_to_world * glm::dvec3(0.0, 0.0, -look_ahead_m);
+    }
+    return changed;
+}
+
+Settings moved(const Settings& settings, const FreeMove& move, double wall_s) {
+    const bool stands = move.right == 0 && move.up == 0 && move.ahead == 0;
+    if (settings.view != View::Free || stands) {
+        return settings;
+    }
+    const glm::dvec3 ahead = ahead_of(settings);
+    const glm::dvec3 right = glm::normalize(glm::dvec3(ahead.y, -ahead.x, 0.0));
+    const glm::dvec3 way_m = wall_s * move_mps * (move.fast ? fast_factor : 1.0) *
+                             (static_cast<double>(move.ahead) * ahead +
+                              static_cast<double>(move.right) * right +
+                              static_cast<double>(move.up) * glm::dvec3(0.0, 0.0, 1.0));
+    Settings changed = settings;
+    *changed.eye_m += way_m;
+    *changed.look_m += way_m;
+    return changed;
+}
+
+} // namespace octant::ui

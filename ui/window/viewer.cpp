@@ -1,0 +1,225 @@
+#include "ui/window/viewer.h"
+
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+#include "ui/settings_change.h"
+#include "ui/window/look_control.h"
+#include "ui/window/panels.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <thread>
+#include <utility>
+
+namespace octant::ui {
+
+namespace fs = std::filesystem;
+namespace scene = visuals::scene;
+namespace gl = visuals::gl;
+
+namespace {
+
+constexpr double longest_turn_s = 0.25; ///< a longer one does not make the flight jump
+constexpr double message_s = 5.0;
+
+std::unique_ptr<gl::WindowContext> open_window(const ViewOptions& options) {
+    return gl::make_window_context({.size = options.settings.size_px, .title = "Octant"});
+}
+
+double refresh_hz_of(GLFWmonitor* monitor) {
+    const GLFWvidmode* const mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
+    return mode == nullptr || mode->refreshRate <= 0 ? 60.0 : mode->refreshRate;
+}
+
+fs::path layout_file(const fs::path& folder) {
+    return folder.empty() ? fs::path() : folder / "layout.ini";
+}
+
+} // namespace
+
+Viewer::Viewer(const ViewOptions& options)
+    : options_(options) {
+    std::unique_ptr<gl::WindowContext> context = open_window(options);
+    context_ = context.get();
+    input_.emplace(context_->window());
+    scene::Settings settings = options.settings;
+    settings.context = scene::ContextKind::Window;
+    settings.size_px = input_->size_px();
+    session_ = std::make_unique<Session>(settings, Shows::World, std::move(context));
+    session_->present_by([this](gl::Renderer& renderer) {
+        renderer.copy_to(0, input_->size_px());
+        gui_->draw(input_->size_px());
+        context_->swap_buffers();
+    });
+    if (!options.keeps_into.empty()) {
+        make_folder(options.keeps_into);
+        state_.open.first_steps = !fs::exists(layout_file(options.keeps_into));
+    }
+    gui_.emplace(
+        context_->window(), context_->functions(), layout_file(options.keeps_into));
+    refresh_hz_ = refresh_hz_of(glfwGetPrimaryMonitor());
+    state_.wanted = settings;
+    state_.vsync = options.vsync;
+    state_.open.shown = options.panels;
+    restart_playback();
+    if (options.by_hand) {
+        toggle_hand();
+        session_->simulation().level_off(settings.aircraft.front());
+    }
+    if (options.full_screen) {
+        toggle_full_screen();
+    }
+    for (const std::string& note : session_->world().notes) {
+        say(note);
+    }
+    clock_ = Stopwatch();
+}
+
+Viewer::~Viewer() {
+    if (recording_) {
+        try {
+            recording_->finish(*session_);
+        } catch (const Error&) {
+            // The frames so far are on the disk; octant report makes the rest of them.
+        }
+    }
+}
+
+void Viewer::say(const std::string& text) {
+    state_.message = {text, clock_.s() + message_s};
+}
+
+void Viewer::restart_playback() {
+    const sim::Trajectory& path = session_->world().flight.trajectory;
+    Playback& playback = state_.playback;
+    playback.begin_s = path.start_s();
+    playback.end_s = path.end_s();
+    playback.time_s = session_->simulation().time_s();
+    shown_s_ = playback.time_s;
+}
+
+bool Viewer::turn() {
+    const double now_s = clock_.s();
+    const double wall_s = std::min(now_s - last_turn_s_, longest_turn_s);
+    last_turn_s_ = now_s;
+    glfwPollEvents();
+    fit_to_window();
+    gui_->begin_frame();
+    take_events(wall_s);
+    all_panels(state_, *session_, now_s);
+    gui_->end_frame();
+    take_requests();
+    apply_wanted();
+    if (session_->simulation().end_of_flight()) {
+        state_.playback.playing = false;
+    }
+    const bool by_hand = session_->simulation().by_hand();
+    if (state_.playback.pass(wall_s, by_hand) == Playback::Moved::Restarts) {
+        go_to(state_.playback.begin_s);
+    }
+    draw();
+    wait_for_display(now_s);
+    return !state_.requests.leave && glfwWindowShouldClose(context_->window()) == GLFW_FALSE;
+}
+
+/// The picture is as large as the window; nothing changes while it is minimised.
+void Viewer::fit_to_window() {
+    const glm::ivec2 size_px = input_->size_px();
+    if (size_px.x > 0 && size_px.y > 0) {
+        constexpr glm::ivec2 least_px(16);
+        state_.wanted.size_px = glm::max(size_px, least_px);
+    }
+}
+
+void Viewer::take_events(double wall_s) {
+    const WindowEvents events = input_->take();
+    input_s_ = clock_.s();
+    if (!gui_->wants_keys()) {
+        for (const int key : events.keys) {
+            press(key);
+        }
+        move_free_camera(wall_s);
+        fly_by_hand(wall_s);
+    }
+    if (!gui_->wants_pointer()) {
+        const auto height = static_cast<float>(std::max(input_->size().y, 1));
+        if (events.dragged != glm::vec2(0.0F)) {
+            state_.wanted = dragged(state_.wanted, events.dragged / height);
+        }
+        if (events.wheel_clicks != 0.0) {
+            state_.wanted = zoomed(state_.wanted, events.wheel_clicks);
+        }
+    }
+}
+
+void Viewer::move_free_camera(double wall_s) {
+    const auto sense = [&](int more, int less) {
+        return static_cast<int>(input_->is_down(more)) - static_cast<int>(input_->is_down(less));
+    };
+    const FreeMove move{
+        .right = sense(GLFW_KEY_D, GLFW_KEY_A),
+        .up = sense(GLFW_KEY_E, GLFW_KEY_Q),
+        .ahead = sense(GLFW_KEY_W, GLFW_KEY_S),
+        .fast = input_->is_down(GLFW_KEY_LEFT_SHIFT)};
+    state_.wanted = moved(state_.wanted, move, wall_s);
+}
+
+void Viewer::apply_wanted() {
+    if (state_.wanted == session_->settings()) {
+        return;
+    }
+    const bool other_flight = change_between(session_->settings(), state_.wanted) ==
+                              SettingsChange::World;
+    try {
+        if (other_flight && recording_) {
+            throw Error("a recording keeps its aircraft, path and ground: stop it first (F9)");
+        }
+        session_->apply(state_.wanted);
+    } catch (const Error& fault) {
+        say(fault.what());
+        const glm::ivec2 size_px = state_.wanted.size_px;
+        state_.wanted = session_->settings();
+        state_.wanted.size_px = size_px;
+        return;
+    }
+    if (other_flight) {
+        restart_playback();
+    }
+}
+
+/// The picture shown is the one chosen a turn ago; with it the ground of the next is begun.
+void Viewer::draw() {
+    const double next_s = state_.playback.time_s;
+    const bool ahead = session_->settings().mesh_ahead;
+    const double input_of_next_s = input_s_;
+    const double time_s = ahead ? shown_s_ : next_s;
+    report::FrameRecord record =
+        session_->draw_at(time_s, ahead ? std::optional(next_s) : std::nullopt);
+    const double now_s = clock_.s();
+    record.latency_ms = 1000.0 * (now_s - (ahead ? shown_input_s_ : input_of_next_s));
+    record.missed = presented_s_ > 0.0 && now_s - presented_s_ > 1.5 / refresh_hz_ ? 1 : 0;
+    presented_s_ = now_s;
+    shown_s_ = next_s;
+    shown_input_s_ = input_of_next_s;
+    state_.history.add(record);
+    if (recording_) {
+        recording_->add(record, *session_);
+    }
+}
+
+/// Where the driver does not wait for the display itself.
+void Viewer::wait_for_display(double turn_began_s) const {
+    if (!state_.vsync) {
+        return;
+    }
+    const double left_s = 1.0 / refresh_hz_ - (clock_.s() - turn_began_s);
+    if (left_s > 0.0) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
+    }
+}
+
+} // namespace octant::ui

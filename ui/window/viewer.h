@@ -1,0 +1,96 @@
+#pragma once
+
+#include "ui/session.h"
+#include "ui/stopwatch.h"
+#include "ui/window/gui.h"
+#include "ui/window/pilot_input.h"
+#include "ui/window/view_keys.h"
+#include "ui/window/view_state.h"
+#include "ui/window/window_input.h"
+#include "ui/window/window_recording.h"
+#include "visuals/gl/window_context.h"
+#include "visuals/scene/settings.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace octant::ui {
+
+struct ViewOptions {
+    visuals::scene::Settings settings; ///< size_px: of the window, in the display's units
+    bool full_screen = false;
+    bool vsync = true; ///< false: as fast as it can
+    bool panels = true;
+    bool by_hand = false;               ///< from the beginning on, level and in trim
+    std::filesystem::path records_into; ///< folder in which recordings and pictures get folders
+    /// The user's own folder for the layout of panels and the mark that the first steps were shown;
+    /// empty = nothing is kept.
+    std::filesystem::path keeps_into;
+};
+
+/// A window in which a flight is seen and flown: keys, mouse and panels change a ViewState, the
+/// session draws what it asks for.
+class Viewer {
+public:
+    /// Opens the window and loads the world. Throws Error.
+    explicit Viewer(const ViewOptions& options);
+    ~Viewer();
+    Viewer(const Viewer&) = delete;
+    Viewer& operator=(const Viewer&) = delete;
+    Viewer(Viewer&&) = delete;
+    Viewer& operator=(Viewer&&) = delete;
+
+    /// Takes what was done since the last turn and shows the next picture. False when the window is
+    /// to be closed. Throws Error (driver, disk full).
+    bool turn();
+
+    Session& session() { return *session_; }
+
+    ViewState& state() { return state_; }
+
+    GLFWwindow* window() const { return context_->window(); }
+
+private:
+    void take_events(double wall_s);
+    void press(int key);
+    void command(ViewCommand what);
+    void fly_by_hand(double wall_s);
+    void move_free_camera(double wall_s);
+    void fit_to_window();
+    void take_requests();
+    void take_flight_requests(const ViewRequests& requests);
+    void count_wrong_pixels();
+    void toggle_hand();
+    void go_to(double time_s);
+    void toggle_recording();
+    void take_screenshot();
+    void toggle_full_screen();
+    void apply_wanted();
+    void restart_playback();
+    void draw();
+    void say(const std::string& text);
+    std::filesystem::path unused_path(const std::string& stem, const std::string& ending) const;
+    void wait_for_display(double turn_began_s) const;
+
+    ViewOptions options_;
+    visuals::gl::WindowContext* context_ = nullptr; ///< the session's
+    std::unique_ptr<Session> session_;
+    std::optional<WindowInput> input_;
+    std::optional<Gui> gui_;
+    ViewState state_;
+    PilotInput pilot_;
+    std::optional<WindowRecording> recording_;
+    Stopwatch clock_;
+    double last_turn_s_ = 0.0;
+    double shown_s_ = 0.0;      ///< simulated time of the next picture
+    double input_s_ = 0.0;      ///< when the input of the picture after it was read
+    double shown_input_s_ = 0.0; ///< when the input of the next picture was read
+    double presented_s_ = 0.0;  ///< when the last picture was shown
+    double refresh_hz_ = 60.0;
+    glm::ivec2 windowed_at_{0}; ///< place and size before full screen
+    glm::ivec2 windowed_size_{0};
+};
+
+} // namespace octant::ui

@@ -1,0 +1,283 @@
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+#include "ui/flight_recorder.h"
+#include "ui/id_comparison.h"
+#include "ui/report/png_file.h"
+#include "ui/settings_file.h"
+#include "ui/window/look_control.h"
+#include "ui/window/view_keys.h"
+#include "ui/window/viewer.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace octant::ui {
+
+namespace fs = std::filesystem;
+namespace scene = visuals::scene;
+
+namespace {
+
+constexpr double jump_s = 2.0;
+
+void next_inset(scene::Settings& settings) {
+    using scene::View;
+    constexpr std::array<std::optional<View>, 4> turns{
+        std::nullopt, View::Chase, View::Cockpit, View::Tower};
+    const auto at = std::ranges::find(turns, settings.inset);
+    settings.inset = at == turns.end() || at + 1 == turns.end() ? turns.front() : *(at + 1);
+}
+
+} // namespace
+
+void Viewer::press(int key) {
+    const auto found = std::ranges::find(view_keys(), key, &ViewKey::key);
+    if (found != view_keys().end()) {
+        command(found->command);
+    }
+}
+
+void Viewer::command(ViewCommand what) {
+    using C = ViewCommand;
+    Playback& playback = state_.playback;
+    OpenPanels& open = state_.open;
+    ViewRequests& requests = state_.requests;
+    const auto view = [&](scene::View wanted) {
+        state_.wanted = with_view(state_.wanted, wanted, session_->camera());
+    };
+    const auto toggle = [&](bool& panel) {
+        panel = !(panel && open.shown);
+        open.shown = open.shown || panel;
+    };
+    switch (what) {
+    case C::Cockpit:
+        return view(scene::View::Cockpit);
+    case C::Chase:
+        return view(scene::View::Chase);
+    case C::Tower:
+        return view(scene::View::Tower);
+    case C::Orbit:
+        return view(scene::View::Orbit);
+    case C::Free:
+        return view(scene::View::Free);
+    case C::NextInset:
+        return next_inset(state_.wanted);
+    case C::ResetLook:
+        state_.wanted = looking_straight(state_.wanted);
+        return;
+    case C::PlayOrPause:
+        playback.playing = !playback.playing;
+        return;
+    case C::StepFrame:
+        requests.step_frame = true;
+        return;
+    case C::Slower:
+        return playback.change_speed(-1);
+    case C::Faster:
+        return playback.change_speed(1);
+    case C::Loop:
+        playback.loops = !playback.loops;
+        return;
+    case C::ToBeginning:
+        requests.go_to_s = playback.begin_s;
+        return;
+    case C::Back:
+        requests.go_to_s = playback.time_s - jump_s;
+        return;
+    case C::Forward:
+        requests.go_to_s = playback.time_s + jump_s;
+        return;
+    case C::ByHand:
+        requests.toggle_hand = true;
+        return;
+    case C::LevelOff:
+        requests.level_off = true;
+        return;
+    case C::Record:
+        requests.toggle_recording = true;
+        return;
+    case C::Screenshot:
+        requests.screenshot = true;
+        return;
+    case C::FullScreen:
+        requests.toggle_full_screen = true;
+        return;
+    case C::Panels:
+        open.shown = !open.shown;
+        return;
+    case C::FlightPanel:
+        return toggle(open.flight);
+    case C::TimingPanel:
+        return toggle(open.timing);
+    case C::TerrainPanel:
+        return toggle(open.terrain);
+    case C::DrawOrderPanel:
+        return toggle(open.draw_order);
+    case C::AircraftPanel:
+        return toggle(open.aircraft);
+    case C::ScenePanel:
+        return toggle(open.scene);
+    case C::SettingsPanel:
+        return toggle(open.settings);
+    case C::Help:
+        return toggle(open.help);
+    case C::Leave:
+        requests.leave = !std::exchange(open.help, false);
+        return;
+    }
+}
+
+void Viewer::take_requests() {
+    const ViewRequests requests =
+        std::exchange(state_.requests, {.leave = state_.requests.leave});
+    take_flight_requests(requests);
+    if (requests.toggle_recording) {
+        toggle_recording();
+    }
+    if (requests.screenshot) {
+        take_screenshot();
+    }
+    if (requests.toggle_full_screen) {
+        toggle_full_screen();
+    }
+    if (requests.count_wrong_pixels) {
+        count_wrong_pixels();
+    }
+    try {
+        if (requests.save_settings) {
+            write_file(*requests.save_settings, settings_json(session_->settings()).dump(2) + "\n");
+            say(fmt::format("settings: {}", requests.save_settings->string()));
+        }
+        if (requests.load_settings) {
+            state_.wanted = read_settings(*requests.load_settings);
+            state_.wanted.context = scene::ContextKind::Window;
+            fit_to_window();
+        }
+    } catch (const Error& fault) {
+        say(fault.what());
+    }
+}
+
+void Viewer::take_flight_requests(const ViewRequests& requests) {
+    if (requests.toggle_hand) {
+        toggle_hand();
+    }
+    Simulation& simulation = session_->simulation();
+    if (requests.level_off && simulation.by_hand()) {
+        simulation.level_off(session_->settings().aircraft.front());
+        state_.playback.playing = true;
+    }
+    if (requests.step_frame) {
+        state_.playback.step_frame(1.0 / session_->rate_hz(), simulation.by_hand());
+    }
+    if (requests.go_to_s && recording_) {
+        say("a recording goes on in time: stop it first (F9)");
+    } else if (requests.go_to_s && !simulation.by_hand()) {
+        go_to(*requests.go_to_s);
+    }
+}
+
+void Viewer::go_to(double time_s) {
+    Playback& playback = state_.playback;
+    playback.time_s = std::clamp(time_s, playback.begin_s, playback.end_s);
+    if (recording_) {
+        toggle_recording();
+    }
+    session_->begin_at(playback.time_s);
+    shown_s_ = playback.time_s;
+}
+
+/// Back on the path it goes on where the path is at that time.
+void Viewer::toggle_hand() {
+    Simulation& simulation = session_->simulation();
+    if (!simulation.by_hand()) {
+        simulation.advance_to(simulation.time_s());
+        simulation.take_over(session_->settings().aircraft.front());
+        pilot_ = {};
+        state_.playback.playing = true;
+        say("by hand: arrows fly, Page Up and Page Down are the throttle, H gives it back");
+        return;
+    }
+    go_to(state_.playback.time_s);
+}
+
+/// A name that is not there yet: stem-1, stem-2, ...
+fs::path Viewer::unused_path(const std::string& stem, const std::string& ending) const {
+    for (int number = 1;; ++number) {
+        const fs::path path = options_.records_into / fmt::format("{}-{}{}", stem, number, ending);
+        if (!fs::exists(path)) {
+            return path;
+        }
+    }
+}
+
+void Viewer::toggle_recording() {
+    try {
+        if (recording_) {
+            const std::string line = recording_->finish(*session_);
+            recording_.reset();
+            state_.recording.reset();
+            say(line);
+        } else {
+            recording_.emplace(unused_path("flight", ""), *session_);
+            state_.recording = recording_->folder();
+            say(fmt::format("recording into {}", recording_->folder().string()));
+        }
+    } catch (const Error& fault) {
+        recording_.reset();
+        state_.recording.reset();
+        say(fault.what());
+    }
+}
+
+void Viewer::take_screenshot() {
+    const fs::path file = unused_path("picture", ".png");
+    try {
+        session_->read_picture();
+        report::write_png(file, view_of(session_->picture()));
+        say(fmt::format("picture: {}", file.string()));
+    } catch (const Error& fault) {
+        say(fault.what());
+    }
+}
+
+void Viewer::count_wrong_pixels() {
+    try {
+        const PixelCheck check = check_pixels(*session_, context_->functions());
+        state_.wrong_pixels = {check.wrong, check.differing, check.pixels};
+    } catch (const Error& fault) {
+        say(fault.what());
+    }
+}
+
+void Viewer::toggle_full_screen() {
+    GLFWwindow* const window = context_->window();
+    if (glfwGetWindowMonitor(window) != nullptr) {
+        glfwSetWindowMonitor(
+            window,
+            nullptr,
+            windowed_at_.x,
+            windowed_at_.y,
+            windowed_size_.x,
+            windowed_size_.y,
+            GLFW_DONT_CARE);
+        return;
+    }
+    GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* const mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
+    if (mode == nullptr) {
+        say("expected a monitor to fill, got none");
+        return;
+    }
+    glfwGetWindowPos(window, &windowed_at_.x, &windowed_at_.y);
+    glfwGetWindowSize(window, &windowed_size_.x, &windowed_size_.y);
+    glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+} // namespace octant::ui

@@ -1,0 +1,65 @@
+#include "ui/window/window_input.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <utility>
+
+namespace octant::ui {
+
+struct WindowCallbacks {
+    static WindowInput& input_of(GLFWwindow* window) {
+        return *static_cast<WindowInput*>(glfwGetWindowUserPointer(window));
+    }
+
+    static void key(GLFWwindow* window, int key, int /*scan_code*/, int action, int /*mods*/) {
+        if (action != GLFW_RELEASE) {
+            input_of(window).events_.keys.push_back(key);
+        }
+    }
+
+    static void wheel(GLFWwindow* window, double /*x*/, double y) {
+        input_of(window).events_.wheel_clicks += y;
+    }
+
+    static void pointer(GLFWwindow* window, double x, double y) {
+        input_of(window).move_pointer(glm::vec2(static_cast<float>(x), static_cast<float>(y)));
+    }
+};
+
+WindowInput::WindowInput(GLFWwindow* window)
+    : window_(window) {
+    glfwSetWindowUserPointer(window, this);
+    glfwSetKeyCallback(window, WindowCallbacks::key);
+    glfwSetScrollCallback(window, WindowCallbacks::wheel);
+    glfwSetCursorPosCallback(window, WindowCallbacks::pointer);
+}
+
+void WindowInput::move_pointer(const glm::vec2& to) {
+    if (glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS) {
+        events_.dragged += to - pointer_;
+    }
+    pointer_ = to;
+}
+
+WindowEvents WindowInput::take() {
+    return std::exchange(events_, {});
+}
+
+bool WindowInput::is_down(int key) const {
+    return glfwGetKey(window_, key) == GLFW_PRESS;
+}
+
+glm::ivec2 WindowInput::size_px() const {
+    glm::ivec2 size{0};
+    glfwGetFramebufferSize(window_, &size.x, &size.y);
+    return size;
+}
+
+glm::ivec2 WindowInput::size() const {
+    glm::ivec2 size{0};
+    glfwGetWindowSize(window_, &size.x, &size.y);
+    return size;
+}
+
+} // namespace octant::ui

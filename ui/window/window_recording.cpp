@@ -1,0 +1,145 @@
+#include "ui/window/window_recording.h"
+
+#include "flightpaths/track_writer.h"
+#include "sim/fixed_step.h"
+#include "ui/flight_recorder.h"
+#include "ui/input_files.h"
+#include "ui/settings_file.h"
+#include "ui/stopwatch.h"
+#include "ui/track_files.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+namespace octant::ui {
+
+namespace scene = visuals::scene;
+
+namespace {
+
+constexpr double picture_every_s = 1.0;
+constexpr double flush_every_s = 0.5;
+constexpr const char* flight_name = "flight.csv";
+
+/// Settings that fly without a window what a window flies from this step on.
+scene::Settings
+from_step(const Session& session, long step, const std::filesystem::path& folder, bool by_hand) {
+    scene::Settings settings = with_absolute_files(session.settings());
+    settings.context = scene::ContextKind::OsMesa;
+    settings.frames.reset();
+    settings.seconds.reset();
+    settings.start_s =
+        sim::time_of_step(step) - session.world().flight.trajectory.start_s();
+    if (by_hand) {
+        settings.path = std::filesystem::absolute(folder / flight_name).string();
+        settings.place = "0,0";
+        settings.heading_deg = 0.0;
+        settings.height_mode = scene::HeightMode::Datum;
+        settings.start_s = 0.0;
+    }
+    return settings;
+}
+
+report::RunInfo info_of(const Session& session, const scene::Settings& to_repeat) {
+    report::RunInfo info = run_info(with_absolute_files(session.settings()), session);
+    info.settings_json = settings_json(to_repeat).dump(2);
+    info.facts.emplace_back("flown", "in a window, by the clock");
+    return info;
+}
+
+/// States as lines of a file: those of a track without its head.
+std::string lines_of(std::span<const sim::AircraftState> states, bool with_head) {
+    const std::string text = flightpaths::exact_track_csv(
+        sim::Trajectory(std::vector<sim::AircraftState>(states.begin(), states.end())));
+    return with_head ? text : text.substr(text.find('\n') + 1);
+}
+
+} // namespace
+
+WindowRecording::WindowRecording(std::filesystem::path folder, Session& session)
+    : first_step_(session.simulation().step())
+    , recording_(
+          folder,
+          info_of(
+              session, from_step(session, first_step_, folder, session.simulation().by_hand())))
+    , by_hand_(session.simulation().by_hand())
+    , last_time_s_(sim::time_of_step(first_step_))
+    , next_picture_s_(last_time_s_) {
+    session.simulation().start_log();
+    last_hash_ = session.simulation().state_hash();
+}
+
+void WindowRecording::append_states(Session& session) {
+    const auto log = session.simulation().log();
+    if (!flight_) {
+        flight_.emplace(recording_.folder() / flight_name);
+    }
+    if (states_written_ < log.size()) {
+        flight_->append(lines_of(log.subspan(states_written_), states_written_ == 0));
+        states_written_ = log.size();
+    }
+    flight_->flush();
+}
+
+void WindowRecording::add(report::FrameRecord record, Session& session) {
+    if (std::exchange(first_is_older_, false)) {
+        return;
+    }
+    const Stopwatch writing;
+    record.frame = frames_++;
+    last_time_s_ = record.sim_time_s;
+    last_hash_ = session.picture_state_hash();
+    by_hand_ = by_hand_ || session.simulation().by_hand();
+    if (record.sim_time_s >= next_picture_s_) {
+        session.read_picture();
+        recording_.add_picture(record.frame, view_of(session.picture()));
+        next_picture_s_ += picture_every_s;
+    }
+    if (by_hand_ && record.wall_s - flushed_wall_s_ >= flush_every_s) {
+        append_states(session);
+        flushed_wall_s_ = record.wall_s;
+    }
+    record.record_ms = writing.ms();
+    recording_.add(record);
+}
+
+double WindowRecording::length_s() const {
+    return last_time_s_ - sim::time_of_step(first_step_);
+}
+
+/// States from the first step to the last picture's; fewer where a flight by hand ended before.
+std::size_t WindowRecording::states_to_the_end(Session& session) const {
+    const long steps = sim::step_at(last_time_s_) - first_step_ + 1;
+    return std::min(static_cast<std::size_t>(steps), session.simulation().log().size());
+}
+
+scene::Settings WindowRecording::settings_to_repeat(Session& session) const {
+    scene::Settings settings = from_step(session, first_step_, recording_.folder(), by_hand_);
+    const long steps = sim::step_at(last_time_s_) - first_step_;
+    if (!by_hand_ && steps > 0) {
+        settings.seconds = sim::time_of_step(steps);
+    } else if (!by_hand_) {
+        settings.frames = 1;
+    }
+    return settings;
+}
+
+std::string WindowRecording::finish(Session& session) {
+    const auto states = session.simulation().log().first(states_to_the_end(session));
+    recording_.set_settings(settings_json(settings_to_repeat(session)).dump(2));
+    if (by_hand_) {
+        flight_.reset();
+        write_file(recording_.folder() / flight_name, lines_of(states, true));
+    }
+    write_tracks(
+        recording_.folder(),
+        session.world(),
+        sim::Trajectory(std::vector<sim::AircraftState>(states.begin(), states.end())));
+    recording_.finish({last_hash_, std::nullopt, report::read_cpu_times()});
+    session.simulation().stop_log();
+    return write_report(recording_.folder());
+}
+
+} // namespace octant::ui

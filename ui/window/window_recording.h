@@ -1,0 +1,53 @@
+#pragma once
+
+#include "sim/base/output_file.h"
+#include "ui/report/recording.h"
+#include "ui/session.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace octant::ui {
+
+/// A flight in a window being recorded. Its run.json flies the same simulation steps again without
+/// a window: along the path from where the recording began for as long as it took, or, where it was
+/// flown by hand at its beginning or later, along flight.csv, which holds the state at every step.
+class WindowRecording {
+public:
+    /// Begins with the session's last simulation step. Throws Error.
+    WindowRecording(std::filesystem::path folder, Session& session);
+
+    /// Takes the frame that the session has just drawn. A picture is kept every simulated second.
+    /// Throws Error (disk full).
+    void add(report::FrameRecord record, Session& session);
+
+    /// Ends with the last picture. Gives the line that says where the report is. Throws Error.
+    std::string finish(Session& session);
+
+    const std::filesystem::path& folder() const { return recording_.folder(); }
+
+    /// Simulated, up to the last picture.
+    double length_s() const;
+
+private:
+    void append_states(Session& session);
+    visuals::scene::Settings settings_to_repeat(Session& session) const;
+    std::size_t states_to_the_end(Session& session) const;
+
+    long first_step_;
+    report::Recording recording_;
+    bool by_hand_;
+    std::optional<GrowingFile> flight_; ///< flight.csv
+    std::size_t states_written_ = 0;
+    int frames_ = 0;
+    bool first_is_older_ = true; ///< the next picture may have been simulated before the beginning
+    double last_time_s_;
+    std::uint64_t last_hash_;
+    double next_picture_s_;
+    double flushed_wall_s_ = 0.0;
+};
+
+} // namespace octant::ui
