@@ -7,7 +7,6 @@
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/ground_tiles.h"
 
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -100,7 +99,7 @@ private:
             .eye_m = camera.eye_m,
             .frustum_normals = frustum_normals(camera, aspect),
             .order = order_,
-            .focal_px = picture_height_px_ / (2.0 * std::tan(camera.vertical_fov_rad / 2.0)),
+            .focal_px = focal_px(camera, picture_height_px_),
             .earth_radius_m = earth_radius_m_};
     }
 
