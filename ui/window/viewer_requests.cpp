@@ -134,7 +134,8 @@ void Viewer::command(ViewCommand what) {
 }
 
 void Viewer::take_requests() {
-    const ViewRequests requests = std::exchange(state_.requests, {.leave = state_.requests.leave});
+    const ViewRequests requests = std::exchange(state_.requests, ViewRequests());
+    state_.requests.leave = requests.leave;
     take_flight_requests(requests);
     if (requests.toggle_recording) {
         toggle_recording();
