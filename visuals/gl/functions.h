@@ -13,6 +13,7 @@
     X(bind_framebuffer, PFNGLBINDFRAMEBUFFERPROC, "glBindFramebuffer")                             \
     X(bind_texture_unit, PFNGLBINDTEXTUREUNITPROC, "glBindTextureUnit")                            \
     X(bind_vertex_array, PFNGLBINDVERTEXARRAYPROC, "glBindVertexArray")                            \
+    X(blend_func_separate, PFNGLBLENDFUNCSEPARATEPROC, "glBlendFuncSeparate")                      \
     X(blit_named_framebuffer, PFNGLBLITNAMEDFRAMEBUFFERPROC, "glBlitNamedFramebuffer")             \
     X(check_named_framebuffer_status,                                                              \
       PFNGLCHECKNAMEDFRAMEBUFFERSTATUSPROC,                                                        \
@@ -73,6 +74,7 @@
     X(program_uniform_4fv, PFNGLPROGRAMUNIFORM4FVPROC, "glProgramUniform4fv")                      \
     X(provoking_vertex, PFNGLPROVOKINGVERTEXPROC, "glProvokingVertex")                             \
     X(read_pixels, PFNGLREADPIXELSPROC, "glReadPixels")                                            \
+    X(scissor, PFNGLSCISSORPROC, "glScissor")                                                      \
     X(shader_source, PFNGLSHADERSOURCEPROC, "glShaderSource")                                      \
     X(texture_parameterf, PFNGLTEXTUREPARAMETERFPROC, "glTextureParameterf")                       \
     X(texture_parameteri, PFNGLTEXTUREPARAMETERIPROC, "glTextureParameteri")                       \

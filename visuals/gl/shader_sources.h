@@ -10,5 +10,7 @@ extern const char* const sky_vert;
 extern const char* const aircraft_vert;
 extern const char* const smooth_frag;
 extern const char* const flat_frag;
+extern const char* const overlay_vert;
+extern const char* const overlay_frag;
 
 } // namespace octant::visuals::gl

@@ -9,6 +9,13 @@ void add_vector_input(const Functions& gl, const Object& array, GLuint input, st
     gl.vertex_array_attrib_binding(array.name(), input, 0);
 }
 
+void add_flat_position_input(const Functions& gl, const Object& array, std::size_t offset) {
+    gl.enable_vertex_array_attrib(array.name(), position_input);
+    gl.vertex_array_attrib_format(
+        array.name(), position_input, 2, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
+    gl.vertex_array_attrib_binding(array.name(), position_input, 0);
+}
+
 void add_colour_input(const Functions& gl, const Object& array, std::size_t offset) {
     gl.enable_vertex_array_attrib(array.name(), colour_input);
     gl.vertex_array_attrib_format(

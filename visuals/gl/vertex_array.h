@@ -16,6 +16,9 @@ constexpr GLuint first_part_input = 4;
 /// Three floats at `offset` of each vertex of the array's buffer 0.
 void add_vector_input(const Functions& gl, const Object& array, GLuint input, std::size_t offset);
 
+/// position_input: two floats at `offset` of each vertex of the array's buffer 0.
+void add_flat_position_input(const Functions& gl, const Object& array, std::size_t offset);
+
 /// colour_input: four bytes at `offset` of each vertex of the array's buffer 0, 255 read as 1.
 void add_colour_input(const Functions& gl, const Object& array, std::size_t offset);
 
