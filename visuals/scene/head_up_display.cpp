@@ -41,12 +41,12 @@ constexpr float marker_wing = 0.032F;
 constexpr float marker_tail = 0.024F;
 constexpr float line_width = 0.0025F;
 constexpr OverlayBox field{{-0.235F, -0.275F}, {0.235F, 0.33F}}; ///< of what lies on the world
-constexpr OverlayBox whole{{-0.42F, -0.42F}, {0.42F, 0.36F}};
+constexpr OverlayBox whole{{-0.46F, -0.42F}, {0.46F, 0.36F}};
 
 constexpr float least_letter_px = 7.0F; ///< a pixel for each step of the letters' grid, and one
 constexpr float least_line_px = 1.15F;
 constexpr glm::vec3 green{0.22F, 1.0F, 0.36F};
-constexpr std::uint32_t shade = 0xb4041c00U; ///< dark green, as ColourVertex::colour
+constexpr std::uint32_t shade = 0x60041c00U; ///< dark green, as ColourVertex::colour
 
 constexpr double slowest_marked_mps = 5.0; ///< below, no flight path is shown
 constexpr double surely_flying_mps = 20.0;
@@ -215,8 +215,8 @@ private:
         const double climb_mps = inputs_.state.velocity_mps.z;
         draw_boxed(
             box_side, 5, Caption("{}", rounded(ft_from_m(inputs_.height_m), step_ft)).text());
-        draw_row(
-            -1, box_side, Caption("{:+}", rounded(60.0 * ft_from_m(climb_mps), step_ft)).text());
+        const long climb_fpm = rounded(60.0 * ft_from_m(climb_mps), step_ft);
+        draw_row(-1, box_side, Caption("VS {:+}", climb_fpm).text());
         if (inputs_.height_above_ground_m) {
             const double height_ft = ft_from_m(*inputs_.height_above_ground_m);
             draw_row(1, box_side, Caption("R {}", rounded(height_ft)).text());
@@ -281,8 +281,7 @@ HeadUpDisplay::draw(const HeadUpInputs& inputs, const Camera& camera, const glm:
         return {};
     }
     const float width_px = std::max(line_width * glass.unit_px, least_line_px);
-    canvas_.begin(
-        glass.to_picture, {width_px, 0.6F + 0.8F * width_px, models::packed_colour(green), shade});
+    canvas_.begin(glass.to_picture, {width_px, 1.1F, models::packed_colour(green), shade});
     Signs(inputs, glass, canvas_).draw();
     return canvas_.finish();
 }

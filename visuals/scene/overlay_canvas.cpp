@@ -1,5 +1,5 @@
-// Lines as strips of triangles: rows of vertices across the line whose alpha falls to 0 at its
-// edges, joined by mitres, with one more row of alpha 0 beyond either end.
+// Lines as strips of triangles: rows of vertices across the line, joined by mitres. The alpha of a
+// core falls to 0 at its edges.
 
 #include "visuals/scene/overlay_canvas.h"
 
@@ -23,6 +23,10 @@ constexpr float sharpest_join = -0.6F; ///< cosine of the turn from which a line
 constexpr float edge_px = 1.0F;        ///< over which the edge of a core fades
 constexpr std::size_t circle_corners = 20;
 
+glm::vec2 across(const glm::vec2& along) {
+    return {-along.y, along.x};
+}
+
 std::uint32_t with_alpha(std::uint32_t colour, float share) {
     const auto alpha = static_cast<float>(colour >> 24U) * share;
     return (colour & 0x00ffffffU) | static_cast<std::uint32_t>(std::lround(alpha)) << 24U;
@@ -45,26 +49,25 @@ bool narrow(float depth, float change, float& from_share, float& to_share) {
 
 } // namespace
 
-/// A line across: places as shares of a half width from the middle, and their alpha.
-struct OverlayCanvas::Profile {
-    struct Point {
-        float at_px = 0.0F;
-        std::uint32_t colour = 0;
-    };
-
-    std::array<Point, 4> points{};
-    std::size_t count = 0;
-    float beyond_ends_px = 0.0F; ///< where the row of alpha 0 lies
-};
-
 void OverlayCanvas::begin(const glm::mat3& to_picture, const OverlayPen& pen) {
     to_picture_ = to_picture;
-    pen_ = pen;
     constexpr float far = std::numeric_limits<float>::max();
     clip_ = {glm::vec2(-far), glm::vec2(far)};
     vertices_.clear();
-    shade_indices_.clear();
-    core_indices_.clear();
+    shade_.indices.clear();
+    core_.indices.clear();
+    const float shade_px = 0.5F * pen.width_px + pen.shade_px;
+    shade_.points = {{{-shade_px, pen.shade}, {shade_px, pen.shade}, {}, {}}};
+    shade_.count = 2;
+    shade_.beyond_ends_px = shade_px;
+    // Lines narrower than their edges would be are that wide and fainter.
+    const std::uint32_t full = with_alpha(pen.colour, std::min(pen.width_px / edge_px, 1.0F));
+    const std::uint32_t clear = with_alpha(pen.colour, 0.0F);
+    const float inner_px = 0.5F * std::max(pen.width_px - edge_px, 0.0F);
+    const float outer_px = inner_px + edge_px;
+    core_.points = {{{-outer_px, clear}, {-inner_px, full}, {inner_px, full}, {outer_px, clear}}};
+    core_.count = 4;
+    core_.beyond_ends_px = 0.5F * pen.width_px;
 }
 
 void OverlayCanvas::polyline(std::span<const glm::vec2> points) {
@@ -107,87 +110,56 @@ void OverlayCanvas::add_to_run(const glm::vec2& at) {
 
 void OverlayCanvas::end_run() {
     if (run_.size() > 1) {
-        const float half_px = 0.5F * std::max(pen_.width_px, edge_px);
-        const float core_px = half_px - 0.5F * edge_px;
-        const float faint = std::min(pen_.width_px / edge_px, 1.0F);
-        const std::uint32_t clear = with_alpha(pen_.colour, 0.0F);
-        const std::uint32_t full = with_alpha(pen_.colour, faint);
-        const float outer_px = half_px + 0.5F * edge_px;
-        const float shade_px = half_px + pen_.shade_px;
-        const std::uint32_t no_shade = with_alpha(pen_.shade, 0.0F);
-        const Profile shade{
-            {{{-shade_px, no_shade}, {0.0F, pen_.shade}, {shade_px, no_shade}, {}}}, 3, shade_px};
-        const Profile core{
-            {{{-outer_px, clear}, {-core_px, full}, {core_px, full}, {outer_px, clear}}},
-            4,
-            outer_px};
-        stroke(shade, shade_indices_);
-        stroke(core, core_indices_);
+        stroke(shade_);
+        stroke(core_);
     }
     run_.clear();
 }
 
 /// The run as strips, one for each part without sharp turns.
-void OverlayCanvas::stroke(const Profile& profile, std::vector<std::uint32_t>& indices) {
+void OverlayCanvas::stroke(Strips& strips) {
     const std::size_t last = run_.size() - 1;
     const bool closed = last > 2 && glm::distance(run_.front(), run_[last]) < least_length_px;
     const auto direction = [&](std::size_t segment) {
         return glm::normalize(run_[segment + 1] - run_[segment]);
     };
-    const auto across = [](const glm::vec2& along) { return glm::vec2(-along.y, along.x); };
-    const auto mitre = [&](const glm::vec2& before, const glm::vec2& after) {
-        const glm::vec2 middle = across(before) + across(after);
-        return middle * (2.0F / glm::dot(middle, middle));
-    };
-    const auto end = [&](const glm::vec2& at, const glm::vec2& outward, const glm::vec2& side) {
-        add_row(profile, at + outward * profile.beyond_ends_px, side, false);
-    };
     glm::vec2 before = direction(closed ? last - 1 : 0);
     for (std::size_t i = 0; i <= last; ++i) {
-        const bool has_before = i > 0 || closed;
-        const bool has_after = i < last || closed;
         const glm::vec2 after = i < last ? direction(i) : (closed ? direction(0) : before);
-        const bool joins = has_before && has_after && glm::dot(before, after) > sharpest_join;
-        if (joins) {
-            add_row(profile, run_[i], mitre(before, after), true);
+        const bool inside = closed || (i > 0 && i < last);
+        if (inside && glm::dot(before, after) > sharpest_join) {
+            const glm::vec2 middle = across(before) + across(after);
+            add_row(strips, run_[i], middle * (2.0F / glm::dot(middle, middle)));
             if (i > 0) {
-                join_last_rows(profile, indices);
+                join_last_rows(strips);
             }
         } else {
             if (i > 0) {
-                add_row(profile, run_[i], across(before), true);
-                join_last_rows(profile, indices);
-                end(run_[i], before, across(before));
-                join_last_rows(profile, indices);
+                add_row(strips, run_[i] + before * strips.beyond_ends_px, across(before));
+                join_last_rows(strips);
             }
             if (i < last) {
-                end(run_[i], -after, across(after));
-                add_row(profile, run_[i], across(after), true);
-                join_last_rows(profile, indices);
+                add_row(strips, run_[i] - after * strips.beyond_ends_px, across(after));
             }
         }
         before = after;
     }
 }
 
-/// Vertices across the line, all clear unless `solid`.
-void OverlayCanvas::add_row(
-    const Profile& profile, const glm::vec2& at, const glm::vec2& across, bool solid) {
-    for (std::size_t i = 0; i < profile.count; ++i) {
-        const Profile::Point& point = profile.points[i];
-        const std::uint32_t colour = solid ? point.colour : with_alpha(point.colour, 0.0F);
-        vertices_.push_back({at + across * point.at_px, colour});
+void OverlayCanvas::add_row(const Strips& strips, const glm::vec2& at, const glm::vec2& side) {
+    for (std::size_t i = 0; i < strips.count; ++i) {
+        vertices_.push_back({at + side * strips.points[i].at_px, strips.points[i].colour});
     }
 }
 
-void OverlayCanvas::join_last_rows(const Profile& profile, std::vector<std::uint32_t>& indices) {
-    const auto count = static_cast<std::uint32_t>(profile.count);
+void OverlayCanvas::join_last_rows(Strips& strips) {
+    const auto count = static_cast<std::uint32_t>(strips.count);
     const std::uint32_t here = static_cast<std::uint32_t>(vertices_.size()) - count;
     const std::uint32_t there = here - count;
     for (std::uint32_t i = 0; i + 1 < count; ++i) {
         for (const std::uint32_t corner :
              {there + i, there + i + 1, here + i, here + i, there + i + 1, here + i + 1}) {
-            indices.push_back(corner);
+            strips.indices.push_back(corner);
         }
     }
 }
@@ -239,8 +211,8 @@ void OverlayCanvas::text(const TextPlace& place, std::string_view text) {
 }
 
 OverlayDraw OverlayCanvas::finish() {
-    shade_indices_.insert(shade_indices_.end(), core_indices_.begin(), core_indices_.end());
-    return {vertices_, shade_indices_};
+    shade_.indices.insert(shade_.indices.end(), core_.indices.begin(), core_.indices.end());
+    return {vertices_, shade_.indices};
 }
 
 } // namespace octant::visuals::scene

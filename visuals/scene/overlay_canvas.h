@@ -24,8 +24,8 @@ struct OverlayBox {
     }
 };
 
-/// What lines are drawn with: a core with edges one pixel soft, over a wider, softer shade that
-/// sets it off from what is behind it.
+/// What lines are drawn with: a core with soft edges over a wider shade that sets it off from what
+/// is behind it.
 struct OverlayPen {
     float width_px = 1.5F;
     float shade_px = 1.5F; ///< how much farther than the core the shade reaches
@@ -67,22 +67,32 @@ public:
     OverlayDraw finish();
 
 private:
-    struct Profile;
+    /// What a line is across, at most four points from left to right, and all strips of that kind.
+    struct Strips {
+        struct Point {
+            float at_px = 0.0F;
+            std::uint32_t colour = 0;
+        };
+
+        std::array<Point, 4> points{};
+        std::size_t count = 0;
+        float beyond_ends_px = 0.0F; ///< of a line
+        std::vector<std::uint32_t> indices;
+    };
 
     void cut_line(const glm::vec2& from, const glm::vec2& to);
     void add_to_run(const glm::vec2& at);
     void end_run();
-    void stroke(const Profile& profile, std::vector<std::uint32_t>& indices);
-    void add_row(const Profile& profile, const glm::vec2& at, const glm::vec2& across, bool solid);
-    void join_last_rows(const Profile& profile, std::vector<std::uint32_t>& indices);
+    void stroke(Strips& strips);
+    void add_row(const Strips& strips, const glm::vec2& at, const glm::vec2& side);
+    void join_last_rows(Strips& strips);
 
     glm::mat3 to_picture_{1.0F};
-    OverlayPen pen_;
+    Strips core_;
+    Strips shade_;
     OverlayBox clip_;
     std::vector<glm::vec2> run_; ///< of the plane's lines within the clip box, in the picture
     std::vector<OverlayVertex> vertices_;
-    std::vector<std::uint32_t> shade_indices_;
-    std::vector<std::uint32_t> core_indices_;
 };
 
 } // namespace octant::visuals::scene
