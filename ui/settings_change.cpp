@@ -70,15 +70,16 @@ std::vector<Written> all_of(const Settings& settings) {
     return all;
 }
 
-SettingsChange change_by(std::string_view name) {
-    if (std::ranges::find(of_the_world, name) != of_the_world.end()) {
+} // namespace
+
+SettingsChange change_by(std::string_view setting) {
+    if (std::ranges::find(of_the_world, setting) != of_the_world.end()) {
         return SettingsChange::World;
     }
-    return std::ranges::find(of_the_camera, name) != of_the_camera.end() ? SettingsChange::Look
-                                                                         : SettingsChange::Picture;
+    return std::ranges::find(of_the_camera, setting) != of_the_camera.end()
+               ? SettingsChange::Look
+               : SettingsChange::Picture;
 }
-
-} // namespace
 
 SettingsChange change_between(const Settings& before, const Settings& after) {
     const std::vector<Written> a = all_of(before);

@@ -2,6 +2,8 @@
 
 #include "visuals/scene/settings.h"
 
+#include <string_view>
+
 namespace octant::ui {
 
 /// What must be made anew when settings change while a flight goes on.
@@ -11,6 +13,9 @@ enum class SettingsChange {
     Picture, ///< what is planned and drawn from now on
     World    ///< aircraft, path or ground are loaded again
 };
+
+/// For a change of one setting, by its name.
+SettingsChange change_by(std::string_view setting);
 
 SettingsChange
 change_between(const visuals::scene::Settings& before, const visuals::scene::Settings& after);

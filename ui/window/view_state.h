@@ -63,6 +63,7 @@ struct ViewState {
     bool order_numbers = false; ///< on the polygons of the first aircraft
     std::optional<WrongPixels> wrong_pixels;
     bool vsync = true;
+    std::string settings_file = "settings.json"; ///< where the panel saves settings and loads them
     std::optional<std::filesystem::path> recording; ///< where one is being written
 };
 

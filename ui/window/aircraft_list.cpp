@@ -1,0 +1,20 @@
+#include "ui/window/aircraft_list.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace octant::ui {
+
+std::vector<std::string> with_count(std::vector<std::string> aircraft, int count) {
+    const std::string first = aircraft.front();
+    aircraft.resize(static_cast<std::size_t>(std::max(count, 1)), first);
+    return aircraft;
+}
+
+std::vector<std::string> with_leader(std::vector<std::string> aircraft, const std::string& leader) {
+    const std::string before = aircraft.front();
+    std::ranges::replace(aircraft, before, leader);
+    return aircraft;
+}
+
+} // namespace octant::ui

@@ -1,0 +1,60 @@
+#include "ui/window/panel_parts.h"
+#include "ui/window/panels.h"
+#include "ui/window/setting_widgets.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace octant::ui {
+
+namespace {
+
+constexpr std::array<std::string_view, 2> controls{"axes", "shadows"};
+
+/// One line for each model that flies.
+void show_models(const visuals::scene::Scene& scene) {
+    for (std::size_t model = 0; model < scene.models.size(); ++model) {
+        const auto flying = std::ranges::count(scene.aircraft, model);
+        if (flying == 0) {
+            continue;
+        }
+        const visuals::scene::AircraftModel& each = scene.models[model];
+        ImGui::BulletText(
+            "%ld x %s: %zu polygons",
+            static_cast<long>(flying),
+            each.polygons.name.c_str(),
+            each.polygons.polygons.size());
+        const auto whole = each.polygons.parents.empty()
+                               ? each.polygons.polygons.size()
+                               : std::size_t{1} + *std::ranges::max_element(each.polygons.parents);
+        if (whole < each.polygons.polygons.size()) {
+            ImGui::SameLine();
+            ImGui::TextDisabled("(%zu in its file)", whole);
+            explain("some were split where no painting order exists otherwise");
+        }
+    }
+}
+
+} // namespace
+
+void aircraft_panel(ViewState& state, const Session& session) {
+    const Panel panel(
+        "Aircraft", {{1.0F, 1.0F}, {360.0F, 10.0F}, {300.0F, 190.0F}}, state.open.aircraft);
+    if (!panel.is_seen()) {
+        return;
+    }
+    show_models(session.world().scene);
+    if (!state.history.empty()) {
+        const report::FrameRecord& last = state.history.last();
+        ImGui::Text(
+            "drawn: %d polygons, %d shadow pieces", last.aircraft_polygons, last.shadow_triangles);
+    }
+    ImGui::BeginDisabled(state.recording.has_value());
+    count_slider(state.wanted.aircraft);
+    ImGui::EndDisabled();
+    edit_settings(state.wanted, controls);
+}
+
+} // namespace octant::ui

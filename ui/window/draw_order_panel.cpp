@@ -1,0 +1,67 @@
+#include "ui/window/panel_parts.h"
+#include "ui/window/panels.h"
+#include "ui/window/setting_widgets.h"
+
+#include <array>
+#include <fmt/format.h>
+#include <string_view>
+
+namespace octant::ui {
+
+namespace {
+
+constexpr std::array<std::string_view, 2> controls{"hidden-surface", "order-method"};
+
+void show_last_frame(const report::FrameRecord& last, const visuals::draworder::DrawOrder& order) {
+    show_value("cell", fmt::format("{} of {}", last.draw_cell, order.cell_count()));
+    explain("in which the eye is, of the first aircraft's");
+    show_value("lists", fmt::format("{}", order.list_count()));
+    explain("different painting orders that the cells share");
+    show_value("polygons", fmt::format("{}", last.aircraft_polygons));
+    explain("of all aircraft, in the lists drawn");
+    show_value("cuts", fmt::format("{}", last.cuts));
+    explain("ground triangles and aircraft polygons painted again, cut by planes");
+    show_value("unordered", fmt::format("{}", last.unordered));
+    explain("overlaps for which no painting order was found");
+}
+
+void show_pixel_check(ViewState& state) {
+    if (ImGui::Button("Count wrong pixels")) {
+        state.requests.count_wrong_pixels = true;
+    }
+    explain("draws this picture once more with a depth buffer and compares them");
+    if (!state.wrong_pixels) {
+        return;
+    }
+    const WrongPixels& found = *state.wrong_pixels;
+    const bool clean = found.wrong == 0;
+    ImGui::SameLine();
+    ImGui::TextColored(
+        clean ? ImVec4(0.5F, 0.9F, 0.5F, 1.0F) : ImVec4(1.0F, 0.4F, 0.3F, 1.0F),
+        "%ld wrong",
+        found.wrong);
+    ImGui::Text("%ld of %ld pixels differ", found.differing, found.pixels);
+    explain("with those along edges, where two right pictures may differ");
+}
+
+} // namespace
+
+void draw_order_panel(ViewState& state, const Session& session) {
+    const Panel panel(
+        "Draw order", {{1.0F, 1.0F}, {10.0F, 10.0F}, {340.0F, 300.0F}}, state.open.draw_order);
+    if (!panel.is_seen()) {
+        return;
+    }
+    ImGui::TextWrapped(
+        "A cell is a part of the space around an aircraft: from every eye in it, the same order of "
+        "polygons, painted one over the other, hides what is hidden.");
+    const auto& scene = session.world().scene;
+    if (!state.history.empty()) {
+        show_last_frame(state.history.last(), scene.models[scene.aircraft.front()].order);
+    }
+    edit_settings(state.wanted, controls);
+    ImGui::Checkbox("painting order on the polygons", &state.order_numbers);
+    show_pixel_check(state);
+}
+
+} // namespace octant::ui

@@ -1,0 +1,356 @@
+#include "ui/window/setting_widgets.h"
+
+#include "ui/settings_fields.h"
+#include "ui/window/panel_parts.h"
+#include "ui/window/setting_style.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+namespace octant::ui {
+
+using visuals::scene::Settings;
+
+namespace {
+
+/// Frame of one setting: the value's widget, then its name; both show what it means.
+class Row {
+public:
+    explicit Row(const FieldInfo& info)
+        : info_(info) {
+        ImGui::PushID(info.name.data(), info.name.data() + info.name.size());
+        ImGui::BeginGroup();
+        width_ = ImGui::GetContentRegionAvail().x * value_share;
+        ImGui::SetNextItemWidth(width_);
+    }
+
+    ~Row() {
+        ImGui::SameLine();
+        ImGui::TextUnformatted(info_.name.data(), info_.name.data() + info_.name.size());
+        ImGui::EndGroup();
+        if (ImGui::IsItemHovered()) {
+            show_tooltip(tooltip_of(info_));
+        }
+        ImGui::PopID();
+    }
+
+    Row(const Row&) = delete;
+    Row& operator=(const Row&) = delete;
+    Row(Row&&) = delete;
+    Row& operator=(Row&&) = delete;
+
+    float width() const { return width_; }
+
+private:
+    const FieldInfo& info_;
+    float width_ = 0.0F;
+};
+
+/// A list to choose from; the chosen index, or nothing. `chosen` < 0: none of them is.
+std::optional<int>
+choose(const std::string& shown, std::span<const std::string_view> names, int chosen) {
+    std::optional<int> picked;
+    if (!ImGui::BeginCombo("##value", shown.c_str())) {
+        return picked;
+    }
+    for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+        const std::string name(names[static_cast<std::size_t>(i)]);
+        if (ImGui::Selectable(name.c_str(), i == chosen) && i != chosen) {
+            picked = i;
+        }
+    }
+    ImGui::EndCombo();
+    return picked;
+}
+
+template <class Number>
+bool edit_number(const FieldInfo& info, Number& value) {
+    constexpr bool whole = std::is_same_v<Number, int>;
+    constexpr ImGuiDataType type = whole ? ImGuiDataType_S32 : ImGuiDataType_Double;
+    const auto least = static_cast<Number>(info.least);
+    const auto most = static_cast<Number>(info.most);
+    const char* const rounded = whole ? "%d" : "%.4g";
+    constexpr float drag_speed = 1.0F;
+    Number edited = value;
+    bool changed = false;
+    switch (number_style(info)) {
+    case NumberStyle::Typed:
+        changed = ImGui::InputScalar(
+            "##value",
+            type,
+            &edited,
+            nullptr,
+            nullptr,
+            whole ? "%d" : "%.6g",
+            ImGuiInputTextFlags_EnterReturnsTrue);
+        break;
+    case NumberStyle::Drag:
+        changed = ImGui::DragScalar(
+            "##value", type, &edited, drag_speed, &least, &most, whole ? "%d" : "%.6g");
+        break;
+    case NumberStyle::Slider:
+        changed = ImGui::SliderScalar("##value", type, &edited, &least, &most, rounded);
+        break;
+    case NumberStyle::LogSlider:
+        changed = ImGui::SliderScalar(
+            "##value", type, &edited, &least, &most, rounded, ImGuiSliderFlags_Logarithmic);
+        break;
+    }
+    if (!changed || !std::isfinite(static_cast<double>(edited))) {
+        return false;
+    }
+    value = std::clamp(edited, least, most);
+    return true;
+}
+
+bool edit(const FieldInfo& info, double& value) {
+    return edit_number(info, value);
+}
+
+bool edit(const FieldInfo& info, int& value) {
+    if (info.name != "samples") {
+        return edit_number(info, value);
+    }
+    constexpr std::array<std::string_view, 2> names{"1", "4"};
+    const auto picked = choose(text_of(value), names, value == 1 ? 0 : 1);
+    if (picked) {
+        value = *picked == 0 ? 1 : 4;
+    }
+    return picked.has_value();
+}
+
+bool edit(const FieldInfo& /*info*/, bool& value) {
+    return ImGui::Checkbox("##value", &value);
+}
+
+bool edit(const FieldInfo& info, std::string& value) {
+    if (const auto names = known_names(info.name); !names.empty()) {
+        return choose_name(info, value, names);
+    }
+    const auto typed = typed_text("##value", value, "");
+    if (!typed || typed->empty()) {
+        return false;
+    }
+    value = *typed;
+    return true;
+}
+
+bool edit(const FieldInfo& info, std::vector<std::string>& value) {
+    const auto typed = typed_text("##value", joined(value), info.form);
+    const std::vector<std::string> names = typed ? parted(*typed) : std::vector<std::string>();
+    if (names.empty()) {
+        return false;
+    }
+    value = names;
+    return true;
+}
+
+bool edit(const FieldInfo& info, glm::ivec2& value) {
+    std::array<int, 2> edited{value.x, value.y};
+    if (!ImGui::InputInt2("##value", edited.data(), ImGuiInputTextFlags_EnterReturnsTrue)) {
+        return false;
+    }
+    const auto bounded = [&info](int number) {
+        return std::clamp(number, static_cast<int>(info.least), static_cast<int>(info.most));
+    };
+    value = {bounded(edited[0]), bounded(edited[1])};
+    return true;
+}
+
+bool edit(const FieldInfo& info, glm::dvec3& value) {
+    std::array<double, 3> edited{value.x, value.y, value.z};
+    constexpr float speed_m = 5.0F;
+    if (!ImGui::DragScalarN(
+            "##value",
+            ImGuiDataType_Double,
+            edited.data(),
+            3,
+            speed_m,
+            &info.least,
+            &info.most,
+            "%.1f")) {
+        return false;
+    }
+    for (double& number : edited) {
+        if (!std::isfinite(number)) {
+            return false;
+        }
+        number = std::clamp(number, info.least, info.most);
+    }
+    value = {edited[0], edited[1], edited[2]};
+    return true;
+}
+
+bool edit(const FieldInfo& /*info*/, glm::vec3& colour) {
+    return ImGui::ColorEdit3("##value", &colour.x, ImGuiColorEditFlags_DisplayHex);
+}
+
+bool edit(const FieldInfo& /*info*/, visuals::scene::Adaptation& adapt) {
+    return ImGui::Checkbox("terrain", &adapt.terrain);
+}
+
+template <class Enum>
+requires std::is_enum_v<Enum>
+
+bool edit(const FieldInfo& /*info*/, Enum& value) {
+    const auto picked = choose(text_of(value), EnumNames<Enum>::names(), static_cast<int>(value));
+    if (picked) {
+        value = static_cast<Enum>(*picked);
+    }
+    return picked.has_value();
+}
+
+template <class Enum>
+requires std::is_enum_v<Enum>
+
+bool edit(const FieldInfo& info, std::optional<Enum>& value) {
+    std::vector<std::string_view> names = EnumNames<Enum>::names();
+    names.insert(names.begin(), unset_word(info));
+    const int chosen = value ? static_cast<int>(*value) + 1 : 0;
+    const auto picked = choose(std::string(names[static_cast<std::size_t>(chosen)]), names, chosen);
+    if (picked && *picked == 0) {
+        value.reset();
+    } else if (picked) {
+        value = static_cast<Enum>(*picked - 1);
+    }
+    return picked.has_value();
+}
+
+bool edit(const FieldInfo& info, std::optional<std::string>& value) {
+    const std::string hint(unset_meaning(info).empty() ? unset_word(info) : unset_meaning(info));
+    const auto typed = typed_text("##value", value.value_or(""), hint);
+    if (!typed) {
+        return false;
+    }
+    value = typed->empty() ? std::nullopt : typed;
+    return true;
+}
+
+template <class Value>
+Value started(const FieldInfo& info) {
+    if constexpr (std::is_arithmetic_v<Value>) {
+        return static_cast<Value>(start_value(info));
+    } else {
+        return Value{0.0};
+    }
+}
+
+/// A check mark while it is not set, and then what that means; else the value.
+template <class Value>
+bool edit(const FieldInfo& info, std::optional<Value>& value) {
+    const float whole = ImGui::CalcItemWidth();
+    const float from = ImGui::GetCursorPosX();
+    bool unset = !value;
+    const std::string word(unset_word(info));
+    bool changed = ImGui::Checkbox(word.c_str(), &unset);
+    if (changed) {
+        value = unset ? std::nullopt : std::optional<Value>(started<Value>(info));
+    }
+    ImGui::SameLine();
+    const float left = whole - (ImGui::GetCursorPosX() - from);
+    if (value) {
+        ImGui::SetNextItemWidth(left);
+        changed = edit(info, *value) || changed;
+    } else {
+        ImGui::Dummy({left, ImGui::GetFrameHeight()});
+    }
+    return changed;
+}
+
+/// The window decides it.
+bool is_fixed(std::string_view setting) {
+    return setting == "context" || setting == "size";
+}
+
+struct RowOfWidgets {
+    template <class Value>
+    void operator()(const FieldInfo& info, Value& value) const {
+        const Row row(info);
+        ImGui::BeginDisabled(is_fixed(info.name));
+        edit(info, value);
+        ImGui::EndDisabled();
+    }
+};
+
+} // namespace
+
+bool choose_name(
+    const FieldInfo& info, std::string& name, std::span<const std::string_view> names) {
+    bool changed = false;
+    if (!ImGui::BeginCombo("##value", name.c_str())) {
+        return changed;
+    }
+    for (const std::string_view each : names) {
+        const std::string text(each);
+        if (ImGui::Selectable(text.c_str(), each == name) && each != name) {
+            name = text;
+            changed = true;
+        }
+    }
+    const bool built_in = std::ranges::find(names, name) != names.end();
+    ImGui::SetNextItemWidth(-1.0F);
+    const auto typed = typed_text("##file", built_in ? std::string() : name, "file, then Enter");
+    if (typed && !typed->empty()) {
+        changed = changed || *typed != name;
+        name = *typed;
+        ImGui::CloseCurrentPopup();
+    }
+    if (ImGui::IsItemHovered()) {
+        show_tooltip(tooltip_of(info));
+    }
+    ImGui::EndCombo();
+    return changed;
+}
+
+void edit_settings(Settings& settings, std::span<const std::string_view> names) {
+    const RowOfWidgets row;
+    for (const std::string_view name : names) {
+        visit_settings(settings, [&](const FieldInfo& info, auto& value) {
+            if (info.name == name) {
+                row(info, value);
+            }
+        });
+    }
+}
+
+const char* title_of(SettingGroup group) {
+    constexpr std::array<const char*, setting_groups> titles{
+        "Path, aircraft and ground",
+        "View and picture",
+        "Frames",
+        "Hidden surfaces",
+        "Terrain mesh",
+        "Sky, haze, sun and colours"};
+    return titles.at(static_cast<std::size_t>(group));
+}
+
+void edit_group(Settings& settings, SettingGroup group) {
+    const RowOfWidgets row;
+    switch (group) {
+    case SettingGroup::Path:
+        visit_path_settings(settings, row);
+        break;
+    case SettingGroup::View:
+        visit_view_settings(settings, row);
+        break;
+    case SettingGroup::Time:
+        visit_time_settings(settings, row);
+        break;
+    case SettingGroup::Surface:
+        visit_surface_settings(settings, row);
+        break;
+    case SettingGroup::Ground:
+        visit_ground_settings(settings, row);
+        break;
+    case SettingGroup::Air:
+        visit_air_settings(settings, row);
+        break;
+    }
+}
+
+} // namespace octant::ui

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "ui/settings_text.h"
+#include "visuals/scene/settings.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace octant::ui {
+
+// Widgets made from the list of all settings (ui/settings_fields.h), between ImGui::NewFrame and
+// ImGui::Render. What a person changes is in the settings at once; text and what loads something
+// anew, on Enter. Values stay within their bounds.
+
+/// Settings by their names, in that order. A name that is no setting shows nothing.
+void edit_settings(visuals::scene::Settings& settings, std::span<const std::string_view> names);
+
+/// The parts of the list, in its order.
+enum class SettingGroup { Path, View, Time, Surface, Ground, Air };
+inline constexpr int setting_groups = 6;
+
+/// Headline for people.
+const char* title_of(SettingGroup group);
+
+/// All settings of one part.
+void edit_group(visuals::scene::Settings& settings, SettingGroup group);
+
+/// A list of built-in names, and a field for any other such as a file. True when it was changed.
+bool choose_name(const FieldInfo& info, std::string& name, std::span<const std::string_view> names);
+
+} // namespace octant::ui

@@ -1,0 +1,52 @@
+#include "ui/window/panel_parts.h"
+#include "ui/window/panels.h"
+#include "ui/window/setting_widgets.h"
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+namespace octant::ui {
+
+namespace {
+
+void save_and_load(ViewState& state) {
+    std::array<char, 1024> name{};
+    state.settings_file.copy(name.data(), name.size() - 1);
+    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 8.0F);
+    if (ImGui::InputText("##settings file", name.data(), name.size())) {
+        state.settings_file = name.data();
+    }
+    explain("a settings file, or the run.json of a recording");
+    ImGui::BeginDisabled(state.settings_file.empty());
+    ImGui::SameLine();
+    if (ImGui::Button("Save")) {
+        state.requests.save_settings = state.settings_file;
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Load")) {
+        state.requests.load_settings = state.settings_file;
+    }
+    ImGui::EndDisabled();
+}
+
+} // namespace
+
+void settings_panel(ViewState& state) {
+    const Panel panel(
+        "Settings", {{0.0F, 0.0F}, {350.0F, 10.0F}, {360.0F, 420.0F}}, state.open.settings);
+    if (!panel.is_seen()) {
+        return;
+    }
+    save_and_load(state);
+    for (int i = 0; i < setting_groups; ++i) {
+        const auto group = static_cast<SettingGroup>(i);
+        if (ImGui::CollapsingHeader(title_of(group))) {
+            ImGui::PushID(i);
+            edit_group(state.wanted, group);
+            ImGui::PopID();
+        }
+    }
+}
+
+} // namespace octant::ui

@@ -1,0 +1,36 @@
+#include "ui/window/status_marks.h"
+
+#include <fmt/format.h>
+
+namespace octant::ui {
+
+std::vector<StatusMark>
+status_marks(const ViewState& state, const std::optional<HandStatus>& hand) {
+    std::vector<StatusMark> marks;
+    if (state.recording) {
+        marks.push_back({fmt::format("REC {}", state.recording->string()), true});
+    }
+    if (!state.playback.playing) {
+        marks.push_back({"paused"});
+    }
+    if (state.playback.speed != 1.0) {
+        marks.push_back({fmt::format("x{:.3g}", state.playback.speed)});
+    }
+    if (!hand) {
+        return marks;
+    }
+    marks.push_back({"by hand"});
+    if (hand->ended) {
+        marks.push_back({hand->off_the_map ? "LEFT THE MAP" : "MET THE GROUND", true});
+        return marks;
+    }
+    if (hand->warnings.stalled) {
+        marks.push_back({"STALL", true});
+    }
+    if (hand->warnings.at_a_limit) {
+        marks.push_back({"LIMIT", true});
+    }
+    return marks;
+}
+
+} // namespace octant::ui
