@@ -1,5 +1,7 @@
 #include "models/height_field.h"
 
+#include "models/bilinear.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -37,19 +39,7 @@ glm::dvec2 HeightField::half_extent_m() const {
 }
 
 std::optional<double> HeightField::height_at(double x_m, double y_m) const {
-    const glm::dvec2 half = half_extent_m();
-    if (!(std::abs(x_m) <= half.x && std::abs(y_m) <= half.y)) {
-        return std::nullopt;
-    }
-    const double across = (x_m + half.x) / spacing_m_;
-    const double up = (y_m + half.y) / spacing_m_;
-    const int column = std::min(static_cast<int>(across), columns_ - 2);
-    const int row = std::min(static_cast<int>(up), rows_ - 2);
-    const double u = across - column;
-    const double v = up - row;
-    const double south = height_m(column, row) * (1.0 - u) + height_m(column + 1, row) * u;
-    const double north = height_m(column, row + 1) * (1.0 - u) + height_m(column + 1, row + 1) * u;
-    return south * (1.0 - v) + north * v;
+    return bilinear_height_m(*this, x_m, y_m);
 }
 
 glm::vec3 HeightField::normal_at_sample(int column, int row) const {

@@ -100,13 +100,9 @@ HeightField field_from_system(const path& file, HeightRaster raster) {
     if (local && !is_true_to_scale(*local, step_east_m, step_north_m)) {
         return field_about_centre(file, raster.grid, local);
     }
-    const MapSystem system{
-        wkt_of(raster.system),
-        frame.west + 0.5 * (raster.grid.columns - 1) * frame.step_east,
-        frame.south + 0.5 * (raster.grid.rows - 1) * frame.step_north,
-        unit_m};
+    MapSystem system = map_system(raster.system, frame, raster.grid.columns, raster.grid.rows);
     HeightField field = field_from(file, std::move(raster.grid), step_east_m, step_north_m);
-    field.system = system;
+    field.system = std::move(system);
     if (local) {
         field.place = local->place();
     }

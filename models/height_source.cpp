@@ -82,6 +82,7 @@ struct HeightSource::Content {
     int rows = 0;
     double spacing_m = 0.0;
     std::optional<GeoPlace> place;
+    std::optional<MapSystem> system;
     bool whole_metres = true;
 
     void open(const ImportOptions& options);
@@ -209,6 +210,9 @@ void HeightSource::Content::settle(const ImportOptions& options) {
     if (local) {
         place = local->place();
     }
+    if (first.system != nullptr) {
+        system = map_system(first.system, frame, columns, rows);
+    }
 }
 
 void HeightSource::Content::take_whole(
@@ -226,6 +230,7 @@ void HeightSource::Content::take_whole(
     rows = whole->rows();
     spacing_m = whole->spacing_m();
     place = whole->place;
+    system = whole->system;
     whole_metres = false;
 }
 
@@ -291,6 +296,10 @@ double HeightSource::spacing_m() const {
 
 std::optional<GeoPlace> HeightSource::place() const {
     return content_->place;
+}
+
+std::optional<MapSystem> HeightSource::system() const {
+    return content_->system;
 }
 
 std::string HeightSource::name() const {

@@ -39,6 +39,7 @@ public:
     int rows() const;
     double spacing_m() const;
     std::optional<GeoPlace> place() const;
+    std::optional<MapSystem> system() const; ///< nothing for ground without a place in any
 
     /// Name of the first file, and how many more there are.
     std::string name() const;

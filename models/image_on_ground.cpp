@@ -81,9 +81,9 @@ double pixel_m(const Image& image, const Dataset& source, const MapSystem& syste
     return known ? transform[1] * system.unit_m : 0.0;
 }
 
-/// An empty image from edge to edge of the field.
-Image empty_over(const HeightField& field, const MapSystem& system, int width, int height) {
-    const glm::dvec2 half = field.half_extent_m() / system.unit_m;
+/// An empty image from edge to edge of the ground.
+Image empty_over(const GroundArea& ground, const MapSystem& system, int width, int height) {
+    const glm::dvec2 half = ground.half_extent_m / system.unit_m;
     Image image;
     image.width = width;
     image.height = height;
@@ -133,7 +133,7 @@ void warp(const Image& image, const Dataset& from, Image& to, const GdalSession&
 }
 
 /// Says how much of the ground the image leaves bare. Throws Error when it is all.
-void note_cover(Image& laid, const Image& image, const HeightField& field) {
+void note_cover(Image& laid, const Image& image, const GroundArea& ground) {
     std::size_t covered = 0;
     for (std::size_t at = 3; at < laid.rgba.size(); at += 4) {
         covered += laid.rgba[at] > 0 ? 1U : 0U;
@@ -143,7 +143,7 @@ void note_cover(Image& laid, const Image& image, const HeightField& field) {
         throw Error(fmt::format(
             "{}: expected an image of the ground of {}, got one that lies elsewhere",
             image.name,
-            field.name));
+            ground.name));
     }
     laid.note = image.note;
     if (covered < pixels) {
@@ -158,23 +158,27 @@ void note_cover(Image& laid, const Image& image, const HeightField& field) {
 
 } // namespace
 
-Image laid_on_ground(Image image, const HeightField& field, int largest_px) {
+GroundArea area_of(const HeightField& field) {
+    return {field.name, field.half_extent_m(), field.spacing_m(), field.system};
+}
+
+Image laid_on_ground(Image image, const GroundArea& ground, int largest_px) {
     const bool placed = !image.wkt.empty();
-    if (placed && !field.system) {
+    if (placed && !ground.system) {
         throw Error(fmt::format(
             "{}: expected an image without a coordinate system over ground without one ({}), got "
             "one with",
             image.name,
-            field.name));
+            ground.name));
     }
     if (!placed && image.width <= largest_px && image.height <= largest_px) {
         return image;
     }
     GdalSession gdal;
-    const MapSystem system = placed ? *field.system : MapSystem{};
-    const glm::dvec2 extent_m = 2.0 * field.half_extent_m();
+    const MapSystem system = placed ? *ground.system : MapSystem{};
+    const glm::dvec2 extent_m = 2.0 * ground.half_extent_m;
     if (!placed) {
-        image.transform = empty_over(field, system, image.width, image.height).transform;
+        image.transform = empty_over(ground, system, image.width, image.height).transform;
     }
     const Dataset source = dataset_of(image);
     glm::dvec2 size(image.width, image.height);
@@ -183,15 +187,15 @@ Image laid_on_ground(Image image, const HeightField& field, int largest_px) {
         if (!(own_m > 0.0)) {
             error_unplaced(image, gdal);
         }
-        size = extent_m / std::min(own_m, field.spacing_m());
+        size = extent_m / std::min(own_m, ground.spacing_m);
     }
     const auto limited = [largest_px](double side) {
         return static_cast<int>(std::clamp(std::round(side), 1.0, static_cast<double>(largest_px)));
     };
-    Image laid = empty_over(field, system, limited(size.x), limited(size.y));
+    Image laid = empty_over(ground, system, limited(size.x), limited(size.y));
     laid.name = image.name;
     warp(image, source, laid, gdal);
-    note_cover(laid, image, field);
+    note_cover(laid, image, ground);
     return laid;
 }
 

@@ -71,6 +71,14 @@ std::string wkt_of(SystemHandle system) {
     return wkt;
 }
 
+MapSystem map_system(SystemHandle system, const GridFrame& frame, int columns, int rows) {
+    return {
+        wkt_of(system),
+        frame.west + 0.5 * (columns - 1) * frame.step_east,
+        frame.south + 0.5 * (rows - 1) * frame.step_north,
+        OSRGetLinearUnits(system, nullptr)};
+}
+
 std::optional<LocalFrame>
 LocalFrame::around(SystemHandle system, const GridFrame& frame, int columns, int rows) {
     const Point centre = {

@@ -31,6 +31,9 @@ struct GridFrame {
     double step_north = 1.0;
 };
 
+/// A grid's system, which has a linear unit, about the grid's centre.
+MapSystem map_system(SystemHandle system, const GridFrame& frame, int columns, int rows);
+
 /// A grid on the ground around its centre.
 struct LocalGrid {
     HeightGrid grid;

@@ -1,14 +1,14 @@
 // Sources, all public:
 // - Wing 56.5 m2 (608 ft2), aspect ratio 3, leading edge swept 45 degrees; empty 12,700 kg: data
 //   sheets of the F-15C. 17,000 kg is that with a pilot, missiles and about half the inside fuel.
-// - Slope of the lift: Helmbold's formula as in the USAF Stability and Control Datcom, 4.1.3.2,
-//   gives 3.1 per radian for the bare wing; 4.0 counts the lifting body, as NASA TM-72861 does.
-// - Drag of a flat plate across the wind: Hoerner, Fluid-Dynamic Drag (1965), 3-16.
+// - Slope of the lift: Helmbold's formula for swept wings gives 3.1 per radian for the bare wing;
+//   4.0 allows for the broad body. Drag of a plate across the wind: Hoerner, Fluid-Dynamic Drag.
 // - Thrust with height and Mach number: Mattingly, Heiser and Pratt, Aircraft Engine Design, 2nd
-//   ed., eq. 2.54, low-bypass mixed turbofan, for the 23,770 lb of the F100-PW-220 with reheat.
-// Deviations: zero-lift and wave drag are chosen so that the published 800 kt (M 1.2) low down, the
-// climb of the 50,000 ft/min class and M 2 at height come out roughly. Lift does not depend on the
-// Mach number. Idle gives no net thrust.
+//   ed., ch. 2, low-bypass mixed turbofan, for the 23,770 lb of the F100-PW-220 with reheat.
+// Deviations: angle and size of the most lift, zero-lift and wave drag are chosen so that a stall
+// at about 115 kt, the published 800 kt (M 1.2) low down, the climb of the 50,000 ft/min class and
+// M 2 at height come out roughly. Lift does not depend on the Mach number. Idle gives no net
+// thrust.
 
 #include "sim/fixed_wing_aero.h"
 

@@ -1,9 +1,9 @@
 // A point mass under lift, drag, side force, thrust and gravity, with an attitude that a control
-// augmentation system turns: any text on flight mechanics, e.g. Stengel, Flight Dynamics (2004),
-// 3.2. Steps by the midpoint rule. Load-factor and roll-rate limits: sim/aircraft_limits.h; sources
+// augmentation system turns: any text on flight mechanics, e.g. Stengel, Flight Dynamics (2004).
+// Steps by the midpoint rule. Load-factor and roll-rate limits: sim/aircraft_limits.h; sources
 // of the forces: sim/fixed_wing_aero.cpp.
 // Deviations: no moments of inertia. The attitude turns with the velocity, and about it with the
-// lags below, which are those of a fighter that handles well (MIL-F-8785C, level 1, category A).
+// lags below, chosen for a fighter that handles well.
 // Less than full_authority_mps of airspeed leaves the tail less and less to turn with.
 
 #include "sim/fixed_wing_flight.h"

@@ -1,9 +1,9 @@
-// A point mass under rotor thrust, drag and gravity, with an attitude command system as ADS-33E-PRF
-// describes it (3.2: attitude command, attitude hold; turn coordination in forward flight). Steps
-// by the midpoint rule. Limits: sim/aircraft_limits.h; sources of the thrust: sim/rotor.cpp. Drag
-// area of the 369D, 0.45 m2 (5 ft2): Prouty, Helicopter Performance, Stability and Control (1986),
-// ch. 4; areas aside and below are guessed from the three-view drawing. Deviations: the thrust
-// stands along the mast, so that disc and body tilt alike; no moments of inertia; no ground effect.
+// A point mass under rotor thrust, drag and gravity, with the attitude command and the turn
+// coordination in forward flight that ADS-33E-PRF describes. Steps by the midpoint rule. Limits:
+// sim/aircraft_limits.h; sources of the thrust: sim/rotor.cpp. Drag areas are chosen: 0.45 m2 (5
+// ft2) ahead, as is usual for a clean light helicopter, aside and below from the size of the body.
+// Deviations: the thrust stands along the mast, so that disc and body tilt alike; no moments of
+// inertia; no ground effect.
 
 #include "sim/helicopter_flight.h"
 

@@ -1,15 +1,14 @@
 // Sources, all public:
-// - Rotor of five blades, diameter 8.05 m, chord 0.171 m, tip speed 203 m/s (492 rpm); 1,361 kg at
-//   most; 420 shp of the Allison 250-C20B held to 375 shp by the gearbox: data sheets and the FAA
-//   type certificate H3WE of the 369D/500MD.
-// - Thrust by blade elements, downwash by Glauert's momentum theory, powers: Leishman, Principles
-// of
-//   Helicopter Aerodynamics, 2nd ed. (2006), eqs 3.22 to 3.24 and 5.1 to 5.5; Johnson, Helicopter
-//   Theory (1980), 5-3.
+// - 1,361 kg at most, 8.6 m/s of climb, 152 kt, five blades: data sheets of the 500MD. 420 shp of
+// the
+//   Allison 250-C20B, 375 shp through the gearbox: heli-archive.ch, "Hughes 500D".
+// - Rotor 8.05 m across, blades 0.171 m deep, tips at 203 m/s (482 rpm): general knowledge of the
+//   369D, not read in a source.
+// - Thrust by blade elements, downwash by Glauert's momentum theory, induced and profile power: any
+//   text on rotors, e.g. Leishman, Principles of Helicopter Aerodynamics, chapters 2, 3 and 5.
 // Deviations: untwisted blades whose pitch is that at three quarters of the radius; lowest
 // collective is no pitch, so that the rotor cannot do work on the aircraft then. Rotor speed never
-// changes. No vortex ring. Power losses are chosen so that the published 8.6 m/s of climb and
-// 152 kt come out.
+// changes. No vortex ring. Power losses are chosen so that the published climb and speed come out.
 
 #include "sim/rotor.h"
 

@@ -22,7 +22,8 @@ void check_untextured_ground(const scene::Settings& settings) {
 }
 
 std::optional<scene::GroundTexture> load_ground_texture(
-    const models::HeightField& field,
+    const visuals::terrain::GroundSamples& ground,
+    const models::GroundArea& area,
     const scene::Settings& settings,
     DrawnBy drawn_by,
     std::vector<std::string>& notes) {
@@ -31,16 +32,17 @@ std::optional<scene::GroundTexture> load_ground_texture(
             throw Error("--drape: expected --ground-shading texture or auto beside it, got vertex");
         }
         const models::Image drape = models::laid_on_ground(
-            models::read_image(*settings.drape), field, scene::largest_texture);
+            models::read_image(*settings.drape), area, scene::largest_texture);
         if (!drape.note.empty()) {
             notes.push_back(drape.note);
         }
-        return scene::ground_texture(field, settings, &drape);
+        return scene::ground_texture(ground, settings, &drape);
     }
     const bool textured =
         settings.ground_shading == GroundShading::Texture ||
         (settings.ground_shading == GroundShading::Auto && drawn_by == DrawnBy::Gpu);
-    return textured ? std::optional(scene::ground_texture(field, settings, nullptr)) : std::nullopt;
+    return textured ? std::optional(scene::ground_texture(ground, settings, nullptr))
+                    : std::nullopt;
 }
 
 } // namespace octant::ui

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "models/height_field.h"
+#include "models/image_on_ground.h"
 #include "visuals/scene/ground_texture.h"
 #include "visuals/scene/settings.h"
+#include "visuals/terrain/ground_samples.h"
 
 #include <optional>
 #include <string>
@@ -17,10 +18,11 @@ enum class DrawnBy { Processor, Gpu };
 void check_untextured_ground(const visuals::scene::Settings& settings);
 
 /// The texture of the ground; nothing where it is drawn by its vertices' colours. What a person
-/// should be told goes to `notes`. Throws Error for a drape that cannot be read or laid over the
-/// field, and for one that the settings give no texture for.
+/// should be told goes to `notes`. `area`: of the samples. Throws Error for a drape that cannot be
+/// read or laid over the ground, and for one that the settings give no texture for.
 std::optional<visuals::scene::GroundTexture> load_ground_texture(
-    const models::HeightField& field,
+    const visuals::terrain::GroundSamples& ground,
+    const models::GroundArea& area,
     const visuals::scene::Settings& settings,
     DrawnBy drawn_by,
     std::vector<std::string>& notes);

@@ -23,10 +23,6 @@ double aspect_of(const glm::ivec2& size_px) {
     return static_cast<double>(size_px.x) / size_px.y;
 }
 
-double focal_px(const scene::Camera& camera, const glm::ivec2& size_px) {
-    return size_px.y / (2.0 * std::tan(camera.vertical_fov_rad / 2.0));
-}
-
 } // namespace
 
 void add_terrain_argument(CLI::App& command, GroundViewOptions& options) {
@@ -115,7 +111,7 @@ terrain::MeshView mesh_view(const scene::Camera& camera, const GroundViewOptions
     view.frustum_normals = scene::frustum_normals(camera, aspect_of(options.size_px));
     view.magnification =
         std::max(1.0, std::tan(reference_fov_rad / 2.0) / std::tan(camera.vertical_fov_rad / 2.0));
-    view.focal_px = focal_px(camera, options.size_px);
+    view.focal_px = scene::focal_px(camera, options.size_px.y);
     view.earth_radius_m = options.earth_radius_m;
     return view;
 }
@@ -126,7 +122,7 @@ terrain::PictureView picture_view(const scene::Camera& camera, const glm::ivec2&
     view.right = camera.view_to_world * glm::dvec3(1.0, 0.0, 0.0);
     view.up = camera.view_to_world * glm::dvec3(0.0, 1.0, 0.0);
     view.ahead = camera.view_to_world * glm::dvec3(0.0, 0.0, -1.0);
-    view.focal_px = focal_px(camera, size_px);
+    view.focal_px = scene::focal_px(camera, size_px.y);
     view.half_width_px = size_px.x / 2.0;
     view.half_height_px = size_px.y / 2.0;
     return view;

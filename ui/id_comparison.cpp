@@ -1,7 +1,5 @@
 #include "ui/id_comparison.h"
 
-#include "ui/session.h"
-
 #include <algorithm>
 #include <cassert>
 #include <cstring>
@@ -126,6 +124,47 @@ IdComparison compare_with_depth_buffer(
         seen(++sum.frames, frames);
     }
     return sum;
+}
+
+namespace {
+
+gl::Picture
+number_picture(Session& session, const scene::Settings& settings, const gl::Functions& functions) {
+    scene::Planner planner(session.scene(), settings);
+    scene::IdPlan ids(session.scene());
+    gl::Renderer renderer(functions, settings.size_px.x, settings.size_px.y, 1);
+    renderer.load_models(ids.models());
+    scene::PlanCounts counts;
+    const scene::FramePlan& plan = planner.plan(session.camera(), session.states(), counts);
+    gl::Picture picture;
+    renderer.draw(ids.of(plan));
+    renderer.finish_and_read(picture);
+    return picture;
+}
+
+} // namespace
+
+PixelCheck check_pixels(Session& session, const gl::Functions& functions) {
+    scene::Settings painted = session.settings();
+    painted.shadows = false;
+    painted.samples = 1;
+    painted.inset.reset();
+    scene::Settings tested = painted;
+    tested.hidden_surface = scene::HiddenSurface::DepthBuffer;
+    scene::Settings large = tested;
+    large.size_px *= LargeReference::scale;
+    const gl::Picture picture = number_picture(session, painted, functions);
+    const IdDifference difference =
+        difference_of(picture, number_picture(session, tested, functions));
+    PixelCheck check{.pixels = difference.pixels, .differing = difference.differing};
+    if (!difference.apart.empty()) {
+        check.wrong = wrong_among(
+            difference.apart,
+            picture,
+            number_picture(session, large, functions),
+            LargeReference::scale);
+    }
+    return check;
 }
 
 } // namespace octant::ui

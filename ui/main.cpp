@@ -1,6 +1,7 @@
 #include "sim/base/error.h"
 #include "ui/commands.h"
 #include "ui/version.h"
+#include "ui/window/command_view.h"
 #include "visuals/gl/platform_tuning.h"
 
 #include <CLI/CLI.hpp>
@@ -36,11 +37,13 @@ int run(int argc, char** argv) {
     program.footer(
         "Examples:\n"
         "  octant fly pop-up --aircraft f15 --terrain canyon --record my-flight\n"
+        "  octant view turn --view cockpit\n"
         "  octant report my-flight\n"
         "  octant terrain info my-map.tif\n"
         "  octant draw-order f15 --table\n"
         "octant COMMAND --help shows every option with its unit, default and an example.");
     octant::ui::add_fly_command(program);
+    octant::ui::add_view_command(program);
     octant::ui::add_report_command(program);
     octant::ui::add_terrain_command(program);
     octant::ui::add_draw_order_command(program);
@@ -57,11 +60,11 @@ int run(int argc, char** argv) {
         const bool no_command = program.get_subcommands().empty();
         const std::string got = argc > 1 ? argv[1] : "none";
         return fail(
-            no_command
-                ? fmt::format(
-                      "expected a command (fly, report, terrain, draw-order, study, bench), got {}",
-                      got)
-                : std::string(fault.what()));
+            no_command ? fmt::format(
+                             "expected a command (fly, view, report, terrain, draw-order, study, "
+                             "bench), got {}",
+                             got)
+                       : std::string(fault.what()));
     }
     return 0;
 }

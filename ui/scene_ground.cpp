@@ -14,6 +14,7 @@
 namespace octant::ui {
 
 namespace scene = visuals::scene;
+namespace terrain = visuals::terrain;
 
 namespace {
 
@@ -57,6 +58,28 @@ void check_detail(const scene::Settings& settings) {
     }
 }
 
+void texture_ground(
+    const terrain::GroundSamples& ground,
+    const models::GroundArea& area,
+    const scene::Settings& settings,
+    DrawnBy drawn_by,
+    World& world) {
+    world.scene.ground_texture = load_ground_texture(ground, area, settings, drawn_by, world.notes);
+    if (world.scene.ground_texture) {
+        world.ground_name += settings.drape ? ", draped" : ", textured";
+    }
+}
+
+void load_imported(const scene::Settings& settings, DrawnBy drawn_by, World& world) {
+    terrain::GroundTiles ground = terrain::open_ground(settings.terrain);
+    const terrain::GroundFacts& facts = ground.facts();
+    describe_ground(ground, facts.name, facts.place, facts.filled_voids, world);
+    const models::GroundArea area{
+        facts.name, ground.half_extent_m(), ground.spacing_m(), facts.system};
+    texture_ground(terrain::GroundSamples(ground), area, settings, drawn_by, world);
+    world.scene.ground = scene::ground_from_tiles(std::move(ground), settings);
+}
+
 } // namespace
 
 bool is_drawn_whole(const std::string& terrain) {
@@ -82,21 +105,14 @@ void load_scene_ground(const scene::Settings& settings, DrawnBy drawn_by, World&
     }
     const scene::Settings colours = ground_settings(settings);
     if (is_imported_ground(settings.terrain)) {
-        check_untextured_ground(settings);
-        visuals::terrain::GroundTiles ground = visuals::terrain::open_ground(settings.terrain);
-        const visuals::terrain::GroundFacts& facts = ground.facts();
-        describe_ground(ground, facts.name, facts.place, facts.filled_voids, world);
-        world.scene.ground = scene::ground_from_tiles(std::move(ground), colours);
+        load_imported(settings, drawn_by, world);
         return;
     }
     models::HeightField field = load_height_field(settings.terrain, settings.terrain_spacing_m);
     describe_ground(field, field.name, field.place, field.filled_voids, world);
-    world.scene.ground_texture = load_ground_texture(field, colours, drawn_by, world.notes);
-    if (world.scene.ground_texture) {
-        world.ground_name += settings.drape ? ", draped" : ", textured";
-    }
+    texture_ground(terrain::GroundSamples(field), models::area_of(field), colours, drawn_by, world);
     world.scene.ground = scene::ground_metric(settings) == scene::GroundMetric::ScreenError
-                             ? scene::ground_from_tiles(visuals::terrain::ground_of(field), colours)
+                             ? scene::ground_from_tiles(terrain::ground_of(field), colours)
                              : scene::ground_from_field(std::move(field), colours);
 }
 

@@ -106,7 +106,8 @@ public:
     /// States of all aircraft in the last picture.
     std::span<const sim::AircraftState> states() const { return now_.states; }
 
-    const visuals::scene::Planner& planner() const { return *planner_; }
+    /// For another plan of the same world.
+    visuals::scene::Scene& scene() { return world_.scene; }
 
     /// Reads the last picture where a presenter showed it.
     void read_picture();

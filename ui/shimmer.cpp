@@ -2,6 +2,7 @@
 #include "ui/shimmer.h"
 
 #include "ui/ground_view.h"
+#include "visuals/terrain/earth_drop.h"
 #include "visuals/terrain/ground_query.h"
 
 #include <glm/geometric.hpp>

@@ -7,20 +7,20 @@
 #include "ui/mesh_maker.h"
 #include "ui/progress.h"
 #include "ui/report/html_text.h"
+#include "ui/report/statistics.h"
 #include "ui/shimmer_table.h"
 #include "ui/table_text.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/vertex_jump.h"
+#include "visuals/terrain/worker_team.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace octant::ui {
@@ -82,14 +82,9 @@ Jumps jumps_along(
     return found;
 }
 
-double percentile_px(std::vector<double> jumps_px, double share) {
-    if (jumps_px.empty()) {
-        return 0.0;
-    }
+double percentile_px(std::vector<double> jumps_px, int permille) {
     std::sort(jumps_px.begin(), jumps_px.end());
-    const auto rank =
-        static_cast<std::size_t>(std::ceil(share * static_cast<double>(jumps_px.size()) - 1e-9));
-    return jumps_px[std::max<std::size_t>(rank, 1) - 1];
+    return report::nearest_rank(jumps_px, permille);
 }
 
 void add_row(
@@ -100,8 +95,8 @@ void add_row(
          fmt::format("{}", found.jumps_px.size()),
          fmt::format("{:.3f}", found.largest_px),
          fmt::format("{}", found.largest_frame),
-         fmt::format("{:.3f}", percentile_px(found.jumps_px, 0.999)),
-         fmt::format("{:.3f}", percentile_px(found.jumps_px, 0.5))});
+         fmt::format("{:.3f}", percentile_px(found.jumps_px, 999)),
+         fmt::format("{:.3f}", percentile_px(found.jumps_px, 500))});
 }
 
 report::HtmlTable popping_table(const PoppingStudyOptions& options) {
@@ -121,11 +116,10 @@ report::HtmlTable popping_table(const PoppingStudyOptions& options) {
         const std::vector<FlightCamera> cameras = flight_cameras(settings);
         say(options.quiet, fmt::format("{}: {} frames", path, cameras.size()));
         std::array<Jumps, ways.size()> found;
-        std::vector<std::thread> threads;
-        for (std::size_t k = 0; k < ways.size(); ++k) {
-            threads.emplace_back([&, k] { found[k] = jumps_along(*makers[k], settings, cameras); });
-        }
-        std::for_each(threads.begin(), threads.end(), [](std::thread& t) { t.join(); });
+        terrain::share_out(
+            ways.size(), static_cast<int>(ways.size()), [&](std::size_t way, std::size_t /*w*/) {
+                found[way] = jumps_along(*makers[way], settings, cameras);
+            });
         for (std::size_t k = 0; k < ways.size(); ++k) {
             add_row(table, path, ways[k], found[k]);
             const std::vector<double>& jumps_px = found[k].jumps_px;

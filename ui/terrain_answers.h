@@ -1,5 +1,6 @@
 #pragma once
 
+#include "visuals/terrain/earth_drop.h"
 #include "visuals/terrain/ground_samples.h"
 #include "visuals/terrain/mesh_surface.h"
 

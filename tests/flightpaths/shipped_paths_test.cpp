@@ -1,129 +1,19 @@
 // The figures of the eight shipped paths against those they were designed to.
 
-#include "flightpaths/fly_script.h"
-#include "flightpaths/recorded_track.h"
 #include "sim/base/axes.h"
-#include "sim/base/hash.h"
 #include "sim/base/units.h"
+#include "tests/flightpaths/shipped_figures.h"
 
 #include <catch2/catch.hpp>
-#include <glm/geometric.hpp>
-
-#include <array>
-#include <cmath>
-#include <cstdlib>
-#include <iostream>
-#include <limits>
-
-#include "scratch.h"
 
 using namespace octant;
 using namespace octant::flightpaths;
-using octant::tests::shipped;
+using namespace octant::tests;
 
 namespace {
 
-const std::array<std::string, 8> names{
-    "f15-straight",
-    "f15-jinking",
-    "f15-pop-up",
-    "f15-turn",
-    "500md-straight",
-    "500md-jinking",
-    "500md-pop-up",
-    "500md-turn"};
-
-FlownPath flown(const std::string& name) {
-    const PathScript script = read_path_script(shipped(name));
-    const auto limits = sim::limits_of(script.aircraft);
-    REQUIRE(limits);
-    FlownPath path = fly(script, *limits, false);
-    CHECK(path.notes.empty());
-    CHECK(path.trajectory.samples().size() == static_cast<std::size_t>(script.samples));
-    return path;
-}
-
-struct Range {
-    double least = std::numeric_limits<double>::infinity();
-    double most = -std::numeric_limits<double>::infinity();
-
-    void take(double value) {
-        least = std::min(least, value);
-        most = std::max(most, value);
-    }
-};
-
-/// Angle between two attitudes.
-double turn_between_rad(const sim::AircraftState& a, const sim::AircraftState& b) {
-    const double dot = std::abs(glm::dot(a.body_to_world, b.body_to_world));
-    return 2.0 * std::acos(std::min(1.0, dot));
-}
-
-double track_deg(const sim::AircraftState& state) {
-    return deg_from_rad(std::atan2(state.velocity_mps.x, state.velocity_mps.y));
-}
-
-double climb_deg(const sim::AircraftState& state) {
-    return deg_from_rad(std::asin(state.velocity_mps.z / glm::length(state.velocity_mps)));
-}
-
-struct Figures {
-    Range load_factor, height_m, speed_mps, bank_deg, east_m, climb_deg;
-    double length_m = 0.0;
-    double nearest_m = std::numeric_limits<double>::infinity(); ///< to the site, on the ground
-    double most_turn_degps = 0.0;                               ///< of the body
-    double heading_change_deg = 0.0;                            ///< clockwise, whole path
-};
-
-Figures figures_of(const sim::Trajectory& path) {
-    Figures f;
-    const auto samples = path.samples();
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        const sim::AircraftState& now = samples[i];
-        f.load_factor.take(now.load_factor);
-        f.height_m.take(now.position_m.z);
-        f.speed_mps.take(glm::length(now.velocity_mps));
-        f.bank_deg.take(deg_from_rad(euler_from_body_to_world(now.body_to_world).roll_rad));
-        f.east_m.take(now.position_m.x);
-        f.climb_deg.take(climb_deg(now));
-        f.nearest_m = std::min(f.nearest_m, std::hypot(now.position_m.x, now.position_m.y));
-        if (i > 0) {
-            const sim::AircraftState& before = samples[i - 1];
-            const double step_s = now.time_s - before.time_s;
-            f.length_m += glm::length(now.position_m - before.position_m);
-            f.most_turn_degps =
-                std::max(f.most_turn_degps, deg_from_rad(turn_between_rad(before, now)) / step_s);
-            f.heading_change_deg +=
-                deg_from_rad(wrapped_to_pi(rad_from_deg(track_deg(now) - track_deg(before))));
-        }
-    }
-    return f;
-}
-
-Figures figures_of(const std::string& name) {
-    return figures_of(flown(name).trajectory);
-}
-
-double begin_of(const FlownPath& path, const std::string& label) {
-    for (const LegBegin& leg : path.legs) {
-        if (leg.label == label) {
-            return leg.time_s;
-        }
-    }
-    FAIL("no leg " + label);
-    return 0.0;
-}
-
 Approx within_tenth(double figure) {
     return Approx(figure).epsilon(0.1);
-}
-
-std::filesystem::path reference(const std::string& name) {
-    const char* set = std::getenv("OCTANT_SHARED_DATA");
-    const std::filesystem::path data =
-        set != nullptr ? std::filesystem::path(set)
-                       : std::filesystem::path(OCTANT_SOURCE_DIR) / ".." / "shared" / "data";
-    return data / "paths" / (name + ".csv");
 }
 
 } // namespace
@@ -247,108 +137,4 @@ TEST_CASE("the 500MD turns at 45 degrees of bank") {
     CHECK(rate_degps == Approx(14).epsilon(0.01));
     CHECK(40 / rad_from_deg(rate_degps) == Approx(163).epsilon(0.01));
     CHECK(f.height_m.least == Approx(40).margin(0.5));
-}
-
-TEST_CASE("attitude, velocity and load factor never jump") {
-    for (const std::string& name : names) {
-        INFO(name);
-        const FlownPath path = flown(name);
-        const auto limits = *sim::limits_of(name.substr(0, name.find('-')));
-        const auto samples = path.trajectory.samples();
-        for (std::size_t i = 1; i < samples.size(); ++i) {
-            const sim::AircraftState& a = samples[i - 1];
-            const sim::AircraftState& b = samples[i];
-            const double step_s = b.time_s - a.time_s;
-            const double pull_mps2 =
-                gravity_mps2 * (1.0 + std::max(std::abs(a.load_factor), std::abs(b.load_factor)));
-            const double path_radps = pull_mps2 / glm::length(b.velocity_mps);
-            const double attack_radps = rad_from_deg(1.2) * limits.load_factor_rate_gps;
-            CHECK(
-                turn_between_rad(a, b) <=
-                (limits.roll_rate_radps + path_radps + attack_radps) * step_s);
-            CHECK(
-                std::abs(b.load_factor - a.load_factor) <=
-                limits.load_factor_rate_gps * step_s + 1e-9);
-            CHECK(
-                glm::length(b.velocity_mps - a.velocity_mps) <=
-                (pull_mps2 + limits.acceleration_mps2) * step_s);
-            CHECK(glm::dot(a.body_to_world, b.body_to_world) > 0.0);
-            CHECK(
-                glm::length(
-                    b.position_m - a.position_m -
-                    0.5 * step_s * (a.velocity_mps + b.velocity_mps)) < 0.02);
-        }
-    }
-}
-
-TEST_CASE("the nose points along the path, raised by the angle of attack") {
-    for (const std::string& name : names) {
-        const PathScript script = read_path_script(shipped(name));
-        const FlownPath path = flown(name);
-        for (const auto& state : path.trajectory.samples()) {
-            const glm::dvec3 along = glm::inverse(state.body_to_world) *
-                                     (state.velocity_mps / glm::length(state.velocity_mps));
-            CHECK(along.y == Approx(0).margin(1e-9));
-            CHECK(
-                std::atan2(along.z, along.x) ==
-                Approx(script.angle_of_attack_rad_per_g * state.load_factor).margin(1e-9));
-        }
-    }
-}
-
-TEST_CASE("the same path is the same to the last bit in every build") {
-    const auto hash_of = [](const std::string& name) {
-        Hash hash;
-        const FlownPath path = flown(name);
-        for (const auto& state : path.trajectory.samples()) {
-            const std::array<double, 11> values{
-                state.position_m.x,
-                state.position_m.y,
-                state.position_m.z,
-                state.velocity_mps.x,
-                state.velocity_mps.y,
-                state.velocity_mps.z,
-                state.body_to_world.w,
-                state.body_to_world.x,
-                state.body_to_world.y,
-                state.body_to_world.z,
-                state.load_factor};
-            hash.add(std::as_bytes(std::span(values)));
-        }
-        return hash.value();
-    };
-    // Made with glibc 2.36 on x86-64, debug and optimised.
-    CHECK(hash_of("f15-pop-up") == 0xa38a50666efe1392ULL);
-    CHECK(hash_of("500md-jinking") == 0xf76b23ea0f35e11dULL);
-}
-
-TEST_CASE("the shipped paths stay near trajectories integrated by other hands") {
-    struct Case {
-        const char* ours;
-        const char* theirs;
-        double furthest_m; ///< allowed over the whole path
-    };
-
-    for (const Case& c :
-         {Case{"f15-straight", "f15_straight", 0.01},
-          Case{"f15-turn", "f15_turn", 120},
-          Case{"f15-pop-up", "f15_popup", 120},
-          Case{"500md-straight", "md500_straight", 0.01},
-          Case{"500md-turn", "md500_turn", 20},
-          Case{"500md-pop-up", "md500_popup", 120}}) {
-        if (!std::filesystem::exists(reference(c.theirs))) {
-            std::cout << "SKIPPED: no reference trajectories at " << reference(c.theirs) << "\n";
-            return;
-        }
-        const RecordedTrack theirs = read_recorded_track(reference(c.theirs));
-        const FlownPath ours = flown(c.ours);
-        double furthest_m = 0.0;
-        for (const auto& state : theirs.trajectory.samples()) {
-            furthest_m = std::max(
-                furthest_m,
-                glm::length(ours.trajectory.state_at(state.time_s).position_m - state.position_m));
-        }
-        INFO(c.ours << " " << furthest_m << " m");
-        CHECK(furthest_m <= c.furthest_m);
-    }
 }

@@ -8,6 +8,7 @@
 
 using namespace octant;
 using namespace octant::visuals::scene;
+namespace terrain = octant::visuals::terrain;
 
 namespace {
 
@@ -36,7 +37,7 @@ glm::dvec2 texel_below(const GroundImage& image, const TexturePlace& place) {
 TEST_CASE("the texture under its light shows each sample as the lit vertex does, at its place") {
     const models::HeightField field = rugged();
     const Settings settings;
-    const GroundTexture texture = ground_texture(field, settings, nullptr);
+    const GroundTexture texture = ground_texture(terrain::GroundSamples(field), settings, nullptr);
     const std::vector<std::uint32_t> lit = ground_colours(field, settings);
     const glm::vec3 to_sun = direction_to_sun(settings);
     REQUIRE(texture.normal.width == 9);
@@ -69,7 +70,8 @@ TEST_CASE("the texture under its light shows each sample as the lit vertex does,
 
 TEST_CASE("level ground has a normal that is exactly upright") {
     const models::HeightField field(3, 3, 10.0, std::vector<float>(9, -1.0F));
-    for (const std::uint8_t part : ground_texture(field, {}, nullptr).normal.texels) {
+    for (const std::uint8_t part :
+         ground_texture(terrain::GroundSamples(field), {}, nullptr).normal.texels) {
         CHECK(int{part} == 128);
     }
 }
@@ -96,8 +98,8 @@ TEST_CASE("a drape lies north up from edge to edge and lets the ground through w
         9,
         9,
         0};
-    const GroundTexture texture = ground_texture(field, {}, &drape);
-    const GroundTexture bare = ground_texture(field, {}, nullptr);
+    const GroundTexture texture = ground_texture(terrain::GroundSamples(field), {}, &drape);
+    const GroundTexture bare = ground_texture(terrain::GroundSamples(field), {}, nullptr);
     CHECK(colour(texture.albedo, 0, 1) == std::array{255, 0, 0});
     CHECK(colour(texture.albedo, 1, 1) == std::array{0, 255, 0});
     CHECK(colour(texture.albedo, 0, 0) == std::array{0, 0, 255});
@@ -110,9 +112,25 @@ TEST_CASE("a drape lies north up from edge to edge and lets the ground through w
     CHECK(corner.per_m.y * 300.0F == Approx(1.0));
 }
 
+TEST_CASE("a texel of ground sampled at a stride has the mean slope of its surroundings") {
+    std::vector<float> heights_m;
+    for (int row = 0; row < 2; ++row) {
+        for (int column = 0; column < 8194; ++column) {
+            const int bump = column % 2 == 0 ? 0 : 40; // between the texels
+            heights_m.push_back(static_cast<float>(2 * column + bump));
+        }
+    }
+    const models::HeightField field(8194, 2, 10.0, heights_m);
+    const GroundTexture texture = ground_texture(terrain::GroundSamples(field), {}, nullptr);
+    const double slope = -0.2 / std::sqrt(1.0 + 0.2 * 0.2);
+    for (const std::size_t texel : {std::size_t{1}, std::size_t{2000}, std::size_t{4095}}) {
+        CHECK(texture.normal.texels[2 * texel] == 128 + std::lround(127.0 * slope));
+    }
+}
+
 TEST_CASE("a field of more samples than a texture may have is sampled at a stride") {
     const models::HeightField field(8194, 2, 10.0, std::vector<float>(2 * 8194, 5.0F));
-    const GroundTexture texture = ground_texture(field, {}, nullptr);
+    const GroundTexture texture = ground_texture(terrain::GroundSamples(field), {}, nullptr);
     CHECK(texture.normal.width == 4097);
     CHECK(texture.normal.step_m.x == 20.0);
     const glm::dvec2 texel =

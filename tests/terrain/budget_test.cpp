@@ -1,4 +1,5 @@
 #include "models/height_field_import.h"
+#include "tests/terrain/both_meshes.h"
 #include "tests/terrain/ground_check.h"
 #include "visuals/terrain/mesher.h"
 
@@ -7,45 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <iostream>
 
 using namespace octant::visuals::terrain;
 using namespace octant::visuals::terrain::test;
-using octant::models::ColourVertex;
-using octant::models::HeightField;
 
 namespace {
-
-struct Copy {
-    explicit Copy(const GroundMesh& mesh)
-        : vertices(mesh.vertices.begin(), mesh.vertices.end())
-        , indices(mesh.indices.begin(), mesh.indices.end())
-        , triangles(mesh.counters.triangles)
-        , fans(mesh.counters.fans)
-        , resolution(mesh.resolution) {}
-
-    bool operator==(const Copy& other) const {
-        const auto same = [](const ColourVertex& a, const ColourVertex& b) {
-            return std::memcmp(&a, &b, sizeof(ColourVertex)) == 0;
-        };
-        return indices == other.indices && triangles == other.triangles && fans == other.fans &&
-               resolution == other.resolution &&
-               std::equal(
-                   vertices.begin(),
-                   vertices.end(),
-                   other.vertices.begin(),
-                   other.vertices.end(),
-                   same);
-    }
-
-    std::vector<ColourVertex> vertices;
-    std::vector<std::uint32_t> indices;
-    int triangles;
-    int fans;
-    double resolution;
-};
 
 /// Ground as of a real map, flown over low; steps of N are small against 3000 triangles.
 Ground wide_ground() {
@@ -53,17 +22,6 @@ Ground wide_ground() {
 }
 
 constexpr TriangleBudget wide_budget{3000, 500.0};
-
-/// On a circle over wide_ground.
-MeshView circling(int frame) {
-    const double angle = frame * 0.02;
-    return camera_view(
-        {70.0 * std::cos(angle), 70.0 * std::sin(angle), 15.0}, angle + 1.57, -0.2, 0.9);
-}
-
-MeshView into_the_sky() {
-    return camera_view({0.0, 0.0, 200.0}, 0.3, 1.2, 0.9);
-}
 
 } // namespace
 
@@ -116,10 +74,10 @@ TEST_CASE("the counted steps are those of the meshes, for all grounds, views and
                 0.0, numbers.between(0.0, 10.0), numbers.coin() ? FanKind::Partial : FanKind::Full};
             const TriangleBudget budget{
                 10 + static_cast<int>(numbers.next() % 1500), numbers.coin() ? 500.0 : 20.0};
-            const Copy got(ground.mesher.mesh_within(view, detail, budget));
+            const MeshCopy got(ground.mesher.mesh_within(view, detail, budget));
             detail.resolution = got.resolution;
             INFO("seed " << seed << ", case " << k);
-            REQUIRE(got == Copy(plain.mesh(view, detail)));
+            REQUIRE(got == MeshCopy(plain.mesh(view, detail)));
             const bool coarsest = got.resolution <= 1.000001 * ground.tree.options().min_resolution;
             REQUIRE((got.triangles <= budget.triangles || coarsest));
             within += coarsest ? 0 : 1;
@@ -145,9 +103,9 @@ TEST_CASE("a mesh within a budget does not depend on the meshes before") {
         const Detail detail{
             0.0, numbers.between(0.0, 20.0), numbers.coin() ? FanKind::Partial : FanKind::Full};
         Mesher fresh(ground.tree, ground.colours);
-        const Copy expected(fresh.mesh_within(view, detail, budget));
-        REQUIRE(Copy(ground.mesher.mesh_within(view, detail, budget)) == expected);
-        REQUIRE(Copy(ground.mesher.mesh_within(view, detail, budget)) == expected);
+        const MeshCopy expected(fresh.mesh_within(view, detail, budget));
+        REQUIRE(MeshCopy(ground.mesher.mesh_within(view, detail, budget)) == expected);
+        REQUIRE(MeshCopy(ground.mesher.mesh_within(view, detail, budget)) == expected);
     }
 }
 
@@ -183,9 +141,9 @@ TEST_CASE("a view that swings from ground to sky and back spends its budget at o
 TEST_CASE("a larger budget never coarsens the mesh") {
     Ground ground = wide_ground();
     const Detail detail{0.0, 20.0, FanKind::Partial};
-    Copy last(ground.mesher.mesh_within(circling(7), detail, {100, 500.0}));
+    MeshCopy last(ground.mesher.mesh_within(circling(7), detail, {100, 500.0}));
     for (int triangles = 150; triangles < 200000; triangles += triangles / 7) {
-        const Copy mesh(ground.mesher.mesh_within(circling(7), detail, {triangles, 500.0}));
+        const MeshCopy mesh(ground.mesher.mesh_within(circling(7), detail, {triangles, 500.0}));
         CHECK(mesh.resolution >= last.resolution);
         CHECK(mesh.triangles >= last.triangles);
         last = mesh;
@@ -197,7 +155,7 @@ TEST_CASE("a lens that magnifies spends the same budget at a smaller C") {
     Ground ground = wide_ground();
     const Detail detail{0.0, 20.0, FanKind::Partial};
     MeshView view = circling(3);
-    const Copy plain(ground.mesher.mesh_within(view, detail, wide_budget));
+    const MeshCopy plain(ground.mesher.mesh_within(view, detail, wide_budget));
     view.magnification = 2.0;
     const GroundMesh magnified = ground.mesher.mesh_within(view, detail, wide_budget);
     CHECK(magnified.counters.triangles == plain.triangles);

@@ -2,26 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include <algorithm>
-#include <cmath>
-
 using namespace octant::visuals::terrain;
 using namespace octant::visuals::terrain::test;
-
-namespace {
-
-/// On a circle over a ground of 257 by 257 samples.
-MeshView circling(int frame) {
-    const double angle = frame * 0.02;
-    return camera_view(
-        {70.0 * std::cos(angle), 70.0 * std::sin(angle), 15.0}, angle + 1.57, -0.2, 0.9);
-}
-
-MeshView into_the_sky() {
-    return camera_view({0.0, 0.0, 200.0}, 0.3, 1.2, 0.9);
-}
-
-} // namespace
 
 TEST_CASE("the steps counted by error are those of the meshes, for all grounds and views") {
     int within = 0;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace octant::visuals::terrain::test {
@@ -15,12 +14,6 @@ namespace {
 /// (b - a) x (c - a) in plan.
 double twice_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-template <typename Item>
-bool same_bytes(const std::vector<Item>& a, const std::vector<Item>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Item)) == 0);
 }
 
 } // namespace
@@ -80,20 +73,6 @@ std::vector<SampleTriangle> origin_triangles(
     std::sort(samples.begin(), samples.end());
     REQUIRE(std::adjacent_find(samples.begin(), samples.end()) == samples.end());
     return triangles;
-}
-
-MeshCopy::MeshCopy(const GroundMesh& mesh)
-    : vertices(mesh.vertices.begin(), mesh.vertices.end())
-    , origins(mesh.origins.begin(), mesh.origins.end())
-    , indices(mesh.indices.begin(), mesh.indices.end())
-    , triangles(mesh.counters.triangles)
-    , fans(mesh.counters.fans)
-    , error_px(mesh.error_px) {}
-
-bool MeshCopy::operator==(const MeshCopy& other) const {
-    return same_bytes(vertices, other.vertices) && same_bytes(origins, other.origins) &&
-           indices == other.indices && triangles == other.triangles && fans == other.fans &&
-           error_px == other.error_px;
 }
 
 std::vector<double>

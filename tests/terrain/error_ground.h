@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/height_field.h"
+#include "tests/terrain/both_meshes.h"
 #include "tests/terrain/ground_check.h"
 #include "visuals/terrain/error_mesher.h"
 #include "visuals/terrain/ground_builder.h"
@@ -39,19 +40,6 @@ double any_error_px(Numbers& numbers);
 /// not in plan where their samples are, or two at the same one.
 std::vector<SampleTriangle>
 origin_triangles(const GroundMesh& mesh, const models::HeightField& field, const glm::dvec3& eye_m);
-
-/// What a copy of a mesh is compared by.
-struct MeshCopy {
-    explicit MeshCopy(const GroundMesh& mesh);
-    bool operator==(const MeshCopy& other) const;
-
-    std::vector<models::ColourVertex> vertices;
-    std::vector<VertexOrigin> origins;
-    std::vector<std::uint32_t> indices;
-    int triangles;
-    int fans;
-    double error_px;
-};
 
 /// Height of the mesh as drawn above datum at every sample of the field, row after row; not a
 /// number where there is no triangle.

@@ -16,12 +16,7 @@ using octant::models::HeightField;
 
 namespace {
 
-struct Size {
-    int columns;
-    int rows;
-};
-
-constexpr std::array<Size, 12> sizes = {
+constexpr std::array<FieldSize, 12> sizes = {
     {{2, 2},
      {3, 3},
      {17, 17},
@@ -41,32 +36,6 @@ MeshView everywhere_from(const MeshView& view) {
     return everywhere;
 }
 
-std::array<glm::dvec3, 3> corners_of(const GroundMesh& mesh, std::size_t triangle) {
-    std::array<glm::dvec3, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        corners[k] = glm::dvec3(mesh.vertices[mesh.indices[3 * triangle + k]].position_m);
-    }
-    return corners;
-}
-
-/// Any of 21 points spread over a triangle is inside the frustum.
-bool reaches_into(const std::array<glm::dvec3, 3>& corners, const MeshView& view) {
-    constexpr int parts = 5;
-    for (int i = 0; i <= parts; ++i) {
-        for (int j = 0; i + j <= parts; ++j) {
-            const glm::dvec3 point = corners[0] + (corners[1] - corners[0]) * (1.0 * i / parts) +
-                                     (corners[2] - corners[0]) * (1.0 * j / parts);
-            if (std::all_of(
-                    view.frustum_normals.begin(),
-                    view.frustum_normals.end(),
-                    [&](const glm::dvec3& normal) { return glm::dot(normal, point) >= 0.0; })) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
-
 ErrorTarget any_target(Numbers& numbers) {
     return {
         any_error_px(numbers),
@@ -81,7 +50,7 @@ TEST_CASE("the unculled mesh by screen-space error covers the field once, edge t
     int cases = 0;
     for (std::uint64_t seed = 1; seed <= 360; ++seed) {
         Numbers numbers(seed);
-        const Size& size = sizes[seed % sizes.size()];
+        const FieldSize& size = sizes[seed % sizes.size()];
         ErrorGround ground(any_field(size.columns, size.rows, numbers));
         const auto samples = static_cast<std::size_t>(size.columns * size.rows);
         for (int look = 0; look < 4; ++look, ++cases) {
@@ -137,7 +106,7 @@ TEST_CASE("no sample is seen farther from the mesh than the error asked for") {
     double worst = 0.0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         Numbers numbers(seed);
-        const Size& size = sizes[seed % sizes.size()];
+        const FieldSize& size = sizes[seed % sizes.size()];
         ErrorGround ground(any_field(size.columns, size.rows, numbers));
         const MeshView view = everywhere_from(any_view(numbers, ground.field));
         const double error_px = any_error_px(numbers);
@@ -166,7 +135,7 @@ TEST_CASE("culling a mesh by screen-space error drops only what is not in sight"
     std::size_t kept = 0;
     for (std::uint64_t seed = 1; seed <= 400; ++seed) {
         Numbers numbers(seed);
-        const Size& size = sizes[2 + seed % (sizes.size() - 2)];
+        const FieldSize& size = sizes[2 + seed % (sizes.size() - 2)];
         ErrorGround ground(any_field(size.columns, size.rows, numbers));
         const MeshView view = any_view(numbers, ground.field);
         const MeshView everywhere = everywhere_from(view);
@@ -195,7 +164,7 @@ TEST_CASE("no triangle of a mesh by screen-space error hides one drawn after it"
     long triangles_seen = 0;
     for (std::uint64_t seed = 1; seed <= 250; ++seed) {
         Numbers numbers(seed);
-        const Size& size = sizes[seed % 10];
+        const FieldSize& size = sizes[seed % 10];
         ErrorGround ground(any_field(size.columns, size.rows, numbers));
         MeshView view = any_view(numbers, ground.field);
         if (numbers.coin()) { // on a sample, where lines between parts of nodes meet
@@ -223,37 +192,23 @@ TEST_CASE("the triangles of a mesh by screen-space error in a box are found in d
     long triangle_count = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         Numbers numbers(seed);
-        const Size& size = sizes[seed % sizes.size()];
+        const FieldSize& size = sizes[seed % sizes.size()];
         ErrorGround ground(any_field(size.columns, size.rows, numbers));
         const MeshView view = any_view(numbers, ground.field);
         const GroundMesh mesh = ground.mesher.mesh(view, any_target(numbers));
         const glm::dvec2 reach = ground.field.half_extent_m();
-        const glm::dvec3 middle_m(
-            numbers.between(-reach.x, reach.x),
-            numbers.between(-reach.y, reach.y),
-            numbers.between(-10.0, 10.0));
-        const glm::dvec3 half_m(
-            numbers.between(0.5, 8.0), numbers.between(0.5, 8.0), numbers.between(1.0, 20.0));
+        const SearchBox box{
+            {numbers.between(-reach.x, reach.x),
+             numbers.between(-reach.y, reach.y),
+             numbers.between(-10.0, 10.0)},
+            {numbers.between(0.5, 8.0), numbers.between(0.5, 8.0), numbers.between(1.0, 20.0)}};
         const auto meets = [&](const glm::dvec3& least_m, const glm::dvec3& most_m) {
-            const glm::dvec3 above = most_m - (middle_m - half_m);
-            const glm::dvec3 below = middle_m + half_m - least_m;
-            return std::min({above.x, above.y, above.z, below.x, below.y, below.z}) >= 0.0;
+            return box.meets(least_m, most_m);
         };
         std::vector<std::uint32_t> found;
         ground.mesher.triangles_in(meets, found);
         INFO("seed " << seed);
-        REQUIRE(
-            std::adjacent_find(found.begin(), found.end(), std::greater_equal<>()) == found.end());
-        for (std::uint32_t t = 0; 3 * t < mesh.indices.size(); ++t) {
-            const auto [a, b, c] = corners_of(mesh, t);
-            constexpr double rounding_m = 1e-3;
-            const glm::dvec3 least_m = glm::min(a, glm::min(b, c)) + view.eye_m + rounding_m;
-            const glm::dvec3 most_m = glm::max(a, glm::max(b, c)) + view.eye_m - rounding_m;
-            if (meets(least_m, most_m)) {
-                ++wanted_count;
-                REQUIRE(std::binary_search(found.begin(), found.end(), t));
-            }
-        }
+        wanted_count += checked_count_in(box, mesh, view.eye_m, found);
         found_count += static_cast<long>(found.size());
         triangle_count += mesh.counters.triangles;
     }

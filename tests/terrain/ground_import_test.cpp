@@ -118,6 +118,23 @@ TEST_CASE("fractions of a metre are imported as the field has them") {
     CHECK(same_ground(ground, ground_of(field)));
 }
 
+TEST_CASE("an imported map keeps its coordinate system as the field does") {
+    Made made;
+    made.field.place = models::GeoPlace{36.0, -112.0};
+    const path file = scratch("placed.tif");
+    models::write_height_field(file, made.field);
+    const models::HeightField field = models::read_height_field(file);
+    const GroundTiles ground = imported({file}, "placed.ground");
+    REQUIRE(field.system);
+    for (const auto& system : {ground.facts().system, ground_of(field).facts().system}) {
+        REQUIRE(system);
+        CHECK(system->wkt == field.system->wkt);
+        CHECK(system->centre_x == field.system->centre_x);
+        CHECK(system->centre_y == field.system->centre_y);
+        CHECK(system->unit_m == field.system->unit_m);
+    }
+}
+
 TEST_CASE("two files that overlap make the same ground as one") {
     const Made made;
     const path west = write_tiff("west.tif", {0, 170, 0, 200}, made);

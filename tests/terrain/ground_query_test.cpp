@@ -1,4 +1,5 @@
 #include "tests/terrain/ground_check.h"
+#include "visuals/terrain/earth_drop.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/mesh_surface.h"
 

@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -44,7 +46,7 @@ std::string content_of(const path& file) {
 }
 
 GroundHeader sound_header() {
-    return header_of({40, 30, 30.0, 7.0, 0x1p-12}, {"plain", {}, 0, 7.0F, 7.0F, 7.0F});
+    return header_of({40, 30, 30.0, 7.0, 0x1p-12}, {"plain", {}, {}, 0, 7.0F, 7.0F, 7.0F});
 }
 
 bool is_taken(const std::function<void(GroundHeader&)>& change) {
@@ -129,9 +131,46 @@ TEST_CASE("a header whose checksum is right but whose numbers are not believed i
             h.latitude_deg = latitude_deg;
         }));
     }
+    const auto with_unit = [](double unit_m) {
+        return [unit_m](GroundHeader& h) {
+            h.system.wkt_length = 1;
+            h.system.unit_m = unit_m;
+        };
+    };
+    CHECK(is_taken(with_unit(0.3048)));
+    CHECK_FALSE(is_taken(with_unit(0.0)));
+    CHECK_FALSE(is_taken(with_unit(no_number)));
+    CHECK_FALSE(is_taken([](GroundHeader& h) { h.system.centre_x = no_number; }));
+    CHECK_FALSE(is_taken([](GroundHeader& h) { h.system.wkt_length = 5000; }));
     CHECK_FALSE(is_taken([](GroundHeader& h) { h.lowest_m = endless; }));
     CHECK_FALSE(is_taken([](GroundHeader& h) { h.highest_m = endless; }));
     CHECK_FALSE(is_taken([](GroundHeader& h) { h.mean_m = -endless; }));
+}
+
+TEST_CASE("a header keeps the coordinate system, and one of the first version has none") {
+    GroundFacts facts;
+    facts.system = models::MapSystem{"LOCAL_CS[\"plan\"]", 12.5, -7.0, 0.3048};
+    const GroundHeader header = header_of({40, 30, 30.0, 7.0, 1.0}, facts);
+    const GroundFacts kept = facts_of(read_header("header", page_of(header)));
+    REQUIRE(kept.system);
+    CHECK(kept.system->wkt == facts.system->wkt);
+    CHECK(kept.system->centre_x == 12.5);
+    CHECK(kept.system->centre_y == -7.0);
+    CHECK(kept.system->unit_m == 0.3048);
+    auto spoilt = page_of(header);
+    spoilt[offsetof(GroundHeader, system)] ^= std::byte{1};
+    CHECK_THROWS_WITH(read_header("header", spoilt), Contains("damaged"));
+
+    GroundHeader first = header;
+    first.version = 1;
+    auto page = page_of(first);
+    std::fill(page.begin() + offsetof(GroundHeader, system), page.end(), std::byte{0});
+    CHECK_FALSE(facts_of(read_header("header", page)).system);
+    first.version = 3;
+    CHECK_THROWS_WITH(read_header("header", page_of(first)), Contains("got version 3"));
+
+    facts.system->wkt.assign(4000, 'x');
+    CHECK_FALSE(facts_of(header_of({40, 30, 30.0, 7.0, 1.0}, facts)).system);
 }
 
 TEST_CASE("a name is cut between characters and read as UTF-8 without control characters") {

@@ -1,3 +1,4 @@
+#include "tests/terrain/both_meshes.h"
 #include "tests/terrain/ground_check.h"
 #include "visuals/terrain/mesher.h"
 
@@ -17,12 +18,7 @@ using octant::models::HeightField;
 
 namespace {
 
-struct Size {
-    int columns;
-    int rows;
-};
-
-HeightField random_field(const Size& size, Numbers& numbers) {
+HeightField random_field(const FieldSize& size, Numbers& numbers) {
     switch (numbers.next() % 4) {
     case 0:
         return level_field(size.columns, size.rows);
@@ -85,7 +81,7 @@ GroundMesh random_mesh(Mesher& mesher, const MeshView& view, Numbers& numbers) {
     return numbers.coin() ? mesher.mesh(view, detail) : mesher.mesh_within(view, detail, budget);
 }
 
-constexpr std::array<Size, 10> sizes = {
+constexpr std::array<FieldSize, 10> sizes = {
     {{2, 2}, {3, 3}, {17, 17}, {33, 33}, {37, 53}, {53, 37}, {20, 6}, {5, 41}, {34, 18}, {40, 64}}};
 
 } // namespace
@@ -161,37 +157,18 @@ TEST_CASE("the triangles in a box are found in drawing order, few others with th
         MeshView view = random_look(numbers, ground.field);
         view.order = numbers.coin() ? PaintOrder::BackToFront : PaintOrder::FrontToBack;
         const GroundMesh mesh = random_mesh(ground.mesher, view, numbers);
-        const glm::dvec3 middle_m = random_eye(numbers, ground.field);
-        const glm::dvec3 half_m(
-            numbers.between(0.5, 8.0), numbers.between(0.5, 8.0), numbers.between(1.0, 30.0));
+        const SearchBox box{
+            random_eye(numbers, ground.field),
+            {numbers.between(0.5, 8.0), numbers.between(0.5, 8.0), numbers.between(1.0, 30.0)}};
         const auto meets = [&](const glm::dvec3& least_m, const glm::dvec3& most_m) {
-            const glm::dvec3 above = most_m - (middle_m - half_m);
-            const glm::dvec3 below = middle_m + half_m - least_m;
-            return std::min({above.x, above.y, above.z, below.x, below.y, below.z}) >= 0.0;
+            return box.meets(least_m, most_m);
         };
         std::vector<std::uint32_t> found = {7};
         ground.mesher.triangles_in(meets, found);
         REQUIRE(found.front() == 7);
         found.erase(found.begin());
         INFO("seed " << seed);
-        REQUIRE(
-            std::adjacent_find(found.begin(), found.end(), std::greater_equal<>()) == found.end());
-        REQUIRE((found.empty() || 3 * found.back() < mesh.indices.size()));
-        for (std::uint32_t t = 0; 3 * t < mesh.indices.size(); ++t) {
-            glm::dvec3 least_m(1e9);
-            glm::dvec3 most_m(-1e9);
-            for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
-                const glm::dvec3 corner_m =
-                    glm::dvec3(mesh.vertices[mesh.indices[k]].position_m) + view.eye_m;
-                least_m = glm::min(least_m, corner_m);
-                most_m = glm::max(most_m, corner_m);
-            }
-            constexpr double rounding_m = 1e-4; // positions are floats
-            if (meets(least_m + rounding_m, most_m - rounding_m)) {
-                ++wanted_count;
-                REQUIRE(std::binary_search(found.begin(), found.end(), t));
-            }
-        }
+        wanted_count += checked_count_in(box, mesh, view.eye_m, found);
         found_count += static_cast<long>(found.size());
         triangle_count += mesh.counters.triangles;
     }

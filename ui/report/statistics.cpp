@@ -1,5 +1,7 @@
 #include "ui/report/statistics.h"
 
+#include "sim/base/nearest_rank.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -126,11 +128,6 @@ double mean_change(std::span<const double> values) {
         sum += std::abs(values[i] - values[i - 1]);
     }
     return sum / static_cast<double>(values.size() - 1);
-}
-
-/// ceil(count * permille / 1000) in whole numbers, so that no rounding moves a rank.
-std::size_t rank_of(std::size_t count, int permille) {
-    return (count * static_cast<std::size_t>(permille) + 999) / 1000;
 }
 
 double low_fps(std::span<const double> sorted, int permille) {

@@ -48,8 +48,7 @@ Settings dragged(const Settings& settings, const glm::vec2& share_of_height) {
     const double slower = goes_around(settings.view) ? 1.0 : 1.0 / std::max(settings.zoom, 1.0);
     const double sense = goes_around(settings.view) ? 1.0 : -1.0;
     changed.azimuth_deg = wrapped_deg(
-        settings.azimuth_deg +
-        sense * slower * drag_deg * static_cast<double>(share_of_height.x));
+        settings.azimuth_deg + sense * slower * drag_deg * static_cast<double>(share_of_height.x));
     changed.elevation_deg = std::clamp(
         settings.elevation_deg + slower * drag_deg * static_cast<double>(share_of_height.y),
         -steepest_deg,
@@ -81,8 +80,7 @@ Settings with_view(const Settings& settings, View view, const scene::Camera& cam
     changed.look_m.reset();
     if (view == View::Free) {
         changed.eye_m = camera.eye_m;
-        changed.look_m =
-            camera.eye_m + camera.view_to_world * glm::dvec3(0.0, 0.0, -look_ahead_m);
+        changed.look_m = camera.eye_m + camera.view_to_world * glm::dvec3(0.0, 0.0, -look_ahead_m);
     }
     return changed;
 }
@@ -94,10 +92,10 @@ Settings moved(const Settings& settings, const FreeMove& move, double wall_s) {
     }
     const glm::dvec3 ahead = ahead_of(settings);
     const glm::dvec3 right = glm::normalize(glm::dvec3(ahead.y, -ahead.x, 0.0));
-    const glm::dvec3 way_m = wall_s * move_mps * (move.fast ? fast_factor : 1.0) *
-                             (static_cast<double>(move.ahead) * ahead +
-                              static_cast<double>(move.right) * right +
-                              static_cast<double>(move.up) * glm::dvec3(0.0, 0.0, 1.0));
+    const glm::dvec3 way_m =
+        wall_s * move_mps * (move.fast ? fast_factor : 1.0) *
+        (static_cast<double>(move.ahead) * ahead + static_cast<double>(move.right) * right +
+         static_cast<double>(move.up) * glm::dvec3(0.0, 0.0, 1.0));
     Settings changed = settings;
     *changed.eye_m += way_m;
     *changed.look_m += way_m;

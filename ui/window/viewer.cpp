@@ -59,8 +59,7 @@ Viewer::Viewer(const ViewOptions& options)
         make_folder(options.keeps_into);
         state_.open.first_steps = !fs::exists(layout_file(options.keeps_into));
     }
-    gui_.emplace(
-        context_->window(), context_->functions(), layout_file(options.keeps_into));
+    gui_.emplace(context_->window(), context_->functions(), layout_file(options.keeps_into));
     refresh_hz_ = refresh_hz_of(glfwGetPrimaryMonitor());
     state_.wanted = settings;
     state_.vsync = options.vsync;
@@ -76,16 +75,18 @@ Viewer::Viewer(const ViewOptions& options)
     for (const std::string& note : session_->world().notes) {
         say(note);
     }
+    if (options.record) {
+        session_->simulation().advance_to(session_->simulation().time_s());
+        start_recording(*options.record);
+    }
     clock_ = Stopwatch();
 }
 
 Viewer::~Viewer() {
-    if (recording_) {
-        try {
-            recording_->finish(*session_);
-        } catch (const Error&) {
-            // The frames so far are on the disk; octant report makes the rest of them.
-        }
+    try {
+        finish_recording();
+    } catch (const Error&) {
+        // The frames so far are on the disk: octant report makes the rest of them.
     }
 }
 
@@ -168,12 +169,20 @@ void Viewer::move_free_camera(double wall_s) {
     state_.wanted = moved(state_.wanted, move, wall_s);
 }
 
+void Viewer::fly_by_hand(double wall_s) {
+    Simulation& simulation = session_->simulation();
+    if (!simulation.by_hand()) {
+        return;
+    }
+    simulation.set_controls(controls_after(simulation.controls(), input_->pilot_devices(), wall_s));
+}
+
 void Viewer::apply_wanted() {
     if (state_.wanted == session_->settings()) {
         return;
     }
-    const bool other_flight = change_between(session_->settings(), state_.wanted) ==
-                              SettingsChange::World;
+    const bool other_flight =
+        change_between(session_->settings(), state_.wanted) == SettingsChange::World;
     try {
         if (other_flight && recording_) {
             throw Error("a recording keeps its aircraft, path and ground: stop it first (F9)");

@@ -23,7 +23,8 @@ struct ViewOptions {
     bool full_screen = false;
     bool vsync = true; ///< false: as fast as it can
     bool panels = true;
-    bool by_hand = false;               ///< from the beginning on, level and in trim
+    bool by_hand = false;                        ///< from the beginning on, level and in trim
+    std::optional<std::filesystem::path> record; ///< from the first frame on
     std::filesystem::path records_into; ///< folder in which recordings and pictures get folders
     /// The user's own folder for the layout of panels and the mark that the first steps were shown;
     /// empty = nothing is kept.
@@ -46,6 +47,9 @@ public:
     /// to be closed. Throws Error (driver, disk full).
     bool turn();
 
+    /// Ends the recording, where there is one, and says where its report is. Throws Error.
+    std::optional<std::string> finish_recording();
+
     Session& session() { return *session_; }
 
     ViewState& state() { return state_; }
@@ -65,6 +69,7 @@ private:
     void toggle_hand();
     void go_to(double time_s);
     void toggle_recording();
+    void start_recording(const std::filesystem::path& folder);
     void take_screenshot();
     void toggle_full_screen();
     void apply_wanted();
@@ -80,14 +85,13 @@ private:
     std::optional<WindowInput> input_;
     std::optional<Gui> gui_;
     ViewState state_;
-    PilotInput pilot_;
     std::optional<WindowRecording> recording_;
     Stopwatch clock_;
     double last_turn_s_ = 0.0;
-    double shown_s_ = 0.0;      ///< simulated time of the next picture
-    double input_s_ = 0.0;      ///< when the input of the picture after it was read
+    double shown_s_ = 0.0;       ///< simulated time of the next picture
+    double input_s_ = 0.0;       ///< when the input of the picture after it was read
     double shown_input_s_ = 0.0; ///< when the input of the next picture was read
-    double presented_s_ = 0.0;  ///< when the last picture was shown
+    double presented_s_ = 0.0;   ///< when the last picture was shown
     double refresh_hz_ = 60.0;
     glm::ivec2 windowed_at_{0}; ///< place and size before full screen
     glm::ivec2 windowed_size_{0};

@@ -134,8 +134,8 @@ void Viewer::command(ViewCommand what) {
 }
 
 void Viewer::take_requests() {
-    const ViewRequests requests =
-        std::exchange(state_.requests, {.leave = state_.requests.leave});
+    const ViewRequests requests = std::exchange(state_.requests, ViewRequests());
+    state_.requests.leave = requests.leave;
     take_flight_requests(requests);
     if (requests.toggle_recording) {
         toggle_recording();
@@ -199,7 +199,6 @@ void Viewer::toggle_hand() {
     if (!simulation.by_hand()) {
         simulation.advance_to(simulation.time_s());
         simulation.take_over(session_->settings().aircraft.front());
-        pilot_ = {};
         state_.playback.playing = true;
         say("by hand: arrows fly, Page Up and Page Down are the throttle, H gives it back");
         return;
@@ -217,17 +216,28 @@ fs::path Viewer::unused_path(const std::string& stem, const std::string& ending)
     }
 }
 
+void Viewer::start_recording(const fs::path& folder) {
+    recording_.emplace(folder, *session_);
+    state_.recording = recording_->folder();
+    say(fmt::format("recording into {}", folder.string()));
+}
+
+std::optional<std::string> Viewer::finish_recording() {
+    if (!recording_) {
+        return std::nullopt;
+    }
+    const std::string line = recording_->finish(*session_);
+    recording_.reset();
+    state_.recording.reset();
+    return line;
+}
+
 void Viewer::toggle_recording() {
     try {
-        if (recording_) {
-            const std::string line = recording_->finish(*session_);
-            recording_.reset();
-            state_.recording.reset();
-            say(line);
+        if (const auto report = finish_recording()) {
+            say(*report);
         } else {
-            recording_.emplace(unused_path("flight", ""), *session_);
-            state_.recording = recording_->folder();
-            say(fmt::format("recording into {}", recording_->folder().string()));
+            start_recording(unused_path("flight", ""));
         }
     } catch (const Error& fault) {
         recording_.reset();

@@ -3,6 +3,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace octant::ui {
@@ -48,6 +49,35 @@ WindowEvents WindowInput::take() {
 
 bool WindowInput::is_down(int key) const {
     return glfwGetKey(window_, key) == GLFW_PRESS;
+}
+
+PilotDevices WindowInput::pilot_devices() const {
+    PilotDevices devices;
+    devices.keys = {
+        .pull = is_down(GLFW_KEY_DOWN),
+        .push = is_down(GLFW_KEY_UP),
+        .roll_left = is_down(GLFW_KEY_LEFT),
+        .roll_right = is_down(GLFW_KEY_RIGHT),
+        .yaw_left = is_down(GLFW_KEY_Z),
+        .yaw_right = is_down(GLFW_KEY_X),
+        .throttle_up = is_down(GLFW_KEY_PAGE_UP),
+        .throttle_down = is_down(GLFW_KEY_PAGE_DOWN)};
+    for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
+        GLFWgamepadstate gamepad;
+        if (!devices.gamepad && glfwGetGamepadState(id, &gamepad) == GLFW_TRUE) {
+            devices.gamepad.emplace();
+            std::ranges::copy(gamepad.axes, devices.gamepad->axes.begin());
+            std::ranges::copy(gamepad.buttons, devices.gamepad->buttons.begin());
+        } else if (!devices.joystick && glfwJoystickPresent(id) == GLFW_TRUE) {
+            int axes = 0;
+            const float* const values = glfwGetJoystickAxes(id, &axes);
+            devices.joystick.emplace();
+            devices.joystick->axis_count =
+                std::min(axes, static_cast<int>(devices.joystick->axes.size()));
+            std::copy_n(values, devices.joystick->axis_count, devices.joystick->axes.begin());
+        }
+    }
+    return devices;
 }
 
 glm::ivec2 WindowInput::size_px() const {

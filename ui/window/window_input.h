@@ -1,5 +1,7 @@
 #pragma once
 
+#include "ui/window/pilot_input.h"
+
 #include <glm/vec2.hpp>
 
 #include <vector>
@@ -30,6 +32,9 @@ public:
     WindowEvents take();
 
     bool is_down(int key) const;
+
+    /// What a pilot holds: keys, and the first gamepad or joystick.
+    PilotDevices pilot_devices() const;
 
     /// Size of the window's picture in pixels, 0 while it is minimised, and in its own units.
     glm::ivec2 size_px() const;

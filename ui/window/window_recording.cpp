@@ -30,8 +30,7 @@ from_step(const Session& session, long step, const std::filesystem::path& folder
     settings.context = scene::ContextKind::OsMesa;
     settings.frames.reset();
     settings.seconds.reset();
-    settings.start_s =
-        sim::time_of_step(step) - session.world().flight.trajectory.start_s();
+    settings.start_s = sim::time_of_step(step) - session.world().flight.trajectory.start_s();
     if (by_hand) {
         settings.path = std::filesystem::absolute(folder / flight_name).string();
         settings.place = "0,0";
@@ -62,8 +61,7 @@ WindowRecording::WindowRecording(std::filesystem::path folder, Session& session)
     : first_step_(session.simulation().step())
     , recording_(
           folder,
-          info_of(
-              session, from_step(session, first_step_, folder, session.simulation().by_hand())))
+          info_of(session, from_step(session, first_step_, folder, session.simulation().by_hand())))
     , by_hand_(session.simulation().by_hand())
     , last_time_s_(sim::time_of_step(first_step_))
     , next_picture_s_(last_time_s_) {

@@ -41,6 +41,7 @@ void DrawState::begin_picture() {
     gl_.cull_face(GL_BACK);
     gl_.provoking_vertex(GL_FIRST_VERTEX_CONVENTION);
     gl_.disable(GL_DITHER);
+    gl_.disable(GL_BLEND);
     gl_.depth_mask(GL_TRUE);
     draw_calls_ = 0;
 }
@@ -69,6 +70,16 @@ void DrawState::cull_back_faces(bool cull) {
         gl_.enable(GL_CULL_FACE);
     } else {
         gl_.disable(GL_CULL_FACE);
+    }
+}
+
+void DrawState::blend(bool by_alpha) {
+    if (by_alpha) {
+        gl_.enable(GL_BLEND);
+        gl_.blend_func_separate(
+            GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    } else {
+        gl_.disable(GL_BLEND);
     }
 }
 

@@ -38,6 +38,10 @@ public:
     void use_depth(Depth depth);
     void cull_back_faces(bool cull);
 
+    /// Whether what is drawn covers the picture by its alpha only; the picture's own alpha stays
+    /// that of the whole.
+    void blend(bool by_alpha);
+
     /// Takes the program of the pair that fits; no clip = not cut.
     void use_program(const ProgramPair& programs, const scene::Clip* clip = nullptr);
 

@@ -63,7 +63,8 @@ void PanelPainter::begin(const PanelSurface& surface) {
     gl_.disable(GL_DEPTH_TEST);
     gl_.disable(GL_CULL_FACE);
     gl_.enable(GL_BLEND);
-    gl_.blend_func(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    gl_.blend_func_separate(
+        GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl_.enable(GL_SCISSOR_TEST);
     gl_.use_program(program_.name());
     const glm::vec4 window(2.0F / surface.size.x, -2.0F / surface.size.y, 0.0F, 0.0F);

@@ -62,7 +62,8 @@ Renderer::Renderer(const Functions& gl, int width, int height, int samples)
     , picture_values_(gl, sizeof(PictureValues))
     , state_(gl)
     , triangles_(gl, state_)
-    , aircraft_(gl, state_) {}
+    , aircraft_(gl, state_)
+    , overlay_(gl, state_) {}
 
 void Renderer::resize(const glm::ivec2& size_px, int samples) {
     if (framebuffer_.fits(size_px, samples)) {
@@ -91,6 +92,7 @@ void Renderer::draw(const FramePlan& plan) {
     } else {
         paint(plan);
     }
+    overlay_.draw(plan.overlay, framebuffer_.width(), framebuffer_.height());
 }
 
 void Renderer::begin(const FramePlan& plan) {
@@ -181,6 +183,9 @@ void Renderer::warm_up() {
     plan.clips.push_back({{glm::vec4(1.0F, 0.0F, 0.0F, 0.0F)}, 1});
     plan.steps = {
         {PaintStep::What::Ground, 0, 3, PaintStep::whole}, {PaintStep::What::Ground, 0, 3, 0}};
+    const std::array<scene::OverlayVertex, 3> overlay_corners{
+        {{{0.0F, 0.0F}, 0U}, {{4.0F, 0.0F}, 0U}, {{0.0F, 4.0F}, 0U}}};
+    plan.overlay = {overlay_corners, triangle};
     aircraft_.add_any(plan);
     const auto aircraft = static_cast<std::uint32_t>(plan.aircraft.size());
     plan.steps.push_back({PaintStep::What::Aircraft, 0, aircraft, PaintStep::whole});

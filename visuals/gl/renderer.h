@@ -3,6 +3,7 @@
 #include "visuals/gl/aircraft_painter.h"
 #include "visuals/gl/draw_state.h"
 #include "visuals/gl/framebuffer.h"
+#include "visuals/gl/overlay_painter.h"
 #include "visuals/gl/picture.h"
 #include "visuals/gl/stream_buffer.h"
 #include "visuals/gl/triangle_painter.h"
@@ -29,6 +30,7 @@ struct PixelRect {
 /// With HiddenSurface::DepthBuffer hidden surfaces are removed by a 32-bit float depth buffer and
 /// FramePlan::steps are not looked at: all aircraft in their order, ground, shadows, sky. Else
 /// sky, ground and steps are painted, each over what is there, and no depth buffer is attached.
+/// FramePlan::overlay comes last.
 ///
 /// Colours are display values from input to picture: nothing is converted. Back faces of
 /// aircraft are not drawn. Those of the ground are: the plan has left them out but for triangles
@@ -87,6 +89,7 @@ private:
     DrawState state_;
     TrianglePainter triangles_;
     AircraftPainter aircraft_;
+    OverlayPainter overlay_;
 };
 
 } // namespace octant::visuals::gl

@@ -12,5 +12,7 @@ extern const char* const smooth_frag;
 extern const char* const flat_frag;
 extern const char* const panel_vert;
 extern const char* const panel_frag;
+extern const char* const overlay_vert;
+extern const char* const overlay_frag;
 
 } // namespace octant::visuals::gl

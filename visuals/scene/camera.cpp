@@ -38,6 +38,10 @@ glm::mat4 view_to_clip(const Camera& camera, double aspect) {
     return clip;
 }
 
+double focal_px(const Camera& camera, int picture_height_px) {
+    return picture_height_px / (2.0 * std::tan(camera.vertical_fov_rad / 2.0));
+}
+
 std::array<glm::dvec3, 4> frustum_normals(const Camera& camera, double aspect) {
     const double half_height = std::tan(camera.vertical_fov_rad / 2.0); // at distance 1
     const double half_width = half_height * aspect;

@@ -28,6 +28,9 @@ glm::mat4 world_to_view(const Camera& camera);
 /// clip depth 0..1. `aspect` = width / height.
 glm::mat4 view_to_clip(const Camera& camera, double aspect);
 
+/// Pixels that a metre covers one metre before the eye, in the middle of the picture.
+double focal_px(const Camera& camera, int picture_height_px);
+
 /// Planes of the view frustum through the eye, eye-relative world axes, unit normals pointing
 /// inside: left, right, bottom, top. A point is inside when every dot product is >= 0.
 std::array<glm::dvec3, 4> frustum_normals(const Camera& camera, double aspect);

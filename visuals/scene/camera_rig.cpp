@@ -34,6 +34,8 @@ constexpr double tower_least_fov_rad = rad_from_deg(0.7);
 constexpr double tower_lowered =
     0.3; ///< of the picture's height that the aircraft may stand above its middle
 constexpr double tower_height_m = 25.0;
+constexpr double steepest_rad = rad_from_deg(89.0); ///< of an eye or a look that is turned
+constexpr double widest_rad = rad_from_deg(160.0);  ///< field of view
 
 void lift_above_ground(glm::dvec3& eye_m, const GroundHeight& ground) {
     if (const auto height_m = ground(eye_m.x, eye_m.y)) {
@@ -41,17 +43,68 @@ void lift_above_ground(glm::dvec3& eye_m, const GroundHeight& ground) {
     }
 }
 
+/// How far a view is turned and how near it is; 0, 0, 1 = the view itself.
+struct Turn {
+    double azimuth_rad = 0.0; ///< clockwise seen from above
+    double elevation_rad = 0.0;
+    double zoom = 1.0;
+};
+
+Turn turn_of(const Settings& settings) {
+    return {
+        rad_from_deg(settings.azimuth_deg), rad_from_deg(settings.elevation_deg), settings.zoom};
+}
+
+bool is_turned(const Turn& turn) {
+    return turn.azimuth_rad != 0.0 || turn.elevation_rad != 0.0;
+}
+
+double elevation_of(const glm::dvec3& direction) {
+    return std::asin(std::clamp(direction.z / glm::length(direction), -1.0, 1.0));
+}
+
+/// What `elevation_rad` may change by.
+double change_of_elevation(double elevation_rad, double wanted_rad) {
+    return std::clamp(elevation_rad + wanted_rad, -steepest_rad, steepest_rad) - elevation_rad;
+}
+
+double nearer_m(double distance_m, double zoom, const Subject& subject) {
+    return std::max(distance_m / zoom, std::min(distance_m, subject.radius_m));
+}
+
+/// Rotation of the world that takes an eye, `from_aircraft` off, around the aircraft.
+glm::dquat around_aircraft(const glm::dvec3& from_aircraft, const Turn& turn) {
+    const glm::dvec3 up(0.0, 0.0, 1.0);
+    const glm::dquat sideways = glm::angleAxis(-turn.azimuth_rad, up);
+    const glm::dvec3 outward = sideways * from_aircraft;
+    const glm::dvec3 level_right = glm::cross(outward, up);
+    const double size = glm::length(level_right);
+    if (size < 1e-9) {
+        return sideways;
+    }
+    const double rise_rad = change_of_elevation(elevation_of(outward), turn.elevation_rad);
+    return glm::angleAxis(rise_rad, level_right / size) * sideways;
+}
+
 Camera chase(
     const sim::AircraftState& state,
     const RigMemory& memory,
     const Subject& subject,
+    const Turn& turn,
     const GroundHeight& ground) {
-    const double distance_m = chase_distance_radii * subject.radius_m;
+    const double usual_m = chase_distance_radii * subject.radius_m;
+    const double distance_m = nearer_m(usual_m, turn.zoom, subject);
     glm::dvec3 eye_m = state.position_m - distance_m * memory.lagging_forward;
     eye_m.z += chase_rise * distance_m;
+    glm::dvec3 target_m =
+        state.position_m + 0.5 * subject.radius_m * (distance_m / usual_m) * memory.lagging_forward;
+    if (is_turned(turn)) {
+        const glm::dquat around = around_aircraft(eye_m - state.position_m, turn);
+        eye_m = state.position_m + around * (eye_m - state.position_m);
+        target_m = state.position_m + around * (target_m - state.position_m);
+    }
     lift_above_ground(eye_m, ground);
-    return camera_looking_at(
-        eye_m, state.position_m + 0.5 * subject.radius_m * memory.lagging_forward);
+    return camera_looking_at(eye_m, target_m);
 }
 
 Camera
@@ -95,16 +148,44 @@ Camera tower(const sim::AircraftState& state, const Subject& subject, const glm:
     return camera;
 }
 
-Camera orbit(const sim::AircraftState& state, const Subject& subject, const GroundHeight& ground) {
-    const double azimuth_rad = 2.0 * pi * state.time_s / orbit_turn_s;
+Camera orbit(
+    const sim::AircraftState& state,
+    const Subject& subject,
+    const Turn& turn,
+    const GroundHeight& ground) {
+    const double azimuth_rad = 2.0 * pi * state.time_s / orbit_turn_s + turn.azimuth_rad;
+    const double swing_rad = orbit_swing_rad * std::sin(2.0 * pi * state.time_s / orbit_swing_s);
     const double elevation_rad =
-        orbit_swing_rad * std::sin(2.0 * pi * state.time_s / orbit_swing_s);
+        std::clamp(swing_rad + turn.elevation_rad, -steepest_rad, steepest_rad);
+    const double distance_m = nearer_m(orbit_distance_radii * subject.radius_m, turn.zoom, subject);
     const glm::dvec3 level = direction_from_heading(azimuth_rad);
     const glm::dvec3 outward =
         std::cos(elevation_rad) * level + glm::dvec3(0.0, 0.0, std::sin(elevation_rad));
-    glm::dvec3 eye_m = state.position_m + orbit_distance_radii * subject.radius_m * outward;
+    glm::dvec3 eye_m = state.position_m + distance_m * outward;
     lift_above_ground(eye_m, ground);
     return camera_looking_at(eye_m, state.position_m);
+}
+
+/// In the cockpit about the aircraft's own axes, elsewhere about the vertical.
+void turn_look(Camera& camera, View view, const Turn& turn) {
+    if (is_turned(turn)) {
+        const glm::dvec3 right(1, 0, 0);
+        if (view == View::Cockpit) {
+            camera.view_to_world = camera.view_to_world *
+                                   glm::angleAxis(-turn.azimuth_rad, glm::dvec3(0, 1, 0)) *
+                                   glm::angleAxis(turn.elevation_rad, right);
+        } else {
+            const glm::dvec3 ahead = camera.view_to_world * glm::dvec3(0, 0, -1);
+            const double rise_rad = change_of_elevation(elevation_of(ahead), turn.elevation_rad);
+            camera.view_to_world = glm::angleAxis(-turn.azimuth_rad, glm::dvec3(0, 0, 1)) *
+                                   camera.view_to_world * glm::angleAxis(rise_rad, right);
+        }
+        camera.view_to_world = glm::normalize(camera.view_to_world);
+    }
+    if (turn.zoom != 1.0) {
+        camera.vertical_fov_rad = std::min(
+            2.0 * std::atan(std::tan(0.5 * camera.vertical_fov_rad) / turn.zoom), widest_rad);
+    }
 }
 
 bool in_sight(const glm::dvec3& eye_m, const glm::dvec3& target_m, const GroundHeight& ground) {
@@ -140,6 +221,7 @@ Camera camera_of(
     const Subject& subject,
     const FixedPoints& points,
     const GroundHeight& ground) {
+    const Turn turn = turn_of(settings);
     const auto with_fov = [&](Camera camera) {
         camera.vertical_fov_rad = rad_from_deg(settings.fov_deg.value_or(usual_fov_deg));
         return camera;
@@ -148,21 +230,25 @@ Camera camera_of(
         lift_above_ground(eye_m, ground);
         return eye_m;
     };
+    const auto turned = [&](Camera camera) {
+        turn_look(camera, settings.view, turn);
+        return camera;
+    };
     switch (settings.view) {
     case View::Chase:
-        return with_fov(chase(state, memory, subject, ground));
+        return with_fov(chase(state, memory, subject, turn, ground));
     case View::Cockpit:
-        return with_fov(cockpit(state, subject, ground));
+        return turned(with_fov(cockpit(state, subject, ground)));
     case View::Tower:
-        return settings.fov_deg
-                   ? with_fov(camera_looking_at(lifted(points.tower_m), state.position_m))
-                   : tower(state, subject, lifted(points.tower_m));
+        return turned(
+            settings.fov_deg ? with_fov(camera_looking_at(lifted(points.tower_m), state.position_m))
+                             : tower(state, subject, lifted(points.tower_m)));
     case View::Orbit:
-        return with_fov(orbit(state, subject, ground));
+        return with_fov(orbit(state, subject, turn, ground));
     case View::Free:
         break;
     }
-    return with_fov(camera_looking_at(lifted(points.free_eye_m), points.free_look_m));
+    return turned(with_fov(camera_looking_at(lifted(points.free_eye_m), points.free_look_m)));
 }
 
 glm::dvec3 tower_place(

@@ -34,8 +34,10 @@ struct RigMemory {
 /// Memory after one simulation step of the aircraft that is followed.
 RigMemory advanced(const RigMemory& memory, const sim::AircraftState& state);
 
-/// The camera of a view at the state's time. The eye is lifted where it would be below the ground
-/// or within 2 m of it.
+/// The camera of a view at the state's time, turned and moved nearer as the settings say: the eye
+/// around the aircraft (chase, orbit; no nearer than the sphere around it), else the look. Neither
+/// is turned past straight up or down. The eye is lifted where it would be below the ground or
+/// within 2 m of it.
 Camera camera_of(
     const Settings& settings,
     const sim::AircraftState& state,

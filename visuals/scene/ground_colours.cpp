@@ -3,29 +3,43 @@
 #include "models/colour_vertex.h"
 #include "visuals/scene/ground_palette.h"
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
 #include <array>
 
 namespace octant::visuals::scene {
 
-GroundPoint ground_point(const models::HeightField& field, int column, int row) {
-    const auto spacing_m = static_cast<float>(field.spacing_m());
+GroundPoint ground_point(const terrain::GroundSamples& ground, int column, int row, int step) {
+    const int west = std::max(column - step, 0);
+    const int east = std::min(column + step, ground.columns() - 1);
+    const int south = std::max(row - step, 0);
+    const int north = std::min(row + step, ground.rows() - 1);
+    const double rise_east = ground.height_m(east, row) - ground.height_m(west, row);
+    const double rise_north = ground.height_m(column, north) - ground.height_m(column, south);
+    const glm::dvec3 normal(
+        -rise_east / ((east - west) * ground.spacing_m()),
+        -rise_north / ((north - south) * ground.spacing_m()),
+        1.0);
+    const auto spacing_m = static_cast<float>(ground.spacing_m());
     return {
         spacing_m * static_cast<float>(column),
         spacing_m * static_cast<float>(row),
-        field.height_m(column, row),
-        field.normal_at_sample(column, row)};
+        static_cast<float>(ground.height_m(column, row)),
+        glm::vec3(glm::normalize(normal))};
 }
 
 std::vector<std::uint32_t>
 ground_colours(const models::HeightField& field, const Settings& settings) {
     const GroundPalette palette(settings);
+    const terrain::GroundSamples ground(field);
     const auto spacing_m = static_cast<float>(field.spacing_m());
     std::vector<std::uint32_t> colours;
     colours.reserve(
         static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()));
     for (int row = 0; row < field.rows(); ++row) {
         for (int column = 0; column < field.columns(); ++column) {
-            const GroundPoint point = ground_point(field, column, row);
+            const GroundPoint point = ground_point(ground, column, row, 1);
             colours.push_back(models::packed_colour(palette.lit(point, spacing_m)));
         }
     }

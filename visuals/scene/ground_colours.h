@@ -3,6 +3,7 @@
 #include "models/height_field.h"
 #include "visuals/scene/ground_palette.h"
 #include "visuals/scene/settings.h"
+#include "visuals/terrain/ground_samples.h"
 
 #include <glm/vec3.hpp>
 
@@ -11,8 +12,9 @@
 
 namespace octant::visuals::scene {
 
-/// A sample of the field at full resolution.
-GroundPoint ground_point(const models::HeightField& field, int column, int row);
+/// A sample of the ground; its normal is from the heights `step` samples away on each side, fewer
+/// at the border: 1 for the full-resolution ground, else the mean slope of so wide a surrounding.
+GroundPoint ground_point(const terrain::GroundSamples& ground, int column, int row, int step);
 
 /// The ground as seen: one packed colour a sample (layout of the field: row 0 south, column 0
 /// west), coloured by height, slope and water level and lit by the sun with the full-resolution

@@ -1,6 +1,7 @@
 #include "visuals/scene/ground_texture.h"
 
 #include "visuals/scene/ground_colours.h"
+#include "visuals/terrain/worker_team.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -9,6 +10,9 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
+#include <thread>
+#include <vector>
 
 namespace octant::visuals::scene {
 
@@ -22,17 +26,58 @@ std::uint8_t byte_of_slope(float part) {
     return static_cast<std::uint8_t>(128 + std::lround(glm::clamp(part, -1.0F, 1.0F) * 127.0F));
 }
 
-/// An image of samples `stride` apart, without its texels.
-GroundImage sampled(const models::HeightField& field, int stride) {
+/// Calls work(row) once for each row.
+template <typename Work>
+void by_rows(int rows, const Work& work) {
+    const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    terrain::share_out(
+        static_cast<std::size_t>(rows), threads, [&](std::size_t row, std::size_t /*worker*/) {
+            work(static_cast<int>(row));
+        });
+}
+
+/// Samples from one texel to the next: a power of two.
+int stride_of(const terrain::GroundSamples& ground) {
+    int stride = 1;
+    while ((std::max(ground.columns(), ground.rows()) - 1) / stride >= largest_from_samples) {
+        stride *= 2;
+    }
+    return stride;
+}
+
+/// An image of samples `stride` apart, its texels of so many parts 0.
+GroundImage sampled(const terrain::GroundSamples& ground, int stride, std::size_t parts) {
     GroundImage image;
-    image.width = (field.columns() - 1) / stride + 1;
-    image.height = (field.rows() - 1) / stride + 1;
-    image.first_m = -field.half_extent_m();
-    image.step_m = glm::dvec2(stride * field.spacing_m());
+    image.width = (ground.columns() - 1) / stride + 1;
+    image.height = (ground.rows() - 1) / stride + 1;
+    image.first_m = -ground.half_extent_m();
+    image.step_m = glm::dvec2(stride * ground.spacing_m());
+    image.texels.resize(
+        parts * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     return image;
 }
 
-/// Mixes the drape into the colours of the ground, both over the whole field.
+/// Number of a texel.
+std::size_t index_of(const GroundImage& image, int column, int row) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+           static_cast<std::size_t>(column);
+}
+
+/// The drape's colour there over the ground's nearest one.
+void mix(
+    const std::uint8_t* own, const GroundImage& ground, const glm::dvec2& at_m, std::uint8_t* to) {
+    const glm::ivec2 nearest = glm::clamp(
+        glm::ivec2(glm::round((at_m - ground.first_m) / ground.step_m)),
+        glm::ivec2(0),
+        glm::ivec2(ground.width - 1, ground.height - 1));
+    const std::uint8_t* const below = &ground.texels[3 * index_of(ground, nearest.x, nearest.y)];
+    for (std::size_t part = 0; part < 3; ++part) {
+        const int mixed = own[part] * own[3] + below[part] * (255 - own[3]);
+        to[part] = static_cast<std::uint8_t>((mixed + 127) / 255);
+    }
+}
+
+/// Mixes the drape into the colours of the ground, both over all of it.
 GroundImage
 draped(const GroundImage& ground, const models::Image& drape, const glm::dvec2& half_extent_m) {
     GroundImage image;
@@ -40,60 +85,54 @@ draped(const GroundImage& ground, const models::Image& drape, const glm::dvec2& 
     image.height = drape.height;
     image.step_m = 2.0 * half_extent_m / glm::dvec2(image.width, image.height);
     image.first_m = 0.5 * image.step_m - half_extent_m;
-    image.texels.reserve(
+    image.texels.resize(
         std::size_t{3} * static_cast<std::size_t>(image.width) *
         static_cast<std::size_t>(image.height));
-    for (int row = 0; row < image.height; ++row) {
-        for (int column = 0; column < image.width; ++column) {
+    by_rows(image.height, [&](int row) {
+        std::uint8_t* to = &image.texels[3 * index_of(image, 0, row)];
+        for (int column = 0; column < image.width; ++column, to += 3) {
             const std::uint8_t* const own = drape.pixel(column, image.height - 1 - row);
             if (own[3] == 255) {
-                image.texels.insert(image.texels.end(), own, own + 3);
-                continue;
-            }
-            const glm::dvec2 at_m = image.first_m + glm::dvec2(column, row) * image.step_m;
-            const glm::ivec2 nearest = glm::clamp(
-                glm::ivec2(glm::round((at_m - ground.first_m) / ground.step_m)),
-                glm::ivec2(0),
-                glm::ivec2(ground.width - 1, ground.height - 1));
-            const auto below =
-                static_cast<std::size_t>(nearest.y) * static_cast<std::size_t>(ground.width) +
-                static_cast<std::size_t>(nearest.x);
-            for (std::size_t part = 0; part < 3; ++part) {
-                const int mixed =
-                    own[part] * own[3] + ground.texels[3 * below + part] * (255 - own[3]);
-                image.texels.push_back(static_cast<std::uint8_t>((mixed + 127) / 255));
+                std::copy_n(own, 3, to);
+            } else {
+                mix(own, ground, image.first_m + glm::dvec2(column, row) * image.step_m, to);
             }
         }
-    }
+    });
     return image;
 }
 
-/// Of the ground under light, from the normals' texels and the colours nearest to each.
-glm::vec3 mean_lit(const GroundTexture& texture, const glm::vec3& to_sun) {
+/// Sum over a row of normals of the colours nearest to each, under light.
+glm::dvec3 sum_of_lit_row(const GroundTexture& texture, const glm::vec3& to_sun, int row) {
     const GroundImage& albedo = texture.albedo;
     const GroundImage& normal = texture.normal;
+    const int albedo_row = row * albedo.height / normal.height;
     glm::dvec3 sum(0.0);
-    for (int row = 0; row < normal.height; ++row) {
-        const int albedo_row = row * albedo.height / normal.height;
-        glm::dvec3 row_sum(0.0);
-        for (int column = 0; column < normal.width; ++column) {
-            const auto at = static_cast<std::size_t>(row) * static_cast<std::size_t>(normal.width) +
-                            static_cast<std::size_t>(column);
-            const glm::vec2 slope(
-                static_cast<float>(normal.texels[2 * at] - 128) / 127.0F,
-                static_cast<float>(normal.texels[2 * at + 1] - 128) / 127.0F);
-            const float up = std::sqrt(std::max(1.0F - glm::dot(slope, slope), 0.0F));
-            const double light = light_on(glm::vec3(slope, up), to_sun);
-            const auto under =
-                static_cast<std::size_t>(albedo_row) * static_cast<std::size_t>(albedo.width) +
-                static_cast<std::size_t>(column * albedo.width / normal.width);
-            for (int part = 0; part < 3; ++part) {
-                row_sum[part] += std::min(
-                    light * albedo.texels[3 * under + static_cast<std::size_t>(part)], 255.0);
-            }
+    for (int column = 0; column < normal.width; ++column) {
+        const std::size_t at = index_of(normal, column, row);
+        const glm::vec2 slope(
+            static_cast<float>(normal.texels[2 * at] - 128) / 127.0F,
+            static_cast<float>(normal.texels[2 * at + 1] - 128) / 127.0F);
+        const float up = std::sqrt(std::max(1.0F - glm::dot(slope, slope), 0.0F));
+        const double light = light_on(glm::vec3(slope, up), to_sun);
+        const std::size_t under =
+            index_of(albedo, column * albedo.width / normal.width, albedo_row);
+        for (int part = 0; part < 3; ++part) {
+            sum[part] +=
+                std::min(light * albedo.texels[3 * under + static_cast<std::size_t>(part)], 255.0);
         }
-        sum += row_sum;
     }
+    return sum;
+}
+
+/// Of the ground under light.
+glm::vec3 mean_lit(const GroundTexture& texture, const glm::vec3& to_sun) {
+    const GroundImage& normal = texture.normal;
+    std::vector<glm::dvec3> rows(static_cast<std::size_t>(normal.height));
+    by_rows(normal.height, [&](int row) {
+        rows[static_cast<std::size_t>(row)] = sum_of_lit_row(texture, to_sun, row);
+    });
+    const glm::dvec3 sum = std::accumulate(rows.begin(), rows.end(), glm::dvec3(0.0));
     return glm::vec3(sum / (255.0 * normal.width * normal.height));
 }
 
@@ -108,28 +147,28 @@ TexturePlace place_in(const GroundImage& image, const glm::dvec3& eye_m) {
 } // namespace
 
 GroundTexture ground_texture(
-    const models::HeightField& field, const Settings& settings, const models::Image* drape) {
+    const terrain::GroundSamples& ground, const Settings& settings, const models::Image* drape) {
     assert(drape == nullptr || std::max(drape->width, drape->height) <= largest_texture);
-    const int stride =
-        (std::max(field.columns(), field.rows()) + largest_texture - 1) / largest_texture;
+    const int stride = stride_of(ground);
     GroundTexture texture;
-    texture.normal = sampled(field, stride);
-    texture.albedo = sampled(field, stride);
+    texture.normal = sampled(ground, stride, 2);
+    texture.albedo = sampled(ground, stride, 3);
     const GroundPalette palette(settings);
-    const auto spacing_m = static_cast<float>(field.spacing_m());
-    for (int row = 0; row < texture.normal.height; ++row) {
+    const auto footprint_m = static_cast<float>(stride * ground.spacing_m());
+    by_rows(texture.normal.height, [&](int row) {
         for (int column = 0; column < texture.normal.width; ++column) {
-            const GroundPoint point = ground_point(field, column * stride, row * stride);
-            const glm::vec3 own = palette.own(point, spacing_m);
-            texture.normal.texels.push_back(byte_of_slope(point.normal.x));
-            texture.normal.texels.push_back(byte_of_slope(point.normal.y));
+            const GroundPoint point = ground_point(ground, column * stride, row * stride, stride);
+            const glm::vec3 own = palette.own(point, footprint_m);
+            const std::size_t at = index_of(texture.normal, column, row);
+            texture.normal.texels[2 * at] = byte_of_slope(point.normal.x);
+            texture.normal.texels[2 * at + 1] = byte_of_slope(point.normal.y);
             for (int part = 0; part < 3; ++part) {
-                texture.albedo.texels.push_back(byte_of(own[part]));
+                texture.albedo.texels[3 * at + static_cast<std::size_t>(part)] = byte_of(own[part]);
             }
         }
-    }
+    });
     if (drape != nullptr) {
-        texture.albedo = draped(texture.albedo, *drape, field.half_extent_m());
+        texture.albedo = draped(texture.albedo, *drape, ground.half_extent_m());
     }
     texture.mean_colour = mean_lit(texture, direction_to_sun(settings));
     return texture;

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "models/height_field.h"
 #include "models/image.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
+#include "visuals/terrain/ground_samples.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -29,14 +29,20 @@ struct GroundTexture {
     glm::vec3 mean_colour{0.0F}; ///< of the lit ground, linear parts 0..1
 };
 
-/// Largest width and height of either image; a larger field is sampled at a stride.
+/// Largest width and height of a drape, pixels.
 inline constexpr int largest_texture = 8192;
 
-/// The normals of the full-resolution field, and its colours or, where `drape` is given and there,
-/// the image's. `drape` reaches from edge to edge of the field, north up, and has at most
-/// largest_texture pixels a side (asserted).
+/// Largest width and height of what is made of samples, texels.
+inline constexpr int largest_from_samples = 4097;
+
+/// The normals of the ground, and its colours or, where `drape` is given and there, the image's. A
+/// texel a sample; of ground with more than largest_from_samples a side, every second one, fourth,
+/// ... with slope and cover filtered to that distance, so that a large imported ground gives its
+/// coarser levels and the others stay on the disk. `drape` reaches from edge to edge of the ground,
+/// north up, and has at most largest_texture pixels a side (asserted). Uses all processors; same
+/// bytes for any number of them.
 GroundTexture ground_texture(
-    const models::HeightField& field, const Settings& settings, const models::Image* drape);
+    const terrain::GroundSamples& ground, const Settings& settings, const models::Image* drape);
 
 /// Where an eye stands in the texture.
 TexturePlaces texture_places(const GroundTexture& texture, const glm::dvec3& eye_m);

@@ -3,12 +3,11 @@
 #include "sim/aircraft_state.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/frame_plan.h"
+#include "visuals/scene/overlay_canvas.h"
 
 #include <glm/vec2.hpp>
 
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 namespace octant::visuals::scene {
 
@@ -21,16 +20,16 @@ struct HeadUpInputs {
 
 /// Head-up display of the cockpit view: true airspeed in knots, altitude in feet, heading tape,
 /// pitch ladder and flight-path marker that lie on the world behind them, load factor, height above
-/// ground. Lines and letters are triangles with soft edges, so that no multisampling is needed.
-/// Sizes go with the picture's height.
+/// ground, Mach number, vertical speed. Lines and letters are triangles with soft edges, so that no
+/// multisampling is needed. Sizes go with the picture's height. It is fixed ahead of the pilot: a
+/// look aside moves it out of the picture.
 class HeadUpDisplay {
 public:
     /// Valid until the next call. No allocation once warmed up.
     OverlayDraw draw(const HeadUpInputs& inputs, const Camera& camera, const glm::ivec2& size_px);
 
 private:
-    std::vector<OverlayVertex> vertices_;
-    std::vector<std::uint32_t> indices_;
+    OverlayCanvas canvas_;
 };
 
 } // namespace octant::visuals::scene

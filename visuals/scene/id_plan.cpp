@@ -94,6 +94,7 @@ const FramePlan& IdPlan::of(const FramePlan& plan) {
     plan_.ambient = glm::vec3(1.0F);
     plan_.sunlight = glm::vec3(0.0F);
     plan_.sky = {};
+    plan_.overlay = {};
     for (AircraftDraw& draw : plan_.aircraft) {
         draw.model = model_of_part_[draw.first_part];
     }

@@ -103,6 +103,7 @@ const FramePlan& Planner::plan(
     plan_.steps.clear();
     plan_.clips.clear();
     plan_.repaint_indices.clear();
+    plan_.overlay = {};
     GroundCounts ground_counts;
     ground_ = {scene_.ground->triangles(camera, aspect_, ground_counts), {}, {}};
     counts = {};
@@ -112,6 +113,9 @@ const FramePlan& Planner::plan(
     cast_shadows(camera);
     plan_ground();
     plan_sky(camera);
+    if (settings_.view == View::Cockpit && settings_.head_up_display) {
+        plan_head_up_display(camera, states.front());
+    }
     count_aircraft(counts);
     counts.shadow_triangles = static_cast<int>(ground_.shadow_indices.size() / 3);
     if (settings_.hidden_surface == HiddenSurface::DepthBuffer) {
@@ -258,6 +262,14 @@ void Planner::paint_knot(const Knot& knot, const Camera& camera, PlanCounts& cou
         steps_.paint_before(ground_, in_front_.found(), knot.box, cone_of(hulls_[member]));
         counts.cuts += static_cast<int>(in_front_.found().size());
     }
+}
+
+void Planner::plan_head_up_display(const Camera& camera, const sim::AircraftState& state) {
+    HeadUpInputs inputs{state, state.position_m.z, {}};
+    if (const auto ground_m = scene_.ground->height_at(state.position_m.x, state.position_m.y)) {
+        inputs.height_above_ground_m = state.position_m.z - *ground_m;
+    }
+    plan_.overlay = head_up_display_.draw(inputs, camera, settings_.size_px);
 }
 
 void Planner::count_aircraft(PlanCounts& counts) const {

@@ -7,6 +7,7 @@
 #include "visuals/scene/ground.h"
 #include "visuals/scene/ground_in_front.h"
 #include "visuals/scene/ground_texture.h"
+#include "visuals/scene/head_up_display.h"
 #include "visuals/scene/placed_aircraft.h"
 #include "visuals/scene/polygon_repaint.h"
 #include "visuals/scene/scene_order.h"
@@ -81,6 +82,7 @@ private:
     void paint_nearest_first();
     void paint_knots(const Camera& camera, PlanCounts& counts);
     void paint_knot(const Knot& knot, const Camera& camera, PlanCounts& counts);
+    void plan_head_up_display(const Camera& camera, const sim::AircraftState& state);
     void count_aircraft(PlanCounts& counts) const;
 
     Scene& scene_;
@@ -103,6 +105,7 @@ private:
     std::vector<std::uint32_t> facing_indices_;
     FramePlan plan_;
     StepWriter steps_;
+    HeadUpDisplay head_up_display_;
 };
 
 } // namespace octant::visuals::scene

@@ -7,7 +7,6 @@
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/ground_tiles.h"
 
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -116,7 +115,7 @@ private:
             .eye_m = camera.eye_m,
             .frustum_normals = frustum_normals(camera, aspect),
             .order = order_,
-            .focal_px = settings_.size_px.y / (2.0 * std::tan(camera.vertical_fov_rad / 2.0)),
+            .focal_px = focal_px(camera, settings_.size_px.y),
             .earth_radius_m = earth_radius_m_};
     }
 

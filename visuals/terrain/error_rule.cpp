@@ -24,6 +24,7 @@
 // curvature halve from each step to the next.
 #include "visuals/terrain/error_rule.h"
 
+#include "visuals/terrain/earth_drop.h"
 #include "visuals/terrain/frustum.h"
 
 #include <glm/common.hpp>
@@ -99,12 +100,12 @@ void ErrorRule::look_from(const MeshView& view) {
     origin_row_ = whole_below(row);
     eye_east_ = static_cast<float>(std::clamp(column - origin_column_, 0.0, 1.0));
     eye_north_ = static_cast<float>(std::clamp(row - origin_row_, 0.0, 1.0));
-    half_curvature_ = view.earth_radius_m > 0.0 ? 0.5 / view.earth_radius_m : 0.0;
+    half_curvature_per_m_ = half_curvature(view.earth_radius_m);
     // An edge that is halved by a node's side is 2h long, one by its child's centre sqrt(2) h.
     const double spacing_squared = ground_->spacing_m() * ground_->spacing_m();
     for (Level& level : levels_) {
         const double half = 0.5 * level.memory.edge();
-        const double middle_m = half * half * spacing_squared * half_curvature_;
+        const double middle_m = half * half * spacing_squared * half_curvature_per_m_;
         level.middle_error_m = static_cast<float>(middle_m);
         level.quadrant_error_m = static_cast<float>(0.5 * middle_m);
     }
@@ -233,7 +234,7 @@ unsigned ErrorRule::planes_cutting_node(
     const double margin = static_cast<double>(margin_m) + height_margin_m;
     double low_m = static_cast<double>(gaps.lowest_m) - view_.eye_m.z - margin;
     double high_m = static_cast<double>(gaps.highest_m) - view_.eye_m.z + margin;
-    if (half_curvature_ > 0.0) {
+    if (half_curvature_per_m_ > 0.0) {
         const glm::dvec2 off_m = glm::abs(centre_m);
         const glm::dvec2 far_m = off_m + half_m;
         const glm::dvec2 near_m = glm::max(off_m - half_m, glm::dvec2(0.0));

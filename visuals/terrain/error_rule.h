@@ -78,7 +78,7 @@ public:
     /// How much the ground is lowered at a place, metres east and north of the eye.
     template <typename Real>
     Real drop_m(Real east_m, Real north_m) const {
-        return static_cast<Real>(half_curvature_) * (east_m * east_m + north_m * north_m);
+        return static_cast<Real>(half_curvature_per_m_) * (east_m * east_m + north_m * north_m);
     }
 
 private:
@@ -98,7 +98,7 @@ private:
     std::array<float, 256> error_m_{}; ///< by code
     double west_m_ = 0.0;
     double south_m_ = 0.0;
-    double half_curvature_ = 0.0; ///< 1 / (2 R), 1/m
+    double half_curvature_per_m_ = 0.0;
     float spacing_squared_m2_ = 0.0F;
     float eye_z_m_ = 0.0F;
     int range_level_ = 0;

@@ -53,6 +53,7 @@ GroundTiles ground_of(const models::HeightField& field, int threads) {
     const GroundFacts facts{
         field.name,
         field.place,
+        field.system,
         field.filled_voids,
         figures.lowest_m,
         figures.highest_m,

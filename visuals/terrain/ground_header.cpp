@@ -27,6 +27,10 @@ std::uint64_t own_checksum(const GroundHeader& header) {
     return hash_of(std::as_bytes(std::span(&header, 1)).first(offsetof(GroundHeader, checksum)));
 }
 
+std::uint64_t checksum_of(const GroundSystem& system) {
+    return hash_of(std::as_bytes(std::span(&system, 1)));
+}
+
 bool is_power_of_two(double x) {
     int exponent = 0;
     return std::frexp(x, &exponent) == 0.5;
@@ -37,6 +41,11 @@ bool lies_within(double x, double largest) {
     return std::abs(x) <= largest;
 }
 
+bool is_sound(const GroundSystem& s) {
+    return std::isfinite(s.centre_x) && std::isfinite(s.centre_y) && s.wkt_length <= s.wkt.size() &&
+           (s.wkt_length == 0 || (s.unit_m > 0.0 && std::isfinite(s.unit_m)));
+}
+
 bool is_sound(const GroundHeader& h) {
     const auto fits = [](std::int32_t n) { return n >= 2 && n <= 65536; };
     const bool has_numbers = std::isfinite(h.lowest_m) && std::isfinite(h.highest_m) &&
@@ -45,7 +54,7 @@ bool is_sound(const GroundHeader& h) {
     const bool lies_on_earth = h.has_place == 0 || (lies_within(h.latitude_deg, 90.0) &&
                                                     lies_within(h.longitude_deg, 360.0));
     return fits(h.columns) && fits(h.rows) && may_be_stored(shape_of(h)) && has_numbers &&
-           lies_on_earth && h.name_length <= h.name.size() &&
+           lies_on_earth && is_sound(h.system) && h.name_length <= h.name.size() &&
            h.progress.stage <= GroundProgress::Stage::Complete;
 }
 
@@ -119,6 +128,22 @@ std::uint64_t hash_of(const GroundLayout& layout) {
     return hash.value();
 }
 
+namespace {
+
+GroundSystem stored(const models::MapSystem& system) {
+    GroundSystem result;
+    if (system.wkt.size() <= result.wkt.size()) {
+        result.centre_x = system.centre_x;
+        result.centre_y = system.centre_y;
+        result.unit_m = system.unit_m;
+        result.wkt_length = static_cast<std::uint32_t>(system.wkt.size());
+        std::copy(system.wkt.begin(), system.wkt.end(), result.wkt.begin());
+    }
+    return result;
+}
+
+} // namespace
+
 GroundHeader header_of(const GroundShape& shape, const GroundFacts& facts) {
     GroundHeader header;
     header.columns = shape.columns;
@@ -129,6 +154,9 @@ GroundHeader header_of(const GroundShape& shape, const GroundFacts& facts) {
     header.has_place = facts.place ? 1 : 0;
     header.latitude_deg = facts.place ? facts.place->latitude_deg : 0.0;
     header.longitude_deg = facts.place ? facts.place->longitude_deg : 0.0;
+    if (facts.system) {
+        header.system = stored(*facts.system);
+    }
     header.filled_voids = facts.filled_voids;
     header.lowest_m = facts.lowest_m;
     header.highest_m = facts.highest_m;
@@ -149,6 +177,13 @@ GroundFacts facts_of(const GroundHeader& h) {
     if (h.has_place != 0) {
         facts.place = models::GeoPlace{h.latitude_deg, h.longitude_deg};
     }
+    if (h.system.wkt_length > 0) {
+        facts.system = models::MapSystem{
+            {h.system.wkt.data(), h.system.wkt_length},
+            h.system.centre_x,
+            h.system.centre_y,
+            h.system.unit_m};
+    }
     facts.filled_voids = h.filled_voids;
     facts.lowest_m = h.lowest_m;
     facts.highest_m = h.highest_m;
@@ -165,6 +200,7 @@ bool may_be_stored(const GroundShape& shape) {
 
 std::array<std::byte, GroundHeader::bytes> page_of(GroundHeader header) {
     header.checksum = own_checksum(header);
+    header.system_checksum = checksum_of(header.system);
     std::array<std::byte, GroundHeader::bytes> page = {};
     std::memcpy(page.data(), &header, sizeof header);
     return page;
@@ -179,15 +215,22 @@ GroundHeader read_header(const std::filesystem::path& path, std::span<const std:
     if (!whole || header.magic != GroundHeader::right_magic) {
         error_in(path, "expected a ground made by terrain import, got another kind of file");
     }
-    if (header.version != GroundHeader::right_version) {
+    if (header.version < GroundHeader::first_version ||
+        header.version > GroundHeader::right_version) {
         error_in(
             path,
             fmt::format(
-                "expected a ground of version {}, got version {}: import it again",
+                "expected a ground of version {} to {}, got version {}: import it again",
+                GroundHeader::first_version,
                 GroundHeader::right_version,
                 header.version));
     }
-    if (header.checksum != own_checksum(header) || !is_sound(header)) {
+    if (header.version == GroundHeader::first_version) {
+        header.system = {};
+        header.system_checksum = checksum_of(header.system);
+    }
+    if (header.checksum != own_checksum(header) ||
+        header.system_checksum != checksum_of(header.system) || !is_sound(header)) {
         error_in(path, "expected a sound header, got a damaged one: import it again");
     }
     if (header.layout != hash_of(GroundLayout(header.columns, header.rows))) {

@@ -25,13 +25,24 @@ struct GroundProgress {
     double highest_m = 0.0;
 };
 
+/// models::MapSystem in a file. A text that is too long is left out, and the system with it.
+struct GroundSystem {
+    double centre_x = 0.0;
+    double centre_y = 0.0;
+    double unit_m = 0.0;
+    std::uint32_t wkt_length = 0; ///< 0: the ground has no system
+    std::uint32_t reserved = 0;
+    std::array<char, 3072> wkt = {};
+};
+
 /// The first page of a ground's file. Then follow GroundLayout memory and, 8 bytes each, checksums
 /// (sim/base/hash.h) of what lies before the tiles and of every tile as they lie. Little endian.
 struct GroundHeader {
     static constexpr std::size_t bytes = GroundLayout::page_bytes;
     static constexpr std::array<char, 16> right_magic = {
         'o', 'c', 't', 'a', 'n', 't', ' ', 'g', 'r', 'o', 'u', 'n', 'd', '\r', '\n', '\x1a'};
-    static constexpr std::uint32_t right_version = 1;
+    static constexpr std::uint32_t right_version = 2;
+    static constexpr std::uint32_t first_version = 1; ///< without a system, else the same
 
     std::array<char, 16> magic = right_magic;
     std::uint32_t version = right_version;
@@ -53,6 +64,8 @@ struct GroundHeader {
     std::uint64_t checksums = 0; ///< checksum of the checksums
     GroundProgress progress;
     std::uint64_t checksum = 0; ///< of all above
+    GroundSystem system;
+    std::uint64_t system_checksum = 0; ///< of the system
 };
 
 /// Sizes and places that a file of this shape has.
@@ -82,8 +95,8 @@ bool may_be_stored(const GroundShape& shape);
 /// The page to write, with its checksum.
 std::array<std::byte, GroundHeader::bytes> page_of(GroundHeader header);
 
-/// The header at the beginning of a file's bytes. Throws Error when it is none of this version,
-/// damaged or does not fit the layout of today.
+/// The header at the beginning of a file's bytes, of this version or an earlier one. Throws Error
+/// when it is neither, damaged or does not fit the layout of today.
 GroundHeader read_header(const std::filesystem::path& path, std::span<const std::byte> file);
 
 } // namespace octant::visuals::terrain

@@ -274,6 +274,7 @@ void Import::build() {
     facts_ = {
         source_.name(),
         source_.place(),
+        source_.system(),
         source_.filled_voids() + progress_.voids,
         figures.lowest_m,
         figures.highest_m,

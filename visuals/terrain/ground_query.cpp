@@ -5,6 +5,9 @@
 // too: least value and first zero are exact.
 #include "visuals/terrain/ground_query.h"
 
+#include "models/bilinear.h"
+#include "visuals/terrain/earth_drop.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -167,21 +170,7 @@ Line line_between(
 } // namespace
 
 std::optional<double> ground_height_m(const GroundSamples& ground, double x_m, double y_m) {
-    const glm::dvec2 grid = ground.grid_from_world(x_m, y_m);
-    if (!(grid.x >= 0.0 && grid.y >= 0.0 && grid.x <= ground.columns() - 1 &&
-          grid.y <= ground.rows() - 1)) {
-        return std::nullopt;
-    }
-    const CellPlace cell = cell_at(ground, grid);
-    const double south_m = glm::mix(
-        ground.height_m(cell.column, cell.row),
-        ground.height_m(cell.column + 1, cell.row),
-        cell.east);
-    const double north_m = glm::mix(
-        ground.height_m(cell.column, cell.row + 1),
-        ground.height_m(cell.column + 1, cell.row + 1),
-        cell.east);
-    return glm::mix(south_m, north_m, cell.north);
+    return models::bilinear_height_m(ground, x_m, y_m);
 }
 
 SightLine sight_between(

@@ -75,10 +75,4 @@ private:
     glm::dvec2 half_extent_m_;
 };
 
-/// By how much the ground is lowered at a level distance from the eye, given squared: d^2 / (2 R);
-/// R = 0 is a flat earth.
-inline double earth_drop_m(double distance_squared_m2, double earth_radius_m) {
-    return earth_radius_m > 0.0 ? distance_squared_m2 / (2.0 * earth_radius_m) : 0.0;
-}
-
 } // namespace octant::visuals::terrain

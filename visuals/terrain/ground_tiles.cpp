@@ -1,5 +1,7 @@
 #include "visuals/terrain/ground_tiles.h"
 
+#include "models/bilinear.h"
+
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -72,19 +74,7 @@ glm::dvec2 GroundTiles::half_extent_m() const {
 }
 
 std::optional<double> GroundTiles::height_at(double x_m, double y_m) const {
-    const glm::dvec2 half = half_extent_m();
-    if (!(std::abs(x_m) <= half.x && std::abs(y_m) <= half.y)) {
-        return std::nullopt;
-    }
-    const double across = (x_m + half.x) / spacing_m();
-    const double up = (y_m + half.y) / spacing_m();
-    const int column = std::min(static_cast<int>(across), columns() - 2);
-    const int row = std::min(static_cast<int>(up), rows() - 2);
-    const double u = across - column;
-    const double v = up - row;
-    const double south = height_m(column, row) * (1.0 - u) + height_m(column + 1, row) * u;
-    const double north = height_m(column, row + 1) * (1.0 - u) + height_m(column + 1, row + 1) * u;
-    return south * (1.0 - v) + north * v;
+    return models::bilinear_height_m(*this, x_m, y_m);
 }
 
 } // namespace octant::visuals::terrain

@@ -21,6 +21,7 @@ namespace octant::visuals::terrain {
 struct GroundFacts {
     std::string name;
     std::optional<models::GeoPlace> place; ///< nothing for made ground
+    std::optional<models::MapSystem> system; ///< as HeightField::system
     std::int64_t filled_voids = 0;         ///< samples without data that were filled in
     float lowest_m = 0.0F;
     float highest_m = 0.0F;

@@ -5,14 +5,16 @@
 // there). Rows are cut into bands, always the same ones, that threads share.
 #include "visuals/terrain/projected_error.h"
 
+#include "sim/base/nearest_rank.h"
+#include "visuals/terrain/earth_drop.h"
+#include "visuals/terrain/worker_team.h"
+
 #include <glm/common.hpp>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cassert>
 #include <cmath>
-#include <thread>
 
 namespace octant::visuals::terrain {
 
@@ -89,11 +91,9 @@ int triangles_in_view(const GroundMesh& mesh, const PictureView& view) {
 }
 
 /// Value of the nearest rank; reorders.
-double nearest_rank(std::vector<float>& values, double share) {
-    const auto rank =
-        static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size()) - 1e-9));
+double nearest_rank(std::vector<float>& values, int permille) {
     const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
+        values.begin() + static_cast<std::ptrdiff_t>(rank_of(values.size(), permille) - 1);
     std::nth_element(values.begin(), at, values.end());
     return static_cast<double>(*at);
 }
@@ -115,8 +115,8 @@ void summarise(std::vector<float>& errors_px, ProjectedError& error) {
     error.mean_px = sum / count;
     error.rms_px = std::sqrt(sum_of_squares / count);
     error.maximum_px = static_cast<double>(*std::max_element(errors_px.begin(), errors_px.end()));
-    error.p999_px = nearest_rank(errors_px, 0.999);
-    error.p99_px = nearest_rank(errors_px, 0.99);
+    error.p999_px = nearest_rank(errors_px, 999);
+    error.p99_px = nearest_rank(errors_px, 990);
 }
 
 } // namespace
@@ -160,18 +160,9 @@ ErrorMeter::measure(const GroundMesh& mesh, const PictureView& view, double eart
         const glm::dvec2 grid = (glm::dvec2(from_eye_m) - picture.first_m) / ground_.spacing_m();
         corners_.emplace_back(glm::round(grid * grid_parts) / grid_parts, from_eye_m.z);
     }
-    std::atomic<std::size_t> next{0};
-    const auto work = [&] {
-        for (std::size_t k = next++; k < bands_.size(); k = next++) {
-            measure_band(bands_[k], mesh.indices, picture);
-        }
-    };
-    std::vector<std::thread> helpers;
-    for (int k = 1; k < threads_; ++k) {
-        helpers.emplace_back(work);
-    }
-    work();
-    std::for_each(helpers.begin(), helpers.end(), [](std::thread& helper) { helper.join(); });
+    share_out(bands_.size(), threads_, [&](std::size_t band, std::size_t /*worker*/) {
+        measure_band(bands_[band], mesh.indices, picture);
+    });
     ProjectedError error;
     error.triangles_in_view = triangles_in_view(mesh, view);
     errors_px_.clear();
