@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<std::string_view, 2> controls{"hidden-surface", "order-method"};
 
 void show_last_frame(const report::FrameRecord& last, const visuals::draworder::DrawOrder& order) {
-    show_value("cell", fmt::format("{} of {}", last.draw_cell, order.cell_count()));
+    show_value("cell", fmt::format("{} of 0 to {}", last.draw_cell, order.cell_count() - 1));
     explain("in which the eye is, of the first aircraft's");
     show_value("lists", fmt::format("{}", order.list_count()));
     explain("different painting orders that the cells share");

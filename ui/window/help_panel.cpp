@@ -19,7 +19,7 @@ void line_of(std::string_view name, std::string_view meaning) {
 } // namespace
 
 void help_panel(ViewState& state) {
-    const Panel panel("Keys", {{0.5F, 0.0F}, {0.0F, 40.0F}, {470.0F, 640.0F}}, state.open.help);
+    const Panel panel("Keys", {{0.5F, 0.0F}, {0.0F, 50.0F}, {550.0F, 650.0F}}, state.open.help);
     if (!panel.is_seen() || !ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
         return;
     }
@@ -34,7 +34,7 @@ void help_panel(ViewState& state) {
 
 void first_steps_panel(ViewState& state) {
     const Panel panel(
-        "First steps", {{0.5F, 0.5F}, {0.0F, 0.0F}, {430.0F, 125.0F}}, state.open.first_steps);
+        "First steps", {{0.5F, 0.5F}, {0.0F, 0.0F}, {450.0F, 125.0F}}, state.open.first_steps);
     if (!panel.is_seen()) {
         return;
     }

@@ -57,7 +57,7 @@ void time_of_day(visuals::scene::Settings& settings, double latitude_deg) {
 } // namespace
 
 void scene_panel(ViewState& state, const Session& session) {
-    const Panel panel("Scene", {{1.0F, 0.0F}, {360.0F, 10.0F}, {330.0F, 340.0F}}, state.open.scene);
+    const Panel panel("Scene", {{1.0F, 0.0F}, {360.0F, 60.0F}, {330.0F, 340.0F}}, state.open.scene);
     if (!panel.is_seen()) {
         return;
     }

@@ -74,31 +74,24 @@ bool edit_number(const FieldInfo& info, Number& value) {
     constexpr ImGuiDataType type = whole ? ImGuiDataType_S32 : ImGuiDataType_Double;
     const auto least = static_cast<Number>(info.least);
     const auto most = static_cast<Number>(info.most);
-    const char* const rounded = whole ? "%d" : "%.4g";
+    const char* const form = whole ? "%d" : "%.6g";
     constexpr float drag_speed = 1.0F;
     Number edited = value;
     bool changed = false;
     switch (number_style(info)) {
     case NumberStyle::Typed:
         changed = ImGui::InputScalar(
-            "##value",
-            type,
-            &edited,
-            nullptr,
-            nullptr,
-            whole ? "%d" : "%.6g",
-            ImGuiInputTextFlags_EnterReturnsTrue);
+            "##value", type, &edited, nullptr, nullptr, form, ImGuiInputTextFlags_EnterReturnsTrue);
         break;
     case NumberStyle::Drag:
-        changed = ImGui::DragScalar(
-            "##value", type, &edited, drag_speed, &least, &most, whole ? "%d" : "%.6g");
+        changed = ImGui::DragScalar("##value", type, &edited, drag_speed, &least, &most, form);
         break;
     case NumberStyle::Slider:
-        changed = ImGui::SliderScalar("##value", type, &edited, &least, &most, rounded);
+        changed = ImGui::SliderScalar("##value", type, &edited, &least, &most, form);
         break;
     case NumberStyle::LogSlider:
         changed = ImGui::SliderScalar(
-            "##value", type, &edited, &least, &most, rounded, ImGuiSliderFlags_Logarithmic);
+            "##value", type, &edited, &least, &most, form, ImGuiSliderFlags_Logarithmic);
         break;
     }
     if (!changed || !std::isfinite(static_cast<double>(edited))) {

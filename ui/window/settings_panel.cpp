@@ -34,7 +34,7 @@ void save_and_load(ViewState& state) {
 
 void settings_panel(ViewState& state) {
     const Panel panel(
-        "Settings", {{0.0F, 0.0F}, {350.0F, 10.0F}, {360.0F, 420.0F}}, state.open.settings);
+        "Settings", {{0.0F, 0.0F}, {450.0F, 60.0F}, {360.0F, 420.0F}}, state.open.settings);
     if (!panel.is_seen()) {
         return;
     }

@@ -79,7 +79,7 @@ void show_counts(const FrameRecord& last) {
 
 void terrain_panel(ViewState& state, const Session& session) {
     const Panel panel(
-        "Terrain", {{1.0F, 0.0F}, {10.0F, 10.0F}, {340.0F, 480.0F}}, state.open.terrain);
+        "Terrain", {{1.0F, 0.0F}, {10.0F, 10.0F}, {340.0F, 390.0F}}, state.open.terrain);
     if (!panel.is_seen()) {
         return;
     }

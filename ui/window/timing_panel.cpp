@@ -134,7 +134,7 @@ void show_clock(std::span<const FrameRecord> records) {
 
 void timing_panel(ViewState& state) {
     const Panel panel(
-        "Frame times", {{0.0F, 0.0F}, {10.0F, 10.0F}, {330.0F, 260.0F}}, state.open.timing);
+        "Frame times", {{0.0F, 0.0F}, {10.0F, 10.0F}, {380.0F, 260.0F}}, state.open.timing);
     if (!panel.is_seen()) {
         return;
     }
