@@ -141,6 +141,27 @@ TEST_CASE("an inset shows what a renderer of its size shows, around it nothing c
     }
 }
 
+TEST_CASE("in an inset planes cut where they cut in a picture of its own") {
+    Studio studio;
+    load_squares(studio);
+    scene::FramePlan inset = empty_plan();
+    add_square(inset, 0, ahead(0.6F)); // red over the whole inset
+    inset.clips.push_back(
+        {{glm::vec4(1.0F, 0.0F, 0.0F, 0.0F), glm::vec4(0.0F, 1.0F, 0.0F, 0.0F)}, 2});
+    inset.steps = {{scene::PaintStep::What::Aircraft, 0, 1, 0}};
+    const gl::PixelRect rect{24, 40, 20, 20};
+    studio.context().make_current();
+    studio.renderer().draw(empty_plan());
+    studio.renderer().draw_inset(inset, rect);
+    gl::Picture picture;
+    studio.renderer().finish_and_read(picture);
+    const gl::Picture part = part_of(picture, rect);
+    CHECK(count_of(part, red_px) == 10 * 10); // the upper right quarter
+    CHECK(pixel(part, 10, 9) == red_px);
+    CHECK(pixel(part, 9, 9) == grey_px);
+    CHECK(pixel(part, 10, 10) == grey_px);
+}
+
 TEST_CASE("an inset may lie in a corner, and the next picture is whole again") {
     Studio studio;
     load_squares(studio);
