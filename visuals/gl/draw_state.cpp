@@ -42,6 +42,7 @@ void DrawState::begin_picture() {
     gl_.provoking_vertex(GL_FIRST_VERTEX_CONVENTION);
     gl_.disable(GL_DITHER);
     gl_.disable(GL_BLEND);
+    gl_.disable(GL_SCISSOR_TEST);
     gl_.depth_mask(GL_TRUE);
     draw_calls_ = 0;
 }

@@ -16,7 +16,11 @@
 
 namespace octant::visuals::gl {
 
+<<<<<<< HEAD
 /// Part of a picture, from its upper left corner.
+=======
+/// A part of a picture, pixels from its upper left corner.
+>>>>>>> hud
 struct PixelRect {
     int x = 0;
     int y = 0;
@@ -66,7 +70,14 @@ public:
     /// Starts the drawing of a picture; the plan's memory is free again on return.
     void draw(const scene::FramePlan& plan);
 
+<<<<<<< HEAD
     void draw_inset(const scene::FramePlan& plan, PixelRect rect);
+=======
+    /// Draws a second plan, made for a picture of the size of `rect`, over that part of the picture
+    /// that draw() has begun, as if it were a picture of its own, with a thin frame around it.
+    /// `rect` must lie within the picture (asserted). The plan's memory is free again on return.
+    void draw_inset(const scene::FramePlan& plan, const PixelRect& rect);
+>>>>>>> hud
 
     /// Waits until the picture is drawn. Throws Error when the driver reports one.
     void finish();
@@ -74,12 +85,14 @@ public:
     /// finish(), then copies the picture, top row first. `picture` keeps its memory between calls.
     void finish_and_read(Picture& picture);
 
-    /// Of the last draw(); consecutive aircraft of a step are one.
+    /// Of the last draw() and the insets since; consecutive aircraft of a step are one.
     int draw_calls() const { return state_.draw_calls(); }
 
 private:
-    void begin(const scene::FramePlan& plan);
-    void upload(const scene::FramePlan& plan);
+    GLuint target_of(const scene::FramePlan& plan) const;
+    void draw_into(const scene::FramePlan& plan, const PixelRect& rect);
+    void clear(const scene::FramePlan& plan);
+    void upload(const scene::FramePlan& plan, const PixelRect& rect);
     void paint(const scene::FramePlan& plan);
     void draw_by_depth(const scene::FramePlan& plan);
 
