@@ -79,7 +79,7 @@ void Gui::end_frame() {
 
 void Gui::draw(const glm::ivec2& size_px) {
     const ImDrawData* const data = ImGui::GetDrawData();
-    if (data == nullptr || data->TotalVtxCount == 0) {
+    if (vertices() == 0) {
         return;
     }
     painter_->begin({0, size_px, {data->DisplaySize.x, data->DisplaySize.y}});
@@ -101,6 +101,11 @@ void Gui::draw(const glm::ivec2& size_px) {
             draws_);
     }
     painter_->end();
+}
+
+int Gui::vertices() const {
+    const ImDrawData* const data = ImGui::GetDrawData();
+    return data == nullptr ? 0 : data->TotalVtxCount;
 }
 
 bool Gui::wants_pointer() const {

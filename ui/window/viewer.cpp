@@ -115,8 +115,11 @@ bool Viewer::turn() {
     gui_->end_frame();
     take_requests();
     apply_wanted();
-    if (session_->simulation().end_of_flight()) {
+    if (state_.playback.playing && session_->simulation().end_of_flight()) {
         state_.playback.playing = false;
+        say(session_->simulation().end_of_flight()->off_the_map
+                ? "the flight left the map: T flies on level, H goes back to the path"
+                : "the aircraft touched the ground: H goes back to the path");
     }
     const bool by_hand = session_->simulation().by_hand();
     if (state_.playback.pass(wall_s, by_hand) == Playback::Moved::Restarts) {

@@ -50,6 +50,8 @@ public:
     /// Ends the recording, where there is one, and says where its report is. Throws Error.
     std::optional<std::string> finish_recording();
 
+    const Gui& gui() const { return *gui_; }
+
     Session& session() { return *session_; }
 
     ViewState& state() { return state_; }

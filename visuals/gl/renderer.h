@@ -16,11 +16,7 @@
 
 namespace octant::visuals::gl {
 
-<<<<<<< HEAD
-/// Part of a picture, from its upper left corner.
-=======
 /// A part of a picture, pixels from its upper left corner.
->>>>>>> hud
 struct PixelRect {
     int x = 0;
     int y = 0;
@@ -70,14 +66,10 @@ public:
     /// Starts the drawing of a picture; the plan's memory is free again on return.
     void draw(const scene::FramePlan& plan);
 
-<<<<<<< HEAD
-    void draw_inset(const scene::FramePlan& plan, PixelRect rect);
-=======
     /// Draws a second plan, made for a picture of the size of `rect`, over that part of the picture
     /// that draw() has begun, as if it were a picture of its own, with a thin frame around it.
     /// `rect` must lie within the picture (asserted). The plan's memory is free again on return.
     void draw_inset(const scene::FramePlan& plan, const PixelRect& rect);
->>>>>>> hud
 
     /// Waits until the picture is drawn. Throws Error when the driver reports one.
     void finish();
