@@ -266,6 +266,13 @@ void visit_ground_settings(SomeSettings& s, Visit& visit) {
 template <class SomeSettings, class Visit>
 void visit_air_settings(SomeSettings& s, Visit& visit) {
     using Info = FieldInfo;
+    visit(
+        Info{
+            "show-mesh",
+            "WHAT",
+            "lines along the edges of the ground's triangles: none, edges, or levels (a colour for "
+            "each halving of their size)"},
+        s.show_mesh);
     visit(Info{"sky", "", "sky and the plain beyond the map's edge"}, s.sky);
     visit(
         Info{

@@ -51,8 +51,7 @@ public:
     DrivenViewer& operator=(DrivenViewer&&) = delete;
 
 private:
-    DrivenViewer(
-        std::unique_ptr<VirtualDisplay> display, const visuals::scene::Settings& settings);
+    DrivenViewer(std::unique_ptr<VirtualDisplay> display, const visuals::scene::Settings& settings);
 
     std::unique_ptr<VirtualDisplay> display_;
     std::filesystem::path folder_;

@@ -7,14 +7,14 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <glm/geometric.hpp>
 #include <imgui.h>
-#include <imgui_internal.h>
 
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <glm/geometric.hpp>
+#include <imgui_internal.h>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -210,7 +210,8 @@ TEST_CASE("a path is scrubbed by its keys, faster and slower, and begins anew at
     CHECK(driven->until([&] { return driven->state().playback.time_s < 5.0; }));
 }
 
-TEST_CASE("a flight by hand leaves trim, turns where the stick goes, and its recording repeats it") {
+TEST_CASE(
+    "a flight by hand leaves trim, turns where the stick goes, and its recording repeats it") {
     Settings settings = small_flight();
     const auto driven = DrivenViewer::open(settings);
     if (!driven) {

@@ -1,7 +1,5 @@
 #include "visuals/gl/draw_state.h"
 
-#include "visuals/gl/program.h"
-
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
@@ -27,10 +25,12 @@ constexpr float edge_on_steps = -0x1p23F * 0.02F;
 } // namespace
 
 ProgramPair make_program_pair(
-    const Functions& gl, const char* name, const char* vertex_text, const char* fragment_text) {
+    const Functions& gl, const char* name, const ProgramText& text, const char* defined) {
+    if (defined == nullptr) {
+        return {make_program(gl, name, text), make_program(gl, name, text, {"CUT"})};
+    }
     return {
-        make_program(gl, name, vertex_text, fragment_text),
-        make_program(gl, name, vertex_text, fragment_text, "CUT")};
+        make_program(gl, name, text, {defined}), make_program(gl, name, text, {defined, "CUT"})};
 }
 
 void DrawState::begin_picture() {

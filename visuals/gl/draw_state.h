@@ -1,6 +1,7 @@
 #pragma once
 
 #include "visuals/gl/object.h"
+#include "visuals/gl/program.h"
 #include "visuals/scene/frame_plan.h"
 
 namespace octant::visuals::gl {
@@ -21,9 +22,9 @@ struct ProgramPair {
     Object cut;
 };
 
-/// Links both kinds, the second with CUT defined. Throws Error with `name`.
+/// Links both kinds, the second with CUT defined, both with `defined`. Throws Error with `name`.
 ProgramPair make_program_pair(
-    const Functions& gl, const char* name, const char* vertex_text, const char* fragment_text);
+    const Functions& gl, const char* name, const ProgramText& text, const char* defined = nullptr);
 
 /// The state of the context that draws of one picture share, and their number.
 class DrawState {

@@ -150,8 +150,6 @@ void Renderer::upload(const FramePlan& plan, const PixelRect& rect) {
     aircraft_.upload(plan);
 }
 
-void Renderer::draw_inset(const FramePlan& /*plan*/, PixelRect /*rect*/) {}
-
 /// Background, sky, ground, then each step over what is there: no depth at all.
 void Renderer::paint(const FramePlan& plan) {
     triangles_.draw_sky(Depth::Unused);
