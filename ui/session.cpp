@@ -132,15 +132,20 @@ scene::Camera Session::camera_of(const scene::Settings& settings) const {
         ground_height_);
 }
 
+/// Chooses the cameras of the simulation's time.
+void Session::look(Moment& moment) const {
+    moment.camera = camera_of(settings_);
+    if (inset_) {
+        moment.inset_camera = camera_of(inset_->settings());
+    }
+}
+
 void Session::reach(double time_s, int frame, Moment& moment) {
     simulation_->advance_to(time_s);
     moment.time_s = time_s;
     moment.states.assign(simulation_->states().begin(), simulation_->states().end());
     moment.state_hash = simulation_->state_hash();
-    moment.camera = camera_of(settings_);
-    if (inset_) {
-        moment.inset_camera = camera_of(inset_->settings());
-    }
+    look(moment);
     moment.triangle_target = choose_triangle_target(frame);
 }
 
@@ -310,6 +315,9 @@ void Session::change_picture(const scene::Settings& settings) {
         planner_->settle(now_.camera);
     }
     follow_inset(std::move(new_inset));
+    if (next_is_reached_) {
+        look(next_);
+    }
     load_settings_ = scene::load_settings(settings_, rate_hz());
     load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
 }
@@ -317,7 +325,6 @@ void Session::change_picture(const scene::Settings& settings) {
 void Session::follow_inset(std::unique_ptr<InsetView> new_inset) {
     if (new_inset) {
         inset_ = std::move(new_inset);
-        next_is_reached_ = false;
     } else if (!settings_.inset) {
         inset_.reset();
     } else {

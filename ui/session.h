@@ -139,6 +139,7 @@ private:
     void load_into_renderer(Shows shows);
     void start_flight();
     report::FrameRecord picture_of(int frame, double time_s, std::optional<double> next_s);
+    void look(Moment& moment) const;
     void reach(double time_s, int frame, Moment& moment);
     int choose_triangle_target(int frame);
     double stress_after(const report::FrameRecord& record);
