@@ -173,6 +173,24 @@ report::FrameRecord Session::draw_at(double time_s, std::optional<double> next_s
     return picture_of(drawn_++, time_s, next_s);
 }
 
+scene::PlanCounts Session::make_plans() {
+    planner_->set_triangle_target(now_.triangle_target);
+    scene::PlanCounts counts;
+    plan_ = &planner_->plan(now_.camera, now_.states, counts);
+    if (ids_) {
+        plan_ = &ids_->of(*plan_);
+    }
+    inset_plan_ = inset_ ? &inset_->plan(now_.inset_camera, now_.states) : nullptr;
+    return counts;
+}
+
+void Session::draw_plans() {
+    renderer_->draw(*plan_);
+    if (inset_plan_ != nullptr) {
+        renderer_->draw_inset(*inset_plan_, inset_->rectangle());
+    }
+}
+
 report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<double> next_s) {
     if (frame == 0) {
         since_first_frame_ = Stopwatch();
@@ -193,11 +211,7 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     next_is_reached_ = false;
     record.sim_ms = stage.lap_ms();
 
-    planner_->set_triangle_target(now_.triangle_target);
-    scene::PlanCounts counts;
-    const scene::FramePlan& plan = planner_->plan(now_.camera, now_.states, counts);
-    const scene::FramePlan* const inset_plan =
-        inset_ ? &inset_->plan(now_.inset_camera, now_.states) : nullptr;
+    const scene::PlanCounts counts = make_plans();
     record.plan_ms = stage.lap_ms();
 
     if (next_s && settings_.mesh_ahead) {
@@ -206,10 +220,7 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
         record.sim_ms += stage.lap_ms();
         mesh_ahead();
     }
-    renderer_->draw(ids_ ? ids_->of(plan) : plan);
-    if (inset_plan != nullptr) {
-        renderer_->draw_inset(*inset_plan, inset_->rectangle());
-    }
+    draw_plans();
     renderer_->finish();
     record.draw_ms = stage.lap_ms();
     if (presenter_) {
@@ -246,6 +257,13 @@ void Session::fill_in(const scene::PlanCounts& counts, report::FrameRecord& reco
 }
 
 void Session::read_picture() {
+    if (renderer_->is_in_window()) {
+        if (plan_ == nullptr) {
+            make_plans();
+        }
+        renderer_->aim_at_window(glm::ivec2(0));
+        draw_plans();
+    }
     renderer_->finish_and_read(picture_);
 }
 
@@ -254,6 +272,7 @@ void Session::hash_picture() {
 }
 
 void Session::apply(const scene::Settings& settings) {
+    plan_ = nullptr;
     switch (change_between(settings_, settings)) {
     case SettingsChange::None:
         break;

@@ -86,6 +86,9 @@ public:
 
     void present_by(Presenter presenter) { presenter_ = std::move(presenter); }
 
+    /// The next pictures may be drawn straight into a window of that size.
+    void aim_at_window(const glm::ivec2& window_px) { renderer_->aim_at_window(window_px); }
+
     /// Changes what the next frames show. Loads what has to be loaded anew; the flight then starts
     /// again where its aircraft, path or ground are others. Throws Error and leaves everything as
     /// it was.
@@ -109,7 +112,8 @@ public:
     /// For another plan of the same world.
     visuals::scene::Scene& scene() { return world_.scene; }
 
-    /// Reads the last picture where a presenter showed it.
+    /// Reads the last picture where a presenter showed it; draws it once more if it went straight
+    /// into a window.
     void read_picture();
 
     /// Picture of the last frame that was read, top row first.
@@ -145,6 +149,8 @@ private:
     double stress_after(const report::FrameRecord& record);
     visuals::scene::Camera camera_of(const visuals::scene::Settings& settings) const;
     void mesh_ahead();
+    visuals::scene::PlanCounts make_plans();
+    void draw_plans();
     void fill_in(const visuals::scene::PlanCounts& counts, report::FrameRecord& record);
     void change_world(const visuals::scene::Settings& settings);
     void change_picture(const visuals::scene::Settings& settings);
@@ -163,6 +169,8 @@ private:
     Moment now_;
     Moment next_;
     bool next_is_reached_ = false;
+    const visuals::scene::FramePlan* plan_ = nullptr; ///< of the last picture; null = is no more
+    const visuals::scene::FramePlan* inset_plan_ = nullptr;
     Presenter presenter_;
     visuals::gl::Picture picture_;
     int last_triangles_ = 0;

@@ -32,8 +32,11 @@ float content_scale(GLFWwindow* window) {
 void set_style(float scale) {
     ImGui::StyleColorsDark();
     ImGuiStyle& style = ImGui::GetStyle();
-    style.WindowRounding = 4.0F;
-    style.FrameRounding = 3.0F;
+    // Square and unsmoothed: a rectangle is two triangles, which counts where a processor draws.
+    style.WindowRounding = 0.0F;
+    style.FrameRounding = 0.0F;
+    style.AntiAliasedLines = false;
+    style.AntiAliasedFill = false;
     style.WindowBorderSize = 0.0F;
     style.Colors[ImGuiCol_WindowBg].w = 0.82F;
     style.ScaleAllSizes(scale);

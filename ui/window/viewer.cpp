@@ -51,7 +51,9 @@ Viewer::Viewer(const ViewOptions& options)
     settings.size_px = input_->size_px();
     session_ = std::make_unique<Session>(settings, Shows::World, std::move(context));
     session_->present_by([this](gl::Renderer& renderer) {
-        renderer.copy_to(0, input_->size_px());
+        if (!renderer.is_in_window()) {
+            renderer.copy_to(0, input_->size_px());
+        }
         gui_->draw(input_->size_px());
         context_->swap_buffers();
     });
@@ -209,6 +211,7 @@ void Viewer::draw() {
     const bool ahead = session_->settings().mesh_ahead;
     const double input_of_next_s = input_s_;
     const double time_s = ahead ? shown_s_ : next_s;
+    session_->aim_at_window(input_->size_px());
     report::FrameRecord record =
         session_->draw_at(time_s, ahead ? std::optional(next_s) : std::nullopt);
     const double now_s = clock_.s();

@@ -33,10 +33,10 @@ ProgramPair make_program_pair(
         make_program(gl, name, text, {defined}), make_program(gl, name, text, {defined, "CUT"})};
 }
 
-void DrawState::begin_picture() {
+void DrawState::begin_picture(Rows rows) {
     // The upper left origin brings the rows out from the top. Which side of a triangle is its
     // front does not change with it: OpenGL turns the sign of the area along with the origin.
-    gl_.clip_control(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+    gl_.clip_control(rows == Rows::FromTop ? GL_UPPER_LEFT : GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     gl_.front_face(GL_CCW);
     gl_.cull_face(GL_BACK);
     gl_.provoking_vertex(GL_FIRST_VERTEX_CONVENTION);

@@ -26,6 +26,12 @@ struct ProgramPair {
 ProgramPair make_program_pair(
     const Functions& gl, const char* name, const ProgramText& text, const char* defined = nullptr);
 
+/// Where the first row of a picture lies.
+enum class Rows {
+    FromTop,  ///< as pictures are read
+    FromBelow ///< as windows show them
+};
+
 /// The state of the context that draws of one picture share, and their number.
 class DrawState {
 public:
@@ -34,7 +40,7 @@ public:
 
     /// Sets what stays the same in the whole picture, and the number of draw calls to 0. Nothing
     /// about the context is taken for granted.
-    void begin_picture();
+    void begin_picture(Rows rows);
 
     void use_depth(Depth depth);
     void cull_back_faces(bool cull);

@@ -29,8 +29,8 @@ make_atlas(const Functions& gl, std::span<const std::uint8_t> texels, const glm:
     gl.pixel_storei(GL_UNPACK_ALIGNMENT, 1);
     gl.texture_sub_image_2d(
         texture.name(), 0, 0, 0, size.x, size.y, GL_RED, GL_UNSIGNED_BYTE, texels.data());
-    gl.texture_parameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl.texture_parameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl.texture_parameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.texture_parameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
 }
 

@@ -36,10 +36,10 @@ struct PictureValues {
 constexpr glm::vec4 inset_frame{0.08F, 0.09F, 0.1F, 1.0F};
 constexpr int frame_rows = 360; ///< of the picture for each pixel of the frame's width
 
-/// Places in the picture from the upper left, in pixels, to world axes, one unit deep.
-glm::mat4 ray_from_pixel(const FramePlan& plan, const PixelRect& rect) {
+/// Pixels of the target to world axes, one unit deep; `rect` lies on the target.
+glm::mat4 ray_from_pixel(const FramePlan& plan, const PixelRect& rect, Rows rows) {
     const float across = 1.0F / plan.view_to_clip[0][0];
-    const float up = 1.0F / plan.view_to_clip[1][1];
+    const float up = (rows == Rows::FromTop ? 1.0F : -1.0F) / plan.view_to_clip[1][1];
     glm::mat4 view_ray(0.0F);
     view_ray[0].x = 2.0F * across / static_cast<float>(rect.width);
     view_ray[1].y = -2.0F * up / static_cast<float>(rect.height);
@@ -48,7 +48,7 @@ glm::mat4 ray_from_pixel(const FramePlan& plan, const PixelRect& rect) {
     return glm::transpose(plan.world_to_view) * view_ray;
 }
 
-PictureValues values_of(const FramePlan& plan, const PixelRect& rect) {
+PictureValues values_of(const FramePlan& plan, const PixelRect& rect, Rows rows) {
     const float visibility_m = plan.haze.visibility_m;
     return {
         plan.view_to_clip * plan.world_to_view,
@@ -56,7 +56,7 @@ PictureValues values_of(const FramePlan& plan, const PixelRect& rect) {
         glm::vec4(plan.to_sun, 0.0F),
         glm::vec4(plan.ambient, 0.0F),
         glm::vec4(plan.sunlight, 0.0F),
-        ray_from_pixel(plan, rect),
+        ray_from_pixel(plan, rect, rows),
         plan.ground_texture.value_or(scene::TexturePlaces())};
 }
 
@@ -92,8 +92,11 @@ void Renderer::load_ground_texture(const scene::GroundTexture& texture) {
 
 void Renderer::draw(const FramePlan& plan) {
     const PixelRect whole{0, 0, framebuffer_.width(), framebuffer_.height()};
+    const bool fits =
+        plan.hidden_surface != HiddenSurface::DepthBuffer && framebuffer_.fits(window_px_, 1);
+    rows_ = fits ? Rows::FromBelow : Rows::FromTop;
     gl_.bind_framebuffer(GL_FRAMEBUFFER, target_of(plan));
-    state_.begin_picture();
+    state_.begin_picture(rows_);
     draw_into(plan, whole);
 }
 
@@ -105,14 +108,26 @@ void Renderer::draw_inset(const FramePlan& plan, const PixelRect& rect) {
     gl_.bind_framebuffer(GL_FRAMEBUFFER, target);
     const int frame = std::max(framebuffer_.height() / frame_rows, 1);
     gl_.enable(GL_SCISSOR_TEST);
-    gl_.scissor(rect.x - frame, rect.y - frame, rect.width + 2 * frame, rect.height + 2 * frame);
+    const PixelRect at = on_target(rect);
+    gl_.scissor(at.x - frame, at.y - frame, at.width + 2 * frame, at.height + 2 * frame);
     gl_.clear_named_framebufferfv(target, GL_COLOR, 0, glm::value_ptr(inset_frame));
-    gl_.scissor(rect.x, rect.y, rect.width, rect.height);
-    draw_into(plan, rect);
+    gl_.scissor(at.x, at.y, at.width, at.height);
+    draw_into(plan, at);
     gl_.disable(GL_SCISSOR_TEST);
 }
 
+PixelRect Renderer::on_target(const PixelRect& rect) const {
+    PixelRect at = rect;
+    if (rows_ == Rows::FromBelow) {
+        at.y = framebuffer_.height() - rect.y - rect.height;
+    }
+    return at;
+}
+
 GLuint Renderer::target_of(const FramePlan& plan) const {
+    if (rows_ == Rows::FromBelow) {
+        return 0;
+    }
     return plan.hidden_surface == HiddenSurface::DepthBuffer ? framebuffer_.name()
                                                              : framebuffer_.name_without_depth();
 }
@@ -143,7 +158,7 @@ void Renderer::clear(const FramePlan& plan) {
 }
 
 void Renderer::upload(const FramePlan& plan, const PixelRect& rect) {
-    const PictureValues values = values_of(plan, rect);
+    const PictureValues values = values_of(plan, rect, rows_);
     picture_values_.fill({std::as_bytes(std::span(&values, 1))});
     gl_.bind_buffer_base(GL_UNIFORM_BUFFER, picture_binding, picture_values_.name());
     triangles_.upload(plan);
@@ -183,6 +198,7 @@ void Renderer::finish() {
 }
 
 void Renderer::finish_and_read(Picture& picture) {
+    assert(!is_in_window());
     finish();
     picture.width = framebuffer_.width();
     picture.height = framebuffer_.height();

@@ -46,6 +46,14 @@ public:
     /// as it is when the driver cannot.
     void resize(const glm::ivec2& size_px, int samples);
 
+    /// From now on pictures are drawn straight into framebuffer 0, the window's, where they are as
+    /// large as it, have one sample a pixel and need no depth: that saves copying them there. 0,0 =
+    /// no window.
+    void aim_at_window(const glm::ivec2& window_px) { window_px_ = window_px; }
+
+    /// Whether the last picture was: it cannot be read then.
+    bool is_in_window() const { return rows_ == Rows::FromBelow; }
+
     /// Waits for the picture and copies it into the lower left corner of another framebuffer (0 =
     /// the window's), stretched to `size_px`, upright there.
     void copy_to(GLuint framebuffer, const glm::ivec2& size_px);
@@ -82,6 +90,7 @@ public:
 
 private:
     GLuint target_of(const scene::FramePlan& plan) const;
+    PixelRect on_target(const PixelRect& rect) const;
     void draw_into(const scene::FramePlan& plan, const PixelRect& rect);
     void clear(const scene::FramePlan& plan);
     void upload(const scene::FramePlan& plan, const PixelRect& rect);
@@ -95,6 +104,8 @@ private:
     TrianglePainter triangles_;
     AircraftPainter aircraft_;
     OverlayPainter overlay_;
+    glm::ivec2 window_px_{0};
+    Rows rows_ = Rows::FromTop; ///< of the last picture
 };
 
 } // namespace octant::visuals::gl
