@@ -20,6 +20,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <string_view>
+#include <utility>
 
 namespace octant::visuals::scene {
 
