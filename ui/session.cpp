@@ -1,8 +1,6 @@
 #include "ui/session.h"
 
 #include "ui/report/statistics.h"
-#include "ui/scene_ground.h"
-#include "ui/settings_change.h"
 #include "visuals/gl/platform_tuning.h"
 #include "visuals/gl/window_context.h"
 
@@ -30,10 +28,6 @@ std::unique_ptr<gl::Context> make_context(scene::ContextKind kind) {
 
 namespace {
 
-DrawnBy drawn_by(const gl::Context& context) {
-    return gl::is_processor(context.description().renderer) ? DrawnBy::Processor : DrawnBy::Gpu;
-}
-
 std::unique_ptr<gl::Context> made(std::unique_ptr<gl::Context> context, scene::ContextKind kind) {
     return context ? std::move(context) : make_context(kind);
 }
@@ -43,7 +37,7 @@ std::unique_ptr<gl::Context> made(std::unique_ptr<gl::Context> context, scene::C
 Session::Session(const scene::Settings& settings, Shows shows, std::unique_ptr<gl::Context> context)
     : settings_(settings)
     , context_(made(std::move(context), settings.context))
-    , world_(load_world(settings, drawn_by(*context_)))
+    , world_(load_world(settings, drawn_by()))
     , renderer_(std::make_unique<gl::Renderer>(
           context_->functions(), settings.size_px.x, settings.size_px.y, settings.samples))
     , times_(frame_times_of(settings_, world_.flight))
@@ -52,7 +46,14 @@ Session::Session(const scene::Settings& settings, Shows shows, std::unique_ptr<g
     load_into_renderer(shows);
     renderer_->warm_up();
     gl::spread_raster_threads();
+    if (settings_.inset) {
+        inset_ = std::make_unique<InsetView>(settings_, world_, drawn_by());
+    }
     start_flight();
+}
+
+DrawnBy Session::drawn_by() const {
+    return gl::is_processor(context_->description().renderer) ? DrawnBy::Processor : DrawnBy::Gpu;
 }
 
 Session::~Session() {
@@ -70,6 +71,10 @@ void Session::load_into_renderer(Shows shows) {
         buffers.push_back(model.buffers);
     }
     renderer_->load_models(buffers);
+    load_texture();
+}
+
+void Session::load_texture() {
     if (world_.scene.ground_texture) {
         renderer_->load_ground_texture(*world_.scene.ground_texture);
         world_.scene.ground_texture->albedo.texels = {};
@@ -80,9 +85,6 @@ void Session::load_into_renderer(Shows shows) {
 void Session::start_flight() {
     simulation_.emplace(world_);
     planner_.emplace(world_.scene, settings_);
-    if (settings_.inset) {
-        inset_ = std::make_unique<InsetView>(settings_, world_, drawn_by(*context_));
-    }
     load_settings_ = scene::load_settings(settings_, rate_hz());
     load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
     begin_at(times_.at_s.front());
@@ -269,86 +271,6 @@ void Session::read_picture() {
 
 void Session::hash_picture() {
     picture_hash_.add(std::as_bytes(std::span(picture_.rgba)));
-}
-
-void Session::apply(const scene::Settings& settings) {
-    plan_ = nullptr;
-    switch (change_between(settings_, settings)) {
-    case SettingsChange::None:
-        break;
-    case SettingsChange::Look:
-        if (settings.eye_m != settings_.eye_m || settings.look_m != settings_.look_m) {
-            world_.points = fixed_points(settings, world_);
-        }
-        settings_ = settings;
-        break;
-    case SettingsChange::Picture:
-        change_picture(settings);
-        break;
-    case SettingsChange::World:
-        change_world(settings);
-        break;
-    }
-}
-
-void Session::change_world(const scene::Settings& settings) {
-    World world = load_world(settings, drawn_by(*context_));
-    FrameTimes times = frame_times_of(settings, world.flight);
-    renderer_->resize(settings.size_px, settings.samples);
-    inset_.reset();
-    planner_.reset();
-    settings_ = settings;
-    world_ = std::move(world);
-    times_ = std::move(times);
-    load_into_renderer(Shows::World);
-    start_flight();
-}
-
-/// All that may fail comes before what could not be taken back.
-void Session::change_picture(const scene::Settings& settings) {
-    check_settings(settings);
-    const scene::FixedPoints points = fixed_points(settings, world_);
-    std::unique_ptr<InsetView> new_inset;
-    if (settings.inset && !inset_) {
-        new_inset = std::make_unique<InsetView>(settings, world_, drawn_by(*context_));
-    }
-    World other;
-    const bool follows = world_.scene.ground->can_follow(ground_settings(settings));
-    if (!follows) {
-        load_scene_ground(settings, drawn_by(*context_), other);
-    }
-    renderer_->resize(settings.size_px, settings.samples);
-
-    const bool other_control =
-        settings.detail != settings_.detail || settings.resolution_c != settings_.resolution_c;
-    planner_.reset();
-    settings_ = settings;
-    world_.points = points;
-    if (follows) {
-        world_.scene.ground->follow(ground_settings(settings_));
-    } else {
-        world_.scene.ground = std::move(other.scene.ground);
-    }
-    planner_.emplace(world_.scene, settings_);
-    if (other_control || !follows) {
-        planner_->settle(now_.camera);
-    }
-    follow_inset(std::move(new_inset));
-    if (next_is_reached_) {
-        look(next_);
-    }
-    load_settings_ = scene::load_settings(settings_, rate_hz());
-    load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
-}
-
-void Session::follow_inset(std::unique_ptr<InsetView> new_inset) {
-    if (new_inset) {
-        inset_ = std::move(new_inset);
-    } else if (!settings_.inset) {
-        inset_.reset();
-    } else {
-        inset_->follow(settings_);
-    }
 }
 
 } // namespace octant::ui

@@ -140,7 +140,9 @@ private:
         std::uint64_t state_hash = 0;
     };
 
+    DrawnBy drawn_by() const;
     void load_into_renderer(Shows shows);
+    void load_texture();
     void start_flight();
     report::FrameRecord picture_of(int frame, double time_s, std::optional<double> next_s);
     void look(Moment& moment) const;
@@ -154,6 +156,7 @@ private:
     void fill_in(const visuals::scene::PlanCounts& counts, report::FrameRecord& record);
     void change_world(const visuals::scene::Settings& settings);
     void change_picture(const visuals::scene::Settings& settings);
+    void take_ground(World* other);
     void follow_inset(std::unique_ptr<InsetView> new_inset);
 
     visuals::scene::Settings settings_;

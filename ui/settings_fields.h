@@ -259,13 +259,6 @@ void visit_ground_settings(SomeSettings& s, Visit& visit) {
             0.0,
             1e9},
         s.control_a);
-    visit(Info{"control-r", "r", "earlier frames in the damping's mean", 0, 64}, s.control_r);
-}
-
-/// Fields that say sky, haze, sun and colours.
-template <class SomeSettings, class Visit>
-void visit_air_settings(SomeSettings& s, Visit& visit) {
-    using Info = FieldInfo;
     visit(
         Info{
             "show-mesh",
@@ -273,6 +266,13 @@ void visit_air_settings(SomeSettings& s, Visit& visit) {
             "lines along the edges of the ground's triangles: none, edges, or levels (a colour for "
             "each halving of their size)"},
         s.show_mesh);
+    visit(Info{"control-r", "r", "earlier frames in the damping's mean", 0, 64}, s.control_r);
+}
+
+/// Fields that say sky, haze, sun and colours.
+template <class SomeSettings, class Visit>
+void visit_air_settings(SomeSettings& s, Visit& visit) {
+    using Info = FieldInfo;
     visit(Info{"sky", "", "sky and the plain beyond the map's edge"}, s.sky);
     visit(
         Info{

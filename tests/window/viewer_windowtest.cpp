@@ -324,18 +324,82 @@ TEST_CASE("changing path, aircraft and ground in the window loads them, and a wr
     CHECK(driven->state().message.text.find("no-such-path") != std::string::npos);
 }
 
-TEST_CASE("a flight by hand into the ground stops with a message") {
+TEST_CASE("a flight by hand into the ground stops with a message, and its recording repeats it") {
     const auto driven = DrivenViewer::open(small_flight());
     if (!driven) {
         return;
     }
     driven->strike("h");
+    driven->strike("F9");
+    REQUIRE(driven->state().recording.has_value());
+    const fs::path folder = *driven->state().recording;
     driven->state().playback.speed = 4.0;
     driven->display().press("Up");
     ui::Simulation& simulation = driven->viewer().session().simulation();
     CHECK(driven->until([&] { return simulation.end_of_flight().has_value(); }));
     driven->display().release("Up");
     driven->turns(2);
+    CHECK(simulation.end_of_flight() == ui::Simulation::End::OnTheGround);
     CHECK_FALSE(driven->state().playback.playing);
     CHECK(driven->state().message.text.find("ground") != std::string::npos);
+    driven->strike("F9");
+    CHECK(flown_again(folder) == run_of(folder)["summary"]["state_hash"].get<std::string>());
+}
+
+TEST_CASE("another way to remove hidden surfaces keeps the flight's time") {
+    const auto driven = DrivenViewer::open(small_flight());
+    if (!driven) {
+        return;
+    }
+    driven->strike("space");
+    driven->strike("Home");
+    driven->strike("slash");
+    driven->state().wanted.hidden_surface = visuals::scene::HiddenSurface::DepthBuffer;
+    driven->turns(3);
+    CHECK(driven->settings().hidden_surface == visuals::scene::HiddenSurface::DepthBuffer);
+    CHECK(driven->viewer().session().simulation().time_s() == Approx(2.0));
+}
+
+TEST_CASE("settings that do not go together are refused in the window as on the command line") {
+    const auto driven = DrivenViewer::open(small_flight());
+    if (!driven) {
+        return;
+    }
+    driven->state().wanted.mesh = visuals::scene::GroundMetric::ScreenError;
+    driven->state().wanted.detail = visuals::scene::DetailControl::Damped;
+    driven->turns(3);
+    CHECK(driven->settings().detail == visuals::scene::DetailControl::Exact);
+    CHECK(driven->state().message.text.find("--mesh screen-error") != std::string::npos);
+}
+
+TEST_CASE("M shows the edges of the ground's triangles, then their levels") {
+    const auto driven = DrivenViewer::open(small_flight());
+    if (!driven) {
+        return;
+    }
+    driven->strike("space");
+    const visuals::gl::Picture plain = driven->picture();
+    driven->strike("m");
+    const visuals::gl::Picture edges = driven->picture();
+    CHECK(difference(edges, plain) > 0.02);
+    driven->strike("m");
+    CHECK(difference(driven->picture(), edges) > 0.05);
+    driven->strike("m");
+    CHECK(difference(driven->picture(), plain) < 0.001);
+}
+
+TEST_CASE("the window's picture follows the window's size") {
+    const auto driven = DrivenViewer::open(small_flight());
+    if (!driven) {
+        return;
+    }
+    glfwSetWindowSize(driven->viewer().window(), 700, 300);
+    CHECK(driven->until([&] { return driven->settings().size_px == glm::ivec2(700, 300); }));
+    driven->turns(2);
+    CHECK(driven->picture().width == 700);
+    glfwSetWindowSize(driven->viewer().window(), 200, 500);
+    CHECK(driven->until([&] { return driven->settings().size_px == glm::ivec2(200, 500); }));
+    driven->strike("i");
+    driven->turns(2);
+    CHECK(driven->picture().height == 500);
 }

@@ -115,6 +115,9 @@ void add_view_command(CLI::App& program) {
                     "  octant view pop-up --aircraft f15 --terrain map.tif --view cockpit\n"
                     "  octant view --by-hand --aircraft 500md --view chase --inset tower\n"
                     "  octant view --settings my-flight/run.json\n"
+                    "Of the settings, rate, seconds, pictures, warm-up and realtime count when a "
+                    "recording is flown\n"
+                    "again by octant fly; --frames closes the window after so many.\n"
                     "No display? octant fly needs none.");
     command->callback([options] {
         options->view.keeps_into = configuration_folder();
