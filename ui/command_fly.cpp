@@ -127,6 +127,11 @@ void fly_frames(const FlyOptions& options, Session& session, FlightRecorder& rec
             wait_for(since_start, frame / session.rate_hz());
         }
         report::FrameRecord record = session.draw(frame);
+        if (options.settings.realtime) {
+            const double late_s = since_start.s() - frame / session.rate_hz();
+            record.latency_ms = 1000.0 * late_s;
+            record.missed = late_s > 1.0 / session.rate_hz() ? 1 : 0;
+        }
         recorder.add(record, session);
         progress.show(frame + 1, fmt::format("{:.1f} ms", record.frame_ms));
     }

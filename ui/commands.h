@@ -13,6 +13,7 @@ struct CheckSaidNo {};
 // environment is wrong.
 
 void add_fly_command(CLI::App& program);
+void add_view_command(CLI::App& program); ///< in ui/window; needs a display
 void add_report_command(CLI::App& program);
 void add_terrain_command(CLI::App& program);
 void add_draw_order_command(CLI::App& program);

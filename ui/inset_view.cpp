@@ -31,8 +31,11 @@ scene::Settings inset_settings(const scene::Settings& settings, const glm::ivec2
 }
 
 std::unique_ptr<scene::Ground> load_ground_of(const scene::Settings& settings, DrawnBy drawn_by) {
+    scene::Settings bare = settings; // the texture is the world's
+    bare.drape.reset();
+    bare.ground_shading = scene::GroundShading::Vertex;
     World world;
-    load_scene_ground(settings, drawn_by, world);
+    load_scene_ground(bare, drawn_by, world);
     return std::move(world.scene.ground);
 }
 
@@ -52,7 +55,7 @@ InsetView::InsetView(const scene::Settings& settings, const World& world, DrawnB
 void InsetView::place(const scene::Settings& settings) {
     assert(settings.inset);
     const glm::ivec2 size_px = glm::max(settings.size_px / share_of_side, glm::ivec2(1));
-    const int margin_px = settings.size_px.y / margin_share;
+    const int margin_px = std::min(settings.size_px.x, settings.size_px.y) / margin_share;
     rectangle_ = {
         settings.size_px.x - size_px.x - margin_px,
         settings.size_px.y - size_px.y - margin_px,
@@ -68,12 +71,16 @@ void InsetView::follow(const scene::Settings& settings) {
         scene_.ground->follow(ground_settings(settings_));
     } else {
         scene_.ground = load_ground_of(settings_, drawn_by_);
+        settles_ = true;
     }
     planner_.emplace(scene_, settings_);
 }
 
 const scene::FramePlan&
 InsetView::plan(const scene::Camera& camera, std::span<const sim::AircraftState> states) {
+    if (std::exchange(settles_, false)) {
+        planner_->settle(camera);
+    }
     scene::PlanCounts counts;
     return planner_->plan(camera, states, counts);
 }

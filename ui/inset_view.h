@@ -44,6 +44,7 @@ private:
     visuals::gl::PixelRect rectangle_;
     visuals::scene::Scene scene_;
     std::optional<visuals::scene::Planner> planner_;
+    bool settles_ = true; ///< the ground's detail has not been set for a first picture
 };
 
 } // namespace octant::ui

@@ -1,7 +1,6 @@
 #include "sim/base/error.h"
 #include "ui/commands.h"
 #include "ui/version.h"
-#include "ui/window/command_view.h"
 #include "visuals/gl/platform_tuning.h"
 
 #include <CLI/CLI.hpp>

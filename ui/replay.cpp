@@ -33,7 +33,9 @@ Replay read_replay(const std::filesystem::path& folder) {
     if (rows.records.empty()) {
         error_in(file, "expected the rows of a flight, got none");
     }
-    if (run.ended && run.picture_hash.empty()) {
+    const bool in_a_window = std::ranges::any_of(
+        run.facts, [](const auto& fact) { return fact.first == report::flown_fact; });
+    if (in_a_window) {
         error_in(
             folder / "run.json",
             "expected a recording of octant fly, got one of a window, whose pictures follow the "

@@ -38,7 +38,9 @@ void describe_ground(
     }
 }
 
-void check_detail(const scene::Settings& settings) {
+} // namespace
+
+void check_ground_settings(const scene::Settings& settings) {
     scene::Settings unasked = settings;
     unasked.mesh.reset();
     if (settings.mesh == scene::GroundMetric::ScreenError &&
@@ -80,8 +82,6 @@ void load_imported(const scene::Settings& settings, DrawnBy drawn_by, World& wor
     world.scene.ground = scene::ground_from_tiles(std::move(ground), settings);
 }
 
-} // namespace
-
 bool is_drawn_whole(const std::string& terrain) {
     return terrain == "background60" || terrain == "none";
 }
@@ -95,7 +95,7 @@ scene::Settings ground_settings(const scene::Settings& settings) {
 }
 
 void load_scene_ground(const scene::Settings& settings, DrawnBy drawn_by, World& world) {
-    check_detail(settings);
+    check_ground_settings(settings);
     world.ground_name = settings.terrain;
     if (is_drawn_whole(settings.terrain)) {
         check_untextured_ground(settings);

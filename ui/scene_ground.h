@@ -8,6 +8,9 @@
 
 namespace octant::ui {
 
+/// Throws Error for settings of the ground that do not go together.
+void check_ground_settings(const visuals::scene::Settings& settings);
+
 /// Ground of polygons: there is no detail to choose.
 bool is_drawn_whole(const std::string& terrain);
 

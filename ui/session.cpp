@@ -1,8 +1,6 @@
 #include "ui/session.h"
 
 #include "ui/report/statistics.h"
-#include "ui/scene_ground.h"
-#include "ui/settings_change.h"
 #include "visuals/gl/platform_tuning.h"
 #include "visuals/gl/window_context.h"
 
@@ -30,10 +28,6 @@ std::unique_ptr<gl::Context> make_context(scene::ContextKind kind) {
 
 namespace {
 
-DrawnBy drawn_by(const gl::Context& context) {
-    return gl::is_processor(context.description().renderer) ? DrawnBy::Processor : DrawnBy::Gpu;
-}
-
 std::unique_ptr<gl::Context> made(std::unique_ptr<gl::Context> context, scene::ContextKind kind) {
     return context ? std::move(context) : make_context(kind);
 }
@@ -43,7 +37,7 @@ std::unique_ptr<gl::Context> made(std::unique_ptr<gl::Context> context, scene::C
 Session::Session(const scene::Settings& settings, Shows shows, std::unique_ptr<gl::Context> context)
     : settings_(settings)
     , context_(made(std::move(context), settings.context))
-    , world_(load_world(settings, drawn_by(*context_)))
+    , world_(load_world(settings, drawn_by()))
     , renderer_(std::make_unique<gl::Renderer>(
           context_->functions(), settings.size_px.x, settings.size_px.y, settings.samples))
     , times_(frame_times_of(settings_, world_.flight))
@@ -52,7 +46,14 @@ Session::Session(const scene::Settings& settings, Shows shows, std::unique_ptr<g
     load_into_renderer(shows);
     renderer_->warm_up();
     gl::spread_raster_threads();
+    if (settings_.inset) {
+        inset_ = std::make_unique<InsetView>(settings_, world_, drawn_by());
+    }
     start_flight();
+}
+
+DrawnBy Session::drawn_by() const {
+    return gl::is_processor(context_->description().renderer) ? DrawnBy::Processor : DrawnBy::Gpu;
 }
 
 Session::~Session() {
@@ -70,6 +71,10 @@ void Session::load_into_renderer(Shows shows) {
         buffers.push_back(model.buffers);
     }
     renderer_->load_models(buffers);
+    load_texture();
+}
+
+void Session::load_texture() {
     if (world_.scene.ground_texture) {
         renderer_->load_ground_texture(*world_.scene.ground_texture);
         world_.scene.ground_texture->albedo.texels = {};
@@ -80,9 +85,6 @@ void Session::load_into_renderer(Shows shows) {
 void Session::start_flight() {
     simulation_.emplace(world_);
     planner_.emplace(world_.scene, settings_);
-    if (settings_.inset) {
-        inset_ = std::make_unique<InsetView>(settings_, world_, drawn_by(*context_));
-    }
     load_settings_ = scene::load_settings(settings_, rate_hz());
     load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
     begin_at(times_.at_s.front());
@@ -132,15 +134,20 @@ scene::Camera Session::camera_of(const scene::Settings& settings) const {
         ground_height_);
 }
 
+/// Chooses the cameras of the simulation's time.
+void Session::look(Moment& moment) const {
+    moment.camera = camera_of(settings_);
+    if (inset_) {
+        moment.inset_camera = camera_of(inset_->settings());
+    }
+}
+
 void Session::reach(double time_s, int frame, Moment& moment) {
     simulation_->advance_to(time_s);
     moment.time_s = time_s;
     moment.states.assign(simulation_->states().begin(), simulation_->states().end());
     moment.state_hash = simulation_->state_hash();
-    moment.camera = camera_of(settings_);
-    if (inset_) {
-        moment.inset_camera = camera_of(inset_->settings());
-    }
+    look(moment);
     moment.triangle_target = choose_triangle_target(frame);
 }
 
@@ -168,6 +175,24 @@ report::FrameRecord Session::draw_at(double time_s, std::optional<double> next_s
     return picture_of(drawn_++, time_s, next_s);
 }
 
+scene::PlanCounts Session::make_plans() {
+    planner_->set_triangle_target(now_.triangle_target);
+    scene::PlanCounts counts;
+    plan_ = &planner_->plan(now_.camera, now_.states, counts);
+    if (ids_) {
+        plan_ = &ids_->of(*plan_);
+    }
+    inset_plan_ = inset_ ? &inset_->plan(now_.inset_camera, now_.states) : nullptr;
+    return counts;
+}
+
+void Session::draw_plans() {
+    renderer_->draw(*plan_);
+    if (inset_plan_ != nullptr) {
+        renderer_->draw_inset(*inset_plan_, inset_->rectangle());
+    }
+}
+
 report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<double> next_s) {
     if (frame == 0) {
         since_first_frame_ = Stopwatch();
@@ -188,11 +213,7 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     next_is_reached_ = false;
     record.sim_ms = stage.lap_ms();
 
-    planner_->set_triangle_target(now_.triangle_target);
-    scene::PlanCounts counts;
-    const scene::FramePlan& plan = planner_->plan(now_.camera, now_.states, counts);
-    const scene::FramePlan* const inset_plan =
-        inset_ ? &inset_->plan(now_.inset_camera, now_.states) : nullptr;
+    const scene::PlanCounts counts = make_plans();
     record.plan_ms = stage.lap_ms();
 
     if (next_s && settings_.mesh_ahead) {
@@ -201,10 +222,7 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
         record.sim_ms += stage.lap_ms();
         mesh_ahead();
     }
-    renderer_->draw(ids_ ? ids_->of(plan) : plan);
-    if (inset_plan != nullptr) {
-        renderer_->draw_inset(*inset_plan, inset_->rectangle());
-    }
+    draw_plans();
     renderer_->finish();
     record.draw_ms = stage.lap_ms();
     if (presenter_) {
@@ -241,88 +259,18 @@ void Session::fill_in(const scene::PlanCounts& counts, report::FrameRecord& reco
 }
 
 void Session::read_picture() {
+    if (renderer_->is_in_window()) {
+        if (plan_ == nullptr) {
+            make_plans();
+        }
+        renderer_->aim_at_window(glm::ivec2(0));
+        draw_plans();
+    }
     renderer_->finish_and_read(picture_);
 }
 
 void Session::hash_picture() {
     picture_hash_.add(std::as_bytes(std::span(picture_.rgba)));
-}
-
-void Session::apply(const scene::Settings& settings) {
-    switch (change_between(settings_, settings)) {
-    case SettingsChange::None:
-        break;
-    case SettingsChange::Look:
-        if (settings.eye_m != settings_.eye_m || settings.look_m != settings_.look_m) {
-            world_.points = fixed_points(settings, world_);
-        }
-        settings_ = settings;
-        break;
-    case SettingsChange::Picture:
-        change_picture(settings);
-        break;
-    case SettingsChange::World:
-        change_world(settings);
-        break;
-    }
-}
-
-void Session::change_world(const scene::Settings& settings) {
-    World world = load_world(settings, drawn_by(*context_));
-    FrameTimes times = frame_times_of(settings, world.flight);
-    renderer_->resize(settings.size_px, settings.samples);
-    inset_.reset();
-    planner_.reset();
-    settings_ = settings;
-    world_ = std::move(world);
-    times_ = std::move(times);
-    load_into_renderer(Shows::World);
-    start_flight();
-}
-
-/// All that may fail comes before what could not be taken back.
-void Session::change_picture(const scene::Settings& settings) {
-    check_settings(settings);
-    const scene::FixedPoints points = fixed_points(settings, world_);
-    std::unique_ptr<InsetView> new_inset;
-    if (settings.inset && !inset_) {
-        new_inset = std::make_unique<InsetView>(settings, world_, drawn_by(*context_));
-    }
-    World other;
-    const bool follows = world_.scene.ground->can_follow(ground_settings(settings));
-    if (!follows) {
-        load_scene_ground(settings, drawn_by(*context_), other);
-    }
-    renderer_->resize(settings.size_px, settings.samples);
-
-    const bool other_control =
-        settings.detail != settings_.detail || settings.resolution_c != settings_.resolution_c;
-    planner_.reset();
-    settings_ = settings;
-    world_.points = points;
-    if (follows) {
-        world_.scene.ground->follow(ground_settings(settings_));
-    } else {
-        world_.scene.ground = std::move(other.scene.ground);
-    }
-    planner_.emplace(world_.scene, settings_);
-    if (other_control || !follows) {
-        planner_->settle(now_.camera);
-    }
-    follow_inset(std::move(new_inset));
-    load_settings_ = scene::load_settings(settings_, rate_hz());
-    load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
-}
-
-void Session::follow_inset(std::unique_ptr<InsetView> new_inset) {
-    if (new_inset) {
-        inset_ = std::move(new_inset);
-        next_is_reached_ = false;
-    } else if (!settings_.inset) {
-        inset_.reset();
-    } else {
-        inset_->follow(settings_);
-    }
 }
 
 } // namespace octant::ui

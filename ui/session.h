@@ -86,6 +86,9 @@ public:
 
     void present_by(Presenter presenter) { presenter_ = std::move(presenter); }
 
+    /// The next pictures may be drawn straight into a window of that size.
+    void aim_at_window(const glm::ivec2& window_px) { renderer_->aim_at_window(window_px); }
+
     /// Changes what the next frames show. Loads what has to be loaded anew; the flight then starts
     /// again where its aircraft, path or ground are others. Throws Error and leaves everything as
     /// it was.
@@ -109,7 +112,8 @@ public:
     /// For another plan of the same world.
     visuals::scene::Scene& scene() { return world_.scene; }
 
-    /// Reads the last picture where a presenter showed it.
+    /// Reads the last picture where a presenter showed it; draws it once more if it went straight
+    /// into a window.
     void read_picture();
 
     /// Picture of the last frame that was read, top row first.
@@ -136,17 +140,23 @@ private:
         std::uint64_t state_hash = 0;
     };
 
+    DrawnBy drawn_by() const;
     void load_into_renderer(Shows shows);
+    void load_texture();
     void start_flight();
     report::FrameRecord picture_of(int frame, double time_s, std::optional<double> next_s);
+    void look(Moment& moment) const;
     void reach(double time_s, int frame, Moment& moment);
     int choose_triangle_target(int frame);
     double stress_after(const report::FrameRecord& record);
     visuals::scene::Camera camera_of(const visuals::scene::Settings& settings) const;
     void mesh_ahead();
+    visuals::scene::PlanCounts make_plans();
+    void draw_plans();
     void fill_in(const visuals::scene::PlanCounts& counts, report::FrameRecord& record);
     void change_world(const visuals::scene::Settings& settings);
     void change_picture(const visuals::scene::Settings& settings);
+    void take_ground(World* other);
     void follow_inset(std::unique_ptr<InsetView> new_inset);
 
     visuals::scene::Settings settings_;
@@ -162,6 +172,8 @@ private:
     Moment now_;
     Moment next_;
     bool next_is_reached_ = false;
+    const visuals::scene::FramePlan* plan_ = nullptr; ///< of the last picture; null = is no more
+    const visuals::scene::FramePlan* inset_plan_ = nullptr;
     Presenter presenter_;
     visuals::gl::Picture picture_;
     int last_triangles_ = 0;

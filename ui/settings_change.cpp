@@ -52,8 +52,8 @@ std::string written(const std::optional<Value>& value) {
 }
 
 /// Settings that only the camera looks at.
-constexpr std::array<std::string_view, 6> of_the_camera{
-    "eye", "look", "fov", "azimuth", "elevation", "zoom"};
+constexpr std::array<std::string_view, 5> of_the_camera{
+    "eye", "look", "azimuth", "elevation", "zoom"};
 
 struct Written {
     std::string_view name;

@@ -259,6 +259,13 @@ void visit_ground_settings(SomeSettings& s, Visit& visit) {
             0.0,
             1e9},
         s.control_a);
+    visit(
+        Info{
+            "show-mesh",
+            "WHAT",
+            "lines along the edges of the ground's triangles: none, edges, or levels (a colour for "
+            "each halving of their size)"},
+        s.show_mesh);
     visit(Info{"control-r", "r", "earlier frames in the damping's mean", 0, 64}, s.control_r);
 }
 

@@ -110,6 +110,11 @@ struct EnumNames<visuals::scene::DetailControl> {
 };
 
 template <>
+struct EnumNames<visuals::scene::MeshLook> {
+    static std::vector<std::string_view> names() { return {"none", "edges", "levels"}; }
+};
+
+template <>
 struct EnumNames<visuals::scene::Palette> {
     static std::vector<std::string_view> names() { return {"temperate", "arid"}; }
 };

@@ -79,9 +79,26 @@ void Simulation::add_to_hash() {
 }
 
 void Simulation::take_step() {
-    states_from(
-        by_hand() ? step_by_hand()
-                  : world_.flight.trajectory.state_at(sim::time_of_step(next_step_)));
+    states_from(world_.flight.trajectory.state_at(sim::time_of_step(next_step_)));
+    step_done();
+}
+
+/// A step into the ground or off the map is not taken: the flight ends before it.
+void Simulation::take_step_by_hand() {
+    pilot_->step(controls_);
+    sim::AircraftState state = pilot_->state();
+    state.time_s = sim::time_of_step(next_step_);
+    states_from(state);
+    end_ = end_among(states_);
+    if (end_) {
+        states_from(last_two_.back());
+        return;
+    }
+    last_two_ = {last_two_.back(), state};
+    step_done();
+}
+
+void Simulation::step_done() {
     rig_ = scene::advanced(rig_, states_.front());
     add_to_hash();
     if (logs_) {
@@ -90,24 +107,31 @@ void Simulation::take_step() {
     ++next_step_;
 }
 
-sim::AircraftState Simulation::step_by_hand() {
-    pilot_->step(controls_);
-    sim::AircraftState state = pilot_->state();
-    state.time_s = sim::time_of_step(next_step_);
-    last_two_ = {last_two_.back(), state};
-    const scene::AircraftModel& model = world_.scene.models[world_.scene.aircraft.front()];
-    const auto ground_m = world_.scene.ground->height_at(state.position_m.x, state.position_m.y);
-    if (!ground_m || state.position_m.z - *ground_m < reach_down_m(model)) {
-        end_ = {state, !ground_m};
+std::optional<Simulation::End>
+Simulation::end_among(std::span<const sim::AircraftState> states) const {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const glm::dvec3& at_m = states[i].position_m;
+        const auto ground_m = world_.scene.ground->height_at(at_m.x, at_m.y);
+        const double clear_m = reach_down_m(world_.scene.models[world_.scene.aircraft[i]]);
+        if (!ground_m) {
+            return End::OffTheMap;
+        }
+        if (at_m.z - *ground_m < clear_m) {
+            return End::OnTheGround;
+        }
     }
-    return state;
+    return std::nullopt;
 }
 
 void Simulation::advance_to(double time_s) {
     assert(time_s >= time_s_);
     time_s_ = time_s;
     while (next_step_ <= sim::step_at(time_s) && !end_) {
-        take_step();
+        if (by_hand()) {
+            take_step_by_hand();
+        } else {
+            take_step();
+        }
     }
     if (!by_hand()) {
         states_from(world_.flight.trajectory.state_at(time_s));
@@ -138,11 +162,15 @@ void Simulation::take_over(std::string_view aircraft) {
 
 void Simulation::level_off(std::string_view aircraft) {
     assert(by_hand());
+    constexpr double off_the_ground_m = 200.0;
+    glm::dvec3 position_m = last_two_.back().position_m;
+    position_m.z += end_ == End::OnTheGround ? off_the_ground_m : 0.0;
+    const double slowest_mps = aircraft == "500md" ? 0.0 : 120.0; // well above the F-15's stall
     sim::AircraftState start = sim::trimmed_state(
         aircraft,
-        last_two_.back().position_m,
+        position_m,
         euler_from_body_to_world(last_two_.back().body_to_world).heading_rad,
-        glm::length(last_two_.back().velocity_mps));
+        std::max(glm::length(last_two_.back().velocity_mps), slowest_mps));
     start.time_s = sim::time_of_step(step());
     hand_to_pilot(aircraft, start);
 }

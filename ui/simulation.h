@@ -61,7 +61,7 @@ public:
     void take_over(std::string_view aircraft);
 
     /// By hand only (asserted): on from where it is, level and in trim, on the same course and at
-    /// the same speed; after its end too.
+    /// the same speed, unless that is too slow to fly; after its end on the ground 200 m above it.
     void level_off(std::string_view aircraft);
 
     bool by_hand() const { return pilot_ != nullptr; }
@@ -74,17 +74,16 @@ public:
     /// By hand only (asserted).
     const sim::HandFlight& pilot() const { return *pilot_; }
 
-    /// Where an aircraft flown by hand met the ground or left the map: it flies no further.
-    struct End {
-        sim::AircraftState at;
-        bool off_the_map = false;
-    };
+    /// Why a flight by hand goes no further: the next step of one of its aircraft would do this.
+    enum class End { OnTheGround, OffTheMap };
 
-    const std::optional<End>& end_of_flight() const { return end_; }
+    std::optional<End> end_of_flight() const { return end_; }
 
 private:
     void take_step();
-    sim::AircraftState step_by_hand();
+    void take_step_by_hand();
+    void step_done();
+    std::optional<End> end_among(std::span<const sim::AircraftState> states) const;
     void states_from(const sim::AircraftState& leader);
     void add_to_hash();
     sim::AircraftState at_last_step() const;

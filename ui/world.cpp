@@ -287,6 +287,7 @@ void check_settings(const scene::Settings& settings) {
         throw Error("--inset free: expected --view free beside it, got another view");
     }
     check_adaptation(settings);
+    check_ground_settings(settings);
 }
 
 World load_world(const scene::Settings& settings, DrawnBy drawn_by) {

@@ -143,15 +143,15 @@ TEST_CASE("a shader that is wrong is refused by name with the driver's reason") 
     const auto context = gl::make_osmesa_context();
     const char* const right = "#version 450 core\nvoid main() { gl_Position = vec4(0); }\n";
     CHECK_THROWS_WITH(
-        gl::make_program(context->functions(), "odd", "#version 450 core\nnonsense\n", right),
+        gl::make_program(context->functions(), "odd", {"#version 450 core\nnonsense\n", right}),
         Catch::StartsWith("shader odd: expected it to compile, got "));
     CHECK_THROWS_WITH(
         gl::make_program(
             context->functions(),
             "odd",
-            right,
-            "#version 450 core\nin vec3 missing;\nout vec3 pixel;\nvoid main() { pixel = missing; "
-            "}\n"),
+            {right,
+             "#version 450 core\nin vec3 missing;\nout vec3 pixel;\n"
+             "void main() { pixel = missing; }\n"}),
         Catch::StartsWith("shader odd: expected it to link, got "));
 }
 

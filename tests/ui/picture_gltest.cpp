@@ -127,6 +127,13 @@ TEST_CASE("pictures are those that were approved") {
         "f15-straight-canyon-tower", small("straight", "f15", "canyon", View::Tower));
 }
 
+TEST_CASE("pictures with a head-up display are those that were approved") {
+    Settings banked = small("pop-up", "f15", "canyon", View::Cockpit);
+    banked.size_px = {640, 360};
+    banked.rate_hz = 1.0 / 7.0;
+    check_against_golden("f15-pop-up-canyon-head-up", banked);
+}
+
 TEST_CASE("pictures of textured ground are those that were approved") {
     Settings canyon = small("jinking", "f15", "canyon", View::Chase);
     canyon.size_px = {320, 240};

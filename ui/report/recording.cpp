@@ -114,6 +114,11 @@ void Recording::add_picture(int frame, const PictureView& picture) const {
     write_png(picture_path(frame), picture);
 }
 
+void Recording::set_settings(std::string settings_json) {
+    info_.settings_json = std::move(settings_json);
+    write_file(folder_ / "run.json", run_json(info_));
+}
+
 Statistics Recording::finish(const RunEnd& end) {
     frames_file_.flush();
     const Statistics statistics = statistics_of(records_);

@@ -34,9 +34,9 @@ public:
     /// Writes that picture, whole or not at all. May be called from another thread. Throws Error.
     void add_picture(int frame, const PictureView& picture) const;
 
-    /// Other settings in run.json, from its next writing on: for a flight that is not known before
-    /// its end. A JSON object as text.
-    void set_settings(std::string settings_json) { info_.settings_json = std::move(settings_json); }
+    /// Writes run.json anew with other settings: for a flight that is not known before its end. A
+    /// JSON object as text. Throws Error.
+    void set_settings(std::string settings_json);
 
     /// Writes everything that belongs to the end and gives the figures of the summary. Once only.
     /// Throws Error.

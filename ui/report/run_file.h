@@ -17,6 +17,9 @@ namespace octant::ui::report {
 /// Names and values in the order to show.
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
+/// Name of the fact that a recording of a window has: its pictures followed the clock.
+inline constexpr const char* flown_fact = "flown";
+
 /// What run.json says from the start of a flight.
 struct RunInfo {
     std::string title;                ///< for people: "f15-pop-up over hills"

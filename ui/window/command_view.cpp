@@ -1,16 +1,18 @@
-#include "ui/window/command_view.h"
-
-#include "sim/base/error.h"
+#include "ui/commands.h"
 #include "ui/input_files.h"
 #include "ui/progress.h"
 #include "ui/settings_options.h"
 #include "ui/window/viewer.h"
+#include "ui/window/window_bench.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fmt/format.h>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace octant::ui {
 
@@ -28,8 +30,26 @@ fs::path configuration_folder() {
     return home == nullptr || *home == '\0' ? fs::path() : fs::path(home) / ".config" / "octant";
 }
 
+void print_bench(const WindowBench& bench) {
+    const auto line = [](std::string_view name, const WindowTimes& times, const std::string& rest) {
+        std::fputs(
+            fmt::format("{:<28} {:>9.2f} {:>9.2f}  {}\n", name, times.median_ms, times.p99_ms, rest)
+                .c_str(),
+            stdout);
+    };
+    std::fputs(fmt::format("{:<28} {:>9} {:>9}\n", "", "median ms", "p99 ms").c_str(), stdout);
+    line("without a window", bench.without, "");
+    line(
+        "window, panels hidden",
+        bench.hidden,
+        fmt::format("{:.2f} of it", bench.hidden.median_ms / bench.without.median_ms));
+    line(
+        "window, two panels open",
+        bench.open,
+        fmt::format("{:+.2f} ms", bench.open.median_ms - bench.hidden.median_ms));
+}
+
 void view(ViewOptions options, bool quiet) {
-    options.settings = with_absolute_files(options.settings);
     Viewer viewer(options);
     for (const std::string& note : viewer.session().world().notes) {
         say(quiet, "note: " + note);
@@ -50,6 +70,7 @@ void view(ViewOptions options, bool quiet) {
 void add_view_command(CLI::App& program) {
     struct Options {
         ViewOptions view;
+        int bench = 0;
         bool quiet = false;
     };
 
@@ -79,6 +100,14 @@ void add_view_command(CLI::App& program) {
             "where recordings (F9) and screenshots (F12) go")
         ->type_name("DIR")
         ->default_str(".");
+    command
+        ->add_option(
+            "--bench",
+            options->bench,
+            "time so many frames without a window, with its panels hidden and with panels open, in "
+            "turn")
+        ->type_name("FRAMES")
+        ->check(CLI::Range(1, 100000));
     command->add_flag("--quiet", options->quiet, "no notes");
     add_setting_options(*command, options->view.settings, true);
     command->footer("Examples:\n"
@@ -86,10 +115,18 @@ void add_view_command(CLI::App& program) {
                     "  octant view pop-up --aircraft f15 --terrain map.tif --view cockpit\n"
                     "  octant view --by-hand --aircraft 500md --view chase --inset tower\n"
                     "  octant view --settings my-flight/run.json\n"
+                    "Of the settings, rate, seconds, pictures, warm-up and realtime count when a "
+                    "recording is flown\n"
+                    "again by octant fly; --frames closes the window after so many.\n"
                     "No display? octant fly needs none.");
     command->callback([options] {
         options->view.keeps_into = configuration_folder();
-        view(options->view, options->quiet);
+        options->view.settings = with_absolute_files(options->view.settings);
+        if (options->bench > 0) {
+            print_bench(bench_window(options->view, options->bench, options->quiet));
+        } else {
+            view(options->view, options->quiet);
+        }
     });
 }
 

@@ -152,7 +152,9 @@ void show_hand_flight(const Simulation& simulation) {
     if (simulation.end_of_flight()) {
         ImGui::SameLine();
         ImGui::TextColored(
-            warning, simulation.end_of_flight()->off_the_map ? "left the map" : "met the ground");
+            warning,
+            simulation.end_of_flight() == Simulation::End::OffTheMap ? "left the map"
+                                                                     : "met the ground");
     } else if (pilot.warnings().stalled) {
         ImGui::SameLine();
         ImGui::TextColored(warning, "STALL");

@@ -12,7 +12,7 @@ namespace octant::ui {
 /// The last frames of a window, oldest first.
 class FrameHistory {
 public:
-    static constexpr std::size_t most_frames = 600;
+    static constexpr std::size_t most_frames = 300;
 
     void add(const report::FrameRecord& record);
 

@@ -36,6 +36,9 @@ public:
     /// none.
     void draw(const glm::ivec2& size_px);
 
+    /// Corners of the last frame's panels; 0 = there are none.
+    int vertices() const;
+
     /// The pointer or the keys belong to a panel.
     bool wants_pointer() const;
     bool wants_keys() const;

@@ -13,9 +13,11 @@ std::optional<HandStatus> hand_status(const Simulation& simulation) {
     if (!simulation.by_hand()) {
         return std::nullopt;
     }
-    const auto& end = simulation.end_of_flight();
+    const auto end = simulation.end_of_flight();
     return HandStatus{
-        simulation.pilot().warnings(), end.has_value(), end.has_value() && end->off_the_map};
+        simulation.pilot().warnings(),
+        end.has_value(),
+        end.has_value() && *end == Simulation::End::OffTheMap};
 }
 
 const ImVec4 warning_colour{1.0F, 0.35F, 0.25F, 1.0F};

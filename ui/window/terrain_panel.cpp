@@ -16,7 +16,8 @@ namespace {
 
 using report::FrameRecord;
 
-constexpr std::array<std::string_view, 13> controls{
+constexpr std::array<std::string_view, 14> controls{
+    "show-mesh",
     "mesh",
     "detail",
     "triangles",

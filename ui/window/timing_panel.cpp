@@ -127,7 +127,7 @@ void show_clock(std::span<const FrameRecord> records) {
         static_cast<long>(overruns));
     explain("latency: from the input that a picture shows to the picture finished, mean of the "
             "last 60 frames. missed: pictures later than the next one was due; overruns: frames "
-            "above 16.67 ms; both of the last 600 frames.");
+            "above 16.67 ms; both of the last 300 frames.");
 }
 
 } // namespace

@@ -26,6 +26,7 @@ enum class ViewCommand {
     LevelOff,
     Record,
     Screenshot,
+    ShowMesh,
     FullScreen,
     Panels,
     FlightPanel,
@@ -44,6 +45,7 @@ struct ViewKey {
     ViewCommand command = ViewCommand::Leave;
     std::string_view name;    ///< as written on the key
     std::string_view meaning; ///< one line for the help
+    bool repeats = false;     ///< again and again while it is held
 };
 
 /// All keys that ask for something once, in the order of the help.

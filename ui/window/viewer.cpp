@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <fmt/format.h>
 #include <thread>
 #include <utility>
@@ -51,15 +52,14 @@ Viewer::Viewer(const ViewOptions& options)
     settings.size_px = input_->size_px();
     session_ = std::make_unique<Session>(settings, Shows::World, std::move(context));
     session_->present_by([this](gl::Renderer& renderer) {
-        renderer.copy_to(0, input_->size_px());
+        if (!renderer.is_in_window()) {
+            renderer.copy_to(0, input_->size_px());
+        }
         gui_->draw(input_->size_px());
         context_->swap_buffers();
     });
-    if (!options.keeps_into.empty()) {
-        make_folder(options.keeps_into);
-        state_.open.first_steps = !fs::exists(layout_file(options.keeps_into));
-    }
-    gui_.emplace(context_->window(), context_->functions(), layout_file(options.keeps_into));
+    keep_layout();
+    gui_.emplace(context_->window(), context_->functions(), layout_file(options_.keeps_into));
     refresh_hz_ = refresh_hz_of(glfwGetPrimaryMonitor());
     state_.wanted = settings;
     state_.vsync = options.vsync;
@@ -76,16 +76,30 @@ Viewer::Viewer(const ViewOptions& options)
         say(note);
     }
     if (options.record) {
-        session_->simulation().advance_to(session_->simulation().time_s());
         start_recording(*options.record);
     }
     clock_ = Stopwatch();
 }
 
+/// Without a folder of the user's own it does as well.
+void Viewer::keep_layout() {
+    if (options_.keeps_into.empty()) {
+        return;
+    }
+    try {
+        make_folder(options_.keeps_into);
+        std::error_code ignored;
+        state_.open.first_steps = !fs::exists(layout_file(options_.keeps_into), ignored);
+    } catch (const Error&) {
+        options_.keeps_into.clear();
+    }
+}
+
 Viewer::~Viewer() {
+    session_->make_current();
     try {
         finish_recording();
-    } catch (const Error&) {
+    } catch (const std::exception&) {
         // The frames so far are on the disk: octant report makes the rest of them.
     }
 }
@@ -107,6 +121,9 @@ bool Viewer::turn() {
     const double now_s = clock_.s();
     const double wall_s = std::min(now_s - last_turn_s_, longest_turn_s);
     last_turn_s_ = now_s;
+    if (std::exchange(waits_, state_.vsync) != state_.vsync) {
+        context_->wait_for_refresh(state_.vsync);
+    }
     glfwPollEvents();
     fit_to_window();
     gui_->begin_frame();
@@ -115,8 +132,11 @@ bool Viewer::turn() {
     gui_->end_frame();
     take_requests();
     apply_wanted();
-    if (session_->simulation().end_of_flight()) {
+    if (state_.playback.playing && session_->simulation().end_of_flight()) {
         state_.playback.playing = false;
+        say(session_->simulation().end_of_flight() == Simulation::End::OffTheMap
+                ? "the edge of the map ends the flight: H goes back to the path"
+                : "the ground ends the flight: T flies on above it, H goes back to the path");
     }
     const bool by_hand = session_->simulation().by_hand();
     if (state_.playback.pass(wall_s, by_hand) == Playback::Moved::Restarts) {
@@ -139,13 +159,14 @@ void Viewer::fit_to_window() {
 void Viewer::take_events(double wall_s) {
     const WindowEvents events = input_->take();
     input_s_ = clock_.s();
-    if (!gui_->wants_keys()) {
-        for (const int key : events.keys) {
+    const bool typing = gui_->wants_keys();
+    if (!typing) {
+        for (const WindowEvents::Key& key : events.keys) {
             press(key);
         }
         move_free_camera(wall_s);
-        fly_by_hand(wall_s);
     }
+    fly_by_hand(wall_s, typing);
     if (!gui_->wants_pointer()) {
         const auto height = static_cast<float>(std::max(input_->size().y, 1));
         if (events.dragged != glm::vec2(0.0F)) {
@@ -169,23 +190,33 @@ void Viewer::move_free_camera(double wall_s) {
     state_.wanted = moved(state_.wanted, move, wall_s);
 }
 
-void Viewer::fly_by_hand(double wall_s) {
+void Viewer::fly_by_hand(double wall_s, bool typing) {
     Simulation& simulation = session_->simulation();
     if (!simulation.by_hand()) {
         return;
     }
-    simulation.set_controls(controls_after(simulation.controls(), input_->pilot_devices(), wall_s));
+    PilotDevices devices = input_->pilot_devices();
+    if (typing) {
+        devices.keys = {};
+    }
+    simulation.set_controls(controls_after(simulation.controls(), devices, wall_s));
 }
 
 void Viewer::apply_wanted() {
-    if (state_.wanted == session_->settings()) {
+    using scene::View;
+    scene::Settings& wanted = state_.wanted;
+    if (wanted.view != session_->settings().view &&
+        (wanted.view == View::Free) != (wanted.eye_m && wanted.look_m)) {
+        wanted = with_view(wanted, wanted.view, session_->camera());
+    }
+    if (wanted == session_->settings()) {
         return;
     }
     const bool other_flight =
         change_between(session_->settings(), state_.wanted) == SettingsChange::World;
     try {
         if (other_flight && recording_) {
-            throw Error("a recording keeps its aircraft, path and ground: stop it first (F9)");
+            throw Error("a recording keeps what is loaded: stop it first (F9)");
         }
         session_->apply(state_.wanted);
     } catch (const Error& fault) {
@@ -206,6 +237,7 @@ void Viewer::draw() {
     const bool ahead = session_->settings().mesh_ahead;
     const double input_of_next_s = input_s_;
     const double time_s = ahead ? shown_s_ : next_s;
+    session_->aim_at_window(input_->size_px());
     report::FrameRecord record =
         session_->draw_at(time_s, ahead ? std::optional(next_s) : std::nullopt);
     const double now_s = clock_.s();
@@ -215,8 +247,18 @@ void Viewer::draw() {
     shown_s_ = next_s;
     shown_input_s_ = input_of_next_s;
     state_.history.add(record);
-    if (recording_) {
+    record_frame(record);
+}
+
+void Viewer::record_frame(const report::FrameRecord& record) {
+    if (!recording_) {
+        return;
+    }
+    try {
         recording_->add(record, *session_);
+    } catch (const Error& fault) {
+        drop_recording();
+        say(fault.what());
     }
 }
 

@@ -50,6 +50,8 @@ public:
     /// Ends the recording, where there is one, and says where its report is. Throws Error.
     std::optional<std::string> finish_recording();
 
+    const Gui& gui() const { return *gui_; }
+
     Session& session() { return *session_; }
 
     ViewState& state() { return state_; }
@@ -58,9 +60,13 @@ public:
 
 private:
     void take_events(double wall_s);
-    void press(int key);
+    void keep_layout();
+    void press(const WindowEvents::Key& key);
     void command(ViewCommand what);
-    void fly_by_hand(double wall_s);
+    bool view_command(ViewCommand what);
+    bool panel_command(ViewCommand what);
+    void flight_command(ViewCommand what);
+    void fly_by_hand(double wall_s, bool typing);
     void move_free_camera(double wall_s);
     void fit_to_window();
     void take_requests();
@@ -75,6 +81,8 @@ private:
     void apply_wanted();
     void restart_playback();
     void draw();
+    void record_frame(const report::FrameRecord& record);
+    void drop_recording();
     void say(const std::string& text);
     std::filesystem::path unused_path(const std::string& stem, const std::string& ending) const;
     void wait_for_display(double turn_began_s) const;
@@ -93,6 +101,7 @@ private:
     double shown_input_s_ = 0.0; ///< when the input of the next picture was read
     double presented_s_ = 0.0;   ///< when the last picture was shown
     double refresh_hz_ = 60.0;
+    bool waits_ = false;        ///< the driver waits for the display's refresh
     glm::ivec2 windowed_at_{0}; ///< place and size before full screen
     glm::ivec2 windowed_size_{0};
 };

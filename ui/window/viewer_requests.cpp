@@ -2,6 +2,7 @@
 #include "sim/base/output_file.h"
 #include "ui/flight_recorder.h"
 #include "ui/id_comparison.h"
+#include "ui/input_files.h"
 #include "ui/report/png_file.h"
 #include "ui/settings_file.h"
 #include "ui/window/look_control.h"
@@ -34,45 +35,90 @@ void next_inset(scene::Settings& settings) {
     settings.inset = at == turns.end() || at + 1 == turns.end() ? turns.front() : *(at + 1);
 }
 
+void next_mesh_look(scene::Settings& settings) {
+    using scene::MeshLook;
+    settings.show_mesh = settings.show_mesh == MeshLook::None    ? MeshLook::Edges
+                         : settings.show_mesh == MeshLook::Edges ? MeshLook::Levels
+                                                                 : MeshLook::None;
+}
+
 } // namespace
 
-void Viewer::press(int key) {
-    const auto found = std::ranges::find(view_keys(), key, &ViewKey::key);
-    if (found != view_keys().end()) {
+void Viewer::press(const WindowEvents::Key& key) {
+    const auto found = std::ranges::find(view_keys(), key.key, &ViewKey::key);
+    if (found != view_keys().end() && (found->repeats || !key.repeats)) {
         command(found->command);
     }
 }
 
 void Viewer::command(ViewCommand what) {
+    if (!view_command(what) && !panel_command(what)) {
+        flight_command(what);
+    }
+}
+
+/// Whether the command was one of what is seen.
+bool Viewer::view_command(ViewCommand what) {
+    using C = ViewCommand;
+    using scene::View;
+    constexpr std::array<std::pair<C, View>, 5> views{
+        {{C::Cockpit, View::Cockpit},
+         {C::Chase, View::Chase},
+         {C::Tower, View::Tower},
+         {C::Orbit, View::Orbit},
+         {C::Free, View::Free}}};
+    const auto view = std::ranges::find(views, what, &std::pair<C, View>::first);
+    if (view != views.end()) {
+        state_.wanted = with_view(state_.wanted, view->second, session_->camera());
+    } else if (what == C::NextInset) {
+        next_inset(state_.wanted);
+    } else if (what == C::ResetLook) {
+        state_.wanted = looking_straight(state_.wanted);
+    } else if (what == C::ShowMesh) {
+        next_mesh_look(state_.wanted);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/// Whether the command was one of the panels.
+bool Viewer::panel_command(ViewCommand what) {
+    using C = ViewCommand;
+    constexpr std::array<std::pair<C, bool OpenPanels::*>, 8> panels{
+        {{C::FlightPanel, &OpenPanels::flight},
+         {C::TimingPanel, &OpenPanels::timing},
+         {C::TerrainPanel, &OpenPanels::terrain},
+         {C::DrawOrderPanel, &OpenPanels::draw_order},
+         {C::AircraftPanel, &OpenPanels::aircraft},
+         {C::ScenePanel, &OpenPanels::scene},
+         {C::SettingsPanel, &OpenPanels::settings},
+         {C::Help, &OpenPanels::help}}};
+    OpenPanels& open = state_.open;
+    const auto panel = std::ranges::find(panels, what, &std::pair<C, bool OpenPanels::*>::first);
+    if (panel != panels.end()) {
+        bool& is_open = open.*panel->second;
+        is_open = !(is_open && open.shown);
+        open.shown = open.shown || is_open;
+    } else if (what == C::Panels) {
+        open.shown = !open.shown;
+    } else {
+        return false;
+    }
+    return true;
+}
+
+void Viewer::flight_command(ViewCommand what) {
     using C = ViewCommand;
     Playback& playback = state_.playback;
-    OpenPanels& open = state_.open;
     ViewRequests& requests = state_.requests;
-    const auto view = [&](scene::View wanted) {
-        state_.wanted = with_view(state_.wanted, wanted, session_->camera());
-    };
-    const auto toggle = [&](bool& panel) {
-        panel = !(panel && open.shown);
-        open.shown = open.shown || panel;
-    };
+    const bool at_the_end = playback.time_s >= playback.end_s && !session_->simulation().by_hand();
     switch (what) {
-    case C::Cockpit:
-        return view(scene::View::Cockpit);
-    case C::Chase:
-        return view(scene::View::Chase);
-    case C::Tower:
-        return view(scene::View::Tower);
-    case C::Orbit:
-        return view(scene::View::Orbit);
-    case C::Free:
-        return view(scene::View::Free);
-    case C::NextInset:
-        return next_inset(state_.wanted);
-    case C::ResetLook:
-        state_.wanted = looking_straight(state_.wanted);
-        return;
     case C::PlayOrPause:
         playback.playing = !playback.playing;
+        if (playback.playing && at_the_end) {
+            requests.go_to_s = playback.begin_s;
+        }
         return;
     case C::StepFrame:
         requests.step_frame = true;
@@ -108,27 +154,10 @@ void Viewer::command(ViewCommand what) {
     case C::FullScreen:
         requests.toggle_full_screen = true;
         return;
-    case C::Panels:
-        open.shown = !open.shown;
-        return;
-    case C::FlightPanel:
-        return toggle(open.flight);
-    case C::TimingPanel:
-        return toggle(open.timing);
-    case C::TerrainPanel:
-        return toggle(open.terrain);
-    case C::DrawOrderPanel:
-        return toggle(open.draw_order);
-    case C::AircraftPanel:
-        return toggle(open.aircraft);
-    case C::ScenePanel:
-        return toggle(open.scene);
-    case C::SettingsPanel:
-        return toggle(open.settings);
-    case C::Help:
-        return toggle(open.help);
     case C::Leave:
-        requests.leave = !std::exchange(open.help, false);
+        requests.leave = !std::exchange(state_.open.help, false);
+        return;
+    default:
         return;
     }
 }
@@ -151,7 +180,9 @@ void Viewer::take_requests() {
     }
     try {
         if (requests.save_settings) {
-            write_file(*requests.save_settings, settings_json(session_->settings()).dump(2) + "\n");
+            scene::Settings saved = with_absolute_files(session_->settings());
+            saved.context = scene::ContextKind::OsMesa;
+            write_file(*requests.save_settings, settings_json(saved).dump(2) + "\n");
             say(fmt::format("settings: {}", requests.save_settings->string()));
         }
         if (requests.load_settings) {
@@ -178,7 +209,9 @@ void Viewer::take_flight_requests(const ViewRequests& requests) {
     }
     if (requests.go_to_s && recording_) {
         say("a recording goes on in time: stop it first (F9)");
-    } else if (requests.go_to_s && !simulation.by_hand()) {
+    } else if (requests.go_to_s && simulation.by_hand()) {
+        say("by hand there is no path to go along: H gives it back to its path");
+    } else if (requests.go_to_s) {
         go_to(*requests.go_to_s);
     }
 }
@@ -210,7 +243,8 @@ void Viewer::toggle_hand() {
 fs::path Viewer::unused_path(const std::string& stem, const std::string& ending) const {
     for (int number = 1;; ++number) {
         const fs::path path = options_.records_into / fmt::format("{}-{}{}", stem, number, ending);
-        if (!fs::exists(path)) {
+        std::error_code ignored;
+        if (!fs::exists(path, ignored)) {
             return path;
         }
     }
@@ -240,10 +274,16 @@ void Viewer::toggle_recording() {
             start_recording(unused_path("flight", ""));
         }
     } catch (const Error& fault) {
-        recording_.reset();
-        state_.recording.reset();
+        drop_recording();
         say(fault.what());
     }
+}
+
+/// What it wrote stays.
+void Viewer::drop_recording() {
+    recording_.reset();
+    state_.recording.reset();
+    session_->simulation().stop_log();
 }
 
 void Viewer::take_screenshot() {

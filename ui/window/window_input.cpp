@@ -15,7 +15,7 @@ struct WindowCallbacks {
 
     static void key(GLFWwindow* window, int key, int /*scan_code*/, int action, int /*mods*/) {
         if (action != GLFW_RELEASE) {
-            input_of(window).events_.keys.push_back(key);
+            input_of(window).events_.keys.push_back({key, action == GLFW_REPEAT});
         }
     }
 
@@ -62,6 +62,12 @@ PilotDevices WindowInput::pilot_devices() const {
         .yaw_right = is_down(GLFW_KEY_X),
         .throttle_up = is_down(GLFW_KEY_PAGE_UP),
         .throttle_down = is_down(GLFW_KEY_PAGE_DOWN)};
+    if (glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS) {
+        constexpr double full_share = 0.4;
+        const glm::dvec2 window(size());
+        devices.cursor = {
+            glm::dvec2(pointer_) - 0.5 * window, full_share * std::max(window.y, 1.0)};
+    }
     for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
         GLFWgamepadstate gamepad;
         if (!devices.gamepad && glfwGetGamepadState(id, &gamepad) == GLFW_TRUE) {

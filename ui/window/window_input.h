@@ -12,7 +12,12 @@ namespace octant::ui {
 
 /// What a person did to a window since it was last asked.
 struct WindowEvents {
-    std::vector<int> keys;     ///< pressed, GLFW_KEY_..., in order; repeats too
+    struct Key {
+        int key = 0;          ///< GLFW_KEY_...
+        bool repeats = false; ///< it was held
+    };
+
+    std::vector<Key> keys;     ///< pressed, in order
     glm::vec2 dragged{0.0F};   ///< with the left button down, in the window's units
     double wheel_clicks = 0.0; ///< towards the screen
 };

@@ -1,6 +1,7 @@
 #include "ui/window/window_recording.h"
 
 #include "flightpaths/track_writer.h"
+#include "sim/base/error.h"
 #include "sim/fixed_step.h"
 #include "ui/flight_recorder.h"
 #include "ui/input_files.h"
@@ -30,7 +31,8 @@ from_step(const Session& session, long step, const std::filesystem::path& folder
     settings.context = scene::ContextKind::OsMesa;
     settings.frames.reset();
     settings.seconds.reset();
-    settings.start_s = sim::time_of_step(step) - session.world().flight.trajectory.start_s();
+    const sim::Trajectory& path = session.world().flight.trajectory;
+    settings.start_s = std::max(0.0, sim::time_of_step(step) - path.start_s());
     if (by_hand) {
         settings.path = std::filesystem::absolute(folder / flight_name).string();
         settings.place = "0,0";
@@ -41,10 +43,21 @@ from_step(const Session& session, long step, const std::filesystem::path& folder
     return settings;
 }
 
+/// Takes the step of the session's time where it has only been gone to. Throws Error at a path's
+/// end.
+long first_step_of(Session& session) {
+    Simulation& simulation = session.simulation();
+    simulation.advance_to(simulation.time_s());
+    if (!simulation.by_hand() && simulation.time_s() >= session.world().flight.trajectory.end_s()) {
+        throw Error("the path has ended: begin it again (Home), then record");
+    }
+    return simulation.step();
+}
+
 report::RunInfo info_of(const Session& session, const scene::Settings& to_repeat) {
     report::RunInfo info = run_info(with_absolute_files(session.settings()), session);
     info.settings_json = settings_json(to_repeat).dump(2);
-    info.facts.emplace_back("flown", "in a window, by the clock");
+    info.facts.emplace_back(report::flown_fact, "in a window, by the clock");
     return info;
 }
 
@@ -58,7 +71,7 @@ std::string lines_of(std::span<const sim::AircraftState> states, bool with_head)
 } // namespace
 
 WindowRecording::WindowRecording(std::filesystem::path folder, Session& session)
-    : first_step_(session.simulation().step())
+    : first_step_(first_step_of(session))
     , recording_(
           folder,
           info_of(session, from_step(session, first_step_, folder, session.simulation().by_hand())))
@@ -89,7 +102,10 @@ void WindowRecording::add(report::FrameRecord record, Session& session) {
     record.frame = frames_++;
     last_time_s_ = record.sim_time_s;
     last_hash_ = session.picture_state_hash();
-    by_hand_ = by_hand_ || session.simulation().by_hand();
+    if (!by_hand_ && session.simulation().by_hand()) {
+        by_hand_ = true;
+        recording_.set_settings(settings_json(settings_to_repeat(session)).dump(2));
+    }
     if (record.sim_time_s >= next_picture_s_) {
         session.read_picture();
         recording_.add_picture(record.frame, view_of(session.picture()));

@@ -42,7 +42,7 @@ Object make_array(
 AircraftPainter::AircraftPainter(const Functions& gl, DrawState& state)
     : gl_(gl)
     , state_(state)
-    , programs_(make_program_pair(gl, "aircraft", aircraft_vert, flat_frag))
+    , programs_(make_program_pair(gl, "aircraft", {aircraft_vert, flat_frag}))
     , model_vertices_(make_buffer(gl))
     , model_indices_(make_buffer(gl))
     , part_buffer_(gl, first_capacity_bytes)

@@ -1,7 +1,5 @@
 #include "visuals/gl/draw_state.h"
 
-#include "visuals/gl/program.h"
-
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
@@ -27,21 +25,24 @@ constexpr float edge_on_steps = -0x1p23F * 0.02F;
 } // namespace
 
 ProgramPair make_program_pair(
-    const Functions& gl, const char* name, const char* vertex_text, const char* fragment_text) {
+    const Functions& gl, const char* name, const ProgramText& text, const char* defined) {
+    if (defined == nullptr) {
+        return {make_program(gl, name, text), make_program(gl, name, text, {"CUT"})};
+    }
     return {
-        make_program(gl, name, vertex_text, fragment_text),
-        make_program(gl, name, vertex_text, fragment_text, "CUT")};
+        make_program(gl, name, text, {defined}), make_program(gl, name, text, {defined, "CUT"})};
 }
 
-void DrawState::begin_picture() {
+void DrawState::begin_picture(Rows rows) {
     // The upper left origin brings the rows out from the top. Which side of a triangle is its
     // front does not change with it: OpenGL turns the sign of the area along with the origin.
-    gl_.clip_control(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+    gl_.clip_control(rows == Rows::FromTop ? GL_UPPER_LEFT : GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     gl_.front_face(GL_CCW);
     gl_.cull_face(GL_BACK);
     gl_.provoking_vertex(GL_FIRST_VERTEX_CONVENTION);
     gl_.disable(GL_DITHER);
     gl_.disable(GL_BLEND);
+    gl_.disable(GL_SCISSOR_TEST);
     gl_.depth_mask(GL_TRUE);
     draw_calls_ = 0;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "visuals/gl/object.h"
+#include "visuals/gl/program.h"
 #include "visuals/scene/frame_plan.h"
 
 namespace octant::visuals::gl {
@@ -21,9 +22,15 @@ struct ProgramPair {
     Object cut;
 };
 
-/// Links both kinds, the second with CUT defined. Throws Error with `name`.
+/// Links both kinds, the second with CUT defined, both with `defined`. Throws Error with `name`.
 ProgramPair make_program_pair(
-    const Functions& gl, const char* name, const char* vertex_text, const char* fragment_text);
+    const Functions& gl, const char* name, const ProgramText& text, const char* defined = nullptr);
+
+/// Where the first row of a picture lies.
+enum class Rows {
+    FromTop,  ///< as pictures are read
+    FromBelow ///< as windows show them
+};
 
 /// The state of the context that draws of one picture share, and their number.
 class DrawState {
@@ -33,7 +40,7 @@ public:
 
     /// Sets what stays the same in the whole picture, and the number of draw calls to 0. Nothing
     /// about the context is taken for granted.
-    void begin_picture();
+    void begin_picture(Rows rows);
 
     void use_depth(Depth depth);
     void cull_back_faces(bool cull);

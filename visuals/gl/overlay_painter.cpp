@@ -32,7 +32,7 @@ Object make_array(const Functions& gl, const StreamBuffer& vertices, const Strea
 OverlayPainter::OverlayPainter(const Functions& gl, DrawState& state)
     : gl_(gl)
     , state_(state)
-    , programs_{make_program(gl, "overlay", overlay_vert, overlay_frag), {}}
+    , programs_{make_program(gl, "overlay", {overlay_vert, overlay_frag}), {}}
     , vertices_(gl, first_capacity_bytes)
     , indices_(gl, first_capacity_bytes)
     , array_(make_array(gl, vertices_, indices_)) {}

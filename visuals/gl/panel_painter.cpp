@@ -29,8 +29,8 @@ make_atlas(const Functions& gl, std::span<const std::uint8_t> texels, const glm:
     gl.pixel_storei(GL_UNPACK_ALIGNMENT, 1);
     gl.texture_sub_image_2d(
         texture.name(), 0, 0, 0, size.x, size.y, GL_RED, GL_UNSIGNED_BYTE, texels.data());
-    gl.texture_parameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl.texture_parameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl.texture_parameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.texture_parameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
 }
 
@@ -49,7 +49,7 @@ Object make_array(const Functions& gl, const StreamBuffer& vertices, const Strea
 PanelPainter::PanelPainter(
     const Functions& gl, std::span<const std::uint8_t> atlas, const glm::ivec2& size)
     : gl_(gl)
-    , program_(make_program(gl, "panels", panel_vert, panel_frag))
+    , program_(make_program(gl, "panels", {panel_vert, panel_frag}))
     , atlas_(make_atlas(gl, atlas, size))
     , vertices_(gl, first_capacity_bytes)
     , indices_(gl, first_capacity_bytes)
@@ -63,8 +63,7 @@ void PanelPainter::begin(const PanelSurface& surface) {
     gl_.disable(GL_DEPTH_TEST);
     gl_.disable(GL_CULL_FACE);
     gl_.enable(GL_BLEND);
-    gl_.blend_func_separate(
-        GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl_.blend_func_separate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl_.enable(GL_SCISSOR_TEST);
     gl_.use_program(program_.name());
     const glm::vec4 window(2.0F / surface.size.x, -2.0F / surface.size.y, 0.0F, 0.0F);

@@ -36,7 +36,8 @@ struct PanelSurface {
 /// Draws user-interface triangles over a window.
 class PanelPainter {
 public:
-    /// `atlas`: one byte a texel, `size` of them, row by row: how much is covered.
+    /// `atlas`: one byte a texel, `size` of them, row by row: how much is covered. Not filtered:
+    /// glyphs are to lie on whole pixels.
     PanelPainter(const Functions& gl, std::span<const std::uint8_t> atlas, const glm::ivec2& size);
 
     /// Call before the draw()s of a picture and after them.

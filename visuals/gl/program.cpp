@@ -30,11 +30,11 @@ Object make_shader(const Functions& gl, const char* name, GLenum kind, const cha
     return shader;
 }
 
-/// The text with a definition behind its first line, which is the #version.
-std::string with_definition(const char* text, const char* defined) {
+/// The text with definitions behind its first line, which is the #version.
+std::string with_definitions(const char* text, std::initializer_list<const char*> defined) {
     std::string whole(text);
-    if (defined != nullptr) {
-        whole.insert(whole.find('\n') + 1, std::string("#define ") + defined + "\n");
+    for (const char* const name : defined) {
+        whole.insert(whole.find('\n') + 1, std::string("#define ") + name + "\n");
     }
     return whole;
 }
@@ -44,17 +44,19 @@ std::string with_definition(const char* text, const char* defined) {
 Object make_program(
     const Functions& gl,
     const char* name,
-    const char* vertex_text,
-    const char* fragment_text,
-    const char* defined) {
-    const std::string vertex_code = with_definition(vertex_text, defined);
-    const Object vertex = make_shader(gl, name, GL_VERTEX_SHADER, vertex_code.c_str());
-    const std::string fragment_code = with_definition(fragment_text, defined);
-    const Object fragment = make_shader(gl, name, GL_FRAGMENT_SHADER, fragment_code.c_str());
+    const ProgramText& text,
+    std::initializer_list<const char*> defined) {
     Object program(
         gl, gl.create_program(), [](const Functions& f, GLuint n) { f.delete_program(n); });
-    gl.attach_shader(program.name(), vertex.name());
-    gl.attach_shader(program.name(), fragment.name());
+    const auto attach = [&](GLenum kind, const char* stage) {
+        if (stage != nullptr) {
+            const std::string code = with_definitions(stage, defined);
+            gl.attach_shader(program.name(), make_shader(gl, name, kind, code.c_str()).name());
+        }
+    };
+    attach(GL_VERTEX_SHADER, text.vertex);
+    attach(GL_GEOMETRY_SHADER, text.geometry);
+    attach(GL_FRAGMENT_SHADER, text.fragment);
     gl.link_program(program.name());
     GLint linked = GL_FALSE;
     gl.get_programiv(program.name(), GL_LINK_STATUS, &linked);

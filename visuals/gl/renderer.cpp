@@ -4,7 +4,9 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <fmt/format.h>
@@ -31,18 +33,22 @@ struct PictureValues {
     scene::TexturePlaces ground_texture;
 };
 
-/// Places in the picture from the upper left, in pixels, to world axes, one unit deep.
-glm::mat4 ray_from_pixel(const FramePlan& plan, int width, int height) {
+constexpr glm::vec4 inset_frame{0.08F, 0.09F, 0.1F, 1.0F};
+constexpr int frame_rows = 360; ///< of the picture for each pixel of the frame's width
+
+/// Pixels of the target to world axes, one unit deep; `rect` lies on the target.
+glm::mat4 ray_from_pixel(const FramePlan& plan, const PixelRect& rect, Rows rows) {
     const float across = 1.0F / plan.view_to_clip[0][0];
-    const float up = 1.0F / plan.view_to_clip[1][1];
+    const float up = (rows == Rows::FromTop ? 1.0F : -1.0F) / plan.view_to_clip[1][1];
     glm::mat4 view_ray(0.0F);
-    view_ray[0].x = 2.0F * across / static_cast<float>(width);
-    view_ray[1].y = -2.0F * up / static_cast<float>(height);
-    view_ray[2] = glm::vec4(-across, up, -1.0F, 0.0F);
+    view_ray[0].x = 2.0F * across / static_cast<float>(rect.width);
+    view_ray[1].y = -2.0F * up / static_cast<float>(rect.height);
+    view_ray[2] = glm::vec4(-across, up, -1.0F, 0.0F) - static_cast<float>(rect.x) * view_ray[0] -
+                  static_cast<float>(rect.y) * view_ray[1];
     return glm::transpose(plan.world_to_view) * view_ray;
 }
 
-PictureValues values_of(const FramePlan& plan, int width, int height) {
+PictureValues values_of(const FramePlan& plan, const PixelRect& rect, Rows rows) {
     const float visibility_m = plan.haze.visibility_m;
     return {
         plan.view_to_clip * plan.world_to_view,
@@ -50,7 +56,7 @@ PictureValues values_of(const FramePlan& plan, int width, int height) {
         glm::vec4(plan.to_sun, 0.0F),
         glm::vec4(plan.ambient, 0.0F),
         glm::vec4(plan.sunlight, 0.0F),
-        ray_from_pixel(plan, width, height),
+        ray_from_pixel(plan, rect, rows),
         plan.ground_texture.value_or(scene::TexturePlaces())};
 }
 
@@ -85,39 +91,79 @@ void Renderer::load_ground_texture(const scene::GroundTexture& texture) {
 }
 
 void Renderer::draw(const FramePlan& plan) {
-    begin(plan);
-    upload(plan);
+    const PixelRect whole{0, 0, framebuffer_.width(), framebuffer_.height()};
+    const bool fits =
+        plan.hidden_surface != HiddenSurface::DepthBuffer && framebuffer_.fits(window_px_, 1);
+    rows_ = fits ? Rows::FromBelow : Rows::FromTop;
+    gl_.bind_framebuffer(GL_FRAMEBUFFER, target_of(plan));
+    state_.begin_picture(rows_);
+    draw_into(plan, whole);
+}
+
+void Renderer::draw_inset(const FramePlan& plan, const PixelRect& rect) {
+    assert(rect.width > 0 && rect.height > 0 && rect.x >= 0 && rect.y >= 0);
+    assert(rect.x + rect.width <= framebuffer_.width());
+    assert(rect.y + rect.height <= framebuffer_.height());
+    const GLuint target = target_of(plan);
+    gl_.bind_framebuffer(GL_FRAMEBUFFER, target);
+    const int frame = std::max(framebuffer_.height() / frame_rows, 1);
+    gl_.enable(GL_SCISSOR_TEST);
+    const PixelRect at = on_target(rect);
+    gl_.scissor(at.x - frame, at.y - frame, at.width + 2 * frame, at.height + 2 * frame);
+    gl_.clear_named_framebufferfv(target, GL_COLOR, 0, glm::value_ptr(inset_frame));
+    gl_.scissor(at.x, at.y, at.width, at.height);
+    draw_into(plan, at);
+    gl_.disable(GL_SCISSOR_TEST);
+}
+
+PixelRect Renderer::on_target(const PixelRect& rect) const {
+    PixelRect at = rect;
+    if (rows_ == Rows::FromBelow) {
+        at.y = framebuffer_.height() - rect.y - rect.height;
+    }
+    return at;
+}
+
+GLuint Renderer::target_of(const FramePlan& plan) const {
+    if (rows_ == Rows::FromBelow) {
+        return 0;
+    }
+    return plan.hidden_surface == HiddenSurface::DepthBuffer ? framebuffer_.name()
+                                                             : framebuffer_.name_without_depth();
+}
+
+/// Into what is bound; `rect` is all of it or what the scissor leaves.
+void Renderer::draw_into(const FramePlan& plan, const PixelRect& rect) {
+    gl_.viewport(rect.x, rect.y, rect.width, rect.height);
+    clear(plan);
+    upload(plan, rect);
     if (plan.hidden_surface == HiddenSurface::DepthBuffer) {
         draw_by_depth(plan);
     } else {
         paint(plan);
     }
-    overlay_.draw(plan.overlay, framebuffer_.width(), framebuffer_.height());
+    overlay_.draw(plan.overlay, rect.width, rect.height);
 }
 
-void Renderer::begin(const FramePlan& plan) {
-    const bool by_depth = plan.hidden_surface == HiddenSurface::DepthBuffer;
-    const GLuint target = by_depth ? framebuffer_.name() : framebuffer_.name_without_depth();
-    gl_.bind_framebuffer(GL_FRAMEBUFFER, target);
-    gl_.viewport(0, 0, framebuffer_.width(), framebuffer_.height());
-    state_.begin_picture();
+void Renderer::clear(const FramePlan& plan) {
+    const GLuint target = target_of(plan);
     const glm::vec4 background(plan.background, 1.0F);
     gl_.clear_named_framebufferfv(target, GL_COLOR, 0, glm::value_ptr(background));
-    if (by_depth) {
+    if (plan.hidden_surface == HiddenSurface::DepthBuffer) {
+        // A mask left by the sky of the picture before would keep the clearing out, too.
+        gl_.depth_mask(GL_TRUE);
         const float infinitely_far = 0.0F;
         gl_.clear_named_framebufferfv(target, GL_DEPTH, 0, &infinitely_far);
     }
 }
 
-void Renderer::upload(const FramePlan& plan) {
-    const PictureValues values = values_of(plan, framebuffer_.width(), framebuffer_.height());
+void Renderer::upload(const FramePlan& plan, const PixelRect& rect) {
+    const PictureValues values = values_of(plan, rect, rows_);
     picture_values_.fill({std::as_bytes(std::span(&values, 1))});
     gl_.bind_buffer_base(GL_UNIFORM_BUFFER, picture_binding, picture_values_.name());
     triangles_.upload(plan);
     aircraft_.upload(plan);
 }
-
-void Renderer::draw_inset(const FramePlan& /*plan*/, PixelRect /*rect*/) {}
 
 /// Background, sky, ground, then each step over what is there: no depth at all.
 void Renderer::paint(const FramePlan& plan) {
@@ -152,6 +198,7 @@ void Renderer::finish() {
 }
 
 void Renderer::finish_and_read(Picture& picture) {
+    assert(!is_in_window());
     finish();
     picture.width = framebuffer_.width();
     picture.height = framebuffer_.height();
@@ -194,6 +241,7 @@ void Renderer::warm_up() {
     for (const HiddenSurface way : {HiddenSurface::Octant, HiddenSurface::DepthBuffer}) {
         plan.hidden_surface = way;
         draw(plan);
+        draw_inset(plan, {0, 0, framebuffer_.width(), framebuffer_.height()});
         finish_and_read(picture);
     }
 }

@@ -16,7 +16,7 @@
 
 namespace octant::visuals::gl {
 
-/// Part of a picture, from its upper left corner.
+/// A part of a picture, pixels from its upper left corner.
 struct PixelRect {
     int x = 0;
     int y = 0;
@@ -46,6 +46,14 @@ public:
     /// as it is when the driver cannot.
     void resize(const glm::ivec2& size_px, int samples);
 
+    /// From now on pictures are drawn straight into framebuffer 0, the window's, where they are as
+    /// large as it, have one sample a pixel and need no depth: that saves copying them there. 0,0 =
+    /// no window.
+    void aim_at_window(const glm::ivec2& window_px) { window_px_ = window_px; }
+
+    /// Whether the last picture was: it cannot be read then.
+    bool is_in_window() const { return rows_ == Rows::FromBelow; }
+
     /// Waits for the picture and copies it into the lower left corner of another framebuffer (0 =
     /// the window's), stretched to `size_px`, upright there.
     void copy_to(GLuint framebuffer, const glm::ivec2& size_px);
@@ -66,7 +74,10 @@ public:
     /// Starts the drawing of a picture; the plan's memory is free again on return.
     void draw(const scene::FramePlan& plan);
 
-    void draw_inset(const scene::FramePlan& plan, PixelRect rect);
+    /// Draws a second plan, made for a picture of the size of `rect`, over that part of the picture
+    /// that draw() has begun, as if it were a picture of its own, with a thin frame around it.
+    /// `rect` must lie within the picture (asserted). The plan's memory is free again on return.
+    void draw_inset(const scene::FramePlan& plan, const PixelRect& rect);
 
     /// Waits until the picture is drawn. Throws Error when the driver reports one.
     void finish();
@@ -74,12 +85,15 @@ public:
     /// finish(), then copies the picture, top row first. `picture` keeps its memory between calls.
     void finish_and_read(Picture& picture);
 
-    /// Of the last draw(); consecutive aircraft of a step are one.
+    /// Of the last draw() and the insets since; consecutive aircraft of a step are one.
     int draw_calls() const { return state_.draw_calls(); }
 
 private:
-    void begin(const scene::FramePlan& plan);
-    void upload(const scene::FramePlan& plan);
+    GLuint target_of(const scene::FramePlan& plan) const;
+    PixelRect on_target(const PixelRect& rect) const;
+    void draw_into(const scene::FramePlan& plan, const PixelRect& rect);
+    void clear(const scene::FramePlan& plan);
+    void upload(const scene::FramePlan& plan, const PixelRect& rect);
     void paint(const scene::FramePlan& plan);
     void draw_by_depth(const scene::FramePlan& plan);
 
@@ -90,6 +104,8 @@ private:
     TrianglePainter triangles_;
     AircraftPainter aircraft_;
     OverlayPainter overlay_;
+    glm::ivec2 window_px_{0};
+    Rows rows_ = Rows::FromTop; ///< of the last picture
 };
 
 } // namespace octant::visuals::gl

@@ -10,6 +10,8 @@ extern const char* const sky_vert;
 extern const char* const aircraft_vert;
 extern const char* const smooth_frag;
 extern const char* const flat_frag;
+extern const char* const ground_mesh_geom;
+extern const char* const ground_mesh_frag;
 extern const char* const panel_vert;
 extern const char* const panel_frag;
 extern const char* const overlay_vert;

@@ -5,6 +5,7 @@
 #include "visuals/gl/texture.h"
 #include "visuals/gl/vertex_array.h"
 
+#include <array>
 #include <cassert>
 #include <span>
 
@@ -16,6 +17,7 @@ using models::ColourVertex;
 // Places in the shaders.
 constexpr GLuint albedo_unit = 0;
 constexpr GLuint normal_unit = 1;
+constexpr GLint mesh_look_uniform = 8;
 
 constexpr std::size_t first_capacity_bytes = std::size_t{1} << 20;
 
@@ -33,8 +35,8 @@ Object make_array(const Functions& gl, const StreamBuffer& vertices, const Strea
 TrianglePainter::TrianglePainter(const Functions& gl, DrawState& state)
     : gl_(gl)
     , state_(state)
-    , ground_programs_(make_program_pair(gl, "ground", ground_vert, smooth_frag))
-    , sky_programs_{make_program(gl, "sky", sky_vert, smooth_frag), {}}
+    , ground_programs_(make_program_pair(gl, "ground", {ground_vert, smooth_frag}))
+    , sky_programs_{make_program(gl, "sky", {sky_vert, smooth_frag}), {}}
     , vertices_(gl, first_capacity_bytes)
     , indices_(gl, first_capacity_bytes)
     , array_(make_array(gl, vertices_, indices_)) {}
@@ -42,12 +44,30 @@ TrianglePainter::TrianglePainter(const Functions& gl, DrawState& state)
 void TrianglePainter::load_texture(const scene::GroundTexture& texture) {
     texture_.reset();
     texture_ = {
-        make_program_pair(gl_, "textured ground", ground_textured_vert, ground_textured_frag),
+        make_program_pair(gl_, "textured ground", {ground_textured_vert, ground_textured_frag}),
         make_texture(gl_, texture.albedo, TextureKind::Colours),
         make_texture(gl_, texture.normal, TextureKind::Slopes)};
 }
 
+/// Made when first asked for: few runs look at the mesh.
+void TrianglePainter::use_mesh_look(const scene::FramePlan& plan) {
+    shows_mesh_ = plan.mesh_look != scene::MeshLook::None;
+    if (!shows_mesh_) {
+        return;
+    }
+    if (!mesh_programs_) {
+        mesh_programs_ = make_program_pair(
+            gl_, "ground's mesh", {ground_vert, ground_mesh_frag, ground_mesh_geom}, "MESH");
+    }
+    const std::array<float, 4> look{
+        plan.sample_spacing_m, plan.mesh_look == scene::MeshLook::Levels ? 1.0F : 0.0F, 0.0F, 0.0F};
+    for (const Object* const program : {&mesh_programs_->whole, &mesh_programs_->cut}) {
+        gl_.program_uniform_4fv(program->name(), mesh_look_uniform, 1, look.data());
+    }
+}
+
 void TrianglePainter::upload(const scene::FramePlan& plan) {
+    use_mesh_look(plan);
     textured_ = plan.ground_texture.has_value();
     if (textured_) {
         assert(texture_);

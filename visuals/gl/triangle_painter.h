@@ -49,9 +49,10 @@ private:
     };
 
     const ProgramPair& ground_programs() const {
-        return textured_ ? texture_->programs : ground_programs_;
+        return shows_mesh_ ? *mesh_programs_ : textured_ ? texture_->programs : ground_programs_;
     }
 
+    void use_mesh_look(const scene::FramePlan& plan);
     void draw(Range indices, GLint first_vertex);
 
     const Functions& gl_;
@@ -59,9 +60,11 @@ private:
     ProgramPair ground_programs_;
     ProgramPair sky_programs_;
     std::optional<GroundTexturing> texture_;
-    bool textured_ = false; ///< the plan asks for it
-    StreamBuffer vertices_; ///< ground, shadows, sky
-    StreamBuffer indices_;  ///< ground, repainted, shadows, sky
+    std::optional<ProgramPair> mesh_programs_;
+    bool shows_mesh_ = false; ///< the plan asks for it
+    bool textured_ = false;   ///< the plan asks for it
+    StreamBuffer vertices_;   ///< ground, shadows, sky
+    StreamBuffer indices_;    ///< ground, repainted, shadows, sky
     Object array_;
     Range ground_;
     Range edge_on_;

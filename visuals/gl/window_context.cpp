@@ -71,6 +71,8 @@ public:
 
     GLFWwindow* window() const override { return window_; }
 
+    void wait_for_refresh(bool wait) override { glfwSwapInterval(wait ? 1 : 0); }
+
     void swap_buffers() override { glfwSwapBuffers(window_); }
 
 private:

@@ -22,6 +22,9 @@ class WindowContext : public Context {
 public:
     virtual GLFWwindow* window() const = 0;
 
+    /// Whether swap_buffers() waits for the display's next refresh, where the driver can.
+    virtual void wait_for_refresh(bool wait) = 0;
+
     /// Shows what was drawn into framebuffer 0.
     virtual void swap_buffers() = 0;
 

@@ -63,9 +63,10 @@ double elevation_of(const glm::dvec3& direction) {
     return std::asin(std::clamp(direction.z / glm::length(direction), -1.0, 1.0));
 }
 
-/// What `elevation_rad` may change by.
+/// By how much of what is wanted an elevation may change.
 double change_of_elevation(double elevation_rad, double wanted_rad) {
-    return std::clamp(elevation_rad + wanted_rad, -steepest_rad, steepest_rad) - elevation_rad;
+    const double steepest = std::max(steepest_rad, std::abs(elevation_rad));
+    return std::clamp(elevation_rad + wanted_rad, -steepest, steepest) - elevation_rad;
 }
 
 double nearer_m(double distance_m, double zoom, const Subject& subject) {

@@ -109,6 +109,8 @@ public:
         return field_.height_at(x_m, y_m);
     }
 
+    double spacing_m() const override { return field_.spacing_m(); }
+
     glm::dvec2 half_extent_m() const override { return field_.half_extent_m(); }
 
     double mean_height_m() const override { return mean_height_m_; }

@@ -106,6 +106,13 @@ struct Haze {
     float visibility_m = 0.0F; ///< distance at which 1/e of the own colour is left; 0 = no haze
 };
 
+/// What the ground shows of its mesh.
+enum class MeshLook {
+    None,
+    Edges, ///< lines along the edges of the triangles that are seen
+    Levels ///< the same, and a colour for each halving of the triangles' size
+};
+
 /// Everything a renderer needs for one picture, and nothing of any graphics library. Painted in
 /// the order background, sky, ground, aircraft.
 struct FramePlan {
@@ -120,6 +127,8 @@ struct FramePlan {
     /// DepthBuffer: how many of ground.indices, at their end, belong to triangles that face away
     /// but for rounding. They only close holes along edges; elsewhere their depths mean nothing.
     std::size_t edge_on_indices = 0;
+    MeshLook mesh_look = MeshLook::None;
+    float sample_spacing_m = 1.0F; ///< of the ground: what levels are counted from
     HiddenSurface hidden_surface = HiddenSurface::Octant;
     std::vector<AircraftDraw> aircraft; ///< in the order in which `steps` first names them
     std::vector<glm::mat4> parts; ///< AircraftDraw::first_part: body, then each pivot of the model

@@ -41,6 +41,9 @@ public:
     /// Half the extent of the map from its centre, east and north, metres.
     virtual glm::dvec2 half_extent_m() const = 0;
 
+    /// Distance of neighbouring samples at full resolution; 0 where there are none.
+    virtual double spacing_m() const { return 0.0; }
+
     /// Mean height above datum, metres, infinite where there is no ground at all, and mean colour
     /// of what is drawn.
     virtual double mean_height_m() const = 0;

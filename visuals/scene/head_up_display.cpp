@@ -20,6 +20,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <string_view>
+#include <utility>
 
 namespace octant::visuals::scene {
 
@@ -43,6 +44,8 @@ constexpr float line_width = 0.0025F;
 constexpr OverlayBox field{{-0.235F, -0.275F}, {0.235F, 0.33F}}; ///< of what lies on the world
 constexpr OverlayBox whole{{-0.46F, -0.42F}, {0.46F, 0.36F}};
 
+/// Room for letters that cannot be smaller in small pictures.
+constexpr glm::vec2 least_whole_px{110.0F, 68.0F};
 constexpr float least_letter_px = 7.0F; ///< a pixel for each step of the letters' grid, and one
 constexpr float least_line_px = 1.15F;
 constexpr glm::vec3 green{0.22F, 1.0F, 0.36F};
@@ -54,6 +57,11 @@ constexpr double least_mach = 0.3;
 
 OverlayBox scaled(const OverlayBox& box, float unit_px) {
     return {box.least * unit_px, box.most * unit_px};
+}
+
+OverlayBox whole_of(const HeadUpGlass& glass) {
+    const OverlayBox box = scaled(whole, glass.unit_px);
+    return {glm::min(box.least, -least_whole_px), glm::max(box.most, least_whole_px)};
 }
 
 /// A few letters on the stack.
@@ -104,7 +112,7 @@ public:
         draw_pitch_ladder(glass_, ladder_anchor(), letter_px(ladder_letter), canvas_);
         draw_flight_path_marker();
         draw_axis_mark();
-        canvas_.clip_to(scaled(whole, unit_px_));
+        canvas_.clip_to(whole_of(glass_));
         draw_left();
         draw_right();
         draw_heading();
@@ -277,7 +285,7 @@ private:
 OverlayDraw
 HeadUpDisplay::draw(const HeadUpInputs& inputs, const Camera& camera, const glm::ivec2& size_px) {
     const HeadUpGlass glass = head_up_glass(inputs.state, camera, size_px);
-    if (!glass.shows(scaled(whole, glass.unit_px), size_px)) {
+    if (!glass.shows(whole_of(glass), size_px)) {
         return {};
     }
     const float width_px = std::max(line_width * glass.unit_px, least_line_px);

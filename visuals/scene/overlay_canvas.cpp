@@ -19,8 +19,9 @@ namespace octant::visuals::scene {
 namespace {
 
 constexpr float least_length_px = 0.05F;
-constexpr float sharpest_join = -0.6F; ///< cosine of the turn from which a line begins anew
-constexpr float edge_px = 1.0F;        ///< over which the edge of a core fades
+constexpr float sharpest_join = -0.6F;  ///< cosine of the turn from which a line begins anew
+constexpr float edge_px = 1.0F;         ///< over which the edge of a core fades
+constexpr float widest_ridge_px = 2.2F; ///< letters' lines up to here fade from their middle on
 constexpr std::size_t circle_corners = 20;
 
 glm::vec2 across(const glm::vec2& along) {
@@ -55,7 +56,8 @@ void OverlayCanvas::begin(const glm::mat3& to_picture, const OverlayPen& pen) {
     clip_ = {glm::vec2(-far), glm::vec2(far)};
     vertices_.clear();
     shade_.indices.clear();
-    core_.indices.clear();
+    lines_.indices.clear();
+    letters_.indices.clear();
     const float shade_px = 0.5F * pen.width_px + pen.shade_px;
     shade_.points = {{{-shade_px, pen.shade}, {shade_px, pen.shade}, {}, {}}};
     shade_.count = 2;
@@ -65,9 +67,18 @@ void OverlayCanvas::begin(const glm::mat3& to_picture, const OverlayPen& pen) {
     const std::uint32_t clear = with_alpha(pen.colour, 0.0F);
     const float inner_px = 0.5F * std::max(pen.width_px - edge_px, 0.0F);
     const float outer_px = inner_px + edge_px;
-    core_.points = {{{-outer_px, clear}, {-inner_px, full}, {inner_px, full}, {outer_px, clear}}};
-    core_.count = 4;
-    core_.beyond_ends_px = 0.5F * pen.width_px;
+    lines_.points = {{{-outer_px, clear}, {-inner_px, full}, {inner_px, full}, {outer_px, clear}}};
+    lines_.count = 4;
+    lines_.beyond_ends_px = 0.5F * pen.width_px;
+    // Most of the triangles are letters': while thin, two thirds of them do, nearly as sharp.
+    letters_.points = lines_.points;
+    letters_.count = lines_.count;
+    letters_.beyond_ends_px = lines_.beyond_ends_px;
+    if (pen.width_px <= widest_ridge_px) {
+        letters_.points = {{{-outer_px, clear}, {0.0F, full}, {outer_px, clear}, {}}};
+        letters_.count = 3;
+    }
+    writing_ = false;
 }
 
 void OverlayCanvas::polyline(std::span<const glm::vec2> points) {
@@ -111,7 +122,7 @@ void OverlayCanvas::add_to_run(const glm::vec2& at) {
 void OverlayCanvas::end_run() {
     if (run_.size() > 1) {
         stroke(shade_);
-        stroke(core_);
+        stroke(writing_ ? letters_ : lines_);
     }
     run_.clear();
 }
@@ -193,6 +204,7 @@ void OverlayCanvas::text(const TextPlace& place, std::string_view text) {
         !clip_.holds(corner + across + over)) {
         return;
     }
+    writing_ = true;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const glm::vec2 origin = corner + right * static_cast<float>(i * letter_advance);
         glm::vec2 last(0.0F);
@@ -208,11 +220,14 @@ void OverlayCanvas::text(const TextPlace& place, std::string_view text) {
         }
         end_run();
     }
+    writing_ = false;
 }
 
 OverlayDraw OverlayCanvas::finish() {
-    shade_.indices.insert(shade_.indices.end(), core_.indices.begin(), core_.indices.end());
-    return {vertices_, shade_.indices};
+    std::vector<std::uint32_t>& all = shade_.indices;
+    all.insert(all.end(), lines_.indices.begin(), lines_.indices.end());
+    all.insert(all.end(), letters_.indices.begin(), letters_.indices.end());
+    return {vertices_, all};
 }
 
 } // namespace octant::visuals::scene

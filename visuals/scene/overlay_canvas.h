@@ -41,8 +41,8 @@ struct TextPlace {
     glm::vec2 along{1.0F, 0.0F}; ///< unit vector to the right of the text
 };
 
-/// Collects lines and letters as the triangles of an OverlayDraw: all shades, then all cores. One
-/// draws on a plane, x to the right and y down, that is then seen in the picture.
+/// Collects lines and letters as the triangles of an OverlayDraw: shades, then lines, then letters.
+/// One draws on a plane, x to the right and y down, that is then seen in the picture.
 class OverlayCanvas {
 public:
     /// Empties the canvas. (x, y, 1) of the plane times `to_picture`, divided by its last part,
@@ -88,8 +88,10 @@ private:
     void join_last_rows(Strips& strips);
 
     glm::mat3 to_picture_{1.0F};
-    Strips core_;
     Strips shade_;
+    Strips lines_;
+    Strips letters_;
+    bool writing_ = false; ///< what is drawn is letters
     OverlayBox clip_;
     std::vector<glm::vec2> run_; ///< of the plane's lines within the clip box, in the picture
     std::vector<OverlayVertex> vertices_;

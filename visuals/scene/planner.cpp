@@ -54,6 +54,8 @@ Planner::Planner(Scene& scene, const Settings& settings)
     plan_.background = settings.background;
     plan_.haze = {settings.background, static_cast<float>(settings.visibility_m)};
     plan_.hidden_surface = settings.hidden_surface;
+    plan_.mesh_look = settings.show_mesh;
+    plan_.sample_spacing_m = std::max(static_cast<float>(scene.ground->spacing_m()), 1e-3F);
     plan_.to_sun = glm::vec3(to_sun_);
     plan_.ambient = glm::vec3(ambient_light);
     plan_.sunlight = glm::vec3(sun_light);

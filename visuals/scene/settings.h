@@ -86,6 +86,7 @@ struct Settings {
     double control_a = 0.0; ///< a, triangles per unit of C; 0 = from the terrain's own gain
     int control_r = 4;      ///< r, earlier frames that the damping looks back at
 
+    MeshLook show_mesh = MeshLook::None;
     bool sky = true;
     double visibility_m = 30000.0; ///< 0 = no haze
     glm::vec3 background{158.0F / 255.0F, 184.0F / 255.0F, 214.0F / 255.0F};

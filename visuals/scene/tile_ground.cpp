@@ -58,6 +58,8 @@ public:
         return ground_.height_at(x_m, y_m);
     }
 
+    double spacing_m() const override { return ground_.spacing_m(); }
+
     glm::dvec2 half_extent_m() const override { return ground_.half_extent_m(); }
 
     double mean_height_m() const override { return static_cast<double>(ground_.facts().mean_m); }

@@ -31,6 +31,18 @@ std::uint64_t checksum_of(const GroundSystem& system) {
     return hash_of(std::as_bytes(std::span(&system, 1)));
 }
 
+GroundSystem stored(const models::MapSystem& system) {
+    GroundSystem result;
+    if (system.wkt.size() <= result.wkt.size()) {
+        result.centre_x = system.centre_x;
+        result.centre_y = system.centre_y;
+        result.unit_m = system.unit_m;
+        result.wkt_length = static_cast<std::uint32_t>(system.wkt.size());
+        std::copy(system.wkt.begin(), system.wkt.end(), result.wkt.begin());
+    }
+    return result;
+}
+
 bool is_power_of_two(double x) {
     int exponent = 0;
     return std::frexp(x, &exponent) == 0.5;
@@ -127,22 +139,6 @@ std::uint64_t hash_of(const GroundLayout& layout) {
     }
     return hash.value();
 }
-
-namespace {
-
-GroundSystem stored(const models::MapSystem& system) {
-    GroundSystem result;
-    if (system.wkt.size() <= result.wkt.size()) {
-        result.centre_x = system.centre_x;
-        result.centre_y = system.centre_y;
-        result.unit_m = system.unit_m;
-        result.wkt_length = static_cast<std::uint32_t>(system.wkt.size());
-        std::copy(system.wkt.begin(), system.wkt.end(), result.wkt.begin());
-    }
-    return result;
-}
-
-} // namespace
 
 GroundHeader header_of(const GroundShape& shape, const GroundFacts& facts) {
     GroundHeader header;

@@ -14,10 +14,16 @@ layout(std140, binding = 0) uniform Picture {
 };
 
 out vec3 colour;
+#ifdef MESH
+out vec3 place_m;
+#endif
 
 void main() {
     vec4 place = vec4(position_m, 1.0);
     float haze_share = 1.0 - exp(-length(position_m) * haze.w);
     colour = mix(own_colour.rgb, haze.rgb, haze_share);
+#ifdef MESH
+    place_m = position_m;
+#endif
     gl_Position = world_to_clip * place;
 }

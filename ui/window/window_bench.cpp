@@ -1,0 +1,62 @@
+#include "ui/window/window_bench.h"
+
+#include "ui/progress.h"
+#include "ui/report/statistics.h"
+#include "ui/stopwatch.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace octant::ui {
+
+namespace {
+
+constexpr int warm_up_frames = 20;
+
+WindowTimes times_of(const std::vector<double>& frame_ms) {
+    const report::Statistics statistics = report::statistics_of_times(frame_ms);
+    return {statistics.p50_ms, statistics.p99_ms};
+}
+
+ViewOptions unhurried(ViewOptions options) {
+    options.vsync = false;
+    options.keeps_into.clear();
+    return options;
+}
+
+} // namespace
+
+WindowBench bench_window(const ViewOptions& options, int frames, bool quiet) {
+    Viewer viewer(unhurried(options));
+    visuals::scene::Settings settings = viewer.session().settings();
+    settings.context = visuals::scene::ContextKind::OsMesa;
+    Session session(settings);
+    const int count = std::min(frames + warm_up_frames, session.frames());
+    viewer.state().playback.speed = 0.5;
+    viewer.state().open.timing = true;
+    std::vector<double> without;
+    std::vector<double> hidden;
+    std::vector<double> open;
+    Progress progress("window", count, quiet);
+    for (int frame = 0; frame < count; ++frame) {
+        const auto timed = [&](std::vector<double>& all, const auto& work) {
+            const Stopwatch watch;
+            work();
+            if (frame >= warm_up_frames) {
+                all.push_back(watch.ms());
+            }
+        };
+        session.make_current();
+        timed(without, [&] { session.draw(frame); });
+        viewer.session().make_current();
+        viewer.state().open.shown = false;
+        timed(hidden, [&] { viewer.turn(); });
+        viewer.state().open.shown = true;
+        timed(open, [&] { viewer.turn(); });
+        progress.show(frame + 1);
+    }
+    progress.finish();
+    return {times_of(without), times_of(hidden), times_of(open)};
+}
+
+} // namespace octant::ui
