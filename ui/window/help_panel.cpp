@@ -19,7 +19,7 @@ void line_of(std::string_view name, std::string_view meaning) {
 } // namespace
 
 void help_panel(ViewState& state) {
-    const Panel panel("Keys", {{0.5F, 0.0F}, {0.0F, 50.0F}, {550.0F, 650.0F}}, state.open.help);
+    const Panel panel("Keys", {{0.5F, 0.0F}, {0.0F, 50.0F}, {600.0F, 650.0F}}, state.open.help);
     if (!panel.is_seen() || !ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
         return;
     }
