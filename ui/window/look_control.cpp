@@ -78,6 +78,9 @@ Settings with_view(const Settings& settings, View view, const scene::Camera& cam
     changed.view = view;
     changed.eye_m.reset();
     changed.look_m.reset();
+    if (view != View::Free && changed.inset == View::Free) {
+        changed.inset.reset();
+    }
     if (view == View::Free) {
         changed.eye_m = camera.eye_m;
         changed.look_m = camera.eye_m + camera.view_to_world * glm::dvec3(0.0, 0.0, -look_ahead_m);
