@@ -38,6 +38,8 @@ FrameRecord full_record() {
     record.aircraft_agl_m = 61.25;
     record.triangle_target = 1200;
     record.error_px = 0.75;
+    record.latency_ms = 21.5;
+    record.missed = 1;
     return record;
 }
 
@@ -49,7 +51,8 @@ TEST_CASE("frames.csv begins with the columns that others rely on") {
     CHECK(
         header.substr(std::string(promised_columns).size()) ==
         ",warm_up,record_ms,draw_calls,shadow_triangles,cuts,unordered,eye_x_m,eye_y_m,eye_z_m,"
-        "aircraft_x_m,aircraft_y_m,aircraft_z_m,aircraft_agl_m,triangle_target,error_px\n");
+        "aircraft_x_m,aircraft_y_m,aircraft_z_m,aircraft_agl_m,triangle_target,error_px,"
+        "latency_ms,missed\n");
 }
 
 TEST_CASE("a line has fixed decimals whatever the locale") {
@@ -57,7 +60,8 @@ TEST_CASE("a line has fixed decimals whatever the locale") {
     CHECK(
         frame_csv_line(full_record()) ==
         "7,0.350000,0.140000,15.8457,1.0000,2.0000,12.3457,0.5000,1007,12,43,26,0.125000,-5,0.3169,"
-        "0,1,3.2500,3,24,5,1,1.500,-2.250,3000000.000,4.000,5.000,6.000,61.250,1200,0.7500\n");
+        "0,1,3.2500,3,24,5,1,1.500,-2.250,3000000.000,4.000,5.000,6.000,61.250,1200,0.7500,"
+        "21.5000,1\n");
     std::setlocale(LC_NUMERIC, "C");
 }
 
@@ -79,6 +83,8 @@ TEST_CASE("what is written is read back as it was written") {
     CHECK(got.aircraft_agl_m == 61.25);
     CHECK(got.triangle_target == 1200);
     CHECK(got.error_px == 0.75);
+    CHECK(got.latency_ms == 21.5);
+    CHECK(got.missed == 1);
 }
 
 TEST_CASE("what has no value is an empty field") {
