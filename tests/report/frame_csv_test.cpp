@@ -143,7 +143,7 @@ TEST_CASE("damage is named by file and line") {
         return path.string() + ":";
     };
     std::string start = message(frame_csv_header() + line(0) + "1,2\n" + line(2));
-    CHECK_THROWS_WITH(read_frame_csv(path), start + "3: expected 31 fields, got 2");
+    CHECK_THROWS_WITH(read_frame_csv(path), start + "3: expected 33 fields, got 2");
     std::string bad = line(1);
     bad.replace(bad.find("4.5000"), 6, "4.5x");
     start = message(frame_csv_header() + line(0) + bad);
