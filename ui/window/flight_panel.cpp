@@ -204,7 +204,7 @@ void recording_buttons(ViewState& state, const Simulation& simulation) {
 
 void flight_panel(ViewState& state, Session& session) {
     const Panel panel(
-        "Flight", {{0.0F, 1.0F}, {10.0F, 10.0F}, {430.0F, 280.0F}}, state.open.flight);
+        "Flight", {{0.0F, 1.0F}, {10.0F, 10.0F}, {430.0F, 330.0F}}, state.open.flight);
     if (!panel.is_seen()) {
         return;
     }
