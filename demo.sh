@@ -36,4 +36,5 @@ fly 500md turn hills orbit
 echo "== report"
 "$octant" report "$out"/f15-* "$out"/500md-* --out "$out/report.html"
 echo "Done. Open $PWD/$out/report.html in a browser."
-echo "Next: $octant fly pop-up --aircraft f15 --terrain canyon --record my-flight   ($octant --help for all)"
+echo "Next: $octant view   (a window: fly along or by hand)
+      $octant fly pop-up --aircraft f15 --terrain canyon --record my-flight   ($octant --help for all)"
