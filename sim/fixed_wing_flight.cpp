@@ -85,11 +85,7 @@ AircraftState
 trimmed_fixed_wing(const glm::dvec3& position_m, double heading_rad, double speed_mps) {
     assert(speed_mps >= 0.0);
     const Trim trim = level_trim(speed_mps, standard_air(position_m.z));
-    AircraftState state;
-    state.position_m = position_m;
-    state.velocity_mps = speed_mps * direction_from_heading(heading_rad);
-    state.body_to_world = body_to_world_from_euler({heading_rad, trim.alpha_rad, 0.0});
-    return state;
+    return level_state(position_m, heading_rad, trim.alpha_rad, speed_mps);
 }
 
 FixedWingFlight::FixedWingFlight(const AircraftState& start)

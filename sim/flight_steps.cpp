@@ -1,5 +1,7 @@
 #include "sim/flight_steps.h"
 
+#include "sim/base/axes.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -49,6 +51,15 @@ glm::dquat turned(const glm::dquat& attitude, const glm::dvec3& world_radps, dou
     }
     const glm::dvec3 axis = world_radps * (std::sin(half_rad) / rate_radps);
     return glm::normalize(glm::dquat(std::cos(half_rad), axis.x, axis.y, axis.z) * attitude);
+}
+
+AircraftState
+level_state(const glm::dvec3& position_m, double heading_rad, double pitch_rad, double speed_mps) {
+    AircraftState state;
+    state.position_m = position_m;
+    state.velocity_mps = speed_mps * direction_from_heading(heading_rad);
+    state.body_to_world = body_to_world_from_euler({heading_rad, pitch_rad, 0.0});
+    return state;
 }
 
 StepClock::StepClock(double start_s)

@@ -16,8 +16,8 @@ struct FlightCamera {
     double aircraft_radius_m = 0.0; ///< of a sphere around it
 };
 
-/// The cameras of all frames of a run at Settings::rate_hz, where a session with these settings has
-/// them; frame_per_sample is not looked at. Loads the world. Throws Error.
+/// The cameras of all frames of a run, where a session with these settings has them. Loads the
+/// world. Throws Error.
 std::vector<FlightCamera> flight_cameras(const visuals::scene::Settings& settings);
 
 } // namespace octant::ui

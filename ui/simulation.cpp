@@ -18,7 +18,7 @@ namespace scene = visuals::scene;
 namespace {
 
 /// How far an aircraft reaches below its reference point when it stands upright, metres.
-double reach_down_m(const scene::AircraftModel& model) {
+double reach_below_m(const scene::AircraftModel& model) {
     float most_m = 0.0F;
     for (const scene::ModelVertex& vertex : model.buffers.vertices) {
         most_m = std::max(most_m, vertex.position_m.z);
@@ -47,6 +47,9 @@ Simulation::Simulation(const World& world)
     : world_(world)
     , formation_(formation_of(world.scene))
     , states_(world.scene.aircraft.size()) {
+    for (const std::uint32_t model : world.scene.aircraft) {
+        reach_down_m_.push_back(reach_below_m(world.scene.models[model]));
+    }
     begin_at(world.flight.trajectory.start_s());
 }
 
@@ -112,11 +115,10 @@ Simulation::end_among(std::span<const sim::AircraftState> states) const {
     for (std::size_t i = 0; i < states.size(); ++i) {
         const glm::dvec3& at_m = states[i].position_m;
         const auto ground_m = world_.scene.ground->height_at(at_m.x, at_m.y);
-        const double clear_m = reach_down_m(world_.scene.models[world_.scene.aircraft[i]]);
         if (!ground_m) {
             return End::OffTheMap;
         }
-        if (at_m.z - *ground_m < clear_m) {
+        if (at_m.z - *ground_m < reach_down_m_[i]) {
             return End::OnTheGround;
         }
     }

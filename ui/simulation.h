@@ -91,6 +91,7 @@ private:
 
     const World& world_;
     Formation formation_;
+    std::vector<double> reach_down_m_; ///< of each aircraft, below its reference point
     double time_s_ = 0.0;
     long next_step_ = 0;
     std::vector<sim::AircraftState> states_;

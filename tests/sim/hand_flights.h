@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -86,5 +87,26 @@ private:
     std::mt19937 random_;
     sim::PilotControls controls_;
 };
+
+/// The most that the energy height rises in one step of a wild flight without throttle.
+inline double
+largest_rise_without_throttle_m(sim::HandFlight& flight, std::uint32_t seed, double seconds) {
+    WildPilot wild(seed);
+    double before_m = energy_height_m(flight);
+    double rise_m = 0.0;
+    fly(
+        flight,
+        seconds,
+        [&](double t) {
+            sim::PilotControls controls = wild(t);
+            controls.throttle = 0.0;
+            return controls;
+        },
+        [&](const sim::HandFlight& f) {
+            rise_m = std::max(rise_m, energy_height_m(f) - before_m);
+            before_m = energy_height_m(f);
+        });
+    return rise_m;
+}
 
 } // namespace octant::tests

@@ -1,5 +1,6 @@
 #include "ui/report/html_report.h"
 
+#include "ui/report/clock_rows.h"
 #include "ui/report/contact_sheet.h"
 #include "ui/report/flight_plots.h"
 #include "ui/report/html_style.h"
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fmt/format.h>
 #include <vector>
 
@@ -183,34 +183,13 @@ std::string rows_table(Recordings recordings, const char* first, RowsOf rows_of)
     return card(html + "</tbody></table></div>\n");
 }
 
-/// How a flight kept up with the clock; no rows where it did not follow it.
-Rows clock_rows(const LoadedRecording& recording) {
-    std::vector<double> latency_ms;
-    int missed = 0;
-    for (const FrameRecord& record : recording.records) {
-        if (!record.warm_up && std::isfinite(record.latency_ms)) {
-            latency_ms.push_back(record.latency_ms);
-            missed += record.missed;
-        }
-    }
-    if (latency_ms.empty()) {
-        return {};
-    }
-    std::sort(latency_ms.begin(), latency_ms.end());
-    return {
-        {"latency, median and 99th percentile",
-         fmt::format(
-             "{:.2f} ms, {:.2f} ms", nearest_rank(latency_ms, 500), nearest_rank(latency_ms, 990))},
-        {"deadlines missed", fmt::format("{} of {}", missed, latency_ms.size())}};
-}
-
 Rows result_rows(const LoadedRecording& recording) {
     Rows rows{
         {"state hash", recording.run.state_hash},
         {"picture hash", recording.run.picture_hash},
         {"path offset over the ground (x, y, z), m", recording.run.path_offset}};
     rows.insert(rows.end(), recording.run.facts.begin(), recording.run.facts.end());
-    const Rows clock = clock_rows(recording);
+    const Rows clock = clock_rows(recording.records);
     rows.insert(rows.end(), clock.begin(), clock.end());
     return rows;
 }

@@ -1,0 +1,32 @@
+#include "ui/report/clock_rows.h"
+
+#include "ui/report/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <vector>
+
+namespace octant::ui::report {
+
+Rows clock_rows(std::span<const FrameRecord> records) {
+    std::vector<double> latency_ms;
+    int missed = 0;
+    for (const FrameRecord& record : records) {
+        if (!record.warm_up && std::isfinite(record.latency_ms)) {
+            latency_ms.push_back(record.latency_ms);
+            missed += record.missed;
+        }
+    }
+    if (latency_ms.empty()) {
+        return {};
+    }
+    std::sort(latency_ms.begin(), latency_ms.end());
+    return {
+        {"latency, median and 99th percentile",
+         fmt::format(
+             "{:.2f} ms, {:.2f} ms", nearest_rank(latency_ms, 500), nearest_rank(latency_ms, 990))},
+        {"deadlines missed", fmt::format("{} of {}", missed, latency_ms.size())}};
+}
+
+} // namespace octant::ui::report
