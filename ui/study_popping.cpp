@@ -12,7 +12,7 @@
 #include "ui/table_text.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/vertex_jump.h"
-#include "visuals/terrain/worker_team.h"
+#include "sim/base/worker_team.h"
 
 #include <algorithm>
 #include <array>
@@ -116,7 +116,7 @@ report::HtmlTable popping_table(const PoppingStudyOptions& options) {
         const std::vector<FlightCamera> cameras = flight_cameras(settings);
         say(options.quiet, fmt::format("{}: {} frames", path, cameras.size()));
         std::array<Jumps, ways.size()> found;
-        terrain::share_out(
+        share_out(
             ways.size(), static_cast<int>(ways.size()), [&](std::size_t way, std::size_t /*w*/) {
                 found[way] = jumps_along(*makers[way], settings, cameras);
             });

@@ -1,7 +1,7 @@
 #include "visuals/scene/ground_texture.h"
 
 #include "visuals/scene/ground_colours.h"
-#include "visuals/terrain/worker_team.h"
+#include "sim/base/worker_team.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -30,7 +30,7 @@ std::uint8_t byte_of_slope(float part) {
 template <typename Work>
 void by_rows(int rows, const Work& work) {
     const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    terrain::share_out(
+    share_out(
         static_cast<std::size_t>(rows), threads, [&](std::size_t row, std::size_t /*worker*/) {
             work(static_cast<int>(row));
         });

@@ -1,6 +1,6 @@
 #include "visuals/terrain/ground_assembly.h"
 
-#include "visuals/terrain/worker_team.h"
+#include "sim/base/worker_team.h"
 
 #include <algorithm>
 #include <array>

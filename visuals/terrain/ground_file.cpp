@@ -4,7 +4,7 @@
 #include "sim/base/hash.h"
 #include "visuals/terrain/ground_header.h"
 #include "visuals/terrain/mapped_file.h"
-#include "visuals/terrain/worker_team.h"
+#include "sim/base/worker_team.h"
 
 #include <atomic>
 #include <cstring>

@@ -7,7 +7,7 @@
 
 #include "sim/base/nearest_rank.h"
 #include "visuals/terrain/earth_drop.h"
-#include "visuals/terrain/worker_team.h"
+#include "sim/base/worker_team.h"
 
 #include <glm/common.hpp>
 

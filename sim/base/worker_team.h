@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace octant::visuals::terrain {
+namespace octant {
 
 /// Calls `work(index, worker)` once for each index below `count`, in any order, on `threads`
 /// threads (this one among them, numbered from 0). The first exception ends the work and is thrown
@@ -42,4 +42,4 @@ void share_out(std::size_t count, int threads, const Work& work) {
     }
 }
 
-} // namespace octant::visuals::terrain
+} // namespace octant

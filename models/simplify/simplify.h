@@ -1,0 +1,50 @@
+#pragma once
+
+#include "models/collapse_sequence.h"
+#include "models/triangle_mesh.h"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+namespace octant::models::simplify {
+
+/// When to stop; the first that is met counts. All empty: as far as it goes.
+struct Goal {
+    std::optional<std::size_t> vertices;
+    std::optional<std::size_t> faces;
+    std::optional<double> error_m; ///< keep the two-sided distance to the original below this
+};
+
+/// Called now and then with the share that is done, 0..1.
+using ShowProgress = std::function<void(double share)>;
+
+enum class Quality {
+    Surface, ///< distance to the triangles of the original surface, both ways
+    Fast     ///< quadrics
+};
+
+struct SimplifyOptions {
+    Quality quality = Quality::Surface;
+    Goal goal;
+    double colour_weight = 0.1; ///< of a colour difference of 1, in diagonals, against a distance
+    int threads = 1;            ///< changes no result
+    ShowProgress show_progress; ///< may be empty
+};
+
+struct Simplified {
+    TriangleMesh mesh;         ///< after the last polish; with the original's materials and normals
+    CollapseSequence sequence; ///< what led there, without the polish
+};
+
+/// Simplifies an oriented manifold (RepairedMesh; asserted). A closed manifold stays a closed
+/// manifold of the same genus, boundaries and creases are kept. The same input gives the same
+/// bytes.
+Simplified simplified(TriangleMesh original, const SimplifyOptions& options);
+
+/// Moves vertices and flips edges of a mesh for a smaller distance to the original, both ways;
+/// what Quality::Surface ends with.
+TriangleMesh
+polished(TriangleMesh mesh, const TriangleMesh& original, const SimplifyOptions& options);
+
+} // namespace octant::models::simplify

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "models/polygon_model.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace octant::models {
+
+/// Three indices, counter-clockwise seen from outside.
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// A triangle mesh as files hold it, in the file's own axes and units (metres for aircraft).
+/// Corners share vertices; colours belong to vertices, normals to corners, materials to triangles.
+struct TriangleMesh {
+    std::string name;
+    std::vector<glm::dvec3> vertices_m;
+    std::vector<glm::vec3> colours; ///< one a vertex, linear parts 0..1; empty = no colours
+    std::vector<Triangle> triangles;
+    std::vector<glm::vec3> normals; ///< unit vectors that corner_normals points into; often empty
+    std::vector<Triangle> corner_normals;          ///< one a triangle; empty where `normals` is
+    std::vector<Material> materials;               ///< empty = none
+    std::vector<std::uint32_t> triangle_materials; ///< one a triangle; empty where `materials` is
+    std::vector<std::string> notes; ///< what reading or repairing it found; often none
+};
+
+/// Smallest and largest coordinates of the vertices that triangles use; both 0 without triangles.
+struct Bounds {
+    glm::dvec3 least_m{0.0};
+    glm::dvec3 most_m{0.0};
+};
+
+Bounds bounds_of(const TriangleMesh& mesh);
+
+/// Length of the diagonal of bounds_of: what errors are given as fractions of.
+double diagonal_m(const TriangleMesh& mesh);
+
+} // namespace octant::models
