@@ -1,17 +1,14 @@
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/placement.h"
+#include "models/meshfile/vrml_fields.h"
 #include "models/meshfile/vrml_nodes.h"
 #include "models/meshfile/vrml_words.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fmt/format.h>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -23,7 +20,6 @@ constexpr std::size_t largest_file_bytes = std::size_t{1} << 28U;
 constexpr int most_depth = 200;
 constexpr std::size_t most_visits = 1'000'000; ///< of nodes that USE brings back again and again
 constexpr std::size_t most_numbers = std::size_t{1} << 27U; ///< of corners and points, likewise
-constexpr double most_rad = 1e6;
 
 /// Grouping nodes, with the field that holds their children.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> groups{
@@ -33,21 +29,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 6> groups{
      {"Billboard", "children"},
      {"Collision", "children"},
      {"LOD", "level"}}};
-
-/// The matrix that turns by an angle around an axis, the right hand's way.
-glm::dmat3 turned_about(const glm::dvec3& axis, double angle_rad) {
-    const double length = glm::length(axis);
-    if (!(length > 0.0)) {
-        return glm::dmat3(1.0);
-    }
-    const glm::dvec3 a = axis / length;
-    const double c = std::cos(angle_rad);
-    const double s = std::sin(angle_rad);
-    const auto image = [&](const glm::dvec3& v) {
-        return v * c + glm::cross(a, v) * s + a * (glm::dot(a, v) * (1.0 - c));
-    };
-    return {image({1.0, 0.0, 0.0}), image({0.0, 1.0, 0.0}), image({0.0, 0.0, 1.0})};
-}
 
 /// The lists of an IndexedFaceSet; indices are empty where the file gives none.
 struct FaceSet {
@@ -68,6 +49,7 @@ public:
     VrmlReading(const std::filesystem::path& path, std::string_view text)
         : path_(path)
         , file_(read_vrml_nodes(path_, text))
+        , fields_(path_, file_)
         , mesh_(path)
         , used_materials_(file_.nodes.size(), no_index) {}
 
@@ -110,7 +92,8 @@ private:
             return;
         }
         const bool first_only = node.type == "LOD";
-        const Placement inner = node.type == "Transform" ? placement.of(own(node)) : placement;
+        const Placement inner =
+            node.type == "Transform" ? placement.of(fields_.placement(node)) : placement;
         const std::size_t inner_group = visits_;
         for (const std::uint32_t child : children->nodes) {
             visit(child, inner, inner_group, depth + 1);
@@ -132,123 +115,26 @@ private:
         }
     }
 
-    std::vector<double>
-    numbers(const VrmlNode& node, std::string_view name, std::vector<double> otherwise) const {
-        const VrmlField* field = node.field(name);
-        if (field == nullptr) {
-            return otherwise;
-        }
-        VrmlWords words(path_, field->text, field->line);
-        for (double& value : otherwise) {
-            value = words.number(name);
-        }
-        return otherwise;
-    }
-
-    glm::dvec3
-    vector(const VrmlNode& node, std::string_view name, const glm::dvec3& otherwise) const {
-        const auto v = numbers(node, name, {otherwise.x, otherwise.y, otherwise.z});
-        return {v[0], v[1], v[2]};
-    }
-
-    glm::dmat3 turn(const VrmlNode& node, std::string_view name) const {
-        const auto v = numbers(node, name, {0.0, 0.0, 1.0, 0.0});
-        if (std::abs(v[3]) > most_rad) {
-            refuse(node.line, "an angle in radians", fmt::format("{}", v[3]));
-        }
-        return turned_about({v[0], v[1], v[2]}, v[3]);
-    }
-
-    /// translation * center * rotation * scaleOrientation * scale * -scaleOrientation * -center.
-    Placement own(const VrmlNode& node) const {
-        const glm::dvec3 centre_m = vector(node, "center", glm::dvec3(0.0));
-        const glm::dvec3 scale = vector(node, "scale", glm::dvec3(1.0));
-        const glm::dmat3 slant = turn(node, "scaleOrientation");
-        glm::dmat3 scaled(1.0);
-        for (int part = 0; part < 3; ++part) {
-            scaled[part][part] = scale[part];
-        }
-        Placement made;
-        made.turn = turn(node, "rotation");
-        if (scale != glm::dvec3(1.0)) {
-            made.turn = made.turn * slant * scaled * glm::transpose(slant);
-        }
-        made.shift_m =
-            vector(node, "translation", glm::dvec3(0.0)) + centre_m - made.turn * centre_m;
-        return made;
-    }
-
-    const VrmlNode* only_node(const VrmlNode& node, std::string_view name) const {
-        const VrmlField* field = node.field(name);
-        return field == nullptr || field->nodes.empty() ? nullptr
-                                                        : &file_.nodes[field->nodes.front()];
-    }
-
-    std::uint32_t place_of(const VrmlNode& node) const {
-        return static_cast<std::uint32_t>(&node - file_.nodes.data());
-    }
-
-    bool flag(const VrmlNode& node, std::string_view name) const {
-        const VrmlField* field = node.field(name);
-        if (field == nullptr || field->text == "TRUE") {
-            return true;
-        }
-        if (field->text != "FALSE") {
-            refuse(field->line, "TRUE or FALSE", "something else");
-        }
-        return false;
-    }
-
-    std::vector<long> indices(const VrmlNode& node, std::string_view name) const {
-        std::vector<long> found;
-        if (const VrmlField* field = node.field(name)) {
-            VrmlWords words(path_, field->text, field->line);
-            while (!words.peek().empty()) {
-                found.push_back(words.whole("a whole number"));
-            }
-        }
-        return found;
-    }
-
-    /// Triples of the list `name` of the node in a field of the face set.
-    std::vector<glm::dvec3>
-    triples(const VrmlNode& set, std::string_view field_name, std::string_view name) const {
-        std::vector<glm::dvec3> found;
-        const VrmlNode* node = only_node(set, field_name);
-        const VrmlField* field = node == nullptr ? nullptr : node->field(name);
-        if (field == nullptr) {
-            return found;
-        }
-        VrmlWords words(path_, field->text, field->line);
-        while (!words.peek().empty()) {
-            const double x = words.number("a number");
-            const double y = words.number("a number");
-            const double z = words.number("a number");
-            found.emplace_back(x, y, z);
-        }
-        return found;
-    }
-
     void take_shape(const VrmlNode& shape, const Placement& placement, std::size_t group) {
-        const VrmlNode* set = only_node(shape, "geometry");
-        const VrmlNode* coord = set == nullptr ? nullptr : only_node(*set, "coord");
+        const VrmlNode* set = fields_.only_node(shape, "geometry");
+        const VrmlNode* coord = set == nullptr ? nullptr : fields_.only_node(*set, "coord");
         if (coord == nullptr || set->type != "IndexedFaceSet") {
             return;
         }
         FaceSet faces;
-        faces.corners = indices(*set, "coordIndex");
+        faces.corners = fields_.indices(*set, "coordIndex");
         count_numbers(faces.corners.size(), set->line);
-        faces.colour_indices = indices(*set, "colorIndex");
-        faces.normal_indices = indices(*set, "normalIndex");
-        faces.colours = triples(*set, "color", "color");
-        faces.colour_per_vertex = flag(*set, "colorPerVertex");
-        faces.normal_per_vertex = flag(*set, "normalPerVertex");
-        faces.counter_clockwise = flag(*set, "ccw") != placement.mirrors();
+        faces.colour_indices = fields_.indices(*set, "colorIndex");
+        faces.normal_indices = fields_.indices(*set, "normalIndex");
+        faces.colours = fields_.triples(*set, "color", "color");
+        faces.colour_per_vertex = fields_.flag(*set, "colorPerVertex");
+        faces.normal_per_vertex = fields_.flag(*set, "normalPerVertex");
+        faces.counter_clockwise = fields_.flag(*set, "ccw") != placement.mirrors();
         faces.line = set->line;
         std::ranges::for_each(
             faces.colours, [&](const glm::dvec3& colour) { check_colour(colour, set->line); });
         faces.first_normal = static_cast<std::uint32_t>(mesh_.normal_count());
-        for (const glm::dvec3& normal : triples(*set, "normal", "vector")) {
+        for (const glm::dvec3& normal : fields_.triples(*set, "normal", "vector")) {
             mesh_.add_normal(placement.normal(normal));
             ++faces.normals;
         }
@@ -267,14 +153,14 @@ private:
     /// Shapes of one group that have the same points share their vertices.
     void take_points(
         const VrmlNode& set, const VrmlNode& coord, const Placement& placement, std::size_t group) {
-        const auto key = std::pair(group, place_of(coord));
+        const auto key = std::pair(group, fields_.place_of(coord));
         const auto known = points_.find(key);
         if (known != points_.end()) {
             std::tie(first_point_, point_count_) = known->second;
             return;
         }
         first_point_ = mesh_.vertex_count();
-        for (const glm::dvec3& own_m : triples(set, "coord", "point")) {
+        for (const glm::dvec3& own_m : fields_.triples(set, "coord", "point")) {
             const auto place_m = placement.point_m(own_m);
             if (!place_m) {
                 refuse(coord.line, "points within bounds", "one that its node moves out of them");
@@ -296,14 +182,15 @@ private:
     }
 
     std::uint32_t material_of(const VrmlNode& shape) {
-        const VrmlNode* appearance = only_node(shape, "appearance");
-        const VrmlNode* node = appearance == nullptr ? nullptr : only_node(*appearance, "material");
+        const VrmlNode* appearance = fields_.only_node(shape, "appearance");
+        const VrmlNode* node =
+            appearance == nullptr ? nullptr : fields_.only_node(*appearance, "material");
         if (node == nullptr || node->type != "Material") {
             return no_index;
         }
-        std::uint32_t& used = used_materials_[place_of(*node)];
+        std::uint32_t& used = used_materials_[fields_.place_of(*node)];
         if (used == no_index) {
-            const glm::dvec3 colour = vector(*node, "diffuseColor", glm::dvec3(0.8));
+            const glm::dvec3 colour = fields_.vector(*node, "diffuseColor", glm::dvec3(0.8));
             check_colour(colour, node->line);
             const std::string name(node->name.empty() ? "material" : node->name);
             used = mesh_.add_material({name, glm::vec3(colour)});
@@ -434,6 +321,7 @@ private:
 
     std::filesystem::path path_;
     VrmlFile file_;
+    VrmlFields fields_;
     MeshBuilder mesh_;
     std::vector<std::uint32_t> used_materials_; ///< of each node
     std::map<std::pair<std::size_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> points_;
