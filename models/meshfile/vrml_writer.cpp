@@ -1,6 +1,8 @@
 #include "models/meshfile/material_names.h"
 #include "models/meshfile/mesh_formats.h"
 
+#include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <iterator>
 #include <string_view>
@@ -8,6 +10,10 @@
 namespace octant::models::meshfile {
 
 namespace {
+
+/// Of VRML itself, and those of the lists below.
+constexpr std::array<std::string_view, 10> taken_words{
+    "DEF", "USE", "TRUE", "FALSE", "NULL", "PROTO", "ROUTE", "points", "colours", "normals"};
 
 template <typename Vector>
 void append_list(std::string& text, std::string_view head, const std::vector<Vector>& vectors) {
@@ -91,13 +97,13 @@ private:
 
     /// A material's name as a DEF can hold it.
     static std::string identifier(std::string_view name) {
-        std::string out = "m_";
+        std::string out;
         for (const char c : name) {
-            const bool good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                              (c >= '0' && c <= '9') || c == '_';
-            out += good ? c : '_';
+            const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+            out += is_letter || (c >= '0' && c <= '9') ? c : '_';
         }
-        return out;
+        const bool is_taken = std::ranges::find(taken_words, out) != taken_words.end();
+        return is_taken || out.find_first_of("0123456789") == 0 ? "m_" + out : out;
     }
 
     const TriangleMesh& mesh_;

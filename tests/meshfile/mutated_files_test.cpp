@@ -169,7 +169,7 @@ TEST_CASE("a mutated VRML file is read soundly or refused in one line") {
         "cube.wrl",
         written("cube.wrl", coloured_cube()) +
             "PROTO P [ ] { Group { } }\nTransform { rotation 0 1 0 1.5 scale 1 2 -1 translation 4 "
-            "0 0\n children [ USE m_hull # comment\n Shape { geometry IndexedFaceSet { ccw FALSE\n"
+            "0 0\n children [ USE hull # comment\n Shape { geometry IndexedFaceSet { ccw FALSE\n"
             "coord USE points color Color { color [ 1 0 0, 0 1 0 ] } colorIndex [ 0 1 ]\n"
             "colorPerVertex FALSE coordIndex [ 0 1 3 2 -1 4 5 7 6 -1 ] } } ] }\n");
 }
