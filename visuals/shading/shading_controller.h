@@ -4,36 +4,44 @@
 
 namespace octant::visuals::shading {
 
-/// Every number by which the share of smooth polygons follows the frame time.
+/// Every number by which the share of smooth polygons follows the frame time. "Deviations" are
+/// standard deviations of what frames differ from the fit.
 struct ShadingControl {
     double share_ms = 1000.0 / 60.0; ///< T, a frame's time, above zero
-    double forgetting = 0.985;       ///< a frame's weight against the next one's
-    double margin_sds = 2.0;    ///< expected time stays below T by so many deviations of the noise
-    double dead_band = 0.04;    ///< share of the polygons by which the best number may be off
+    double level_memory = 0.975;     ///< forgetting of a: a frame's weight against the next one's
+    double slope_memory = 0.999;     ///< forgetting of bf and bg - bf
+    double aim_sds = 2.6;            ///< the expected time settles below T by so many deviations
+    double overload_sds = 1.9;       ///< less room than this is too little; from 0 to aim_sds
+    double dead_band = 0.04;    ///< share of the polygons by which there may be too few smooth ones
     double largest_step = 0.10; ///< share of the polygons that may change from frame to frame
-    /// Share of the polygons (one at least) that are flat for half of each `probe_frames`, so that
-    /// frames with other numbers are seen and the fit can tell smooth from flat.
+    /// Share of the polygons (one at least) that turn flat for half of each `probe_frames` while
+    /// the fit cannot tell well what they cost; `largest_step` turn smooth where all are flat.
     double probe = 0.01;
-    int probe_frames = 80;
+    int probe_frames = 40;
+    double surprise_sds = 2.5; ///< three frames in a row beyond this on one side: the load changed
+    double outlier_sds = 4.0;  ///< a frame beyond this says nothing of the fit
 };
 
-/// Fit of t = a + bf f + bg g, carried as (a, bf, bg - bf): recursive least squares.
+/// Fit of t = a + bf f + bg g for some number of polygons n0: recursive least squares.
 struct ShadingFit {
-    std::array<double, 3> ms{0.0, 0.0, 0.0}; ///< a; all polygons flat; all smooth instead
-    std::array<double, 9> covariance{};      ///< of `ms` in units of the noise's variance
-    double noise_ms = 0.0;                   ///< deviation of frames from the fit
-    int frames = 0;                          ///< seen
-    int surprises = 0; ///< frames in a row far above (positive) or below the fit
+    std::array<double, 3> ms{};         ///< a; bf n0; (bg - bf) n0
+    std::array<double, 9> covariance{}; ///< of `ms`, in units of the noise's variance
+    double noise_ms = 0.0;              ///< standard deviation of frames about the fit
+    int polygons = 1;                   ///< n0
+    int frames = 0;                     ///< seen since the start or the last change of load
+    int surprises = 0;                  ///< in a row, below zero for short frames
 };
 
 /// What is carried from one frame to the next: a value, so that a run can be replayed.
 struct ShadingState {
-    double target = 0.0;  ///< g before probing
-    int smooth = 0;       ///< g of the next frame
-    int polygons = 0;     ///< n
-    bool no_gain = false; ///< flat polygons are not measurably faster: all are smooth
-    ShadingFit fit;
+    double target = 0.0; ///< g before probing
+    int smooth = 0;      ///< g of the next frame
+    int polygons = 1;    ///< n of the next frame
+    bool moving = false; ///< the target is on its way to the best number
+    /// Flat polygons are not measurably faster than smooth ones: all are smooth, whatever T.
+    bool no_gain = false;
     int probe_frame = 0;
+    ShadingFit fit;
 };
 
 /// What a frame drawn with ShadingState::smooth took.
