@@ -7,10 +7,12 @@
 #include "ui/study_flights.h"
 #include "ui/study_hidden_surface.h"
 #include "ui/study_popping.h"
+#include "ui/study_shading.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace octant::ui {
 
@@ -175,6 +177,31 @@ void add_popping(CLI::App& study) {
     command->callback([options] { study_popping(*options); });
 }
 
+void add_shading(CLI::App& study) {
+    auto options = std::make_shared<ShadingStudyOptions>();
+    CLI::App* command = study.add_subcommand(
+        "shading",
+        "Hybrid of flat and Gouraud shading of the 2008 paper: its operation counts, and the "
+        "quality of pictures over the share of smooth polygons, by its rule and by ours");
+    add_out(*command, options->out);
+    command
+        ->add_option_function<std::vector<std::string>>(
+            "--mesh",
+            [options](const std::vector<std::string>& files) {
+                options->meshes.assign(files.begin(), files.end());
+            },
+            "OBJ file to look at too; may be given more than once")
+        ->type_name("FILE");
+    command->add_option("--size", options->size_px, "side of the square pictures in pixels")
+        ->type_name("PIXELS")
+        ->capture_default_str()
+        ->check(CLI::Range(16, 2048));
+    command->add_flag("--json", options->json, "print the tables as JSON");
+    command->add_flag("--quiet", options->quiet, "no progress, no notes");
+    command->footer("Example:\n  octant study shading --out tables --mesh cow.obj");
+    command->callback([options] { study_shading(*options); });
+}
+
 } // namespace
 
 void add_study_command(CLI::App& program) {
@@ -188,6 +215,7 @@ void add_study_command(CLI::App& program) {
     add_flicker(*study);
     add_hidden_surface(*study);
     add_popping(*study);
+    add_shading(*study);
 }
 
 } // namespace octant::ui
