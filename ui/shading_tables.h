@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/report/html_text.h"
+#include "ui/shading_clock.h"
 #include "ui/shading_runs.h"
 
 #include <span>
@@ -15,5 +16,8 @@ report::HtmlTable gain_table(std::span<const ShadingRun> runs);
 
 /// PSNR and SSIM of one model over the share of smooth polygons, all rules, both references.
 report::HtmlTable quality_table(const ShadingRun& run);
+
+/// How the share of smooth polygons followed made frame times.
+report::HtmlTable control_table(std::span<const ControlRun> runs);
 
 } // namespace octant::ui

@@ -148,8 +148,9 @@ void study_shading(const ShadingStudyOptions& options) {
         runs.push_back(run_shading(model, options.size_px, [&] { progress.show(++done); }));
         progress.finish();
     }
-    std::vector<report::HtmlTable> tables{operation_table(), gain_table(runs)};
-    std::vector<std::string> files{"operations", "gain"};
+    std::vector<report::HtmlTable> tables{
+        operation_table(), gain_table(runs), control_table(control_runs())};
+    std::vector<std::string> files{"operations", "gain", "control"};
     for (const ShadingRun& run : runs) {
         tables.push_back(quality_table(run));
         files.push_back("quality-" + file_part(run.name));

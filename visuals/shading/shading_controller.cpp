@@ -2,10 +2,11 @@
 // to support LOD (Level of Detail)", 2008, leave for later (section 5: "an algorithm that finds the
 // numbers of flat and Gouraud polygons by itself").
 //
-// - A frame takes t = a + bf f + bg g. Recursive least squares fit it as a + bf n + (bg - bf) g;
-//   a is forgotten fast (the rest of the frame changes), bf and bg - bf slowly (the machine does
-//   not). Where n never changes, a and bf n are known only as a sum, and nothing else is needed:
-//   g = clamp((T - a - bf n) / (bg - bf), 0, n).
+// - A frame takes t = a + bf f + bg g. Recursive least squares fit it as a + bf n + (bg - bf) g.
+//   Old frames are forgotten by letting each number drift: a fast (the rest of the frame changes),
+//   bf and bg - bf slowly (the machine does not). One common factor of forgetting would take what
+//   a drifted for knowledge of bg - bf. Where n never changes, a and bf n are known only as a sum,
+//   and nothing else is needed: g = clamp((T - a - bf n) / (bg - bf), 0, n).
 // - A fit that sees one g only cannot tell smooth from flat. The way from all flat to the first
 //   target shows many; later, while the deviation of bg - bf is more than a fifth of it, one
 //   polygon in a hundred, those that are smooth by the narrowest choice, is flat every other third
@@ -52,16 +53,13 @@ Vector regressors(const ShadingFit& fit, double polygons, double smooth) {
     return {1.0, polygons / fit.polygons, smooth / fit.polygons};
 }
 
-/// Old frames count less; nothing becomes less known than it was before the first frame.
+/// Old frames count less, each number as fast as it may drift; nothing becomes less known than it
+/// was before the first frame.
 void forget(ShadingFit& fit, const ShadingControl& control) {
-    const Vector memory{control.level_memory, control.slope_memory, control.slope_memory};
-    Vector scale{};
+    const Vector drift{control.level_drift, control.slope_drift, control.slope_drift};
     for (std::size_t i = 0; i < 3; ++i) {
-        const double variance = fit.covariance[4 * i];
-        scale[i] = std::sqrt(std::min(1.0 / memory[i], std::max(unknown / variance, 1e-9)));
-    }
-    for (std::size_t i = 0; i < 9; ++i) {
-        fit.covariance[i] *= scale[i / 3] * scale[i % 3];
+        double& variance = fit.covariance[4 * i];
+        variance = std::max(variance, std::min(variance + drift[i], unknown));
     }
 }
 
@@ -110,7 +108,7 @@ ShadingFit learnt(ShadingFit fit, const ShadingControl& control, const ShadedFra
     }
     if (!first && !changed) {
         const double counted = std::min(std::abs(surprise), control.surprise_sds);
-        const double weight = std::max(1.0 - control.level_memory, 1.0 / (fit.frames + 5.0));
+        const double weight = std::max(control.noise_weight, 1.0 / (fit.frames + 5.0));
         fit.noise_ms *= std::sqrt(1.0 + weight * (counted * counted - 1.0));
         fit.noise_ms = std::max(fit.noise_ms, 1e-3);
     }
@@ -172,7 +170,7 @@ int probed(ShadingState& state, const ShadingControl& control) {
     }
     // Where not even all flat fits, the machine is asked in one large step what smooth ones cost.
     const double share = target == 0 ? control.largest_step : control.probe;
-    const int probe = std::max(static_cast<int>(std::lround(share * state.polygons)), 1);
+    const int probe = std::max(static_cast<int>(share * state.polygons), 1);
     return target >= probe ? target - probe : target + probe;
 }
 
@@ -195,8 +193,7 @@ ShadingState next_shading(
     const ShadedFrame& frame,
     int polygons) {
     assert(control.share_ms > 0.0 && control.probe_frames >= 2 && polygons >= 1);
-    assert(control.level_memory > 0.0 && control.level_memory <= 1.0);
-    assert(control.slope_memory > 0.0 && control.slope_memory <= 1.0);
+    assert(control.level_drift >= 0.0 && control.slope_drift >= 0.0);
     assert(control.overload_sds >= 0.0 && control.overload_sds <= control.aim_sds);
     assert(frame.frame_ms >= 0.0 && frame.flat >= 0 && frame.smooth >= 0);
     ShadingState next = state;

@@ -8,10 +8,13 @@ namespace octant::visuals::shading {
 /// standard deviations of what frames differ from the fit.
 struct ShadingControl {
     double share_ms = 1000.0 / 60.0; ///< T, a frame's time, above zero
-    double level_memory = 0.975;     ///< forgetting of a: a frame's weight against the next one's
-    double slope_memory = 0.999;     ///< forgetting of bf and bg - bf
-    double aim_sds = 2.6;            ///< the expected time settles below T by so many deviations
-    double overload_sds = 1.9;       ///< less room than this is too little; from 0 to aim_sds
+    /// Variance by which a may change from frame to frame, in the noise's variance: with 6.5e-4 it
+    /// is known from the last 40 frames.
+    double level_drift = 6.5e-4;
+    double slope_drift = 1e-4;   ///< the same for bf n0 and (bg - bf) n0
+    double noise_weight = 0.025; ///< of a frame in the noise that is expected
+    double aim_sds = 2.6;        ///< the expected time settles below T by so many deviations
+    double overload_sds = 1.9;   ///< less room than this is too little; from 0 to aim_sds
     double dead_band = 0.04;    ///< share of the polygons by which there may be too few smooth ones
     double largest_step = 0.10; ///< share of the polygons that may change from frame to frame
     /// Share of the polygons (one at least) that turn flat for half of each `probe_frames` while
