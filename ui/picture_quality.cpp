@@ -20,6 +20,16 @@ constexpr int reach_px = 3;
 /// Sums over windows: pixels, x, y, x^2, y^2, x y.
 using Sums = std::array<double, 6>;
 
+void add(Sums& sums, const Sums& more, double sign = 1.0) {
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        sums[k] += sign * more[k];
+    }
+}
+
+Sums sums_of_pixel(double x, double y) {
+    return {1.0, x, y, x * x, y * y, x * y};
+}
+
 /// Sums over all pixels above and left of each corner of the pixels.
 std::vector<Sums> running_sums(
     const LightPicture& picture,
@@ -32,18 +42,11 @@ std::vector<Sums> running_sums(
         for (std::size_t column = 0; column < size; ++column) {
             const std::size_t at = row * size + column;
             if (covered[at] != 0) {
-                const double x = picture.light[at];
-                const double y = reference.light[at];
-                const Sums here{1.0, x, y, x * x, y * y, x * y};
-                for (std::size_t k = 0; k < here.size(); ++k) {
-                    of_row[k] += here[k];
-                }
+                add(of_row, sums_of_pixel(picture.light[at], reference.light[at]));
             }
             Sums& below = sums[(row + 1) * (size + 1) + column + 1];
             below = sums[row * (size + 1) + column + 1];
-            for (std::size_t k = 0; k < of_row.size(); ++k) {
-                below[k] += of_row[k];
-            }
+            add(below, of_row);
         }
     }
     return sums;
@@ -93,24 +96,27 @@ double structural_similarity(
     const int size = picture.size_px;
     const std::vector<Sums> sums = running_sums(picture, reference, covered);
     const auto sums_at = [&](int row, int column) -> const Sums& {
-        return sums[static_cast<std::size_t>(row * (size + 1) + column)];
+        return sums
+            [static_cast<std::size_t>(row) * (static_cast<std::size_t>(size) + 1) +
+             static_cast<std::size_t>(column)];
     };
     double total = 0.0;
     double count = 0.0;
     for (int row = 0; row < size; ++row) {
         for (int column = 0; column < size; ++column) {
-            if (covered[static_cast<std::size_t>(row * size + column)] == 0) {
+            const auto at = static_cast<std::size_t>(row) * static_cast<std::size_t>(size) +
+                            static_cast<std::size_t>(column);
+            if (covered[at] == 0) {
                 continue;
             }
             const int top = std::max(row - reach_px, 0);
             const int left = std::max(column - reach_px, 0);
             const int bottom = std::min(row + reach_px + 1, size);
             const int right = std::min(column + reach_px + 1, size);
-            Sums window{};
-            for (std::size_t k = 0; k < window.size(); ++k) {
-                window[k] = sums_at(bottom, right)[k] - sums_at(top, right)[k] -
-                            sums_at(bottom, left)[k] + sums_at(top, left)[k];
-            }
+            Sums window = sums_at(bottom, right);
+            add(window, sums_at(top, right), -1.0);
+            add(window, sums_at(bottom, left), -1.0);
+            add(window, sums_at(top, left));
             total += similarity(window);
             ++count;
         }

@@ -99,7 +99,8 @@ void ShadingPictures::see(
             const double of_a = doubled(b, c, column + 0.5, row + 0.5) / whole;
             const double of_b = doubled(c, a, column + 0.5, row + 0.5) / whole;
             const double of_c = 1.0 - of_a - of_b;
-            const auto at = static_cast<std::size_t>(row * size_px_ + column);
+            const auto at = static_cast<std::size_t>(row) * static_cast<std::size_t>(size_px_) +
+                            static_cast<std::size_t>(column);
             if (row >= size_px_ || column >= size_px_ || of_a < 0.0 || of_b < 0.0 || of_c < 0.0) {
                 continue;
             }
