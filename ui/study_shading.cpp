@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <fmt/format.h>
 #include <limits>
@@ -48,7 +50,7 @@ strip_of(const std::vector<LightPicture>& row, const std::vector<std::uint8_t>& 
     report::Picture strip;
     strip.width_px = static_cast<int>(size * row.size());
     strip.height_px = static_cast<int>(2 * size);
-    strip.bytes.assign(3 * 2 * size * size * row.size(), background);
+    strip.bytes.assign(std::size_t{6} * size * size * row.size(), background);
     for (std::size_t k = 0; k < row.size(); ++k) {
         for (std::size_t at = 0; at < size * size; ++at) {
             if (on[at] == 0) {
@@ -108,6 +110,7 @@ std::string write_figures(
     const std::vector<ShadingRun>& runs) {
     std::string markdown;
     std::vector<report::Plot> plots;
+    plots.reserve(runs.size());
     for (const ShadingRun& run : runs) {
         plots.push_back(curve_plot(run));
     }
