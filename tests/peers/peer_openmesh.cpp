@@ -42,8 +42,8 @@ PeerMesh peer_mesh(const Mesh& mesh) {
     for (const Mesh::FaceHandle face : mesh.faces()) {
         std::array<std::uint32_t, 3> triangle{};
         std::size_t corner = 0;
-        for (auto vertex = mesh.cfv_iter(face); vertex.is_valid(); ++vertex) {
-            triangle.at(corner++) = static_cast<std::uint32_t>(vertex->idx());
+        for (const Mesh::VertexHandle vertex : mesh.fv_range(face)) {
+            triangle.at(corner++) = static_cast<std::uint32_t>(vertex.idx());
         }
         made.triangles.push_back(triangle);
     }
@@ -54,6 +54,10 @@ PeerMesh peer_mesh(const Mesh& mesh) {
 
 PeerResult openmesh_quadric(const PeerMesh& mesh, std::size_t faces) {
     Mesh work = openmesh(mesh);
+    work.request_vertex_status(); // the decimater would take its own ones with it
+    work.request_edge_status();
+    work.request_halfedge_status();
+    work.request_face_status();
     PeerResult result;
     result.time_ms = timed_ms([&] {
         Decimater decimater(work);
