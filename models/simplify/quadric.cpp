@@ -138,8 +138,13 @@ glm::dvec3 least_place(const Quadric& quadric, const glm::dvec3& middle) {
     drawn.xx += weight;
     drawn.yy += weight;
     drawn.zz += weight;
-    // Solved for the way from the middle, which keeps its digits.
-    return middle + solved(drawn, -(times(quadric, middle) + quadric.b), glm::dvec3(0.0));
+    // Solved for the way from the last place, which keeps its digits; each step after the first
+    // takes off what the pull spoiled where the place is certain.
+    glm::dvec3 place = middle;
+    for (int step = 0; step < 3; ++step) {
+        place += solved(drawn, -(times(quadric, place) + quadric.b), glm::dvec3(0.0));
+    }
+    return place;
 }
 
 } // namespace octant::models::simplify

@@ -91,8 +91,10 @@ private:
 
     void tell(std::size_t collapses) {
         TriangleMesh mesh = finished(sequence_, collapses, options_);
-        const measure::MeshDistance distance =
-            measure::distance(sequence_.original, mesh, {.threads = options_.threads});
+        const measure::MeshDistance distance = measure::distance(
+            sequence_.original,
+            mesh,
+            {.negligible_m = 0.1 * error_m_, .samples = 1000, .threads = options_.threads});
         if (distance.most_hausdorff_m() <= error_m_) {
             fits_ = collapses;
             best_ = std::move(mesh);
