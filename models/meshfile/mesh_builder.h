@@ -38,6 +38,8 @@ public:
 
     std::size_t vertex_count() const { return mesh_.vertices_m.size(); }
 
+    const glm::dvec3& vertex_m(std::uint32_t vertex) const { return mesh_.vertices_m[vertex]; }
+
     std::size_t normal_count() const { return mesh_.normals.size(); }
 
     std::uint32_t add_vertex(const glm::dvec3& position_m);

@@ -23,8 +23,9 @@ void write_obj_mesh(const std::filesystem::path& path, const TriangleMesh& mesh)
     write_file(path, text.obj);
 }
 
-void write_ply_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
-    write_file(path, ply_bytes(mesh));
+template <std::string (*bytes_of)(const TriangleMesh&)>
+void write_one_file(const std::filesystem::path& path, const TriangleMesh& mesh) {
+    write_file(path, bytes_of(mesh));
 }
 
 struct Format {
@@ -34,7 +35,13 @@ struct Format {
 };
 
 constexpr std::array formats{
-    Format{".obj", read_obj_mesh, write_obj_mesh}, Format{".ply", read_ply_mesh, write_ply_mesh}};
+    Format{".obj", read_obj_mesh, write_obj_mesh},
+    Format{".ply", read_ply_mesh, write_one_file<ply_bytes>},
+    Format{".stl", read_stl_mesh, write_one_file<stl_bytes>},
+    Format{".gltf", read_gltf_mesh, write_one_file<gltf_text>},
+    Format{".glb", read_gltf_mesh, write_one_file<glb_bytes>},
+    Format{".ac", read_ac3d_mesh, write_one_file<ac3d_text>},
+    Format{".wrl", read_vrml_mesh, write_one_file<vrml_text>}};
 
 const Format* find_format(const std::filesystem::path& path) {
     std::string ending = path.extension().string();

@@ -2,12 +2,12 @@
 
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/shell_pieces.h"
+#include "models/meshfile/vertex_twins.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <fmt/format.h>
 #include <unordered_map>
@@ -58,49 +58,12 @@ private:
         return used;
     }
 
-    /// What vertices are compared by.
-    struct Key {
-        std::array<std::uint64_t, 3> place{};
-        std::array<std::uint32_t, 3> colour{};
-
-        bool operator==(const Key&) const = default;
-    };
-
-    struct KeyHash {
-        std::size_t operator()(const Key& key) const {
-            std::uint64_t hash = 0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                hash = (hash ^ key.place[k]) * 0x9e3779b97f4a7c15ULL;
-                hash ^= hash >> 29U;
-                hash = (hash ^ key.colour[k]) * 0xbf58476d1ce4e5b9ULL;
-                hash ^= hash >> 32U;
-            }
-            return hash;
-        }
-    };
-
-    Key key_of(std::size_t vertex) const {
-        Key key;
-        for (int k = 0; k < 3; ++k) {
-            const auto part = static_cast<std::size_t>(k);
-            key.place[part] = std::bit_cast<std::uint64_t>(mesh_.vertices_m[vertex][k] + 0.0);
-            if (!mesh_.colours.empty()) {
-                key.colour[part] = std::bit_cast<std::uint32_t>(mesh_.colours[vertex][k] + 0.0F);
-            }
-        }
-        return key;
-    }
-
     void weld() {
-        const std::vector<bool> used = referenced();
-        std::unordered_map<Key, std::uint32_t, KeyHash> first_of;
-        first_of.reserve(mesh_.vertices_m.size());
-        std::vector<std::uint32_t> welded(mesh_.vertices_m.size(), no_index);
+        const std::vector<std::uint32_t> welded =
+            first_twins(mesh_.vertices_m, mesh_.colours, referenced());
         for (std::uint32_t v = 0; v < welded.size(); ++v) {
-            if (used[v]) {
-                welded[v] = first_of.try_emplace(key_of(v), v).first->second;
-                counts_.duplicate_vertices += static_cast<std::size_t>(welded[v] != v);
-            }
+            counts_.duplicate_vertices +=
+                static_cast<std::size_t>(welded[v] != v && welded[v] != no_index);
         }
         for (Triangle& triangle : mesh_.triangles) {
             for (std::uint32_t& vertex : triangle) {
