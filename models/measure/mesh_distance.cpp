@@ -1,7 +1,7 @@
 #include "models/measure/mesh_distance.h"
 
 #include "models/measure/hausdorff.h"
-#include "models/measure/surface_samples.h"
+#include "models/measure/sampled_distance.h"
 
 #include <algorithm>
 #include <cassert>

@@ -66,15 +66,13 @@ PeerMesh peer_mesh(const Mesh& mesh) {
 
 PeerResult cgal_lindstrom_turk(const PeerMesh& mesh, std::size_t faces) {
     Mesh work = cgal_mesh(mesh);
-    using Placement = simplification::Bounded_normal_change_placement<
-        simplification::LindstromTurk_placement<Mesh>>;
     PeerResult result;
     result.time_ms = timed_ms([&] {
         simplification::edge_collapse(
             work,
             FaceCountStop{faces},
             CGAL::parameters::get_cost(simplification::LindstromTurk_cost<Mesh>())
-                .get_placement(Placement()));
+                .get_placement(simplification::LindstromTurk_placement<Mesh>()));
     });
     work.collect_garbage();
     result.mesh = peer_mesh(work);
