@@ -1,0 +1,92 @@
+#pragma once
+
+#include "models/collapse_sequence.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::refine {
+
+/// Triangles between vertices ("slots") with a list of the corners at each vertex, linked through
+/// the corners themselves: adding and taking away needs no memory once there was as much before.
+/// Corner 3 f + k is the kth of face f. A face that was taken away is left as a degenerate one
+/// (all corners at vertex 0) until its place is used again.
+class FaceLists {
+public:
+    static constexpr std::uint32_t none = models::none;
+
+    /// Makes room; vertices that are new have no faces.
+    void resize_vertices(std::size_t count) { first_corners_.resize(count, none); }
+
+    /// `label`: of the caller's, kept with the face. Returns its number.
+    std::uint32_t add(const std::array<std::uint32_t, 3>& vertices, std::uint32_t label);
+
+    void remove(std::uint32_t face);
+
+    /// Calls use(corner) for each corner at a vertex.
+    template <class Use>
+    void each_corner(std::uint32_t vertex, const Use& use) const {
+        for (std::uint32_t c = first_corners_[vertex]; c != none; c = next_corners_[c]) {
+            use(c);
+        }
+    }
+
+    /// Moves those corners of a vertex to another one for which moves(corner) is true.
+    template <class Moves>
+    void move_corners(std::uint32_t from, std::uint32_t to, const Moves& moves) {
+        std::uint32_t* link = &first_corners_[from];
+        while (*link != none) {
+            const std::uint32_t corner = *link;
+            if (moves(corner)) {
+                *link = next_corners_[corner];
+                next_corners_[corner] = first_corners_[to];
+                first_corners_[to] = corner;
+                vertices_[corner] = to;
+            } else {
+                link = &next_corners_[corner];
+            }
+        }
+    }
+
+    /// The face with a label at a vertex; none when there is none.
+    std::uint32_t find(std::uint32_t vertex, std::uint32_t label) const;
+
+    std::uint32_t vertex(std::uint32_t corner) const { return vertices_[corner]; }
+
+    /// The other two corners of a corner's face, counter-clockwise.
+    static std::uint32_t next_in_face(std::uint32_t corner) {
+        return corner % 3 == 2 ? corner - 2 : corner + 1;
+    }
+
+    static std::uint32_t before_in_face(std::uint32_t corner) {
+        return corner % 3 == 0 ? corner + 2 : corner - 1;
+    }
+
+    /// none for a place without a face.
+    std::uint32_t label(std::uint32_t face) const { return labels_[face]; }
+
+    /// Places of faces, those without one included.
+    std::size_t place_count() const { return labels_.size(); }
+
+    std::size_t face_count() const { return face_count_; }
+
+    /// Three a place.
+    std::span<const std::uint32_t> indices() const { return vertices_; }
+
+    std::size_t bytes() const;
+
+private:
+    void unlink(std::uint32_t corner);
+
+    std::vector<std::uint32_t> first_corners_; ///< one a vertex
+    std::vector<std::uint32_t> vertices_;      ///< one a corner
+    std::vector<std::uint32_t> next_corners_;  ///< one a corner, at the same vertex
+    std::vector<std::uint32_t> labels_;        ///< one a face
+    std::uint32_t free_ = none;                ///< list of places, through next_corners_[3 f]
+    std::size_t face_count_ = 0;
+};
+
+} // namespace octant::visuals::refine
