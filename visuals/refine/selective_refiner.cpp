@@ -157,6 +157,9 @@ void SelectiveRefiner::split_now(std::uint32_t node, const Cuts& cuts) {
     swap_activity(node);
     ++active_count_;
     ++counts_.splits;
+    if (options_.remember_splits) {
+        recent_splits_.push_back(node);
+    }
     nodes_[first_slot] = split.first;
     nodes_[second_slot] = split.second;
     slots_[middle] = second_slot;
@@ -196,7 +199,7 @@ void SelectiveRefiner::swap_activity(std::uint32_t node) {
     flip(active_, split.second);
 }
 
-bool SelectiveRefiner::collapse(std::uint32_t node) {
+bool SelectiveRefiner::may_collapse(std::uint32_t node) {
     assert(!mesh_->is_leaf(node));
     const Split& split = mesh_->split_of(node);
     if (!is_active(split.first) || !is_active(split.second)) {
@@ -204,9 +207,13 @@ bool SelectiveRefiner::collapse(std::uint32_t node) {
     }
     const std::uint32_t first_slot = slot(split.first);
     const std::uint32_t second_slot = slot(split.second);
-    if (!links_allow(first_slot, second_slot) ||
-        (options_.repair && (turns_faces(first_slot, second_slot, node) ||
-                             turns_faces(second_slot, first_slot, node)))) {
+    return links_allow(first_slot, second_slot) &&
+           !(options_.repair && (turns_faces(first_slot, second_slot, node) ||
+                                 turns_faces(second_slot, first_slot, node)));
+}
+
+bool SelectiveRefiner::collapse(std::uint32_t node) {
+    if (!may_collapse(node)) {
         ++counts_.blocked;
         return false;
     }

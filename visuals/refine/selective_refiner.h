@@ -24,7 +24,8 @@ struct RefinedVertex {
 
 struct RefinerOptions {
     SplitRule rule = SplitRule::Selective;
-    bool repair = true; ///< of fold-overs
+    bool remember_splits = false; ///< for recent_splits
+    bool repair = true;           ///< of fold-overs
     std::shared_ptr<const EarlierRules>
         earlier{}; ///< for the rules Hoppe and Xia only; null = made
 };
@@ -67,6 +68,15 @@ public:
     /// face turned over. Worth another try when the neighbourhood has changed.
     bool collapse(std::uint32_t node);
 
+    /// Whether collapse(node) would do it now.
+    bool may_collapse(std::uint32_t node);
+
+    /// Inner nodes that were split, in order, since the last forget_recent_splits; none without
+    /// options().remember_splits.
+    std::span<const std::uint32_t> recent_splits() const { return recent_splits_; }
+
+    void forget_recent_splits() { recent_splits_.clear(); }
+
     /// Splits the coarsest corner of each face that is turned over against its original, until no
     /// face changed since the last call is. Returns how many splits were done. Without
     /// options().repair nothing happens. A split made here may be collapsed again.
@@ -97,6 +107,11 @@ public:
     /// Place of an active node in the arrays below. A node's first child takes its place over.
     std::uint32_t slot(std::uint32_t active_node) const {
         return slots_[mesh_->first_leaf(active_node)];
+    }
+
+    /// The same for a split node: the place of the active node at its first leaf.
+    std::uint32_t slot_below(std::uint32_t split_node) const {
+        return slots_[mesh_->first_leaf(split_node)];
     }
 
     /// none for a place without a vertex.
@@ -170,7 +185,8 @@ private:
     std::vector<std::uint32_t> free_slots_;
     std::vector<std::uint32_t> stack_;   ///< nodes to split, the next one last
     std::vector<std::uint32_t> changed_; ///< slots whose faces repair() looks at
-    std::vector<std::uint8_t> marks_;    ///< one a slot: bits of links_allow and changed_
+    std::vector<std::uint32_t> recent_splits_;
+    std::vector<std::uint8_t> marks_; ///< one a slot: bits of links_allow and changed_
     DirtyBlocks dirty_vertices_;
     DirtyBlocks dirty_faces_;
     RefinerCounts counts_;
