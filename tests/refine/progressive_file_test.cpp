@@ -46,6 +46,7 @@ void check_same(const ProgressiveMesh& a, const ProgressiveMesh& b) {
     CHECK(a.parts().normals == b.parts().normals);
     CHECK(a.parts().colours == b.parts().colours);
     CHECK(a.parts().faces == b.parts().faces);
+    CHECK(a.parts().original_faces == b.parts().original_faces);
     CHECK(a.parts().face_materials == b.parts().face_materials);
     CHECK(a.parts().original_vertices == b.parts().original_vertices);
     REQUIRE(a.node_count() == b.node_count());

@@ -10,6 +10,14 @@
 
 namespace octant::visuals::refine {
 
+/// Lets a vector grow by a quarter at a time instead of twice.
+template <class Item>
+void make_room(std::vector<Item>& items, std::size_t count) {
+    if (count > items.capacity()) {
+        items.reserve(count + count / 4);
+    }
+}
+
 /// Triangles between vertices ("slots") with a list of the corners at each vertex, linked through
 /// the corners themselves: adding and taking away needs no memory once there was as much before.
 /// Corner 3 f + k is the kth of face f. A face that was taken away is left as a degenerate one
@@ -19,7 +27,10 @@ public:
     static constexpr std::uint32_t none = models::none;
 
     /// Makes room; vertices that are new have no faces.
-    void resize_vertices(std::size_t count) { first_corners_.resize(count, none); }
+    void resize_vertices(std::size_t count) {
+        make_room(first_corners_, count);
+        first_corners_.resize(count, none);
+    }
 
     /// `label`: of the caller's, kept with the face. Returns its number.
     std::uint32_t add(const std::array<std::uint32_t, 3>& vertices, std::uint32_t label);
@@ -29,7 +40,7 @@ public:
     /// Calls use(corner) for each corner at a vertex.
     template <class Use>
     void each_corner(std::uint32_t vertex, const Use& use) const {
-        for (std::uint32_t c = first_corners_[vertex]; c != none; c = next_corners_[c]) {
+        for (std::uint32_t c = first_corners_[vertex]; c != none; c = next(c)) {
             use(c);
         }
     }
@@ -41,12 +52,12 @@ public:
         while (*link != none) {
             const std::uint32_t corner = *link;
             if (moves(corner)) {
-                *link = next_corners_[corner];
-                next_corners_[corner] = first_corners_[to];
+                *link = next(corner);
+                next(corner) = first_corners_[to];
                 first_corners_[to] = corner;
                 vertices_[corner] = to;
             } else {
-                link = &next_corners_[corner];
+                link = &next(corner);
             }
         }
     }
@@ -66,10 +77,10 @@ public:
     }
 
     /// none for a place without a face.
-    std::uint32_t label(std::uint32_t face) const { return labels_[face]; }
+    std::uint32_t label(std::uint32_t face) const { return links_[face].label; }
 
     /// Places of faces, those without one included.
-    std::size_t place_count() const { return labels_.size(); }
+    std::size_t place_count() const { return links_.size(); }
 
     std::size_t face_count() const { return face_count_; }
 
@@ -79,13 +90,21 @@ public:
     std::size_t bytes() const;
 
 private:
+    struct Links {
+        std::array<std::uint32_t, 3> next; ///< corners at the same vertices
+        std::uint32_t label;
+    };
+
+    std::uint32_t& next(std::uint32_t corner) { return links_[corner / 3].next[corner % 3]; }
+
+    std::uint32_t next(std::uint32_t corner) const { return links_[corner / 3].next[corner % 3]; }
+
     void unlink(std::uint32_t corner);
 
     std::vector<std::uint32_t> first_corners_; ///< one a vertex
     std::vector<std::uint32_t> vertices_;      ///< one a corner
-    std::vector<std::uint32_t> next_corners_;  ///< one a corner, at the same vertex
-    std::vector<std::uint32_t> labels_;        ///< one a face
-    std::uint32_t free_ = none;                ///< list of places, through next_corners_[3 f]
+    std::vector<Links> links_;                 ///< one a face
+    std::uint32_t free_ = none;                ///< list of places, through their first corners
     std::size_t face_count_ = 0;
 };
 

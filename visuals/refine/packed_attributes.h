@@ -65,4 +65,10 @@ inline glm::vec3 unpacked(const PackedColour& colour) {
     return glm::vec3(colour.red, colour.green, colour.blue) / 65535.0F;
 }
 
+/// As models::packed_colour.
+inline std::uint32_t drawn_colour(const PackedColour& colour) {
+    const auto byte = [](std::uint32_t part) { return (part * 255U + 32767U) / 65535U; };
+    return byte(colour.red) | byte(colour.green) << 8U | byte(colour.blue) << 16U | 0xff000000U;
+}
+
 } // namespace octant::visuals::refine

@@ -13,6 +13,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace octant::visuals::refine {
 
@@ -51,6 +52,7 @@ ProgressiveMesh::ProgressiveMesh(ProgressiveParts parts)
     : parts_(std::move(parts)) {
     assert(parts_.positions_m.size() == leaf_count() + parts_.splits.size());
     assert(parts_.normals.size() == parts_.positions_m.size());
+    order_faces();
     find_parents();
     find_first_leaves();
     find_cuts();
@@ -60,6 +62,40 @@ ProgressiveMesh::ProgressiveMesh(ProgressiveParts parts)
 
 ProgressiveMesh::ProgressiveMesh(const models::CollapseSequence& sequence)
     : ProgressiveMesh(parts_of(sequence)) {}
+
+/// By their corners' places in the hierarchy: a split then finds its faces close together.
+void ProgressiveMesh::order_faces() {
+    const auto key = [&](std::uint32_t face) {
+        Triangle corners = parts_.faces[face];
+        std::ranges::sort(corners);
+        return corners;
+    };
+    std::vector<std::uint32_t> order(face_count());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::stable_sort(order, {}, key);
+    std::vector<std::uint32_t> places(face_count());
+    ProgressiveParts ordered;
+    ordered.faces.reserve(face_count());
+    ordered.original_faces.reserve(face_count());
+    for (const std::uint32_t face : order) {
+        places[face] = static_cast<std::uint32_t>(ordered.faces.size());
+        ordered.faces.push_back(parts_.faces[face]);
+        ordered.original_faces.push_back(
+            parts_.original_faces.empty() ? face : parts_.original_faces[face]);
+        if (!parts_.face_materials.empty()) {
+            ordered.face_materials.push_back(parts_.face_materials[face]);
+        }
+    }
+    ordered.face_materials.shrink_to_fit();
+    parts_.faces = std::move(ordered.faces);
+    parts_.original_faces = std::move(ordered.original_faces);
+    parts_.face_materials = std::move(ordered.face_materials);
+    for (Split& split : parts_.splits) {
+        for (std::uint32_t* face : {&split.left_face, &split.right_face}) {
+            *face = *face == none ? none : places[*face];
+        }
+    }
+}
 
 void ProgressiveMesh::find_parents() {
     parents_.assign(parts_.positions_m.size(), none);
@@ -151,9 +187,9 @@ glm::vec3 ProgressiveMesh::face_normal(std::uint32_t face) const {
 std::size_t ProgressiveMesh::bytes() const {
     return sizeof(*this) + bytes_of(parts_.positions_m) + bytes_of(parts_.normals) +
            bytes_of(parts_.colours) + bytes_of(parts_.splits) + bytes_of(parts_.faces) +
-           bytes_of(parts_.face_materials) + bytes_of(parts_.original_vertices) +
-           bytes_of(parents_) + bytes_of(roots_) + bytes_of(first_leaves_) + bytes_of(cuts_) +
-           bytes_of(radii_m_) + bytes_of(cones_);
+           bytes_of(parts_.face_materials) + bytes_of(parts_.original_faces) +
+           bytes_of(parts_.original_vertices) + bytes_of(parents_) + bytes_of(roots_) +
+           bytes_of(first_leaves_) + bytes_of(cuts_) + bytes_of(radii_m_) + bytes_of(cones_);
 }
 
 } // namespace octant::visuals::refine

@@ -37,6 +37,7 @@ struct ProgressiveParts {
     std::vector<PackedColour> colours;         ///< one a node, or empty
     std::vector<Split> splits;                 ///< one an inner node
     std::vector<Triangle> faces;               ///< of the original mesh, corners are leaves
+    std::vector<std::uint32_t> original_faces; ///< their numbers there; empty = as they come
     std::vector<std::uint16_t> face_materials; ///< one a face, or empty
     std::vector<models::Material> materials;
     std::vector<std::uint32_t> original_vertices; ///< number of each leaf in the original mesh
@@ -84,9 +85,9 @@ public:
 
     glm::vec3 normal(std::uint32_t node) const { return unpacked(parts_.normals[node]); }
 
-    /// White where the mesh has no colours.
-    glm::vec3 colour(std::uint32_t node) const {
-        return parts_.colours.empty() ? glm::vec3(1.0F) : unpacked(parts_.colours[node]);
+    /// As RefinedVertex::colour; white where the mesh has no colours.
+    std::uint32_t colour(std::uint32_t node) const {
+        return parts_.colours.empty() ? 0xffffffffU : drawn_colour(parts_.colours[node]);
     }
 
     /// Of the surface where this node is active; 0 for leaves, never falling towards the root.
@@ -102,7 +103,11 @@ public:
     /// the leaves below; pi for all directions.
     float cone_rad(std::uint32_t node) const;
 
+    /// Faces are numbered so that neighbours in memory are neighbours on the surface, see
+    /// original_face.
     std::span<const Triangle> faces() const { return parts_.faces; }
+
+    std::uint32_t original_face(std::uint32_t face) const { return parts_.original_faces[face]; }
 
     std::span<const std::uint32_t> roots() const { return roots_; }
 
@@ -126,6 +131,7 @@ private:
         std::uint32_t right = none;
     };
 
+    void order_faces();
     void find_parents();
     void find_first_leaves();
     void find_cuts();

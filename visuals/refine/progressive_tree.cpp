@@ -149,7 +149,6 @@ std::vector<std::uint32_t> ProgressiveTree::final_numbers() const {
 ProgressiveParts ProgressiveTree::parts() const {
     const std::vector<std::uint32_t> numbers = final_numbers();
     const std::size_t leaves = nodes_.size() - splits_.size();
-    const bool numbered = !face_numbers_.empty() || !vertex_numbers_.empty();
     ProgressiveParts parts;
     parts.positions_m.resize(nodes_.size());
     parts.normals.resize(nodes_.size());
@@ -163,16 +162,13 @@ ProgressiveParts ProgressiveTree::parts() const {
             begins[numbers[node]] = nodes_[node].begin;
         }
     }
-    const auto face_number = [&](std::uint32_t face) {
-        return face == none || !numbered ? face : face_numbers_[face];
-    };
     parts.splits.resize(splits_.size());
     for (const Grown& split : splits_) {
         parts.splits[numbers[split.node] - leaves] = {
             numbers[split.first_child],
             numbers[split.first_child + 1],
-            face_number(split.left_face),
-            face_number(split.right_face),
+            split.left_face,
+            split.right_face,
             split.error_m};
     }
     parts.faces.resize(faces_.size());
@@ -183,9 +179,10 @@ ProgressiveParts ProgressiveTree::parts() const {
             const auto behind = std::ranges::upper_bound(begins, corner);
             corner = static_cast<std::uint32_t>(behind - begins.begin() - 1);
         }
-        parts.faces[face_number(face)] = corners;
-        parts.face_materials[face_number(face)] = faces_[face].material;
+        parts.faces[face] = corners;
+        parts.face_materials[face] = faces_[face].material;
     }
+    parts.original_faces = face_numbers_;
     parts.original_vertices = vertex_numbers_;
     for (auto leaf = static_cast<std::uint32_t>(parts.original_vertices.size()); leaf < leaves;
          ++leaf) {

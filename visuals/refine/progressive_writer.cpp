@@ -152,14 +152,14 @@ private:
         std::ranges::for_each(mesh_.parts().original_vertices, put);
         for (std::uint32_t face = 0; face < introduced_.size(); ++face) {
             if (!introduced_[face]) {
-                put(face);
+                put(mesh_.original_face(face));
             }
         }
         for (auto node = mesh_.node_count(); node-- > mesh_.leaf_count();) {
             const Split& split = mesh_.split_of(static_cast<std::uint32_t>(node));
             for (const std::uint32_t face : {split.left_face, split.right_face}) {
                 if (face != none) {
-                    put(face);
+                    put(mesh_.original_face(face));
                 }
             }
         }

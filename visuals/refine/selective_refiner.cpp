@@ -9,8 +9,6 @@
 //   walking from one cut vertex to the other.
 #include "visuals/refine/selective_refiner.h"
 
-#include "models/colour_vertex.h"
-
 #include <cassert>
 
 namespace octant::visuals::refine {
@@ -35,6 +33,7 @@ void SelectiveRefiner::start() {
         nodes_[slot] = root;
         slots_[mesh_->first_leaf(root)] = slot;
         vertices_[slot] = vertex_of(root);
+        note_change(slot);
     }
     active_count_ = nodes_.size();
     std::vector<bool> introduced(mesh_->face_count(), false);
@@ -63,6 +62,8 @@ std::uint32_t SelectiveRefiner::new_slot() {
         free_slots_.pop_back();
     } else {
         slot = static_cast<std::uint32_t>(nodes_.size());
+        make_room(nodes_, nodes_.size() + 1);
+        make_room(vertices_, nodes_.size() + 1);
         nodes_.push_back(none);
         marks_.push_back(0);
         vertices_.emplace_back();
@@ -248,8 +249,7 @@ void SelectiveRefiner::collapse_now(std::uint32_t node) {
 }
 
 RefinedVertex SelectiveRefiner::vertex_of(std::uint32_t node) const {
-    return {
-        mesh_->position_m(node), mesh_->normal(node), models::packed_colour(mesh_->colour(node))};
+    return {mesh_->position_m(node), mesh_->normal(node), mesh_->colour(node)};
 }
 
 void SelectiveRefiner::draw_at(std::uint32_t slot, const RefinedVertex& vertex) {

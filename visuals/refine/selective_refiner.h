@@ -77,9 +77,9 @@ public:
 
     void forget_recent_splits() { recent_splits_.clear(); }
 
-    /// Splits the coarsest corner of each face that is turned over against its original, until no
-    /// face changed since the last call is. Returns how many splits were done. Without
-    /// options().repair nothing happens. A split made here may be collapsed again.
+    /// Splits the coarsest corner of each face that is turned over against its original, until none
+    /// is (only faces changed since the last call are looked at). Returns how many splits were
+    /// done. Without options().repair nothing happens. A split made here may be collapsed again.
     std::size_t repair();
 
     /// Faces of the active mesh that are turned over: their normal is more than 90 degrees off the
