@@ -7,6 +7,7 @@
 #include "ui/study_flights.h"
 #include "ui/study_hidden_surface.h"
 #include "ui/study_popping.h"
+#include "ui/study_refinement.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -175,6 +176,30 @@ void add_popping(CLI::App& study) {
     command->callback([options] { study_popping(*options); });
 }
 
+void add_refinement(CLI::App& study) {
+    auto options = std::make_shared<RefinementStudyOptions>();
+    CLI::App* command = study.add_subcommand(
+        "refinement",
+        "Selective refinement: splits forced by three rules, faces turned over, speed, a path");
+    add_out(*command, options->out);
+    command
+        ->add_option("--mesh", options->meshes, "a mesh (repeatable); none: made ground, 129 x 129")
+        ->type_name("FILE");
+    command->add_option("--base", options->base, "vertices of the base meshes")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(CLI::Range(4, 1000000));
+    command->add_option("--frames", options->frames, "frames of the path")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(CLI::Range(20, 100000));
+    command->add_flag("--json", options->json, "print the tables as JSON");
+    command->add_flag("--quiet", options->quiet, "no progress, no notes");
+    command->footer("Example:\n  octant study refinement --out tables --mesh bunny.ply --mesh "
+                    "cow.obj");
+    command->callback([options] { study_refinement(*options); });
+}
+
 } // namespace
 
 void add_study_command(CLI::App& program) {
@@ -188,6 +213,7 @@ void add_study_command(CLI::App& program) {
     add_flicker(*study);
     add_hidden_surface(*study);
     add_popping(*study);
+    add_refinement(*study);
 }
 
 } // namespace octant::ui

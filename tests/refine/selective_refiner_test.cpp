@@ -157,6 +157,20 @@ TEST_CASE("after 100,000 random splits and collapses the mesh is a manifold of t
     }
 }
 
+TEST_CASE("operations need no memory once everything was split and collapsed") {
+    SelectiveRefiner refiner(hierarchy(collapsed(made_ground(30, 2))), {.repair = false});
+    split_all(refiner);
+    CHECK(refiner.bytes() <= 72 * refiner.active_count());
+    const ProgressiveMesh& mesh = refiner.mesh();
+    for (auto node = static_cast<std::uint32_t>(mesh.leaf_count()); node < mesh.node_count();
+         ++node) {
+        refiner.collapse(node);
+    }
+    const std::size_t bytes = refiner.bytes();
+    walk(refiner, 20000, 3);
+    CHECK(refiner.bytes() == bytes);
+}
+
 TEST_CASE("repair leaves no face turned over") {
     const models::CollapseSequence sequence = collapsed(made_sphere(4));
     const auto mesh = hierarchy(sequence);

@@ -42,7 +42,7 @@ third_vertex(const FaceLists& faces, std::uint32_t node, std::uint32_t other, st
 EarlierRules::EarlierRules(const ProgressiveMesh& mesh)
     : leaves_(static_cast<std::uint32_t>(mesh.leaf_count()))
     , introducers_(mesh.face_count(), none) {
-    FaceLists faces;
+    FaceLists faces(mesh.node_count(), mesh.face_count());
     faces.resize_vertices(mesh.node_count());
     for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
         faces.add(mesh.faces()[face], face);

@@ -10,8 +10,8 @@ std::uint32_t FaceLists::add(const std::array<std::uint32_t, 3>& vertices, std::
         free_ = links_[face].next[0];
     } else {
         face = static_cast<std::uint32_t>(links_.size());
-        make_room(links_, links_.size() + 1);
-        make_room(vertices_, vertices_.size() + 3);
+        make_room(links_, links_.size() + 1, most_faces_);
+        make_room(vertices_, vertices_.size() + 3, 3 * most_faces_);
         links_.emplace_back();
         vertices_.resize(vertices_.size() + 3);
     }

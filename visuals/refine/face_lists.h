@@ -2,6 +2,7 @@
 
 #include "models/collapse_sequence.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,11 +11,11 @@
 
 namespace octant::visuals::refine {
 
-/// Lets a vector grow by a quarter at a time instead of twice.
+/// Lets a vector grow by a quarter at a time instead of twice, to `most` items and no further.
 template <class Item>
-void make_room(std::vector<Item>& items, std::size_t count) {
+void make_room(std::vector<Item>& items, std::size_t count, std::size_t most) {
     if (count > items.capacity()) {
-        items.reserve(count + count / 4);
+        items.reserve(std::max(count, std::min(count + count / 4, most)));
     }
 }
 
@@ -26,9 +27,14 @@ class FaceLists {
 public:
     static constexpr std::uint32_t none = models::none;
 
+    /// There will be no more than so many at a time.
+    FaceLists(std::size_t most_vertices, std::size_t most_faces)
+        : most_vertices_(most_vertices)
+        , most_faces_(most_faces) {}
+
     /// Makes room; vertices that are new have no faces.
     void resize_vertices(std::size_t count) {
-        make_room(first_corners_, count);
+        make_room(first_corners_, count, most_vertices_);
         first_corners_.resize(count, none);
     }
 
@@ -106,6 +112,8 @@ private:
     std::vector<Links> links_;                 ///< one a face
     std::uint32_t free_ = none;                ///< list of places, through their first corners
     std::size_t face_count_ = 0;
+    std::size_t most_vertices_;
+    std::size_t most_faces_;
 };
 
 } // namespace octant::visuals::refine

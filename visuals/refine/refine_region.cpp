@@ -55,4 +55,20 @@ std::size_t refine_below(SelectiveRefiner& refiner, std::uint32_t node) {
     return refine_above(refiner, marked);
 }
 
+std::size_t refine_for_view(
+    SelectiveRefiner& refiner,
+    const RefineView& view,
+    double error_px,
+    const CriterionOptions& options) {
+    const ProgressiveMesh& mesh = refiner.mesh();
+    std::size_t wanted = 0;
+    for (auto node = static_cast<std::uint32_t>(mesh.node_count()); node-- > mesh.leaf_count();) {
+        if (projected_error_px(mesh, node, view, options) > error_px) {
+            refiner.split(node);
+            ++wanted;
+        }
+    }
+    return wanted;
+}
+
 } // namespace octant::visuals::refine

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "visuals/refine/refine_criterion.h"
 #include "visuals/refine/selective_refiner.h"
 
 #include <glm/vec3.hpp>
@@ -22,5 +23,13 @@ std::size_t refine_regions(SelectiveRefiner& refiner, std::span<const Sphere> re
 
 /// The same for all vertices below a node.
 std::size_t refine_below(SelectiveRefiner& refiner, std::uint32_t node);
+
+/// Splits every node that shows an error above `error_px`, coarsest first. Returns how many these
+/// are. Without repair().
+std::size_t refine_for_view(
+    SelectiveRefiner& refiner,
+    const RefineView& view,
+    double error_px,
+    const CriterionOptions& options = {});
 
 } // namespace octant::visuals::refine

@@ -16,10 +16,12 @@ namespace octant::visuals::refine {
 SelectiveRefiner::SelectiveRefiner(
     std::shared_ptr<const ProgressiveMesh> mesh, RefinerOptions options)
     : mesh_(std::move(mesh))
-    , options_(std::move(options)) {
+    , options_(std::move(options))
+    , faces_(mesh_->leaf_count(), mesh_->face_count()) {
     if (options_.rule != SplitRule::Selective && !options_.earlier) {
         options_.earlier = std::make_shared<const EarlierRules>(*mesh_);
     }
+    stack_.reserve(64);
     start();
 }
 
@@ -62,8 +64,8 @@ std::uint32_t SelectiveRefiner::new_slot() {
         free_slots_.pop_back();
     } else {
         slot = static_cast<std::uint32_t>(nodes_.size());
-        make_room(nodes_, nodes_.size() + 1);
-        make_room(vertices_, nodes_.size() + 1);
+        make_room(nodes_, nodes_.size() + 1, mesh_->leaf_count());
+        make_room(vertices_, nodes_.size() + 1, mesh_->leaf_count());
         nodes_.push_back(none);
         marks_.push_back(0);
         vertices_.emplace_back();
