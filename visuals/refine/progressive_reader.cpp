@@ -61,10 +61,10 @@ public:
         }
         ProgressiveParts parts = tree_.parts();
         if ((head_.flags & has_colours) == 0) {
-            parts.colours = {};
+            parts.colours = std::vector<PackedColour>();
         }
         if ((head_.flags & has_materials) == 0) {
-            parts.face_materials = {};
+            parts.face_materials = std::vector<std::uint16_t>();
         }
         parts.name = name_;
         parts.origin_m = origin_m_;
