@@ -209,17 +209,21 @@ void mesh_error(const MeshErrorOptions& options) {
 }
 
 constexpr const char* footer =
-    "Distances go both ways, and the larger one counts. The largest distance (Hausdorff) is "
-    "certified to lie between its two figures; rms and mean are over the area, sampled. Fractions "
-    "are of the diagonal of A's bounding box, units those of the files. Area of B is flipped where "
+    "Distances go both ways, and the larger one counts. The largest distance (Hausdorff) is\n"
+    "certified to lie between its two figures; rms and mean are over the area, sampled. Fractions\n"
+    "are of the diagonal of A's bounding box, units those of the files. Area of B is flipped "
+    "where\n"
     "it faces against the nearest part of A.\n"
-    "Keys of --json: a, b, a_triangles, b_triangles, diagonal_units; both, a_to_b, b_to_a, each "
-    "with hausdorff_least, hausdorff_most, rms, mean as fractions (null where A has no size) and "
-    "hausdorff_least_units, hausdorff_most_units, rms_units, mean_units, and colour_rms (length "
-    "in RGB 0..1) where both files have colours; defects_of_b with boundary_edges, "
-    "boundary_loops, non_manifold_edges, non_manifold_vertices, turned_edges, duplicate_faces, "
-    "degenerate_faces, unreferenced_vertices, shells, euler_characteristic, genus (null unless "
-    "closed); flipped_area_share; samples, threads, read_ms, measure_ms.\n"
+    "Keys of --json:\n"
+    "  a, b, a_triangles, b_triangles, diagonal_units;\n"
+    "  both, a_to_b, b_to_a, each with hausdorff_least, hausdorff_most, rms, mean as fractions\n"
+    "  (null where A has no size), the same with _units behind the name, and colour_rms (length "
+    "in\n"
+    "  RGB 0..1) where both files have colours;\n"
+    "  defects_of_b with boundary_edges, boundary_loops, non_manifold_edges,\n"
+    "  non_manifold_vertices, turned_edges, duplicate_faces, degenerate_faces,\n"
+    "  unreferenced_vertices, shells, euler_characteristic, genus (null unless closed);\n"
+    "  flipped_area_share, samples, threads, read_ms, measure_ms.\n"
     "Example:\n"
     "  octant mesh-error bunny.ply bunny-1000.ply --json";
 
