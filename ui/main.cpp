@@ -46,6 +46,7 @@ int run(int argc, char** argv) {
     octant::ui::add_report_command(program);
     octant::ui::add_terrain_command(program);
     octant::ui::add_draw_order_command(program);
+    octant::ui::add_mesh_error_command(program);
     octant::ui::add_study_command(program);
     octant::ui::add_bench_command(program);
     try {
@@ -60,8 +61,8 @@ int run(int argc, char** argv) {
         const std::string got = argc > 1 ? argv[1] : "none";
         return fail(
             no_command ? fmt::format(
-                             "expected a command (fly, view, report, terrain, draw-order, study, "
-                             "bench), got {}",
+                             "expected a command (fly, view, report, terrain, draw-order, "
+                             "mesh-error, study, bench), got {}",
                              got)
                        : std::string(fault.what()));
     }

@@ -93,7 +93,7 @@ std::size_t count_duplicates(const TriangleMesh& mesh) {
         }
     }
     std::ranges::sort(faces);
-    return std::ranges::unique(faces).size();
+    return static_cast<std::size_t>(faces.end() - std::unique(faces.begin(), faces.end()));
 }
 
 /// Counts along edges, corners joined to fans and triangles to shells.
@@ -154,8 +154,7 @@ private:
             end = rims.root(end);
         }
         std::ranges::sort(ends);
-        const auto again = std::ranges::unique(ends);
-        return ends.size() - again.size();
+        return static_cast<std::size_t>(std::unique(ends.begin(), ends.end()) - ends.begin());
     }
 
     const TriangleMesh& mesh_;

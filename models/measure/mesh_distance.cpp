@@ -30,15 +30,45 @@ double MeshDistance::colour_rms() const {
 
 namespace {
 
-OneWayDistance
-one_way(const TriangleMesh& mesh, const TargetSurface& target, const DistanceOptions& options) {
+/// Says how far the work is.
+class Steps {
+public:
+    explicit Steps(const DistanceOptions& options)
+        : options_(options) {
+        show();
+    }
+
+    void next() {
+        ++done_;
+        show();
+    }
+
+private:
+    void show() const {
+        constexpr int steps = 4;
+        if (options_.progress) {
+            options_.progress(done_, steps);
+        }
+    }
+
+    const DistanceOptions& options_;
+    int done_ = 0;
+};
+
+OneWayDistance one_way(
+    const TriangleMesh& mesh,
+    const TargetSurface& target,
+    const DistanceOptions& options,
+    Steps& steps) {
     HausdorffLimits limits;
     limits.tightness = options.tightness;
     limits.negligible_m = options.negligible_m;
     limits.threads = options.threads;
     const HausdorffBounds bounds = one_way_hausdorff(mesh, target, limits);
+    steps.next();
     const SampledDistance sampled =
         sampled_distance(mesh, target, options.samples, options.threads);
+    steps.next();
     return {bounds.least_m, bounds.most_m, sampled.rms_m, sampled.mean_m, sampled.colour_rms};
 }
 
@@ -51,7 +81,11 @@ distance(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& op
     if (!(options.negligible_m > 0.0)) {
         wanted.negligible_m = 1e-9 * std::max(diagonal_m(a), diagonal_m(b));
     }
-    return {one_way(a, TargetSurface(b), wanted), one_way(b, TargetSurface(a), wanted)};
+    Steps steps(options);
+    MeshDistance found;
+    found.there = one_way(a, TargetSurface(b), wanted, steps);
+    found.back = one_way(b, TargetSurface(a), wanted, steps);
+    return found;
 }
 
 } // namespace octant::models::measure

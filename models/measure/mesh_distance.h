@@ -3,6 +3,7 @@
 #include "models/triangle_mesh.h"
 
 #include <cstddef>
+#include <functional>
 
 namespace octant::models::measure {
 
@@ -35,6 +36,8 @@ struct DistanceOptions {
     /// (spread / rms) / sqrt(samples), less because samples are even: some 0.1 % by default.
     std::size_t samples = 400'000;
     int threads = 1; ///< changes no figure
+    /// Called between the steps of the work with how many of `steps` are done; may be empty.
+    std::function<void(int done, int steps)> progress;
 };
 
 /// Distance between two surfaces, both ways. The Hausdorff bounds are certified: by branch and

@@ -113,9 +113,11 @@ std::size_t split(std::span<Item> items, int depth) {
         bins.scale = static_cast<double>(bin_count) / size;
         const std::size_t bin = cheapest_split(items, bins);
         if (bin > 0) {
-            const auto behind = std::ranges::stable_partition(
-                items, [&](const Item& item) { return bins.bin_of(item) < bin; });
-            return items.size() - behind.size();
+            const auto behind =
+                std::stable_partition(items.begin(), items.end(), [&](const Item& item) {
+                    return bins.bin_of(item) < bin;
+                });
+            return static_cast<std::size_t>(behind - items.begin());
         }
     }
     const std::size_t half = items.size() / 2;
