@@ -37,7 +37,7 @@ struct DistanceOptions {
     std::size_t samples = 400'000;
     int threads = 1; ///< changes no figure
     /// Called between the steps of the work with how many of `steps` are done; may be empty.
-    std::function<void(int done, int steps)> progress;
+    std::function<void(int done, int steps)> progress{};
 };
 
 /// Distance between two surfaces, both ways. The Hausdorff bounds are certified: by branch and

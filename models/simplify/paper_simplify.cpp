@@ -16,7 +16,6 @@
 #include "models/simplify/plane_quadric.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cstdint>
 #include <limits>
@@ -190,27 +189,6 @@ bool PaperRun::goal_met() const {
            (options_.goal.faces && mesh_.face_count() <= *options_.goal.faces);
 }
 
-void count_faults(PaperResult& result) {
-    std::vector<Triangle> faces = result.mesh.triangles;
-    std::vector<std::array<std::uint32_t, 2>> edges;
-    for (Triangle& face : faces) {
-        std::sort(face.begin(), face.end());
-        edges.push_back({face[0], face[1]});
-        edges.push_back({face[1], face[2]});
-        edges.push_back({face[0], face[2]});
-    }
-    std::sort(faces.begin(), faces.end());
-    std::sort(edges.begin(), edges.end());
-    for (std::size_t i = 1; i < faces.size(); ++i) {
-        result.duplicate_faces += faces[i] == faces[i - 1] ? 1U : 0U;
-    }
-    for (std::size_t i = 2; i < edges.size(); ++i) {
-        const bool third = edges[i] == edges[i - 2];
-        const bool fourth = i > 2 && edges[i] == edges[i - 3];
-        result.crowded_edges += third && !fourth ? 1U : 0U;
-    }
-}
-
 void show_share(const PaperOptions& options, const PaperRun& run, std::size_t faces) {
     constexpr std::size_t every = 1024;
     if (!options.show_progress || run.result.contractions % every != 0) {
@@ -239,7 +217,6 @@ PaperResult paper_simplified(const TriangleMesh& original, const PaperOptions& o
         show_share(options, run, original.triangles.size());
     }
     run.result.mesh = run.mesh().left_over(original);
-    count_faults(run.result);
     return std::move(run.result);
 }
 

@@ -39,8 +39,6 @@ struct PaperResult {
     std::size_t feet = 0;             ///< perpendiculars dropped on triangles to choose
     std::size_t feet_outside = 0; ///< whose foot lies outside, by the strict test 0 < a, b, c < 1
     PaperSums sums;               ///< by every measure, whichever chose
-    std::size_t duplicate_faces = 0; ///< on the same three vertices as one before
-    std::size_t crowded_edges = 0;   ///< with more than two faces
 };
 
 /// Iterative edge contraction as printed in the paper: shortest edge first, best of both ends and
