@@ -7,6 +7,7 @@
 #include "ui/study_flights.h"
 #include "ui/study_hidden_surface.h"
 #include "ui/study_popping.h"
+#include "ui/study_simplification.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -175,6 +176,35 @@ void add_popping(CLI::App& study) {
     command->callback([options] { study_popping(*options); });
 }
 
+void add_simplification(CLI::App& study) {
+    auto options = std::make_shared<SimplificationStudyOptions>();
+    CLI::App* command = study.add_subcommand(
+        "simplification",
+        "Tables 1 and 2 of the 2005 paper on simplification, and every way to simplify, ours and "
+        "other libraries', by distance to the original and time");
+    add_out(*command, options->out);
+    command->add_option("--bunny", options->bunny, "the Stanford bunny, bun_zipper.ply")
+        ->type_name("FILE");
+    command->add_option("--mesh", options->meshes, "one more mesh; may be repeated")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command
+        ->add_option(
+            "--faces", options->faces, "simplify to N faces; may be repeated [15, 5, 2.5 %]")
+        ->type_name("N")
+        ->allow_extra_args(false)
+        ->check(CLI::Range(4, 100000000));
+    command
+        ->add_option(
+            "--peers", options->peers, "the program octant-peers [beside this program, if there]")
+        ->type_name("PROGRAM");
+    command->add_flag("--paper-only", options->paper_only, "tables 1 and 2 only");
+    command->add_flag("--json", options->json, "print the tables as JSON");
+    command->add_flag("--quiet", options->quiet, "no progress, no notes");
+    command->footer("Example:\n  octant study simplification --out tables --bunny bun_zipper.ply");
+    command->callback([options] { study_simplification(*options); });
+}
+
 } // namespace
 
 void add_study_command(CLI::App& program) {
@@ -188,6 +218,7 @@ void add_study_command(CLI::App& program) {
     add_flicker(*study);
     add_hidden_surface(*study);
     add_popping(*study);
+    add_simplification(*study);
 }
 
 } // namespace octant::ui
