@@ -3,7 +3,9 @@
 #include "models/simplify/simplify.h"
 #include "ui/stopwatch.h"
 
-#include <utility>
+#include <algorithm>
+#include <string>
+#include <thread>
 
 namespace octant::ui {
 
@@ -14,12 +16,13 @@ namespace simplify = models::simplify;
 using models::TriangleMesh;
 using simplify::PaperMeasure;
 
-constexpr std::size_t own_methods = 4;
+constexpr std::size_t own_methods = 3;
 
 measure::MeshDistance distance_to(const TriangleMesh& original, const TriangleMesh& result) {
     measure::DistanceOptions options;
     options.tightness = 1.02;
     options.samples = 100'000;
+    options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     return measure::distance(original, result, options);
 }
 
@@ -60,9 +63,8 @@ public:
         add(method, result.mesh, watch.ms());
     }
 
-    void add_paper(const char* method, PaperMeasure by) {
+    void add_paper(const char* method) {
         simplify::PaperOptions options;
-        options.measure = by;
         options.goal.faces = faces_;
         const Stopwatch watch;
         const simplify::PaperResult result = simplify::paper_simplified(mesh_.clean, options);
@@ -131,8 +133,7 @@ std::vector<QualityRun> quality_runs(
         QualityRow row(mesh, wanted, tick);
         row.add_ours("Octant, surface", simplify::Quality::Surface);
         row.add_ours("Octant, fast", simplify::Quality::Fast);
-        row.add_paper("2005, planes", PaperMeasure::Plane);
-        row.add_paper("2005, both directions", PaperMeasure::Bidirectional);
+        row.add_paper("2005, both directions");
         row.add_peers(options);
         runs.insert(runs.end(), row.runs.begin(), row.runs.end());
     }
