@@ -291,7 +291,7 @@ std::string quality_figure(std::span<const QualityRun> runs) {
         for (std::size_t i = 0; i < methods.size(); ++i) {
             report::PlotSeries series = series_of(runs, mesh, methods[i]);
             series.colour = colours[i % colours.size()];
-            if (!series.x.empty()) {
+            if (series.x.size() > 1) {
                 plot.series.push_back(std::move(series));
             }
         }

@@ -20,8 +20,8 @@ report::HtmlTable paper_error_table(std::span<const PaperRun> runs);
 /// Every method on every mesh: distance to the original and time.
 report::HtmlTable quality_table(std::span<const QualityRun> runs, bool with_peers);
 
-/// RMS distance over faces, a panel a mesh, as the bytes of a PNG file; empty when gnuplot is not
-/// installed. Throws Error when gnuplot fails.
+/// RMS distance over faces, a panel a mesh, as the bytes of a PNG file; empty for one number of
+/// faces and when gnuplot is not installed. Throws Error when gnuplot fails.
 std::string quality_figure(std::span<const QualityRun> runs);
 
 } // namespace octant::ui

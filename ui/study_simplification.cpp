@@ -172,7 +172,8 @@ void study_simplification(const SimplificationStudyOptions& options) {
         tables.emplace_back("quality", quality_table(runs, !quality.peers.empty()));
         figure = quality_figure(runs);
         if (figure.empty()) {
-            say(options.quiet, "rms.png not made: gnuplot is not installed");
+            say(options.quiet,
+                "rms.png not made: it takes gnuplot and more than one number of faces");
         }
     }
     write_and_print(tables, simplification_reading() + given.left_out, figure, options);
