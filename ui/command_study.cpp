@@ -7,10 +7,14 @@
 #include "ui/study_flights.h"
 #include "ui/study_hidden_surface.h"
 #include "ui/study_popping.h"
+#include "ui/study_refinement.h"
+#include "ui/study_shading.h"
+#include "ui/study_simplification.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace octant::ui {
 
@@ -175,6 +179,84 @@ void add_popping(CLI::App& study) {
     command->callback([options] { study_popping(*options); });
 }
 
+void add_shading(CLI::App& study) {
+    auto options = std::make_shared<ShadingStudyOptions>();
+    CLI::App* command = study.add_subcommand(
+        "shading",
+        "Hybrid of flat and Gouraud shading of the 2008 paper: its operation counts, and the "
+        "quality of pictures over the share of smooth polygons, by its rule and by ours");
+    add_out(*command, options->out);
+    command
+        ->add_option_function<std::vector<std::string>>(
+            "--mesh",
+            [options](const std::vector<std::string>& files) {
+                options->meshes.assign(files.begin(), files.end());
+            },
+            "OBJ file to look at too; may be given more than once")
+        ->type_name("FILE");
+    command->add_option("--size", options->size_px, "side of the square pictures in pixels")
+        ->type_name("PIXELS")
+        ->capture_default_str()
+        ->check(CLI::Range(16, 2048));
+    command->add_flag("--json", options->json, "print the tables as JSON");
+    command->add_flag("--quiet", options->quiet, "no progress, no notes");
+    command->footer("Example:\n  octant study shading --out tables --mesh cow.obj");
+    command->callback([options] { study_shading(*options); });
+}
+
+void add_refinement(CLI::App& study) {
+    auto options = std::make_shared<RefinementStudyOptions>();
+    CLI::App* command = study.add_subcommand(
+        "refinement",
+        "Selective refinement: splits forced by three rules, faces turned over, speed, a path");
+    add_out(*command, options->out);
+    command
+        ->add_option("--mesh", options->meshes, "a mesh (repeatable); none: made ground, 129 x 129")
+        ->type_name("FILE");
+    command->add_option("--base", options->base, "vertices of the base meshes")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(CLI::Range(4, 1000000));
+    command->add_option("--frames", options->frames, "frames of the path")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(CLI::Range(20, 100000));
+    command->add_flag("--json", options->json, "print the tables as JSON");
+    command->add_flag("--quiet", options->quiet, "no progress, no notes");
+    command->footer("Example:\n  octant study refinement --out tables --mesh bunny.ply --mesh "
+                    "cow.obj");
+    command->callback([options] { study_refinement(*options); });
+}
+
+void add_simplification(CLI::App& study) {
+    auto options = std::make_shared<SimplificationStudyOptions>();
+    CLI::App* command = study.add_subcommand(
+        "simplification",
+        "Tables 1 and 2 of the 2005 paper on simplification, and every way to simplify, ours and "
+        "other libraries', by distance to the original and time");
+    add_out(*command, options->out);
+    command->add_option("--bunny", options->bunny, "the Stanford bunny, bun_zipper.ply")
+        ->type_name("FILE");
+    command->add_option("--mesh", options->meshes, "one more mesh; may be repeated")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command
+        ->add_option(
+            "--faces", options->faces, "simplify to N faces; may be repeated [15, 5, 2.5 %]")
+        ->type_name("N")
+        ->allow_extra_args(false)
+        ->check(CLI::Range(4, 100000000));
+    command
+        ->add_option(
+            "--peers", options->peers, "the program octant-peers [beside this program, if there]")
+        ->type_name("PROGRAM");
+    command->add_flag("--paper-only", options->paper_only, "tables 1 and 2 only");
+    command->add_flag("--json", options->json, "print the tables as JSON");
+    command->add_flag("--quiet", options->quiet, "no progress, no notes");
+    command->footer("Example:\n  octant study simplification --out tables --bunny bun_zipper.ply");
+    command->callback([options] { study_simplification(*options); });
+}
+
 } // namespace
 
 void add_study_command(CLI::App& program) {
@@ -188,6 +270,9 @@ void add_study_command(CLI::App& program) {
     add_flicker(*study);
     add_hidden_surface(*study);
     add_popping(*study);
+    add_shading(*study);
+    add_refinement(*study);
+    add_simplification(*study);
 }
 
 } // namespace octant::ui

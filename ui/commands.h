@@ -17,6 +17,9 @@ void add_view_command(CLI::App& program); ///< in ui/window; needs a display
 void add_report_command(CLI::App& program);
 void add_terrain_command(CLI::App& program);
 void add_draw_order_command(CLI::App& program);
+void add_mesh_error_command(CLI::App& program);
+void add_refine_command(CLI::App& program);
+void add_simplify_command(CLI::App& program);
 void add_study_command(CLI::App& program);
 void add_bench_command(CLI::App& program);
 

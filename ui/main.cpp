@@ -40,12 +40,17 @@ int run(int argc, char** argv) {
         "  octant report my-flight\n"
         "  octant terrain info my-map.tif\n"
         "  octant draw-order f15 --table\n"
+        "  octant refine bunny.ply --base 100 --save bunny.pm\n"
+        "  octant simplify bunny.ply small.obj --faces 1000\n"
         "octant COMMAND --help shows every option with its unit, default and an example.");
     octant::ui::add_fly_command(program);
     octant::ui::add_view_command(program);
     octant::ui::add_report_command(program);
     octant::ui::add_terrain_command(program);
     octant::ui::add_draw_order_command(program);
+    octant::ui::add_mesh_error_command(program);
+    octant::ui::add_refine_command(program);
+    octant::ui::add_simplify_command(program);
     octant::ui::add_study_command(program);
     octant::ui::add_bench_command(program);
     try {
@@ -60,8 +65,8 @@ int run(int argc, char** argv) {
         const std::string got = argc > 1 ? argv[1] : "none";
         return fail(
             no_command ? fmt::format(
-                             "expected a command (fly, view, report, terrain, draw-order, study, "
-                             "bench), got {}",
+                             "expected a command (fly, view, report, terrain, draw-order, "
+                             "simplify, mesh-error, refine, study, bench), got {}",
                              got)
                        : std::string(fault.what()));
     }

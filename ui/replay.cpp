@@ -43,7 +43,7 @@ Replay read_replay(const std::filesystem::path& folder) {
     }
     Replay replay{folder, {}, run.ended, run.state_hash, run.picture_hash};
     for (const report::FrameRecord& row : rows.records) {
-        const auto frame = static_cast<int>(replay.triangle_targets.size());
+        const auto frame = static_cast<int>(replay.decisions.size());
         if (row.frame != frame) {
             error_at(file, frame + 2, fmt::format("expected frame {}, got {}", frame, row.frame));
         }
@@ -56,13 +56,13 @@ Replay read_replay(const std::filesystem::path& folder) {
                     most_triangles,
                     row.triangle_target));
         }
-        replay.triangle_targets.push_back(row.triangle_target);
+        replay.decisions.push_back({row.triangle_target, row.smooth_target});
     }
     return replay;
 }
 
 void check_frames(const Replay& replay, int frames) {
-    const auto rows = static_cast<int>(replay.triangle_targets.size());
+    const auto rows = static_cast<int>(replay.decisions.size());
     if (rows > frames) {
         error_at(
             replay.folder / "frames.csv",
@@ -101,7 +101,7 @@ verdict_on(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture
             : fmt::format(
                   "nothing to compare with: {} was cut short after {} frames and has no hashes",
                   name,
-                  replay.triangle_targets.size());
+                  replay.decisions.size());
     return verdict;
 }
 

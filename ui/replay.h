@@ -11,12 +11,18 @@ class App;
 
 namespace octant::ui {
 
+/// What the clock decided for a frame, or the settings.
+struct Decision {
+    int triangle_target = 0;
+    int smooth_target = -1; ///< negative: by the settings' share
+};
+
 /// A recording that is to be flown again as its rows say.
 struct Replay {
     std::filesystem::path folder;
-    std::vector<int> triangle_targets; ///< by frame, at least one
-    bool ended = false;                ///< false: it was killed and has no hashes
-    std::string state_hash;            ///< 16 hex digits
+    std::vector<Decision> decisions; ///< by frame, at least one
+    bool ended = false;              ///< false: it was killed and has no hashes
+    std::string state_hash;          ///< 16 hex digits
     std::string picture_hash;
 };
 

@@ -87,6 +87,7 @@ void Session::start_flight() {
     planner_.emplace(world_.scene, settings_);
     load_settings_ = scene::load_settings(settings_, rate_hz());
     load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
+    shading_.reset();
     begin_at(times_.at_s.front());
     planner_->settle(camera_of(settings_));
 }
@@ -96,18 +97,48 @@ void Session::begin_at(double time_s) {
     next_is_reached_ = false;
 }
 
-void Session::replay(std::vector<int> triangle_targets) {
-    times_.cut_to(triangle_targets.size());
-    replayed_targets_ = std::move(triangle_targets);
+void Session::replay(std::vector<Decision> decisions) {
+    times_.cut_to(decisions.size());
+    replayed_ = std::move(decisions);
 }
 
-int Session::choose_triangle_target(int frame) {
-    if (!replayed_targets_.empty()) {
-        load_ = scene::with_target(load_, replayed_targets_[static_cast<std::size_t>(frame)]);
+int Session::decide_triangles(int frame) {
+    if (!replayed_.empty()) {
+        const Decision& replayed = replayed_[static_cast<std::size_t>(frame)];
+        load_ = scene::with_target(load_, replayed.triangle_target);
+        return load_.triangles();
     }
-    return settings_.adapt.terrain || !replayed_targets_.empty()
-               ? load_.triangles()
-               : scene::triangle_target(settings_);
+    return settings_.adapt.terrain ? load_.triangles() : scene::triangle_target(settings_);
+}
+
+/// Nothing: as the settings' share says.
+std::optional<int> Session::decide_smooth(int frame) const {
+    if (!replayed_.empty()) {
+        const int replayed = replayed_[static_cast<std::size_t>(frame)].smooth_target;
+        return replayed < 0 ? std::nullopt : std::optional(replayed);
+    }
+    if (!settings_.adapt.shading) {
+        return std::nullopt;
+    }
+    return shading_ ? shading_->smooth : 0;
+}
+
+/// From what a frame took, how many polygons of the next one are smooth.
+void Session::adapt_shading(const scene::PlanCounts& counts, const report::FrameRecord& record) {
+    if (!settings_.adapt.shading || record.warm_up || counts.may_be_smooth == 0) {
+        return;
+    }
+    if (!shading_) {
+        shading_ = visuals::shading::starting_shading(counts.may_be_smooth);
+        return;
+    }
+    visuals::shading::ShadingControl control;
+    control.share_ms = 1000.0 / rate_hz();
+    shading_ = visuals::shading::next_shading(
+        *shading_,
+        control,
+        {record.frame_ms, counts.may_be_smooth - counts.chosen_smooth, counts.chosen_smooth},
+        counts.may_be_smooth);
 }
 
 /// What the frame's row says as its stress; decides the next frame's target where it adapts.
@@ -148,7 +179,7 @@ void Session::reach(double time_s, int frame, Moment& moment) {
     moment.states.assign(simulation_->states().begin(), simulation_->states().end());
     moment.state_hash = simulation_->state_hash();
     look(moment);
-    moment.triangle_target = choose_triangle_target(frame);
+    moment.triangle_target = decide_triangles(frame);
 }
 
 /// Begins on the ground of the moment to come.
@@ -177,6 +208,7 @@ report::FrameRecord Session::draw_at(double time_s, std::optional<double> next_s
 
 scene::PlanCounts Session::make_plans() {
     planner_->set_triangle_target(now_.triangle_target);
+    planner_->set_smooth(smooth_target_);
     scene::PlanCounts counts;
     plan_ = &planner_->plan(now_.camera, now_.states, counts);
     if (ids_) {
@@ -213,8 +245,11 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     next_is_reached_ = false;
     record.sim_ms = stage.lap_ms();
 
+    smooth_target_ = decide_smooth(frame);
+    planner_->refine(now_.camera, now_.states);
+    record.refine_ms = stage.lap_ms();
     const scene::PlanCounts counts = make_plans();
-    record.plan_ms = stage.lap_ms();
+    record.plan_ms = record.refine_ms + stage.lap_ms();
 
     if (next_s && settings_.mesh_ahead) {
         reach(*next_s, frame + 1, next_);
@@ -238,6 +273,11 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
 
 void Session::fill_in(const scene::PlanCounts& counts, report::FrameRecord& record) {
     record.triangle_target = now_.triangle_target;
+    record.smooth_target = smooth_target_.value_or(-1);
+    record.smooth_polygons = counts.smooth_polygons;
+    record.aircraft_level = counts.aircraft_level;
+    record.refine_splits = counts.refine_splits;
+    record.refine_collapses = counts.refine_collapses;
     record.terrain_triangles = counts.ground.triangles;
     record.terrain_fans = counts.ground.fans;
     record.aircraft_polygons = counts.aircraft_polygons;
@@ -251,6 +291,7 @@ void Session::fill_in(const scene::PlanCounts& counts, report::FrameRecord& reco
     record.triangle_change = record.frame == 0 ? 0 : counts.ground.triangles - last_triangles_;
     last_triangles_ = counts.ground.triangles;
     record.stress = stress_after(record);
+    adapt_shading(counts, record);
     record.overrun = record.frame_ms > report::overrun_16_ms ? 1 : 0;
     record.eye_m = now_.camera.eye_m;
     record.aircraft_m = now_.states.front().position_m;

@@ -2,6 +2,7 @@
 
 #include "ui/frame_times.h"
 #include "ui/inset_view.h"
+#include "ui/replay.h"
 #include "ui/report/frame_record.h"
 #include "ui/simulation.h"
 #include "ui/stopwatch.h"
@@ -13,6 +14,7 @@
 #include "visuals/scene/load_controller.h"
 #include "visuals/scene/planner.h"
 #include "visuals/scene/settings.h"
+#include "visuals/shading/shading_controller.h"
 
 #include <cstdint>
 #include <functional>
@@ -68,9 +70,9 @@ public:
     /// turns.
     void make_current() { context_->make_current(); }
 
-    /// Flies as many frames as there are numbers, at most frames() (asserted), each with that
-    /// triangle target whatever the clock says. Before the first draw().
-    void replay(std::vector<int> triangle_targets);
+    /// Flies as many frames as there are decisions, at most frames() (asserted), each as decided
+    /// whatever the clock says. Before the first draw().
+    void replay(std::vector<Decision> decisions);
 
     /// Simulates up to the frame's time, plans, draws and reads the picture. Frames come in order.
     report::FrameRecord draw(int frame);
@@ -119,6 +121,9 @@ public:
     /// Picture of the last frame that was read, top row first.
     const visuals::gl::Picture& picture() const { return picture_; }
 
+    /// What `--adapt shading` has found out.
+    const std::optional<visuals::shading::ShadingState>& shading() const { return shading_; }
+
     /// Over the aircraft states at every fixed step so far, to the end of the run once its last
     /// frame is drawn, and over the pixels of every frame.
     std::uint64_t state_hash() const { return simulation_->state_hash(); }
@@ -147,7 +152,9 @@ private:
     report::FrameRecord picture_of(int frame, double time_s, std::optional<double> next_s);
     void look(Moment& moment) const;
     void reach(double time_s, int frame, Moment& moment);
-    int choose_triangle_target(int frame);
+    int decide_triangles(int frame);
+    std::optional<int> decide_smooth(int frame) const;
+    void adapt_shading(const visuals::scene::PlanCounts& counts, const report::FrameRecord& record);
     double stress_after(const report::FrameRecord& record);
     visuals::scene::Camera camera_of(const visuals::scene::Settings& settings) const;
     void mesh_ahead();
@@ -179,8 +186,11 @@ private:
     int last_triangles_ = 0;
     visuals::scene::LoadSettings load_settings_;
     visuals::scene::LoadState load_;
-    std::vector<int> replayed_targets_; ///< by frame; empty = nothing is replayed
-    int drawn_ = 0;                     ///< pictures by draw_at
+    std::optional<visuals::shading::ShadingState>
+        shading_;                      ///< nothing before the first frame counts
+    std::optional<int> smooth_target_; ///< of the last picture; nothing: by the settings' share
+    std::vector<Decision> replayed_;   ///< by frame; empty = nothing is replayed
+    int drawn_ = 0;                    ///< pictures by draw_at
     Hash picture_hash_;
     Stopwatch since_first_frame_;
 };

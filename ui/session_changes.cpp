@@ -108,6 +108,7 @@ void Session::change_picture(const scene::Settings& settings) {
     }
     load_settings_ = scene::load_settings(settings_, rate_hz());
     load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
+    shading_.reset();
 }
 
 /// The ground of another world, or the same by other settings.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ui/aircraft_fields.h"
 #include "ui/settings_text.h"
 
 namespace octant::ui {
@@ -20,7 +21,8 @@ void visit_path_settings(SomeSettings& s, Visit& visit) {
         Info{
             "aircraft",
             "NAME|FILE",
-            "aircraft: f15, 500md, concave or an OBJ file; repeat for wingmen"},
+            "aircraft: f15, 500md, concave, an OBJ file of up to 2,000 polygons, or a mesh (.obj, "
+            ".ply, .stl, .glb, .ac, .wrl, .pm, .chain); repeat for wingmen"},
         s.aircraft);
     visit(Info{"axes", "X,Y,Z", "where the axes of aircraft files point"}, s.axes);
     visit(
@@ -156,29 +158,9 @@ void visit_time_settings(SomeSettings& s, Visit& visit) {
             "adapt",
             "WHAT,...",
             "what follows the frame time: terrain (its triangles, from an eighth to four times "
-            "--triangles, so that a frame uses 75 to 90 % of its time), or none"},
+            "--triangles, so that a frame uses 75 to 90 % of its time), shading (the share "
+            "of smooth polygons, so that a frame keeps its time), or none"},
         s.adapt);
-}
-
-/// Fields that say how hidden surfaces are removed.
-template <class SomeSettings, class Visit>
-void visit_surface_settings(SomeSettings& s, Visit& visit) {
-    using Info = FieldInfo;
-    visit(
-        Info{
-            "hidden-surface",
-            "METHOD",
-            "octant: painted in order, no depth buffer; depth-buffer; back-face: aircraft in file "
-            "order"},
-        s.hidden_surface);
-    visit(
-        Info{
-            "order-method",
-            "METHOD",
-            "painting order of octant: tree (exact for every eye), cells (octants divided further) "
-            "or paper (8 octants as printed)"},
-        s.order_method);
-    visit(Info{"shadows", "", "shadows of aircraft on the ground"}, s.shadows);
 }
 
 /// Fields that say how the ground is refined.
@@ -323,6 +305,7 @@ void visit_settings(SomeSettings& s, Visit&& visit) {
     visit_view_settings(s, visit);
     visit_time_settings(s, visit);
     visit_surface_settings(s, visit);
+    visit_shading_settings(s, visit);
     visit_ground_settings(s, visit);
     visit_air_settings(s, visit);
 }

@@ -20,7 +20,8 @@ namespace {
 
 /// What can follow the clock, by name.
 constexpr std::array adaptations{
-    std::pair<std::string_view, bool Adaptation::*>{"terrain", &Adaptation::terrain}};
+    std::pair<std::string_view, bool Adaptation::*>{"terrain", &Adaptation::terrain},
+    std::pair<std::string_view, bool Adaptation::*>{"shading", &Adaptation::shading}};
 
 [[noreturn]] void refuse(const FieldInfo& info, const std::string& expected, std::string_view got) {
     throw Error(

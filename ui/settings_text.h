@@ -125,6 +125,16 @@ struct EnumNames<visuals::scene::GroundShading> {
 };
 
 template <>
+struct EnumNames<visuals::scene::AircraftShading> {
+    static std::vector<std::string_view> names() { return {"flat", "gouraud", "hybrid"}; }
+};
+
+template <>
+struct EnumNames<visuals::scene::HybridRule> {
+    static std::vector<std::string_view> names() { return {"error", "paper"}; }
+};
+
+template <>
 struct EnumNames<visuals::scene::HiddenSurface> {
     static std::vector<std::string_view> names() { return {"octant", "depth-buffer", "back-face"}; }
 };

@@ -3,14 +3,12 @@
 #include "flightpaths/path_script.h"
 #include "flightpaths/placement.h"
 #include "flightpaths/recorded_track.h"
-#include "models/made_up.h"
-#include "models/obj_reader.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
+#include "ui/aircraft_loader.h"
 #include "ui/data_files.h"
 #include "ui/place_text.h"
 #include "ui/scene_ground.h"
-#include "visuals/draworder/ordered_model.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -20,7 +18,6 @@
 namespace octant::ui {
 
 namespace scene = visuals::scene;
-namespace draworder = visuals::draworder;
 
 namespace {
 
@@ -36,63 +33,6 @@ struct Script {
     std::optional<flightpaths::GeoOrigin> origin; ///< of a track that knows where it was flown
     std::vector<flightpaths::LegBegin> legs;
 };
-
-/// Looking for orders takes time with the square of the polygons and more.
-constexpr std::size_t most_ordered_polygons = 20000;
-
-draworder::OrderedModel with_order(models::PolygonModel model, const scene::Settings& settings) {
-    if (settings.hidden_surface != scene::HiddenSurface::Octant) {
-        draworder::DrawOrder order = draworder::file_order(model);
-        return {.model = std::move(model), .order = std::move(order), .cells = {}, .notes = {}};
-    }
-    if (model.polygons.size() > most_ordered_polygons) {
-        throw Error(fmt::format(
-            "{}: expected at most {} polygons for --hidden-surface octant, got {}; depth-buffer "
-            "takes more",
-            model.name,
-            most_ordered_polygons,
-            model.polygons.size()));
-    }
-    draworder::OrderOptions options;
-    options.method = settings.order_method;
-    return draworder::ordered(std::move(model), options);
-}
-
-std::uint32_t load_model(const std::string& name, const scene::Settings& settings, World& world) {
-    const std::filesystem::path file = aircraft_file(name);
-    const bool built_in = file.parent_path() == data_folder() / "models";
-    models::PolygonModel model = models::read_obj(
-        file, built_in ? models::FileAxes() : models::FileAxes::from_text(settings.axes));
-    world.notes.insert(world.notes.end(), model.notes.begin(), model.notes.end());
-    const glm::dvec3 eye_m = scene::pilot_eye_m(model);
-    draworder::OrderedModel ordered = with_order(std::move(model), settings);
-    world.notes.insert(world.notes.end(), ordered.notes.begin(), ordered.notes.end());
-    world.scene.models.push_back(
-        scene::aircraft_model(std::move(ordered.model), std::move(ordered.order), eye_m));
-    return static_cast<std::uint32_t>(world.scene.models.size() - 1);
-}
-
-void load_aircraft(const scene::Settings& settings, World& world) {
-    std::vector<std::string> loaded;
-    for (const std::string& name : settings.aircraft) {
-        const auto found = std::find(loaded.begin(), loaded.end(), name);
-        if (found == loaded.end()) {
-            loaded.push_back(name);
-            world.scene.aircraft.push_back(load_model(name, settings, world));
-        } else {
-            world.scene.aircraft.push_back(static_cast<std::uint32_t>(found - loaded.begin()));
-        }
-    }
-    const std::filesystem::path cockpit =
-        data_folder() / "models" / (settings.aircraft.front() + "-cockpit.obj");
-    if (std::filesystem::exists(cockpit)) {
-        models::PolygonModel model = models::read_obj(cockpit);
-        draworder::DrawOrder order = draworder::file_order(model);
-        world.scene.cockpit = static_cast<std::uint32_t>(world.scene.models.size());
-        world.scene.models.push_back(
-            scene::aircraft_model(std::move(model), std::move(order), glm::dvec3(0.0)));
-    }
-}
 
 Script load_script(const scene::Settings& settings, World& world) {
     const std::filesystem::path file = path_file(settings.path, settings.aircraft.front());
@@ -214,6 +154,23 @@ void check_wingmen(const World& world) {
     }
 }
 
+void check_shading(const scene::Settings& settings) {
+    const bool hybrid = settings.shading == scene::AircraftShading::Hybrid;
+    const bool by_share = settings.adapt.shading || settings.device_ratio ||
+                          settings.smooth_share < 1.0 ||
+                          settings.shading_rule == scene::HybridRule::Paper;
+    if (by_share && !hybrid) {
+        throw Error("--shading: expected hybrid beside --adapt shading, --smooth-share, "
+                    "--device-ratio or --shading-rule paper, got another one");
+    }
+    if (settings.shading_far_m <= settings.shading_near_m) {
+        throw Error(fmt::format(
+            "--shading-far: expected more than --shading-near ({}), got {}",
+            settings.shading_near_m,
+            settings.shading_far_m));
+    }
+}
+
 void check_adaptation(const scene::Settings& settings) {
     if (!settings.adapt.terrain) {
         return;
@@ -287,13 +244,14 @@ void check_settings(const scene::Settings& settings) {
         throw Error("--inset free: expected --view free beside it, got another view");
     }
     check_adaptation(settings);
+    check_shading(settings);
     check_ground_settings(settings);
 }
 
 World load_world(const scene::Settings& settings, DrawnBy drawn_by) {
     check_settings(settings);
     World world;
-    load_aircraft(settings, world);
+    world.notes = load_aircraft(settings, world.scene);
     Script script = load_script(settings, world);
     load_scene_ground(settings, drawn_by, world);
     world.flight = place_flight(settings, std::move(script), world);

@@ -1,6 +1,10 @@
 #include "models/measure/mesh_distance.h"
 
+#include "models/measure/hausdorff.h"
+#include "models/measure/sampled_distance.h"
+
 #include <algorithm>
+#include <cassert>
 
 namespace octant::models::measure {
 
@@ -22,6 +26,66 @@ double MeshDistance::mean_m() const {
 
 double MeshDistance::colour_rms() const {
     return std::max(there.colour_rms, back.colour_rms);
+}
+
+namespace {
+
+/// Says how far the work is.
+class Steps {
+public:
+    explicit Steps(const DistanceOptions& options)
+        : options_(options) {
+        show();
+    }
+
+    void next() {
+        ++done_;
+        show();
+    }
+
+private:
+    void show() const {
+        constexpr int steps = 4;
+        if (options_.progress) {
+            options_.progress(done_, steps);
+        }
+    }
+
+    const DistanceOptions& options_;
+    int done_ = 0;
+};
+
+OneWayDistance one_way(
+    const TriangleMesh& mesh,
+    const TargetSurface& target,
+    const DistanceOptions& options,
+    Steps& steps) {
+    HausdorffLimits limits;
+    limits.tightness = options.tightness;
+    limits.negligible_m = options.negligible_m;
+    limits.threads = options.threads;
+    const HausdorffBounds bounds = one_way_hausdorff(mesh, target, limits);
+    steps.next();
+    const SampledDistance sampled =
+        sampled_distance(mesh, target, options.samples, options.threads);
+    steps.next();
+    return {bounds.least_m, bounds.most_m, sampled.rms_m, sampled.mean_m, sampled.colour_rms};
+}
+
+} // namespace
+
+MeshDistance
+distance(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options) {
+    assert(!a.triangles.empty() && !b.triangles.empty() && options.tightness > 1.0);
+    DistanceOptions wanted = options;
+    if (!(options.negligible_m > 0.0)) {
+        wanted.negligible_m = 1e-9 * std::max(diagonal_m(a), diagonal_m(b));
+    }
+    Steps steps(options);
+    MeshDistance found;
+    found.there = one_way(a, TargetSurface(b), wanted, steps);
+    found.back = one_way(b, TargetSurface(a), wanted, steps);
+    return found;
 }
 
 } // namespace octant::models::measure

@@ -34,7 +34,8 @@ bool is_chain_file(const std::filesystem::path& path);
 /// anything that the file cannot hold.
 LevelChain read_chain(const std::filesystem::path& path);
 
-/// One versioned, checksummed binary file. Throws Error.
+/// One versioned, checksummed binary file. Positions are stored in double, every bit of them: the
+/// certified errors hold for what is read back as they are. Throws Error.
 void write_chain(const std::filesystem::path& path, const LevelChain& chain);
 
 } // namespace octant::models::meshfile

@@ -9,14 +9,31 @@ namespace octant::models::meshfile {
 /// Reads a triangle mesh; the file's ending says its format: .obj (with vertex colours), .ply
 /// (ascii, binary of both byte orders), .stl (ascii, binary), .gltf and .glb, .ac (AC3D), .wrl
 /// (VRML 2.0 IndexedFaceSet). Polygons are cut into triangles; nothing else is changed: see
-/// repair.h. Throws Error "file:line: expected ..., got ..." (binary files: "file: ... at byte
-/// N"). Memory is bounded by the file's size: a header that promises more than the file can hold
-/// is refused before anything is made room for.
+/// repair.h. Scenes are read as they stand (nodes placed, mirrored ones turned round again), axes
+/// and units as the file has them. Whole-number colours stand for 0..1, taken as linear.
+///
+/// Left out, where a file has it: textures, lines and points, face colours of PLY, normals of STL,
+/// inner nodes of unknown kinds; of two-sided surfaces the back. TriangleMesh::notes says what may
+/// be missed. A normal without a length becomes its triangle's own.
+///
+/// Throws Error "file:line: expected ..., got ..." (binary files "file: at byte N: ...", glTF
+/// "file: nodes[3].mesh: ..."), also for a file without triangles. Memory is bounded by the file's
+/// size (16 to 30 times that for JSON and VRML): a header that promises more than the file can hold
+/// is refused before anything is made room for, scenes that show one thing again and again end at
+/// 2^27 corners and vertices.
 TriangleMesh read_mesh(const std::filesystem::path& path);
 
 /// Writes a mesh in the format that the ending says, whole or not at all: .obj with .mtl beside it,
 /// .ply and .stl binary, .gltf with its data inside, .glb, .ac, .wrl. read_mesh gives the same mesh
-/// as far as the format holds it (STL: no shared vertices, no colours). Throws Error.
+/// as far as the format holds it:
+///     .obj        all
+///     .ply        no materials; normals where each vertex has only one
+///     .stl        places in float; vertices in the order of their first corners, nothing else
+///     .gltf .glb  places in float; a vertex of several normals becomes several
+///     .ac         no colours of vertices, no normals
+///     .wrl        all; letters and digits of materials' names
+/// With several materials .gltf, .glb and .wrl put triangles in the order of their materials; .obj,
+/// .gltf, .glb and .ac lose materials that no triangle has. Throws Error.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 /// Whether read_mesh knows the ending.

@@ -10,9 +10,9 @@ namespace octant::models::meshfile {
 
 /// What was found and mended in a mesh.
 struct RepairCounts {
-    std::size_t unreferenced_vertices = 0; ///< taken out
-    std::size_t duplicate_vertices = 0;    ///< welded: same position and colour, bit for bit
-    std::size_t degenerate_triangles = 0;  ///< two corners in one vertex, or no area: taken out
+    std::size_t unreferenced_vertices = 0; ///< taken out, also what the triangles below leave
+    std::size_t duplicate_vertices = 0;   ///< welded: same position and colour (-0 is 0) to the bit
+    std::size_t degenerate_triangles = 0; ///< two corners in one vertex, or no area: taken out
     std::size_t doubled_triangles = 0; ///< same three vertices again, either way round: taken out
     std::size_t turned_triangles = 0;  ///< turned to agree with their neighbours
     std::size_t split_edges = 0;    ///< shared by more than two triangles, or by two that disagree
@@ -33,7 +33,7 @@ struct RepairedMesh {
 /// that are only degenerate by area are taken out too.
 RepairedMesh repaired(TriangleMesh mesh);
 
-/// One line each for what was found, in words a user reads; empty for a clean mesh.
+/// One line each for what was found, in words a user reads; empty for a closed mesh without faults.
 std::vector<std::string> in_words(const RepairCounts& counts);
 
 } // namespace octant::models::meshfile

@@ -4,7 +4,6 @@
 #include "models/triangle_mesh.h"
 
 #include <cstddef>
-#include <cstdint>
 
 namespace octant::models::simplify {
 
@@ -17,24 +16,33 @@ enum class PaperMeasure {
 
 struct PaperOptions {
     PaperMeasure measure = PaperMeasure::Bidirectional;
-    Goal goal;                          ///< vertices: unreferenced ones are counted, as printed
-    std::size_t uncounted = 0;          ///< vertices that the file had and no triangle uses
-    double colour_weight = 0.0;         ///< w of distances in (position, w rgb); 0 = position only
+    Goal goal;                  ///< vertices or faces (error_m means nothing here); vertices
+                                ///< that no triangle uses are counted, as printed
+    std::size_t uncounted = 0;  ///< such vertices of the file that the mesh no longer has
+    double colour_weight = 0.0; ///< w of distances in (position, w rgb), metres; 0 = position only
     bool colour_in_edge_length = false; ///< the shortest edge is looked for in 6-D too
     ShowProgress show_progress;
+};
+
+/// What the chosen contractions cost, each against the mesh before it, summed over all of them.
+/// In square metres: squared distances.
+struct PaperSums {
+    double plane_m2 = 0.0;         ///< quadrics at the new vertices
+    double triangle_m2 = 0.0;      ///< new vertices to the triangles they replace
+    double bidirectional_m2 = 0.0; ///< the larger one of that and the way back
 };
 
 struct PaperResult {
     TriangleMesh mesh;
     std::size_t contractions = 0;
-    std::size_t feet = 0;         ///< perpendiculars dropped on triangles
+    std::size_t counted_vertices = 0; ///< that are left, as the paper counts them
+    std::size_t feet = 0;             ///< perpendiculars dropped on triangles to choose
     std::size_t feet_outside = 0; ///< whose foot lies outside, by the strict test 0 < a, b, c < 1
-    double error_sum_m2 = 0.0;    ///< chosen measure, over all contractions
-    double plane_sum_m2 = 0.0;    ///< for comparison: see the table of the paper
+    PaperSums sums;               ///< by every measure, whichever chose
 };
 
 /// Iterative edge contraction as printed in the paper: shortest edge first, best of both ends and
-/// the middle, no test that keeps a manifold.
+/// the middle, no test that keeps a manifold. Takes any mesh.
 PaperResult paper_simplified(const TriangleMesh& original, const PaperOptions& options);
 
 } // namespace octant::models::simplify

@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -93,6 +94,14 @@ std::vector<std::string_view> split_fields(std::string_view line, char separator
         }
         at = end + 1;
     }
+}
+
+std::string ending_of(const std::filesystem::path& path) {
+    std::string ending = path.extension().string();
+    std::ranges::transform(ending, ending.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    return ending;
 }
 
 std::optional<double> finite_number(std::string_view text) {

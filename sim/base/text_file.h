@@ -27,6 +27,9 @@ std::vector<std::string_view> split_words(std::string_view line);
 /// Fields separated by `separator`, blanks around them removed. Views into `line`.
 std::vector<std::string_view> split_fields(std::string_view line, char separator);
 
+/// What a file's name ends in from its last dot on, in small letters: ".obj"; empty without one.
+std::string ending_of(const std::filesystem::path& path);
+
 /// The whole of `text` as a finite decimal number in the C locale; nothing for anything else
 /// (NaN and infinity too).
 std::optional<double> finite_number(std::string_view text);

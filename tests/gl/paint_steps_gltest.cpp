@@ -205,3 +205,87 @@ TEST_CASE("the renderer says how many draw calls the last picture took") {
     studio.picture(empty_plan());
     CHECK(studio.renderer().draw_calls() == 0);
 }
+
+TEST_CASE("solids are hidden by depth among themselves, and by nothing painted before") {
+    Studio studio;
+    load_squares(studio, true);
+    scene::FramePlan plan = empty_plan();
+    Triangles ground;
+    ground.add({}, 5.0F, green);
+    plan.ground = ground.draw();
+    plan.repaint_indices = ground.indices;
+    add_square(plan, 0, ahead(10.0F));
+    add_square(plan, 2, ahead(12.0F));
+    plan.depth_boxes = {{{0, 0}, {side_px, side_px}}};
+    plan.steps = {{What::ClearDepth, 0, 1, whole}, {What::Solid, 0, 2, whole}};
+    CHECK(middle(studio.picture(plan)) == red_px);
+    plan.steps = {
+        {What::ClearDepth, 0, 1, whole}, {What::Solid, 1, 1, whole}, {What::Solid, 0, 1, whole}};
+    CHECK(middle(studio.picture(plan)) == red_px);
+    plan.steps = {
+        {What::ClearDepth, 0, 1, whole},
+        {What::Solid, 0, 1, whole},
+        {What::ClearDepth, 0, 1, whole},
+        {What::Solid, 1, 1, whole}};
+    CHECK(middle(studio.picture(plan)) == blue_px);
+}
+
+TEST_CASE("ground drawn as depth alone hides solids and changes no pixel") {
+    Studio studio;
+    load_squares(studio, true);
+    scene::FramePlan plan = empty_plan();
+    Triangles ground;
+    ground.add({}, 10.0F, green);
+    plan.repaint_indices = ground.indices;
+    plan.ground = {ground.vertices, {}};
+    plan.depth_boxes = {{{0, 0}, {side_px, side_px}}};
+    add_square(plan, 0, ahead(9.0F));
+    add_square(plan, 2, ahead(11.0F));
+    plan.steps = {
+        {What::ClearDepth, 0, 1, whole},
+        {What::GroundDepth, 0, 6, whole},
+        {What::Solid, 1, 1, whole}};
+    CHECK(middle(studio.picture(plan)) == grey_px);
+    plan.steps.back() = {What::Solid, 0, 1, whole};
+    CHECK(middle(studio.picture(plan)) == red_px);
+}
+
+TEST_CASE("depth is cleared inside its box only") {
+    Studio studio;
+    load_squares(studio, true);
+    scene::FramePlan plan = empty_plan();
+    add_square(plan, 0, glm::scale(ahead(10.0F), glm::vec3(20.0F, 20.0F, 1.0F)));
+    add_square(plan, 2, glm::scale(ahead(20.0F), glm::vec3(40.0F, 40.0F, 1.0F)));
+    plan.depth_boxes = {{{0, 0}, {side_px, side_px}}, {{8, 4}, {20, 14}}};
+    plan.steps = {
+        {What::ClearDepth, 0, 1, whole},
+        {What::Solid, 0, 1, whole},
+        {What::ClearDepth, 1, 1, whole},
+        {What::Solid, 1, 1, whole}};
+    const gl::Picture picture = studio.picture(plan);
+    CHECK(count_of(picture, blue_px) == 12 * 10);
+    CHECK(pixel(picture, 8, 4) == blue_px);
+    CHECK(pixel(picture, 19, 13) == blue_px);
+}
+
+TEST_CASE("a smooth polygon has the light of its corners, a flat one that of its face") {
+    Studio studio;
+    scene::ModelBuffers model = square_model(glm::vec3(1.0F));
+    for (scene::ModelVertex& vertex : model.vertices) {
+        vertex.normal = vertex.position_m.x > 0.0F ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
+    }
+    studio.renderer().load_models({&model, 1});
+    scene::FramePlan plan = empty_plan();
+    plan.ambient = glm::vec3(0.0F);
+    plan.sunlight = glm::vec3(1.0F);
+    plan.to_sun = glm::vec3(0, 0, 1);
+    add_square(plan, 0, glm::scale(ahead(10.0F), glm::vec3(10.0F, 10.0F, 1.0F)));
+    const gl::Picture flat = studio.picture(plan);
+    CHECK(pixel(flat, 2, side_px / 2)[0] == 255);
+    CHECK(pixel(flat, side_px - 3, side_px / 2)[0] == 255);
+    plan.smooth = {1};
+    const gl::Picture smooth = studio.picture(plan);
+    CHECK(pixel(smooth, 2, side_px / 2)[0] > 235);
+    CHECK(pixel(smooth, side_px - 3, side_px / 2)[0] < 20);
+    CHECK(std::abs(int{middle(smooth)[0]} - 127) < 6);
+}

@@ -21,7 +21,7 @@ scene::ModelBuffers box_model(const glm::vec3& half_m) {
             const auto first = static_cast<std::uint32_t>(model.vertices.size());
             const std::uint32_t colour = models::packed_colour(0.5F + 0.3F * (normal + right));
             for (const glm::vec3& corner : {-right - up, right - up, right + up, up - right}) {
-                model.vertices.push_back({half_m * (normal + corner), normal, colour});
+                model.vertices.push_back({half_m * (normal + corner), normal, normal, colour});
             }
             for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) {
                 model.indices.push_back(first + corner);
@@ -47,9 +47,12 @@ void set_square(scene::FramePlan& plan, std::uint32_t model, const glm::mat4& bo
     add_square(plan, model, body_to_eye_world);
 }
 
-void load_squares(Studio& studio) {
-    const std::array<scene::ModelBuffers, 3> models{
+void load_squares(Studio& studio, bool as_meshes) {
+    std::array<scene::ModelBuffers, 3> models{
         square_model(red), square_model(green), square_model(blue)};
+    for (scene::ModelBuffers& model : models) {
+        model.has_meshes = as_meshes;
+    }
     studio.context().make_current();
     studio.renderer().load_models(models);
 }

@@ -78,7 +78,10 @@ inline scene::ModelBuffers square_model(const glm::vec3& colour) {
     for (const glm::vec2 corner :
          {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
         model.vertices.push_back(
-            {glm::vec3(corner, 0.0F), glm::vec3(0, 0, 1), models::packed_colour(colour)});
+            {glm::vec3(corner, 0.0F),
+             glm::vec3(0, 0, 1),
+             glm::vec3(0, 0, 1),
+             models::packed_colour(colour)});
     }
     model.indices = {0, 1, 2, 0, 2, 3};
     return model;
@@ -93,6 +96,7 @@ inline scene::FramePlan empty_plan() {
     plan.background = grey;
     plan.ambient = glm::vec3(1.0F);
     plan.sunlight = glm::vec3(0.0F);
+    plan.smooth = {0};
     return plan;
 }
 
@@ -174,7 +178,7 @@ private:
 };
 
 /// Models 0 red, 1 green and 2 blue, each a square_model.
-void load_squares(Studio& studio);
+void load_squares(Studio& studio, bool as_meshes = false);
 
 /// Number of pixels of that colour.
 int count_of(const gl::Picture& picture, const Pixel& colour);

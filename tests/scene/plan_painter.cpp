@@ -44,6 +44,9 @@ PlanPainter::PlanPainter(const scene::FramePlan& plan, const scene::Scene& scene
             add_aircraft(plan, scene, step);
             continue;
         }
+        if (step.what != scene::PaintStep::What::Ground) {
+            continue;
+        }
         for (std::size_t i = step.first; i < step.first + step.count; i += 3) {
             Triangle triangle = ground_triangle(plan.repaint_indices, i);
             triangle.clip = step.clip == scene::PaintStep::whole ? nullptr : &plan.clips[step.clip];

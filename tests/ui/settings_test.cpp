@@ -69,7 +69,7 @@ TEST_CASE("a missing key keeps its default and a wrong one is refused with its l
     CHECK(ui::read_settings(settings_file("{\"adapt\": \"none\"}")).adapt == Settings{}.adapt);
     expect(
         "{\"adapt\": \"terrain,sound\"}",
-        ":1: adapt: expected none or a list of terrain, got 'terrain,sound'");
+        ":1: adapt: expected none or a list of terrain, shading, got 'terrain,sound'");
     expect("{\"sky\": 1}", ":1: sky: expected true or false, got '1'");
     expect(
         "{\"background\": \"red\"}",

@@ -86,6 +86,12 @@ constexpr std::array columns{
     column<&R::error_px>("error_px", Kind::MayBeEmpty, 4),
     column<&R::latency_ms>("latency_ms", Kind::MayBeEmpty, milliseconds),
     column<&R::missed>("missed"),
+    column<&R::smooth_polygons>("smooth_polygons"),
+    column<&R::smooth_target>("smooth_target"),
+    column<&R::aircraft_level>("aircraft_level"),
+    column<&R::refine_splits>("refine_splits"),
+    column<&R::refine_collapses>("refine_collapses"),
+    column<&R::refine_ms>("refine_ms", Kind::Number, milliseconds),
 };
 
 std::string header_line() {

@@ -11,7 +11,28 @@ namespace octant::ui {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> controls{"axes", "shadows"};
+constexpr std::array<std::string_view, 9> controls{
+    "axes",
+    "shadows",
+    "aircraft-error-px",
+    "shading",
+    "shading-rule",
+    "smooth-share",
+    "device-ratio",
+    "shading-near",
+    "shading-far"};
+
+/// What each model can be drawn as.
+void show_representations(const visuals::scene::AircraftModel& model) {
+    if (model.progressive) {
+        ImGui::TextDisabled(
+            "  refined in each frame: %zu triangles at most", model.progressive->face_count());
+    }
+    for (const visuals::scene::MeshLevel& level : model.levels) {
+        ImGui::TextDisabled(
+            "  level of %d triangles, wrong by %.3g m", level.range.polygons, level.error_m);
+    }
+}
 
 /// One line for each model that flies.
 void show_models(const visuals::scene::Scene& scene) {
@@ -34,6 +55,7 @@ void show_models(const visuals::scene::Scene& scene) {
             ImGui::TextDisabled("(%zu in its file)", whole);
             explain("some were split where no painting order exists otherwise");
         }
+        show_representations(each);
     }
 }
 
@@ -49,7 +71,16 @@ void aircraft_panel(ViewState& state, const Session& session) {
     if (!state.history.empty()) {
         const report::FrameRecord& last = state.history.last();
         ImGui::Text(
-            "drawn: %d polygons, %d shadow pieces", last.aircraft_polygons, last.shadow_triangles);
+            "drawn: %d polygons, %d of them smooth, %d shadow pieces",
+            last.aircraft_polygons,
+            last.smooth_polygons,
+            last.shadow_triangles);
+        ImGui::Text(
+            "first aircraft: level %d; refined: %d splits, %d collapses, %.2f ms",
+            last.aircraft_level,
+            last.refine_splits,
+            last.refine_collapses,
+            last.refine_ms);
     }
     ImGui::BeginDisabled(state.recording.has_value());
     count_slider(state.wanted.aircraft);

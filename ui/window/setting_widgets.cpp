@@ -184,7 +184,10 @@ bool edit(const FieldInfo& /*info*/, glm::vec3& colour) {
 }
 
 bool edit(const FieldInfo& /*info*/, visuals::scene::Adaptation& adapt) {
-    return ImGui::Checkbox("terrain", &adapt.terrain);
+    bool changed = ImGui::Checkbox("terrain", &adapt.terrain);
+    ImGui::SameLine();
+    changed = ImGui::Checkbox("shading", &adapt.shading) || changed;
+    return changed;
 }
 
 template <class Enum>
@@ -308,41 +311,6 @@ void edit_settings(Settings& settings, std::span<const std::string_view> names) 
                 row(info, value);
             }
         });
-    }
-}
-
-const char* title_of(SettingGroup group) {
-    constexpr std::array<const char*, setting_groups> titles{
-        "Path, aircraft and ground",
-        "View and picture",
-        "Frames",
-        "Hidden surfaces",
-        "Terrain mesh",
-        "Sky, haze, sun and colours"};
-    return titles.at(static_cast<std::size_t>(group));
-}
-
-void edit_group(Settings& settings, SettingGroup group) {
-    const RowOfWidgets row;
-    switch (group) {
-    case SettingGroup::Path:
-        visit_path_settings(settings, row);
-        break;
-    case SettingGroup::View:
-        visit_view_settings(settings, row);
-        break;
-    case SettingGroup::Time:
-        visit_time_settings(settings, row);
-        break;
-    case SettingGroup::Surface:
-        visit_surface_settings(settings, row);
-        break;
-    case SettingGroup::Ground:
-        visit_ground_settings(settings, row);
-        break;
-    case SettingGroup::Air:
-        visit_air_settings(settings, row);
-        break;
     }
 }
 

@@ -17,8 +17,8 @@ namespace octant::ui {
 void edit_settings(visuals::scene::Settings& settings, std::span<const std::string_view> names);
 
 /// The parts of the list, in its order.
-enum class SettingGroup { Path, View, Time, Surface, Ground, Air };
-inline constexpr int setting_groups = 6;
+enum class SettingGroup { Path, View, Time, Surface, Shading, Ground, Air };
+inline constexpr int setting_groups = 7;
 
 /// Headline for people.
 const char* title_of(SettingGroup group);

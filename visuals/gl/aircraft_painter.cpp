@@ -1,7 +1,7 @@
 #include "visuals/gl/aircraft_painter.h"
 
+#include "visuals/gl/model_array.h"
 #include "visuals/gl/shader_sources.h"
-#include "visuals/gl/vertex_array.h"
 
 #include <algorithm>
 #include <cassert>
@@ -13,48 +13,32 @@ using scene::AircraftDraw;
 using scene::ModelVertex;
 
 constexpr std::size_t first_capacity_bytes = std::size_t{1} << 12;
-constexpr GLuint vertex_binding = 0;
-constexpr GLuint instance_binding = 1;
-constexpr GLuint parts_binding = 0; ///< place in the shaders
-
-Object make_array(
-    const Functions& gl,
-    const Object& vertices,
-    const Object& indices,
-    const StreamBuffer& instances) {
-    Object array = make_vertex_array(gl);
-    gl.vertex_array_vertex_buffer(
-        array.name(), vertex_binding, vertices.name(), 0, sizeof(ModelVertex));
-    gl.vertex_array_vertex_buffer(
-        array.name(), instance_binding, instances.name(), 0, sizeof(std::uint32_t));
-    gl.vertex_array_binding_divisor(array.name(), instance_binding, 1);
-    gl.vertex_array_element_buffer(array.name(), indices.name());
-    add_vector_input(gl, array, position_input, offsetof(ModelVertex, position_m));
-    add_vector_input(gl, array, normal_input, offsetof(ModelVertex, normal));
-    add_colour_input(gl, array, offsetof(ModelVertex, colour));
-    add_number_input(gl, array, part_input, vertex_binding, offsetof(ModelVertex, part));
-    add_number_input(gl, array, first_part_input, instance_binding, 0);
-    return array;
-}
+// Places in the shaders.
+constexpr GLuint parts_binding = 0;
+constexpr GLuint smooth_binding = 1;
 
 } // namespace
 
 AircraftPainter::AircraftPainter(const Functions& gl, DrawState& state)
     : gl_(gl)
     , state_(state)
-    , programs_(make_program_pair(gl, "aircraft", {aircraft_vert, flat_frag}))
+    , programs_(make_program_pair(gl, "aircraft", {aircraft_vert, aircraft_frag}))
     , model_vertices_(make_buffer(gl))
     , model_indices_(make_buffer(gl))
     , part_buffer_(gl, first_capacity_bytes)
+    , smooth_buffer_(gl, first_capacity_bytes)
     , instance_buffer_(gl, first_capacity_bytes)
     , command_buffer_(gl, first_capacity_bytes)
-    , array_(make_array(gl, model_vertices_, model_indices_, instance_buffer_)) {}
+    , array_(make_model_array(
+          gl, model_vertices_.name(), model_indices_.name(), instance_buffer_.name())) {}
 
 void AircraftPainter::load_models(std::span<const scene::ModelBuffers> models) {
     std::vector<ModelVertex> vertices;
     std::vector<std::uint32_t> indices;
     models_.clear();
+    has_meshes_ = false;
     for (const scene::ModelBuffers& model : models) {
+        has_meshes_ = has_meshes_ || model.has_meshes;
         std::size_t parts = 0;
         for (const ModelVertex& vertex : model.vertices) {
             parts = std::max(parts, std::size_t{vertex.part} + 1);
@@ -83,14 +67,16 @@ void AircraftPainter::add_any(scene::FramePlan& plan) const {
         body_to_eye_world[3].z = -100.0F;
         plan.parts.assign(models_.front().parts, body_to_eye_world);
         plan.aircraft.push_back({.model = 0, .first_index = 0, .index_count = indices});
+        plan.smooth.assign(models_.front().index_count / 3 / 32 + 1, 0U);
     }
 }
 
 void AircraftPainter::upload(const scene::FramePlan& plan) {
     commands_.clear();
-    first_parts_.clear();
+    instances_.clear();
     for (const AircraftDraw& draw : plan.aircraft) {
         assert(draw.model < models_.size());
+        assert(draw.first_smooth < plan.smooth.size());
         const ModelPlace& model = models_[draw.model];
         assert(std::size_t{draw.first_index} + draw.index_count <= model.index_count);
         assert(std::size_t{draw.first_part} + model.parts <= plan.parts.size());
@@ -100,12 +86,14 @@ void AircraftPainter::upload(const scene::FramePlan& plan) {
              .first_index = static_cast<GLuint>(model.first_index) + draw.first_index,
              .first_vertex = model.first_vertex,
              .first_instance = static_cast<GLuint>(commands_.size())});
-        first_parts_.push_back(draw.first_part);
+        instances_.push_back({draw.first_part, draw.first_smooth});
     }
     part_buffer_.fill({std::as_bytes(std::span(plan.parts))});
-    instance_buffer_.fill({std::as_bytes(std::span(first_parts_))});
+    smooth_buffer_.fill({std::as_bytes(std::span(plan.smooth))});
+    instance_buffer_.fill({std::as_bytes(std::span(instances_))});
     command_buffer_.fill({std::as_bytes(std::span(commands_))});
     gl_.bind_buffer_base(GL_SHADER_STORAGE_BUFFER, parts_binding, part_buffer_.name());
+    gl_.bind_buffer_base(GL_SHADER_STORAGE_BUFFER, smooth_binding, smooth_buffer_.name());
     gl_.bind_buffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_.name());
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "visuals/gl/draw_state.h"
+#include "visuals/gl/model_array.h"
 #include "visuals/gl/stream_buffer.h"
 #include "visuals/scene/frame_plan.h"
 
@@ -18,6 +19,12 @@ public:
 
     /// In place of those loaded before; AircraftDraw::model counts in this list.
     void load_models(std::span<const scene::ModelBuffers> models);
+
+    /// Whether a plan may ask for solid aircraft, and so for depth.
+    bool has_meshes() const { return has_meshes_; }
+
+    /// Of any mesh that comes as scene::ModelVertex.
+    const ProgramPair& programs() const { return programs_; }
 
     /// That every draw names a model, indices and parts that are there is asserted.
     void upload(const scene::FramePlan& plan);
@@ -53,12 +60,14 @@ private:
     Object model_vertices_;
     Object model_indices_;
     StreamBuffer part_buffer_;
-    StreamBuffer instance_buffer_; ///< AircraftDraw::first_part of each aircraft
+    StreamBuffer smooth_buffer_;
+    StreamBuffer instance_buffer_;
     StreamBuffer command_buffer_;
     Object array_;
     std::vector<ModelPlace> models_;
     std::vector<Command> commands_; ///< one for each aircraft
-    std::vector<std::uint32_t> first_parts_;
+    std::vector<ModelInstance> instances_;
+    bool has_meshes_ = false;
 };
 
 } // namespace octant::visuals::gl

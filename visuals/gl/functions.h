@@ -20,6 +20,7 @@
       "glCheckNamedFramebufferStatus")                                                             \
     X(clear_named_framebufferfv, PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, "glClearNamedFramebufferfv")    \
     X(clip_control, PFNGLCLIPCONTROLPROC, "glClipControl")                                         \
+    X(color_mask, PFNGLCOLORMASKPROC, "glColorMask")                                               \
     X(compile_shader, PFNGLCOMPILESHADERPROC, "glCompileShader")                                   \
     X(create_buffers, PFNGLCREATEBUFFERSPROC, "glCreateBuffers")                                   \
     X(create_framebuffers, PFNGLCREATEFRAMEBUFFERSPROC, "glCreateFramebuffers")                    \

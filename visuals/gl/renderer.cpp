@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 
+#include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
@@ -69,6 +70,7 @@ Renderer::Renderer(const Functions& gl, int width, int height, int samples)
     , state_(gl)
     , triangles_(gl, state_)
     , aircraft_(gl, state_)
+    , refined_(gl, state_)
     , overlay_(gl, state_) {}
 
 void Renderer::resize(const glm::ivec2& size_px, int samples) {
@@ -92,8 +94,8 @@ void Renderer::load_ground_texture(const scene::GroundTexture& texture) {
 
 void Renderer::draw(const FramePlan& plan) {
     const PixelRect whole{0, 0, framebuffer_.width(), framebuffer_.height()};
-    const bool fits =
-        plan.hidden_surface != HiddenSurface::DepthBuffer && framebuffer_.fits(window_px_, 1);
+    const bool fits = plan.hidden_surface != HiddenSurface::DepthBuffer &&
+                      !aircraft_.has_meshes() && framebuffer_.fits(window_px_, 1);
     rows_ = fits ? Rows::FromBelow : Rows::FromTop;
     gl_.bind_framebuffer(GL_FRAMEBUFFER, target_of(plan));
     state_.begin_picture(rows_);
@@ -128,8 +130,9 @@ GLuint Renderer::target_of(const FramePlan& plan) const {
     if (rows_ == Rows::FromBelow) {
         return 0;
     }
-    return plan.hidden_surface == HiddenSurface::DepthBuffer ? framebuffer_.name()
-                                                             : framebuffer_.name_without_depth();
+    const bool with_depth =
+        plan.hidden_surface == HiddenSurface::DepthBuffer || !plan.depth_boxes.empty();
+    return with_depth ? framebuffer_.name() : framebuffer_.name_without_depth();
 }
 
 /// Into what is bound; `rect` is all of it or what the scissor leaves.
@@ -140,7 +143,7 @@ void Renderer::draw_into(const FramePlan& plan, const PixelRect& rect) {
     if (plan.hidden_surface == HiddenSurface::DepthBuffer) {
         draw_by_depth(plan);
     } else {
-        paint(plan);
+        paint(plan, rect);
     }
     overlay_.draw(plan.overlay, rect.width, rect.height);
 }
@@ -163,20 +166,57 @@ void Renderer::upload(const FramePlan& plan, const PixelRect& rect) {
     gl_.bind_buffer_base(GL_UNIFORM_BUFFER, picture_binding, picture_values_.name());
     triangles_.upload(plan);
     aircraft_.upload(plan);
+    refined_.upload(plan);
 }
 
-/// Background, sky, ground, then each step over what is there: no depth at all.
-void Renderer::paint(const FramePlan& plan) {
+/// Background, sky, ground, then each step over what is there: no depth but that of solids.
+void Renderer::paint(const FramePlan& plan, const PixelRect& rect) {
     triangles_.draw_sky(Depth::Unused);
     triangles_.draw_ground(Depth::Unused);
     for (const PaintStep& step : plan.steps) {
         const scene::Clip* const clip =
             step.clip == PaintStep::whole ? nullptr : &plan.clips[step.clip];
-        if (step.what == PaintStep::What::Aircraft) {
+        switch (step.what) {
+        case PaintStep::What::Aircraft:
             aircraft_.draw(step.first, step.count, Depth::Unused, clip);
-        } else {
+            break;
+        case PaintStep::What::Ground:
             triangles_.repaint(step.first, step.count, clip);
+            break;
+        case PaintStep::What::ClearDepth:
+            clear_depth(plan, plan.depth_boxes[step.first], rect);
+            break;
+        case PaintStep::What::GroundDepth:
+            triangles_.draw_depth(step.first, step.count);
+            break;
+        case PaintStep::What::Solid:
+            aircraft_.draw(step.first, step.count, Depth::Nearest);
+            break;
+        case PaintStep::What::Refined:
+            refined_.draw(step.first, step.count, aircraft_.programs());
+            break;
         }
+    }
+}
+
+/// In a box of the picture that `rect` of the target shows.
+void Renderer::clear_depth(
+    const FramePlan& plan, const scene::PixelBox& box, const PixelRect& rect) {
+    const bool inset = rect.width < framebuffer_.width() || rect.height < framebuffer_.height();
+    const glm::ivec2 least = glm::max(box.least, glm::ivec2(0));
+    const glm::ivec2 size = glm::min(box.most, glm::ivec2(rect.width, rect.height)) - least;
+    if (size.x <= 0 || size.y <= 0) {
+        return;
+    }
+    gl_.depth_mask(GL_TRUE);
+    gl_.enable(GL_SCISSOR_TEST);
+    gl_.scissor(rect.x + least.x, rect.y + least.y, size.x, size.y);
+    const float infinitely_far = 0.0F;
+    gl_.clear_named_framebufferfv(target_of(plan), GL_DEPTH, 0, &infinitely_far);
+    if (inset) {
+        gl_.scissor(rect.x, rect.y, rect.width, rect.height);
+    } else {
+        gl_.disable(GL_SCISSOR_TEST);
     }
 }
 
@@ -184,6 +224,7 @@ void Renderer::paint(const FramePlan& plan) {
 /// equally near the aircraft is seen.
 void Renderer::draw_by_depth(const FramePlan& plan) {
     aircraft_.draw(0, static_cast<std::uint32_t>(plan.aircraft.size()), Depth::Nearest);
+    refined_.draw(0, static_cast<std::uint32_t>(plan.refined.size()), aircraft_.programs());
     triangles_.draw_ground(Depth::Nearest);
     triangles_.draw_shadows();
     triangles_.draw_sky(Depth::InfinitelyFar);
@@ -237,6 +278,12 @@ void Renderer::warm_up() {
     const auto aircraft = static_cast<std::uint32_t>(plan.aircraft.size());
     plan.steps.push_back({PaintStep::What::Aircraft, 0, aircraft, PaintStep::whole});
     plan.steps.push_back({PaintStep::What::Aircraft, 0, aircraft, 0});
+    if (aircraft_.has_meshes()) {
+        plan.depth_boxes.push_back({{0, 0}, {1, 1}});
+        plan.steps.push_back({PaintStep::What::ClearDepth, 0, 1, PaintStep::whole});
+        plan.steps.push_back({PaintStep::What::GroundDepth, 0, 3, PaintStep::whole});
+        plan.steps.push_back({PaintStep::What::Solid, 0, aircraft, PaintStep::whole});
+    }
     Picture picture;
     for (const HiddenSurface way : {HiddenSurface::Octant, HiddenSurface::DepthBuffer}) {
         plan.hidden_surface = way;

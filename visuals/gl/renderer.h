@@ -5,6 +5,7 @@
 #include "visuals/gl/framebuffer.h"
 #include "visuals/gl/overlay_painter.h"
 #include "visuals/gl/picture.h"
+#include "visuals/gl/refined_painter.h"
 #include "visuals/gl/stream_buffer.h"
 #include "visuals/gl/triangle_painter.h"
 #include "visuals/scene/frame_plan.h"
@@ -29,14 +30,15 @@ struct PixelRect {
 ///
 /// With HiddenSurface::DepthBuffer hidden surfaces are removed by a 32-bit float depth buffer and
 /// FramePlan::steps are not looked at: all aircraft in their order, ground, shadows, sky. Else
-/// sky, ground and steps are painted, each over what is there, and no depth buffer is attached.
+/// sky, ground and steps are painted, each over what is there, and no depth buffer is attached
+/// but for solids, which ask for it.
 /// FramePlan::overlay comes last.
 ///
 /// Colours are display values from input to picture: nothing is converted. Back faces of
 /// aircraft are not drawn. Those of the ground are: the plan has left them out but for triangles
-/// seen edge-on, which the driver must judge by the positions it draws. An aircraft's triangle has
-/// the colour of its first vertex: a polygon split into a fan around its first corner keeps one
-/// colour.
+/// seen edge-on, which the driver must judge by the positions it draws. A flat triangle of an
+/// aircraft has the colour of its first vertex: a polygon split into a fan around its first corner
+/// keeps one colour.
 class Renderer {
 public:
     /// Picture size in pixels, 1 or 4 samples a pixel. Throws Error when the driver cannot.
@@ -47,8 +49,8 @@ public:
     void resize(const glm::ivec2& size_px, int samples);
 
     /// From now on pictures are drawn straight into framebuffer 0, the window's, where they are as
-    /// large as it, have one sample a pixel and need no depth: that saves copying them there. 0,0 =
-    /// no window.
+    /// large as it, have one sample a pixel and need no depth, not even for meshes: that saves
+    /// copying them there. 0,0 = no window.
     void aim_at_window(const glm::ivec2& window_px) { window_px_ = window_px; }
 
     /// Whether the last picture was: it cannot be read then.
@@ -94,7 +96,9 @@ private:
     void draw_into(const scene::FramePlan& plan, const PixelRect& rect);
     void clear(const scene::FramePlan& plan);
     void upload(const scene::FramePlan& plan, const PixelRect& rect);
-    void paint(const scene::FramePlan& plan);
+    void paint(const scene::FramePlan& plan, const PixelRect& rect);
+    void
+    clear_depth(const scene::FramePlan& plan, const scene::PixelBox& box, const PixelRect& rect);
     void draw_by_depth(const scene::FramePlan& plan);
 
     const Functions& gl_;
@@ -103,6 +107,7 @@ private:
     DrawState state_;
     TrianglePainter triangles_;
     AircraftPainter aircraft_;
+    RefinedPainter refined_;
     OverlayPainter overlay_;
     glm::ivec2 window_px_{0};
     Rows rows_ = Rows::FromTop; ///< of the last picture

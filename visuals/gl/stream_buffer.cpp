@@ -7,7 +7,7 @@ StreamBuffer::StreamBuffer(const Functions& gl, std::size_t first_capacity_bytes
     , buffer_(make_buffer(gl))
     , capacity_bytes_(first_capacity_bytes) {}
 
-void StreamBuffer::fill(std::initializer_list<std::span<const std::byte>> pieces) {
+void StreamBuffer::fill(std::span<const std::span<const std::byte>> pieces) {
     std::size_t size = 0;
     for (const auto& piece : pieces) {
         size += piece.size();

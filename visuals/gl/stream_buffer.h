@@ -17,7 +17,11 @@ public:
     GLuint name() const { return buffer_.name(); }
 
     /// Puts the pieces into the buffer, one behind the other.
-    void fill(std::initializer_list<std::span<const std::byte>> pieces);
+    void fill(std::span<const std::span<const std::byte>> pieces);
+
+    void fill(std::initializer_list<std::span<const std::byte>> pieces) {
+        fill(std::span(pieces.begin(), pieces.size()));
+    }
 
 private:
     const Functions& gl_;

@@ -130,6 +130,17 @@ void TrianglePainter::repaint(std::uint32_t first, std::uint32_t count, const sc
     }
 }
 
+void TrianglePainter::draw_depth(std::uint32_t first, std::uint32_t count) {
+    assert(std::size_t{first} + count <= repainted_.count);
+    if (count > 0) {
+        state_.use_depth(Depth::Nearest);
+        state_.use_program(ground_programs());
+        gl_.color_mask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        draw({repainted_.first + first, count}, 0);
+        gl_.color_mask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    }
+}
+
 void TrianglePainter::draw(Range indices, GLint first_vertex) {
     state_.cull_back_faces(false);
     gl_.bind_vertex_array(array_.name());

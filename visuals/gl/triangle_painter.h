@@ -35,6 +35,9 @@ public:
     /// FramePlan::repaint_indices `first` to `first + count - 1`, without depth. No clip = not cut.
     void repaint(std::uint32_t first, std::uint32_t count, const scene::Clip* clip);
 
+    /// The same triangles into the depth buffer alone, where they are nearest.
+    void draw_depth(std::uint32_t first, std::uint32_t count);
+
 private:
     struct Range {
         std::size_t first = 0;

@@ -12,6 +12,9 @@ constexpr GLuint colour_input = 1;
 constexpr GLuint normal_input = 2;
 constexpr GLuint part_input = 3;
 constexpr GLuint first_part_input = 4;
+constexpr GLuint face_normal_input = 5;
+constexpr GLuint polygon_input = 6;
+constexpr GLuint first_smooth_input = 7;
 
 /// Three floats at `offset` of each vertex of the array's buffer 0.
 void add_vector_input(const Functions& gl, const Object& array, GLuint input, std::size_t offset);

@@ -1,9 +1,13 @@
 #include "visuals/scene/aircraft_model.h"
 
 #include "models/colour_vertex.h"
+#include "visuals/shading/vertex_normals.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <cassert>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -16,8 +20,9 @@ namespace {
 
 class BufferMaker {
 public:
-    explicit BufferMaker(const models::PolygonModel& model)
-        : model_(model) {
+    BufferMaker(const models::PolygonModel& model, std::span<const glm::vec3> normals)
+        : model_(model)
+        , normals_(normals) {
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
             add_corners(i);
         }
@@ -52,19 +57,33 @@ private:
         const std::uint32_t part = pivot ? *pivot + 1 : 0;
         for (const std::uint32_t vertex : model_.corners(polygon)) {
             buffers_.vertices.push_back(
-                {glm::vec3(model_.vertices_m[vertex]), normal, colour, part});
+                {glm::vec3(model_.vertices_m[vertex]),
+                 normals_[buffers_.vertices.size()],
+                 normal,
+                 colour,
+                 part,
+                 static_cast<std::uint32_t>(polygon)});
         }
     }
 
     const models::PolygonModel& model_;
+    std::span<const glm::vec3> normals_;
     ModelBuffers buffers_;
 };
 
 } // namespace
 
-AircraftModel
-aircraft_model(models::PolygonModel polygons, draworder::DrawOrder order, const glm::dvec3& eye_m) {
-    BufferMaker maker(polygons);
+AircraftModel aircraft_model(
+    models::PolygonModel polygons,
+    draworder::DrawOrder order,
+    const glm::dvec3& eye_m,
+    std::vector<glm::vec3> normals) {
+    if (normals.empty()) {
+        normals = shading::corner_normals(polygons);
+    }
+    assert(normals.size() == polygons.corner_vertices.size());
+    shading::ShadedPolygons shaded = shading::shaded_polygons(polygons, normals);
+    BufferMaker maker(polygons, normals);
     std::vector<IndexRange> cells;
     for (int cell = 0; cell < order.cell_count(); ++cell) {
         // Cells with equal lists share a range of the order, and so of the index buffer.
@@ -90,7 +109,49 @@ aircraft_model(models::PolygonModel polygons, draworder::DrawOrder order, const 
         all,
         std::move(file_list),
         hull,
-        {radius_m, eye_m}};
+        {radius_m, eye_m},
+        std::move(shaded),
+        {},
+        nullptr,
+        {0.0}};
+}
+
+namespace {
+
+/// Makes hull and radius of a model hold a point of its mesh too.
+void include(AircraftModel& model, const glm::dvec3& point_m) {
+    model.hull.least_m = glm::min(model.hull.least_m, point_m);
+    model.hull.most_m = glm::max(model.hull.most_m, point_m);
+    model.subject.radius_m = std::max(model.subject.radius_m, glm::length(point_m));
+}
+
+} // namespace
+
+void add_levels(
+    AircraftModel& model, std::span<const MeshSource> sources, double polygons_error_m) {
+    model.errors_m.clear();
+    for (const MeshSource& source : sources) {
+        model.levels.push_back(append_level(model.buffers, source));
+        model.errors_m.push_back(source.error_m);
+        for (const glm::dvec3& vertex_m : source.mesh->vertices_m) {
+            include(model, vertex_m);
+        }
+    }
+    model.errors_m.push_back(polygons_error_m);
+    assert(std::ranges::is_sorted(model.errors_m));
+}
+
+void add_progressive(
+    AircraftModel& model,
+    std::shared_ptr<const refine::ProgressiveMesh> mesh,
+    double polygons_error_m) {
+    const glm::dvec3& origin_m = mesh->parts().origin_m;
+    for (const glm::vec3& position_m : mesh->parts().positions_m) {
+        include(model, origin_m + glm::dvec3(position_m));
+    }
+    model.progressive = std::move(mesh);
+    model.errors_m = {0.0, polygons_error_m};
+    model.buffers.has_meshes = true;
 }
 
 glm::dvec3 pilot_eye_m(const models::PolygonModel& model) {

@@ -22,19 +22,24 @@ enum class HiddenSurface {
     BackFace     ///< back faces removed, polygons in file order: the 1989 paper's fast, wrong way
 };
 
-/// A vertex of an aircraft as uploaded once at loading. Body axes x forward, y right, z down. 32
+/// A vertex of an aircraft as uploaded once at loading. Body axes x forward, y right, z down. 48
 /// bytes.
 struct ModelVertex {
     glm::vec3 position_m{0.0F};
-    glm::vec3 normal{0.0F};
-    std::uint32_t colour = 0; ///< as ColourVertex::colour
+    glm::vec3 normal{0.0F};      ///< of the surface there: what a smooth polygon is lit by
+    glm::vec3 face_normal{0.0F}; ///< of the polygon that begins here: what a flat one is lit by
+    std::uint32_t colour = 0;    ///< as ColourVertex::colour
     std::uint32_t part = 0; ///< 0 = body, k = pivot k - 1 of the model: turns with FramePlan::parts
+    std::uint32_t polygon = 0; ///< that begins here: AircraftDraw::first_smooth counts on from it
 };
 
 /// What a renderer uploads once for an aircraft: all draw lists lie in one index buffer.
 struct ModelBuffers {
     std::vector<ModelVertex> vertices;
-    std::vector<std::uint32_t> indices; ///< triangles
+    /// Triangles. The first corner of each belongs to it, or to a polygon that it is a part of,
+    /// alone.
+    std::vector<std::uint32_t> indices;
+    bool has_meshes = false; ///< whether a plan may ask for PaintStep::What::Solid
 };
 
 /// One aircraft of one frame: one range of its model's index buffer.
@@ -42,7 +47,22 @@ struct AircraftDraw {
     std::uint32_t model = 0; ///< index into the ModelBuffers given to the renderer
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
-    std::uint32_t first_part = 0; ///< index into FramePlan::parts
+    std::uint32_t first_part = 0;   ///< index into FramePlan::parts
+    std::uint32_t first_smooth = 0; ///< word of FramePlan::smooth whose bit 0 is polygon 0
+};
+
+/// A mesh that is another one in each frame. Memory as TriangleDraw.
+struct RefinedDraw {
+    std::span<const ModelVertex> vertices;
+    std::span<const std::uint32_t> indices; ///< as ModelBuffers::indices
+    std::uint32_t first_part = 0;           ///< index into FramePlan::parts
+    std::uint32_t first_smooth = 0;         ///< as AircraftDraw::first_smooth
+};
+
+/// Pixels of the picture from its upper left corner: columns least.x to most.x - 1, rows alike.
+struct PixelBox {
+    glm::ivec2 least{0};
+    glm::ivec2 most{0};
 };
 
 /// Planes that a draw is cut by: world axes with the eye subtracted, what lies in front of all of
@@ -56,8 +76,12 @@ struct Clip {
 /// One step of painting after the ground.
 struct PaintStep {
     enum class What {
-        Aircraft, ///< FramePlan::aircraft first .. first + count - 1
-        Ground    ///< ground triangles once more: FramePlan::repaint_indices first .. + count - 1
+        Aircraft,   ///< FramePlan::aircraft first .. first + count - 1
+        Ground,     ///< ground triangles once more: FramePlan::repaint_indices first .. + count - 1
+        ClearDepth, ///< depth becomes infinitely far in FramePlan::depth_boxes first
+        GroundDepth, ///< as Ground, but only its depth is drawn
+        Solid,       ///< as Aircraft, hidden by what depth is there; never cut
+        Refined      ///< FramePlan::refined first .. first + count - 1, likewise
     };
     static constexpr std::uint32_t whole = ~std::uint32_t{0};
     What what = What::Aircraft;
@@ -131,11 +155,16 @@ struct FramePlan {
     float sample_spacing_m = 1.0F; ///< of the ground: what levels are counted from
     HiddenSurface hidden_surface = HiddenSurface::Octant;
     std::vector<AircraftDraw> aircraft; ///< in the order in which `steps` first names them
+    std::vector<RefinedDraw> refined;
     std::vector<glm::mat4> parts; ///< AircraftDraw::first_part: body, then each pivot of the model
     /// Octant, BackFace: what is painted after the ground, in this order; it names every aircraft
-    /// at least once. DepthBuffer: one step with all aircraft, nearest first.
+    /// at least once. DepthBuffer: one step with all aircraft, nearest first, and what
+    /// is refined.
     std::vector<PaintStep> steps;
     std::vector<Clip> clips;
+    std::vector<PixelBox> depth_boxes; ///< not empty: some steps need a depth buffer
+    /// A bit for each polygon of each aircraft: 1 = lit smoothly (Gouraud), 0 = flat.
+    std::vector<std::uint32_t> smooth;
     std::vector<std::uint32_t> repaint_indices; ///< of ground.vertices, then shadow_vertices
     /// Shadow pieces. Their indices count on after ground.vertices.
     std::vector<models::ColourVertex> shadow_vertices;

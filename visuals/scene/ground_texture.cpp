@@ -1,7 +1,7 @@
 #include "visuals/scene/ground_texture.h"
 
-#include "visuals/scene/ground_colours.h"
 #include "sim/base/worker_team.h"
+#include "visuals/scene/ground_colours.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -25,6 +25,7 @@ AircraftDraw draw_of(const PlacedAircraft& aircraft) {
     draw.first_index = aircraft.range.first_index;
     draw.index_count = aircraft.range.index_count;
     draw.first_part = aircraft.first_part;
+    draw.first_smooth = aircraft.first_smooth;
     return draw;
 }
 

@@ -19,10 +19,24 @@ struct PlacedAircraft {
     std::span<const std::uint32_t> polygons; ///< in painting order
     IndexRange range;                        ///< the same as drawn
     int cell = 0;                            ///< of the draw order, in which the eye is
+    bool is_represented = false;             ///< in the last frame, in view
+    std::size_t representation = 0;          ///< index into AircraftModel::errors_m
+    std::uint32_t first_smooth = 0;          ///< as AircraftDraw::first_smooth
     std::uint32_t first_part = 0;            ///< index into FramePlan::parts
     /// Body axes to world axes with the eye at the origin: the body, then each pivot turned.
     std::span<const glm::dmat4> parts;
 };
+
+/// Whether an aircraft is drawn as a mesh, which has no painting order: its hidden surfaces are
+/// removed by depth.
+inline bool is_solid(const PlacedAircraft& aircraft) {
+    return aircraft.representation < aircraft.model->as_polygons();
+}
+
+/// Whether that mesh is one that is refined in each frame.
+inline bool is_refined(const PlacedAircraft& aircraft) {
+    return is_solid(aircraft) && aircraft.model->progressive != nullptr;
+}
 
 /// The corners of a polygon of an aircraft where it is; world axes with the eye at the origin.
 void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, SightPolygon& placed);

@@ -3,20 +3,16 @@
 #include "visuals/draworder/octant_order.h"
 #include "visuals/scene/facing.h"
 #include "visuals/scene/ground_palette.h"
+#include "visuals/scene/mesh_levels.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace octant::visuals::scene {
 
 namespace {
-
-/// Renderers round screen positions to 1/256 pixel. What is painted again is cut this much too wide
-/// where only that rounding could tell, so that no line of the covered thing shows along the cut.
-constexpr double rounding_px = 0.01;
 
 /// A box may be wider without doing harm.
 constexpr double hull_margin_px = 0.25;
@@ -42,6 +38,30 @@ double distance_to_edge_m(const Ground& ground, const glm::dvec3& eye_m) {
     return std::max(std::min(half_m.x - std::abs(eye_m.x), half_m.y - std::abs(eye_m.y)), 0.0);
 }
 
+/// The aircraft of a scene, with room for their parts.
+std::vector<PlacedAircraft>
+places_for(const Scene& scene, const Settings& settings, std::vector<glm::dmat4>& parts) {
+    std::vector<PlacedAircraft> placed;
+    const auto add = [&](std::uint32_t model) {
+        PlacedAircraft& aircraft = placed.emplace_back();
+        aircraft.model = &scene.models[model];
+        aircraft.model_index = model;
+        aircraft.first_part = static_cast<std::uint32_t>(parts.size());
+        parts.resize(parts.size() + aircraft.model->polygons.pivots.size() + 1);
+    };
+    for (const std::uint32_t model : scene.aircraft) {
+        add(model);
+    }
+    if (scene.cockpit && settings.view == View::Cockpit) {
+        add(*scene.cockpit);
+    }
+    for (PlacedAircraft& aircraft : placed) {
+        aircraft.parts = std::span(parts).subspan(
+            aircraft.first_part, aircraft.model->polygons.pivots.size() + 1);
+    }
+    return placed;
+}
+
 } // namespace
 
 Planner::Planner(Scene& scene, const Settings& settings)
@@ -50,6 +70,8 @@ Planner::Planner(Scene& scene, const Settings& settings)
     , aspect_(static_cast<double>(settings.size_px.x) / settings.size_px.y)
     , to_sun_(direction_to_sun(settings))
     , shadows_(to_sun_)
+    , placed_(places_for(scene, settings, parts_))
+    , smooth_(settings, placed_)
     , steps_(plan_) {
     plan_.background = settings.background;
     plan_.haze = {settings.background, static_cast<float>(settings.visibility_m)};
@@ -59,23 +81,13 @@ Planner::Planner(Scene& scene, const Settings& settings)
     plan_.to_sun = glm::vec3(to_sun_);
     plan_.ambient = glm::vec3(ambient_light);
     plan_.sunlight = glm::vec3(sun_light);
-    const auto add = [&](std::uint32_t model) {
-        PlacedAircraft& aircraft = placed_.emplace_back();
-        aircraft.model = &scene.models[model];
-        aircraft.model_index = model;
-        aircraft.first_part = static_cast<std::uint32_t>(parts_.size());
-        parts_.resize(parts_.size() + aircraft.model->polygons.pivots.size() + 1);
-    };
-    for (const std::uint32_t model : scene.aircraft) {
-        add(model);
+    for (const PlacedAircraft& aircraft : placed_) {
+        refined_.push_back(
+            aircraft.model->progressive
+                ? std::make_unique<RefinedAircraft>(aircraft.model->progressive, settings)
+                : nullptr);
     }
-    if (scene.cockpit && settings.view == View::Cockpit) {
-        add(*scene.cockpit);
-    }
-    for (PlacedAircraft& aircraft : placed_) {
-        aircraft.parts = std::span(parts_).subspan(
-            aircraft.first_part, aircraft.model->polygons.pivots.size() + 1);
-    }
+    was_refined_.resize(placed_.size());
     hulls_.resize(scene.aircraft.size());
     near_to_far_.resize(scene.aircraft.size());
 }
@@ -92,25 +104,54 @@ void Planner::set_triangle_target(int triangles) {
     scene_.ground->set_triangle_target(triangles);
 }
 
-const FramePlan& Planner::plan(
-    const Camera& camera, std::span<const sim::AircraftState> states, PlanCounts& counts) {
-    plan_.world_to_view = world_to_view(camera);
-    plan_.view_to_clip = view_to_clip(camera, aspect_);
+void Planner::refine(const Camera& camera, std::span<const sim::AircraftState> states) {
     pixel_rad_ = 2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings_.size_px.y;
     frustum_ = frustum_normals(camera, aspect_);
+    place_aircraft(camera, states);
+    refine_meshes(camera);
+    is_placed_ = true;
+}
+
+/// Those that are drawn as polygons rest.
+void Planner::refine_meshes(const Camera& camera) {
+    const RefineLook look{frustum_, camera.view_to_world * glm::dvec3(0.0, 0.0, -1.0), pixel_rad_};
+    refine_splits_ = 0;
+    refine_collapses_ = 0;
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+        const bool before = was_refined_[i] != 0;
+        was_refined_[i] = is_refined(placed_[i]) ? 1 : 0;
+        if (is_refined(placed_[i])) {
+            const refine::RefinedFrame frame =
+                refined_[i]->update(placed_[i].parts[0], look, !before);
+            refine_splits_ += static_cast<int>(frame.splits);
+            refine_collapses_ += static_cast<int>(frame.collapses);
+            placed_[i].range = {0, 0, refined_[i]->triangles()};
+        }
+    }
+}
+
+const FramePlan& Planner::plan(
+    const Camera& camera, std::span<const sim::AircraftState> states, PlanCounts& counts) {
+    if (!is_placed_) {
+        refine(camera, states);
+    }
+    is_placed_ = false;
+    plan_.world_to_view = world_to_view(camera);
+    plan_.view_to_clip = view_to_clip(camera, aspect_);
     if (scene_.ground_texture) {
         plan_.ground_texture = texture_places(*scene_.ground_texture, camera.eye_m);
     }
     plan_.aircraft.clear();
+    plan_.refined.clear();
     plan_.steps.clear();
     plan_.clips.clear();
     plan_.repaint_indices.clear();
+    plan_.depth_boxes.clear();
     plan_.overlay = {};
     GroundCounts ground_counts;
     ground_ = {scene_.ground->triangles(camera, aspect_, ground_counts), {}, {}};
     counts = {};
     counts.ground = ground_counts;
-    place_aircraft(camera, states);
     write_parts();
     cast_shadows(camera);
     plan_ground();
@@ -118,6 +159,11 @@ const FramePlan& Planner::plan(
     if (settings_.view == View::Cockpit && settings_.head_up_display) {
         plan_head_up_display(camera, states.front());
     }
+    const SmoothChoice::Count shaded = smooth_.choose(
+        placed_, to_sun_, glm::vec2(plan_.ambient.x, plan_.sunlight.x), plan_.smooth);
+    counts.may_be_smooth = shaded.polygons;
+    counts.chosen_smooth = shaded.smooth;
+    counts.smooth_polygons = shaded.smooth;
     count_aircraft(counts);
     counts.shadow_triangles = static_cast<int>(ground_.shadow_indices.size() / 3);
     if (settings_.hidden_surface == HiddenSurface::DepthBuffer) {
@@ -169,10 +215,38 @@ void Planner::place(
         std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1));
     const int cell =
         model.order.cell_of(draworder::eye_in_body(eye_m, state.position_m, state.body_to_world));
+    aircraft.cell = cell;
+    represent(aircraft);
+    if (is_solid(aircraft)) {
+        aircraft.polygons = {};
+        aircraft.range =
+            is_refined(aircraft) ? IndexRange() : model.levels[aircraft.representation].range;
+        return;
+    }
     const bool by_cell = settings_.hidden_surface == HiddenSurface::Octant;
     aircraft.polygons = by_cell ? model.order.polygons_of(cell) : model.file_list;
     aircraft.range = by_cell ? model.cells[static_cast<std::size_t>(cell)] : model.file_order;
-    aircraft.cell = cell;
+}
+
+/// Chooses the representation that is as good as asked for; the coarsest out of view.
+void Planner::represent(PlacedAircraft& aircraft) {
+    const AircraftModel& model = *aircraft.model;
+    if (model.as_polygons() == 0) {
+        return;
+    }
+    const glm::dvec3 place_m(aircraft.parts[0][3]);
+    const double radius_m = model.subject.radius_m;
+    if (!in_view(place_m, radius_m, frustum_)) {
+        aircraft.representation = model.as_polygons();
+        aircraft.is_represented = false; // what it is when it comes back into view is chosen anew
+        return;
+    }
+    const double nearest_m = std::max(glm::length(place_m) - radius_m, 0.0);
+    aircraft.representation = static_cast<std::size_t>(chosen_level(
+        model.errors_m,
+        settings_.aircraft_error_px * pixel_rad_ * nearest_m,
+        aircraft.is_represented ? static_cast<int>(aircraft.representation) : -1));
+    aircraft.is_represented = true;
 }
 
 void Planner::write_parts() {
@@ -205,67 +279,6 @@ void Planner::plan_ground() {
     }
 }
 
-/// The cockpit, if any, is nearer than all.
-void Planner::paint_nearest_first() {
-    std::iota(near_to_far_.begin(), near_to_far_.end(), 0U);
-    const auto distance2_m2 = [&](std::uint32_t i) {
-        return glm::dot(hulls_[i].centre_m, hulls_[i].centre_m);
-    };
-    std::ranges::sort(near_to_far_, [&](std::uint32_t a, std::uint32_t b) {
-        const double a_m2 = distance2_m2(a);
-        const double b_m2 = distance2_m2(b);
-        return a_m2 != b_m2 ? a_m2 < b_m2 : a < b;
-    });
-    if (placed_.size() > hulls_.size()) {
-        steps_.paint(draw_of(placed_.back()));
-    }
-    for (const std::uint32_t i : near_to_far_) {
-        steps_.paint(draw_of(placed_[i]));
-    }
-}
-
-void Planner::paint_knots(const Camera& camera, PlanCounts& counts) {
-    order_.arrange(hulls_);
-    for (const Knot& knot : order_.knots()) {
-        paint_knot(knot, camera, counts);
-    }
-    if (placed_.size() > hulls_.size()) {
-        steps_.paint(draw_of(placed_.back()));
-    }
-}
-
-/// Paints a knot and again what lies before it; nothing again where it is out of view.
-void Planner::paint_knot(const Knot& knot, const Camera& camera, PlanCounts& counts) {
-    members_.clear();
-    for (const std::uint32_t member : order_.members(knot)) {
-        members_.push_back(&placed_[member]);
-    }
-    if (!in_view(knot.box.centre_m, radius_m(knot.box), frustum_)) {
-        for (const PlacedAircraft* member : members_) {
-            steps_.paint(draw_of(*member));
-        }
-        return;
-    }
-    in_front_.find(knot.box, *scene_.ground, ground_.all, camera.eye_m);
-    if (!in_front_.meeting().empty() || members_.size() > 1) {
-        ++counts.knots;
-        counts.cuts += repaint_.paint(
-            members_, knot.box, ground_, in_front_.meeting(), rounding_px * pixel_rad_, steps_);
-        counts.unordered += repaint_.given_up();
-    } else {
-        steps_.paint(draw_of(*members_.front()));
-    }
-    if (in_front_.found().empty() || holds_eye(knot.box)) {
-        return;
-    }
-    // Not in the cone of a knot's box: between the members a farther knot may be seen before the
-    // ground. What was painted earlier and is seen in a member's cone lies behind the member.
-    for (const std::uint32_t member : order_.members(knot)) {
-        steps_.paint_before(ground_, in_front_.found(), knot.box, cone_of(hulls_[member]));
-        counts.cuts += static_cast<int>(in_front_.found().size());
-    }
-}
-
 void Planner::plan_head_up_display(const Camera& camera, const sim::AircraftState& state) {
     HeadUpInputs inputs{state, state.position_m.z, {}};
     if (const auto ground_m = scene_.ground->height_at(state.position_m.x, state.position_m.y)) {
@@ -277,8 +290,16 @@ void Planner::plan_head_up_display(const Camera& camera, const sim::AircraftStat
 void Planner::count_aircraft(PlanCounts& counts) const {
     for (const PlacedAircraft& aircraft : placed_) {
         counts.aircraft_polygons += aircraft.range.polygons;
+        const bool refined_smooth =
+            is_refined(aircraft) && settings_.shading != AircraftShading::Flat;
+        counts.smooth_polygons += refined_smooth ? aircraft.range.polygons : 0;
     }
-    counts.draw_cell = placed_.empty() ? 0 : placed_.front().cell;
+    counts.refine_splits = refine_splits_;
+    counts.refine_collapses = refine_collapses_;
+    if (!placed_.empty()) {
+        counts.draw_cell = placed_.front().cell;
+        counts.aircraft_level = static_cast<int>(placed_.front().representation);
+    }
 }
 
 } // namespace octant::visuals::scene

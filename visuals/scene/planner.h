@@ -10,10 +10,12 @@
 #include "visuals/scene/head_up_display.h"
 #include "visuals/scene/placed_aircraft.h"
 #include "visuals/scene/polygon_repaint.h"
+#include "visuals/scene/refined_aircraft.h"
 #include "visuals/scene/scene_order.h"
 #include "visuals/scene/settings.h"
 #include "visuals/scene/shadow.h"
 #include "visuals/scene/sky.h"
+#include "visuals/scene/smooth_choice.h"
 #include "visuals/scene/step_writer.h"
 
 #include <array>
@@ -43,6 +45,12 @@ struct PlanCounts {
     int knots = 0;     ///< aircraft painted polygon by polygon: they meet, or stand in a ring
     int unordered = 0; ///< polygons that should have been painted again and were too many
     int shadow_triangles = 0;
+    int may_be_smooth = 0;   ///< polygons that shading chooses among, whole models
+    int smooth_polygons = 0; ///< lit smoothly, of whole models, and all triangles of refined meshes
+    int chosen_smooth = 0;   ///< of may_be_smooth
+    int aircraft_level = 0;  ///< representation of the first aircraft, 0 = the finest
+    int refine_splits = 0;   ///< of all aircraft's meshes
+    int refine_collapses = 0;
 };
 
 /// Decides what is drawn in each frame. Keeps memory that the plans point into, and the ground's
@@ -67,6 +75,13 @@ public:
     /// Ground::set_triangle_target.
     void set_triangle_target(int triangles);
 
+    /// May be called before plan() with the same camera and states: places the aircraft and refines
+    /// their meshes, a part of its work, apart.
+    void refine(const Camera& camera, std::span<const sim::AircraftState> states);
+
+    /// SmoothChoice::set_smooth.
+    void set_smooth(std::optional<int> polygons) { smooth_.set_smooth(polygons); }
+
     /// The plan of the next frame; `states` are those of Scene::aircraft. Valid until the next
     /// call. No allocation once the first frames have been planned.
     const FramePlan&
@@ -76,12 +91,17 @@ private:
     void plan_sky(const Camera& camera);
     void place_aircraft(const Camera& camera, std::span<const sim::AircraftState> states);
     void place(PlacedAircraft& aircraft, const sim::AircraftState& state, const glm::dvec3& eye_m);
+    void represent(PlacedAircraft& aircraft);
+    void refine_meshes(const Camera& camera);
+    void paint(const PlacedAircraft& aircraft);
     void cast_shadows(const Camera& camera);
     void plan_ground();
     void write_parts();
     void paint_nearest_first();
     void paint_knots(const Camera& camera, PlanCounts& counts);
     void paint_knot(const Knot& knot, const Camera& camera, PlanCounts& counts);
+    void paint_members(const Knot& knot, PlanCounts& counts);
+    void paint_solids(const Knot& knot);
     void plan_head_up_display(const Camera& camera, const sim::AircraftState& state);
     void count_aircraft(PlanCounts& counts) const;
 
@@ -97,9 +117,15 @@ private:
     double pixel_rad_ = 0.0; ///< what a pixel covers in the middle of the picture
     std::array<glm::dvec3, 4> frustum_{};
     GroundFrame ground_;
-    std::vector<PlacedAircraft> placed_; ///< Scene::aircraft, then the cockpit
     std::vector<glm::dmat4> parts_;      ///< of placed_
-    std::vector<HullBox> hulls_;         ///< of Scene::aircraft
+    std::vector<PlacedAircraft> placed_; ///< Scene::aircraft, then the cockpit
+    SmoothChoice smooth_;
+    std::vector<std::unique_ptr<RefinedAircraft>> refined_; ///< of placed_, null for most
+    std::vector<std::uint8_t> was_refined_;                 ///< in the last frame
+    int refine_splits_ = 0;
+    int refine_collapses_ = 0;
+    bool is_placed_ = false;     ///< by refine(), for the next plan()
+    std::vector<HullBox> hulls_; ///< of Scene::aircraft
     std::vector<const PlacedAircraft*> members_;
     std::vector<std::uint32_t> near_to_far_;
     std::vector<std::uint32_t> facing_indices_;

@@ -21,10 +21,13 @@ enum class GroundFans { Partial, Full };
 enum class DetailControl { Exact, Damped, Previous, Literal, Fixed };
 enum class Palette { Temperate, Arid };
 enum class GroundShading { Auto, Vertex, Texture };
+enum class AircraftShading { Flat, Gouraud, Hybrid };
+enum class HybridRule { Error, Paper };
 
 /// What follows the clock: each frame's choice then depends on how long the frames before it took.
 struct Adaptation {
     bool terrain = false; ///< triangles of ground, exact control only
+    bool shading = false; ///< share of smooth polygons, hybrid shading only
 
     bool operator==(const Adaptation&) const = default;
 };
@@ -70,8 +73,15 @@ struct Settings {
 
     HiddenSurface hidden_surface = HiddenSurface::Octant;
     draworder::Method order_method = draworder::Method::Tree;
-    bool shadows = true;              ///< of aircraft on the ground
-    std::optional<GroundMetric> mesh; ///< none = as ground_metric says
+    bool shadows = true;            ///< of aircraft on the ground
+    double aircraft_error_px = 1.0; ///< of meshes: what a level of detail may be wrong by
+    AircraftShading shading = AircraftShading::Hybrid;
+    HybridRule shading_rule = HybridRule::Error; ///< which polygons are smooth
+    double smooth_share = 1.0;                   ///< of the polygons, hybrid only
+    std::optional<double> device_ratio; ///< the paper's device speed, in place of smooth_share
+    double shading_near_m = 0.0;        ///< paper: all smooth to here ...
+    double shading_far_m = 1000.0;      ///< ... and all flat from here
+    std::optional<GroundMetric> mesh;   ///< none = as ground_metric says
     Propagation propagation = Propagation::CrackFree;
     GroundFans fans = GroundFans::Partial;
     DetailControl detail = DetailControl::Exact;

@@ -161,4 +161,33 @@ void StepWriter::paint_within(
     });
 }
 
+void StepWriter::begin_solids(const PixelBox& box) {
+    const auto place = static_cast<std::uint32_t>(plan_.depth_boxes.size());
+    plan_.depth_boxes.push_back(box);
+    plan_.steps.push_back({PaintStep::What::ClearDepth, place, 1, PaintStep::whole});
+}
+
+void StepWriter::hide_by_ground(
+    const GroundFrame& ground, std::span<const std::uint32_t> triangles) {
+    const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
+    for (const std::uint32_t triangle : triangles) {
+        const auto own = ground.all.indices.subspan(std::size_t{3} * triangle, 3);
+        plan_.repaint_indices.insert(plan_.repaint_indices.end(), own.begin(), own.end());
+    }
+    const auto count = static_cast<std::uint32_t>(3 * triangles.size());
+    plan_.steps.push_back({PaintStep::What::GroundDepth, first, count, PaintStep::whole});
+}
+
+void StepWriter::paint_solid(const AircraftDraw& draw) {
+    const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
+    plan_.aircraft.push_back(draw);
+    plan_.steps.push_back({PaintStep::What::Solid, place, 1, PaintStep::whole});
+}
+
+void StepWriter::paint_solid(const RefinedDraw& draw) {
+    const auto place = static_cast<std::uint32_t>(plan_.refined.size());
+    plan_.refined.push_back(draw);
+    plan_.steps.push_back({PaintStep::What::Refined, place, 1, PaintStep::whole});
+}
+
 } // namespace octant::visuals::scene

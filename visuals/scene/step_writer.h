@@ -35,6 +35,15 @@ public:
     void
     paint_within(const GroundFrame& ground, std::uint32_t triangle, const SightPolygon& region);
 
+    /// What is painted solid from here on hides only itself and the ground given beside it.
+    void begin_solids(const PixelBox& box);
+
+    /// Ground that solids may stick in: triangles that have been painted.
+    void hide_by_ground(const GroundFrame& ground, std::span<const std::uint32_t> triangles);
+
+    void paint_solid(const AircraftDraw& draw);
+    void paint_solid(const RefinedDraw& draw);
+
 private:
     /// Index of a new clip by planes through the eye, at most Clip::most_planes.
     std::uint32_t add_clip(std::span<const glm::dvec3> normals);

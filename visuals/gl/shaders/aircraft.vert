@@ -1,11 +1,14 @@
 #version 450 core
-// Aircraft: light from everywhere and from the sun, then haze; one colour for a whole polygon.
+// Aircraft: light from everywhere and from the sun, then haze; flat or smooth by the polygon's bit.
 
 layout(location = 0) in vec3 position_m; // body axes
 layout(location = 1) in vec4 own_colour;
 layout(location = 2) in vec3 normal;     // body axes, unit
 layout(location = 3) in uint part;       // 0 = body, then the turning parts
 layout(location = 4) in uint first_part; // of the aircraft
+layout(location = 5) in vec3 face_normal; // of the polygon that begins here, body axes, unit
+layout(location = 6) in uint polygon;
+layout(location = 7) in uint first_smooth; // of the aircraft
 
 layout(std140, binding = 0) uniform Picture {
     mat4 world_to_clip;
@@ -20,15 +23,25 @@ layout(std430, binding = 0) readonly buffer Parts {
     mat4 body_to_eye_world[]; // world axes, eye at the origin
 };
 
-flat out vec3 colour;
+layout(std430, binding = 1) readonly buffer Smooth {
+    uint smooth_polygons[]; // a bit each
+};
+
+flat out vec4 flat_colour; // a = 1: the smooth one counts
+out vec3 smooth_colour;
+
+vec3 lit(vec3 outwards) {
+    vec3 light = ambient.rgb + sunlight.rgb * max(dot(outwards, to_sun.xyz), 0.0);
+    return min(own_colour.rgb * light, vec3(1.0));
+}
 
 void main() {
     mat4 part_to_eye_world = body_to_eye_world[first_part + part];
     vec4 place = vec4((part_to_eye_world * vec4(position_m, 1.0)).xyz, 1.0);
-    vec3 outwards = mat3(part_to_eye_world) * normal;
-    vec3 light = ambient.rgb + sunlight.rgb * max(dot(outwards, to_sun.xyz), 0.0);
-    vec3 lit = min(own_colour.rgb * light, vec3(1.0));
+    mat3 turn = mat3(part_to_eye_world);
+    uint bit = smooth_polygons[first_smooth + polygon / 32u] >> (polygon % 32u) & 1u;
     float haze_share = 1.0 - exp(-length(place.xyz) * haze.w);
-    colour = mix(lit, haze.rgb, haze_share);
+    flat_colour = vec4(mix(lit(turn * face_normal), haze.rgb, haze_share), float(bit));
+    smooth_colour = mix(lit(turn * normal), haze.rgb, haze_share);
     gl_Position = world_to_clip * place;
 }

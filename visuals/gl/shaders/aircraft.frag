@@ -1,7 +1,8 @@
 #version 450 core
 // CUT: only samples in front of all planes.
 
-flat in vec3 colour;
+flat in vec4 flat_colour; // a = 1: the smooth one counts
+in vec3 smooth_colour;
 
 layout(location = 0) out vec4 pixel;
 
@@ -33,5 +34,5 @@ void main() {
 #ifdef CUT
     cut();
 #endif
-    pixel = vec4(colour, 1.0);
+    pixel = vec4(mix(flat_colour.rgb, smooth_colour, flat_colour.a), 1.0);
 }

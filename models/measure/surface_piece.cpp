@@ -1,0 +1,132 @@
+#include "models/measure/surface_piece.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+// The bound of a piece and the place of a cut are described in hausdorff.cpp.
+
+namespace octant::models::measure {
+
+namespace {
+
+/// The largest distance of a corner to one triangle of the target.
+double most_to(const TargetSurface& target, std::uint32_t triangle, const Corners& corners) {
+    double most2 = 0.0;
+    for (const Sample* corner : corners) {
+        most2 = corner->nearest == triangle
+                    ? std::max(most2, corner->distance_m * corner->distance_m)
+                    : std::max(most2, target.distance2_to(triangle, corner->point));
+    }
+    return std::sqrt(most2);
+}
+
+double length_m(const Corners& corners, std::size_t edge) {
+    return glm::distance(corners[edge]->point, corners[(edge + 1) % 3]->point);
+}
+
+bool share_vertex(const Triangle& one, const Triangle& other) {
+    return std::ranges::any_of(
+        one, [&](std::uint32_t vertex) { return std::ranges::find(other, vertex) != other.end(); });
+}
+
+/// Where along the way from one sample to another their nearest triangles are equally far, 0..1.
+double crossing(const TargetSurface& target, const Sample& start, const Sample& end) {
+    // The root makes it straight over an edge between two triangles of one plane.
+    const auto difference = [&](double along) {
+        const glm::dvec3 point = glm::mix(start.point, end.point, along);
+        const double squares =
+            target.distance2_to(start.nearest, point) - target.distance2_to(end.nearest, point);
+        return std::copysign(std::sqrt(std::abs(squares)), squares);
+    };
+    double low = 0.0;
+    double high = 1.0;
+    double below = difference(low);
+    double above = difference(high);
+    double along = 0.5;
+    constexpr int steps = 8;
+    for (int step = 0; step < steps && below < 0.0 && above > 0.0; ++step) {
+        along = low - below * (high - low) / (above - below);
+        const double here = difference(along);
+        if (here == 0.0) {
+            break;
+        }
+        if (here < 0.0) {
+            low = along;
+            below = here;
+            above *= 0.5; // Illinois
+        } else {
+            high = along;
+            above = here;
+            below *= 0.5;
+        }
+    }
+    return along;
+}
+
+} // namespace
+
+Sample measured(const TargetSurface& target, const glm::dvec3& point, std::uint32_t guess) {
+    const NearestOnMesh found = target.nearest(point, guess);
+    return {point, std::sqrt(found.distance2), found.triangle};
+}
+
+PieceBounds bounds_of(const TargetSurface& target, const Corners& corners, double enough_m) {
+    const auto& [a, b, c] = corners;
+    const double longest_m =
+        std::max({length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)});
+    PieceBounds bounds;
+    bounds.least_m = std::max({a->distance_m, b->distance_m, c->distance_m});
+    bounds.most_m = bounds.least_m + longest_m / std::numbers::sqrt3; // to the nearest corner
+    for (std::size_t i = 0; i < 3 && bounds.most_m > enough_m; ++i) {
+        bounds.most_m = std::min(bounds.most_m, most_to(target, corners[i]->nearest, corners));
+    }
+    if (bounds.most_m <= enough_m) {
+        return bounds;
+    }
+    const glm::dvec3 centre = (a->point + b->point + c->point) / 3.0;
+    const Sample middle = measured(target, centre, a->nearest);
+    double radius_m = 0.0;
+    for (const Sample* corner : corners) {
+        radius_m = std::max(radius_m, glm::distance(corner->point, centre));
+    }
+    bounds.least_m = std::max(bounds.least_m, middle.distance_m);
+    bounds.most_m = std::min(
+        {bounds.most_m, middle.distance_m + radius_m, most_to(target, middle.nearest, corners)});
+    return bounds;
+}
+
+Cut cut_of(const TargetSurface& target, const Corners& corners) {
+    Cut longest;
+    Cut changing;
+    double longest_m = -1.0;
+    double changing_m = -1.0;
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+        const double edge_m = length_m(corners, edge);
+        if (edge_m > longest_m) {
+            longest = {edge, 0.5};
+            longest_m = edge_m;
+        }
+        if (corners[edge]->nearest != corners[(edge + 1) % 3]->nearest && edge_m > changing_m) {
+            changing = {edge, 0.5};
+            changing_m = edge_m;
+        }
+    }
+    if (changing_m < 0.25 * longest_m) {
+        return longest;
+    }
+    const Sample& start = *corners[changing.edge];
+    const Sample& end = *corners[(changing.edge + 1) % 3];
+    const auto& triangles = target.mesh().triangles;
+    if (!share_vertex(triangles[start.nearest], triangles[end.nearest])) {
+        return longest;
+    }
+    constexpr double margin = 1.0 / 16.0;
+    changing.along = std::clamp(crossing(target, start, end), margin, 1.0 - margin);
+    return changing;
+}
+
+} // namespace octant::models::measure

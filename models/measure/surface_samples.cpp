@@ -1,0 +1,49 @@
+#include "models/measure/surface_samples.h"
+
+#include <glm/geometric.hpp>
+
+#include <cassert>
+#include <cmath>
+
+// Points k = 0, 1, ... lie at (k + 1/2) / samples of the area, counted triangle by triangle, so
+// that each triangle gets its share; within the triangles they follow M. Roberts's R2 sequence,
+// "The unreasonable effectiveness of quasirandom sequences", 2018, folded at the diagonal.
+
+namespace octant::models::measure {
+
+SurfaceSamples::SurfaceSamples(const TriangleMesh& mesh, std::size_t samples)
+    : mesh_(&mesh)
+    , samples_(samples) {
+    assert(!mesh.triangles.empty());
+    areas_.reserve(mesh.triangles.size());
+    double sum = 0.0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const auto& at = mesh.vertices_m;
+        sum += glm::length(glm::cross(at[b] - at[a], at[c] - at[a]));
+        areas_.push_back(sum);
+    }
+    if (!(sum > 0.0)) {
+        for (std::size_t i = 0; i < areas_.size(); ++i) {
+            areas_[i] = static_cast<double>(i + 1);
+        }
+    }
+}
+
+std::size_t SurfaceSamples::triangle_of(std::size_t k) const {
+    return static_cast<std::size_t>(std::ranges::upper_bound(areas_, place_of(k)) - areas_.begin());
+}
+
+glm::dvec3 SurfaceSamples::weights_of(std::size_t k) {
+    constexpr double plastic = 1.32471795724474602596; // x^3 = x + 1
+    const double n = static_cast<double>(k) + 1.0;
+    double unused = 0.0;
+    double u = std::modf(0.5 + n / plastic, &unused);
+    double v = std::modf(0.5 + n / (plastic * plastic), &unused);
+    if (u + v > 1.0) {
+        u = 1.0 - u;
+        v = 1.0 - v;
+    }
+    return {1.0 - u - v, u, v};
+}
+
+} // namespace octant::models::measure

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "models/measure/nearest_point.h"
+#include "models/measure/triangle_bvh.h"
+#include "models/triangle_mesh.h"
+
+#include <glm/vec3.hpp>
+
+#include <cmath>
+#include <cstdint>
+
+namespace octant::models::measure {
+
+/// A mesh that distances are measured to. The mesh must stay.
+class TargetSurface {
+public:
+    explicit TargetSurface(const TriangleMesh& mesh)
+        : mesh_(&mesh)
+        , bvh_(mesh) {}
+
+    const TriangleMesh& mesh() const { return *mesh_; }
+
+    const TriangleBvh& bvh() const { return bvh_; }
+
+    /// Square of the distance to one triangle.
+    double distance2_to(std::uint32_t triangle, const glm::dvec3& point) const {
+        const auto& [a, b, c] = mesh_->triangles[triangle];
+        const auto& at = mesh_->vertices_m;
+        return detail::nearest_to_origin({at[a] - point, at[b] - point, at[c] - point}).distance2;
+    }
+
+    /// bvh().nearest, faster when `guess` is near: the guess changes nothing of what is found.
+    NearestOnMesh nearest(const glm::dvec3& point, std::uint32_t guess) const {
+        if (guess == NearestOnMesh::none) {
+            return bvh_.nearest(point);
+        }
+        constexpr double margin = 1.0 + 1e-12; // for the rounding of the root
+        return bvh_.nearest(point, std::sqrt(distance2_to(guess, point)) * margin);
+    }
+
+private:
+    const TriangleMesh* mesh_;
+    TriangleBvh bvh_;
+};
+
+} // namespace octant::models::measure

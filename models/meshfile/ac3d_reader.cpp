@@ -1,0 +1,295 @@
+#include "models/meshfile/mesh_formats.h"
+#include "models/meshfile/placement.h"
+#include "models/meshfile/word_scanner.h"
+#include "sim/base/text_file.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fmt/format.h>
+#include <optional>
+
+namespace octant::models::meshfile {
+
+namespace {
+
+constexpr std::size_t largest_file_bytes = std::size_t{1} << 30U;
+constexpr int most_depth = 100;
+constexpr long most_count = 0x7fffffff;
+constexpr std::size_t least_vertex_bytes = 6; ///< "0 0 0" and what parts it from the next
+
+/// Of an object, apart from what is read.
+constexpr std::array<std::string_view, 10> ignored_keywords{
+    "name", "texture", "texrep", "texoff", "subdiv", "crease", "url", "hidden", "locked", "folded"};
+
+class Ac3dReading {
+public:
+    Ac3dReading(const std::filesystem::path& path, std::string_view text)
+        : path_(path)
+        , words_(path, text, 1)
+        , mesh_(path) {}
+
+    TriangleMesh read() {
+        const std::string_view magic = words_.word("AC3D");
+        if (!magic.starts_with("AC3D")) {
+            words_.refuse("AC3D", in_quotes(magic));
+        }
+        words_.rest_of_line();
+        while (true) {
+            const std::string_view word = words_.word("MATERIAL or OBJECT");
+            if (word == "OBJECT") {
+                break;
+            }
+            take_material(word);
+        }
+        take_object({}, 0);
+        add_notes();
+        return mesh_.finish();
+    }
+
+private:
+    void take_material(std::string_view word) {
+        if (word == "MATERIAL") {
+            take_material_line();
+        } else if (word == "MAT") {
+            take_material_block();
+        } else {
+            words_.refuse("MATERIAL or OBJECT", in_quotes(word));
+        }
+    }
+
+    /// MATERIAL "name" rgb R G B and more.
+    void take_material_line() {
+        std::string_view rest = words_.rest_of_line();
+        Material material{.name = taken_name(rest)};
+        const auto words = split_words(rest);
+        if (words.size() < 4 || words[0] != "rgb") {
+            words_.refuse("rgb and three numbers", in_quotes(rest));
+        }
+        for (int part = 0; part < 3; ++part) {
+            material.colour[part] = colour_part(words[static_cast<std::size_t>(part) + 1]);
+        }
+        materials_.push_back({std::move(material)});
+    }
+
+    /// MAT "name", lines such as rgb R G B, ENDMAT: version c.
+    void take_material_block() {
+        std::string_view rest = words_.rest_of_line();
+        Material material{.name = taken_name(rest)};
+        for (std::string_view word; (word = words_.word("ENDMAT")) != "ENDMAT";) {
+            for (int part = 0; word == "rgb" && part < 3; ++part) {
+                material.colour[part] = colour_part(words_.word("a part of a colour"));
+            }
+            words_.rest_of_line();
+        }
+        materials_.push_back({std::move(material)});
+    }
+
+    /// Takes a name, in quotes or not, off the front of a line.
+    std::string taken_name(std::string_view& line) const {
+        const bool quoted = line.starts_with('"');
+        const std::size_t end = line.find(quoted ? '"' : ' ', quoted ? 1 : 0);
+        if (quoted && end == std::string_view::npos) {
+            words_.refuse("a name in quotes", in_quotes(line));
+        }
+        const std::size_t last = std::min(end, line.size());
+        std::string name(line.substr(quoted ? 1 : 0, last - (quoted ? 1 : 0)));
+        line.remove_prefix(std::min(last + 1, line.size()));
+        return name;
+    }
+
+    float colour_part(std::string_view word) const {
+        const auto value = finite_number(word);
+        if (!value || *value < 0.0 || *value > 1.0) {
+            words_.refuse("a part of a colour of 0 to 1", in_quotes(word));
+        }
+        return static_cast<float>(*value);
+    }
+
+    /// What follows OBJECT, kids and all.
+    void take_object(const Placement& parent, int depth) {
+        if (depth > most_depth) {
+            words_.refuse(fmt::format("objects at most {} deep", most_depth), "a deeper one");
+        }
+        words_.word("a kind of object");
+        Placement own;
+        const std::size_t first_vertex = mesh_.vertex_count();
+        while (true) {
+            const std::string_view word = words_.word("kids");
+            if (word == "kids") {
+                break;
+            }
+            if (word == "loc") {
+                own.shift_m = vector();
+            } else if (word == "rot") {
+                take_turn(own.turn);
+            } else if (word == "numvert") {
+                take_vertices(parent.of(own));
+            } else if (word == "numsurf") {
+                take_surfaces(first_vertex, parent.of(own).mirrors());
+            } else if (word == "data") {
+                const long bytes = words_.whole("a number of bytes", 0, most_count);
+                words_.rest_of_line();
+                words_.skip_bytes(static_cast<std::size_t>(bytes) + 1, "data");
+            } else if (word == "MATERIAL" || word == "MAT") {
+                take_material(word);
+            } else if (std::ranges::find(ignored_keywords, word) != ignored_keywords.end()) {
+                words_.rest_of_line();
+            } else {
+                words_.refuse("a line of an object", in_quotes(word));
+            }
+        }
+        const long kids = words_.whole("a number of kids", 0, most_count);
+        for (long kid = 0; kid < kids; ++kid) {
+            const std::string_view word = words_.word("OBJECT");
+            if (word != "OBJECT") {
+                words_.refuse("OBJECT", in_quotes(word));
+            }
+            take_object(parent.of(own), depth + 1);
+        }
+    }
+
+    glm::dvec3 vector() {
+        const double x = words_.number("a coordinate");
+        const double y = words_.number("a coordinate");
+        const double z = words_.number("a coordinate");
+        return {x, y, z};
+    }
+
+    /// Row by row.
+    void take_turn(glm::dmat3& turn) {
+        for (int row = 0; row < 3; ++row) {
+            const glm::dvec3 numbers = vector();
+            for (int column = 0; column < 3; ++column) {
+                turn[column][row] = numbers[column];
+            }
+        }
+    }
+
+    void take_vertices(const Placement& placement) {
+        const long count = words_.whole("a number of vertices", 0, most_count);
+        const auto most = static_cast<long>(words_.bytes_left() / least_vertex_bytes);
+        if (count > most) {
+            words_.refuse(
+                fmt::format("at most {} vertices in a file of this size", most),
+                std::to_string(count));
+        }
+        for (long i = 0; i < count; ++i) {
+            const auto place_m = placement.point_m(vector());
+            if (!place_m) {
+                words_.refuse("a vertex within bounds", "one that its object moves out of them");
+            }
+            mesh_.add_vertex(*place_m);
+        }
+    }
+
+    void take_surfaces(std::size_t first_vertex, bool mirrored) {
+        const long count = words_.whole("a number of surfaces", 0, most_count);
+        for (long i = 0; i < count; ++i) {
+            const std::string_view word = words_.word("SURF");
+            if (word != "SURF") {
+                words_.refuse("SURF", in_quotes(word));
+            }
+            take_surface(first_vertex, mirrored);
+        }
+    }
+
+    unsigned flags() {
+        const std::string_view word = words_.word("flags of a surface");
+        std::string_view digits = word;
+        const bool hex = digits.starts_with("0x") || digits.starts_with("0X");
+        digits.remove_prefix(hex ? 2 : 0);
+        unsigned value = 0;
+        const auto [end, code] =
+            std::from_chars(digits.data(), digits.data() + digits.size(), value, hex ? 16 : 10);
+        if (code != std::errc() || end != digits.data() + digits.size()) {
+            words_.refuse("flags of a surface", in_quotes(word));
+        }
+        return value;
+    }
+
+    void take_surface(std::size_t first_vertex, bool mirrored) {
+        const unsigned kind = flags();
+        std::uint32_t material = no_index;
+        std::string_view word = words_.word("mat or refs");
+        if (word == "mat") {
+            const auto last = static_cast<long>(materials_.size()) - 1;
+            material = static_cast<std::uint32_t>(words_.whole("a material", 0, last));
+            word = words_.word("refs");
+        }
+        if (word != "refs") {
+            words_.refuse("refs", in_quotes(word));
+        }
+        const bool is_polygon = (kind & 0xfU) == 0;
+        const long most = is_polygon ? static_cast<long>(most_polygon_corners) : most_count;
+        const long count = words_.whole("a number of corners", 0, most);
+        const long last = static_cast<long>(mesh_.vertex_count() - first_vertex) - 1;
+        corners_.clear();
+        for (long i = 0; i < count; ++i) {
+            const long vertex = words_.whole("a vertex", 0, last);
+            words_.rest_of_line(); // texture coordinates
+            if (is_polygon) {
+                corners_.push_back(
+                    {static_cast<std::uint32_t>(first_vertex + static_cast<std::size_t>(vertex))});
+            }
+        }
+        if (!is_polygon || count < 3) {
+            ++skipped_;
+            return;
+        }
+        two_sided_ += static_cast<std::size_t>((kind & 0x20U) != 0);
+        if (mirrored) {
+            std::ranges::reverse(corners_);
+        }
+        mesh_.add_polygon(corners_, used_material(material));
+    }
+
+    /// Materials come in the order of their first polygon.
+    std::uint32_t used_material(std::uint32_t number) {
+        if (number == no_index) {
+            return no_index;
+        }
+        FileMaterial& material = materials_[number];
+        if (material.used_as == no_index) {
+            material.used_as = mesh_.add_material(material.material);
+        }
+        return material.used_as;
+    }
+
+    void add_notes() {
+        if (skipped_ > 0) {
+            mesh_.add_note(fmt::format(
+                "{}: {} lines and other surfaces without an area are not read",
+                path_.string(),
+                skipped_));
+        }
+        if (two_sided_ > 0) {
+            mesh_.add_note(fmt::format(
+                "{}: {} two-sided surfaces are read with their front only",
+                path_.string(),
+                two_sided_));
+        }
+    }
+
+    struct FileMaterial {
+        Material material;
+        std::uint32_t used_as = no_index;
+    };
+
+    std::filesystem::path path_;
+    WordScanner words_;
+    MeshBuilder mesh_;
+    std::vector<FileMaterial> materials_;
+    std::vector<Corner> corners_;
+    std::size_t skipped_ = 0;
+    std::size_t two_sided_ = 0;
+};
+
+} // namespace
+
+TriangleMesh read_ac3d_mesh(const std::filesystem::path& path) {
+    const std::string text = read_text_file(path, largest_file_bytes);
+    return Ac3dReading(path, text).read();
+}
+
+} // namespace octant::models::meshfile

@@ -1,0 +1,287 @@
+#include "models/meshfile/gltf_data.h"
+#include "models/meshfile/gltf_scene.h"
+#include "models/meshfile/mesh_formats.h"
+#include "models/meshfile/placement.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <map>
+#include <utility>
+
+namespace octant::models::meshfile {
+
+namespace {
+
+constexpr std::size_t most_numbers = std::size_t{1} << 27U; ///< of corners and vertices
+constexpr std::array<std::string_view, 3> packed_extensions{
+    "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization"};
+
+class GltfReading {
+public:
+    explicit GltfReading(const std::filesystem::path& path)
+        : path_(path)
+        , data_(path)
+        , mesh_(path)
+        , materials_(data_.count_of("materials"), no_index) {}
+
+    TriangleMesh read() {
+        refuse_packed_meshes();
+        for (const PlacedMesh& placed : placed_meshes(data_)) {
+            take_mesh(placed.mesh, placed.placement);
+        }
+        if (skipped_ > 0) {
+            mesh_.add_note(fmt::format(
+                "{}: {} primitives of points and lines are not read", path_.string(), skipped_));
+        }
+        return mesh_.finish();
+    }
+
+private:
+    void refuse_packed_meshes() const {
+        for (const Json& name : data_.list(data_.root(), "extensionsRequired", "")) {
+            for (const std::string_view packed : packed_extensions) {
+                if (name.is_string() && name.get_ref<const std::string&>() == packed) {
+                    data_.refuse("extensionsRequired", "plain accessors", std::string(packed));
+                }
+            }
+        }
+    }
+
+    void take_mesh(std::size_t index, const Placement& placement) {
+        const std::string where = fmt::format("meshes[{}].primitives", index);
+        vertices_.clear();
+        normals_.clear();
+        for (const Json& primitive :
+             data_.list(data_.entry("meshes", index), "primitives", where)) {
+            if (!primitive.is_object()) {
+                data_.refuse(where, "objects", "something else");
+            }
+            take_primitive(primitive, placement, where);
+        }
+    }
+
+    void
+    take_primitive(const Json& primitive, const Placement& placement, const std::string& where) {
+        const std::size_t mode = data_.index(primitive, "mode", 7, where).value_or(4);
+        if (mode < 4) {
+            ++skipped_;
+            return;
+        }
+        const auto attributes = primitive.find("attributes");
+        if (attributes == primitive.end() || !attributes->is_object()) {
+            data_.refuse(where, "attributes", "none");
+        }
+        const std::size_t accessors = data_.count_of("accessors");
+        const auto position = data_.index(*attributes, "POSITION", accessors, where);
+        if (!position) {
+            data_.refuse(where, "a POSITION", "none");
+        }
+        const auto colour = data_.index(*attributes, "COLOR_0", accessors, where);
+        const auto normal = data_.index(*attributes, "NORMAL", accessors, where);
+        const auto [first_vertex, count] =
+            vertices(*position, colour.value_or(accessors), placement, where);
+        std::uint32_t first_normal = no_index;
+        if (normal) {
+            first_normal = normals(*normal, count, placement, where);
+        }
+        std::vector<std::uint32_t> corners = corner_list(primitive, count, where);
+        const auto material = data_.index(primitive, "material", materials_.size(), where);
+        const std::uint32_t used = material ? used_material(*material) : no_index;
+        const auto add = [&,
+                          first = first_vertex](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+            const auto corner = [&](std::uint32_t vertex) {
+                return Corner{
+                    first + vertex, first_normal == no_index ? no_index : first_normal + vertex};
+            };
+            std::array<Corner, 3> triangle{corner(a), corner(b), corner(c)};
+            if (placement.mirrors()) {
+                std::swap(triangle[1], triangle[2]);
+            }
+            mesh_.add_polygon(triangle, used);
+        };
+        add_triangles(mode, corners, add, where);
+    }
+
+    /// Mode 4 is triangles, 5 a strip, 6 a fan.
+    template <typename Add>
+    void add_triangles(
+        std::size_t mode,
+        const std::vector<std::uint32_t>& corners,
+        const Add& add,
+        const std::string& where) const {
+        if (corners.size() < 3 || (mode == 4 && corners.size() % 3 != 0)) {
+            data_.refuse(where, "corners of whole triangles", std::to_string(corners.size()));
+        }
+        for (std::size_t i = 0; mode == 4 && i < corners.size(); i += 3) {
+            add(corners[i], corners[i + 1], corners[i + 2]);
+        }
+        for (std::size_t i = 0; mode == 5 && i + 2 < corners.size(); ++i) {
+            add(corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]);
+        }
+        for (std::size_t i = 1; mode == 6 && i + 1 < corners.size(); ++i) {
+            add(corners[0], corners[i], corners[i + 1]);
+        }
+    }
+
+    /// Entries of a mesh count each time that a node shows it.
+    void count_numbers(std::size_t count, const std::string& where) {
+        numbers_ += count;
+        if (numbers_ > most_numbers) {
+            data_.refuse(
+                where, fmt::format("at most {} corners and vertices", most_numbers), "more");
+        }
+    }
+
+    /// Primitives of one mesh that have the same places and colours share their vertices.
+    std::pair<std::uint32_t, std::size_t> vertices(
+        std::size_t position,
+        std::size_t colour,
+        const Placement& placement,
+        const std::string& where) {
+        const auto known = vertices_.find({position, colour});
+        if (known != vertices_.end()) {
+            return known->second;
+        }
+        const GltfNumbers places = data_.accessor(position);
+        if (places.parts() != 3 || places.component() != 5126) {
+            data_.refuse(where, "a POSITION of three floats", "another type");
+        }
+        count_numbers(places.count(), where);
+        const auto first = static_cast<std::uint32_t>(mesh_.vertex_count());
+        for (std::size_t i = 0; i < places.count(); ++i) {
+            const auto place_m =
+                placement.point_m({places.at(i, 0), places.at(i, 1), places.at(i, 2)});
+            if (!place_m) {
+                data_.refuse(
+                    where,
+                    "finite places within bounds",
+                    fmt::format("{} {} {}", places.at(i, 0), places.at(i, 1), places.at(i, 2)));
+            }
+            mesh_.add_vertex(*place_m);
+        }
+        if (colour < data_.count_of("accessors")) {
+            take_colours(data_.accessor(colour), first, places.count(), where);
+        }
+        const std::pair made(first, places.count());
+        vertices_.emplace(std::pair(position, colour), made);
+        return made;
+    }
+
+    void take_colours(
+        const GltfNumbers& colours,
+        std::uint32_t first,
+        std::size_t count,
+        const std::string& where) {
+        if (colours.parts() < 3 || colours.count() != count) {
+            data_.refuse(
+                where,
+                fmt::format("a COLOR_0 of 3 or 4 numbers for each of {} places", count),
+                fmt::format("{} of {}", colours.count(), colours.parts()));
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            glm::vec3 colour;
+            for (int part = 0; part < 3; ++part) {
+                const double value = colours.at(i, part);
+                if (!(value >= 0.0 && value <= 1.0)) { // also NaN
+                    data_.refuse(where, "colours of 0 to 1", fmt::format("{}", value));
+                }
+                colour[part] = static_cast<float>(value);
+            }
+            mesh_.set_colour(first + static_cast<std::uint32_t>(i), colour);
+        }
+    }
+
+    std::uint32_t normals(
+        std::size_t index,
+        std::size_t count,
+        const Placement& placement,
+        const std::string& where) {
+        const auto known = normals_.find(index);
+        if (known != normals_.end() && known->second.second == count) {
+            return known->second.first;
+        }
+        const GltfNumbers list = data_.accessor(index);
+        if (list.parts() != 3 || list.count() != count) {
+            data_.refuse(
+                where,
+                fmt::format("a NORMAL of three numbers for each of {} places", count),
+                fmt::format("{} of {}", list.count(), list.parts()));
+        }
+        const auto first = static_cast<std::uint32_t>(mesh_.normal_count());
+        for (std::size_t i = 0; i < count; ++i) {
+            mesh_.add_normal(placement.normal({list.at(i, 0), list.at(i, 1), list.at(i, 2)}));
+        }
+        count_numbers(count, where);
+        normals_[index] = {first, count};
+        return first;
+    }
+
+    std::vector<std::uint32_t>
+    corner_list(const Json& primitive, std::size_t count, const std::string& where) {
+        std::vector<std::uint32_t> corners;
+        const auto index = data_.index(primitive, "indices", data_.count_of("accessors"), where);
+        if (!index) {
+            count_numbers(count, where);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                corners.push_back(i);
+            }
+            return corners;
+        }
+        const GltfNumbers indices = data_.accessor(*index);
+        const int type = indices.component();
+        if (indices.parts() != 1 || (type != 5121 && type != 5123 && type != 5125)) {
+            data_.refuse(where, "indices of whole numbers", "another type");
+        }
+        count_numbers(indices.count(), where);
+        for (std::size_t i = 0; i < indices.count(); ++i) {
+            corners.push_back(indices.whole_at(i));
+            if (corners.back() >= count) {
+                data_.refuse(
+                    where, fmt::format("indices below {}", count), std::to_string(corners.back()));
+            }
+        }
+        return corners;
+    }
+
+    /// Materials come in the order of their first primitive.
+    std::uint32_t used_material(std::size_t index) {
+        if (materials_[index] != no_index) {
+            return materials_[index];
+        }
+        const std::string where = fmt::format("materials[{}]", index);
+        const Json& json = data_.entry("materials", index);
+        const Json name = json.value("name", Json());
+        Material made{
+            .name = name.is_string() ? name.get<std::string>() : fmt::format("material {}", index)};
+        made.colour = glm::vec3(1.0F); // as glTF has it
+        const auto rough = json.find("pbrMetallicRoughness");
+        if (rough != json.end() && rough->is_object()) {
+            const auto c = data_.numbers(*rough, "baseColorFactor", {1.0, 1.0, 1.0, 1.0}, where);
+            for (std::size_t part = 0; part < 3; ++part) {
+                if (!(c[part] >= 0.0 && c[part] <= 1.0)) {
+                    data_.refuse(where, "a colour of 0 to 1", fmt::format("{}", c[part]));
+                }
+            }
+            made.colour = glm::vec3(glm::dvec3(c[0], c[1], c[2]));
+        }
+        return materials_[index] = mesh_.add_material(std::move(made));
+    }
+
+    std::filesystem::path path_;
+    GltfData data_;
+    MeshBuilder mesh_;
+    std::vector<std::uint32_t> materials_; ///< of the file, as materials of the mesh
+    std::map<std::pair<std::size_t, std::size_t>, std::pair<std::uint32_t, std::size_t>> vertices_;
+    std::map<std::size_t, std::pair<std::uint32_t, std::size_t>> normals_;
+    std::size_t numbers_ = 0;
+    std::size_t skipped_ = 0;
+};
+
+} // namespace
+
+TriangleMesh read_gltf_mesh(const std::filesystem::path& path) {
+    return GltfReading(path).read();
+}
+
+} // namespace octant::models::meshfile

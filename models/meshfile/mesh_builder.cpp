@@ -1,0 +1,139 @@
+#include "models/meshfile/mesh_builder.h"
+
+#include "models/meshfile/polygon_cut.h"
+#include "sim/base/error.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace octant::models::meshfile {
+
+namespace {
+
+/// Lengths this near to 1 are left as they are, so that writing and reading changes no bit.
+constexpr double unit_tolerance = 1e-6;
+
+glm::vec3 triangle_normal(const TriangleMesh& mesh, const Triangle& triangle) {
+    const glm::dvec3& a_m = mesh.vertices_m[triangle[0]];
+    const glm::dvec3 across =
+        glm::cross(mesh.vertices_m[triangle[1]] - a_m, mesh.vertices_m[triangle[2]] - a_m);
+    const double length = glm::length(across);
+    return length > 0.0 ? glm::vec3(across / length) : glm::vec3(0.0F, 0.0F, 1.0F);
+}
+
+} // namespace
+
+MeshBuilder::MeshBuilder(const std::filesystem::path& path)
+    : path_(path) {
+    mesh_.name = path.stem().string();
+}
+
+std::uint32_t MeshBuilder::add_vertex(const glm::dvec3& position_m) {
+    mesh_.vertices_m.push_back(position_m);
+    return static_cast<std::uint32_t>(mesh_.vertices_m.size() - 1);
+}
+
+void MeshBuilder::set_colour(std::uint32_t vertex, const glm::vec3& colour) {
+    if (mesh_.colours.size() <= vertex) {
+        mesh_.colours.resize(std::size_t{vertex} + 1, glm::vec3(1.0F));
+    }
+    mesh_.colours[vertex] = colour;
+}
+
+std::uint32_t MeshBuilder::add_normal(const glm::dvec3& normal) {
+    const double length = glm::length(normal);
+    const bool good = std::isfinite(length) && length > 0.0;
+    const bool unit = std::abs(length - 1.0) < unit_tolerance;
+    mesh_.normals.push_back(good ? glm::vec3(unit ? normal : normal / length) : glm::vec3(0.0F));
+    faulty_normals_.push_back(!good);
+    return static_cast<std::uint32_t>(mesh_.normals.size() - 1);
+}
+
+std::uint32_t MeshBuilder::add_material(Material material) {
+    mesh_.materials.push_back(std::move(material));
+    return static_cast<std::uint32_t>(mesh_.materials.size() - 1);
+}
+
+void MeshBuilder::add_polygon(std::span<const Corner> corners, std::uint32_t material) {
+    assert(corners.size() >= 3 && corners.size() <= most_polygon_corners);
+    if (corners.size() == 3) {
+        add_triangle(corners[0], corners[1], corners[2], material);
+        return;
+    }
+    places_m_.clear();
+    for (const Corner& corner : corners) {
+        places_m_.push_back(mesh_.vertices_m[corner.vertex]);
+    }
+    for (const auto& piece : cut_polygon(places_m_)) {
+        add_triangle(corners[piece[0]], corners[piece[1]], corners[piece[2]], material);
+    }
+}
+
+void MeshBuilder::add_triangle(
+    const Corner& a, const Corner& b, const Corner& c, std::uint32_t material) {
+    mesh_.triangles.push_back({a.vertex, b.vertex, c.vertex});
+    mesh_.corner_normals.push_back({a.normal, b.normal, c.normal});
+    mesh_.triangle_materials.push_back(material);
+    has_normals_ =
+        has_normals_ || a.normal != no_index || b.normal != no_index || c.normal != no_index;
+    has_materials_ = has_materials_ || material != no_index;
+}
+
+TriangleMesh MeshBuilder::finish() {
+    if (mesh_.triangles.empty()) {
+        error_in(path_, "expected at least one triangle, got none");
+    }
+    if (!mesh_.colours.empty()) {
+        mesh_.colours.resize(mesh_.vertices_m.size(), glm::vec3(1.0F));
+    }
+    finish_normals();
+    finish_materials();
+    return std::move(mesh_);
+}
+
+void MeshBuilder::finish_normals() {
+    if (!has_normals_) {
+        mesh_.normals.clear();
+        mesh_.corner_normals.clear();
+        return;
+    }
+    const auto is_faulty = [&](std::uint32_t normal) {
+        return normal == no_index || (normal < faulty_normals_.size() && faulty_normals_[normal]);
+    };
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+        Triangle& corners = mesh_.corner_normals[t];
+        if (std::ranges::none_of(corners, is_faulty)) {
+            continue;
+        }
+        const auto own = static_cast<std::uint32_t>(mesh_.normals.size());
+        mesh_.normals.push_back(triangle_normal(mesh_, mesh_.triangles[t]));
+        std::ranges::replace_if(corners, is_faulty, own);
+    }
+    // No triangle points to them any more.
+    for (std::size_t n = 0; n < faulty_normals_.size(); ++n) {
+        if (faulty_normals_[n]) {
+            mesh_.normals[n] = glm::vec3(0.0F, 0.0F, 1.0F);
+        }
+    }
+}
+
+void MeshBuilder::finish_materials() {
+    if (!has_materials_) {
+        mesh_.materials.clear();
+        mesh_.triangle_materials.clear();
+        return;
+    }
+    std::uint32_t fallback = no_index;
+    for (std::uint32_t& material : mesh_.triangle_materials) {
+        if (material == no_index) {
+            fallback = fallback == no_index ? add_material({.name = "default"}) : fallback;
+            material = fallback;
+        }
+    }
+}
+
+} // namespace octant::models::meshfile

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "models/triangle_mesh.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace octant::models::meshfile {
+
+/// No normal, no material, no vertex.
+inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
+
+inline constexpr std::size_t most_polygon_corners = 10'000;
+
+/// Of a coordinate: what is larger is a fault of the file in any unit of length.
+inline constexpr double most_coordinate = 1e12;
+
+/// One corner of a polygon as a file names it.
+struct Corner {
+    std::uint32_t vertex = no_index;
+    std::uint32_t normal = no_index;
+};
+
+/// What all mesh readers do alike: polygons into triangles, faulty normals, missing materials. Its
+/// readers have checked what they add: finite numbers, indices in range, 3 to
+/// most_polygon_corners corners.
+class MeshBuilder {
+public:
+    /// The mesh is called after the file.
+    explicit MeshBuilder(const std::filesystem::path& path);
+
+    std::size_t vertex_count() const { return mesh_.vertices_m.size(); }
+
+    const glm::dvec3& vertex_m(std::uint32_t vertex) const { return mesh_.vertices_m[vertex]; }
+
+    std::size_t normal_count() const { return mesh_.normals.size(); }
+
+    std::uint32_t add_vertex(const glm::dvec3& position_m);
+
+    /// Vertices that get no colour are white once any other has one.
+    void set_colour(std::uint32_t vertex, const glm::vec3& colour);
+
+    /// Makes it a unit vector, unless it is one already; one without a length is replaced at each
+    /// corner by the triangle's own normal.
+    std::uint32_t add_normal(const glm::dvec3& normal);
+
+    std::uint32_t add_material(Material material);
+
+    /// Cut into triangles by cut_polygon (polygon_cut.h).
+    void add_polygon(std::span<const Corner> corners, std::uint32_t material = no_index);
+
+    void add_note(std::string note) { mesh_.notes.push_back(std::move(note)); }
+
+    /// Throws Error when there is no triangle.
+    TriangleMesh finish();
+
+private:
+    void add_triangle(const Corner& a, const Corner& b, const Corner& c, std::uint32_t material);
+    void finish_normals();
+    void finish_materials();
+
+    std::filesystem::path path_;
+    TriangleMesh mesh_;
+    std::vector<bool> faulty_normals_;
+    std::vector<glm::dvec3> places_m_; ///< corners of the polygon at hand
+    bool has_normals_ = false;
+    bool has_materials_ = false;
+};
+
+} // namespace octant::models::meshfile

@@ -1,0 +1,84 @@
+#include "models/meshfile/mesh_file.h"
+
+#include "models/meshfile/mesh_formats.h"
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <string_view>
+
+namespace octant::models::meshfile {
+
+namespace {
+
+void write_obj_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
+    std::filesystem::path mtl = path;
+    mtl.replace_extension(".mtl");
+    const ObjMeshText text = obj_mesh_text(mesh, mtl.filename().string());
+    if (!text.mtl.empty()) {
+        write_file(mtl, text.mtl);
+    }
+    write_file(path, text.obj);
+}
+
+template <std::string (*bytes_of)(const TriangleMesh&)>
+void write_one_file(const std::filesystem::path& path, const TriangleMesh& mesh) {
+    write_file(path, bytes_of(mesh));
+}
+
+struct Format {
+    std::string_view ending;
+    TriangleMesh (*read)(const std::filesystem::path&);
+    void (*write)(const std::filesystem::path&, const TriangleMesh&);
+};
+
+constexpr std::array formats{
+    Format{".obj", read_obj_mesh, write_obj_mesh},
+    Format{".ply", read_ply_mesh, write_one_file<ply_bytes>},
+    Format{".stl", read_stl_mesh, write_one_file<stl_bytes>},
+    Format{".gltf", read_gltf_mesh, write_one_file<gltf_text>},
+    Format{".glb", read_gltf_mesh, write_one_file<glb_bytes>},
+    Format{".ac", read_ac3d_mesh, write_one_file<ac3d_text>},
+    Format{".wrl", read_vrml_mesh, write_one_file<vrml_text>}};
+
+const Format* find_format(const std::filesystem::path& path) {
+    const std::string ending = ending_of(path);
+    const auto* const found = std::ranges::find(formats, ending, &Format::ending);
+    return found == formats.end() ? nullptr : found;
+}
+
+const Format& format_of(const std::filesystem::path& path) {
+    const Format* found = find_format(path);
+    if (found == nullptr) {
+        std::string known;
+        for (const Format& format : formats) {
+            known += fmt::format("{}{}", known.empty() ? "" : ", ", format.ending);
+        }
+        error_in(
+            path,
+            fmt::format(
+                "expected a mesh file ({}), got '{}'",
+                known,
+                printable(path.extension().string())));
+    }
+    return *found;
+}
+
+} // namespace
+
+TriangleMesh read_mesh(const std::filesystem::path& path) {
+    return format_of(path).read(path);
+}
+
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
+    format_of(path).write(path, mesh);
+}
+
+bool is_mesh_file(const std::filesystem::path& path) {
+    return find_format(path) != nullptr;
+}
+
+} // namespace octant::models::meshfile

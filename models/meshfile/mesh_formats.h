@@ -1,0 +1,47 @@
+#pragma once
+
+#include "models/triangle_mesh.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace octant::models::meshfile {
+
+/// The readers behind read_mesh, one a format; all throw Error.
+TriangleMesh read_obj_mesh(const std::filesystem::path& path);
+TriangleMesh read_ply_mesh(const std::filesystem::path& path);
+TriangleMesh read_stl_mesh(const std::filesystem::path& path);
+TriangleMesh read_gltf_mesh(const std::filesystem::path& path);
+TriangleMesh read_ac3d_mesh(const std::filesystem::path& path);
+TriangleMesh read_vrml_mesh(const std::filesystem::path& path);
+
+/// OBJ and MTL text of a mesh; `mtl_name` is what the OBJ text calls its material file (no mtllib
+/// line without materials). Numbers have the digits that it takes to read them back bit for bit.
+struct ObjMeshText {
+    std::string obj;
+    std::string mtl; ///< empty without materials
+};
+
+ObjMeshText obj_mesh_text(const TriangleMesh& mesh, std::string_view mtl_name);
+
+/// A binary PLY file, little endian: coordinates in float where that changes none of them, else in
+/// double; colours in uchar where that changes none, else in float; normals where each vertex has
+/// one only; no materials.
+std::string ply_bytes(const TriangleMesh& mesh);
+
+/// A binary STL file: coordinates in float, one normal a triangle, nothing else.
+std::string stl_bytes(const TriangleMesh& mesh);
+
+/// glTF 2.0 with its data inside, as JSON text or as a binary file: coordinates and colours in
+/// float, a primitive a material. A vertex of several normals is written once for each.
+std::string gltf_text(const TriangleMesh& mesh);
+std::string glb_bytes(const TriangleMesh& mesh);
+
+/// AC3D: places and materials, no colours of vertices, no normals.
+std::string ac3d_text(const TriangleMesh& mesh);
+
+/// VRML 2.0: an IndexedFaceSet a material, triangles therefore in the order of their materials.
+std::string vrml_text(const TriangleMesh& mesh);
+
+} // namespace octant::models::meshfile

@@ -1,0 +1,201 @@
+#include "models/meshfile/mesh_builder.h"
+#include "models/meshfile/mesh_formats.h"
+#include "models/meshfile/word_scanner.h"
+#include "models/mtl_reader.h"
+#include "models/obj_lines.h"
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <optional>
+
+namespace octant::models::meshfile {
+
+namespace {
+
+constexpr std::size_t largest_file_bytes = std::size_t{1} << 30U;
+
+using Words = std::vector<std::string_view>;
+
+class ObjMeshReading {
+public:
+    explicit ObjMeshReading(const std::filesystem::path& path)
+        : path_(path)
+        , mesh_(path) {}
+
+    TriangleMesh read() {
+        const std::string text = read_text_file(path_, largest_file_bytes);
+        ObjLines lines(text);
+        while (lines.next()) {
+            line_ = lines.number();
+            take(lines.text());
+        }
+        note_missing_files();
+        return mesh_.finish();
+    }
+
+private:
+    [[noreturn]] void refuse(std::string_view expected, std::string_view got) const {
+        error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
+    }
+
+    /// Lines of other keywords say nothing about triangles.
+    void take(std::string_view line) {
+        const std::size_t first = line.find_first_not_of(" \t");
+        if (first == std::string_view::npos || line[first] == '#') {
+            return;
+        }
+        const Words words = split_words(line);
+        if (words[0] == "v") {
+            take_vertex(words);
+        } else if (words[0] == "vn") {
+            mesh_.add_normal(vector(words, 1));
+        } else if (words[0] == "f") {
+            take_polygon(words);
+        } else if (words[0] == "usemtl") {
+            material_name_ = std::string(after_first_word(line));
+            material_ = no_index;
+        } else if (words[0] == "mtllib") {
+            take_material_files(std::string(after_first_word(line)), words);
+        }
+    }
+
+    double number(std::string_view word) const {
+        const auto value = finite_number(word);
+        if (!value || std::abs(*value) > most_coordinate) {
+            refuse("a number", in_quotes(word));
+        }
+        return *value;
+    }
+
+    glm::dvec3 vector(const Words& words, std::size_t first) const {
+        if (words.size() < first + 3) {
+            refuse("three numbers", std::to_string(words.size() - first));
+        }
+        return {number(words[first]), number(words[first + 1]), number(words[first + 2])};
+    }
+
+    /// v x y z, v x y z w or v x y z r g b.
+    void take_vertex(const Words& words) {
+        const std::uint32_t vertex = mesh_.add_vertex(vector(words, 1));
+        if (words.size() >= 7) {
+            const glm::dvec3 colour = vector(words, 4);
+            for (int part = 0; part < 3; ++part) {
+                if (colour[part] < 0.0 || colour[part] > 1.0) {
+                    refuse(
+                        "a vertex colour of three numbers 0..1",
+                        in_quotes(words[static_cast<std::size_t>(part) + 4]));
+                }
+            }
+            mesh_.set_colour(vertex, glm::vec3(colour));
+        }
+    }
+
+    std::uint32_t index(std::string_view word, std::size_t count, std::string_view what) const {
+        const auto value = whole_number(word);
+        const long most = static_cast<long>(count);
+        if (!value || *value == 0 || *value > most || *value < -most) {
+            refuse(fmt::format("a {} 1 to {} (or -{} to -1)", what, most, most), in_quotes(word));
+        }
+        return static_cast<std::uint32_t>(*value > 0 ? *value - 1 : most + *value);
+    }
+
+    /// 7, 7/1, 7//3 or 7/1/3.
+    Corner corner(std::string_view word) const {
+        const std::size_t slash = word.find('/');
+        const std::size_t second = word.find('/', std::min(slash, word.size() - 1) + 1);
+        Corner found;
+        found.vertex = index(word.substr(0, slash), mesh_.vertex_count(), "vertex");
+        if (second != std::string_view::npos && second + 1 < word.size()) {
+            found.normal = index(word.substr(second + 1), mesh_.normal_count(), "normal");
+        }
+        return found;
+    }
+
+    void take_polygon(const Words& words) {
+        const std::size_t count = words.size() - 1;
+        if (count < 3 || count > most_polygon_corners) {
+            refuse(
+                fmt::format("a polygon of 3 to {} corners", most_polygon_corners),
+                std::to_string(count));
+        }
+        corners_.clear();
+        for (std::size_t i = 1; i < words.size(); ++i) {
+            corners_.push_back(corner(words[i]));
+        }
+        mesh_.add_polygon(corners_, material());
+    }
+
+    /// Of the polygons from here on; materials come in the order of their first polygon.
+    std::uint32_t material() {
+        if (!material_name_ || material_ != no_index) {
+            return material_;
+        }
+        const auto used = materials_.find(*material_name_);
+        if (used != materials_.end()) {
+            return material_ = used->second;
+        }
+        const auto known = colours_.find(*material_name_);
+        Material made{.name = *material_name_};
+        if (known != colours_.end()) {
+            made.colour = known->second;
+        }
+        material_ = mesh_.add_material(made);
+        materials_.emplace(*material_name_, material_);
+        return material_;
+    }
+
+    /// `all` is one name with blanks or, where there is no such file, a name a word.
+    void take_material_files(const std::string& all, const Words& words) {
+        if (take_material_file(all)) {
+            return;
+        }
+        for (std::size_t i = 1; i < words.size(); ++i) {
+            if (!take_material_file(std::string(words[i]))) {
+                missing_.emplace(std::string(words[i]), line_);
+            }
+        }
+    }
+
+    bool take_material_file(const std::string& name) {
+        const std::filesystem::path file = path_.parent_path() / name;
+        std::error_code ignored;
+        if (!std::filesystem::is_regular_file(file, ignored)) {
+            return false;
+        }
+        for (const Material& material : read_mtl(file)) {
+            colours_.insert_or_assign(material.name, material.colour);
+        }
+        return true;
+    }
+
+    void note_missing_files() {
+        for (const auto& [name, line] : missing_) {
+            mesh_.add_note(fmt::format(
+                "{}:{}: material file {} is missing, its materials are drawn grey",
+                path_.string(),
+                line,
+                printable(name)));
+        }
+    }
+
+    std::filesystem::path path_;
+    MeshBuilder mesh_;
+    std::optional<std::string> material_name_;
+    std::uint32_t material_ = no_index; ///< of material_name_, once a polygon has it
+    std::map<std::string, std::uint32_t> materials_;
+    std::map<std::string, glm::vec3> colours_;
+    std::map<std::string, int> missing_; ///< with the line that names them first
+    std::vector<Corner> corners_;
+    int line_ = 0;
+};
+
+} // namespace
+
+TriangleMesh read_obj_mesh(const std::filesystem::path& path) {
+    return ObjMeshReading(path).read();
+}
+
+} // namespace octant::models::meshfile

@@ -1,0 +1,292 @@
+#include "models/meshfile/byte_reader.h"
+#include "models/meshfile/mesh_builder.h"
+#include "models/meshfile/mesh_formats.h"
+#include "models/meshfile/ply_header.h"
+#include "models/meshfile/word_scanner.h"
+#include "sim/base/text_file.h"
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+
+namespace octant::models::meshfile {
+
+namespace {
+
+constexpr std::size_t largest_file_bytes = std::size_t{1} << 30U;
+
+/// Numbers of an ascii body.
+class WordSource {
+public:
+    WordSource(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)
+        : words_(path, bytes.substr(header.body_at), header.body_line) {}
+
+    double number(PlyType /*type*/, const char* what) { return words_.number(what); }
+
+    double count(PlyType /*type*/, const char* what) {
+        return static_cast<double>(words_.whole(what, 0, 0xffffffffL));
+    }
+
+    /// Other properties may be anything, such as nan for a confidence.
+    void skip(PlyType /*type*/) { words_.word("a value of a property"); }
+
+    void skip(PlyType type, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            skip(type);
+        }
+    }
+
+    [[noreturn]] void refuse(const std::string& expected, const std::string& got) const {
+        words_.refuse(expected, got);
+    }
+
+private:
+    WordScanner words_;
+};
+
+/// Numbers of a binary body.
+class ByteSource {
+public:
+    ByteSource(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)
+        : bytes_(
+              path,
+              bytes,
+              header.body_at,
+              header.form == PlyForm::big_endian ? std::endian::big : std::endian::little) {}
+
+    double number(PlyType type, const char* what) {
+        const double value = raw(type, what);
+        if (!(std::abs(value) <= most_coordinate)) { // also NaN
+            bytes_.refuse_at(bytes_.at() - bytes_of(type), what, fmt::format("{}", value));
+        }
+        return value;
+    }
+
+    double count(PlyType type, const char* what) { return number(type, what); }
+
+    void skip(PlyType type) { bytes_.take(bytes_of(type), "a value of a property"); }
+
+    void skip(PlyType type, std::size_t count) {
+        bytes_.take(count * bytes_of(type), "a list of a property");
+    }
+
+    [[noreturn]] void refuse(const std::string& expected, const std::string& got) const {
+        bytes_.refuse(expected, got);
+    }
+
+private:
+    double raw(PlyType type, const char* what) {
+        switch (type) {
+        case PlyType::i8:
+            return bytes_.number<std::int8_t>(what);
+        case PlyType::u8:
+            return bytes_.number<std::uint8_t>(what);
+        case PlyType::i16:
+            return bytes_.number<std::int16_t>(what);
+        case PlyType::u16:
+            return bytes_.number<std::uint16_t>(what);
+        case PlyType::i32:
+            return bytes_.number<std::int32_t>(what);
+        case PlyType::u32:
+            return bytes_.number<std::uint32_t>(what);
+        case PlyType::f32:
+            return static_cast<double>(bytes_.number<float>(what));
+        case PlyType::f64:
+            break;
+        }
+        return bytes_.number<double>(what);
+    }
+
+    ByteReader bytes_;
+};
+
+/// What a vertex's property means, in the order of a vertex's nine values.
+constexpr std::array<std::string_view, 9> vertex_names{
+    "x", "y", "z", "nx", "ny", "nz", "red", "green", "blue"};
+
+constexpr std::array<std::string_view, 3> short_colour_names{"r", "g", "b"};
+
+template <typename Source>
+class BodyReading {
+public:
+    BodyReading(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)
+        : header_(header)
+        , source_(path, bytes, header)
+        , mesh_(path) {}
+
+    TriangleMesh read() {
+        for (const PlyElement& element : header_.elements) {
+            if (element.name == "vertex" && !has_vertices_) {
+                take_vertices(element);
+            } else if (element.name == "face" && has_vertices_) {
+                take_faces(element);
+            } else if (element.name == "face") {
+                source_.refuse("the element vertex before the element face", "face first");
+            } else {
+                skip(element);
+            }
+        }
+        return mesh_.finish();
+    }
+
+private:
+    void skip(const PlyElement& element) {
+        if (element.properties.empty()) {
+            return;
+        }
+        for (std::size_t i = 0; i < element.count; ++i) {
+            for (const PlyProperty& property : element.properties) {
+                skip_one(property);
+            }
+        }
+        if (element.name == "tristrips") {
+            mesh_.add_note("triangle strips are not read");
+        }
+    }
+
+    void skip_one(const PlyProperty& property) {
+        if (property.is_list) {
+            source_.skip(property.type, count_of(property));
+        } else {
+            source_.skip(property.type);
+        }
+    }
+
+    std::size_t count_of(const PlyProperty& property) {
+        const double count = source_.count(property.count_type, "a number of list entries");
+        if (count < 0.0) {
+            source_.refuse("a number of list entries", fmt::format("{}", count));
+        }
+        return static_cast<std::size_t>(count);
+    }
+
+    /// Slot of a property among a vertex's nine values.
+    static std::optional<std::size_t> slot_of(const PlyProperty& property) {
+        for (std::size_t slot = 0; slot < vertex_names.size(); ++slot) {
+            if (!property.is_list &&
+                (property.name == vertex_names[slot] ||
+                 (slot >= 6 && property.name == short_colour_names[slot - 6]))) {
+                return slot;
+            }
+        }
+        return std::nullopt;
+    }
+
+    void take_vertices(const PlyElement& element) {
+        has_vertices_ = true;
+        std::vector<std::optional<std::size_t>> slots;
+        std::array<bool, 9> has{};
+        for (const PlyProperty& property : element.properties) {
+            slots.push_back(slot_of(property));
+            if (slots.back()) {
+                has[*slots.back()] = true;
+            }
+        }
+        if (!has[0] || !has[1] || !has[2]) {
+            source_.refuse("the properties x, y and z of a vertex", "fewer");
+        }
+        has_normals_ = has[3] && has[4] && has[5];
+        has_colours_ = has[6] && has[7] && has[8];
+        for (std::size_t i = 0; i < element.count; ++i) {
+            take_vertex(element, slots);
+        }
+    }
+
+    void
+    take_vertex(const PlyElement& element, const std::vector<std::optional<std::size_t>>& slots) {
+        std::array<double, 9> values{};
+        for (std::size_t p = 0; p < slots.size(); ++p) {
+            const PlyProperty& property = element.properties[p];
+            if (!slots[p]) {
+                skip_one(property);
+            } else if (*slots[p] < 6) {
+                values[*slots[p]] = source_.number(property.type, "a coordinate");
+            } else {
+                values[*slots[p]] = colour_part(property);
+            }
+        }
+        const std::uint32_t vertex = mesh_.add_vertex({values[0], values[1], values[2]});
+        if (has_normals_) {
+            mesh_.add_normal({values[3], values[4], values[5]});
+        }
+        if (has_colours_) {
+            mesh_.set_colour(vertex, glm::vec3(glm::dvec3{values[6], values[7], values[8]}));
+        }
+    }
+
+    double colour_part(const PlyProperty& property) {
+        const double largest = largest_share(property.type);
+        const double value = source_.number(property.type, "a part of a colour");
+        if (value < 0.0 || value > largest) {
+            source_.refuse(
+                fmt::format("a part of a colour of 0 to {}", largest), fmt::format("{}", value));
+        }
+        return value / largest;
+    }
+
+    void take_faces(const PlyElement& element) {
+        bool has_corners = false;
+        for (const PlyProperty& property : element.properties) {
+            has_corners = has_corners || is_corners(property);
+        }
+        if (!has_corners) {
+            source_.refuse("the list vertex_indices of a face", "none");
+        }
+        for (std::size_t i = 0; i < element.count; ++i) {
+            for (const PlyProperty& property : element.properties) {
+                if (is_corners(property)) {
+                    take_face(property);
+                } else {
+                    skip_one(property);
+                }
+            }
+        }
+    }
+
+    static bool is_corners(const PlyProperty& property) {
+        return property.is_list &&
+               (property.name == "vertex_indices" || property.name == "vertex_index");
+    }
+
+    void take_face(const PlyProperty& property) {
+        const std::size_t count = count_of(property);
+        if (count < 3 || count > most_polygon_corners) {
+            source_.refuse(
+                fmt::format("a face of 3 to {} corners", most_polygon_corners),
+                fmt::format("{}", count));
+        }
+        corners_.clear();
+        for (std::size_t i = 0; i < count; ++i) {
+            const double value = source_.number(property.type, "the number of a vertex");
+            if (!(value >= 0.0 && value < static_cast<double>(mesh_.vertex_count())) ||
+                value != std::floor(value)) {
+                source_.refuse(
+                    fmt::format("a vertex below {}", mesh_.vertex_count()),
+                    fmt::format("{}", value));
+            }
+            const auto vertex = static_cast<std::uint32_t>(value);
+            corners_.push_back({vertex, has_normals_ ? vertex : no_index});
+        }
+        mesh_.add_polygon(corners_);
+    }
+
+    const PlyHeader& header_;
+    Source source_;
+    MeshBuilder mesh_;
+    bool has_vertices_ = false;
+    bool has_normals_ = false;
+    bool has_colours_ = false;
+    std::vector<Corner> corners_;
+};
+
+} // namespace
+
+TriangleMesh read_ply_mesh(const std::filesystem::path& path) {
+    const std::string bytes = read_file(path, largest_file_bytes);
+    const PlyHeader header = read_ply_header(path, bytes);
+    return header.form == PlyForm::ascii ? BodyReading<WordSource>(path, bytes, header).read()
+                                         : BodyReading<ByteSource>(path, bytes, header).read();
+}
+
+} // namespace octant::models::meshfile

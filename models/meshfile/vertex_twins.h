@@ -1,0 +1,18 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::models::meshfile {
+
+/// For each used vertex the first used one of the same position and colour, to the bit (-0 is 0);
+/// no_index (mesh_builder.h) for the others. `colours` may be empty.
+std::vector<std::uint32_t> first_twins(
+    std::span<const glm::dvec3> vertices_m,
+    std::span<const glm::vec3> colours,
+    const std::vector<bool>& used);
+
+} // namespace octant::models::meshfile

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "models/simplify/working_surface.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <span>
+
+namespace octant::models::simplify {
+
+/// How much a triangle may change when a corner of it moves.
+enum class Strictness {
+    Normal, ///< may turn by less than 78 degrees and not become a sliver
+    Loose,  ///< may turn by less than 90 degrees
+    None
+};
+
+/// Whether the triangle may get these corners.
+bool may_become(
+    const std::array<glm::dvec3, 3>& before,
+    const std::array<glm::dvec3, 3>& after,
+    Strictness strictness);
+
+/// Whether all triangles of a ring may have their moving corner at `place`.
+bool may_move(
+    const WorkingSurface& surface,
+    std::span<const RingFace> ring,
+    const glm::dvec3& place,
+    Strictness strictness);
+
+/// A ring's triangle with its moving corner elsewhere; that corner comes first.
+std::array<glm::dvec3, 3>
+moved_corners(const WorkingSurface& surface, const RingFace& face, const glm::dvec3& place);
+
+} // namespace octant::models::simplify

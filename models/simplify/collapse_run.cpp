@@ -1,0 +1,200 @@
+// Edge contraction, the cheapest first. Quality::Fast: costs and places by quadrics. Quality::
+// Surface: places by quadrics, costs are the growth of the sum of squared distances from points of
+// the original surface to the current one; costs of edges near a collapse are looked at again only
+// when their old cost comes first.
+#include "models/simplify/collapse_run.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+namespace octant::models::simplify {
+
+namespace {
+
+/// Lighter than where the cost is a distance: there they only lead the place.
+constexpr EdgeWeights fast_weights{.boundary = 1.0, .crease = 0.1, .crease_cosine = 0.5};
+
+} // namespace
+
+CollapseRun::CollapseRun(WorkingSurface& surface, const WorkingUnits& units, TrackedPoints* points)
+    : surface_(surface)
+    , units_(units)
+    , points_(points)
+    , quadrics_(surface, points != nullptr ? EdgeWeights{} : fast_weights)
+    , heap_(surface.mesh.face_slots() * 3)
+    , checked_(surface.mesh.face_slots() * 3, false)
+    , numbers_(surface.mesh.vertex_slots()) {
+    std::iota(numbers_.begin(), numbers_.end(), 0U);
+}
+
+bool CollapseRun::is_met(const Goal& goal) const {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    return (goal.vertices && mesh.vertex_count() <= *goal.vertices) ||
+           (goal.faces && mesh.face_count() <= *goal.faces) ||
+           (goal.error_m && error_ * units_.diagonal_m > *goal.error_m);
+}
+
+void CollapseRun::fill() {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    for (HalfEdge h = 0; h < mesh.face_slots() * 3; ++h) {
+        if (mesh.face_is_there(face_of(h)) && mesh.edge_of(h) == h) {
+            update_cost(h);
+        }
+    }
+}
+
+void CollapseRun::run(const Goal& goal, const ShowProgress& show_progress) {
+    const std::size_t start = surface_.mesh.face_count();
+    const std::size_t wanted = goal.faces.value_or(2 * goal.vertices.value_or(0));
+    while (!is_met(goal)) {
+        HalfEdge h = none;
+        if (!next_edge(h)) {
+            return;
+        }
+        collapse(h, placed(h));
+        const std::size_t done = start - surface_.mesh.face_count();
+        if (show_progress && collapses_.size() % 256 == 0 && start > wanted) {
+            show_progress(
+                std::min(1.0, static_cast<double>(done) / static_cast<double>(start - wanted)));
+        }
+    }
+}
+
+/// The edge to collapse next; permissions are relaxed when nothing is left. False at the end.
+bool CollapseRun::next_edge(HalfEdge& h) {
+    while (true) {
+        if (heap_.empty()) {
+            if (strictness_ == Strictness::None) {
+                return false;
+            }
+            if (!collapses_.empty() || filled_) {
+                strictness_ =
+                    strictness_ == Strictness::Normal ? Strictness::Loose : Strictness::None;
+            }
+            filled_ = true;
+            fill();
+            if (heap_.empty()) {
+                continue;
+            }
+        }
+        h = heap_.top();
+        if (points_ != nullptr) {
+            if (checked_[h]) {
+                return true;
+            }
+            update_cost(h);
+            continue;
+        }
+        if (is_allowed(h, placed(h))) {
+            return true;
+        }
+        heap_.remove(h);
+    }
+}
+
+Placement CollapseRun::placed(HalfEdge h) const {
+    return quadrics_.placement(surface_, h);
+}
+
+bool CollapseRun::is_allowed(HalfEdge h, const Placement& placement) {
+    if (!surface_.mesh.may_collapse(h)) {
+        return false;
+    }
+    surface_.mesh.ring_of(h, ring_);
+    return may_move(surface_, ring_, placement.place, strictness_);
+}
+
+/// Puts an edge into the heap with its cost of now, or takes it out where it may not collapse.
+void CollapseRun::update_cost(HalfEdge edge) {
+    const Placement placement = placed(edge);
+    if (points_ == nullptr) {
+        heap_.set(edge, static_cast<float>(placement.cost));
+        return;
+    }
+    checked_[edge] = true;
+    if (!is_allowed(edge, placement)) {
+        heap_.remove(edge);
+        return;
+    }
+    const double there = surface_increase(edge, placement, std::numeric_limits<double>::infinity());
+    heap_.set(edge, static_cast<float>(there + cost_.way_back(surface_, ring_, placement.place)));
+}
+
+/// Expects the edge's ring in ring_.
+double CollapseRun::surface_increase(HalfEdge h, const Placement& placement, double enough) {
+    faces_.clear();
+    faces_.push_back(face_of(h));
+    if (surface_.mesh.twin(h) != none) {
+        faces_.push_back(face_of(surface_.mesh.twin(h)));
+    }
+    for (const RingFace& face : ring_) {
+        faces_.push_back(face.face);
+    }
+    cost_.gather(*points_, faces_);
+    cost_.set_triangles(surface_, ring_, placement.place, placement.colour);
+    return cost_.increase(enough);
+}
+
+void CollapseRun::collapse(HalfEdge h, const Placement& placement) {
+    CollapsibleMesh& mesh = surface_.mesh;
+    const std::uint32_t kept = mesh.origin(h);
+    const std::uint32_t gone = mesh.target(h);
+    const HalfEdge twin = mesh.twin(h);
+    mesh.ring_of(h, ring_);
+    if (points_ != nullptr) {
+        surface_increase(h, placement, std::numeric_limits<double>::infinity());
+        ring_faces_.clear();
+        for (const RingFace& face : ring_) {
+            ring_faces_.push_back(face.face);
+        }
+        const float most2 = points_->assign(cost_.block(), faces_, ring_faces_);
+        error_ = std::max(error_, std::sqrt(static_cast<double>(most2)));
+    } else if (placement.weight > 0.0) {
+        error_ = std::max(error_, std::sqrt(placement.cost / placement.weight));
+    }
+    Collapse made;
+    made.first = numbers_[kept];
+    made.second = numbers_[gone];
+    made.position_m = units_.to_file(placement.place);
+    made.left = face_of(h);
+    made.right = twin == none ? none : face_of(twin);
+    made.error_m = error_ * units_.diagonal_m;
+    for (const HalfEdge side : {h, twin}) {
+        if (side != none) {
+            heap_.remove(mesh.edge_of(side));
+            heap_.remove(mesh.edge_of(next_of(side)));
+            heap_.remove(mesh.edge_of(previous_of(side)));
+        }
+    }
+    mesh.collapse(h);
+    quadrics_.merge(kept, gone);
+    surface_.places[kept] = placement.place;
+    if (surface_.coloured()) {
+        surface_.colours[kept] = placement.colour;
+        made.colour = units_.colour_to_file(placement.colour);
+    }
+    numbers_[kept] = static_cast<std::uint32_t>(numbers_.size() + collapses_.size());
+    collapses_.push_back(made);
+    update_around(kept);
+}
+
+void CollapseRun::update_around(std::uint32_t vertex) {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    mesh.edges_around(vertex, [&](HalfEdge h) {
+        const std::uint32_t other = mesh.origin(h) == vertex ? mesh.target(h) : mesh.origin(h);
+        mesh.edges_around(other, [&](HalfEdge far) {
+            const HalfEdge edge = mesh.edge_of(far);
+            checked_[edge] = false;
+            if (!heap_.holds(edge)) {
+                heap_.set(edge, heap_.cost(edge));
+            }
+        });
+    });
+    mesh.edges_around(vertex, [&](HalfEdge h) { update_cost(mesh.edge_of(h)); });
+}
+
+} // namespace octant::models::simplify

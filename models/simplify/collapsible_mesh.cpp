@@ -1,0 +1,226 @@
+#include "models/simplify/collapsible_mesh.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace octant::models::simplify {
+
+CollapsibleMesh::CollapsibleMesh(std::size_t vertices, std::span<const Triangle> triangles)
+    : twins_(triangles.size() * 3, none)
+    , outs_(vertices, none)
+    , face_count_(triangles.size())
+    , marks_(vertices, 0) {
+    origins_.reserve(triangles.size() * 3);
+    for (const Triangle& triangle : triangles) {
+        origins_.insert(origins_.end(), triangle.begin(), triangle.end());
+    }
+    // Half-edges listed by the smaller vertex of their edge.
+    std::vector<std::uint32_t> starts(vertices + 1, 0);
+    const auto low = [this](HalfEdge h) { return std::min(origin(h), target(h)); };
+    for (HalfEdge h = 0; h < origins_.size(); ++h) {
+        ++starts[low(h) + 1];
+    }
+    for (std::size_t v = 0; v < vertices; ++v) {
+        starts[v + 1] += starts[v];
+    }
+    std::vector<HalfEdge> listed(origins_.size());
+    std::vector<std::uint32_t> places = starts;
+    for (HalfEdge h = 0; h < origins_.size(); ++h) {
+        listed[places[low(h)]++] = h;
+    }
+    for (std::size_t v = 0; v < vertices; ++v) {
+        for (std::uint32_t i = starts[v]; i < starts[v + 1]; ++i) {
+            for (std::uint32_t j = i + 1; j < starts[v + 1]; ++j) {
+                const HalfEdge a = listed[i];
+                const HalfEdge b = listed[j];
+                assert(origin(a) != origin(b) || target(a) != target(b));
+                if (origin(a) == target(b) && target(a) == origin(b)) {
+                    assert(twins_[a] == none && twins_[b] == none);
+                    twins_[a] = b;
+                    twins_[b] = a;
+                }
+            }
+        }
+    }
+    for (HalfEdge h = 0; h < origins_.size(); ++h) {
+        if (outs_[origin(h)] == none || twins_[h] == none) {
+            outs_[origin(h)] = h;
+        }
+    }
+    assert(has_one_fan_a_vertex());
+    vertex_count_ = static_cast<std::size_t>(
+        std::ranges::count_if(outs_, [](HalfEdge h) { return h != none; }));
+}
+
+/// Whether a walk around each vertex comes through all triangles there.
+bool CollapsibleMesh::has_one_fan_a_vertex() const {
+    std::vector<std::size_t> corners(outs_.size(), 0);
+    for (const std::uint32_t vertex : origins_) {
+        ++corners[vertex];
+    }
+    for (std::uint32_t vertex = 0; vertex < outs_.size(); ++vertex) {
+        if (outs_[vertex] != none) {
+            around(vertex, [&](HalfEdge) { --corners[vertex]; });
+        }
+    }
+    return std::ranges::all_of(corners, [](std::size_t left) { return left == 0; });
+}
+
+bool CollapsibleMesh::is_neighbour(std::uint32_t vertex, std::uint32_t other) const {
+    bool found = false;
+    edges_around(
+        vertex, [&](HalfEdge h) { found = found || origin(h) == other || target(h) == other; });
+    return found;
+}
+
+bool CollapsibleMesh::may_collapse(HalfEdge h) const {
+    const std::uint32_t u = origin(h);
+    const std::uint32_t w = target(h);
+    const HalfEdge other = twins_[h];
+    const auto is_ear = [this](HalfEdge side) {
+        return twins_[next_of(side)] == none && twins_[previous_of(side)] == none;
+    };
+    if (is_ear(h) || (other != none && is_ear(other))) {
+        return false;
+    }
+    if (other != none && is_boundary_vertex(u) && is_boundary_vertex(w)) {
+        return false;
+    }
+    ++mark_;
+    const auto far_end = [this](HalfEdge e, std::uint32_t v) {
+        return origin(e) == v ? target(e) : origin(e);
+    };
+    std::size_t u_edges = 0;
+    edges_around(u, [&](HalfEdge e) {
+        marks_[far_end(e, u)] = mark_;
+        ++u_edges;
+    });
+    std::size_t common = 0;
+    std::size_t w_edges = 0;
+    edges_around(w, [&](HalfEdge e) {
+        common += static_cast<std::size_t>(marks_[far_end(e, w)] == mark_);
+        ++w_edges;
+    });
+    const bool tetrahedron = u_edges == 3 && w_edges == 3 && other != none;
+    return common == (other == none ? 1U : 2U) && !tetrahedron;
+}
+
+void CollapsibleMesh::ring_of(HalfEdge h, std::vector<RingFace>& ring) const {
+    ring.clear();
+    const std::uint32_t left = face_of(h);
+    const std::uint32_t right = twins_[h] == none ? none : face_of(twins_[h]);
+    const auto add = [&](HalfEdge e) {
+        const std::uint32_t face = face_of(e);
+        if (face != left && face != right) {
+            ring.push_back({face, e});
+        }
+    };
+    around(origin(h), add);
+    around(target(h), add);
+}
+
+void CollapsibleMesh::join(HalfEdge a, HalfEdge b) {
+    if (a != none) {
+        twins_[a] = b;
+    }
+    if (b != none) {
+        twins_[b] = a;
+    }
+}
+
+/// Lets the vertex that `h` starts from be entered there, moved back to a boundary if it has one.
+void CollapsibleMesh::set_out(HalfEdge h) {
+    const HalfEdge first = h;
+    while (twins_[h] != none) {
+        h = next_of(twins_[h]);
+        if (h == first) {
+            break;
+        }
+    }
+    outs_[origins_[first]] = h;
+}
+
+/// Takes the triangle of `h` out and joins its two other edges.
+void CollapsibleMesh::take_out(HalfEdge h) {
+    const HalfEdge a = twins_[next_of(h)];
+    const HalfEdge b = twins_[previous_of(h)];
+    const std::uint32_t face = face_of(h);
+    join(a, b);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        origins_[face * 3 + i] = none;
+        twins_[face * 3 + i] = none;
+    }
+    --face_count_;
+}
+
+void CollapsibleMesh::collapse(HalfEdge h) {
+    const std::uint32_t u = origin(h);
+    const std::uint32_t w = target(h);
+    const HalfEdge other = twins_[h];
+    [[maybe_unused]] const std::uint32_t x = origin(previous_of(h));
+    const std::uint32_t y = other == none ? none : origin(previous_of(other));
+    // Half-edges that stay, outside of the two triangles: to enter u, x and y by.
+    const HalfEdge wx = twins_[next_of(h)];     // x -> w
+    const HalfEdge xu = twins_[previous_of(h)]; // u -> x
+    const HalfEdge uy = other == none ? none : twins_[next_of(other)];
+    const HalfEdge yw = other == none ? none : twins_[previous_of(other)];
+    around(w, [this, u](HalfEdge e) { origins_[e] = u; });
+    take_out(h);
+    if (other != none) {
+        take_out(other);
+    }
+    outs_[w] = none;
+    --vertex_count_;
+    set_out(xu != none ? xu : next_of(wx));
+    set_out(wx != none ? wx : next_of(xu));
+    assert(origins_[xu != none ? xu : next_of(wx)] == u);
+    assert(origins_[wx != none ? wx : next_of(xu)] == x);
+    if (y != none) {
+        set_out(uy != none ? uy : next_of(yw));
+        assert(origins_[uy != none ? uy : next_of(yw)] == y);
+    }
+}
+
+bool CollapsibleMesh::may_flip(HalfEdge h) const {
+    const HalfEdge other = twins_[h];
+    if (other == none) {
+        return false;
+    }
+    const std::uint32_t x = origin(previous_of(h));
+    const std::uint32_t y = origin(previous_of(other));
+    return x != y && !is_neighbour(x, y);
+}
+
+void CollapsibleMesh::flip(HalfEdge h) {
+    const HalfEdge o = twins_[h];
+    const HalfEdge h1 = next_of(h);
+    const HalfEdge h2 = previous_of(h);
+    const HalfEdge o1 = next_of(o);
+    const HalfEdge o2 = previous_of(o);
+    const std::uint32_t u = origins_[h];
+    const std::uint32_t w = origins_[o];
+    const std::uint32_t x = origins_[h2];
+    const std::uint32_t y = origins_[o2];
+    const HalfEdge wx = twins_[h1];
+    const HalfEdge xu = twins_[h2];
+    const HalfEdge uy = twins_[o1];
+    const HalfEdge yw = twins_[o2];
+    // Triangle of h: y -> x -> u; triangle of o: x -> y -> w.
+    origins_[h] = y;
+    origins_[h1] = x;
+    origins_[h2] = u;
+    origins_[o] = x;
+    origins_[o1] = y;
+    origins_[o2] = w;
+    join(h, o);
+    join(h1, xu);
+    join(h2, uy);
+    join(o1, yw);
+    join(o2, wx);
+    set_out(h1);
+    set_out(h2);
+    set_out(o1);
+    set_out(o2);
+}
+
+} // namespace octant::models::simplify

@@ -1,0 +1,21 @@
+#include "models/simplify/peak_heights.h"
+
+namespace octant::models::simplify {
+
+std::vector<GridSample> sample_grid(int fields) {
+    std::vector<GridSample> samples;
+    const double unit = 1.0 / (3.0 * fields * fields);
+    for (int i = 0; i <= fields; ++i) {
+        for (int j = 0; i + j <= fields; ++j) {
+            const int k = fields - i - j;
+            const int borders =
+                static_cast<int>(i == 0) + static_cast<int>(j == 0) + static_cast<int>(k == 0);
+            const double triangles = borders == 0 ? 6.0 : (borders == 1 ? 3.0 : 1.0);
+            samples.push_back(
+                {glm::dvec3(i, j, k) / static_cast<double>(fields), triangles * unit});
+        }
+    }
+    return samples;
+}
+
+} // namespace octant::models::simplify

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace octant::models::simplify {
+
+/// What distances there are around some triangles.
+struct Heights {
+    double most2 = 0.0;   ///< largest squared distance
+    double squares = 0.0; ///< sum of weight times squared distance
+    double powers = 0.0;  ///< sum of weight times squared distance to the fourth
+
+    void add(double distance2, double weight) {
+        const double fourth = distance2 * distance2;
+        most2 = std::max(most2, distance2);
+        squares += weight * distance2;
+        powers += weight * fourth * fourth;
+    }
+
+    void add(const Heights& other) {
+        most2 = std::max(most2, other.most2);
+        squares += other.squares;
+        powers += other.powers;
+    }
+};
+
+struct GridSample {
+    glm::dvec3 weights{0.0}; ///< of the triangle's corners
+    double share = 0.0;      ///< of its area, exact for functions linear on the fields
+};
+
+/// A grid of so many fields a side on a triangle, with its border.
+std::vector<GridSample> sample_grid(int fields);
+
+} // namespace octant::models::simplify

@@ -1,0 +1,169 @@
+#include "models/simplify/tracked_points.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace octant::models::simplify {
+
+namespace {
+
+/// The share of a triangle's area that its corners stand for; with one more point in the middle
+/// the sum is exact for squares of linear functions.
+constexpr double corner_share = 0.25;
+
+std::array<float, 3> narrow(const glm::dvec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// Corner weights of point `i` of a sequence that fills triangles evenly.
+glm::dvec3 spread(std::size_t i, std::size_t count) {
+    if (count == 1) {
+        return glm::dvec3(1.0 / 3.0);
+    }
+    // R2 sequence of M. Roberts, folded into the triangle.
+    const double step = 0.5 + static_cast<double>(i);
+    double u = std::fmod(step * 0.7548776662466927, 1.0);
+    double v = std::fmod(step * 0.5698402909980532, 1.0);
+    if (u + v > 1.0) {
+        u = 1.0 - u;
+        v = 1.0 - v;
+    }
+    return {1.0 - u - v, u, v};
+}
+
+} // namespace
+
+TrackedPoints::TrackedPoints(const WorkingSurface& original, std::size_t wanted) {
+    const CollapsibleMesh& mesh = original.mesh;
+    std::vector<double> areas(mesh.face_slots(), 0.0);
+    std::vector<double> vertex_areas(mesh.vertex_slots(), 0.0);
+    double total = 0.0;
+    for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
+        areas[face] = 0.5 * glm::length(area_vector(original.corner_places(face)));
+        total += areas[face];
+        for (const std::uint32_t vertex : mesh.corners(face)) {
+            vertex_areas[vertex] += areas[face] / 3.0;
+        }
+    }
+    const std::size_t least = mesh.vertex_slots() + mesh.face_slots();
+    const double more = wanted > least ? static_cast<double>(wanted - least) : 0.0;
+    make_face_room(mesh.face_slots());
+    for (std::uint32_t vertex = 0; vertex < mesh.vertex_slots(); ++vertex) {
+        std::uint32_t face = none;
+        mesh.around(vertex, [&](HalfEdge h) { face = std::min(face, face_of(h)); });
+        add(original.places[vertex],
+            original.coloured() ? &original.colours[vertex] : nullptr,
+            corner_share * vertex_areas[vertex],
+            face);
+    }
+    for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
+        const double share = total > 0.0 ? areas[face] / total : 0.0;
+        const std::size_t count = 1 + static_cast<std::size_t>(share * more);
+        const std::array<glm::dvec3, 3> corners = original.corner_places(face);
+        const Triangle vertices = mesh.corners(face);
+        for (std::size_t i = 0; i < count; ++i) {
+            const glm::dvec3 w = spread(i, count);
+            glm::dvec3 colour(0.0);
+            if (original.coloured()) {
+                colour = w.x * original.colours[vertices[0]] + w.y * original.colours[vertices[1]] +
+                         w.z * original.colours[vertices[2]];
+            }
+            add(w.x * corners[0] + w.y * corners[1] + w.z * corners[2],
+                original.coloured() ? &colour : nullptr,
+                (1.0 - corner_share) * areas[face] / static_cast<double>(count),
+                face);
+        }
+    }
+}
+
+void TrackedPoints::add(
+    const glm::dvec3& place, const glm::dvec3* colour, double weight, std::uint32_t face) {
+    const auto point = static_cast<std::uint32_t>(places_.size());
+    places_.push_back(narrow(place));
+    if (colour != nullptr) {
+        colours_.push_back(narrow(*colour));
+    }
+    weights_.push_back(static_cast<float>(weight));
+    distances2_.push_back(0.0F);
+    faces_.push_back(face);
+    next_.push_back(first_[face]);
+    first_[face] = point;
+    ++counts_[face];
+}
+
+void TrackedPoints::gather(std::uint32_t face, PointBlock& points) const {
+    points.make_room(points.size() + counts_[face]);
+    for (std::uint32_t point = first_[face]; point != none; point = next_[point]) {
+        if (!colours_.empty()) {
+            const std::array<float, 3>& colour = colours_[point];
+            points.red[points.size()] = colour[0];
+            points.green[points.size()] = colour[1];
+            points.blue[points.size()] = colour[2];
+        }
+        points.add(point, places_[point], weights_[point]);
+    }
+}
+
+float TrackedPoints::assign(
+    const PointBlock& points,
+    std::span<const std::uint32_t> emptied,
+    std::span<const std::uint32_t> faces) {
+    for (const std::uint32_t face : emptied) {
+        first_[face] = none;
+        counts_[face] = 0;
+        costs_[face] = 0.0;
+    }
+    float most = 0.0F;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::uint32_t point = points.numbers[i];
+        const std::uint32_t face = faces[static_cast<std::size_t>(points.nearest[i])];
+        next_[point] = first_[face];
+        first_[face] = point;
+        faces_[point] = face;
+        distances2_[point] = points.distances2[i];
+        ++counts_[face];
+        const double colour_error2 =
+            coloured() ? static_cast<double>(points.colour_errors2[i]) : 0.0;
+        costs_[face] += static_cast<double>(points.weights[i]) *
+                        (static_cast<double>(points.distances2[i]) + colour_error2);
+        most = std::max(most, points.distances2[i]);
+    }
+    return most;
+}
+
+void TrackedPoints::make_face_room(std::size_t count) {
+    first_.resize(std::max(count, first_.size()), none);
+    counts_.resize(first_.size(), 0);
+    costs_.resize(first_.size(), 0.0);
+}
+
+void TrackedPoints::assign_all(std::span<const std::uint32_t> faces, std::size_t face_slots) {
+    first_.assign(face_slots, none);
+    counts_.assign(face_slots, 0);
+    costs_.assign(face_slots, 0.0);
+    for (std::uint32_t point = 0; point < size(); ++point) {
+        const std::uint32_t face = faces[point];
+        faces_[point] = face;
+        next_[point] = first_[face];
+        first_[face] = point;
+        ++counts_[face];
+    }
+}
+
+double cost_sum(const PointBlock& points, std::size_t first, std::size_t end, bool coloured) {
+    double sum = 0.0;
+    for (std::size_t i = first; i < end; ++i) {
+        sum += static_cast<double>(points.weights[i]) * static_cast<double>(points.distances2[i]);
+    }
+    if (coloured) {
+        for (std::size_t i = first; i < end; ++i) {
+            sum += static_cast<double>(points.weights[i]) *
+                   static_cast<double>(points.colour_errors2[i]);
+        }
+    }
+    return sum;
+}
+
+} // namespace octant::models::simplify

@@ -1,0 +1,70 @@
+#include "models/simplify/working_surface.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace octant::models::simplify {
+
+WorkingUnits WorkingUnits::of(const TriangleMesh& mesh, double colour_weight) {
+    constexpr double least_weight = 1e-4; // colours that do not count are still led along
+    const Bounds bounds = bounds_of(mesh);
+    const double diagonal_m = glm::distance(bounds.least_m, bounds.most_m);
+    return {
+        0.5 * (bounds.least_m + bounds.most_m),
+        diagonal_m > 0.0 ? diagonal_m : 1.0,
+        std::max(colour_weight, least_weight)};
+}
+
+glm::vec3 WorkingUnits::colour_to_file(const glm::dvec3& colour) const {
+    return glm::clamp(glm::vec3(colour / colour_scale), glm::vec3(0.0F), glm::vec3(1.0F));
+}
+
+WorkingSurface::WorkingSurface(const TriangleMesh& from, const WorkingUnits& units)
+    : mesh(from.vertices_m.size(), from.triangles)
+    , materials(from.triangle_materials) {
+    places.reserve(from.vertices_m.size());
+    for (const glm::dvec3& vertex_m : from.vertices_m) {
+        places.push_back(units.from_file(vertex_m));
+    }
+    colours.reserve(from.colours.size());
+    for (const glm::vec3& colour : from.colours) {
+        colours.push_back(units.colour_from_file(colour));
+    }
+}
+
+TriangleMesh
+WorkingSurface::to_mesh(const TriangleMesh& original, const WorkingUnits& units) const {
+    TriangleMesh made;
+    made.name = original.name;
+    made.materials = original.materials;
+    std::vector<std::uint32_t> numbers(mesh.vertex_slots(), none);
+    for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
+        if (!mesh.vertex_is_there(v)) {
+            continue;
+        }
+        numbers[v] = static_cast<std::uint32_t>(made.vertices_m.size());
+        made.vertices_m.push_back(units.to_file(places[v]));
+        if (coloured()) {
+            made.colours.push_back(units.colour_to_file(colours[v]));
+        }
+    }
+    for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
+        if (!mesh.face_is_there(face)) {
+            continue;
+        }
+        const Triangle corners = mesh.corners(face);
+        made.triangles.push_back({numbers[corners[0]], numbers[corners[1]], numbers[corners[2]]});
+        if (!materials.empty()) {
+            made.triangle_materials.push_back(materials[face]);
+        }
+    }
+    return made;
+}
+
+glm::dvec3 area_vector(const std::array<glm::dvec3, 3>& corners) {
+    return glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+}
+
+} // namespace octant::models::simplify

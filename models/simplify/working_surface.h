@@ -1,0 +1,67 @@
+#pragma once
+
+#include "models/simplify/collapsible_mesh.h"
+#include "models/triangle_mesh.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace octant::models::simplify {
+
+/// Lengths of a mesh as the simplifier works with them: the middle of its box is the origin, the
+/// box's diagonal is 1, and a colour is `colour_scale` times its parts, so that distances in
+/// (position, colour) count both.
+struct WorkingUnits {
+    glm::dvec3 middle_m{0.0};
+    double diagonal_m = 1.0;
+    double colour_scale = 1.0;
+
+    static WorkingUnits of(const TriangleMesh& mesh, double colour_weight);
+
+    glm::dvec3 from_file(const glm::dvec3& place_m) const {
+        return (place_m - middle_m) / diagonal_m;
+    }
+
+    glm::dvec3 to_file(const glm::dvec3& place) const { return middle_m + place * diagonal_m; }
+
+    glm::dvec3 colour_from_file(const glm::vec3& colour) const {
+        return glm::dvec3(colour) * colour_scale;
+    }
+
+    glm::vec3 colour_to_file(const glm::dvec3& colour) const;
+};
+
+/// A mesh that is being changed, in working units.
+struct WorkingSurface {
+    WorkingSurface(const TriangleMesh& mesh, const WorkingUnits& units);
+
+    CollapsibleMesh mesh;
+    std::vector<glm::dvec3> places;       ///< one a vertex
+    std::vector<glm::dvec3> colours;      ///< one a vertex; empty = none
+    std::vector<std::uint32_t> materials; ///< one a triangle; empty = none
+
+    bool coloured() const { return !colours.empty(); }
+
+    std::array<glm::dvec3, 3> corner_places(std::uint32_t face) const {
+        const Triangle corners = mesh.corners(face);
+        return {places[corners[0]], places[corners[1]], places[corners[2]]};
+    }
+
+    /// Whether the two sides of an edge are of different materials.
+    bool is_material_border(HalfEdge h) const {
+        return !materials.empty() && mesh.twin(h) != none &&
+               materials[face_of(h)] != materials[face_of(mesh.twin(h))];
+    }
+
+    /// What is there, vertices and triangles in the order of their numbers. Names and materials
+    /// are `original`'s.
+    TriangleMesh to_mesh(const TriangleMesh& original, const WorkingUnits& units) const;
+};
+
+/// Twice the area, along the normal.
+glm::dvec3 area_vector(const std::array<glm::dvec3, 3>& corners);
+
+} // namespace octant::models::simplify

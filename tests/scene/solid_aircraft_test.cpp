@@ -1,0 +1,119 @@
+#include "visuals/scene/pixel_box.h"
+
+#include <catch2/catch.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+
+#include "small_world.h"
+
+using namespace octant;
+using namespace octant::tests;
+namespace scene = octant::visuals::scene;
+using What = scene::PaintStep::What;
+
+namespace {
+
+/// A tetrahedron of 1 m around the origin, faces outside.
+models::TriangleMesh tetrahedron() {
+    models::TriangleMesh mesh;
+    mesh.vertices_m = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+    return mesh;
+}
+
+/// One aircraft that is a mesh nearer than about 100 m and a box beyond, over level ground.
+struct Flight {
+    scene::Scene scene;
+    scene::Settings settings = plain_settings();
+    scene::Camera camera = scene::camera_looking_at({0, 0, 50}, {100, 0, 50});
+
+    Flight() {
+        scene.ground = cell_ground(4, 100.0, [](double, double) { return 0.0; });
+        scene.models.push_back(convex_aircraft(box_model({1, 1, 1})));
+        const models::TriangleMesh mesh = tetrahedron();
+        const std::array<scene::MeshSource, 1> sources{{{&mesh, 0.0}}};
+        scene::add_levels(scene.models[0], sources, 0.2);
+        scene.aircraft = {0};
+    }
+};
+
+int count(const scene::FramePlan& plan, What what) {
+    return static_cast<int>(std::ranges::count(plan.steps, what, &scene::PaintStep::what));
+}
+
+} // namespace
+
+TEST_CASE("an aircraft is a mesh near the eye and polygons far from it, and no depth is asked for "
+          "there") {
+    Flight flight;
+    scene::Planner planner(flight.scene, flight.settings);
+    scene::PlanCounts counts;
+    const std::array near{state_at({30, 0, 50})};
+    const scene::FramePlan& solid = planner.plan(flight.camera, near, counts);
+    CHECK(count(solid, What::Solid) == 1);
+    CHECK(count(solid, What::ClearDepth) == 1);
+    CHECK(counts.aircraft_level == 0);
+    CHECK(counts.aircraft_polygons == 4);
+    const std::array far{state_at({190, 0, 50})};
+    const scene::FramePlan& painted = planner.plan(flight.camera, far, counts);
+    CHECK(count(painted, What::Solid) == 0);
+    CHECK(painted.depth_boxes.empty());
+    CHECK(counts.aircraft_level == 1);
+    CHECK(counts.aircraft_polygons == 6);
+}
+
+TEST_CASE("depth is cleared where the mesh is seen and nowhere else") {
+    Flight flight;
+    scene::Planner planner(flight.scene, flight.settings);
+    scene::PlanCounts counts;
+    const std::array near{state_at({30, 0, 50})};
+    const scene::FramePlan& plan = planner.plan(flight.camera, near, counts);
+    REQUIRE(plan.depth_boxes.size() == 1);
+    const scene::PixelBox& box = plan.depth_boxes[0];
+    CHECK(box.least.x > 280);
+    CHECK(box.most.x < 360);
+    CHECK(box.least.x < 320);
+    CHECK(box.most.x > 320);
+    CHECK(box.least.y > 200);
+    CHECK(box.most.y < 280);
+}
+
+TEST_CASE("an eye inside the box of a mesh gets depth in the whole picture") {
+    Flight flight;
+    scene::Planner planner(flight.scene, flight.settings);
+    scene::PlanCounts counts;
+    const std::array around{state_at({0.2, 0, 50})};
+    const scene::FramePlan& plan = planner.plan(flight.camera, around, counts);
+    REQUIRE(plan.depth_boxes.size() == 1);
+    CHECK(plan.depth_boxes[0].least == glm::ivec2(0));
+    CHECK(plan.depth_boxes[0].most == flight.settings.size_px);
+}
+
+TEST_CASE("ground that a mesh sticks in hides it by depth, and meshes that meet share one depth") {
+    Flight flight;
+    flight.scene.aircraft = {0, 0};
+    flight.camera = scene::camera_looking_at({0, 0, 10}, {30, 0, 0});
+    scene::Planner planner(flight.scene, flight.settings);
+    scene::PlanCounts counts;
+    const std::array both{state_at({30, 0, 0.3}), state_at({31, 0, 0.3})};
+    const scene::FramePlan& plan = planner.plan(flight.camera, both, counts);
+    CHECK(count(plan, What::ClearDepth) == 1);
+    CHECK(count(plan, What::GroundDepth) == 1);
+    CHECK(count(plan, What::Solid) == 2);
+    CHECK(counts.knots == 1);
+    const auto at = [&](What what) {
+        return std::ranges::find(plan.steps, what, &scene::PaintStep::what) - plan.steps.begin();
+    };
+    CHECK(at(What::ClearDepth) < at(What::GroundDepth));
+    CHECK(at(What::GroundDepth) < at(What::Solid));
+}
+
+TEST_CASE("a mesh out of view costs as little as its polygons") {
+    Flight flight;
+    scene::Planner planner(flight.scene, flight.settings);
+    scene::PlanCounts counts;
+    const std::array behind{state_at({-20, 0, 50})};
+    planner.plan(flight.camera, behind, counts);
+    CHECK(counts.aircraft_level == 1);
+}

@@ -1,0 +1,326 @@
+#include "models/meshfile/mesh_file.h"
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "sim/base/units.h"
+#include "ui/commands.h"
+#include "ui/partition_mesh.h"
+#include "ui/progress.h"
+#include "ui/refine_input.h"
+#include "ui/settings_options.h"
+#include "ui/settings_text.h"
+#include "ui/stopwatch.h"
+#include "visuals/refine/active_mesh.h"
+#include "visuals/refine/progressive_file.h"
+#include "visuals/refine/refine_region.h"
+
+#include <glm/geometric.hpp>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace octant::ui {
+
+namespace refine = visuals::refine;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using RegionWords = std::tuple<std::string, double, double, double, double>;
+
+struct RefineOptions {
+    RefineInput input;
+    int base = 0;
+    int vertices = 0; ///< 0: all
+    std::string save;
+    std::vector<RegionWords> regions;
+    double error_px = 0.0; ///< 0: no view
+    std::string eye;
+    std::string look;
+    double fov_deg = 50.0;
+    std::string size = "1280x720";
+    std::string rule = "selective";
+    bool no_repair = false;
+    std::string out;
+    std::string nodes;
+    std::string partition;
+    std::string colour_by = "none";
+    bool json = false;
+};
+
+std::vector<refine::Sphere> spheres_of(const RefineOptions& options) {
+    std::vector<refine::Sphere> spheres;
+    for (const auto& [kind, x, y, z, radius] : options.regions) {
+        if (kind != "sphere") {
+            throw Error(
+                fmt::format("--region: expected sphere X Y Z RADIUS, got '{}'", printable(kind)));
+        }
+        const bool finite = std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
+        if (!finite || !std::isfinite(radius) || radius < 0.0) {
+            throw Error("--region: expected finite numbers and a radius of at least 0");
+        }
+        spheres.push_back({{x, y, z}, radius});
+    }
+    return spheres;
+}
+
+glm::dvec3 point_of(const char* option, const std::string& text) {
+    const auto fields = split_fields(text, ',');
+    glm::dvec3 point{0.0};
+    bool good = fields.size() == 3;
+    for (int k = 0; good && k < 3; ++k) {
+        const auto number = finite_number(fields[static_cast<std::size_t>(k)]);
+        good = number.has_value();
+        point[k] = number.value_or(0.0);
+    }
+    if (!good) {
+        throw Error(fmt::format("{}: expected X,Y,Z, got '{}'", option, printable(text)));
+    }
+    return point;
+}
+
+refine::RefineView view_of(const RefineOptions& options) {
+    const glm::dvec3 eye_m = point_of("--eye", options.eye);
+    const glm::dvec3 look_m = point_of("--look", options.look);
+    glm::ivec2 size_px{};
+    read_setting({"--size", "", "", 16, 8192}, options.size, size_px);
+    const double away_m = glm::distance(eye_m, look_m);
+    if (!(away_m > 0.0) || !std::isfinite(away_m)) {
+        throw Error("--look: expected another point than --eye");
+    }
+    const glm::dvec3 ahead = (look_m - eye_m) / away_m;
+    const glm::dvec3 up =
+        std::abs(ahead.z) > 0.999 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
+    return refine::picture_view(
+        eye_m, look_m, up, rad_from_deg(options.fov_deg), size_px.x, size_px.y);
+}
+
+refine::SplitRule rule_of(const std::string& name) {
+    return name == "hoppe" ? refine::SplitRule::Hoppe
+           : name == "xia" ? refine::SplitRule::Xia
+                           : refine::SplitRule::Selective;
+}
+
+/// One line a vertex of the mesh: its node, then the original vertices below it.
+std::string nodes_text(const refine::ActiveMesh& active) {
+    std::string text = "# octant active nodes 1\n"
+                       "# line by line the vertices of the active mesh: number of the node, then "
+                       "the original vertices below it; all from 0\n";
+    for (std::size_t vertex = 0; vertex < active.nodes.size(); ++vertex) {
+        text += fmt::format("{}", active.nodes[vertex]);
+        for (const std::uint32_t original : active.originals[vertex]) {
+            text += fmt::format(" {}", original);
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+ColourBy colour_by(const RefineOptions& options) {
+    return options.colour_by == "region"  ? ColourBy::Region
+           : options.colour_by == "level" ? ColourBy::Level
+                                          : ColourBy::Nothing;
+}
+
+void write_results(const refine::SelectiveRefiner& refiner, const RefineOptions& options) {
+    if (!options.partition.empty()) {
+        const bool by_level = options.colour_by == "level";
+        models::meshfile::write_mesh(
+            options.partition,
+            partition_mesh(refiner, by_level ? ColourBy::Level : ColourBy::Region));
+        say(options.input.quiet, "partition: " + options.partition);
+    }
+    if (options.out.empty() && options.nodes.empty()) {
+        return;
+    }
+    const refine::ActiveMesh active = refine::active_mesh(refiner);
+    if (!options.out.empty()) {
+        models::meshfile::write_mesh(options.out, coloured_active(active, colour_by(options)));
+        say(options.input.quiet, "active mesh: " + options.out);
+    }
+    if (!options.nodes.empty()) {
+        write_file(options.nodes, nodes_text(active));
+        say(options.input.quiet, "active nodes: " + options.nodes);
+    }
+}
+
+/// Splits what is asked for; adds to the figures.
+void refine_all(
+    refine::SelectiveRefiner& refiner,
+    const RefineOptions& options,
+    const std::vector<refine::Sphere>& spheres,
+    const std::optional<refine::RefineView>& view,
+    Json& figures) {
+    const Stopwatch watch;
+    refine::refine_regions(refiner, spheres);
+    if (view) {
+        refine::refine_for_view(refiner, *view, options.error_px);
+    }
+    const refine::RefinerCounts& counts = refiner.counts();
+    figures["requested_splits"] = counts.splits - counts.forced_by_rule;
+    figures["forced_by_rule"] = counts.forced_by_rule;
+    figures["turned_faces_before_repair"] = refiner.turned_faces();
+    refiner.repair();
+    figures["forced_by_repair"] = counts.forced_by_repair;
+    figures["turned_faces"] = refiner.turned_faces();
+    figures["vertices"] = refiner.active_count();
+    figures["faces"] = refiner.face_count();
+    figures["refine_ms"] = watch.ms();
+}
+
+void check_mesh_name(const char* option, const std::string& file) {
+    if (!file.empty() && !models::meshfile::is_mesh_file(file)) {
+        throw Error(fmt::format(
+            "{}: expected a mesh file such as mesh.obj or mesh.ply, got '{}'",
+            option,
+            printable(file)));
+    }
+}
+
+void refine_mesh(RefineOptions options) {
+    options.input.base = static_cast<std::size_t>(options.base);
+    if (options.vertices > 0) {
+        options.input.most_vertices = static_cast<std::size_t>(options.vertices);
+    }
+    const std::vector<refine::Sphere> spheres = spheres_of(options);
+    if ((options.error_px > 0.0) != !options.eye.empty() ||
+        options.eye.empty() != options.look.empty()) {
+        throw Error("--error-px, --eye, --look: expected all three or none");
+    }
+    std::optional<refine::RefineView> view;
+    if (options.error_px > 0.0) {
+        view = view_of(options);
+    }
+    check_mesh_name("--out", options.out);
+    check_mesh_name("--out-partition", options.partition);
+    if (!options.save.empty() && !refine::is_progressive_file(options.save)) {
+        throw Error(fmt::format(
+            "--save: expected a file name that ends in .pm, got '{}'", printable(options.save)));
+    }
+    const Stopwatch watch;
+    const auto mesh = read_refine_input(options.input);
+    Json figures;
+    figures["model"] = mesh->parts().name;
+    figures["original_vertices"] = mesh->leaf_count();
+    figures["original_faces"] = mesh->face_count();
+    figures["base_vertices"] = mesh->roots().size();
+    figures["hierarchy_bytes_a_vertex"] =
+        static_cast<double>(mesh->bytes()) / static_cast<double>(mesh->leaf_count());
+    figures["load_ms"] = watch.ms();
+    if (!options.save.empty()) {
+        refine::write_progressive(options.save, *mesh);
+        say(options.input.quiet, "progressive mesh: " + options.save);
+    }
+    figures["rule"] = options.rule;
+    refine::SelectiveRefiner refiner(
+        mesh, {.rule = rule_of(options.rule), .repair = !options.no_repair});
+    refine_all(refiner, options, spheres, view, figures);
+    write_results(refiner, options);
+    if (options.json) {
+        std::fputs(fmt::format("{}\n", figures.dump(2)).c_str(), stdout);
+        return;
+    }
+    for (const auto& [key, value] : figures.items()) {
+        const std::string text = value.is_string() ? value.get<std::string>()
+                                 : value.is_number_float()
+                                     ? fmt::format("{:.4g}", value.get<double>())
+                                     : value.dump();
+        std::fputs(fmt::format("{:<30} {}\n", key, text).c_str(), stdout);
+    }
+}
+
+void add_what(CLI::App& command, RefineOptions& options) {
+    command.add_option("in", options.input.file, "a mesh (OBJ, PLY, ...) or a progressive mesh")
+        ->type_name("MESH|FILE.pm")
+        ->required();
+    add_number_option(
+        command,
+        {"base", "N", "meshes: simplify to N vertices and no further; 0 = all the way", 0, 1e9},
+        options.base);
+    add_number_option(
+        command,
+        {"vertices", "N", ".pm: read the coarser model of N vertices; 0 = all", 0, 1e9},
+        options.vertices);
+    command
+        .add_option(
+            "--region",
+            options.regions,
+            "every original vertex inside is active (file axes, repeatable)")
+        ->type_name("sphere X Y Z RADIUS");
+    add_number_option(
+        command,
+        {"error-px", "PIXELS", "split what shows a larger error from --eye; 0 = none", 0.0, 1e6},
+        options.error_px);
+    command.add_option("--eye", options.eye, "where the view is from, file axes")
+        ->type_name("X,Y,Z");
+    command.add_option("--look", options.look, "what it looks at")->type_name("X,Y,Z");
+    add_number_option(
+        command, {"fov", "DEGREES", "height of the view", 1.0, 170.0}, options.fov_deg);
+    command.add_option("--size", options.size, "picture size in pixels")
+        ->type_name("WIDTHxHEIGHT")
+        ->capture_default_str();
+}
+
+void add_how(CLI::App& command, RefineOptions& options) {
+    command
+        .add_option(
+            "--rule",
+            options.rule,
+            "what a split needs: two cut vertices (selective), the faces beside (hoppe, 1997) or "
+            "all vertices around (xia, 1996)")
+        ->type_name("RULE")
+        ->check(CLI::IsMember({"selective", "hoppe", "xia"}))
+        ->capture_default_str();
+    command.add_flag("--no-repair", options.no_repair, "leave faces that have turned over");
+    command.add_option("--save", options.save, "write the progressive mesh")->type_name("FILE.pm");
+    command.add_option("--out", options.out, "write the active mesh")->type_name("FILE");
+    command
+        .add_option(
+            "--colour-by",
+            options.colour_by,
+            "colours of --out: each active vertex its own (region) or by original vertices below "
+            "it (level)")
+        ->type_name("WHAT")
+        ->check(CLI::IsMember({"none", "region", "level"}))
+        ->capture_default_str();
+    command
+        .add_option(
+            "--out-partition",
+            options.partition,
+            "write the original mesh coloured by active vertices")
+        ->type_name("FILE");
+    command.add_option("--nodes", options.nodes, "write the list of active nodes")
+        ->type_name("FILE");
+    command.add_flag("--json", options.json, "results as JSON");
+    command.add_flag("--quiet", options.input.quiet, "no progress, no notes");
+}
+
+} // namespace
+
+void add_refine_command(CLI::App& program) {
+    auto options = std::make_shared<RefineOptions>();
+    CLI::App* command = program.add_subcommand(
+        "refine", "Makes progressive meshes and refines them where it is asked for");
+    add_what(*command, *options);
+    add_how(*command, *options);
+    for (const char* option : {"--base", "--vertices", "--error-px", "--fov"}) {
+        command->get_option(option)->group("Options");
+    }
+    command->footer(
+        "Without --region and --error-px the active mesh is the base mesh.\n"
+        "Examples:\n"
+        "  octant refine bunny.ply --base 100 --save bunny.pm\n"
+        "  octant refine bunny.pm --region sphere -0.05 0.1 0 0.02 --out ear.ply --nodes ear.txt\n"
+        "  octant refine bunny.pm --error-px 1 --eye 0,0.1,0.4 --look 0,0.1,0 --out seen.obj");
+    command->callback([options] { refine_mesh(*options); });
+}
+
+} // namespace octant::ui

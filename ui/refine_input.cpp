@@ -1,0 +1,86 @@
+#include "ui/refine_input.h"
+
+#include "models/meshfile/repair.h"
+#include "models/simplify/simplify.h"
+#include "sim/base/error.h"
+#include "ui/mesh_input.h"
+#include "ui/progress.h"
+#include "visuals/refine/progressive_file.h"
+
+namespace octant::ui {
+
+namespace refine = visuals::refine;
+
+namespace {
+
+/// Colours are vertices' in a hierarchy: those of the materials around each, where it has none.
+void colour_by_materials(models::TriangleMesh& mesh) {
+    if (!mesh.colours.empty()) {
+        return;
+    }
+    const models::Material plain;
+    std::vector<glm::vec3> sums(mesh.vertices_m.size(), glm::vec3(0.0F));
+    std::vector<int> counts(mesh.vertices_m.size(), 0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const models::Material& material =
+            mesh.triangle_materials.empty() ? plain : mesh.materials[mesh.triangle_materials[t]];
+        for (const std::uint32_t vertex : mesh.triangles[t]) {
+            sums[vertex] += material.colour;
+            ++counts[vertex];
+        }
+    }
+    for (std::size_t v = 0; v < sums.size(); ++v) {
+        mesh.colours.push_back(
+            counts[v] > 0 ? sums[v] / static_cast<float>(counts[v]) : plain.colour);
+    }
+}
+
+refine::ProgressiveMesh made_hierarchy(const RefineInput& input, std::vector<std::string>& notes) {
+    models::meshfile::RepairedMesh repaired =
+        models::meshfile::repaired(read_mesh_input(input.file));
+    notes = repaired.mesh.notes;
+    for (const std::string& line : models::meshfile::in_words(repaired.counts)) {
+        notes.push_back(input.file + ": " + line);
+    }
+    if (repaired.mesh.triangles.empty()) {
+        error_in(input.file, "expected a mesh with triangles, got none");
+    }
+    colour_by_materials(repaired.mesh);
+    constexpr int steps = 1000;
+    Progress progress("collapsing edges", steps, input.quiet, "thousandths");
+    models::simplify::SimplifyOptions options;
+    options.quality = models::simplify::Quality::Fast;
+    if (input.base > 0) {
+        options.goal.vertices = input.base;
+    }
+    options.show_progress = [&](double share) { progress.show(static_cast<int>(share * steps)); };
+    const models::simplify::Simplified simplified =
+        models::simplify::simplified(std::move(repaired.mesh), options);
+    progress.finish();
+    return refine::ProgressiveMesh(simplified.sequence);
+}
+
+} // namespace
+
+RefineMesh read_refine_mesh(const RefineInput& input) {
+    RefineMesh result;
+    if (refine::is_progressive_file(input.file)) {
+        result.mesh = std::make_shared<const refine::ProgressiveMesh>(
+            refine::read_progressive(input.file, input.most_vertices));
+        result.notes = result.mesh->parts().notes;
+    } else {
+        result.mesh =
+            std::make_shared<const refine::ProgressiveMesh>(made_hierarchy(input, result.notes));
+    }
+    return result;
+}
+
+std::shared_ptr<const refine::ProgressiveMesh> read_refine_input(const RefineInput& input) {
+    RefineMesh result = read_refine_mesh(input);
+    for (const std::string& note : result.notes) {
+        say(input.quiet, "note: " + note);
+    }
+    return result.mesh;
+}
+
+} // namespace octant::ui

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "visuals/gl/draw_state.h"
+#include "visuals/gl/model_array.h"
+#include "visuals/gl/stream_buffer.h"
+#include "visuals/scene/frame_plan.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::gl {
+
+/// Draws FramePlan::refined: meshes that are uploaded anew for each picture, by the program and the
+/// buffers of the aircraft. From a plan's upload on, each call draws of that plan.
+class RefinedPainter {
+public:
+    RefinedPainter(const Functions& gl, DrawState& state);
+
+    /// After AircraftPainter::upload, whose parts and bits count.
+    void upload(const scene::FramePlan& plan);
+
+    /// By the aircraft's programs, where nearest.
+    void draw(std::uint32_t first, std::uint32_t count, const ProgramPair& programs);
+
+private:
+    struct Place {
+        std::size_t first_index = 0;
+        std::size_t index_count = 0;
+        GLint first_vertex = 0;
+    };
+
+    const Functions& gl_;
+    DrawState& state_;
+    StreamBuffer vertices_;
+    StreamBuffer indices_;
+    StreamBuffer instances_;
+    Object array_;
+    std::vector<Place> places_; ///< one a draw
+    std::vector<ModelInstance> instance_values_;
+    std::vector<std::span<const std::byte>> pieces_;
+};
+
+} // namespace octant::visuals::gl

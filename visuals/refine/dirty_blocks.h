@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace octant::visuals::refine {
+
+/// Places [first, end) of an array.
+struct PlaceRange {
+    std::size_t first = 0;
+    std::size_t end = 0;
+
+    bool operator==(const PlaceRange&) const = default;
+};
+
+/// Which blocks of an array were written since the last look: what must go to the graphics card.
+class DirtyBlocks {
+public:
+    static constexpr std::size_t block_size = 64;
+
+    void mark(std::size_t place) {
+        const std::size_t block = place / block_size;
+        if (block >= marks_.size()) {
+            marks_.resize(block + 1, 0);
+        }
+        marks_[block] = 1;
+    }
+
+    /// The same where `written`, without a branch; the block has been marked at some time before.
+    void mark_if(std::size_t place, bool written) {
+        marks_[place / block_size] |= static_cast<std::uint8_t>(written);
+    }
+
+    /// Puts the runs of marked blocks, cut at `size` places, into `ranges` in order, and forgets
+    /// them.
+    void take(std::size_t size, std::vector<PlaceRange>& ranges) {
+        ranges.clear();
+        for (std::size_t block = 0; block < marks_.size(); ++block) {
+            if (marks_[block] == 0) {
+                continue;
+            }
+            marks_[block] = 0;
+            const std::size_t first = block * block_size;
+            const std::size_t end = first + block_size < size ? first + block_size : size;
+            if (!ranges.empty() && ranges.back().end == first) {
+                ranges.back().end = end;
+            } else if (first < end) {
+                ranges.push_back({first, end});
+            }
+        }
+    }
+
+    std::size_t bytes() const { return marks_.capacity(); }
+
+private:
+    std::vector<std::uint8_t> marks_;
+};
+
+} // namespace octant::visuals::refine

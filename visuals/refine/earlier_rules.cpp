@@ -1,0 +1,81 @@
+// J. C. Xia, A. Varshney, "Dynamic View-Dependent Simplification for Polygonal Models", 1996;
+// H. Hoppe, "View-Dependent Refinement of Progressive Meshes", 1997, section 3: what each remembers
+// of a collapse. Here for counting only, over the hierarchy of any simplification.
+#include "visuals/refine/earlier_rules.h"
+
+#include "visuals/refine/face_lists.h"
+
+#include <algorithm>
+
+namespace octant::visuals::refine {
+
+namespace {
+
+/// The face at the edge between two nodes other than `except`; none on a boundary.
+std::uint32_t
+face_across(const FaceLists& faces, std::uint32_t node, std::uint32_t other, std::uint32_t except) {
+    std::uint32_t across = none;
+    faces.each_corner(node, [&](std::uint32_t corner) {
+        if (faces.label(corner / 3) != except &&
+            (faces.vertex(FaceLists::next_in_face(corner)) == other ||
+             faces.vertex(FaceLists::before_in_face(corner)) == other)) {
+            across = faces.label(corner / 3);
+        }
+    });
+    return across;
+}
+
+std::uint32_t
+third_vertex(const FaceLists& faces, std::uint32_t node, std::uint32_t other, std::uint32_t face) {
+    std::uint32_t third = none;
+    faces.each_corner(node, [&](std::uint32_t corner) {
+        if (faces.label(corner / 3) == face) {
+            const std::uint32_t next = faces.vertex(FaceLists::next_in_face(corner));
+            third = next == other ? faces.vertex(FaceLists::before_in_face(corner)) : next;
+        }
+    });
+    return third;
+}
+
+} // namespace
+
+EarlierRules::EarlierRules(const ProgressiveMesh& mesh)
+    : leaves_(static_cast<std::uint32_t>(mesh.leaf_count()))
+    , introducers_(mesh.face_count(), none) {
+    FaceLists faces(mesh.node_count(), mesh.face_count());
+    faces.resize_vertices(mesh.node_count());
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        faces.add(mesh.faces()[face], face);
+    }
+    ring_begins_.push_back(0);
+    for (std::uint32_t node = leaves_; node < mesh.node_count(); ++node) {
+        const Split& split = mesh.split_of(node);
+        auto& beside = faces_beside_.emplace_back();
+        std::size_t k = 0;
+        for (const std::uint32_t face : {split.left_face, split.right_face}) {
+            beside[k] = none;
+            beside[k + 1] = none;
+            if (face != none) {
+                introducers_[face] = node;
+                const std::uint32_t cut = third_vertex(faces, split.first, split.second, face);
+                beside[k] = face_across(faces, split.first, cut, face);
+                beside[k + 1] = face_across(faces, split.second, cut, face);
+                faces.remove(faces.find(split.first, face));
+            }
+            k += 2;
+        }
+        for (const std::uint32_t child : {split.first, split.second}) {
+            faces.move_corners(child, node, [](std::uint32_t) { return true; });
+        }
+        faces.each_corner(node, [&](std::uint32_t corner) {
+            rings_.push_back(faces.vertex(FaceLists::next_in_face(corner)));
+            rings_.push_back(faces.vertex(FaceLists::before_in_face(corner)));
+        });
+        const auto begin = rings_.begin() + static_cast<std::ptrdiff_t>(ring_begins_.back());
+        std::sort(begin, rings_.end());
+        rings_.erase(std::unique(begin, rings_.end()), rings_.end());
+        ring_begins_.push_back(rings_.size());
+    }
+}
+
+} // namespace octant::visuals::refine

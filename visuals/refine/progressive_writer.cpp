@@ -1,0 +1,185 @@
+#include "sim/base/hash.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "visuals/refine/byte_coder.h"
+#include "visuals/refine/progressive_file.h"
+#include "visuals/refine/progressive_layout.h"
+
+#include <algorithm>
+#include <span>
+#include <string>
+
+namespace octant::visuals::refine {
+
+namespace {
+
+class ProgressiveWriting {
+public:
+    explicit ProgressiveWriting(const ProgressiveMesh& mesh)
+        : mesh_(mesh)
+        , introduced_(mesh.face_count(), false) {}
+
+    std::string text() {
+        for (const Split& split : mesh_.parts().splits) {
+            for (const std::uint32_t face : {split.left_face, split.right_face}) {
+                if (face != none) {
+                    introduced_[face] = true;
+                }
+            }
+        }
+        add_block(base());
+        ByteWriter block;
+        std::size_t in_block = 0;
+        for (auto node = mesh_.node_count(); node-- > mesh_.leaf_count();) {
+            put_split(block, static_cast<std::uint32_t>(node));
+            if (++in_block == splits_a_block) {
+                add_block(block.bytes());
+                block.bytes().clear();
+                in_block = 0;
+            }
+        }
+        if (in_block > 0) {
+            add_block(block.bytes());
+        }
+        add_block(numbers());
+        const std::size_t head_bytes = head(0).size() + block_frame_bytes;
+        const std::string blocks = std::move(text_);
+        text_ = progressive_mark;
+        add_block(head(text_.size() + head_bytes + blocks.size()));
+        return text_ + blocks;
+    }
+
+private:
+    void add_block(const std::string& bytes) {
+        Hash hash;
+        hash.add(std::as_bytes(std::span(bytes)));
+        ByteWriter frame;
+        frame.put(static_cast<std::uint32_t>(bytes.size()));
+        text_ += frame.bytes() + bytes;
+        frame.bytes().clear();
+        frame.put(hash.value());
+        text_ += frame.bytes();
+    }
+
+    std::string head(std::uint64_t file_bytes) const {
+        const ProgressiveParts& parts = mesh_.parts();
+        ByteWriter out;
+        out.put(progressive_version);
+        out.put(file_bytes);
+        out.put(static_cast<std::uint32_t>(mesh_.leaf_count()));
+        out.put(static_cast<std::uint32_t>(parts.splits.size()));
+        out.put(static_cast<std::uint32_t>(mesh_.face_count()));
+        out.put(static_cast<std::uint32_t>(mesh_.roots().size()));
+        out.put(static_cast<std::uint8_t>(
+            (parts.colours.empty() ? 0 : has_colours) |
+            (parts.face_materials.empty() ? 0 : has_materials)));
+        out.put(parts.origin_m);
+        out.put_text(parts.name);
+        out.put_short(parts.materials.size());
+        for (const models::Material& material : parts.materials) {
+            out.put_text(material.name);
+            out.put(material.colour);
+        }
+        return out.bytes();
+    }
+
+    void put_node(ByteWriter& out, std::uint32_t node) const {
+        out.put(mesh_.position_m(node));
+        out.put(mesh_.parts().normals[node]);
+        if (!mesh_.parts().colours.empty()) {
+            out.put(mesh_.parts().colours[node]);
+        }
+    }
+
+    void put_face(ByteWriter& out, std::uint32_t face, std::uint32_t near) const {
+        for (const std::uint32_t corner : mesh_.faces()[face]) {
+            out.put_difference(corner, near);
+        }
+        if (!mesh_.parts().face_materials.empty()) {
+            out.put_short(mesh_.parts().face_materials[face]);
+        }
+    }
+
+    std::string base() const {
+        ByteWriter out;
+        const auto roots = mesh_.roots();
+        std::vector<std::uint32_t> begins;
+        for (const std::uint32_t root : roots) {
+            begins.push_back(mesh_.first_leaf(root));
+        }
+        std::ranges::sort(begins);
+        begins.push_back(static_cast<std::uint32_t>(mesh_.leaf_count()));
+        for (const std::uint32_t root : roots) {
+            const auto at = std::ranges::lower_bound(begins, mesh_.first_leaf(root));
+            out.put_short(*at);
+            out.put_short(*std::next(at) - *at);
+            put_node(out, root);
+        }
+        const auto inner = std::ranges::count(introduced_, false);
+        out.put_short(static_cast<std::uint64_t>(inner));
+        for (std::uint32_t face = 0; face < introduced_.size(); ++face) {
+            if (!introduced_[face]) {
+                put_face(out, face, 0);
+            }
+        }
+        return out.bytes();
+    }
+
+    void put_split(ByteWriter& out, std::uint32_t node) const {
+        const Split& split = mesh_.split_of(node);
+        const std::uint32_t begin = mesh_.first_leaf(node);
+        const std::uint32_t middle = mesh_.first_leaf(split.second);
+        out.put_short(begin);
+        out.put_short(middle - begin);
+        out.put(split.error_m);
+        put_node(out, split.first);
+        put_node(out, split.second);
+        out.put(static_cast<std::uint8_t>(
+            (split.left_face != none ? has_left : 0) | (split.right_face != none ? has_right : 0)));
+        for (const std::uint32_t face : {split.left_face, split.right_face}) {
+            if (face != none) {
+                put_face(out, face, begin);
+            }
+        }
+    }
+
+    std::string numbers() const {
+        ByteWriter out;
+        std::uint32_t last = 0;
+        const auto put = [&](std::uint32_t number) {
+            out.put_difference(number, last);
+            last = number;
+        };
+        std::ranges::for_each(mesh_.parts().original_vertices, put);
+        for (std::uint32_t face = 0; face < introduced_.size(); ++face) {
+            if (!introduced_[face]) {
+                put(mesh_.original_face(face));
+            }
+        }
+        for (auto node = mesh_.node_count(); node-- > mesh_.leaf_count();) {
+            const Split& split = mesh_.split_of(static_cast<std::uint32_t>(node));
+            for (const std::uint32_t face : {split.left_face, split.right_face}) {
+                if (face != none) {
+                    put(mesh_.original_face(face));
+                }
+            }
+        }
+        return out.bytes();
+    }
+
+    const ProgressiveMesh& mesh_;
+    std::vector<bool> introduced_;
+    std::string text_;
+};
+
+} // namespace
+
+bool is_progressive_file(const std::filesystem::path& path) {
+    return ending_of(path) == ".pm";
+}
+
+void write_progressive(const std::filesystem::path& path, const ProgressiveMesh& mesh) {
+    write_file(path, ProgressiveWriting(mesh).text());
+}
+
+} // namespace octant::visuals::refine

@@ -1,0 +1,105 @@
+// H. Hoppe, "View-Dependent Refinement of Progressive Meshes", 1997, section 4: frustum, surface
+// orientation and screen-space error, over bounding spheres and normal cones of the hierarchy.
+//
+// Deviations: one error a node in every direction, from the simplifier, instead of two fitted to
+// samples; the outline has a weight of its own.
+#include "visuals/refine/refine_criterion.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace octant::visuals::refine {
+
+namespace {
+
+constexpr double right_angle_rad = 0.5 * std::numbers::pi;
+/// Weights change over so much: a step would split and merge at once when the eye moves.
+constexpr double ramp_rad = 0.26;
+
+double facing_weight(
+    const ProgressiveMesh& mesh,
+    std::uint32_t node,
+    const glm::dvec3& to_eye_m,
+    const CriterionOptions& options) {
+    const double distance_m = glm::length(to_eye_m);
+    const double radius_m = static_cast<double>(mesh.radius_m(node));
+    if (distance_m <= radius_m) {
+        return options.silhouette_weight;
+    }
+    const double cosine = glm::dot(glm::dvec3(mesh.normal(node)), to_eye_m) / distance_m;
+    const double angle_rad = std::acos(std::clamp(cosine, -1.0, 1.0));
+    const double play_rad =
+        static_cast<double>(mesh.cone_rad(node)) + std::asin(radius_m / distance_m);
+    // Largest and least angle between a normal below the node and the way to the eye; monotone
+    // up the tree, and so is the weight.
+    const double most = (angle_rad + play_rad - right_angle_rad) / ramp_rad;
+    const double least = (angle_rad - play_rad - right_angle_rad) / ramp_rad;
+    const double outline = std::clamp(1.0 + most, 0.0, 1.0);
+    const double turned = std::clamp(least, 0.0, 1.0);
+    const double weight =
+        options.front_weight + outline * (options.silhouette_weight - options.front_weight);
+    return weight + turned * (options.back_weight - weight);
+}
+
+/// By the largest angle that a point of the sphere lies outside a side of the frustum.
+double picture_weight(
+    double radius_m,
+    const glm::dvec3& to_eye_m,
+    const RefineView& view,
+    const CriterionOptions& options) {
+    const double distance_m = glm::length(to_eye_m);
+    if (distance_m <= radius_m) {
+        return 1.0;
+    }
+    const double play_rad = std::asin(radius_m / distance_m);
+    double outside_rad = 0.0;
+    for (const glm::dvec3& normal : view.side_normals) {
+        const double sine = glm::dot(normal, to_eye_m) / distance_m;
+        outside_rad = std::max(outside_rad, std::asin(std::clamp(sine, -1.0, 1.0)) - play_rad);
+    }
+    return 1.0 + std::min(1.0, outside_rad / ramp_rad) * (options.outside_weight - 1.0);
+}
+
+} // namespace
+
+RefineView picture_view(
+    const glm::dvec3& eye_m,
+    const glm::dvec3& look_m,
+    const glm::dvec3& up,
+    double fov_rad,
+    double width_px,
+    double height_px) {
+    RefineView view;
+    view.eye_m = eye_m;
+    view.ahead = glm::normalize(look_m - eye_m);
+    const glm::dvec3 right = glm::normalize(glm::cross(view.ahead, up));
+    const glm::dvec3 above = glm::cross(right, view.ahead);
+    const double half_height = std::tan(0.5 * fov_rad);
+    const double half_width = half_height * width_px / height_px;
+    view.focal_px = 0.5 * height_px / half_height;
+    view.side_normals = {
+        glm::normalize(half_width * view.ahead - right),
+        glm::normalize(half_width * view.ahead + right),
+        glm::normalize(half_height * view.ahead - above),
+        glm::normalize(half_height * view.ahead + above)};
+    return view;
+}
+
+double projected_error_px(
+    const ProgressiveMesh& mesh,
+    std::uint32_t node,
+    const RefineView& view,
+    const CriterionOptions& options) {
+    const glm::dvec3 to_eye_m =
+        view.eye_m - (glm::dvec3(mesh.position_m(node)) + mesh.parts().origin_m);
+    const double radius_m = static_cast<double>(mesh.radius_m(node));
+    const double away_m = std::max(glm::length(to_eye_m) - radius_m, view.near_m);
+    const double error_px = view.focal_px * static_cast<double>(mesh.error_m(node)) / away_m;
+    return facing_weight(mesh, node, to_eye_m, options) *
+           picture_weight(radius_m, to_eye_m, view, options) * error_px;
+}
+
+} // namespace octant::visuals::refine

@@ -1,0 +1,291 @@
+// J. Kim, S. Lee, "Truly Selective Refinement of Progressive Meshes", Graphics Interface 2001,
+// section 4: vsplit(vs, vt, vu, val, var) and ecol(vs, vt, vu) with active cut vertices.
+//
+// Deviations:
+// - The paper collapses wherever both children are active. In a state that no simplification went
+//   through that can pinch the surface: here the link condition is tested and the collapse refused.
+// - The paper says nothing of faces that turn over where fine meets coarse. See repair().
+// - Which side of a split a face goes to is read off the numbers of its original corners, not by
+//   walking from one cut vertex to the other.
+#include "visuals/refine/selective_refiner.h"
+
+#include <cassert>
+
+namespace octant::visuals::refine {
+
+SelectiveRefiner::SelectiveRefiner(
+    std::shared_ptr<const ProgressiveMesh> mesh, RefinerOptions options)
+    : mesh_(std::move(mesh))
+    , options_(std::move(options))
+    , faces_(mesh_->leaf_count(), mesh_->face_count()) {
+    if (options_.rule != SplitRule::Selective && !options_.earlier) {
+        options_.earlier = std::make_shared<const EarlierRules>(*mesh_);
+    }
+    stack_.reserve(64);
+    restart();
+}
+
+void SelectiveRefiner::restart() {
+    faces_.clear();
+    nodes_.clear();
+    vertices_.clear();
+    marks_.clear();
+    free_slots_.clear();
+    changed_.clear();
+    recent_splits_.clear();
+    active_.assign(mesh_->node_count() / 64 + 1, 0);
+    split_.assign(mesh_->node_count() / 64 + 1, 0);
+    slots_.assign(mesh_->node_count(), 0);
+    for (const std::uint32_t root : mesh_->roots()) {
+        flip(active_, root);
+        const std::uint32_t slot = new_slot();
+        nodes_[slot] = root;
+        slots_[root] = slot;
+        vertices_[slot] = vertex_of(root);
+        note_change(slot);
+    }
+    active_count_ = nodes_.size();
+    std::vector<bool> introduced(mesh_->face_count(), false);
+    for (const Split& split : mesh_->parts().splits) {
+        for (const std::uint32_t face : {split.left_face, split.right_face}) {
+            if (face != none) {
+                introduced[face] = true;
+            }
+        }
+    }
+    for (std::uint32_t face = 0; face < introduced.size(); ++face) {
+        if (!introduced[face]) {
+            std::array<std::uint32_t, 3> corners = mesh_->faces()[face];
+            for (std::uint32_t& corner : corners) {
+                corner = slot(active_ancestor(corner));
+            }
+            dirty_faces_.mark(faces_.add(corners, face));
+        }
+    }
+}
+
+std::uint32_t SelectiveRefiner::new_slot() {
+    std::uint32_t slot = 0;
+    if (!free_slots_.empty()) {
+        slot = free_slots_.back();
+        free_slots_.pop_back();
+    } else {
+        slot = static_cast<std::uint32_t>(nodes_.size());
+        make_room(nodes_, nodes_.size() + 1, mesh_->leaf_count());
+        make_room(vertices_, nodes_.size() + 1, mesh_->leaf_count());
+        nodes_.push_back(none);
+        marks_.push_back(0);
+        vertices_.emplace_back();
+        faces_.resize_vertices(nodes_.size());
+    }
+    dirty_vertices_.mark(slot);
+    return slot;
+}
+
+std::size_t SelectiveRefiner::split(std::uint32_t node) {
+    assert(!mesh_->is_leaf(node));
+    const std::size_t before = counts_.splits;
+    if (is_split(node)) {
+        return 0;
+    }
+    if (is_active(node) && options_.rule == SplitRule::Selective) {
+        fetch_children(node);
+        if (const Cuts cuts = active_cuts(node); cuts.left != cuts.right) { // nearly always
+            split_now(node, cuts);
+            return 1;
+        }
+    }
+    std::size_t asked = 0; // the node itself and its ancestors
+    for (std::uint32_t path = node; path != none && !is_split(path); path = mesh_->parent(path)) {
+        ++asked;
+    }
+    stack_.push_back(node);
+    while (!stack_.empty()) {
+        const std::uint32_t next = stack_.back();
+        if (is_split(next)) {
+            stack_.pop_back();
+        } else if (!is_active(next)) {
+            stack_.push_back(mesh_->parent(next));
+        } else if (const std::uint32_t first = needed_before(next); first != none) {
+            stack_.push_back(first);
+        } else if (const Cuts cuts = active_cuts(next); cuts.left == cuts.right) {
+            stack_.push_back(cuts.left);
+        } else {
+            split_now(next, cuts);
+            stack_.pop_back();
+        }
+    }
+    const std::size_t done = counts_.splits - before;
+    counts_.forced_by_rule += done - asked;
+    return done;
+}
+
+/// The active vertices beside both children of an active node once it has split: val and var. Only
+/// two of them are ever the same: one of a boundary is numbered beyond all nodes.
+SelectiveRefiner::Cuts SelectiveRefiner::active_cuts(std::uint32_t node) const {
+    const std::uint32_t left = mesh_->split_of(node).left_cut;
+    const std::uint32_t right = mesh_->split_of(node).right_cut;
+    return {
+        left == none ? none : active_ancestor(left),
+        right == none ? none - 1 : active_ancestor(right)};
+}
+
+/// A node that the earlier rules want split before an active one; none when it may split.
+std::uint32_t SelectiveRefiner::needed_before(std::uint32_t node) const {
+    switch (options_.rule) {
+    case SplitRule::Hoppe:
+        return needed_by_hoppe(node);
+    case SplitRule::Xia:
+        return needed_by_xia(node);
+    case SplitRule::Selective:
+        break;
+    }
+    return none;
+}
+
+std::uint32_t SelectiveRefiner::needed_by_hoppe(std::uint32_t node) const {
+    for (const std::uint32_t face : options_.earlier->faces_beside(node)) {
+        if (face == none) {
+            continue;
+        }
+        const std::uint32_t introducer = options_.earlier->introducer(face);
+        if (introducer != none && !is_split(introducer)) {
+            return introducer;
+        }
+    }
+    return none;
+}
+
+std::uint32_t SelectiveRefiner::needed_by_xia(std::uint32_t node) const {
+    for (const std::uint32_t around : options_.earlier->ring(node)) {
+        const std::uint32_t parent = mesh_->parent(around);
+        if (parent != none && !is_split(parent)) {
+            return parent;
+        }
+    }
+    return none;
+}
+
+void SelectiveRefiner::split_now(std::uint32_t node, const Cuts& cuts) {
+    const Split& split = mesh_->split_of(node);
+    const std::uint32_t middle = split.middle;
+    const std::uint32_t first_slot = slot(node);
+    const std::uint32_t second_slot = new_slot();
+    swap_activity(node);
+    ++active_count_;
+    ++counts_.splits;
+    if (options_.remember_splits) {
+        recent_splits_.push_back(node);
+    }
+    nodes_[first_slot] = split.first;
+    nodes_[second_slot] = split.second;
+    slots_[split.first] = first_slot;
+    slots_[split.second] = second_slot;
+    vertices_[first_slot] = vertex_of(split.first);
+    vertices_[second_slot] = vertex_of(split.second);
+    dirty_vertices_.mark(first_slot);
+    faces_.move_corners(first_slot, second_slot, [&](std::uint32_t corner) {
+        const bool moves = mesh_->faces()[faces_.label(corner / 3)][corner % 3] >= middle;
+        dirty_faces_.mark_if(corner / 3, moves);
+        return moves;
+    });
+    const auto add_face = [&](std::uint32_t face, std::uint32_t cut_leaf, std::uint32_t cut) {
+        std::array<std::uint32_t, 3> corners = mesh_->faces()[face];
+        for (std::uint32_t& corner : corners) {
+            corner = corner == cut_leaf ? slot(cut) : corner >= middle ? second_slot : first_slot;
+        }
+        dirty_faces_.mark(faces_.add(corners, face));
+    };
+    if (split.left_face != none) {
+        add_face(split.left_face, split.left_cut, cuts.left);
+    }
+    if (split.right_face != none) {
+        add_face(split.right_face, split.right_cut, cuts.right);
+    }
+    note_change(first_slot);
+    note_change(second_slot);
+}
+
+/// Between an inner node and its children.
+void SelectiveRefiner::swap_activity(std::uint32_t node) {
+    const Split& split = mesh_->split_of(node);
+    flip(active_, node);
+    flip(split_, node);
+    flip(active_, split.first);
+    flip(active_, split.second);
+}
+
+bool SelectiveRefiner::may_collapse(std::uint32_t node) {
+    assert(!mesh_->is_leaf(node));
+    const Split& split = mesh_->split_of(node);
+    if (!is_active(split.first) || !is_active(split.second)) {
+        return false;
+    }
+    const std::uint32_t first_slot = slot(split.first);
+    const std::uint32_t second_slot = slot(split.second);
+    return links_allow(first_slot, second_slot) &&
+           !(options_.repair && (turns_faces(first_slot, second_slot, node) ||
+                                 turns_faces(second_slot, first_slot, node)));
+}
+
+bool SelectiveRefiner::collapse(std::uint32_t node) {
+    if (!may_collapse(node)) {
+        ++counts_.blocked;
+        return false;
+    }
+    collapse_now(node);
+    return true;
+}
+
+void SelectiveRefiner::collapse_now(std::uint32_t node) {
+    const Split& split = mesh_->split_of(node);
+    const std::uint32_t first_slot = slot(split.first);
+    const std::uint32_t second_slot = slot(split.second);
+    for (const std::uint32_t face : {split.left_face, split.right_face}) {
+        if (face != none) {
+            const std::uint32_t place = faces_.find(first_slot, face);
+            dirty_faces_.mark(place);
+            faces_.remove(place);
+        }
+    }
+    faces_.move_corners(second_slot, first_slot, [&](std::uint32_t corner) {
+        dirty_faces_.mark(corner / 3);
+        return true;
+    });
+    swap_activity(node);
+    --active_count_;
+    ++counts_.collapses;
+    nodes_[first_slot] = node;
+    nodes_[second_slot] = none;
+    free_slots_.push_back(second_slot);
+    vertices_[first_slot] = vertex_of(node);
+    dirty_vertices_.mark(first_slot);
+    note_change(first_slot);
+}
+
+RefinedVertex SelectiveRefiner::vertex_of(std::uint32_t node) const {
+    return {mesh_->position_m(node), mesh_->packed_normal(node), mesh_->colour(node)};
+}
+
+void SelectiveRefiner::draw_at(std::uint32_t slot, const RefinedVertex& vertex) {
+    vertices_[slot] = vertex;
+    dirty_vertices_.mark(slot);
+}
+
+void SelectiveRefiner::take_dirty_vertices(std::vector<PlaceRange>& ranges) {
+    dirty_vertices_.take(vertices_.size(), ranges);
+}
+
+void SelectiveRefiner::take_dirty_faces(std::vector<PlaceRange>& ranges) {
+    dirty_faces_.take(faces_.place_count(), ranges);
+}
+
+std::size_t SelectiveRefiner::bytes() const {
+    const std::size_t numbers = nodes_.capacity() + slots_.capacity() + free_slots_.capacity() +
+                                stack_.capacity() + changed_.capacity();
+    return sizeof(*this) + faces_.bytes() + sizeof(std::uint32_t) * numbers +
+           sizeof(std::uint64_t) * (active_.capacity() + split_.capacity()) + marks_.capacity() +
+           dirty_vertices_.bytes() + dirty_faces_.bytes();
+}
+
+} // namespace octant::visuals::refine

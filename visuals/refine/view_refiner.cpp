@@ -1,0 +1,219 @@
+#include "visuals/refine/view_refiner.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace octant::visuals::refine {
+
+ViewRefiner::ViewRefiner(
+    std::shared_ptr<const ProgressiveMesh> mesh, const ViewRefinerOptions& options)
+    : options_(options)
+    , front_(std::move(mesh), {.remember_splits = true, .repair = options.repair})
+    , moves_(options.geomorph) {}
+
+RefinedFrame ViewRefiner::update(const RefineView& view) {
+    if (settled_ && has_view_ && view == view_) {
+        return {};
+    }
+    view_ = view;
+    has_view_ = true;
+    ++frame_;
+    waiting_ = false;
+    const RefinerCounts before = front_.counts();
+    gather();
+    split_worst();
+    front_.repair();
+    start_moves();
+    turn_back_moves();
+    merge_smallest();
+    RefinedFrame frame;
+    frame.moving = options_.geomorphs ? moves_.move(front_, view) : 0;
+    frame.splits = front_.counts().splits - before.splits;
+    frame.collapses = front_.counts().collapses - before.collapses;
+    settled_ = frame.splits + frame.collapses + frame.moving == 0 && !waiting_;
+    frame.settled = settled_;
+    return frame;
+}
+
+void ViewRefiner::settle(const RefineView& view) {
+    constexpr int most_rounds = 100; // repair and merging could undo each other's work for ever
+    const ViewRefinerOptions kept = options_;
+    options_.geomorphs = false;
+    options_.operations = std::numeric_limits<std::size_t>::max();
+    options_.rest_frames = 0;
+    settled_ = false;
+    for (int round = 0; round < most_rounds && !update(view).settled; ++round) {
+    }
+    options_ = kept;
+}
+
+/// What is to be split, and what may be merged.
+void ViewRefiner::gather() {
+    splits_.clear();
+    merges_.clear();
+    const ProgressiveMesh& mesh = front_.mesh();
+    for (std::uint32_t slot = 0; slot < front_.vertices().size(); ++slot) {
+        const std::uint32_t node = front_.node_at(slot);
+        if (node == none) {
+            continue;
+        }
+        consider_split(node);
+        const std::uint32_t parent = mesh.parent(node);
+        if (parent == none || mesh.split_of(parent).first != node ||
+            !front_.is_active(mesh.split_of(parent).second)) {
+            continue;
+        }
+        const double shown_px = error_px(parent);
+        if (shown_px < options_.merge_share * options_.error_px) {
+            merges_.push_back({shown_px, parent});
+        }
+    }
+}
+
+void ViewRefiner::consider_split(std::uint32_t node) {
+    if (front_.mesh().is_leaf(node)) {
+        return;
+    }
+    const double shown_px = error_px(node);
+    if (shown_px > options_.error_px) {
+        if (shown_px <= options_.again_share * options_.error_px && rests_after_merge(node)) {
+            waiting_ = true;
+            return;
+        }
+        splits_.push_back({shown_px, node});
+        std::ranges::push_heap(splits_, [](const Candidate& a, const Candidate& b) {
+            return a.error_px != b.error_px ? a.error_px < b.error_px : a.node < b.node;
+        });
+    }
+}
+
+void ViewRefiner::split_worst() {
+    const auto less = [](const Candidate& a, const Candidate& b) {
+        return a.error_px != b.error_px ? a.error_px < b.error_px : a.node < b.node;
+    };
+    std::size_t left = options_.operations;
+    while (!splits_.empty() && left > 0) {
+        std::ranges::pop_heap(splits_, less);
+        const std::uint32_t node = splits_.back().node;
+        splits_.pop_back();
+        if (front_.split(node) == 0) {
+            continue; // forced by another one
+        }
+        --left;
+        const Split& split = front_.mesh().split_of(node);
+        for (const std::uint32_t child : {split.first, split.second}) {
+            if (front_.is_active(child)) {
+                consider_split(child);
+            }
+        }
+    }
+    waiting_ = waiting_ || !splits_.empty();
+}
+
+void ViewRefiner::start_moves() {
+    split_frames_.resize(front_.vertices().size(), 0);
+    for (const std::uint32_t node : front_.recent_splits()) {
+        const Split& split = front_.mesh().split_of(node);
+        split_frames_[front_.slot_below(split.first)] = frame_;
+        split_frames_[front_.slot_below(split.second)] = frame_;
+        if (options_.geomorphs) {
+            moves_.start(front_, node);
+        }
+    }
+    front_.forget_recent_splits();
+}
+
+/// Vertices on their way to a merge that is not wanted any more, or not possible, go back.
+void ViewRefiner::turn_back_moves() {
+    turning_.clear();
+    moves_.each([&](std::uint32_t slot, std::uint32_t target) {
+        const std::uint32_t node = front_.node_at(slot);
+        if (target == node) {
+            return;
+        }
+        const Split& split = front_.mesh().split_of(target);
+        if (!front_.is_active(split.first) || !front_.is_active(split.second) ||
+            error_px(target) > options_.error_px || !front_.may_collapse(target)) {
+            turning_.push_back(slot);
+        }
+    });
+    for (const std::uint32_t slot : turning_) {
+        moves_.send(front_, slot, front_.node_at(slot));
+    }
+}
+
+void ViewRefiner::merge_smallest() {
+    std::ranges::sort(merges_, [](const Candidate& a, const Candidate& b) {
+        return a.error_px != b.error_px ? a.error_px < b.error_px : a.node > b.node;
+    });
+    std::size_t left = options_.operations;
+    for (const Candidate& candidate : merges_) {
+        const Split& split = front_.mesh().split_of(candidate.node);
+        if (!front_.is_active(split.first) || !front_.is_active(split.second)) {
+            continue; // forced to split
+        }
+        if (left == 0 || is_resting(candidate.node)) {
+            waiting_ = true;
+        } else if (merge(candidate.node)) {
+            --left;
+        }
+    }
+}
+
+bool ViewRefiner::is_resting(std::uint32_t node) const {
+    const Split& split = front_.mesh().split_of(node);
+    const std::uint32_t came =
+        std::max(split_frames_[front_.slot(split.first)], split_frames_[front_.slot(split.second)]);
+    return came != 0 && frame_ - came <= static_cast<std::uint32_t>(options_.rest_frames);
+}
+
+bool ViewRefiner::rests_after_merge(std::uint32_t node) const {
+    const std::uint32_t slot = front_.slot(node);
+    return slot < merged_.size() && merged_[slot].node == node &&
+           frame_ - merged_[slot].frame <= static_cast<std::uint32_t>(options_.rest_frames);
+}
+
+/// Merges a node's children, or sends them to where it lies. False when that is not possible now.
+bool ViewRefiner::merge(std::uint32_t node) {
+    const Split& split = front_.mesh().split_of(node);
+    const std::uint32_t first = front_.slot(split.first);
+    const std::uint32_t second = front_.slot(split.second);
+    const bool there = moves_.target(first) == node && moves_.target(second) == node &&
+                       moves_.has_arrived(first) && moves_.has_arrived(second);
+    if (!options_.geomorphs || there) {
+        if (!front_.collapse(node)) {
+            return false;
+        }
+        moves_.forget(first);
+        moves_.forget(second);
+        split_frames_[first] = 0;
+        merged_.resize(split_frames_.size());
+        merged_[first] = {node, frame_};
+        return true;
+    }
+    if (!front_.may_collapse(node)) {
+        return false;
+    }
+    moves_.send(front_, first, node);
+    moves_.send(front_, second, node);
+    return true;
+}
+
+std::size_t ViewRefiner::wanted_splits(const RefineView& view) const {
+    const ProgressiveMesh& mesh = front_.mesh();
+    std::vector<std::uint32_t> open(mesh.roots().begin(), mesh.roots().end());
+    std::size_t wanted = 0;
+    while (!open.empty()) {
+        const std::uint32_t node = open.back();
+        open.pop_back();
+        if (!mesh.is_leaf(node) &&
+            projected_error_px(mesh, node, view, options_.criterion) > options_.error_px) {
+            ++wanted;
+            open.push_back(mesh.split_of(node).first);
+            open.push_back(mesh.split_of(node).second);
+        }
+    }
+    return wanted;
+}
+
+} // namespace octant::visuals::refine

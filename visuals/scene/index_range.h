@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+
+namespace octant::visuals::scene {
+
+/// A part of a model's index buffer.
+struct IndexRange {
+    std::uint32_t first_index = 0;
+    std::uint32_t index_count = 0;
+    int polygons = 0;
+};
+
+} // namespace octant::visuals::scene

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "visuals/scene/aircraft_hull.h"
+#include "visuals/scene/frame_plan.h"
+
+#include <glm/vec2.hpp>
+
+namespace octant::visuals::scene {
+
+/// The pixels that hold a box as FramePlan::world_to_view and view_to_clip show it; the whole
+/// picture where part of the box lies behind the eye.
+PixelBox pixel_box(const HullBox& box, const FramePlan& plan, const glm::ivec2& size_px);
+
+} // namespace octant::visuals::scene

@@ -1,0 +1,124 @@
+#include "visuals/scene/pixel_box.h"
+#include "visuals/scene/planner.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+// In which order, and how, what has been planned is painted.
+
+namespace octant::visuals::scene {
+
+namespace {
+
+/// Renderers round screen positions to 1/256 pixel. What is painted again is cut this much too wide
+/// where only that rounding could tell, so that no line of the covered thing shows along the cut.
+constexpr double rounding_px = 0.01;
+
+} // namespace
+
+/// The cockpit, if any, is nearer than all.
+void Planner::paint_nearest_first() {
+    std::iota(near_to_far_.begin(), near_to_far_.end(), 0U);
+    const auto distance2_m2 = [&](std::uint32_t i) {
+        return glm::dot(hulls_[i].centre_m, hulls_[i].centre_m);
+    };
+    std::ranges::sort(near_to_far_, [&](std::uint32_t a, std::uint32_t b) {
+        const double a_m2 = distance2_m2(a);
+        const double b_m2 = distance2_m2(b);
+        return a_m2 != b_m2 ? a_m2 < b_m2 : a < b;
+    });
+    if (placed_.size() > hulls_.size()) {
+        steps_.paint(draw_of(placed_.back()));
+    }
+    for (const std::uint32_t i : near_to_far_) {
+        paint(placed_[i]);
+    }
+}
+
+/// As a whole.
+void Planner::paint(const PlacedAircraft& aircraft) {
+    if (!is_solid(aircraft)) {
+        steps_.paint(draw_of(aircraft));
+        return;
+    }
+    if (!is_refined(aircraft)) {
+        steps_.paint_solid(draw_of(aircraft));
+        return;
+    }
+    const auto i = static_cast<std::size_t>(&aircraft - placed_.data());
+    RefinedDraw draw = refined_[i]->draw(settings_.shading != AircraftShading::Flat);
+    draw.first_part = aircraft.first_part;
+    draw.first_smooth = aircraft.first_smooth;
+    steps_.paint_solid(draw);
+}
+
+void Planner::paint_knots(const Camera& camera, PlanCounts& counts) {
+    order_.arrange(hulls_);
+    for (const Knot& knot : order_.knots()) {
+        paint_knot(knot, camera, counts);
+    }
+    if (placed_.size() > hulls_.size()) {
+        steps_.paint(draw_of(placed_.back()));
+    }
+}
+
+/// Paints a knot and again what lies before it; nothing again where it is out of view.
+void Planner::paint_knot(const Knot& knot, const Camera& camera, PlanCounts& counts) {
+    members_.clear();
+    for (const std::uint32_t member : order_.members(knot)) {
+        members_.push_back(&placed_[member]);
+    }
+    if (!in_view(knot.box.centre_m, radius_m(knot.box), frustum_)) {
+        for (const PlacedAircraft* member : members_) {
+            steps_.paint(draw_of(*member));
+        }
+        return;
+    }
+    in_front_.find(knot.box, *scene_.ground, ground_.all, camera.eye_m);
+    paint_members(knot, counts);
+    if (in_front_.found().empty() || holds_eye(knot.box)) {
+        return;
+    }
+    // Not in the cone of a knot's box: between the members a farther knot may be seen before the
+    // ground. What was painted earlier and is seen in a member's cone lies behind the member.
+    for (const std::uint32_t member : order_.members(knot)) {
+        steps_.paint_before(ground_, in_front_.found(), knot.box, cone_of(hulls_[member]));
+        counts.cuts += static_cast<int>(in_front_.found().size());
+    }
+}
+
+/// Polygons as their order says, or cut where there is none; by depth where a mesh is among them.
+void Planner::paint_members(const Knot& knot, PlanCounts& counts) {
+    const bool solid =
+        std::ranges::any_of(members_, [](const PlacedAircraft* one) { return is_solid(*one); });
+    const bool alone = in_front_.meeting().empty() && members_.size() == 1;
+    counts.knots += alone ? 0 : 1;
+    if (solid) {
+        paint_solids(knot);
+    } else if (alone) {
+        steps_.paint(draw_of(*members_.front()));
+    } else {
+        counts.cuts += repaint_.paint(
+            members_, knot.box, ground_, in_front_.meeting(), rounding_px * pixel_rad_, steps_);
+        counts.unordered += repaint_.given_up();
+    }
+}
+
+/// By a depth buffer that holds nothing else but the ground that meets them.
+void Planner::paint_solids(const Knot& knot) {
+    steps_.begin_solids(pixel_box(knot.box, plan_, settings_.size_px));
+    if (!in_front_.meeting().empty()) {
+        steps_.hide_by_ground(ground_, in_front_.meeting());
+    }
+    for (const PlacedAircraft* member : members_) {
+        if (is_solid(*member)) {
+            paint(*member);
+        } else {
+            steps_.paint_solid(draw_of(*member));
+        }
+    }
+}
+
+} // namespace octant::visuals::scene

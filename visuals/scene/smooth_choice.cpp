@@ -1,0 +1,187 @@
+#include "visuals/scene/smooth_choice.h"
+
+#include "visuals/shading/smooth_count.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace octant::visuals::scene {
+
+namespace {
+
+constexpr std::size_t word_bits = 32;
+
+/// An aircraft nearer than this many radii weighs no more.
+constexpr double nearest_radii = 1.0;
+
+std::size_t words_for(const AircraftModel& model) {
+    std::size_t most = model.progressive ? model.progressive->face_count() : 0;
+    for (std::size_t as = 0; as <= model.levels.size(); ++as) {
+        most = std::max(most, model.shaded_as(as).size());
+    }
+    return most / word_bits + 1;
+}
+
+double distance_m(const PlacedAircraft& aircraft) {
+    return glm::length(glm::dvec3(aircraft.parts[0][3]));
+}
+
+/// Those that may be flat or smooth.
+int polygons_of(const PlacedAircraft& aircraft) {
+    return is_refined(aircraft)
+               ? 0
+               : static_cast<int>(aircraft.model->shaded_as(aircraft.representation).size());
+}
+
+/// About the solid angle under which an aircraft is seen.
+double weight_of(const PlacedAircraft& aircraft) {
+    const double radius_m = aircraft.model->subject.radius_m;
+    const double sine = radius_m / std::max(distance_m(aircraft), nearest_radii * radius_m);
+    return sine * sine;
+}
+
+} // namespace
+
+void share_out_smooth(std::span<const SmoothShare> aircraft, int smooth, std::span<int> given) {
+    assert(given.size() == aircraft.size());
+    std::ranges::fill(given, 0);
+    int left = smooth;
+    bool filled = true; // some aircraft got all that it can take: the others share what is left
+    while (left > 0 && filled) {
+        double weight = 0.0;
+        for (std::size_t i = 0; i < aircraft.size(); ++i) {
+            weight += given[i] < aircraft[i].polygons ? aircraft[i].weight : 0.0;
+        }
+        filled = false;
+        const int to_share = left;
+        for (std::size_t i = 0; i < aircraft.size() && weight > 0.0; ++i) {
+            const int room = aircraft[i].polygons - given[i];
+            const auto part = static_cast<int>(to_share * (aircraft[i].weight / weight));
+            filled = filled || (room > 0 && part >= room);
+            given[i] += std::min(room, part);
+            left -= std::min(room, part);
+        }
+    }
+    for (std::size_t i = 0; i < aircraft.size() && left > 0; ++i) { // what rounding left over
+        const int more = std::min(left, aircraft[i].polygons - given[i]);
+        given[i] += more;
+        left -= more;
+    }
+}
+
+SmoothChoice::SmoothChoice(const Settings& settings, std::span<PlacedAircraft> placed)
+    : settings_(settings)
+    , choosers_(placed.size())
+    , shares_(placed.size())
+    , given_(placed.size()) {
+    shading::ShadingRuleSettings rule;
+    rule.rule = settings.shading_rule == HybridRule::Paper ? shading::ShadingRule::Paper
+                                                           : shading::ShadingRule::Error;
+    std::size_t words = 0;
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        const AircraftModel& model = *placed[i].model;
+        placed[i].first_smooth = static_cast<std::uint32_t>(words);
+        words += words_for(model);
+        for (std::size_t as = 0; chooses() && as <= model.levels.size(); ++as) {
+            choosers_[i].emplace_back(model.shaded_as(as), rule);
+        }
+    }
+    bits_.assign(words, settings.shading == AircraftShading::Flat ? 0U : ~0U);
+}
+
+/// Whether some polygons may be smooth while others are not.
+bool SmoothChoice::chooses() const {
+    return settings_.shading == AircraftShading::Hybrid &&
+           (settings_.smooth_share < 1.0 || settings_.device_ratio || settings_.adapt.shading ||
+            settings_.shading_rule == HybridRule::Paper);
+}
+
+/// Fills in given_; returns the sum of the polygons.
+int SmoothChoice::wanted_of(std::span<const PlacedAircraft> placed) {
+    int all = 0;
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        shares_[i] = {polygons_of(placed[i]), weight_of(placed[i])};
+        all += shares_[i].polygons;
+    }
+    const double share = settings_.smooth_share;
+    int wanted = static_cast<int>(std::lround(share * all));
+    if (settings_.device_ratio) {
+        wanted = shading::device_smooth_count(*settings_.device_ratio, all);
+    }
+    wanted = std::min(wanted_.value_or(wanted), all);
+    share_out_smooth(shares_, wanted, given_);
+    if (settings_.shading_rule == HybridRule::Paper) {
+        const shading::ShadingRange range{settings_.shading_near_m, settings_.shading_far_m};
+        for (std::size_t i = 0; i < placed.size(); ++i) {
+            given_[i] = std::min(
+                given_[i],
+                shading::smooth_count(distance_m(placed[i]), range, shares_[i].polygons));
+        }
+    }
+    return all;
+}
+
+SmoothChoice::Count SmoothChoice::choose(
+    std::span<const PlacedAircraft> placed,
+    const glm::dvec3& to_sun,
+    const glm::vec2& light,
+    std::vector<std::uint32_t>& smooth) {
+    const int all = wanted_of(placed);
+    int count = settings_.shading == AircraftShading::Flat ? 0 : all;
+    if (chooses()) {
+        count = 0;
+        for (std::size_t i = 0; i < placed.size(); ++i) {
+            if (is_refined(placed[i])) {
+                fill_bits(placed, i);
+                continue;
+            }
+            const glm::dmat3 turn(placed[i].parts[0]);
+            shading::ShadingLight sun;
+            sun.to_light = glm::vec3(to_sun * turn);
+            sun.ambient = light.x;
+            sun.diffuse = light.y;
+            sun.specular = 0.0F;
+            const glm::dvec3 eye_m = -glm::dvec3(placed[i].parts[0][3]) * turn;
+            const shading::ShadingChoice choice =
+                chooser_of(i, placed[i]).choose(eye_m, sun, given_[i]);
+            write_bits(placed[i], choice);
+            count += choice.smooth_count;
+        }
+    }
+    smooth.assign(bits_.begin(), bits_.end());
+    return {all, count};
+}
+
+shading::ShadingSelector&
+SmoothChoice::chooser_of(std::size_t aircraft, const PlacedAircraft& placed) {
+    const bool polygons = !is_solid(placed);
+    return polygons ? choosers_[aircraft].back() : choosers_[aircraft][placed.representation];
+}
+
+/// All smooth.
+void SmoothChoice::fill_bits(std::span<const PlacedAircraft> placed, std::size_t aircraft) {
+    const auto first = bits_.begin() + placed[aircraft].first_smooth;
+    const auto end = aircraft + 1 < placed.size()
+                         ? bits_.begin() + placed[aircraft + 1].first_smooth
+                         : bits_.end();
+    std::fill(first, end, ~0U);
+}
+
+void SmoothChoice::write_bits(
+    const PlacedAircraft& aircraft, const shading::ShadingChoice& choice) {
+    for (std::size_t first = 0; first < choice.smooth.size(); first += word_bits) {
+        const auto part =
+            choice.smooth.subspan(first, std::min(word_bits, choice.smooth.size() - first));
+        std::uint32_t word = 0;
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            word |= std::uint32_t{part[i]} << i;
+        }
+        bits_[aircraft.first_smooth + first / word_bits] = word;
+    }
+}
+
+} // namespace octant::visuals::scene

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "visuals/scene/placed_aircraft.h"
+#include "visuals/scene/settings.h"
+#include "visuals/shading/shading_rule.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::scene {
+
+/// Polygons of one aircraft, and how much of the picture it takes.
+struct SmoothShare {
+    int polygons = 0;
+    double weight = 0.0; ///< at least 0
+};
+
+/// Shares `smooth` smooth polygons out among aircraft, by weight, none getting more than it has;
+/// in all as many as asked for, or all. `given`: one an aircraft.
+void share_out_smooth(std::span<const SmoothShare> aircraft, int smooth, std::span<int> given);
+
+/// Chooses in each frame which polygons of which aircraft are lit smoothly; of meshes that are
+/// refined all or none. Keeps the choice, so that shading does not flicker, and its memory.
+class SmoothChoice {
+public:
+    /// Gives each aircraft its place in FramePlan::smooth. Loading work.
+    SmoothChoice(const Settings& settings, std::span<PlacedAircraft> placed);
+
+    /// From now on so many polygons are smooth in each frame; nothing: as the settings say.
+    void set_smooth(std::optional<int> polygons) { wanted_ = polygons; }
+
+    /// Of how many polygons, and how many of them.
+    struct Count {
+        int polygons = 0;
+        int smooth = 0;
+    };
+
+    /// Fills in the bits of the aircraft as they are placed; counts all polygons of their models,
+    /// painted or not, but none of meshes that are refined.
+    /// `to_sun`: unit vector, world axes. `light`: share of it from everywhere and from the sun.
+    Count choose(
+        std::span<const PlacedAircraft> placed,
+        const glm::dvec3& to_sun,
+        const glm::vec2& light,
+        std::vector<std::uint32_t>& smooth);
+
+private:
+    /// Of one aircraft: its levels, then its polygons; empty where all polygons are alike.
+    using Choosers = std::vector<shading::ShadingSelector>;
+
+    bool chooses() const;
+    int wanted_of(std::span<const PlacedAircraft> placed);
+    shading::ShadingSelector& chooser_of(std::size_t aircraft, const PlacedAircraft& placed);
+    void fill_bits(std::span<const PlacedAircraft> placed, std::size_t aircraft);
+    void write_bits(const PlacedAircraft& aircraft, const shading::ShadingChoice& choice);
+
+    const Settings& settings_;
+    std::vector<Choosers> choosers_;
+    std::vector<std::uint32_t> bits_;
+    std::vector<SmoothShare> shares_;
+    std::vector<int> given_;
+    std::optional<int> wanted_;
+};
+
+} // namespace octant::visuals::scene

@@ -1,0 +1,175 @@
+// What Kim and Park's hybrid rendering model (2008), section 3, asks of a polygon: its size as the
+// sum of its edge lengths, and its corners with their normals.
+// Deviations: areas, centres and fans are here for the other rule; n-gons keep all their edges.
+#include "visuals/shading/shaded_polygons.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace octant::visuals::shading {
+
+namespace {
+
+constexpr float unpainted = 0.7F;
+
+float sum_of(const glm::vec3& colour) {
+    return colour.x + colour.y + colour.z;
+}
+
+auto key_of(const LitPoint& point) {
+    return std::tuple(
+        point.place_m.x,
+        point.place_m.y,
+        point.place_m.z,
+        point.normal.x,
+        point.normal.y,
+        point.normal.z,
+        point.colour_sum);
+}
+
+/// One LitPoint for all corners that have the same, numbered as corners come.
+void share_points(std::span<const LitPoint> corners, ShadedPolygons& shaded) {
+    std::vector<std::uint32_t> sorted(corners.size());
+    std::iota(sorted.begin(), sorted.end(), 0U);
+    std::ranges::sort(
+        sorted, {}, [&](std::uint32_t c) { return std::tuple(key_of(corners[c]), c); });
+    std::vector<std::uint32_t> first(corners.size());
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const bool again = i > 0 && key_of(corners[sorted[i]]) == key_of(corners[sorted[i - 1]]);
+        first[sorted[i]] = again ? first[sorted[i - 1]] : sorted[i];
+    }
+    shaded.corner_points.resize(corners.size());
+    for (std::uint32_t c = 0; c < corners.size(); ++c) {
+        if (first[c] == c) {
+            shaded.corner_points[c] = static_cast<std::uint32_t>(shaded.points.size());
+            shaded.points.push_back(corners[c]);
+        } else {
+            shaded.corner_points[c] = shaded.corner_points[first[c]];
+        }
+    }
+}
+
+void measure(ShadedPolygon& polygon, std::span<const LitPoint> corners, std::span<float> fan_m2) {
+    const glm::vec3& first_m = corners.front().place_m;
+    glm::vec3 weighted(0.0F);
+    glm::vec3 mean(0.0F);
+    float colour = 0.0F;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::vec3& here_m = corners[i].place_m;
+        const glm::vec3& next_m = corners[(i + 1) % corners.size()].place_m;
+        polygon.perimeter_m += glm::distance(here_m, next_m);
+        colour += corners[i].colour_sum;
+        mean += here_m;
+        fan_m2[i] = 0.5F * glm::length(glm::cross(here_m - first_m, next_m - first_m));
+        polygon.area_m2 += fan_m2[i];
+        weighted += fan_m2[i] / 3.0F * (first_m + here_m + next_m);
+    }
+    const auto count = static_cast<float>(corners.size());
+    polygon.colour_sum = colour / count;
+    polygon.centre_m = polygon.area_m2 > 0.0F ? weighted / polygon.area_m2 : mean / count;
+}
+
+void enclose(ShadedPolygons& shaded) {
+    if (shaded.points.empty()) {
+        return;
+    }
+    glm::vec3 least_m(std::numeric_limits<float>::max());
+    glm::vec3 most_m = -least_m;
+    for (const LitPoint& point : shaded.points) {
+        least_m = glm::min(least_m, point.place_m);
+        most_m = glm::max(most_m, point.place_m);
+    }
+    shaded.centre_m = 0.5F * (least_m + most_m);
+    for (const LitPoint& point : shaded.points) {
+        shaded.radius_m = std::max(shaded.radius_m, glm::distance(point.place_m, shaded.centre_m));
+    }
+}
+
+/// `shaded.polygons`: normal, first_corner and corner_count are set.
+ShadedPolygons finished(ShadedPolygons shaded, std::span<const LitPoint> corners) {
+    shaded.fan_m2.resize(corners.size());
+    double perimeters_m = 0.0;
+    for (ShadedPolygon& polygon : shaded.polygons) {
+        measure(
+            polygon,
+            corners.subspan(polygon.first_corner, polygon.corner_count),
+            std::span(shaded.fan_m2).subspan(polygon.first_corner, polygon.corner_count));
+        perimeters_m += polygon.perimeter_m;
+    }
+    if (shaded.size() > 0) {
+        shaded.mean_perimeter_m = perimeters_m / static_cast<double>(shaded.size());
+    }
+    share_points(corners, shaded);
+    enclose(shaded);
+    return shaded;
+}
+
+float colour_sum(const models::TriangleMesh& mesh, std::size_t triangle, std::uint32_t vertex) {
+    if (!mesh.colours.empty()) {
+        return sum_of(mesh.colours[vertex]);
+    }
+    if (!mesh.materials.empty()) {
+        return sum_of(mesh.materials[mesh.triangle_materials[triangle]].colour);
+    }
+    return 3.0F * unpainted;
+}
+
+} // namespace
+
+ShadedPolygons
+shaded_polygons(const models::PolygonModel& model, std::span<const glm::vec3> corner_normals) {
+    assert(corner_normals.size() == model.corner_vertices.size());
+    ShadedPolygons shaded;
+    std::vector<LitPoint> corners(model.corner_vertices.size());
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        const models::Polygon& polygon = model.polygons[i];
+        shaded.polygons.push_back(
+            {.normal = glm::vec3(models::normal_of(model, i)),
+             .first_corner = polygon.first_corner,
+             .corner_count = polygon.corner_count});
+        for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {
+            const std::uint32_t corner = polygon.first_corner + k;
+            corners[corner] = {
+                glm::vec3(model.vertices_m[model.corner_vertices[corner]]),
+                corner_normals[corner],
+                sum_of(model.materials[polygon.material].colour)};
+        }
+    }
+    return finished(std::move(shaded), corners);
+}
+
+ShadedPolygons
+shaded_polygons(const models::TriangleMesh& mesh, std::span<const glm::vec3> corner_normals) {
+    assert(corner_normals.size() == 3 * mesh.triangles.size());
+    ShadedPolygons shaded;
+    std::vector<LitPoint> corners;
+    corners.reserve(corner_normals.size());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const models::Triangle& triangle = mesh.triangles[i];
+        const glm::dvec3& first_m = mesh.vertices_m[triangle[0]];
+        const glm::dvec3 doubled = glm::cross(
+            mesh.vertices_m[triangle[1]] - first_m, mesh.vertices_m[triangle[2]] - first_m);
+        const double length = glm::length(doubled);
+        shaded.polygons.push_back(
+            {.normal = length > 0.0 ? glm::vec3(doubled / length) : glm::vec3(0.0F, 0.0F, 1.0F),
+             .first_corner = static_cast<std::uint32_t>(corners.size()),
+             .corner_count = 3});
+        for (const std::uint32_t vertex : triangle) {
+            corners.push_back(
+                {glm::vec3(mesh.vertices_m[vertex]),
+                 corner_normals[corners.size()],
+                 colour_sum(mesh, i, vertex)});
+        }
+    }
+    return finished(std::move(shaded), corners);
+}
+
+} // namespace octant::visuals::shading

@@ -1,0 +1,209 @@
+// How many polygons are smooth, from frame times: what H. Kim, H. Park, "A Hybrid Rendering Model
+// to support LOD (Level of Detail)", 2008, leave for later (section 5: "an algorithm that finds the
+// numbers of flat and Gouraud polygons by itself").
+//
+// - A frame takes t = a + bf f + bg g. Recursive least squares fit it as a + bf n + (bg - bf) g.
+//   Old frames are forgotten by letting each number drift: a fast (the rest of the frame changes),
+//   bf and bg - bf slowly (the machine does not). One common factor of forgetting would take what
+//   a drifted for knowledge of bg - bf. Where n never changes, a and bf n are known only as a sum,
+//   and nothing else is needed: g = clamp((T - a - bf n) / (bg - bf), 0, n).
+// - A fit that sees one g only cannot tell smooth from flat. The way from all flat to the first
+//   target shows many; later, while the deviation of bg - bf is more than a fifth of it, one
+//   polygon in a hundred, those that are smooth by the narrowest choice, is flat every other third
+//   of a second.
+// - A single slow frame is not learnt from. Three in a row are a change of load: a is learnt anew.
+// - The target moves at once when frames come too near to T, otherwise only over a dead band.
+// - bg - bf below two of its deviations: flat polygons gain nothing that can be measured, and all
+//   are smooth. On the way there g changes as much as it can, so that a gain then shows.
+#include "visuals/shading/shading_controller.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+
+namespace octant::visuals::shading {
+
+namespace {
+
+using Vector = std::array<double, 3>;
+
+constexpr std::size_t level = 0;
+constexpr std::size_t slope = 2;
+constexpr double unknown = 1e4;     ///< variance of what was never seen, in the noise's variance
+constexpr double widest_band = 0.2; ///< share of the polygons
+constexpr int learning_frames = 30; ///< a fit younger than this says nothing of gain
+constexpr int surprises_of_change = 3;
+
+double dot(const Vector& one, const Vector& other) {
+    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2];
+}
+
+Vector times(const std::array<double, 9>& matrix, const Vector& vector) {
+    Vector product{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            product[i] += matrix[3 * i + k] * vector[k];
+        }
+    }
+    return product;
+}
+
+Vector regressors(const ShadingFit& fit, double polygons, double smooth) {
+    return {1.0, polygons / fit.polygons, smooth / fit.polygons};
+}
+
+/// Old frames count less, each number as fast as it may drift; nothing becomes less known than it
+/// was before the first frame.
+void forget(ShadingFit& fit, const ShadingControl& control) {
+    const Vector drift{control.level_drift, control.slope_drift, control.slope_drift};
+    for (std::size_t i = 0; i < 3; ++i) {
+        double& variance = fit.covariance[4 * i];
+        variance = std::max(variance, std::min(variance + drift[i], unknown));
+    }
+}
+
+/// The frame's time says that the load changed: a may be anything, bg - bf by a third other.
+void open_up(ShadingFit& fit) {
+    fit.covariance[4 * level] += unknown;
+    const double third = fit.ms[slope] / 3.0 / fit.noise_ms;
+    fit.covariance[4 * slope] += std::min(third * third, unknown);
+    fit.frames = 0;
+    fit.surprises = 0;
+}
+
+void correct(ShadingFit& fit, const Vector& x, double missed_ms) {
+    const Vector spread = times(fit.covariance, x);
+    const double total = 1.0 + dot(x, spread);
+    for (std::size_t i = 0; i < 3; ++i) {
+        fit.ms[i] += spread[i] / total * missed_ms;
+        for (std::size_t k = 0; k < 3; ++k) {
+            fit.covariance[3 * i + k] -= spread[i] * spread[k] / total;
+        }
+    }
+}
+
+ShadingFit learnt(ShadingFit fit, const ShadingControl& control, const ShadedFrame& frame) {
+    const Vector x = regressors(fit, frame.flat + frame.smooth, frame.smooth);
+    const bool first = fit.noise_ms == 0.0;
+    if (first) {
+        fit.noise_ms = std::max(0.02 * frame.frame_ms, 1e-3);
+    }
+    forget(fit, control);
+    const double missed_ms = frame.frame_ms - dot(fit.ms, x);
+    const double deviation = std::sqrt(1.0 + dot(x, times(fit.covariance, x)));
+    const double surprise = missed_ms / deviation / fit.noise_ms;
+    if (std::abs(surprise) > control.surprise_sds && !first) {
+        const int side = surprise > 0.0 ? 1 : -1;
+        fit.surprises = fit.surprises * side > 0 ? fit.surprises + side : side;
+    } else {
+        fit.surprises = 0;
+    }
+    const bool changed = std::abs(fit.surprises) >= surprises_of_change;
+    if (changed) {
+        open_up(fit);
+    }
+    if (changed || first || std::abs(surprise) <= control.outlier_sds) {
+        correct(fit, x, missed_ms);
+    }
+    if (!first && !changed) {
+        const double counted = std::min(std::abs(surprise), control.surprise_sds);
+        const double weight = std::max(control.noise_weight, 1.0 / (fit.frames + 5.0));
+        fit.noise_ms *= std::sqrt(1.0 + weight * (counted * counted - 1.0));
+        fit.noise_ms = std::max(fit.noise_ms, 1e-3);
+    }
+    ++fit.frames;
+    return fit;
+}
+
+double slope_sd_ms(const ShadingFit& fit) {
+    return fit.noise_ms * std::sqrt(std::max(fit.covariance[4 * slope], 0.0));
+}
+
+/// Whether flat polygons gain nothing, judged with the memory of the last judgement.
+bool without_gain(bool before, const ShadingFit& fit, const ShadingControl& control) {
+    const double sd_ms = slope_sd_ms(fit);
+    if (fit.frames < learning_frames) {
+        return before && fit.ms[slope] < 4.0 * sd_ms;
+    }
+    const bool is_measured = sd_ms < 0.15 * control.share_ms;
+    return before ? fit.ms[slope] < 4.0 * sd_ms : is_measured && fit.ms[slope] < 2.0 * sd_ms;
+}
+
+/// Moves `target` towards the best number for n polygons.
+void aim(ShadingState& state, const ShadingControl& control) {
+    const ShadingFit& fit = state.fit;
+    const double n = state.polygons;
+    const double per_polygon_ms = std::max(fit.ms[slope], 1e-3 * control.share_ms) / fit.polygons;
+    const Vector now = regressors(fit, n, state.target);
+    const double expected_ms = dot(fit.ms, now);
+    const double room_ms = control.share_ms - expected_ms;
+    const double more = (room_ms - control.aim_sds * fit.noise_ms) / per_polygon_ms;
+    const double best = state.no_gain ? n : std::clamp(state.target + more, 0.0, n);
+    const double unsure =
+        fit.noise_ms * std::sqrt(std::max(dot(now, times(fit.covariance, now)), 0.0));
+    const double band = n * std::clamp(
+                                std::max(4.0 * unsure, fit.noise_ms) / per_polygon_ms / n,
+                                control.dead_band,
+                                widest_band);
+    const bool too_many = best < state.target && room_ms < control.overload_sds * fit.noise_ms;
+    const bool too_few = best > state.target + band || (best == n && state.no_gain);
+    const double off = std::abs(best - state.target);
+    state.moving = off > 0.0 && (too_many || too_few || (state.moving && off > 0.01 * n));
+    if (state.moving) {
+        const double step = std::max(control.largest_step * n, 1.0);
+        state.target += std::clamp(best - state.target, -step, step);
+    }
+}
+
+/// g of the next frame: the target, a little less of it while more must be learnt.
+int probed(ShadingState& state, const ShadingControl& control) {
+    const bool is_known = slope_sd_ms(state.fit) < 0.2 * state.fit.ms[slope];
+    const int target = static_cast<int>(std::lround(state.target));
+    if (is_known || state.moving || state.no_gain || target == state.polygons) {
+        state.probe_frame = 0;
+        return target;
+    }
+    state.probe_frame = (state.probe_frame + 1) % control.probe_frames;
+    if (2 * state.probe_frame < control.probe_frames) {
+        return target;
+    }
+    // Where not even all flat fits, the machine is asked in one large step what smooth ones cost.
+    const double share = target == 0 ? control.largest_step : control.probe;
+    const int probe = std::max(static_cast<int>(share * state.polygons), 1);
+    return target >= probe ? target - probe : target + probe;
+}
+
+} // namespace
+
+ShadingState starting_shading(int polygons) {
+    assert(polygons >= 1);
+    ShadingState state;
+    state.polygons = polygons;
+    state.fit.polygons = polygons;
+    for (std::size_t i = 0; i < 3; ++i) {
+        state.fit.covariance[4 * i] = unknown;
+    }
+    return state;
+}
+
+ShadingState next_shading(
+    const ShadingState& state,
+    const ShadingControl& control,
+    const ShadedFrame& frame,
+    int polygons) {
+    assert(control.share_ms > 0.0 && control.probe_frames >= 2 && polygons >= 1);
+    assert(control.level_drift >= 0.0 && control.slope_drift >= 0.0);
+    assert(control.overload_sds >= 0.0 && control.overload_sds <= control.aim_sds);
+    assert(frame.frame_ms >= 0.0 && frame.flat >= 0 && frame.smooth >= 0);
+    ShadingState next = state;
+    next.fit = learnt(state.fit, control, frame);
+    next.polygons = polygons;
+    next.target = std::min<double>(state.target, polygons);
+    next.no_gain = without_gain(state.no_gain, next.fit, control);
+    aim(next, control);
+    next.smooth = probed(next, control);
+    return next;
+}
+
+} // namespace octant::visuals::shading

@@ -1,0 +1,224 @@
+// Corner normals by crease angle, for the Gouraud shading of Kim and Park's hybrid rendering model
+// (2008), which takes vertex normals for given.
+// Deviations: the paper averages the faces around a vertex (4 operations); here angles weigh them
+// and edges sharper than the crease angle stay.
+#include "visuals/shading/vertex_normals.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <span>
+#include <tuple>
+
+namespace octant::visuals::shading {
+
+namespace {
+
+constexpr int fixed = -1;
+constexpr double same_direction = 1e-9;
+
+/// A corner of a face; places are vertices, those in the same place under one number.
+struct Corner {
+    std::uint32_t face = 0;
+    std::uint32_t place = 0;
+    std::uint32_t before = 0; ///< place of the face's corner before it
+    std::uint32_t after = 0;
+    double angle_rad = 0.0;
+};
+
+struct Face {
+    glm::dvec3 normal{0.0}; ///< unit; zero where the face has no area
+    int turns_with = fixed; ///< index of a pivot
+};
+
+struct Faces {
+    std::vector<Face> faces;
+    std::vector<Corner> corners; ///< face after face
+};
+
+std::vector<std::uint32_t> places_of(std::span<const glm::dvec3> vertices_m) {
+    std::vector<std::uint32_t> sorted(vertices_m.size());
+    std::iota(sorted.begin(), sorted.end(), 0U);
+    const auto key = [&](std::uint32_t v) {
+        return std::tuple(vertices_m[v].x, vertices_m[v].y, vertices_m[v].z, v);
+    };
+    std::ranges::sort(sorted, {}, key);
+    std::vector<std::uint32_t> places(vertices_m.size());
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const bool again = i > 0 && vertices_m[sorted[i]] == vertices_m[sorted[i - 1]];
+        places[sorted[i]] = again ? places[sorted[i - 1]] : sorted[i];
+    }
+    return places;
+}
+
+double angle_rad(const glm::dvec3& one, const glm::dvec3& other) {
+    return std::atan2(glm::length(glm::cross(one, other)), glm::dot(one, other));
+}
+
+void add_corners(
+    Faces& faces,
+    std::span<const std::uint32_t> vertices,
+    std::span<const std::uint32_t> places,
+    std::span<const glm::dvec3> vertices_m) {
+    const std::size_t count = vertices.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t here = vertices[i];
+        const std::uint32_t before = vertices[(i + count - 1) % count];
+        const std::uint32_t after = vertices[(i + 1) % count];
+        faces.corners.push_back(
+            {.face = static_cast<std::uint32_t>(faces.faces.size()),
+             .place = places[here],
+             .before = places[before],
+             .after = places[after],
+             .angle_rad = angle_rad(
+                 vertices_m[before] - vertices_m[here], vertices_m[after] - vertices_m[here])});
+    }
+}
+
+/// The corners at one place and which of them are neighbours across an edge.
+class Around {
+public:
+    explicit Around(const Faces& faces)
+        : faces_(&faces) {}
+
+    /// `corners`: indices, upwards.
+    void look_at(std::span<const std::uint32_t> corners) {
+        corners_ = corners;
+        neighbours_.assign(corners.size(), {});
+        edges_.clear();
+        for (std::uint32_t i = 0; i < corners.size(); ++i) {
+            edges_.push_back({corner(i).before, i, false});
+            edges_.push_back({corner(i).after, i, true});
+        }
+        std::ranges::sort(edges_, {}, &Edge::other_end);
+        for (std::size_t first = 0; first < edges_.size();) {
+            std::size_t end = first;
+            while (end < edges_.size() && edges_[end].other_end == edges_[first].other_end) {
+                ++end;
+            }
+            connect(std::span(edges_).subspan(first, end - first));
+            first = end;
+        }
+    }
+
+    glm::vec3 normal_at(std::uint32_t start, double least_cosine) {
+        const Face& own = face(start);
+        if (own.normal == glm::dvec3(0.0)) {
+            return glm::vec3(0.0F, 0.0F, 1.0F);
+        }
+        reach(start, least_cosine);
+        // Summed in the order of corners, so that corners with the same faces get the same bits.
+        glm::dvec3 sum(0.0);
+        for (std::uint32_t i = 0; i < corners_.size(); ++i) {
+            sum += reached_[i] ? corner(i).angle_rad * face(i).normal : glm::dvec3(0.0);
+        }
+        const double length = glm::length(sum);
+        return glm::vec3(length > same_direction ? sum / length : own.normal);
+    }
+
+private:
+    struct Edge {
+        std::uint32_t other_end = 0;
+        std::uint32_t corner = 0;
+        bool leaves = false; ///< runs from this place to the other end
+    };
+
+    const Corner& corner(std::uint32_t i) const { return faces_->corners[corners_[i]]; }
+
+    const Face& face(std::uint32_t i) const { return faces_->faces[corner(i).face]; }
+
+    void connect(std::span<const Edge> same_edge) {
+        for (const Edge& leaving : same_edge) {
+            for (const Edge& coming : same_edge) {
+                if (leaving.leaves && !coming.leaves && leaving.corner != coming.corner) {
+                    neighbours_[leaving.corner].push_back(coming.corner);
+                    neighbours_[coming.corner].push_back(leaving.corner);
+                }
+            }
+        }
+    }
+
+    void reach(std::uint32_t start, double least_cosine) {
+        reached_.assign(corners_.size(), 0);
+        reached_[start] = 1;
+        waiting_.assign(1, start);
+        while (!waiting_.empty()) {
+            const std::uint32_t from = waiting_.back();
+            waiting_.pop_back();
+            for (const std::uint32_t to : neighbours_[from]) {
+                if (reached_[to] == 0 && face(to).turns_with == face(start).turns_with &&
+                    face(to).normal != glm::dvec3(0.0) &&
+                    glm::dot(face(to).normal, face(start).normal) >= least_cosine) {
+                    reached_[to] = 1;
+                    waiting_.push_back(to);
+                }
+            }
+        }
+    }
+
+    const Faces* faces_;
+    std::span<const std::uint32_t> corners_;
+    std::vector<std::vector<std::uint32_t>> neighbours_;
+    std::vector<Edge> edges_;
+    std::vector<std::uint8_t> reached_;
+    std::vector<std::uint32_t> waiting_;
+};
+
+std::vector<glm::vec3> normals_of(const Faces& faces, double crease_rad) {
+    assert(crease_rad >= 0.0 && crease_rad <= pi);
+    std::vector<std::uint32_t> sorted(faces.corners.size());
+    std::iota(sorted.begin(), sorted.end(), 0U);
+    std::ranges::stable_sort(sorted, {}, [&](std::uint32_t c) { return faces.corners[c].place; });
+    std::vector<glm::vec3> normals(faces.corners.size());
+    Around around(faces);
+    for (std::size_t first = 0; first < sorted.size();) {
+        std::size_t end = first;
+        while (end < sorted.size() &&
+               faces.corners[sorted[end]].place == faces.corners[sorted[first]].place) {
+            ++end;
+        }
+        const auto corners = std::span<const std::uint32_t>(sorted).subspan(first, end - first);
+        around.look_at(corners);
+        for (std::uint32_t i = 0; i < corners.size(); ++i) {
+            normals[corners[i]] = around.normal_at(i, std::cos(crease_rad) - same_direction);
+        }
+        first = end;
+    }
+    return normals;
+}
+
+} // namespace
+
+std::vector<glm::vec3> corner_normals(const models::PolygonModel& model, double crease_rad) {
+    const std::vector<std::uint32_t> places = places_of(model.vertices_m);
+    Faces faces;
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        add_corners(faces, model.corners(i), places, model.vertices_m);
+        const auto pivot = models::pivot_of(model, i);
+        faces.faces.push_back(
+            {models::normal_of(model, i), pivot ? static_cast<int>(*pivot) : fixed});
+    }
+    return normals_of(faces, crease_rad);
+}
+
+std::vector<glm::vec3> corner_normals(const models::TriangleMesh& mesh, double crease_rad) {
+    const std::vector<std::uint32_t> places = places_of(mesh.vertices_m);
+    Faces faces;
+    for (const models::Triangle& triangle : mesh.triangles) {
+        add_corners(faces, triangle, places, mesh.vertices_m);
+        const glm::dvec3& first_m = mesh.vertices_m[triangle[0]];
+        const glm::dvec3 doubled = glm::cross(
+            mesh.vertices_m[triangle[1]] - first_m, mesh.vertices_m[triangle[2]] - first_m);
+        const double length = glm::length(doubled);
+        faces.faces.push_back({length > 0.0 ? doubled / length : glm::dvec3(0.0), fixed});
+    }
+    return normals_of(faces, crease_rad);
+}
+
+} // namespace octant::visuals::shading
