@@ -84,7 +84,7 @@ TEST_CASE(
     driven->strike("F9");
     REQUIRE(driven->state().recording.has_value());
     const fs::path folder = *driven->state().recording;
-    driven->hold("Right", 0.7);
+    driven->hold("Right", 0.3);
     driven->hold("Down", 3.0);
     const double turned_rad =
         std::remainder(heading_rad(simulation) - heading_before_rad, 2.0 * 3.14159265358979);
