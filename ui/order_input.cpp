@@ -2,6 +2,7 @@
 
 #include "models/made_up.h"
 #include "models/obj_reader.h"
+#include "sim/base/dice.h"
 #include "sim/base/error.h"
 #include "ui/data_files.h"
 
@@ -75,7 +76,7 @@ PlaneTests plane_tests(const draworder::OrderedModel& ordered) {
             }
         }
     }
-    draworder::Dice dice(1989);
+    Dice dice(1989);
     const double radius_m = models::radius_m(ordered.model);
     long sum = 0;
     for (int i = 0; i < eyes; ++i) {

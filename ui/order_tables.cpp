@@ -1,5 +1,6 @@
 #include "ui/order_tables.h"
 
+#include "sim/base/dice.h"
 #include "ui/order_input.h"
 #include "ui/stopwatch.h"
 #include "visuals/draworder/bsp_tree.h"
@@ -126,7 +127,7 @@ struct FrameCost {
 FrameCost frame_cost(const draworder::BspTree& bsp, const draworder::OrderedModel& ordered) {
     constexpr int batches = 401;
     constexpr int eyes = 500;
-    draworder::Dice dice(1989);
+    Dice dice(1989);
     const double radius_m = models::radius_m(ordered.model);
     std::vector<glm::dvec3> eyes_m;
     for (int i = 0; i < eyes; ++i) {

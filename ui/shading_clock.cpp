@@ -1,5 +1,7 @@
 #include "ui/shading_clock.h"
 
+#include "sim/base/dice.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -17,27 +19,6 @@ constexpr double frames_per_second = 60.0;
 constexpr double more_rest_ms = 2.0;
 constexpr int torus_polygons = 416;
 
-/// Numbers of its own, the same with every library.
-class Dice {
-public:
-    double even() {
-        state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-        return static_cast<double>(state_ >> 11U) * 0x1p-53;
-    }
-
-    /// About normal, deviation 1.
-    double bell() {
-        double sum = -6.0;
-        for (int i = 0; i < 12; ++i) {
-            sum += even();
-        }
-        return sum;
-    }
-
-private:
-    std::uint64_t state_ = 2008;
-};
-
 double best_share(const MadeMachine& machine, const shading::ShadingControl& control) {
     if (machine.smooth_ms <= 0.0) {
         return 1.0;
@@ -53,7 +34,7 @@ double near_share(const MadeMachine& machine, double share_ms) {
 
 double frame_ms(const MadeMachine& machine, double smooth_part, Dice& dice) {
     const double mean_ms = machine.rest_ms + machine.flat_ms + machine.smooth_ms * smooth_part;
-    const double slow = dice.even() < machine.slow_share ? 1.6 : 1.0;
+    const double slow = dice.next() < machine.slow_share ? 1.6 : 1.0;
     return mean_ms * slow * (1.0 + machine.noise * dice.bell());
 }
 
@@ -64,7 +45,7 @@ ControlRun run_control(const MadeMachine& machine, double share_ms, int polygons
     shading::ShadingControl control;
     control.share_ms = share_ms;
     shading::ShadingState state = shading::starting_shading(polygons);
-    Dice dice;
+    Dice dice(2008);
     double changes = 0.0;
     for (std::size_t load = 0; load < run.settled_frames.size(); ++load) {
         MadeMachine now = machine;

@@ -7,8 +7,8 @@
 #include "wrong_rays.h"
 
 using namespace octant::visuals::draworder;
+using octant::Dice;
 using octant::Plane;
-using octant::tests::Dice;
 
 namespace {
 

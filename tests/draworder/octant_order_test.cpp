@@ -14,8 +14,8 @@
 #include "wrong_rays.h"
 
 using namespace octant::visuals::draworder;
+using octant::Dice;
 using octant::tests::count_wrong_rays;
-using octant::tests::Dice;
 using octant::tests::paper_example;
 
 namespace {

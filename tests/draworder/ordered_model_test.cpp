@@ -14,9 +14,9 @@
 #include "wrong_rays.h"
 
 using namespace octant::visuals::draworder;
+using octant::Dice;
 using octant::models::PolygonModel;
 using octant::tests::count_wrong_rays;
-using octant::tests::Dice;
 using octant::tests::EyeSamples;
 using octant::tests::paper_example;
 

@@ -16,8 +16,8 @@
 #include "wrong_rays.h"
 
 using namespace octant::visuals::draworder;
+using octant::Dice;
 using octant::Plane;
-using octant::tests::Dice;
 using octant::tests::three_bars;
 
 namespace {

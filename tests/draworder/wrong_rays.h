@@ -1,12 +1,12 @@
 #pragma once
 
 #include "models/polygon_model.h"
+#include "sim/base/dice.h"
 #include "visuals/draworder/ray_check.h"
 
 namespace octant::tests {
 
 using visuals::draworder::count_wrong_rays;
-using visuals::draworder::Dice;
 using visuals::draworder::EyeSamples;
 using visuals::draworder::RayCount;
 

@@ -1,5 +1,6 @@
 #include "models/made_up.h"
 #include "models/polygon_check.h"
+#include "sim/base/dice.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -13,23 +14,9 @@ using namespace octant::models;
 
 namespace {
 
-/// Numbers 0 <= x < 1 from a small generator of its own.
-class Dice {
-public:
-    double next() {
-        state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-        return static_cast<double>(state_ >> 11U) / 9007199254740992.0;
-    }
-
-    double between(double least, double most) { return least + (most - least) * next(); }
-
-private:
-    std::uint64_t state_ = 60;
-};
-
 constexpr double inner_radius_m = 13'880.0; ///< inside the sides of the 24-gon
 
-glm::dvec3 point_inside(Dice& dice, double least_height_m, double most_height_m) {
+glm::dvec3 point_inside(octant::Dice& dice, double least_height_m, double most_height_m) {
     while (true) {
         const double x = dice.between(-inner_radius_m, inner_radius_m);
         const double y = dice.between(-inner_radius_m, inner_radius_m);
@@ -102,7 +89,7 @@ TEST_CASE("the ground lies at height 0, faces up and covers every place once") {
             CHECK(model.vertices_m[vertex].z == 0.0);
         }
     }
-    Dice dice;
+    octant::Dice dice(60);
     for (int sample = 0; sample < 5000; ++sample) {
         const glm::dvec3 above = point_inside(dice, 1.0, 1.0);
         int covered = 0;
@@ -131,7 +118,7 @@ TEST_CASE("the areas of the ground add up to the 24-gon") {
 
 TEST_CASE("along no line of sight inside the ring do two polygons face the eye") {
     const PolygonModel model = background60();
-    Dice dice;
+    octant::Dice dice(60);
     int hits = 0;
     for (int sample = 0; sample < 5000; ++sample) {
         const glm::dvec3 eye = point_inside(dice, 0.5, 6000.0);

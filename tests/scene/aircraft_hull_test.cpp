@@ -26,7 +26,7 @@ TEST_CASE("the outline of a box has four edges face-on and six from a corner") {
 }
 
 TEST_CASE("a box and no other direction lies inside its cone") {
-    Dice dice(7);
+    PlaceDice dice(7);
     for (int i = 0; i < 200; ++i) {
         const HullBox box{
             dice.in_box(glm::dvec3(30)), glm::mat3_cast(dice.attitude()), {5.0, 3.0, 1.0}};

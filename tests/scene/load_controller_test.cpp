@@ -17,7 +17,7 @@ struct Machine {
     double fixed_ms = 3.0;
     double ms_per_triangle = 0.0005;
     double noise = 0.0; ///< share of the frame time, either way
-    tests::Dice dice{7};
+    tests::PlaceDice dice{7};
 
     double frame_ms(int triangles) {
         const double exact_ms = fixed_ms + ms_per_triangle * triangles;
@@ -187,7 +187,7 @@ TEST_CASE("the stress is none before a frame is measured and the filtered share 
 }
 
 TEST_CASE("whatever frames take, the budget changes in small steps within its limits") {
-    tests::Dice dice(11);
+    tests::PlaceDice dice(11);
     for (int run = 0; run < 50; ++run) {
         const LoadSettings settings = settings_at(dice.between(1.0, 1000.0));
         LoadState state = starting_at(dice.between(100.0, 1e6), settings);

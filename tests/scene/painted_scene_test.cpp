@@ -29,10 +29,10 @@ Total paint_scenes(
     int scenes,
     int aircraft,
     std::unique_ptr<Ground> ground,
-    const std::function<glm::dvec3(Dice&)>& place,
-    const std::function<glm::dvec3(Dice&)>& eye) {
+    const std::function<glm::dvec3(PlaceDice&)>& place,
+    const std::function<glm::dvec3(PlaceDice&)>& eye) {
     Total total;
-    Dice dice(1989);
+    PlaceDice dice(1989);
     const Settings settings = plain_settings();
     Scene scene;
     scene.ground = std::move(ground);
@@ -78,10 +78,10 @@ TEST_CASE("aircraft apart over level ground are painted right without repaints")
         100,
         6,
         cells(level),
-        [](Dice& dice) {
+        [](PlaceDice& dice) {
             return dice.in_box({300, 300, 60}) + glm::dvec3(0, 0, 100);
         },
-        [](Dice& dice) {
+        [](PlaceDice& dice) {
             return dice.in_box({350, 350, 60}) + glm::dvec3(0, 0, 100);
         });
     CHECK(total.seen > 10000);
@@ -95,11 +95,11 @@ TEST_CASE("aircraft among ridges are painted right") {
         100,
         5,
         cells(rugged),
-        [](Dice& dice) {
+        [](PlaceDice& dice) {
             const glm::dvec3 at = dice.in_box({300, 300, 0});
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(18.0, 60.0));
         },
-        [](Dice& dice) {
+        [](PlaceDice& dice) {
             const glm::dvec3 at = dice.in_box({380, 380, 0});
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 60.0));
         });
@@ -114,11 +114,11 @@ TEST_CASE("aircraft that touch the ground are painted right") {
         100,
         3,
         cells(rugged),
-        [](Dice& dice) {
+        [](PlaceDice& dice) {
             const glm::dvec3 at = dice.in_box({300, 300, 0});
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(-2.0, 8.0));
         },
-        [](Dice& dice) {
+        [](PlaceDice& dice) {
             const glm::dvec3 at = dice.in_box({380, 380, 0});
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 60.0));
         });
@@ -134,8 +134,10 @@ TEST_CASE("aircraft close together, in rings and through each other are painted 
             60,
             5,
             cells(rugged),
-            [&](Dice& dice) { return dice.in_box(glm::dvec3(spread_m)) + glm::dvec3(0, 0, 150); },
-            [](Dice& dice) {
+            [&](PlaceDice& dice) {
+                return dice.in_box(glm::dvec3(spread_m)) + glm::dvec3(0, 0, 150);
+            },
+            [](PlaceDice& dice) {
                 return dice.in_box({120, 120, 60}) + glm::dvec3(0, 0, 150);
             });
         CHECK(total.seen > 5000);
@@ -151,11 +153,11 @@ TEST_CASE("27 aircraft in any attitudes 20 m apart are painted right") {
         30,
         27,
         cells(level),
-        [&](Dice& /*dice*/) {
+        [&](PlaceDice& /*dice*/) {
             const int i = next++;
             return 20.0 * glm::dvec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 % 3 + 4);
         },
-        [](Dice& dice) {
+        [](PlaceDice& dice) {
             return dice.in_box({70, 70, 40}) + glm::dvec3(0, 0, 100);
         });
     CHECK(total.seen > 10000);
@@ -170,7 +172,7 @@ TEST_CASE("125 aircraft in any attitudes 20 m apart are planned without giving u
     scene.ground = cells(level);
     scene.models.push_back(convex_aircraft(box_model({9.7, 6.5, 2.2})));
     scene.models.push_back(concave_aircraft(0.1));
-    Dice dice(1989);
+    PlaceDice dice(1989);
     std::vector<sim::AircraftState> states;
     for (int i = 0; i < 125; ++i) {
         scene.aircraft.push_back(static_cast<std::uint32_t>(i % 2));
@@ -205,7 +207,7 @@ TEST_CASE("ground before a knot stays behind what is seen between the members") 
     const FramePlan& plan = planner.plan(camera, states, counts);
     REQUIRE(counts.knots == 1);
     CHECK(plan.aircraft.front().model == 2);
-    Dice dice(1);
+    PlaceDice dice(1);
     const SightCount count = count_wrong_sights(plan, scene, states, camera, dice);
     CHECK(count.seen > 50);
     CHECK(count.wrong == 0);
@@ -217,12 +219,12 @@ TEST_CASE("27 aircraft in any attitudes among ridges are painted right") {
         30,
         27,
         cells(rugged),
-        [&](Dice& /*dice*/) {
+        [&](PlaceDice& /*dice*/) {
             const int i = next++;
             const glm::dvec3 at = 21.0 * glm::dvec3(i % 9 - 4, i / 9 % 3 - 1, 0);
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + 9.0);
         },
-        [](Dice& dice) {
+        [](PlaceDice& dice) {
             const glm::dvec3 at = dice.in_box({250, 250, 0});
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 30.0));
         });
@@ -246,11 +248,11 @@ TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {
         60,
         5,
         ground_from_field({65, 65, 12.5, heights_m}, settings),
-        [](Dice& dice) {
+        [](PlaceDice& dice) {
             const glm::dvec3 at = dice.in_box({300, 300, 0});
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(0.0, 60.0));
         },
-        [](Dice& dice) {
+        [](PlaceDice& dice) {
             const glm::dvec3 at = dice.in_box({380, 380, 0});
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 60.0));
         });

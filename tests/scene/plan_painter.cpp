@@ -114,7 +114,7 @@ SightCount count_wrong_sights(
     const scene::Scene& scene,
     const std::vector<sim::AircraftState>& states,
     const scene::Camera& camera,
-    Dice& dice) {
+    PlaceDice& dice) {
     const PlanPainter painter(plan, scene);
     const auto frustum = scene::frustum_normals(camera, 4.0 / 3.0);
     SightCount count;

@@ -50,6 +50,6 @@ SightCount count_wrong_sights(
     const visuals::scene::Scene& scene,
     const std::vector<sim::AircraftState>& states,
     const visuals::scene::Camera& camera,
-    Dice& dice);
+    PlaceDice& dice);
 
 } // namespace octant::tests

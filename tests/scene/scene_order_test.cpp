@@ -173,7 +173,7 @@ TEST_CASE("what two that meet hide and are hidden by joins them") {
 }
 
 TEST_CASE("no knot hides part of a later one, and each is as small as can be") {
-    Dice dice(3);
+    PlaceDice dice(3);
     SceneOrder order;
     for (int scene = 0; scene < 100; ++scene) {
         std::vector<HullBox> boxes;
@@ -190,7 +190,7 @@ TEST_CASE("no knot hides part of a later one, and each is as small as can be") {
 }
 
 TEST_CASE("125 boxes close together in any attitudes make only the knots that they must") {
-    Dice dice(1);
+    PlaceDice dice(1);
     std::vector<HullBox> boxes;
     for (int i = 0; i < 125; ++i) {
         boxes.push_back(

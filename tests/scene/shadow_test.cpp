@@ -125,7 +125,7 @@ TEST_CASE("ground is in shadow where the sun's ray meets an aircraft and nowhere
     Planner planner(world.scene, world.settings);
     const FramePlan& plan = planner.plan(world.camera, world.states, world.counts);
     const glm::dvec3 to_sun(direction_to_sun(world.settings));
-    Dice dice(11);
+    PlaceDice dice(11);
     int dark = 0;
     for (std::size_t i = 0; i < plan.ground.indices.size(); i += 3) {
         if (is_shadow(plan, plan.ground.indices[i])) {

@@ -160,7 +160,7 @@ std::unique_ptr<scene::Ground> triangle_ground(std::vector<GroundTriangle> trian
     return std::make_unique<TriangleGround>(std::move(triangles));
 }
 
-glm::dquat Dice::attitude() {
+glm::dquat PlaceDice::attitude() {
     const glm::dvec4 q(
         between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0));
     return glm::normalize(glm::dquat(q.x, q.y, q.z, q.w + 1e-3));

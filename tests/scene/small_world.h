@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/draworder/ray_check.h"
+#include "sim/base/dice.h"
 #include "visuals/scene/planner.h"
 
 #include <array>
@@ -12,9 +12,9 @@
 namespace octant::tests {
 
 /// Random places and attitudes.
-class Dice : public visuals::draworder::Dice {
+class PlaceDice : public Dice {
 public:
-    using visuals::draworder::Dice::Dice;
+    using Dice::Dice;
 
     glm::dvec3 in_box(const glm::dvec3& half) {
         return {between(-half.x, half.x), between(-half.y, half.y), between(-half.z, half.z)};

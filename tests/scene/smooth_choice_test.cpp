@@ -62,7 +62,7 @@ TEST_CASE("smooth polygons are shared out by weight, and what one cannot take ot
 }
 
 TEST_CASE("what is shared out is what was asked for, or all there is") {
-    Dice dice(4);
+    PlaceDice dice(4);
     for (int trial = 0; trial < 500; ++trial) {
         std::vector<scene::SmoothShare> aircraft;
         int all = 0;

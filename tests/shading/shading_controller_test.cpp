@@ -1,3 +1,4 @@
+#include "sim/base/dice.h"
 #include "visuals/shading/shading_controller.h"
 
 #include <catch2/catch.hpp>
@@ -22,27 +23,6 @@ struct Machine {
     double mean_ms(double smooth_part) const { return rest_ms + flat_ms + smooth_ms * smooth_part; }
 };
 
-/// Numbers of its own, the same with every library.
-class Dice {
-public:
-    double even() {
-        state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-        return static_cast<double>(state_ >> 11U) * 0x1p-53;
-    }
-
-    /// About normal, deviation 1.
-    double bell() {
-        double sum = -6.0;
-        for (int i = 0; i < 12; ++i) {
-            sum += even();
-        }
-        return sum;
-    }
-
-private:
-    std::uint64_t state_ = 2008;
-};
-
 struct Course {
     std::vector<double> share; ///< of smooth polygons, a frame
     int over = 0;
@@ -62,7 +42,7 @@ public:
         for (int frame = 0; frame < count; ++frame) {
             const int smooth = state_.smooth;
             const double n = state_.polygons;
-            const double slow = dice_.even() < machine.slow_share ? 1.6 : 1.0;
+            const double slow = dice_.next() < machine.slow_share ? 1.6 : 1.0;
             const double ms =
                 machine.mean_ms(smooth / n) * slow * (1.0 + machine.noise * dice_.bell());
             course.share.push_back(smooth / n);
@@ -82,7 +62,7 @@ public:
 private:
     ShadingState state_;
     ShadingControl control_;
-    Dice dice_;
+    octant::Dice dice_{2008};
 };
 
 /// Where the expected time lies as far below the budget as the control aims.

@@ -1,5 +1,6 @@
 #include "visuals/draworder/ray_check.h"
 
+#include "sim/base/dice.h"
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>
@@ -135,13 +136,6 @@ private:
 };
 
 } // namespace
-
-glm::dvec3 Dice::direction() {
-    const double z = between(-1.0, 1.0);
-    const double angle_rad = between(0.0, 2.0 * pi);
-    const double across = std::sqrt(1.0 - z * z);
-    return {across * std::cos(angle_rad), across * std::sin(angle_rad), z};
-}
 
 RayCount& RayCount::operator+=(const RayCount& other) {
     eyes += other.eyes;

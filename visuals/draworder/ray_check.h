@@ -11,26 +11,6 @@
 
 namespace octant::visuals::draworder {
 
-/// Numbers 0 <= x < 1 from a small generator of its own.
-class Dice {
-public:
-    explicit Dice(std::uint64_t seed)
-        : state_(seed) {}
-
-    double next() {
-        state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-        return static_cast<double>(state_ >> 11U) / 9007199254740992.0;
-    }
-
-    double between(double least, double most) { return least + (most - least) * next(); }
-
-    /// Unit vector, all directions alike.
-    glm::dvec3 direction();
-
-private:
-    std::uint64_t state_;
-};
-
 struct EyeSamples {
     int eyes = 1000;
     int rays_per_eye = 20;

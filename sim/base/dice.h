@@ -1,0 +1,39 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+
+namespace octant {
+
+/// Numbers from a small generator of its own, the same with every library.
+class Dice {
+public:
+    explicit Dice(std::uint64_t seed)
+        : state_(seed) {}
+
+    /// 0 <= x < 1.
+    double next() {
+        state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+        return static_cast<double>(state_ >> 11U) * 0x1p-53;
+    }
+
+    double between(double least, double most) { return least + (most - least) * next(); }
+
+    /// About normal, mean 0, deviation 1.
+    double bell() {
+        double sum = -6.0;
+        for (int i = 0; i < 12; ++i) {
+            sum += next();
+        }
+        return sum;
+    }
+
+    /// Unit vector, all directions alike.
+    glm::dvec3 direction();
+
+private:
+    std::uint64_t state_;
+};
+
+} // namespace octant
