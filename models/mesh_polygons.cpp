@@ -23,9 +23,7 @@ glm::vec3 colour_of(const TriangleMesh& mesh, std::size_t triangle) {
         return (mesh.colours[corners[0]] + mesh.colours[corners[1]] + mesh.colours[corners[2]]) /
                3.0F;
     }
-    return mesh.triangle_materials.empty()
-               ? Material().colour
-               : mesh.materials[mesh.triangle_materials[triangle]].colour;
+    return material_colour(mesh, triangle);
 }
 
 } // namespace

@@ -25,4 +25,23 @@ double diagonal_m(const TriangleMesh& mesh) {
     return glm::distance(bounds.least_m, bounds.most_m);
 }
 
+glm::dvec3 area_vector(const TriangleMesh& mesh, const Triangle& triangle) {
+    const glm::dvec3& first_m = mesh.vertices_m[triangle[0]];
+    return glm::cross(
+        mesh.vertices_m[triangle[1]] - first_m, mesh.vertices_m[triangle[2]] - first_m);
+}
+
+glm::dvec3
+normal_of(const TriangleMesh& mesh, const Triangle& triangle, const glm::dvec3& without_area) {
+    const glm::dvec3 across = area_vector(mesh, triangle);
+    const double length = glm::length(across);
+    return length > 0.0 ? across / length : without_area;
+}
+
+glm::vec3 material_colour(const TriangleMesh& mesh, std::size_t triangle) {
+    return mesh.triangle_materials.empty()
+               ? Material().colour
+               : mesh.materials[mesh.triangle_materials[triangle]].colour;
+}
+
 } // namespace octant::models

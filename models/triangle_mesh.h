@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -38,5 +39,17 @@ Bounds bounds_of(const TriangleMesh& mesh);
 
 /// Length of the diagonal of bounds_of: what errors are given as fractions of.
 double diagonal_m(const TriangleMesh& mesh);
+
+/// Along a triangle's normal, as long as twice its area.
+glm::dvec3 area_vector(const TriangleMesh& mesh, const Triangle& triangle);
+
+/// Unit normal of a triangle; `without_area` where it has none.
+glm::dvec3 normal_of(
+    const TriangleMesh& mesh,
+    const Triangle& triangle,
+    const glm::dvec3& without_area = glm::dvec3(0.0));
+
+/// Colour of a triangle's material, the plain one's where it has none.
+glm::vec3 material_colour(const TriangleMesh& mesh, std::size_t triangle);
 
 } // namespace octant::models

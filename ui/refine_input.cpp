@@ -18,20 +18,18 @@ void colour_by_materials(models::TriangleMesh& mesh) {
     if (!mesh.colours.empty()) {
         return;
     }
-    const models::Material plain;
     std::vector<glm::vec3> sums(mesh.vertices_m.size(), glm::vec3(0.0F));
     std::vector<int> counts(mesh.vertices_m.size(), 0);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const models::Material& material =
-            mesh.triangle_materials.empty() ? plain : mesh.materials[mesh.triangle_materials[t]];
+        const glm::vec3 colour = models::material_colour(mesh, t);
         for (const std::uint32_t vertex : mesh.triangles[t]) {
-            sums[vertex] += material.colour;
+            sums[vertex] += colour;
             ++counts[vertex];
         }
     }
     for (std::size_t v = 0; v < sums.size(); ++v) {
         mesh.colours.push_back(
-            counts[v] > 0 ? sums[v] / static_cast<float>(counts[v]) : plain.colour);
+            counts[v] > 0 ? sums[v] / static_cast<float>(counts[v]) : models::Material().colour);
     }
 }
 

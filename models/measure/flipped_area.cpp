@@ -16,13 +16,6 @@ namespace octant::models::measure {
 
 namespace {
 
-/// Along the normal, of any length; 0 without area.
-glm::dvec3 normal_of(const TriangleMesh& mesh, std::size_t triangle) {
-    const auto& [a, b, c] = mesh.triangles[triangle];
-    const glm::dvec3& corner = mesh.vertices_m[a];
-    return glm::cross(mesh.vertices_m[b] - corner, mesh.vertices_m[c] - corner);
-}
-
 bool is_flipped(
     const TargetSurface& original,
     const glm::dvec3& point_m,
@@ -30,7 +23,8 @@ bool is_flipped(
     const NearestOnMesh& nearest,
     double reach_m) {
     const auto faces_against = [&](std::uint32_t triangle) {
-        return glm::dot(normal_of(original.mesh(), triangle), normal) < 0.0;
+        return glm::dot(area_vector(original.mesh(), original.mesh().triangles[triangle]), normal) <
+               0.0;
     };
     if (!faces_against(nearest.triangle)) {
         return false;
@@ -59,7 +53,7 @@ double flipped_area_share(
         points.for_each(chunk, [&](const SurfacePoint& here) {
             const NearestOnMesh nearest = target.nearest(here.point_m, guess);
             guess = nearest.triangle;
-            const glm::dvec3 normal = normal_of(mesh, here.triangle);
+            const glm::dvec3 normal = area_vector(mesh, mesh.triangles[here.triangle]);
             count += is_flipped(target, here.point_m, normal, nearest, options.reach_m) ? 1U : 0U;
         });
         flipped[chunk] = count;

@@ -17,9 +17,8 @@ SurfaceSamples::SurfaceSamples(const TriangleMesh& mesh, std::size_t samples)
     assert(!mesh.triangles.empty());
     areas_.reserve(mesh.triangles.size());
     double sum = 0.0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-        const auto& at = mesh.vertices_m;
-        sum += glm::length(glm::cross(at[b] - at[a], at[c] - at[a]));
+    for (const Triangle& triangle : mesh.triangles) {
+        sum += glm::length(area_vector(mesh, triangle));
         areas_.push_back(sum);
     }
     if (!(sum > 0.0)) {

@@ -17,13 +17,7 @@ namespace {
 /// Lengths this near to 1 are left as they are, so that writing and reading changes no bit.
 constexpr double unit_tolerance = 1e-6;
 
-glm::vec3 triangle_normal(const TriangleMesh& mesh, const Triangle& triangle) {
-    const glm::dvec3& a_m = mesh.vertices_m[triangle[0]];
-    const glm::dvec3 across =
-        glm::cross(mesh.vertices_m[triangle[1]] - a_m, mesh.vertices_m[triangle[2]] - a_m);
-    const double length = glm::length(across);
-    return length > 0.0 ? glm::vec3(across / length) : glm::vec3(0.0F, 0.0F, 1.0F);
-}
+constexpr glm::dvec3 upwards(0.0, 0.0, 1.0);
 
 } // namespace
 
@@ -110,7 +104,7 @@ void MeshBuilder::finish_normals() {
             continue;
         }
         const auto own = static_cast<std::uint32_t>(mesh_.normals.size());
-        mesh_.normals.push_back(triangle_normal(mesh_, mesh_.triangles[t]));
+        mesh_.normals.emplace_back(normal_of(mesh_, mesh_.triangles[t], upwards));
         std::ranges::replace_if(corners, is_faulty, own);
     }
     // No triangle points to them any more.

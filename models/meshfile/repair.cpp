@@ -253,9 +253,7 @@ private:
 
     /// Turns the normals that point to the back of triangle t.
     void turn_normals(std::size_t t) {
-        const auto [a, b, c] = mesh_.triangles[t];
-        const glm::dvec3& a_m = mesh_.vertices_m[a];
-        const glm::dvec3 front = glm::cross(mesh_.vertices_m[b] - a_m, mesh_.vertices_m[c] - a_m);
+        const glm::dvec3 front = area_vector(mesh_, mesh_.triangles[t]);
         for (std::uint32_t& normal : mesh_.corner_normals[t]) {
             if (glm::dot(front, glm::dvec3(mesh_.normals[normal])) < 0.0) {
                 const auto next = static_cast<std::uint32_t>(mesh_.normals.size());

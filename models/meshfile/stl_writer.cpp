@@ -19,16 +19,11 @@ std::string stl_bytes(const TriangleMesh& mesh) {
     std::string bytes = "binary STL";
     bytes.resize(80, ' ');
     append_number(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
-    for (const auto& [a, b, c] : mesh.triangles) {
-        const glm::dvec3& a_m = mesh.vertices_m[a];
-        const glm::dvec3& b_m = mesh.vertices_m[b];
-        const glm::dvec3& c_m = mesh.vertices_m[c];
-        const glm::dvec3 across = glm::cross(b_m - a_m, c_m - a_m);
-        const double length = glm::length(across);
-        append_vector(bytes, length > 0.0 ? glm::vec3(across / length) : glm::vec3(0.0F));
-        append_vector(bytes, glm::vec3(a_m));
-        append_vector(bytes, glm::vec3(b_m));
-        append_vector(bytes, glm::vec3(c_m));
+    for (const Triangle& triangle : mesh.triangles) {
+        append_vector(bytes, glm::vec3(normal_of(mesh, triangle)));
+        for (const std::uint32_t vertex : triangle) {
+            append_vector(bytes, glm::vec3(mesh.vertices_m[vertex]));
+        }
         append_number(bytes, std::uint16_t{0});
     }
     return bytes;

@@ -15,12 +15,7 @@ constexpr double agreeing_cosine = 0.7;
 constexpr std::array<double, 4> pulls = {0.0, 0.1, 0.4, 1.0};
 
 glm::dvec3 unit_normal(const TriangleMesh& mesh, std::size_t triangle) {
-    const Triangle& t = mesh.triangles[triangle];
-    const glm::dvec3 normal = glm::cross(
-        mesh.vertices_m[t[1]] - mesh.vertices_m[t[0]],
-        mesh.vertices_m[t[2]] - mesh.vertices_m[t[0]]);
-    const double length = glm::length(normal);
-    return length > 0.0 ? normal / length : glm::dvec3(0.0);
+    return normal_of(mesh, mesh.triangles[triangle]);
 }
 
 /// The original's normal near a place, of a triangle that faces as `facing` does.

@@ -18,14 +18,6 @@ namespace {
 /// A coarser level must be better than asked for by this factor before it replaces a finer one.
 constexpr double coarsening_margin = 0.7;
 
-glm::vec3 face_normal(const models::TriangleMesh& mesh, const models::Triangle& triangle) {
-    const glm::dvec3& a = mesh.vertices_m[triangle[0]];
-    const glm::dvec3 across =
-        glm::cross(mesh.vertices_m[triangle[1]] - a, mesh.vertices_m[triangle[2]] - a);
-    const double size = glm::length(across);
-    return size > 0.0 ? glm::vec3(across / size) : glm::vec3(0.0F, 0.0F, -1.0F);
-}
-
 std::vector<glm::vec3> own_or_made_normals(const models::TriangleMesh& mesh) {
     if (mesh.normals.empty()) {
         return shading::corner_normals(mesh);
@@ -62,14 +54,9 @@ public:
 
 private:
     std::uint32_t colour_of(std::uint32_t triangle, std::uint32_t vertex) const {
-        if (!mesh_.colours.empty()) {
-            return models::packed_colour(mesh_.colours[vertex]);
-        }
-        const models::Material plain;
-        const models::Material& material =
-            mesh_.triangle_materials.empty() ? plain
-                                             : mesh_.materials[mesh_.triangle_materials[triangle]];
-        return models::packed_colour(material.colour);
+        return models::packed_colour(
+            mesh_.colours.empty() ? models::material_colour(mesh_, triangle)
+                                  : mesh_.colours[vertex]);
     }
 
     /// A drawn vertex that looks like this corner, made where there is none.
@@ -113,7 +100,8 @@ private:
     void claim(std::uint32_t vertex, std::uint32_t triangle) {
         is_first_[vertex - first_] = 1;
         buffers_.vertices[vertex].polygon = triangle;
-        buffers_.vertices[vertex].face_normal = face_normal(mesh_, mesh_.triangles[triangle]);
+        buffers_.vertices[vertex].face_normal =
+            models::normal_of(mesh_, mesh_.triangles[triangle], {0.0, 0.0, -1.0});
     }
 
     ModelBuffers& buffers_;

@@ -18,8 +18,6 @@ namespace octant::visuals::shading {
 
 namespace {
 
-constexpr float unpainted = 0.7F;
-
 float sum_of(const glm::vec3& colour) {
     return colour.x + colour.y + colour.z;
 }
@@ -113,13 +111,8 @@ ShadedPolygons finished(ShadedPolygons shaded, std::span<const LitPoint> corners
 }
 
 float colour_sum(const models::TriangleMesh& mesh, std::size_t triangle, std::uint32_t vertex) {
-    if (!mesh.colours.empty()) {
-        return sum_of(mesh.colours[vertex]);
-    }
-    if (!mesh.materials.empty()) {
-        return sum_of(mesh.materials[mesh.triangle_materials[triangle]].colour);
-    }
-    return 3.0F * unpainted;
+    return sum_of(
+        mesh.colours.empty() ? models::material_colour(mesh, triangle) : mesh.colours[vertex]);
 }
 
 } // namespace
@@ -154,12 +147,8 @@ shaded_polygons(const models::TriangleMesh& mesh, std::span<const glm::vec3> cor
     corners.reserve(corner_normals.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const models::Triangle& triangle = mesh.triangles[i];
-        const glm::dvec3& first_m = mesh.vertices_m[triangle[0]];
-        const glm::dvec3 doubled = glm::cross(
-            mesh.vertices_m[triangle[1]] - first_m, mesh.vertices_m[triangle[2]] - first_m);
-        const double length = glm::length(doubled);
         shaded.polygons.push_back(
-            {.normal = length > 0.0 ? glm::vec3(doubled / length) : glm::vec3(0.0F, 0.0F, 1.0F),
+            {.normal = glm::vec3(models::normal_of(mesh, triangle, {0.0, 0.0, 1.0})),
              .first_corner = static_cast<std::uint32_t>(corners.size()),
              .corner_count = 3});
         for (const std::uint32_t vertex : triangle) {

@@ -212,11 +212,7 @@ std::vector<glm::vec3> corner_normals(const models::TriangleMesh& mesh, double c
     Faces faces;
     for (const models::Triangle& triangle : mesh.triangles) {
         add_corners(faces, triangle, places, mesh.vertices_m);
-        const glm::dvec3& first_m = mesh.vertices_m[triangle[0]];
-        const glm::dvec3 doubled = glm::cross(
-            mesh.vertices_m[triangle[1]] - first_m, mesh.vertices_m[triangle[2]] - first_m);
-        const double length = glm::length(doubled);
-        faces.faces.push_back({length > 0.0 ? doubled / length : glm::dvec3(0.0), fixed});
+        faces.faces.push_back({models::normal_of(mesh, triangle), fixed});
     }
     return normals_of(faces, crease_rad);
 }
