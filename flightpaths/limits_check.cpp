@@ -58,57 +58,39 @@ LimitsCheck::LimitsCheck(
     , notes_(notes) {}
 
 double LimitsCheck::at_most(double value, double limit, const Subject& subject) const {
-    if (value <= limit + slack * std::abs(limit)) {
-        return value;
-    }
-    if (!lenient_) {
-        error_at(
-            script_.file,
-            subject.line,
-            fmt::format(
-                "expected a {} of at most {}{} for {}, got {}",
-                subject.what,
-                short_number(limit),
-                subject.unit,
-                limits_.name,
-                short_number(value)));
-    }
-    notes_.push_back(fmt::format(
-        "{}:{}: {} of {}{} clipped to {}, the most for {}",
-        script_.file.string(),
-        subject.line,
-        subject.what,
-        short_number(value),
-        subject.unit,
-        short_number(limit),
-        limits_.name));
-    return limit;
+    const bool within = value <= limit + slack * std::abs(limit);
+    return within ? value : clipped(value, limit, "most", subject);
 }
 
 double LimitsCheck::at_least(double value, double limit, const Subject& subject) const {
-    if (value >= limit - slack * std::abs(limit)) {
-        return value;
-    }
+    const bool within = value >= limit - slack * std::abs(limit);
+    return within ? value : clipped(value, limit, "least", subject);
+}
+
+double
+LimitsCheck::clipped(double value, double limit, const char* which, const Subject& subject) const {
     if (!lenient_) {
         error_at(
             script_.file,
             subject.line,
             fmt::format(
-                "expected a {} of at least {}{} for {}, got {}",
+                "expected a {} of at {} {}{} for {}, got {}",
                 subject.what,
+                which,
                 short_number(limit),
                 subject.unit,
                 limits_.name,
                 short_number(value)));
     }
     notes_.push_back(fmt::format(
-        "{}:{}: {} of {}{} clipped to {}, the least for {}",
+        "{}:{}: {} of {}{} clipped to {}, the {} for {}",
         script_.file.string(),
         subject.line,
         subject.what,
         short_number(value),
         subject.unit,
         short_number(limit),
+        which,
         limits_.name));
     return limit;
 }

@@ -34,6 +34,8 @@ public:
     Leg checked(const Leg& leg) const;
 
 private:
+    /// The limit, and a note of it; where limits are not to be clipped an error.
+    double clipped(double value, double limit, const char* which, const Subject& subject) const;
     void check_turn(Leg& leg) const;
     void check_weave(Leg& leg) const;
     std::string weave_fault(const Leg& leg) const;

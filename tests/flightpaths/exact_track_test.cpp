@@ -6,17 +6,17 @@
 #include "sim/base/error.h"
 #include "sim/fixed_step.h"
 #include "sim/hand_flight.h"
+#include "tests/flightpaths/track_fault.h"
 
 #include <catch2/catch.hpp>
 
 #include <cstring>
 #include <limits>
 
-#include "scratch.h"
-
 using namespace octant;
 using namespace octant::flightpaths;
 using octant::tests::replaced;
+using octant::tests::track_fault;
 using octant::tests::written;
 
 namespace {
@@ -41,16 +41,6 @@ std::vector<sim::AircraftState> flown(const char* aircraft, long steps) {
         states.push_back(flight->state());
     }
     return states;
-}
-
-std::string fault_of(const std::string& text) {
-    const auto file = written("fault.csv", text);
-    try {
-        read_recorded_track(file);
-    } catch (const Error& error) {
-        return std::string(error.what()).substr(file.string().size() + 1);
-    }
-    return "no error";
 }
 
 const std::string head = "t_s,north_m,east_m,alt_m,q_w,q_x,q_y,q_z\n";
@@ -134,24 +124,24 @@ TEST_CASE("quaternions stand in place of angles, and are made unit where they ne
 
 TEST_CASE("quaternions that are not unit or not whole are refused with their line") {
     const std::string good = head + "0,0,0,0,1,0,0,0\n1,0,0,0,1,0,0,0\n";
-    CHECK(fault_of(good) == "no error");
+    CHECK(track_fault(good) == "no error");
     CHECK(
-        fault_of(replaced(good, "1,0,0,0,1,0", "1,0,0,0,1,0.1")) ==
+        track_fault(replaced(good, "1,0,0,0,1,0", "1,0,0,0,1,0.1")) ==
         "3: expected a unit quaternion q_w, q_x, q_y, q_z, got one of length 1.004988");
     CHECK(
-        fault_of(replaced(good, "0,0,0,0,1,0,0,0\n", "0,0,0,0,0,0,0,0\n")) ==
+        track_fault(replaced(good, "0,0,0,0,1,0,0,0\n", "0,0,0,0,0,0,0,0\n")) ==
         "2: expected a unit quaternion q_w, q_x, q_y, q_z, got one of length 0");
     CHECK(
-        fault_of(replaced(good, "0,0,0,0,1,0,0,0\n", "0,0,0,0,1e200,1e200,0,0\n")) ==
+        track_fault(replaced(good, "0,0,0,0,1,0,0,0\n", "0,0,0,0,1e200,1e200,0,0\n")) ==
         "2: expected a unit quaternion q_w, q_x, q_y, q_z, got one of length inf");
     CHECK(
-        fault_of(replaced(good, "0,0,0,0,1,0,0,0\n", "0,0,0,0,1,x,0,0\n")) ==
+        track_fault(replaced(good, "0,0,0,0,1,0,0,0\n", "0,0,0,0,1,x,0,0\n")) ==
         "2: expected a finite number in column q_x, got \"x\"");
     CHECK(
-        fault_of(replaced(good, "q_y,", "p_y,")) ==
+        track_fault(replaced(good, "q_y,", "p_y,")) ==
         "1: expected all of the columns q_w, q_x, q_y, q_z, got no q_y");
     CHECK(
-        fault_of("t_s,north_m,east_m,alt_m,q_z\n0,0,0,0,1\n") ==
+        track_fault("t_s,north_m,east_m,alt_m,q_z\n0,0,0,0,1\n") ==
         "1: expected all of the columns q_w, q_x, q_y, q_z, got no q_w");
-    CHECK(fault_of(replaced(good, "q_z", "q_w")) == "1: expected one column q_w, got two");
+    CHECK(track_fault(replaced(good, "q_z", "q_w")) == "1: expected one column q_w, got two");
 }

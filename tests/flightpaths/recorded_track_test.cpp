@@ -4,33 +4,23 @@
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
+#include "tests/flightpaths/track_fault.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
 #include <cmath>
 
-#include "scratch.h"
-
 using namespace octant;
 using namespace octant::flightpaths;
 using octant::tests::shipped;
+using octant::tests::track_fault;
 using octant::tests::written;
 
 namespace {
 
 RecordedTrack track_of(const std::string& text) {
     return read_recorded_track(written("track.csv", text));
-}
-
-std::string fault_of(const std::string& text) {
-    const auto file = written("fault.csv", text);
-    try {
-        read_recorded_track(file);
-    } catch (const Error& error) {
-        return std::string(error.what()).substr(file.string().size() + 1);
-    }
-    return "no error";
 }
 
 const std::string own_head = "t_s,north_m,east_m,alt_m\n";
@@ -145,59 +135,60 @@ TEST_CASE("an aircraft that stands still or falls keeps an attitude") {
 TEST_CASE("wrong tracks are refused with line and what was expected") {
     CHECK_THROWS_WITH(
         read_recorded_track("/nowhere/a.csv"), "/nowhere/a.csv: expected a file, found none");
-    CHECK(fault_of("") == "1: expected a line of column names, got an empty one");
+    CHECK(track_fault("") == "1: expected a line of column names, got an empty one");
     CHECK(
-        fault_of("a,b\n1,2\n") == "1: expected column names with t_s or Time among them, got a,b");
-    CHECK(fault_of("t_s,north_m,alt_m\n") == "1: expected a column east_m, got none");
+        track_fault("a,b\n1,2\n") ==
+        "1: expected column names with t_s or Time among them, got a,b");
+    CHECK(track_fault("t_s,north_m,alt_m\n") == "1: expected a column east_m, got none");
     CHECK(
-        fault_of("Time,Longitude (deg),Altitude ASL (ft)\n") ==
+        track_fault("Time,Longitude (deg),Altitude ASL (ft)\n") ==
         "1: expected a column Latitude Geodetic (deg), got none");
-    CHECK(fault_of("t_s,t_s,north_m,east_m,alt_m\n") == "1: expected one column t_s, got two");
-    CHECK(fault_of(own_head) == " expected at least 2 samples, got 0");
-    CHECK(fault_of(own_head + "0,0,0,0\n") == " expected at least 2 samples, got 1");
-    CHECK(fault_of(own_head + "0,0,0,0\n1,0,0\n") == "3: expected 4 fields, got 3");
+    CHECK(track_fault("t_s,t_s,north_m,east_m,alt_m\n") == "1: expected one column t_s, got two");
+    CHECK(track_fault(own_head) == " expected at least 2 samples, got 0");
+    CHECK(track_fault(own_head + "0,0,0,0\n") == " expected at least 2 samples, got 1");
+    CHECK(track_fault(own_head + "0,0,0,0\n1,0,0\n") == "3: expected 4 fields, got 3");
     CHECK(
-        fault_of(own_head + "0,0,0,0\n1,0,nan,0\n") ==
+        track_fault(own_head + "0,0,0,0\n1,0,nan,0\n") ==
         "3: expected a finite number in column east_m, got \"nan\"");
     CHECK(
-        fault_of(own_head + "0,0,0,0\n1,0,1e999,0\n") ==
+        track_fault(own_head + "0,0,0,0\n1,0,1e999,0\n") ==
         "3: expected a finite number in column east_m, got \"1e999\"");
     CHECK(
-        fault_of(own_head + "0,0,0,0\n\n1,0,,0\n") ==
+        track_fault(own_head + "0,0,0,0\n\n1,0,,0\n") ==
         "4: expected a finite number in column east_m, got \"\"");
     CHECK(
-        fault_of(own_head + "0,0,0,0\n1,0,0,0\n1,0,0,0\n") ==
+        track_fault(own_head + "0,0,0,0\n1,0,0,0\n1,0,0,0\n") ==
         "4: expected a time after 1.000 s, got 1.000 s");
     CHECK(
-        fault_of(own_head + "0,0,0,0\n1e6,0,0,0\n") ==
+        track_fault(own_head + "0,0,0,0\n1e6,0,0,0\n") ==
         "3: expected a time within 86400 s of the first, got 1000000.000 s");
     CHECK(
-        fault_of(own_head + "1e9,0,0,0\n1000000001,0,0,0\n") ==
+        track_fault(own_head + "1e9,0,0,0\n1000000001,0,0,0\n") ==
         "2: expected a time from -10000000 s to 10000000 s, got 1000000000 s");
     CHECK(
-        fault_of(own_head + "-1e300,0,0,0\n0,0,0,0\n") ==
+        track_fault(own_head + "-1e300,0,0,0\n0,0,0,0\n") ==
         "2: expected a time from -10000000 s to 10000000 s, got -1e+300 s");
     CHECK(
-        fault_of(own_head + "1e7,0,0,0\n10000001,0,0,0\n") ==
+        track_fault(own_head + "1e7,0,0,0\n10000001,0,0,0\n") ==
         "3: expected a time from -10000000 s to 10000000 s, got 10000001 s");
-    CHECK(fault_of(own_head + "9999999,0,0,0\n1e7,0,0,0\n") == "no error");
+    CHECK(track_fault(own_head + "9999999,0,0,0\n1e7,0,0,0\n") == "no error");
     CHECK(
-        fault_of(own_head + "0,0,0,0\n1,0,0,4000\n") ==
+        track_fault(own_head + "0,0,0,0\n1,0,0,4000\n") ==
         "3: expected a speed of at most 3000 m/s, got 4000.0 m/s");
     CHECK(
-        fault_of(own_head + "0,0,1e8,0\n1,0,0,0\n") ==
+        track_fault(own_head + "0,0,1e8,0\n1,0,0,0\n") ==
         "2: expected a place within 10000 km of the origin, got 100000 km");
     CHECK(
-        fault_of("Time,Latitude (deg),Longitude (deg),Altitude ASL (ft)\n0,95,0,0\n") ==
+        track_fault("Time,Latitude (deg),Longitude (deg),Altitude ASL (ft)\n0,95,0,0\n") ==
         "2: expected a latitude within 89 deg and a longitude within 360 deg, got 95 and 0");
-    CHECK(fault_of(std::string("t_s\0", 4)) == " expected text, got binary data");
+    CHECK(track_fault(std::string("t_s\0", 4)) == " expected text, got binary data");
 }
 
 TEST_CASE("every cut of a good track is read or refused, never worse") {
     const std::string good =
         "t_s,north_m,east_m,alt_m,n_g\n0,0,0,100,1\n1,50,0,100,1\n2,99,0,100,1";
     for (std::size_t length = 0; length < good.size(); ++length) {
-        const std::string fault = fault_of(good.substr(0, length));
+        const std::string fault = track_fault(good.substr(0, length));
         CHECK(fault.find('\n') == std::string::npos);
     }
 }

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 using namespace octant;
 using octant::tests::run_octant;
@@ -65,6 +66,33 @@ void check_refused(std::vector<std::string> arguments, const std::string& expect
     CHECK(tests::lines_in(run.err) == 1);
     CHECK(run.err.find(expected) != std::string::npos);
     CHECK(run.out.empty());
+}
+
+/// Rows of a short flight's frames.csv.
+std::vector<ui::report::FrameRecord>
+flown_frames(const std::string& aircraft, const std::string& size, const std::string& error_px) {
+    const std::string recording = file_named("flown");
+    const tests::ProgramRun run = run_octant(
+        {"fly",
+         "straight",
+         "--aircraft",
+         aircraft,
+         "--terrain",
+         "hills",
+         "--size",
+         size,
+         "--frames",
+         "4",
+         "--warm-up",
+         "0",
+         "--aircraft-error-px",
+         error_px,
+         "--record",
+         recording,
+         "--quiet"});
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    return ui::report::read_frame_csv(recording + "/frames.csv").records;
 }
 
 } // namespace
@@ -132,29 +160,8 @@ TEST_CASE("a chain of levels has rising certified errors and is flown") {
         CHECK(levels[i].at("error") > levels[i - 1].at("error"));
         CHECK(levels[i].at("faces") < levels[i - 1].at("faces"));
     }
-    const std::string recording = file_named("flown");
     const auto last_row = [&](const char* error_px) {
-        const tests::ProgramRun run = run_octant(
-            {"fly",
-             "straight",
-             "--aircraft",
-             chain,
-             "--terrain",
-             "hills",
-             "--size",
-             "160x90",
-             "--frames",
-             "3",
-             "--warm-up",
-             "0",
-             "--aircraft-error-px",
-             error_px,
-             "--record",
-             recording,
-             "--quiet"});
-        INFO(run.err);
-        REQUIRE(run.exit_code == 0);
-        return ui::report::read_frame_csv(recording + "/frames.csv").records.back();
+        return flown_frames(chain, "160x90", error_px).back();
     };
     const auto near = last_row("0.01");
     CHECK(near.aircraft_level == 0);
@@ -181,29 +188,8 @@ TEST_CASE("simplify refuses wrong input in one line with exit code 2") {
 }
 
 TEST_CASE("a plain mesh is refined in flight to the error asked for") {
-    const std::string recording = file_named("refined");
     const auto triangles = [&](const char* error_px) {
-        const tests::ProgramRun run = run_octant(
-            {"fly",
-             "straight",
-             "--aircraft",
-             waves(60),
-             "--terrain",
-             "hills",
-             "--size",
-             "320x180",
-             "--frames",
-             "4",
-             "--warm-up",
-             "0",
-             "--aircraft-error-px",
-             error_px,
-             "--record",
-             recording,
-             "--quiet"});
-        INFO(run.err);
-        REQUIRE(run.exit_code == 0);
-        const auto rows = ui::report::read_frame_csv(recording + "/frames.csv").records;
+        const auto rows = flown_frames(waves(60), "320x180", error_px);
         CHECK(rows.back().aircraft_level == 0);
         return rows.back().aircraft_polygons;
     };
