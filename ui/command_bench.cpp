@@ -1,5 +1,6 @@
 #include "ui/bench.h"
 #include "ui/commands.h"
+#include "ui/figures_text.h"
 #include "ui/settings_text.h"
 
 #include <CLI/CLI.hpp>
@@ -68,8 +69,7 @@ void print_json(const std::vector<BenchResult>& results) {
              {"triangles", r.triangles},
              {"hash", fmt::format("{:016x}", r.hash)}});
     }
-    std::fputs(
-        fmt::format("{}\n", nlohmann::ordered_json{{"scenes", scenes}}.dump(2)).c_str(), stdout);
+    print_figures(nlohmann::ordered_json{{"scenes", scenes}}, true);
 }
 
 } // namespace

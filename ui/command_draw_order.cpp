@@ -2,6 +2,7 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "ui/commands.h"
+#include "ui/figures_text.h"
 #include "ui/order_input.h"
 #include "ui/progress.h"
 #include "ui/settings_options.h"
@@ -186,22 +187,6 @@ bool rays_are_right(const Work& work, int rays, Json& figures) {
     return count.wrong == 0 && count.eyes_in_gap == 0;
 }
 
-void print(const Json& figures) {
-    for (const auto& [key, value] : figures.items()) {
-        if (value.is_array()) {
-            for (const auto& line : value) {
-                std::fputs(fmt::format("{}\n", line.get<std::string>()).c_str(), stdout);
-            }
-            continue;
-        }
-        const std::string text = value.is_string() ? value.get<std::string>()
-                                 : value.is_number_float()
-                                     ? fmt::format("{:.4g}", value.get<double>())
-                                     : value.dump();
-        std::fputs(fmt::format("{:<30} {}\n", key, text).c_str(), stdout);
-    }
-}
-
 void print_table(const std::vector<draworder::OrderRow>& rows) {
     for (const draworder::OrderRow& row : rows) {
         const std::string cell =
@@ -218,13 +203,13 @@ void print_results(const Work& work, const DrawOrderOptions& options, Json figur
             figures["table"].push_back(
                 {{"cell", row.cell}, {"region", row.region}, {"order", row.list}});
         }
-        std::fputs(fmt::format("{}\n", figures.dump(2)).c_str(), stdout);
+        print_figures(figures, true);
         return;
     }
     figures.erase("notes"); // said already
     print_table(rows);
     if (!options.table || options.check || options.rays > 0) {
-        print(figures);
+        print_figures(figures, false);
     }
 }
 
@@ -310,9 +295,6 @@ void add_draw_order_command(CLI::App& program) {
         "draw-order", "Finds, shows, exports and checks the painting orders of a model");
     add_order_options(*command, *options);
     add_result_options(*command, *options);
-    for (const char* option : {"--min-distance", "--rays"}) {
-        command->get_option(option)->group("Options");
-    }
     command->footer(
         "Exit code 1: a check said no. A file of orders speaks of the model that --export-model "
         "writes, in the axes of that file.\n"

@@ -1,5 +1,6 @@
 #include "sim/base/error.h"
 #include "ui/commands.h"
+#include "ui/figures_text.h"
 #include "ui/flight_recorder.h"
 #include "ui/input_files.h"
 #include "ui/progress.h"
@@ -59,7 +60,7 @@ void print_summary(const FlightEnd& end, const std::optional<ReplayVerdict>& ver
             object["replay"] = {
                 {"state_hash", verdict->state_hash}, {"picture_hash", verdict->picture_hash}};
         }
-        std::fputs(fmt::format("{}\n", object.dump(2)).c_str(), stdout);
+        print_figures(object, true);
         return;
     }
     for (const report::Figure& figure : report::figures()) {

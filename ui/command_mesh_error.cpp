@@ -3,6 +3,7 @@
 #include "models/measure/mesh_distance.h"
 #include "sim/base/error.h"
 #include "ui/commands.h"
+#include "ui/figures_text.h"
 #include "ui/mesh_input.h"
 #include "ui/progress.h"
 #include "ui/settings_options.h"
@@ -202,7 +203,7 @@ void mesh_error(const MeshErrorOptions& options) {
     figures["read_ms"] = read_ms;
     figures["measure_ms"] = found.measure_ms;
     if (options.json) {
-        std::fputs(fmt::format("{}\n", figures.dump(2)).c_str(), stdout);
+        print_figures(figures, true);
     } else {
         print_text(found, figures);
     }
@@ -233,10 +234,15 @@ void add_mesh_error_command(CLI::App& program) {
     auto options = std::make_shared<MeshErrorOptions>();
     CLI::App* command = program.add_subcommand(
         "mesh-error", "Measures how far two triangle meshes are apart, and what is wrong with B");
-    command->add_option("A", options->a, "the original: an OBJ, PLY or other mesh file")
-        ->type_name("FILE")
+    command
+        ->add_option(
+            "A",
+            options->a,
+            "the original: globe, torus, f15, 500md, concave or a file (.obj, .ply, .stl, .gltf, "
+            ".glb, .ac, .wrl)")
+        ->type_name("MESH")
         ->required();
-    command->add_option("B", options->b, "what was made of it")->type_name("FILE")->required();
+    command->add_option("B", options->b, "what was made of it")->type_name("MESH")->required();
     add_number_option(
         *command,
         {"tightness", "RATIO", "most / least of the largest distance", 1.000001, 100},
@@ -245,9 +251,6 @@ void add_mesh_error_command(CLI::App& program) {
         *command, {"samples", "N", "points each way, for rms and mean", 1, 1e9}, options->samples);
     add_number_option(
         *command, {"threads", "N", "that measure [all processors]", 1, 256}, options->threads);
-    for (const char* option : {"--tightness", "--samples", "--threads"}) {
-        command->get_option(option)->group("Options");
-    }
     command->add_flag("--json", options->json, "results as JSON");
     command->add_flag("--quiet", options->quiet, "no progress");
     command->footer(footer);

@@ -1,11 +1,12 @@
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
-#include "sim/base/text_file.h"
 #include "sim/base/units.h"
 #include "ui/commands.h"
+#include "ui/figures_text.h"
 #include "ui/partition_mesh.h"
 #include "ui/progress.h"
+#include "ui/read_option.h"
 #include "ui/refine_input.h"
 #include "ui/settings_options.h"
 #include "ui/settings_text.h"
@@ -18,7 +19,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <cstdio>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -43,10 +43,10 @@ struct RefineOptions {
     std::string save;
     std::vector<RegionWords> regions;
     double error_px = 0.0; ///< 0: no view
-    std::string eye;
-    std::string look;
+    std::optional<glm::dvec3> eye_m;
+    std::optional<glm::dvec3> look_m;
     double fov_deg = 50.0;
-    std::string size = "1280x720";
+    glm::ivec2 size_px{1280, 720};
     std::string rule = "selective";
     bool no_repair = false;
     std::string out;
@@ -72,35 +72,18 @@ std::vector<refine::Sphere> spheres_of(const RefineOptions& options) {
     return spheres;
 }
 
-glm::dvec3 point_of(const char* option, const std::string& text) {
-    const auto fields = split_fields(text, ',');
-    glm::dvec3 point{0.0};
-    bool good = fields.size() == 3;
-    for (int k = 0; good && k < 3; ++k) {
-        const auto number = finite_number(fields[static_cast<std::size_t>(k)]);
-        good = number.has_value();
-        point[k] = number.value_or(0.0);
-    }
-    if (!good) {
-        throw Error(fmt::format("{}: expected X,Y,Z, got '{}'", option, printable(text)));
-    }
-    return point;
-}
-
 refine::RefineView view_of(const RefineOptions& options) {
-    const glm::dvec3 eye_m = point_of("--eye", options.eye);
-    const glm::dvec3 look_m = point_of("--look", options.look);
-    glm::ivec2 size_px{};
-    read_setting({"--size", "", "", 16, 8192}, options.size, size_px);
+    const glm::dvec3& eye_m = *options.eye_m;
+    const glm::dvec3& look_m = *options.look_m;
     const double away_m = glm::distance(eye_m, look_m);
-    if (!(away_m > 0.0) || !std::isfinite(away_m)) {
+    if (!(away_m > 0.0)) {
         throw Error("--look: expected another point than --eye");
     }
     const glm::dvec3 ahead = (look_m - eye_m) / away_m;
     const glm::dvec3 up =
         std::abs(ahead.z) > 0.999 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
     return refine::picture_view(
-        eye_m, look_m, up, rad_from_deg(options.fov_deg), size_px.x, size_px.y);
+        eye_m, look_m, up, rad_from_deg(options.fov_deg), options.size_px.x, options.size_px.y);
 }
 
 refine::SplitRule rule_of(const std::string& name) {
@@ -191,9 +174,13 @@ void refine_mesh(RefineOptions options) {
         options.input.most_vertices = static_cast<std::size_t>(options.vertices);
     }
     const std::vector<refine::Sphere> spheres = spheres_of(options);
-    if ((options.error_px > 0.0) != !options.eye.empty() ||
-        options.eye.empty() != options.look.empty()) {
-        throw Error("--error-px, --eye, --look: expected all three or none");
+    if ((options.error_px > 0.0) != options.eye_m.has_value() ||
+        options.eye_m.has_value() != options.look_m.has_value()) {
+        throw Error(fmt::format(
+            "--error-px, --eye, --look: expected all three or none, got{}{}{}",
+            options.error_px > 0.0 ? " --error-px" : "",
+            options.eye_m ? " --eye" : "",
+            options.look_m ? " --look" : ""));
     }
     std::optional<refine::RefineView> view;
     if (options.error_px > 0.0) {
@@ -224,30 +211,25 @@ void refine_mesh(RefineOptions options) {
         mesh, {.rule = rule_of(options.rule), .repair = !options.no_repair});
     refine_all(refiner, options, spheres, view, figures);
     write_results(refiner, options);
-    if (options.json) {
-        std::fputs(fmt::format("{}\n", figures.dump(2)).c_str(), stdout);
-        return;
-    }
-    for (const auto& [key, value] : figures.items()) {
-        const std::string text = value.is_string() ? value.get<std::string>()
-                                 : value.is_number_float()
-                                     ? fmt::format("{:.4g}", value.get<double>())
-                                     : value.dump();
-        std::fputs(fmt::format("{:<30} {}\n", key, text).c_str(), stdout);
-    }
+    print_figures(figures, options.json);
 }
 
 void add_what(CLI::App& command, RefineOptions& options) {
-    command.add_option("in", options.input.file, "a mesh (OBJ, PLY, ...) or a progressive mesh")
+    command
+        .add_option(
+            "in",
+            options.input.file,
+            "a mesh: globe, torus, f15, 500md, concave or a file (.obj, .ply, .stl, .gltf, .glb, "
+            ".ac, .wrl); or a progressive mesh")
         ->type_name("MESH|FILE.pm")
         ->required();
     add_number_option(
         command,
-        {"base", "N", "meshes: simplify to N vertices and no further; 0 = all the way", 0, 1e9},
+        {"base", "N", "meshes: simplify to N vertices and no further [all the way]", 0, 1e9},
         options.base);
     add_number_option(
         command,
-        {"vertices", "N", ".pm: read the coarser model of N vertices; 0 = all", 0, 1e9},
+        {"vertices", "N", ".pm: read the coarser model of N vertices [all]", 0, 1e9},
         options.vertices);
     command
         .add_option(
@@ -257,16 +239,16 @@ void add_what(CLI::App& command, RefineOptions& options) {
         ->type_name("sphere X Y Z RADIUS");
     add_number_option(
         command,
-        {"error-px", "PIXELS", "split what shows a larger error from --eye; 0 = none", 0.0, 1e6},
+        {"error-px", "PIXELS", "split what shows a larger error from --eye [none]", 0.0, 1e6},
         options.error_px);
-    command.add_option("--eye", options.eye, "where the view is from, file axes")
-        ->type_name("X,Y,Z");
-    command.add_option("--look", options.look, "what it looks at")->type_name("X,Y,Z");
+    add_read_option(
+        command, {"eye", "X,Y,Z", "where the view is from, file axes", -1e9, 1e9}, options.eye_m);
+    add_read_option(command, {"look", "X,Y,Z", "what it looks at", -1e9, 1e9}, options.look_m);
     add_number_option(
         command, {"fov", "DEGREES", "height of the view", 1.0, 170.0}, options.fov_deg);
-    command.add_option("--size", options.size, "picture size in pixels")
-        ->type_name("WIDTHxHEIGHT")
-        ->capture_default_str();
+    add_read_option(
+        command, {"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, options.size_px)
+        ->default_str(text_of(options.size_px));
 }
 
 void add_how(CLI::App& command, RefineOptions& options) {
@@ -311,11 +293,12 @@ void add_refine_command(CLI::App& program) {
         "refine", "Makes progressive meshes and refines them where it is asked for");
     add_what(*command, *options);
     add_how(*command, *options);
-    for (const char* option : {"--base", "--vertices", "--error-px", "--fov"}) {
-        command->get_option(option)->group("Options");
-    }
     command->footer(
         "Without --region and --error-px the active mesh is the base mesh.\n"
+        "Keys of --json: model, original_vertices, original_faces, base_vertices,\n"
+        "  hierarchy_bytes_a_vertex, load_ms, rule, requested_splits, forced_by_rule,\n"
+        "  turned_faces_before_repair, forced_by_repair, turned_faces, vertices, faces, "
+        "refine_ms.\n"
         "Examples:\n"
         "  octant refine bunny.ply --base 100 --save bunny.pm\n"
         "  octant refine bunny.pm --region sphere -0.05 0.1 0 0.02 --out ear.ply --nodes ear.txt\n"

@@ -2,12 +2,12 @@
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/error.h"
 #include "ui/commands.h"
+#include "ui/figures_text.h"
 #include "ui/settings_options.h"
 #include "ui/simplify_work.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
@@ -66,34 +66,20 @@ void refuse_faults(const SimplifyCommand& command) {
     }
 }
 
-void print(const Json& figures, bool json) {
-    if (json) {
-        std::fputs(fmt::format("{}\n", figures.dump(2)).c_str(), stdout);
-        return;
-    }
-    for (const auto& [key, value] : figures.items()) {
-        if (key == "repairs") {
-            continue; // said already
-        }
-        if (key == "levels") {
-            for (const auto& level : value) {
-                std::fputs(
-                    fmt::format(
-                        "level of {} faces: error {:.4g}, {:.3g} of the diagonal\n",
-                        level["faces"].get<std::size_t>(),
-                        level["error"].get<double>(),
-                        level["error_of_diagonal"].get<double>())
-                        .c_str(),
-                    stdout);
+void print(Json figures, bool json) {
+    if (!json) {
+        figures.erase("repairs"); // said already
+        if (figures.contains("levels")) {
+            for (Json& level : figures["levels"]) {
+                level = fmt::format(
+                    "level of {} faces: error {:.4g}, {:.3g} of the diagonal",
+                    level["faces"].get<std::size_t>(),
+                    level["error"].get<double>(),
+                    level["error_of_diagonal"].get<double>());
             }
-            continue;
         }
-        const std::string text = value.is_string() ? value.get<std::string>()
-                                 : value.is_number_float()
-                                     ? fmt::format("{:.4g}", value.get<double>())
-                                     : value.dump();
-        std::fputs(fmt::format("{:<20} {}\n", key, text).c_str(), stdout);
     }
+    print_figures(figures, json);
 }
 
 void run(const SimplifyCommand& command) {
@@ -123,10 +109,14 @@ void add_goal_options(CLI::App& cli, SimplifyCommand& command) {
         ->type_name("OUT")
         ->required();
     add_number_option(
-        cli, {"vertices", "N", "go down to so many vertices", 1, 2e9}, command.vertices);
+        cli, {"vertices", "N", "go down to so many vertices [no goal]", 1, 2e9}, command.vertices);
     add_number_option(
         cli,
-        {"faces", "N", "go down to so many triangles; with --chain of the coarsest level", 1, 2e9},
+        {"faces",
+         "N",
+         "go down to so many triangles; with --chain of the coarsest level [no goal]",
+         1,
+         2e9},
         command.faces);
     cli.add_option("--error", command.error)
         ->description("go as far as the certified two-sided distance stays below, in file units "
@@ -152,7 +142,9 @@ void add_other_options(CLI::App& cli, SimplifyCommand& command) {
         {"colour-weight", "W", "what a colour difference of 1 counts, in diagonals", 0, 1000},
         command.colour_weight);
     add_number_option(
-        cli, {"threads", "N", "threads to work on; changes no result", 1, 1024}, command.threads);
+        cli,
+        {"threads", "N", "that work; change no result [all processors]", 1, 1024},
+        command.threads);
     cli.add_flag("--chain", command.chain, "write levels of detail, halving, into OUT.chain");
     cli.add_option("--polygons", command.polygons)
         ->description("with --chain: polygons for its far end, instead of the last level")
@@ -160,6 +152,24 @@ void add_other_options(CLI::App& cli, SimplifyCommand& command) {
     cli.add_flag("--json", command.json, "results as JSON");
     cli.add_flag("--quiet", command.quiet, "no progress, no notes");
 }
+
+constexpr const char* footer =
+    "error: certified two-sided distance (Hausdorff), rms: root mean square, in file units and as\n"
+    "fractions of the diagonal.\n"
+    "Keys of --json: in, out, faces_in_file, repairs, faces_before, vertices_before, faces,\n"
+    "  vertices, method, error, error_of_diagonal, rms, rms_of_diagonal, colour_rms (length in "
+    "RGB\n"
+    "  0..1, where there are colours), time_s;\n"
+    "  with --chain instead levels (faces, error, error_of_diagonal each), polygons,\n"
+    "  polygons_error;\n"
+    "  as printed also reading, contractions, counted_vertices, feet, feet_outside, "
+    "share_outside,\n"
+    "  error_sum_plane, error_sum_triangle, error_sum_bidirectional, duplicate_faces,\n"
+    "  non_manifold_edges.\n"
+    "Examples:\n"
+    "  octant simplify bunny.ply small.obj --faces 1000\n"
+    "  octant simplify scan.stl part.glb --error 0.1%\n"
+    "  octant simplify scan.ply jet.chain --chain && octant fly turn --aircraft jet.chain";
 
 } // namespace
 
@@ -169,15 +179,7 @@ void add_simplify_command(CLI::App& program) {
         "simplify", "Reduces triangles of a mesh and certifies how far the result is off");
     add_goal_options(*cli, *command);
     add_other_options(*cli, *command);
-    for (const char* option : {"--vertices", "--faces", "--colour-weight", "--threads"}) {
-        cli->get_option(option)->group("Options");
-    }
-    cli->footer("error: certified two-sided distance (Hausdorff), rms: root mean square, in file "
-                "units and as fractions of the diagonal.\n"
-                "Examples:\n"
-                "  octant simplify bunny.ply small.obj --faces 1000\n"
-                "  octant simplify scan.stl part.glb --error 0.1%\n"
-                "  octant simplify f15.obj f15.chain --chain");
+    cli->footer(footer);
     cli->callback([command] { run(*command); });
 }
 

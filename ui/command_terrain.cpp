@@ -6,6 +6,7 @@
 #include "ui/command_terrain_import.h"
 #include "ui/command_terrain_measure.h"
 #include "ui/commands.h"
+#include "ui/figures_text.h"
 #include "ui/progress.h"
 #include "ui/settings_options.h"
 #include "ui/terrain_file.h"
@@ -68,26 +69,12 @@ nlohmann::ordered_json figures_of(const models::HeightField& field) {
     return figures;
 }
 
-void print(const nlohmann::ordered_json& figures, bool json) {
-    if (json) {
-        std::fputs(fmt::format("{}\n", figures.dump(2)).c_str(), stdout);
-        return;
-    }
-    for (const auto& [key, value] : figures.items()) {
-        const std::string text = value.is_string() ? value.get<std::string>()
-                                 : value.is_number_float()
-                                     ? fmt::format("{:.6g}", value.get<double>())
-                                     : value.dump();
-        std::fputs(fmt::format("{:<18} {}\n", key, text).c_str(), stdout);
-    }
-}
-
 void show(const TerrainOptions& options) {
     if (is_imported_ground(options.terrain)) {
         show_ground_file(options.terrain, options.verify, options.json);
         return;
     }
-    print(figures_of(load_height_field(options.terrain, options.spacing_m)), options.json);
+    print_figures(figures_of(load_height_field(options.terrain, options.spacing_m)), options.json);
 }
 
 void make(TerrainOptions options) {

@@ -1,5 +1,6 @@
 #include "ui/command_terrain_measure.h"
 #include "ui/commands.h"
+#include "ui/figures_text.h"
 #include "ui/loaded_ground.h"
 #include "ui/mesh_maker.h"
 #include "ui/progress.h"
@@ -42,7 +43,7 @@ void check(const CheckOptions& options) {
         figures["turned_triangles"] = faults.edges.turned_triangles;
         figures["doubled_vertices"] = faults.edges.doubled_vertices;
         figures["key_pixels"] = faults.key_pixels;
-        std::fputs(fmt::format("{}\n", figures.dump(2)).c_str(), stdout);
+        print_figures(figures, true);
     } else {
         std::fputs(
             fmt::format(

@@ -1,6 +1,7 @@
 #include "ui/command_terrain_import.h"
 
 #include "sim/base/error.h"
+#include "ui/figures_text.h"
 #include "ui/progress.h"
 #include "ui/settings_options.h"
 #include "ui/stopwatch.h"
@@ -103,25 +104,6 @@ figures_of(const GroundShape& shape, const GroundFacts& facts, std::uintmax_t by
     return figures;
 }
 
-/// Names of files need not be UTF-8, JSON must.
-std::string dumped(const nlohmann::ordered_json& figures) {
-    return figures.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
-
-void print(const nlohmann::ordered_json& figures, bool json) {
-    if (json) {
-        std::fputs(fmt::format("{}\n", dumped(figures)).c_str(), stdout);
-        return;
-    }
-    for (const auto& [key, value] : figures.items()) {
-        const std::string text = value.is_string() ? printable(value.get<std::string>())
-                                 : value.is_number_float()
-                                     ? fmt::format("{:.6g}", value.get<double>())
-                                     : value.dump();
-        std::fputs(fmt::format("{:<18} {}\n", key, text).c_str(), stdout);
-    }
-}
-
 void import(const ImportCommand& command) {
     visuals::terrain::GroundImportOptions options;
     options.picture = {command.spacing_m, command.height_scale};
@@ -157,7 +139,7 @@ void import(const ImportCommand& command) {
         figures[stage_keys[stage]] = watch.seconds(stage);
     }
     figures["note"] = summary.note;
-    print(figures, true);
+    print_figures(figures, true);
 }
 
 } // namespace
@@ -172,7 +154,7 @@ void show_ground_file(const std::string& file, bool verify, bool json) {
     auto figures = figures_of(ground.shape(), ground.facts(), std::filesystem::file_size(file));
     figures["open_ms"] = open_ms;
     figures["verified"] = verify;
-    print(figures, json);
+    print_figures(figures, json);
 }
 
 void add_terrain_import(CLI::App& terrain) {

@@ -1,5 +1,6 @@
 #include "sim/base/output_file.h"
 #include "ui/command_terrain_measure.h"
+#include "ui/figures_text.h"
 #include "ui/ground_ply.h"
 #include "ui/loaded_ground.h"
 #include "ui/mesh_maker.h"
@@ -39,7 +40,7 @@ void write_mesh(const MeshOptions& options) {
         figures["vertices"] = mesh.vertices.size();
         figures["error_px"] = mesh.error_px;
         figures["resolution_c"] = mesh.resolution;
-        std::fputs(fmt::format("{}\n", figures.dump(2)).c_str(), stdout);
+        print_figures(figures, true);
         return;
     }
     say(options.quiet,

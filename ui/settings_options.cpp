@@ -6,6 +6,8 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <string>
+#include <utility>
 
 namespace octant::ui {
 
@@ -15,9 +17,10 @@ namespace {
 
 class OptionAdder {
 public:
-    OptionAdder(CLI::App& command, bool path_is_positional)
+    OptionAdder(CLI::App& command, bool path_is_positional, std::string group)
         : command_(command)
-        , path_is_positional_(path_is_positional) {}
+        , path_is_positional_(path_is_positional)
+        , group_(std::move(group)) {}
 
     template <class Value>
     void operator()(const FieldInfo& info, Value& value) {
@@ -29,15 +32,15 @@ public:
             [info, &value](const std::string& text) { read_option(info, text, value); },
             std::string(info.meaning));
         option->type_name(std::string(info.form))
-            ->default_str(default_text(value))
-            ->group("Settings");
+            ->default_str(info.meaning.ends_with(']') ? "" : default_text(value))
+            ->group(group_);
     }
 
     void operator()(const FieldInfo& info, bool& value) {
         const std::string name = fmt::format("--{0},!--no-{0}", info.name);
         command_.add_flag(name, value, std::string(info.meaning))
             ->default_str(value ? "true" : "false")
-            ->group("Settings");
+            ->group(group_);
     }
 
     void operator()(const FieldInfo& info, std::vector<std::string>& value) {
@@ -49,7 +52,7 @@ public:
             ->type_name(std::string(info.form))
             ->default_str(fmt::format("{}", value.front()))
             ->allow_extra_args(false)
-            ->group("Settings");
+            ->group(group_);
     }
 
 private:
@@ -74,6 +77,7 @@ private:
 
     CLI::App& command_;
     bool path_is_positional_;
+    std::string group_;
 };
 
 } // namespace
@@ -85,15 +89,15 @@ void add_setting_options(CLI::App& command, Settings& settings, bool path_is_pos
             [&settings](const std::string& file) { settings = read_settings(file); },
             "take settings from FILE or from a recording's run.json; other options override them")
         ->type_name("FILE");
-    visit_settings(settings, OptionAdder(command, path_is_positional));
+    visit_settings(settings, OptionAdder(command, path_is_positional, "Settings"));
 }
 
 void add_number_option(CLI::App& command, const FieldInfo& info, double& value) {
-    OptionAdder(command, false)(info, value);
+    OptionAdder(command, false, "Options")(info, value);
 }
 
 void add_number_option(CLI::App& command, const FieldInfo& info, int& value) {
-    OptionAdder(command, false)(info, value);
+    OptionAdder(command, false, "Options")(info, value);
 }
 
 } // namespace octant::ui

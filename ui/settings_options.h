@@ -15,7 +15,8 @@ namespace octant::ui {
 void add_setting_options(
     CLI::App& command, visuals::scene::Settings& settings, bool path_is_positional);
 
-/// Adds an option for one number within the bounds of `info`, read as settings are ("nan" is none).
+/// Adds an option for one number within the bounds of `info`, read as settings are ("nan" is none),
+/// among the command's own. Its default is shown in words where `info.meaning` ends with [words].
 void add_number_option(CLI::App& command, const FieldInfo& info, double& value);
 void add_number_option(CLI::App& command, const FieldInfo& info, int& value);
 

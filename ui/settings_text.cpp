@@ -134,12 +134,11 @@ void read_setting(const FieldInfo& info, std::string_view text, glm::ivec2& valu
 void read_setting(const FieldInfo& info, std::string_view text, glm::dvec3& value) {
     std::array<double, 3> numbers{};
     if (!read_numbers(text, ',', numbers)) {
-        refuse(info, "X,Y,Z in metres", text);
+        refuse(info, "X,Y,Z", text);
     }
     for (const double number : numbers) {
         if (number < info.least || number > info.most) {
-            refuse(
-                info, fmt::format("X,Y,Z in metres, each {} to {}", info.least, info.most), text);
+            refuse(info, fmt::format("X,Y,Z, each {} to {}", info.least, info.most), text);
         }
     }
     value = {numbers[0], numbers[1], numbers[2]};

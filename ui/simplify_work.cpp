@@ -8,6 +8,7 @@
 #include "models/simplify/paper_simplify.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/error.h"
+#include "sim/base/text_file.h"
 #include "ui/chain_maker.h"
 #include "ui/mesh_input.h"
 #include "ui/progress.h"
@@ -16,8 +17,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -38,10 +37,8 @@ using Json = nlohmann::ordered_json;
 double error_m_from(const std::string& text, double diagonal_m) {
     const bool share = text.ends_with('%');
     const std::string number = share ? text.substr(0, text.size() - 1) : text;
-    double value = 0.0;
-    const auto [end, fault] = std::from_chars(number.data(), number.data() + number.size(), value);
-    if (fault != std::errc() || end != number.data() + number.size() || !(value > 0.0) ||
-        !std::isfinite(value)) {
+    const double value = finite_number(number).value_or(0.0);
+    if (!(value > 0.0)) {
         throw Error(fmt::format(
             "--error: expected a number above 0 in file units, or with % of the diagonal, got '{}'",
             printable(text)));
