@@ -1,6 +1,7 @@
 #include "ui/mesh_input.h"
 
 #include "models/made_globe.h"
+#include "models/made_part.h"
 #include "models/made_up.h"
 #include "models/mesh_polygons.h"
 #include "models/meshfile/mesh_file.h"
@@ -18,6 +19,9 @@ models::TriangleMesh read_mesh_input(const std::string& name_or_file) {
     if (!std::filesystem::exists(name_or_file)) {
         if (name_or_file == "globe") {
             return models::globe();
+        }
+        if (name_or_file == "machined-part") {
+            return models::machined_part();
         }
         if (name_or_file == "torus") {
             return models::as_triangles(models::torus());

@@ -1,6 +1,7 @@
 #include "ui/simplification_meshes.h"
 
 #include "models/made_globe.h"
+#include "models/made_part.h"
 #include "models/made_up.h"
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/repair.h"
@@ -107,6 +108,7 @@ std::vector<StudyMesh> built_in_meshes() {
     std::vector<StudyMesh> meshes;
     meshes.push_back(study_mesh("globe", models::globe()));
     meshes.push_back(study_mesh("torus", torus_mesh()));
+    meshes.push_back(study_mesh("machined part", models::machined_part()));
     meshes.push_back(study_mesh("F-15, fine", fine_aircraft("f15")));
     return meshes;
 }

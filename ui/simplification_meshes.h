@@ -25,8 +25,8 @@ StudyMesh bunny_from(const std::filesystem::path& file);
 /// A mesh from a file. Throws Error.
 StudyMesh study_mesh_from(const std::filesystem::path& file);
 
-/// The coloured globe, a torus of 32,768 triangles, and the F-15 with every triangle cut in four
-/// until there are 40,000: flat sides and sharp edges.
+/// The coloured globe, a torus of 32,768 triangles, and what has sharp edges: a machined part, and
+/// the F-15 with every triangle cut in four until there are 40,000.
 std::vector<StudyMesh> built_in_meshes();
 
 /// Without colours.

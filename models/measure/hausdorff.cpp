@@ -19,8 +19,10 @@
 // a convex function, so that over a piece it is at most its largest value at the corners; a single
 // triangle T of the target is convex, and the distance to the target is at most that to T. Asked
 // are the T nearest to the corners and to the middle; beside that, distances change no faster than
-// their points move. Pieces are cut in two where the nearest triangle changes, not in four, and in
-// batches, so that the result is the same on any number of threads.
+// their points move. Pieces are cut in two, not in four: where they leave the part of space over one
+// T, so that what lies flat on many triangles ends as the overlay of both meshes instead of at the
+// size of the distance; else where the nearest triangle changes. They are cut in batches, so that
+// the result is the same on any number of threads.
 
 namespace octant::models::measure {
 
@@ -29,7 +31,8 @@ namespace {
 /// A triangle between three samples.
 struct Piece {
     std::array<std::uint32_t, 3> corners{};
-    double most_m = 0.0; ///< no point of it is farther from the target
+    double most_m = 0.0;                        ///< no point of it is farther from the target
+    std::uint32_t middle = NearestOnMesh::none; ///< triangle nearest to its middle, where known
 };
 
 bool nearer(const Piece& one, const Piece& other) {
@@ -128,20 +131,20 @@ void Search::take_triangles() {
     std::vector<PieceBounds> bounds(mesh_.triangles.size());
     in_chunks(bounds.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            bounds[i] = bounds_of(target_, corners_of({mesh_.triangles[i], 0.0}), enough_m());
+            bounds[i] = bounds_of(target_, corners_of({.corners = mesh_.triangles[i]}), enough_m());
         }
     });
     for (const PieceBounds& one : bounds) {
         least_m_ = std::max(least_m_, one.least_m);
     }
     for (std::size_t i = 0; i < bounds.size(); ++i) {
-        keep({mesh_.triangles[i], bounds[i].most_m});
+        keep({mesh_.triangles[i], bounds[i].most_m, bounds[i].middle});
     }
 }
 
 Search::Halves Search::cut(const Piece& piece, double enough_m) const {
     const Corners corners = corners_of(piece);
-    const Cut where = cut_of(target_, corners);
+    const Cut where = cut_of(target_, corners, piece.middle, enough_m);
     const std::size_t next = (where.edge + 1) % 3;
     Halves halves;
     halves.between = measured(
@@ -154,6 +157,7 @@ Search::Halves Search::cut(const Piece& piece, double enough_m) const {
     for (Piece& half : halves.pieces) {
         const PieceBounds bounds = bounds_of(target_, corners_of(half, &halves.between), enough_m);
         half.most_m = std::min(piece.most_m, bounds.most_m);
+        half.middle = bounds.middle;
         halves.least_m = std::max(halves.least_m, bounds.least_m);
     }
     return halves;

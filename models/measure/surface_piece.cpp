@@ -67,39 +67,9 @@ double crossing(const TargetSurface& target, const Sample& start, const Sample& 
     return along;
 }
 
-} // namespace
-
-Sample measured(const TargetSurface& target, const glm::dvec3& point, std::uint32_t guess) {
-    const NearestOnMesh found = target.nearest(point, guess);
-    return {point, std::sqrt(found.distance2), found.triangle};
-}
-
-PieceBounds bounds_of(const TargetSurface& target, const Corners& corners, double enough_m) {
-    const auto& [a, b, c] = corners;
-    const double longest_m =
-        std::max({length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)});
-    PieceBounds bounds;
-    bounds.least_m = std::max({a->distance_m, b->distance_m, c->distance_m});
-    bounds.most_m = bounds.least_m + longest_m / std::numbers::sqrt3; // to the nearest corner
-    for (std::size_t i = 0; i < 3 && bounds.most_m > enough_m; ++i) {
-        bounds.most_m = std::min(bounds.most_m, most_to(target, corners[i]->nearest, corners));
-    }
-    if (bounds.most_m <= enough_m) {
-        return bounds;
-    }
-    const glm::dvec3 centre = (a->point + b->point + c->point) / 3.0;
-    const Sample middle = measured(target, centre, a->nearest);
-    double radius_m = 0.0;
-    for (const Sample* corner : corners) {
-        radius_m = std::max(radius_m, glm::distance(corner->point, centre));
-    }
-    bounds.least_m = std::max(bounds.least_m, middle.distance_m);
-    bounds.most_m = std::min(
-        {bounds.most_m, middle.distance_m + radius_m, most_to(target, middle.nearest, corners)});
-    return bounds;
-}
-
-Cut cut_of(const TargetSurface& target, const Corners& corners) {
+/// Where the nearest triangle changes between neighbours, along the longest edge where it does;
+/// else the middle of the longest edge.
+Cut change_cut(const TargetSurface& target, const Corners& corners) {
     Cut longest;
     Cut changing;
     double longest_m = -1.0;
@@ -127,6 +97,124 @@ Cut cut_of(const TargetSurface& target, const Corners& corners) {
     constexpr double margin = 1.0 / 16.0;
     changing.along = std::clamp(crossing(target, start, end), margin, 1.0 - margin);
     return changing;
+}
+
+/// A cut by a plane, and how deep the piece goes to either side of it.
+struct PlaneCut {
+    Cut cut;
+    double depth_m = 0.0;
+};
+
+/// The longest edge whose ends lie so far off a plane, on either side; by the distances of the
+/// corners from it. Of thin pieces other edges would leave a part as long as the piece.
+PlaneCut
+plane_cut(const Corners& corners, const std::array<double, 3>& inside_m, double least_depth_m) {
+    PlaneCut found;
+    double longest_m = 0.0;
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+        const double from_m = inside_m[edge];
+        const double to_m = inside_m[(edge + 1) % 3];
+        const double depth_m = std::min(std::abs(from_m), std::abs(to_m));
+        if ((from_m < 0.0) == (to_m < 0.0) || !(depth_m > least_depth_m)) {
+            continue;
+        }
+        found.depth_m = std::max(found.depth_m, depth_m);
+        const double edge_m = length_m(corners, edge);
+        if (edge_m > longest_m) {
+            longest_m = edge_m;
+            found.cut = {edge, from_m / (from_m - to_m)};
+        }
+    }
+    return found;
+}
+
+/// Takes the cut by the deepest of the three planes upright on a triangle through its edges.
+void take_edge_cut(
+    const TargetSurface& target,
+    std::uint32_t triangle,
+    const Corners& corners,
+    double least_depth_m,
+    PlaneCut& best) {
+    const auto& at = target.mesh().vertices_m;
+    const Triangle& t = target.mesh().triangles[triangle];
+    const glm::dvec3 normal = glm::cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]]);
+    for (std::size_t side = 0; side < 3; ++side) {
+        const glm::dvec3& start = at[t[side]];
+        const glm::dvec3 inwards = glm::cross(normal, at[t[(side + 1) % 3]] - start);
+        const double length = glm::length(inwards);
+        if (!(length > 0.0)) {
+            continue;
+        }
+        std::array<double, 3> inside_m{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            inside_m[i] = glm::dot(corners[i]->point - start, inwards) / length;
+        }
+        const PlaneCut found = plane_cut(corners, inside_m, least_depth_m);
+        best = found.depth_m > best.depth_m ? found : best;
+    }
+}
+
+/// Of triangles that are not small beside the piece.
+PlaneCut edge_cut(
+    const TargetSurface& target,
+    const Corners& corners,
+    std::uint32_t middle,
+    double least_depth_m) {
+    constexpr double least_size = 0.25;
+    const double longest_m =
+        std::max({length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)});
+    const std::array<std::uint32_t, 4> nearest = {
+        corners[0]->nearest, corners[1]->nearest, corners[2]->nearest, middle};
+    PlaneCut best;
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
+        const bool again =
+            std::find(nearest.begin(), nearest.begin() + i, nearest[i]) != nearest.begin() + i;
+        if (nearest[i] != NearestOnMesh::none && !again &&
+            target.longest_edge_m(nearest[i]) >= least_size * longest_m) {
+            take_edge_cut(target, nearest[i], corners, least_depth_m, best);
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+Sample measured(const TargetSurface& target, const glm::dvec3& point, std::uint32_t guess) {
+    const NearestOnMesh found = target.nearest(point, guess);
+    return {point, std::sqrt(found.distance2), found.triangle};
+}
+
+PieceBounds bounds_of(const TargetSurface& target, const Corners& corners, double enough_m) {
+    const auto& [a, b, c] = corners;
+    const double longest_m =
+        std::max({length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)});
+    PieceBounds bounds;
+    bounds.least_m = std::max({a->distance_m, b->distance_m, c->distance_m});
+    bounds.most_m = bounds.least_m + longest_m / std::numbers::sqrt3; // to the nearest corner
+    for (std::size_t i = 0; i < 3 && bounds.most_m > enough_m; ++i) {
+        bounds.most_m = std::min(bounds.most_m, most_to(target, corners[i]->nearest, corners));
+    }
+    if (bounds.most_m <= enough_m) {
+        return bounds;
+    }
+    const glm::dvec3 centre = (a->point + b->point + c->point) / 3.0;
+    const Sample middle = measured(target, centre, a->nearest);
+    double radius_m = 0.0;
+    for (const Sample* corner : corners) {
+        radius_m = std::max(radius_m, glm::distance(corner->point, centre));
+    }
+    bounds.middle = middle.nearest;
+    bounds.least_m = std::max(bounds.least_m, middle.distance_m);
+    bounds.most_m = std::min(
+        {bounds.most_m, middle.distance_m + radius_m, most_to(target, middle.nearest, corners)});
+    return bounds;
+}
+
+Cut cut_of(
+    const TargetSurface& target, const Corners& corners, std::uint32_t middle, double enough_m) {
+    constexpr double ignored = 0.01; // so far beside a triangle: 5e-5 of enough_m nearer
+    const PlaneCut over_edge = edge_cut(target, corners, middle, ignored * enough_m);
+    return over_edge.depth_m > 0.0 ? over_edge.cut : change_cut(target, corners);
 }
 
 } // namespace octant::models::measure

@@ -27,6 +27,7 @@ using Corners = std::array<const Sample*, 3>;
 struct PieceBounds {
     double least_m = 0.0;
     double most_m = 0.0;
+    std::uint32_t middle = NearestOnMesh::none; ///< triangle nearest to its middle, where asked
 };
 
 /// As tight as can be had at little cost; not tightened further once `most_m` <= `enough_m`.
@@ -35,11 +36,14 @@ PieceBounds bounds_of(const TargetSurface& target, const Corners& corners, doubl
 /// Where a piece is cut in two.
 struct Cut {
     std::size_t edge = 0; ///< from this corner to the next one
-    double along = 0.5;   ///< of the edge, 0..1, never near its ends
+    double along = 0.5;   ///< of the edge, 0..1
 };
 
-/// Where the nearest triangle changes from one to a neighbour, so that distances to one triangle
-/// bound both parts well; else the middle of the longest edge.
-Cut cut_of(const TargetSurface& target, const Corners& corners);
+/// Where the piece leaves the part of space over one of the triangles nearest to its corners or its
+/// `middle`, so that distances to one triangle bound a part well; farther out than a part of
+/// `enough_m` only. Else where the nearest triangle changes from one corner to the next, or the
+/// middle of the longest edge.
+Cut cut_of(
+    const TargetSurface& target, const Corners& corners, std::uint32_t middle, double enough_m);
 
 } // namespace octant::models::measure

@@ -4,8 +4,10 @@
 #include "models/measure/triangle_bvh.h"
 #include "models/triangle_mesh.h"
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -27,6 +29,15 @@ public:
         const auto& [a, b, c] = mesh_->triangles[triangle];
         const auto& at = mesh_->vertices_m;
         return detail::nearest_to_origin({at[a] - point, at[b] - point, at[c] - point}).distance2;
+    }
+
+    double longest_edge_m(std::uint32_t triangle) const {
+        const auto& [a, b, c] = mesh_->triangles[triangle];
+        const auto& at = mesh_->vertices_m;
+        return std::max(
+            {glm::distance(at[a], at[b]),
+             glm::distance(at[b], at[c]),
+             glm::distance(at[c], at[a])});
     }
 
     /// bvh().nearest, faster when `guess` is near: the guess changes nothing of what is found.

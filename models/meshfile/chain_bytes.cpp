@@ -1,6 +1,7 @@
 #include "models/meshfile/chain_bytes.h"
 
 #include "models/meshfile/byte_writer.h"
+#include "models/polygon_check.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -67,6 +68,16 @@ void append(std::string& bytes, const std::vector<Entry>& entries) {
     }
 }
 
+/// What one entry of a list takes at least.
+template <typename Entry>
+constexpr std::size_t least_bytes = sizeof(Entry);
+template <>
+constexpr std::size_t least_bytes<std::string> = 8;
+template <>
+constexpr std::size_t least_bytes<Material> = 20;
+template <>
+constexpr std::size_t least_bytes<Pivot> = 60;
+
 /// Takes what append made, in the same order.
 class Taking {
 public:
@@ -120,16 +131,14 @@ public:
         take(pivot.turns_per_s);
     }
 
-    /// `least_bytes` are what one entry takes at least.
     template <typename Entry>
-    void take(std::vector<Entry>& entries, std::size_t least_bytes) {
+    void take(std::vector<Entry>& entries) {
         const std::size_t at = reader_.at();
+        const std::size_t most = reader_.bytes_left() / least_bytes<Entry>;
         const auto count = reader_.number<std::uint64_t>("a count");
-        if (count > reader_.bytes_left() / least_bytes) {
+        if (count > most) {
             reader_.refuse_at(
-                at,
-                fmt::format("a count of at most {}", reader_.bytes_left() / least_bytes),
-                std::to_string(count));
+                at, fmt::format("a count of at most {}", most), std::to_string(count));
         }
         entries.resize(count);
         for (Entry& entry : entries) {
@@ -147,7 +156,32 @@ private:
     ByteReader& reader_;
 };
 
-constexpr std::size_t material_bytes = 20;
+/// Calls `visit` for all that chains hold of a mesh, in the order of the file.
+template <typename Mesh, typename Visit>
+void each_part_of_mesh(Mesh& mesh, const Visit& visit) {
+    visit(mesh.name);
+    visit(mesh.vertices_m);
+    visit(mesh.colours);
+    visit(mesh.triangles);
+    visit(mesh.normals);
+    visit(mesh.corner_normals);
+    visit(mesh.materials);
+    visit(mesh.triangle_materials);
+    visit(mesh.notes);
+}
+
+template <typename Model, typename Visit>
+void each_part_of_model(Model& model, const Visit& visit) {
+    visit(model.name);
+    visit(model.vertices_m);
+    visit(model.corner_vertices);
+    visit(model.polygons);
+    visit(model.materials);
+    visit(model.parts);
+    visit(model.pivots);
+    visit(model.parents);
+    visit(model.notes);
+}
 
 bool all_below(const std::vector<Triangle>& triangles, std::size_t count) {
     for (const auto& [a, b, c] : triangles) {
@@ -177,8 +211,9 @@ bool sound(const std::vector<Material>& materials) {
         materials, [](const Material& material) { return is_colour(material.colour); });
 }
 
-bool is_unit(const glm::vec3& vector) {
-    return std::abs(glm::length(vector) - 1.0F) < 1e-3F;
+template <typename Part>
+bool is_unit(const glm::vec<3, Part>& vector) {
+    return std::abs(glm::length(vector) - Part(1)) < Part(1e-3);
 }
 
 bool sound(const PolygonModel& model, const Polygon& polygon) {
@@ -186,6 +221,23 @@ bool sound(const PolygonModel& model, const Polygon& polygon) {
            std::size_t{polygon.first_corner} + polygon.corner_count <=
                model.corner_vertices.size() &&
            polygon.material < model.materials.size() && polygon.part < model.parts.size();
+}
+
+/// Needs sound polygons.
+bool all_convex(const PolygonModel& model) {
+    const double tolerance_m = flatness_tolerance_m(model);
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        if (model.polygons[i].corner_count > 3 && polygon_fault(model, i, tolerance_m)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool one_pivot_a_part(const PolygonModel& model) {
+    std::vector<char> turns(model.parts.size(), 0);
+    return std::ranges::all_of(
+        model.pivots, [&](const Pivot& pivot) { return ++turns[pivot.part] == 1; });
 }
 
 } // namespace
@@ -201,29 +253,13 @@ std::string take_text(ByteReader& reader) {
 }
 
 void append_mesh(std::string& bytes, const TriangleMesh& mesh) {
-    append(bytes, mesh.name);
-    append(bytes, mesh.vertices_m);
-    append(bytes, mesh.colours);
-    append(bytes, mesh.triangles);
-    append(bytes, mesh.normals);
-    append(bytes, mesh.corner_normals);
-    append(bytes, mesh.materials);
-    append(bytes, mesh.triangle_materials);
-    append(bytes, mesh.notes);
+    each_part_of_mesh(mesh, [&](const auto& part) { append(bytes, part); });
 }
 
 TriangleMesh take_mesh(ByteReader& reader) {
     Taking taking(reader);
     TriangleMesh mesh;
-    taking.take(mesh.name);
-    taking.take(mesh.vertices_m, 24);
-    taking.take(mesh.colours, 12);
-    taking.take(mesh.triangles, 12);
-    taking.take(mesh.normals, 12);
-    taking.take(mesh.corner_normals, 12);
-    taking.take(mesh.materials, material_bytes);
-    taking.take(mesh.triangle_materials, 4);
-    taking.take(mesh.notes, 8);
+    each_part_of_mesh(mesh, [&](auto& part) { taking.take(part); });
     const std::size_t count = mesh.triangles.size();
     taking.check(
         mesh.colours.empty() || mesh.colours.size() == mesh.vertices_m.size(),
@@ -241,35 +277,21 @@ TriangleMesh take_mesh(ByteReader& reader) {
         "indices in range");
     taking.check(
         std::ranges::all_of(mesh.colours, is_colour) && sound(mesh.materials), "colours of 0 to 1");
-    taking.check(std::ranges::all_of(mesh.normals, is_unit), "normals of length 1");
+    taking.check(std::ranges::all_of(mesh.normals, is_unit<float>), "normals of length 1");
     return mesh;
 }
 
 void append_model(std::string& bytes, const PolygonModel& model) {
-    append(bytes, model.name);
-    append(bytes, model.vertices_m);
-    append(bytes, model.corner_vertices);
-    append(bytes, model.polygons);
-    append(bytes, model.materials);
-    append(bytes, model.parts);
-    append(bytes, model.pivots);
-    append(bytes, model.parents);
-    append(bytes, model.notes);
+    each_part_of_model(model, [&](const auto& part) { append(bytes, part); });
 }
 
 PolygonModel take_model(ByteReader& reader) {
     Taking taking(reader);
     PolygonModel model;
-    taking.take(model.name);
-    taking.take(model.vertices_m, 24);
-    taking.take(model.corner_vertices, 4);
-    taking.take(model.polygons, 16);
-    taking.take(model.materials, material_bytes);
-    taking.take(model.parts, 8);
-    taking.take(model.pivots, 60);
-    taking.take(model.parents, 4);
-    taking.take(model.notes, 8);
-    bool good = all_below(model.corner_vertices, model.vertices_m.size());
+    each_part_of_model(model, [&](auto& part) { taking.take(part); });
+    // Every polygon of the file it came from has a piece at least.
+    bool good = all_below(model.corner_vertices, model.vertices_m.size()) &&
+                all_below(model.parents, model.polygons.size());
     for (const Polygon& polygon : model.polygons) {
         good = good && sound(model, polygon);
     }
@@ -282,6 +304,11 @@ PolygonModel take_model(ByteReader& reader) {
     taking.check(
         model.parents.empty() || model.parents.size() == model.polygons.size(),
         "a parent for each polygon");
+    taking.check(one_pivot_a_part(model), "one pivot a part at most");
+    taking.check(
+        std::ranges::all_of(model.pivots, [](const Pivot& pivot) { return is_unit(pivot.axis); }),
+        "axes of length 1");
+    taking.check(all_convex(model), "convex planar polygons");
     return model;
 }
 

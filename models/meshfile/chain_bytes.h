@@ -14,8 +14,8 @@ void append_mesh(std::string& bytes, const TriangleMesh& mesh);
 void append_model(std::string& bytes, const PolygonModel& model);
 void append_text(std::string& bytes, const std::string& text);
 
-/// Throw Error "file: at byte N: ..." for what the file cannot hold, indices out of range and
-/// numbers that are not finite.
+/// Throw Error "file: at byte N: ..." for what the file cannot hold, indices out of range, numbers
+/// that are not finite, and what is not as TriangleMesh and PolygonModel say.
 TriangleMesh take_mesh(ByteReader& reader);
 PolygonModel take_model(ByteReader& reader);
 std::string take_text(ByteReader& reader);

@@ -90,6 +90,12 @@ LevelChain read_chain(const std::filesystem::path& path) {
         const double least_m = i == 0 ? 0.0 : chain.levels.back().error_m;
         ChainLevel level;
         level.error_m = take_error_m(reader, least_m);
+        if (i == 0 && level.error_m != 0.0) {
+            reader.refuse_at(
+                reader.at() - 8,
+                "an error of 0 of the finest level",
+                fmt::format("{}", level.error_m));
+        }
         level.mesh = take_mesh(reader);
         chain.levels.push_back(std::move(level));
     }

@@ -12,6 +12,9 @@ namespace {
 constexpr double least_cosine = 0.2;
 /// Twice the area over the sum of the squared sides: 0.58 for equal sides.
 constexpr double least_roundness = 0.02;
+/// Of a triangle that keeps its normal, where Strips is given.
+constexpr double least_strip_roundness = 0.002;
+constexpr double kept_cosine = 0.9999;
 
 double roundness(const std::array<glm::dvec3, 3>& corners, double area2) {
     double sides = 0.0;
@@ -37,8 +40,7 @@ bool may_become(
     const double new2 = glm::dot(new_normal, new_normal);
     const double cosine = glm::dot(old_normal, new_normal);
     if (old2 > 0.0) {
-        const bool strict = strictness == Strictness::Normal;
-        const double least = strict ? least_cosine : 0.0;
+        const double least = strictness == Strictness::Loose ? 0.0 : least_cosine;
         if (!(cosine > 0.0) || cosine * cosine < least * least * old2 * new2) {
             return false;
         }
@@ -47,7 +49,10 @@ bool may_become(
         return new2 > 0.0;
     }
     const double round = roundness(after, std::sqrt(new2));
-    return round >= least_roundness || round >= roundness(before, std::sqrt(old2));
+    const bool is_strip = strictness == Strictness::Strips && cosine > 0.0 &&
+                          cosine * cosine >= kept_cosine * kept_cosine * old2 * new2;
+    const double least = is_strip ? least_strip_roundness : least_roundness;
+    return round >= least || round >= roundness(before, std::sqrt(old2));
 }
 
 std::array<glm::dvec3, 3>
@@ -70,6 +75,27 @@ bool may_move(
             moved_corners(surface, face, place),
             strictness);
     });
+}
+
+Strictness strictness_for(const WorkingSurface& surface) {
+    constexpr double flat_cosine = 1.0 - 1e-9;
+    if (surface.coloured()) { // strips may be flat in place and not in colour
+        return Strictness::Normal;
+    }
+    const CollapsibleMesh& mesh = surface.mesh;
+    std::size_t edges = 0;
+    std::size_t flat = 0;
+    for (HalfEdge h = 0; h < mesh.face_slots() * 3; ++h) {
+        if (!mesh.face_is_there(face_of(h)) || mesh.edge_of(h) != h || mesh.twin(h) == none) {
+            continue;
+        }
+        const glm::dvec3 one = area_vector(surface.corner_places(face_of(h)));
+        const glm::dvec3 other = area_vector(surface.corner_places(face_of(mesh.twin(h))));
+        ++edges;
+        flat +=
+            glm::dot(one, other) >= flat_cosine * glm::length(one) * glm::length(other) ? 1U : 0U;
+    }
+    return 4 * flat > edges ? Strictness::Strips : Strictness::Normal;
 }
 
 } // namespace octant::models::simplify

@@ -11,6 +11,7 @@ namespace octant::models::simplify {
 
 /// How much a triangle may change when a corner of it moves.
 enum class Strictness {
+    Strips, ///< as Normal, but may become one where it keeps its normal
     Normal, ///< may turn by less than 78 degrees and not become a sliver
     Loose,  ///< may turn by less than 90 degrees
     None
@@ -28,6 +29,10 @@ bool may_move(
     std::span<const RingFace> ring,
     const glm::dvec3& place,
     Strictness strictness);
+
+/// Strips for an uncoloured surface of which every fourth edge is flat: machined, with long strips
+/// along its cylinders. Else Normal.
+Strictness strictness_for(const WorkingSurface& surface);
 
 /// A ring's triangle with its moving corner elsewhere; that corner comes first.
 std::array<glm::dvec3, 3>

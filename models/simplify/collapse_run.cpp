@@ -27,7 +27,8 @@ CollapseRun::CollapseRun(WorkingSurface& surface, const WorkingUnits& units, Tra
     , quadrics_(surface, points != nullptr ? EdgeWeights{} : fast_weights)
     , heap_(surface.mesh.face_slots() * 3)
     , checked_(surface.mesh.face_slots() * 3, false)
-    , numbers_(surface.mesh.vertex_slots()) {
+    , numbers_(surface.mesh.vertex_slots())
+    , strictness_(strictness_for(surface)) {
     std::iota(numbers_.begin(), numbers_.end(), 0U);
 }
 
@@ -73,7 +74,7 @@ bool CollapseRun::next_edge(HalfEdge& h) {
             }
             if (!collapses_.empty() || filled_) {
                 strictness_ =
-                    strictness_ == Strictness::Normal ? Strictness::Loose : Strictness::None;
+                    strictness_ == Strictness::Loose ? Strictness::None : Strictness::Loose;
             }
             filled_ = true;
             fill();

@@ -47,7 +47,7 @@ private:
     std::vector<bool> checked_;          ///< of each edge: cost and permission are those of now
     std::vector<std::uint32_t> numbers_; ///< of each vertex slot, in the sequence
     std::vector<Collapse> collapses_;
-    Strictness strictness_ = Strictness::Normal;
+    Strictness strictness_;
     bool filled_ = false;
     double error_ = 0.0; ///< estimated, so far
     SurfaceCost cost_;

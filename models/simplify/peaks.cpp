@@ -27,6 +27,14 @@ constexpr double hot_share = 0.85;
 /// A round that lowers the largest distance by less than that part is the last one.
 constexpr double least_gain = 0.003;
 
+/// A distance of more than so many times the root of the mean square stands alone, as where sharp
+/// edges meet: a step that lowers it by more than the second part is let turn triangles further,
+/// make slivers, and add to the squares.
+constexpr double tall = 12.0;
+constexpr double tall_gain = 0.1;
+/// Of the root of the mean square, that such steps may cost together beside the others.
+constexpr double tall_growth = 0.05;
+
 constexpr double everything = std::numeric_limits<double>::infinity();
 
 /// As many samples as triangles of the target come on one of the surface, within bounds.
@@ -50,13 +58,19 @@ public:
               sample_grid(grid_fields(target.surface.mesh.face_count(), surface.mesh.face_count())))
         , heights_(surface.mesh.face_slots()) {
         double squares = 0.0;
+        double area = 0.0;
         for (std::uint32_t face = 0; face < heights_.size(); ++face) {
             if (surface.mesh.face_is_there(face)) {
                 measure(face);
+                area += 0.5 * glm::length(area_vector(surface.corner_places(face)));
             }
             squares += heights_[face].squares;
         }
-        allowance_ = ((1.0 + most_growth) * (1.0 + most_growth) - 1.0) * squares;
+        const auto allowance = [&](double growth) { return (2.0 + growth) * growth * squares; };
+        allowance_ = allowance(most_growth);
+        tall_allowance_ = allowance(tall_growth) - allowance_;
+        // Both ways are in the sum, each over the area.
+        tall2_ = area > 0.0 ? tall * tall * squares / (2.0 * area) : everything;
     }
 
     double most2() const { return std::ranges::max(heights_, {}, &Heights::most2).most2; }
@@ -71,7 +85,12 @@ private:
     void take_ring(std::uint32_t vertex);
     void set_ring(const glm::dvec3& place, const glm::dvec3& colour);
     VertexFit fitted() const;
-    bool is_better(const Heights& before, const Heights& after) const;
+    bool is_better(const Heights& before, const Heights& after, Strictness strictness) const;
+    bool step_to(
+        const glm::dvec3& place,
+        std::uint32_t vertex,
+        const Heights& before,
+        Strictness strictness);
     void keep(const Heights& before, const Heights& after);
     void lower_at(std::uint32_t vertex);
     void try_flip(HalfEdge h);
@@ -82,6 +101,8 @@ private:
     std::vector<GridSample> grid_;
     std::vector<Heights> heights_; ///< of each triangle
     double allowance_ = 0.0;       ///< by which the sum of squares may still grow
+    double tall2_ = everything;    ///< squares of distances beyond that stand alone
+    double tall_allowance_ = 0.0;  ///< the same beyond that, for peaks that stand alone
     SurfaceCost cost_;
     std::vector<RingFace> ring_;
     std::vector<std::uint32_t> faces_; ///< whose points are in cost_
@@ -192,18 +213,45 @@ VertexFit PeakLowering::fitted() const {
     return fit;
 }
 
-bool PeakLowering::is_better(const Heights& before, const Heights& after) const {
-    return after.powers < before.powers && after.most2 <= before.most2 &&
-           after.squares - before.squares <= allowance_;
+bool PeakLowering::is_better(
+    const Heights& before, const Heights& after, Strictness strictness) const {
+    if (!(after.powers < before.powers) || after.most2 > before.most2) {
+        return false;
+    }
+    const double growth = after.squares - before.squares;
+    const bool is_tall =
+        before.most2 > tall2_ && after.most2 < (1.0 - tall_gain) * (1.0 - tall_gain) * before.most2;
+    return is_tall ? growth <= allowance_ + tall_allowance_
+                   : growth <= allowance_ && strictness == Strictness::Normal;
 }
 
 /// Takes over the points' lists after a change of faces_.
 void PeakLowering::keep(const Heights& before, const Heights& after) {
     allowance_ -= after.squares - before.squares;
+    if (allowance_ < 0.0) {
+        tall_allowance_ += allowance_;
+        allowance_ = 0.0;
+    }
     points_.assign(cost_.block(), faces_, faces_);
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         heights_[faces_[i]] = each_[i];
     }
+}
+
+/// Expects the ring and its heights of now.
+bool PeakLowering::step_to(
+    const glm::dvec3& place, std::uint32_t vertex, const Heights& before, Strictness strictness) {
+    if (!may_move(surface_, ring_, place, strictness)) {
+        return false;
+    }
+    set_ring(place, surface_.coloured() ? surface_.colours[vertex] : glm::dvec3(0.0));
+    const Heights after = seen(before.most2);
+    if (!is_better(before, after, strictness)) {
+        return false;
+    }
+    surface_.places[vertex] = place;
+    keep(before, after);
+    return true;
 }
 
 void PeakLowering::lower_at(std::uint32_t vertex) {
@@ -213,17 +261,14 @@ void PeakLowering::lower_at(std::uint32_t vertex) {
     set_ring(place, colour);
     const Heights before = seen(everything);
     const glm::dvec3 way = fitted().way();
-    for (const double step : {1.0, 0.5, 0.2}) {
-        const glm::dvec3 there = place + step * way;
-        if (!may_move(surface_, ring_, there, Strictness::Normal)) {
-            continue;
-        }
-        set_ring(there, colour);
-        const Heights after = seen(before.most2);
-        if (is_better(before, after)) {
-            surface_.places[vertex] = there;
-            keep(before, after);
+    for (const Strictness strictness : {Strictness::Normal, Strictness::Loose}) {
+        if (strictness == Strictness::Loose && !(before.most2 > tall2_)) {
             return;
+        }
+        for (const double step : {1.0, 0.5, 0.2, 0.1}) {
+            if (step_to(place + step * way, vertex, before, strictness)) {
+                return;
+            }
         }
     }
 }
@@ -259,7 +304,7 @@ void PeakLowering::try_flip(HalfEdge h) {
     });
     if (allowed) {
         const Heights after = seen(before.most2);
-        if (is_better(before, after)) {
+        if (is_better(before, after, Strictness::Normal)) {
             keep(before, after);
             return;
         }

@@ -1,3 +1,4 @@
+#include "models/measure/hausdorff.h"
 #include "models/measure/mesh_distance.h"
 #include "models/measure/triangle_bvh.h"
 #include "tests/measure/made_meshes.h"
@@ -92,6 +93,55 @@ TEST_CASE("plates a hair apart, cut differently, are still bounded tightly") {
     CHECK(found.least_hausdorff_m() <= 1e-6);
     CHECK(found.most_hausdorff_m() >= 1e-6);
     CHECK(found.most_hausdorff_m() <= 1.01 * found.least_hausdorff_m());
+}
+
+TEST_CASE("a square cut along the other diagonal is still the same square") {
+    TriangleMesh square = tests::plate(1);
+    TriangleMesh other = square;
+    other.triangles = {{0, 1, 2}, {1, 3, 2}};
+    const models::measure::HausdorffBounds bounds = models::measure::one_way_hausdorff(
+        square, models::measure::TargetSurface(other), {.negligible_m = 1e-12});
+    CHECK(bounds.least_m == 0.0);
+    CHECK(bounds.most_m < 1e-12);
+    CHECK(bounds.cuts <= 2); // each half at the one edge that it crosses
+}
+
+TEST_CASE("flats cut unlike each other take cuts by their triangles, not by their distance") {
+    // In one plane, none of the axes': vertices inside are shifted along it.
+    const auto sheet = [](int n, std::uint64_t seed, double lifted_m) {
+        TriangleMesh mesh = tests::plate(n);
+        tests::Dice dice(seed);
+        for (glm::dvec3& at : mesh.vertices_m) {
+            const double room = 4.0 * at.x * (1.0 - at.x) * at.y * (1.0 - at.y);
+            at.x += dice.between(-0.3, 0.3) / n * room;
+            at.y += dice.between(-0.3, 0.3) / n * room;
+            at = {at.x, 0.6 * at.y - 0.8 * lifted_m, 0.8 * at.y + 0.6 * lifted_m};
+        }
+        return mesh;
+    };
+    const TriangleMesh coarse = sheet(4, 1, 0.0);
+    for (const double apart_m : {0.0, 1e-7, 1e-3}) {
+        const TriangleMesh fine = sheet(20, 2, apart_m);
+        for (const auto& [from, to] : {std::pair{&coarse, &fine}, std::pair{&fine, &coarse}}) {
+            const models::measure::HausdorffBounds bounds = models::measure::one_way_hausdorff(
+                *from, models::measure::TargetSurface(*to), {.negligible_m = 1e-9});
+            INFO(apart_m << " apart, " << bounds.cuts << " cuts");
+            CHECK(bounds.least_m <= apart_m);
+            CHECK(bounds.most_m >= apart_m);
+            CHECK(bounds.most_m <= std::max(1.011 * apart_m, 1.001e-9));
+            CHECK(bounds.cuts < 20U * 800U);
+        }
+    }
+}
+
+TEST_CASE("a thin piece is cut on, however its edges lie") {
+    TriangleMesh needle; // its middle corner lies on the edge between the others
+    needle.vertices_m = {{0.05, 0.07, 0.01}, {0.45, 0.42, 0.03}, {0.85, 0.77, 0.05}};
+    needle.triangles = {{0, 1, 2}};
+    const models::measure::HausdorffBounds bounds = models::measure::one_way_hausdorff(
+        needle, models::measure::TargetSurface(tests::shaken(tests::plate(9), 5, 0.01)), {});
+    CHECK(bounds.most_m <= 1.0101 * bounds.least_m);
+    CHECK(bounds.cuts < 2'000);
 }
 
 TEST_CASE("a part is no distance from the whole, the whole is from its part") {

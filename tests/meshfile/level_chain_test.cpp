@@ -39,6 +39,13 @@ std::string refused(const std::string& bytes) {
     return {};
 }
 
+/// What reading says of a chain that was written.
+std::string said(const LevelChain& faulty) {
+    const std::filesystem::path path = scratch_file("c.chain");
+    write_chain(path, faulty);
+    return refused(octant::read_file(path));
+}
+
 } // namespace
 
 TEST_CASE("a chain of levels comes back bit for bit, with the polygons behind it") {
@@ -102,11 +109,6 @@ TEST_CASE("a file that is no chain, of another version, cut or changed is refuse
 
 TEST_CASE("a chain whose checksum is right but whose content is not is refused") {
     LevelChain chain = sample_chain();
-    const auto said = [](const LevelChain& faulty) {
-        const std::filesystem::path path = scratch_file("c.chain");
-        write_chain(path, faulty);
-        return refused(octant::read_file(path));
-    };
     chain.levels[1].error_m = -1.0;
     CHECK_THAT(said(chain), Catch::Contains("expected an error of at least 0, got -1"));
     chain = sample_chain();
@@ -118,9 +120,38 @@ TEST_CASE("a chain whose checksum is right but whose content is not is refused")
     chain = sample_chain();
     chain.polygons->polygons[0].corner_count = 9;
     CHECK_THAT(said(chain), Catch::Contains("expected indices in range before"));
+    chain = sample_chain();
+    chain.levels[0].error_m = 0.01;
+    CHECK_THAT(
+        said(chain), Catch::Contains("expected an error of 0 of the finest level, got 0.01"));
     const std::filesystem::path path = scratch_file("d.chain");
     write_chain(path, sample_chain());
     std::string bytes = octant::read_file(path);
     bytes[32 + 4] = 1; // of the name's length: now 2^32 more
     CHECK_THAT(refused(sealed(bytes)), Catch::StartsWith("a.chain: at byte 40: expected a text ("));
+}
+
+TEST_CASE("polygons of a chain that no model can have are refused") {
+    const auto said_of = [](const auto& spoil) {
+        LevelChain chain = sample_chain();
+        spoil(*chain.polygons);
+        return said(chain);
+    };
+    CHECK(said_of([](PolygonModel&) {}).empty());
+    CHECK_THAT(
+        said_of([](PolygonModel& model) { model.parents[0] = 1; }),
+        Catch::Contains("expected indices in range before"));
+    CHECK_THAT(
+        said_of([](PolygonModel& model) {
+            model.pivots[0].axis = {0.0, 0.5, 0.0};
+        }),
+        Catch::Contains("expected axes of length 1 before"));
+    CHECK_THAT(
+        said_of([](PolygonModel& model) { model.pivots.push_back(model.pivots[0]); }),
+        Catch::Contains("expected one pivot a part at most before"));
+    for (const glm::dvec3 place : {glm::dvec3(0.2, 0.2, 0.0), glm::dvec3(1.0, 1.0, 0.3)}) {
+        CHECK_THAT( // a dent, a bend
+            said_of([&](PolygonModel& model) { model.vertices_m[2] = place; }),
+            Catch::Contains("expected convex planar polygons before"));
+    }
 }

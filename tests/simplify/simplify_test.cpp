@@ -238,3 +238,28 @@ TEST_CASE("a polish lessens the distance and turns nothing over") {
         CHECK(glm::dot(normal, v[t[0]]) > 0.0);
     }
 }
+
+TEST_CASE("a cylinder's side goes down to strips without leaving the surface") {
+    TriangleMesh tube; // 48 strips of 40 fields, as long as it is round
+    constexpr std::uint32_t around = 48;
+    constexpr std::uint32_t along = 40;
+    for (std::uint32_t ring = 0; ring <= along; ++ring) {
+        for (std::uint32_t i = 0; i < around; ++i) {
+            const double angle = 6.283185307179586 * i / around;
+            tube.vertices_m.emplace_back(std::cos(angle), std::sin(angle), 6.0 * ring / along);
+        }
+    }
+    for (std::uint32_t ring = 0; ring < along; ++ring) {
+        for (std::uint32_t i = 0; i < around; ++i) {
+            const std::uint32_t a = ring * around + i;
+            const std::uint32_t b = ring * around + (i + 1) % around;
+            tube.triangles.push_back({a, b, b + around});
+            tube.triangles.push_back({a, b + around, a + around});
+        }
+    }
+    SimplifyOptions options;
+    options.goal.faces = 4 * around;
+    const Simplified result = simplified(tube, options);
+    CHECK(result.mesh.triangles.size() <= 4 * around);
+    CHECK(apart(tube, result.mesh).most_hausdorff_m() < 1e-3);
+}
