@@ -34,7 +34,7 @@ void turn(models::TriangleMesh& mesh, const models::FileAxes& axes) {
 
 std::shared_ptr<const refine::ProgressiveMesh>
 turned(const refine::ProgressiveMesh& mesh, const models::FileAxes& axes) {
-    refine::ProgressiveParts parts = mesh.parts();
+    refine::ProgressiveParts parts = mesh.whole_parts();
     parts.origin_m = axes.body_from_file(parts.origin_m);
     for (glm::vec3& position_m : parts.positions_m) {
         position_m = glm::vec3(axes.body_from_file(glm::dvec3(position_m)));

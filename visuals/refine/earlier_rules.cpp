@@ -43,7 +43,9 @@ EarlierRules::EarlierRules(const ProgressiveMesh& mesh)
     : leaves_(static_cast<std::uint32_t>(mesh.leaf_count()))
     , introducers_(mesh.face_count(), none) {
     FaceLists faces(mesh.node_count(), mesh.face_count());
-    faces.resize_vertices(mesh.node_count());
+    for (std::uint32_t node = 0; node < mesh.node_count(); ++node) {
+        faces.add_vertex();
+    }
     for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
         faces.add(mesh.faces()[face], face);
     }

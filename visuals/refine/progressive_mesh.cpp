@@ -53,7 +53,9 @@ ProgressiveMesh::ProgressiveMesh(ProgressiveParts parts)
     assert(parts_.positions_m.size() == leaf_count() + parts_.splits.size());
     assert(parts_.normals.size() == parts_.positions_m.size());
     order_faces();
-    find_parents();
+    find_places();
+    raise_errors();
+    move_shapes();
     find_first_leaves();
     find_cuts();
     bound_leaves();
@@ -97,22 +99,60 @@ void ProgressiveMesh::order_faces() {
     }
 }
 
-void ProgressiveMesh::find_parents() {
-    parents_.assign(parts_.positions_m.size(), none);
+void ProgressiveMesh::find_places() {
+    places_.assign(parts_.positions_m.size(), none);
     auto node = static_cast<std::uint32_t>(leaf_count());
-    for (Split& split : parts_.splits) {
+    for (const Split& split : parts_.splits) {
         assert(split.first < node && split.second < node && split.first != split.second);
-        assert(parents_[split.first] == none && parents_[split.second] == none);
-        parents_[split.first] = node;
-        parents_[split.second] = node;
-        split.error_m = std::max({split.error_m, error_m(split.first), error_m(split.second)});
+        assert(places_[split.first] == none && places_[split.second] == none);
+        places_[split.first] = 0; // no root
+        places_[split.second] = 0;
         ++node;
     }
-    for (node = 0; node < parents_.size(); ++node) {
-        if (parents_[node] == none) {
+    for (node = 0; node < places_.size(); ++node) {
+        if (places_[node] == none) {
+            places_[node] = static_cast<std::uint32_t>(roots_.size());
             roots_.push_back(node);
         }
     }
+    for (node = static_cast<std::uint32_t>(leaf_count()); node < places_.size(); ++node) {
+        const std::size_t place = first_child_place(node);
+        places_[split_of(node).first] = static_cast<std::uint32_t>(place);
+        places_[split_of(node).second] = static_cast<std::uint32_t>(place + 1);
+    }
+}
+
+void ProgressiveMesh::raise_errors() {
+    for (Split& split : parts_.splits) {
+        split.error_m = std::max({split.error_m, error_m(split.first), error_m(split.second)});
+    }
+}
+
+void ProgressiveMesh::move_shapes() {
+    has_colours_ = !parts_.colours.empty();
+    shapes_.resize(node_count());
+    for (std::uint32_t node = 0; node < node_count(); ++node) {
+        shape(node).position_m = parts_.positions_m[node];
+        shape(node).normal = parts_.normals[node];
+        if (has_colours_) {
+            shape(node).colour = parts_.colours[node];
+        }
+    }
+    parts_.positions_m = {};
+    parts_.normals = {};
+    parts_.colours = {};
+}
+
+ProgressiveParts ProgressiveMesh::whole_parts() const {
+    ProgressiveParts parts = parts_;
+    for (std::uint32_t node = 0; node < node_count(); ++node) {
+        parts.positions_m.push_back(shape(node).position_m);
+        parts.normals.push_back(shape(node).normal);
+        if (has_colours_) {
+            parts.colours.push_back(shape(node).colour);
+        }
+    }
+    return parts;
 }
 
 void ProgressiveMesh::find_first_leaves() {
@@ -138,20 +178,18 @@ void ProgressiveMesh::find_cuts() {
 }
 
 void ProgressiveMesh::bound_leaves() {
-    radii_m_.assign(node_count(), 0.0F);
-    cones_.assign(node_count(), 0);
     for (std::uint32_t face = 0; face < face_count(); ++face) {
         const glm::vec3 normal_of_face = face_normal(face);
         const bool flat = normal_of_face == glm::vec3(0.0F);
         const Triangle& corners = parts_.faces[face];
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t leaf = corners[k];
+        for (const std::uint32_t leaf : corners) {
+            NodeShape& here = shape(leaf);
             for (const std::uint32_t other : corners) {
-                radii_m_[leaf] = std::max(
-                    radii_m_[leaf], rounding * glm::distance(position_m(leaf), position_m(other)));
+                here.radius_m = std::max(
+                    here.radius_m, rounding * glm::distance(here.position_m, position_m(other)));
             }
             const float angle = flat ? 0.0F : angle_rad(normal(leaf), normal_of_face);
-            cones_[leaf] = std::max(cones_[leaf], packed_angle(angle));
+            here.cone = std::max(here.cone, packed_angle(angle));
         }
     }
 }
@@ -159,18 +197,19 @@ void ProgressiveMesh::bound_leaves() {
 void ProgressiveMesh::bound_nodes() {
     for (auto node = static_cast<std::uint32_t>(leaf_count()); node < node_count(); ++node) {
         const Split& split = split_of(node);
+        NodeShape& here = shape(node);
         float cone = 0.0F;
         for (const std::uint32_t child : {split.first, split.second}) {
-            const float away_m = glm::distance(position_m(node), position_m(child));
-            radii_m_[node] = std::max(radii_m_[node], rounding * (away_m + radii_m_[child]));
+            const float away_m = glm::distance(here.position_m, position_m(child));
+            here.radius_m = std::max(here.radius_m, rounding * (away_m + radius_m(child)));
             cone = std::max(cone, angle_rad(normal(node), normal(child)) + cone_rad(child));
         }
-        cones_[node] = packed_angle(cone);
+        here.cone = packed_angle(cone);
     }
 }
 
 float ProgressiveMesh::cone_rad(std::uint32_t node) const {
-    return static_cast<float>(cones_[node]) / 65535.0F * pi;
+    return static_cast<float>(shape(node).cone) / 65535.0F * pi;
 }
 
 glm::vec3 ProgressiveMesh::face_normal(std::uint32_t face) const {
@@ -183,11 +222,10 @@ glm::vec3 ProgressiveMesh::face_normal(std::uint32_t face) const {
 }
 
 std::size_t ProgressiveMesh::bytes() const {
-    return sizeof(*this) + bytes_of(parts_.positions_m) + bytes_of(parts_.normals) +
-           bytes_of(parts_.colours) + bytes_of(parts_.splits) + bytes_of(parts_.faces) +
+    return sizeof(*this) + bytes_of(parts_.splits) + bytes_of(parts_.faces) +
            bytes_of(parts_.face_materials) + bytes_of(parts_.original_faces) +
-           bytes_of(parts_.original_vertices) + bytes_of(parents_) + bytes_of(roots_) +
-           bytes_of(radii_m_) + bytes_of(cones_);
+           bytes_of(parts_.original_vertices) + bytes_of(roots_) + bytes_of(places_) +
+           bytes_of(shapes_);
 }
 
 } // namespace octant::visuals::refine

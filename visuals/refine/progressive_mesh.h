@@ -50,9 +50,18 @@ struct ProgressiveParts {
     std::vector<std::string> notes;               ///< what reading found; often none
 };
 
+/// A node where it is drawn. 28 bytes: siblings lie side by side.
+struct NodeShape {
+    glm::vec3 position_m{0.0F};
+    PackedNormal normal;
+    float radius_m = 0.0F;
+    PackedColour colour;    ///< white where the mesh has none
+    std::uint16_t cone = 0; ///< half-angle in steps of pi / 65535, rounded up
+};
+
 /// A mesh with the vertex hierarchy that simplified it: a forest whose leaves are the original
-/// vertices. Shared by any number of fronts (SelectiveRefiner), never changed. About 100 to 130
-/// bytes an original vertex, see bytes().
+/// vertices. Shared by any number of fronts (SelectiveRefiner), never changed. About 130 bytes an
+/// original vertex, see bytes().
 class ProgressiveMesh {
 public:
     /// The parts must keep their promises (asserted where cheap).
@@ -65,15 +74,19 @@ public:
 
     std::size_t leaf_count() const { return parts_.original_vertices.size(); }
 
-    std::size_t node_count() const { return parents_.size(); }
+    std::size_t node_count() const { return places_.size(); }
 
     std::size_t face_count() const { return parts_.faces.size(); }
 
     bool is_leaf(std::uint32_t node) const { return node < leaf_count(); }
 
-    std::uint32_t parent(std::uint32_t node) const { return parents_[node]; }
-
-    const std::uint32_t* parent_address(std::uint32_t node) const { return &parents_[node]; }
+    /// none of a root.
+    std::uint32_t parent(std::uint32_t node) const {
+        const std::size_t place = places_[node];
+        return place < roots_.size()
+                   ? none
+                   : static_cast<std::uint32_t>(node_count() - 1 - (place - roots_.size()) / 2);
+    }
 
     /// Of an inner node.
     const Split& split_of(std::uint32_t node) const { return parts_.splits[node - leaf_count()]; }
@@ -83,16 +96,25 @@ public:
         return is_leaf(node) ? node : split_of(node).first_leaf;
     }
 
-    const glm::vec3& position_m(std::uint32_t node) const { return parts_.positions_m[node]; }
+    const NodeShape& shape(std::uint32_t node) const { return shapes_[places_[node]]; }
 
-    glm::vec3 normal(std::uint32_t node) const { return unpacked(parts_.normals[node]); }
+    /// Of both children of an inner node, the first one's first.
+    std::span<const NodeShape, 2> child_shapes(std::uint32_t node) const {
+        return std::span<const NodeShape, 2>(&shapes_[first_child_place(node)], 2);
+    }
 
-    PackedNormal packed_normal(std::uint32_t node) const { return parts_.normals[node]; }
+    const glm::vec3& position_m(std::uint32_t node) const { return shape(node).position_m; }
+
+    glm::vec3 normal(std::uint32_t node) const { return unpacked(shape(node).normal); }
+
+    PackedNormal packed_normal(std::uint32_t node) const { return shape(node).normal; }
+
+    PackedColour packed_colour(std::uint32_t node) const { return shape(node).colour; }
+
+    bool has_colours() const { return has_colours_; }
 
     /// As RefinedVertex::colour; white where the mesh has no colours.
-    std::uint32_t colour(std::uint32_t node) const {
-        return parts_.colours.empty() ? 0xffffffffU : drawn_colour(parts_.colours[node]);
-    }
+    std::uint32_t colour(std::uint32_t node) const { return drawn_colour(shape(node).colour); }
 
     /// Of the surface where this node is active; 0 for leaves, never falling towards the root.
     float error_m(std::uint32_t node) const {
@@ -101,7 +123,7 @@ public:
 
     /// About the node's position, holds the positions of all nodes below it, the original faces
     /// at the leaves, and the spheres of its children.
-    float radius_m(std::uint32_t node) const { return radii_m_[node]; }
+    float radius_m(std::uint32_t node) const { return shape(node).radius_m; }
 
     /// Half-angle of the cone about normal(node) that holds the normals of all original faces at
     /// the leaves below; pi for all directions.
@@ -115,7 +137,11 @@ public:
 
     std::span<const std::uint32_t> roots() const { return roots_; }
 
+    /// What it is made from, but for positions, normals and colours: these are in shape().
     const ProgressiveParts& parts() const { return parts_; }
+
+    /// All that it can be made from again.
+    ProgressiveParts whole_parts() const;
 
     /// The number that a CollapseSequence gives a node: that of the vertex in the original mesh,
     /// or the vertex count plus the collapse's place.
@@ -131,17 +157,27 @@ public:
 
 private:
     void order_faces();
-    void find_parents();
+    void find_places();
+    void raise_errors();
+    void move_shapes();
     void find_first_leaves();
     void find_cuts();
     void bound_leaves();
     void bound_nodes();
 
     ProgressiveParts parts_;
-    std::vector<std::uint32_t> parents_;
+
+    /// Place of an inner node's children in shapes_: behind the roots, the coarsest split's first.
+    std::size_t first_child_place(std::uint32_t node) const {
+        return roots_.size() + 2 * (node_count() - 1 - node);
+    }
+
+    NodeShape& shape(std::uint32_t node) { return shapes_[places_[node]]; }
+
     std::vector<std::uint32_t> roots_;
-    std::vector<float> radii_m_;
-    std::vector<std::uint16_t> cones_; ///< half-angles in steps of pi / 65535, rounded up
+    std::vector<std::uint32_t> places_; ///< in shapes_, one a node; says its parent too
+    std::vector<NodeShape> shapes_;
+    bool has_colours_ = false;
 };
 
 } // namespace octant::visuals::refine

@@ -71,7 +71,7 @@ private:
         out.put(static_cast<std::uint32_t>(mesh_.face_count()));
         out.put(static_cast<std::uint32_t>(mesh_.roots().size()));
         out.put(static_cast<std::uint8_t>(
-            (parts.colours.empty() ? 0 : has_colours) |
+            (mesh_.has_colours() ? has_colours : 0) |
             (parts.face_materials.empty() ? 0 : has_materials)));
         out.put(parts.origin_m);
         out.put_text(parts.name);
@@ -85,9 +85,9 @@ private:
 
     void put_node(ByteWriter& out, std::uint32_t node) const {
         out.put(mesh_.position_m(node));
-        out.put(mesh_.parts().normals[node]);
-        if (!mesh_.parts().colours.empty()) {
-            out.put(mesh_.parts().colours[node]);
+        out.put(mesh_.packed_normal(node));
+        if (mesh_.has_colours()) {
+            out.put(mesh_.packed_colour(node));
         }
     }
 

@@ -13,6 +13,14 @@
 
 namespace octant::visuals::refine {
 
+namespace {
+
+RefinedVertex drawn(const NodeShape& shape) {
+    return {shape.position_m, shape.normal, drawn_colour(shape.colour)};
+}
+
+} // namespace
+
 SelectiveRefiner::SelectiveRefiner(
     std::shared_ptr<const ProgressiveMesh> mesh, RefinerOptions options)
     : mesh_(std::move(mesh))
@@ -27,24 +35,19 @@ SelectiveRefiner::SelectiveRefiner(
 
 void SelectiveRefiner::restart() {
     faces_.clear();
-    nodes_.clear();
     vertices_.clear();
-    marks_.clear();
-    free_slots_.clear();
     changed_.clear();
     recent_splits_.clear();
-    active_.assign(mesh_->node_count() / 64 + 1, 0);
-    split_.assign(mesh_->node_count() / 64 + 1, 0);
-    slots_.assign(mesh_->node_count(), 0);
+    starts_.assign(mesh_->leaf_count());
+    slots_.assign(mesh_->leaf_count());
     for (const std::uint32_t root : mesh_->roots()) {
-        flip(active_, root);
+        starts_.add(mesh_->first_leaf(root));
         const std::uint32_t slot = new_slot();
-        nodes_[slot] = root;
-        slots_[root] = slot;
-        vertices_[slot] = vertex_of(root);
+        slots_.set(mesh_->first_leaf(root), slot);
+        put(slot, root, mesh_->shape(root));
         note_change(slot);
     }
-    active_count_ = nodes_.size();
+    active_count_ = faces_.vertex_count();
     std::vector<bool> introduced(mesh_->face_count(), false);
     for (const Split& split : mesh_->parts().splits) {
         for (const std::uint32_t face : {split.left_face, split.right_face}) {
@@ -57,7 +60,7 @@ void SelectiveRefiner::restart() {
         if (!introduced[face]) {
             std::array<std::uint32_t, 3> corners = mesh_->faces()[face];
             for (std::uint32_t& corner : corners) {
-                corner = slot(active_ancestor(corner));
+                corner = slot_above(corner);
             }
             dirty_faces_.mark(faces_.add(corners, face));
         }
@@ -65,36 +68,35 @@ void SelectiveRefiner::restart() {
 }
 
 std::uint32_t SelectiveRefiner::new_slot() {
-    std::uint32_t slot = 0;
-    if (!free_slots_.empty()) {
-        slot = free_slots_.back();
-        free_slots_.pop_back();
-    } else {
-        slot = static_cast<std::uint32_t>(nodes_.size());
-        make_room(nodes_, nodes_.size() + 1, mesh_->leaf_count());
-        make_room(vertices_, nodes_.size() + 1, mesh_->leaf_count());
-        nodes_.push_back(none);
-        marks_.push_back(0);
+    const std::uint32_t slot = faces_.add_vertex();
+    if (slot >= vertices_.size()) {
+        make_room(vertices_, vertices_.size() + 1, mesh_->leaf_count());
         vertices_.emplace_back();
-        faces_.resize_vertices(nodes_.size());
     }
     dirty_vertices_.mark(slot);
     return slot;
 }
 
+/// Lets a slot stand for a node, where the node lies.
+void SelectiveRefiner::put(std::uint32_t slot, std::uint32_t node, const NodeShape& shape) {
+    faces_.set_vertex_label(slot, node);
+    vertices_[slot] = drawn(shape);
+}
+
 std::size_t SelectiveRefiner::split(std::uint32_t node) {
     assert(!mesh_->is_leaf(node));
-    const std::size_t before = counts_.splits;
-    if (is_split(node)) {
-        return 0;
+    const std::uint32_t leaf = mesh_->first_leaf(node);
+    const std::uint32_t begins_there = starts_.has(leaf) ? node_at(slots_[leaf]) : none;
+    if (begins_there < node) {
+        return 0; // it is split
     }
-    if (is_active(node) && options_.rule == SplitRule::Selective) {
-        fetch_children(node);
+    if (begins_there == node && options_.rule == SplitRule::Selective) {
         if (const Cuts cuts = active_cuts(node); cuts.left != cuts.right) { // nearly always
             split_now(node, cuts);
             return 1;
         }
     }
+    const std::size_t before = counts_.splits;
     std::size_t asked = 0; // the node itself and its ancestors
     for (std::uint32_t path = node; path != none && !is_split(path); path = mesh_->parent(path)) {
         ++asked;
@@ -109,7 +111,7 @@ std::size_t SelectiveRefiner::split(std::uint32_t node) {
         } else if (const std::uint32_t first = needed_before(next); first != none) {
             stack_.push_back(first);
         } else if (const Cuts cuts = active_cuts(next); cuts.left == cuts.right) {
-            stack_.push_back(cuts.left);
+            stack_.push_back(node_at(slots_[cuts.left]));
         } else {
             split_now(next, cuts);
             stack_.pop_back();
@@ -120,14 +122,13 @@ std::size_t SelectiveRefiner::split(std::uint32_t node) {
     return done;
 }
 
-/// The active vertices beside both children of an active node once it has split: val and var. Only
-/// two of them are ever the same: one of a boundary is numbered beyond all nodes.
+/// Where the active vertices beside both children begin: those of val and var.
 SelectiveRefiner::Cuts SelectiveRefiner::active_cuts(std::uint32_t node) const {
     const std::uint32_t left = mesh_->split_of(node).left_cut;
     const std::uint32_t right = mesh_->split_of(node).right_cut;
     return {
-        left == none ? none : active_ancestor(left),
-        right == none ? none - 1 : active_ancestor(right)};
+        left == none ? none : starts_.at_or_before(left),
+        right == none ? none - 1 : starts_.at_or_before(right)};
 }
 
 /// A node that the earlier rules want split before an active one; none when it may split.
@@ -169,20 +170,18 @@ std::uint32_t SelectiveRefiner::needed_by_xia(std::uint32_t node) const {
 void SelectiveRefiner::split_now(std::uint32_t node, const Cuts& cuts) {
     const Split& split = mesh_->split_of(node);
     const std::uint32_t middle = split.middle;
-    const std::uint32_t first_slot = slot(node);
+    const std::uint32_t first_slot = slots_[split.first_leaf];
     const std::uint32_t second_slot = new_slot();
-    swap_activity(node);
+    starts_.add(middle);
+    slots_.set(middle, second_slot);
     ++active_count_;
     ++counts_.splits;
     if (options_.remember_splits) {
         recent_splits_.push_back(node);
     }
-    nodes_[first_slot] = split.first;
-    nodes_[second_slot] = split.second;
-    slots_[split.first] = first_slot;
-    slots_[split.second] = second_slot;
-    vertices_[first_slot] = vertex_of(split.first);
-    vertices_[second_slot] = vertex_of(split.second);
+    const auto shapes = mesh_->child_shapes(node);
+    put(first_slot, split.first, shapes[0]);
+    put(second_slot, split.second, shapes[1]);
     dirty_vertices_.mark(first_slot);
     faces_.move_corners(first_slot, second_slot, [&](std::uint32_t corner) {
         const bool moves = mesh_->faces()[faces_.label(corner / 3)][corner % 3] >= middle;
@@ -190,9 +189,10 @@ void SelectiveRefiner::split_now(std::uint32_t node, const Cuts& cuts) {
         return moves;
     });
     const auto add_face = [&](std::uint32_t face, std::uint32_t cut_leaf, std::uint32_t cut) {
+        const std::uint32_t cut_slot = slots_[cut];
         std::array<std::uint32_t, 3> corners = mesh_->faces()[face];
         for (std::uint32_t& corner : corners) {
-            corner = corner == cut_leaf ? slot(cut) : corner >= middle ? second_slot : first_slot;
+            corner = corner == cut_leaf ? cut_slot : corner >= middle ? second_slot : first_slot;
         }
         dirty_faces_.mark(faces_.add(corners, face));
     };
@@ -204,15 +204,6 @@ void SelectiveRefiner::split_now(std::uint32_t node, const Cuts& cuts) {
     }
     note_change(first_slot);
     note_change(second_slot);
-}
-
-/// Between an inner node and its children.
-void SelectiveRefiner::swap_activity(std::uint32_t node) {
-    const Split& split = mesh_->split_of(node);
-    flip(active_, node);
-    flip(split_, node);
-    flip(active_, split.first);
-    flip(active_, split.second);
 }
 
 bool SelectiveRefiner::may_collapse(std::uint32_t node) {
@@ -252,19 +243,17 @@ void SelectiveRefiner::collapse_now(std::uint32_t node) {
         dirty_faces_.mark(corner / 3);
         return true;
     });
-    swap_activity(node);
+    starts_.remove(split.middle);
     --active_count_;
     ++counts_.collapses;
-    nodes_[first_slot] = node;
-    nodes_[second_slot] = none;
-    free_slots_.push_back(second_slot);
-    vertices_[first_slot] = vertex_of(node);
+    faces_.remove_vertex(second_slot);
+    put(first_slot, node, mesh_->shape(node));
     dirty_vertices_.mark(first_slot);
     note_change(first_slot);
 }
 
 RefinedVertex SelectiveRefiner::vertex_of(std::uint32_t node) const {
-    return {mesh_->position_m(node), mesh_->packed_normal(node), mesh_->colour(node)};
+    return drawn(mesh_->shape(node));
 }
 
 void SelectiveRefiner::draw_at(std::uint32_t slot, const RefinedVertex& vertex) {
@@ -281,11 +270,9 @@ void SelectiveRefiner::take_dirty_faces(std::vector<PlaceRange>& ranges) {
 }
 
 std::size_t SelectiveRefiner::bytes() const {
-    const std::size_t numbers = nodes_.capacity() + slots_.capacity() + free_slots_.capacity() +
-                                stack_.capacity() + changed_.capacity();
-    return sizeof(*this) + faces_.bytes() + sizeof(std::uint32_t) * numbers +
-           sizeof(std::uint64_t) * (active_.capacity() + split_.capacity()) + marks_.capacity() +
-           dirty_vertices_.bytes() + dirty_faces_.bytes();
+    const std::size_t numbers = stack_.capacity() + changed_.capacity() + recent_splits_.capacity();
+    return sizeof(*this) + faces_.bytes() + starts_.bytes() + slots_.bytes() +
+           sizeof(std::uint32_t) * numbers + dirty_vertices_.bytes() + dirty_faces_.bytes();
 }
 
 } // namespace octant::visuals::refine

@@ -31,11 +31,10 @@ void SelectiveRefiner::fetch_node(std::uint32_t node) const {
 
 void SelectiveRefiner::fetch_children(std::uint32_t node) const {
     const Split& split = mesh_->split_of(node);
-    for (const std::uint32_t child : {split.first, split.second}) {
-        fetch(&slots_[child]);
-        fetch(&mesh_->position_m(child));
-        fetch(&mesh_->parts().normals[child]);
-    }
+    fetch(slots_.address(split.first_leaf));
+    fetch(slots_.address(split.middle));
+    fetch(&mesh_->child_shapes(node)[0]);
+    fetch(&mesh_->child_shapes(node)[1].cone);
     for (const std::uint32_t face : {split.left_face, split.right_face}) {
         if (face != none) {
             fetch(&mesh_->faces()[face]);
@@ -43,16 +42,22 @@ void SelectiveRefiner::fetch_children(std::uint32_t node) const {
     }
     for (const std::uint32_t cut : {split.left_cut, split.right_cut}) {
         if (cut != none) {
-            fetch(mesh_->parent_address(cut));
+            fetch(slots_.address(starts_.at_or_before(cut)));
         }
     }
 }
 
-void SelectiveRefiner::fetch_slot(std::uint32_t slot) const {
-    if (slot < nodes_.size()) {
-        fetch(faces_.first_corner_address(slot));
-        fetch(&nodes_[slot]);
-        fetch(&vertices_[slot]);
+void SelectiveRefiner::fetch_vertices(std::uint32_t node, Ahead& ahead) const {
+    const Split& split = mesh_->split_of(node);
+    ahead = {slots_[split.first_leaf], none};
+    if (ahead.slot < vertices_.size()) {
+        fetch(faces_.vertex_address(ahead.slot));
+        fetch(&vertices_[ahead.slot]);
+    }
+    for (const std::uint32_t cut : {split.left_cut, split.right_cut}) {
+        if (cut != none) {
+            fetch(faces_.vertex_address(slot_above(cut)));
+        }
     }
 }
 
@@ -83,9 +88,7 @@ std::size_t SelectiveRefiner::split_all(std::span<const std::uint32_t> nodes) {
             fetch_children(nodes[at]);
         }
         if (const std::size_t at = now - (for_node - for_slot); has(at)) {
-            Ahead& ahead = ring[at % ring.size()];
-            ahead = {slots_[nodes[at]], none};
-            fetch_slot(ahead.slot);
+            fetch_vertices(nodes[at], ring[at % ring.size()]);
         }
         if (const std::size_t at = now - (for_node - for_corners); has(at)) {
             Ahead& ahead = ring[at % ring.size()];
