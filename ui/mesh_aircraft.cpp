@@ -48,9 +48,11 @@ turned(const refine::ProgressiveMesh& mesh, const models::FileAxes& axes) {
 /// The hierarchy's mesh after as many of its coarsest splits as far polygons allow.
 models::TriangleMesh far_mesh(const std::shared_ptr<const refine::ProgressiveMesh>& hierarchy) {
     refine::SelectiveRefiner front(hierarchy);
-    std::size_t node = hierarchy->node_count();
-    while (front.face_count() + 2 < far_faces && node > hierarchy->leaf_count()) {
-        front.split(static_cast<std::uint32_t>(--node));
+    for (const std::uint32_t node : hierarchy->coarsest_first()) {
+        if (front.face_count() + 2 >= far_faces) {
+            break;
+        }
+        front.split(node);
     }
     return refine::active_mesh(front).mesh;
 }

@@ -7,7 +7,7 @@ namespace octant::visuals::refine {
 FaceLists::FaceLists(std::size_t vertices_at_most, std::size_t faces_at_most)
     : vertices_at_most_(vertices_at_most)
     , faces_at_most_(faces_at_most) {
-    assert(faces_at_most <= most_faces);
+    assert(3 * faces_at_most < no_corner);
 }
 
 void FaceLists::clear() {

@@ -29,9 +29,9 @@ void make_room(std::vector<Item>& items, std::size_t count, std::size_t most) {
 class FaceLists {
 public:
     static constexpr std::uint32_t none = models::none;
-    static constexpr std::size_t most_faces = 5'592'400; ///< that corners can be numbered of
 
-    /// There will be no more than so many at a time, nor labels of faces beyond `most_faces`.
+    /// There will be no more than so many at a time. Corners and labels of faces are below 2^24
+    /// - 1.
     FaceLists(std::size_t vertices_at_most, std::size_t faces_at_most);
 
     /// No vertices, no faces; the memory is kept.
@@ -93,18 +93,6 @@ public:
         vertices_[to].first = heads[1] & no_corner;
     }
 
-    /// Asks for memory that a walk over a vertex's corners reads first; returns the first corner.
-    std::uint32_t fetch_first(std::uint32_t vertex) const {
-        return vertex < vertices_.size() ? fetch(vertices_[vertex].first) : none;
-    }
-
-    /// The same for what is read after `corner`.
-    std::uint32_t fetch_next(std::uint32_t corner) const {
-        return corner == none ? none : fetch(links_[corner].next);
-    }
-
-    const void* vertex_address(std::uint32_t vertex) const { return vertices_.data() + vertex; }
-
     /// The face with a label at a vertex; none when there is none.
     std::uint32_t find(std::uint32_t vertex, std::uint32_t label) const;
 
@@ -151,15 +139,6 @@ private:
         std::uint32_t next : 24; ///< corner at the same vertex
         std::uint32_t label_part : 8;
     };
-
-    std::uint32_t fetch(std::uint32_t corner) const {
-        if (corner == no_corner) {
-            return none;
-        }
-        __builtin_prefetch(&links_[corner], 1);
-        __builtin_prefetch(&indices_[corner], 1);
-        return corner;
-    }
 
     void set_label(std::uint32_t face, std::uint32_t label);
     void unlink(std::uint32_t corner);

@@ -25,7 +25,7 @@ struct Split {
     std::uint32_t right_face = none; ///< the same
     float error_m = 0.0F;            ///< of the made node, never less than its children's
 
-    // Found by ProgressiveMesh, kept here because a split needs all of this at once.
+    // Found by ProgressiveMesh; nothing in ProgressiveParts.
     std::uint32_t left_cut = none;  ///< l^: third corner (a leaf) of left_face
     std::uint32_t right_cut = none; ///< r^: the same of right_face
     std::uint32_t first_leaf = 0;   ///< leaves below the made node are numbered from this one on,
@@ -33,8 +33,8 @@ struct Split {
 };
 
 /// What a vertex hierarchy is made from. Nodes: first the leaves, then one a split, children before
-/// parents and the finest split first. Leaves are numbered so that those below any node follow one
-/// another, those of its first child first.
+/// parents and the finest split first (ProgressiveMesh gives inner nodes other numbers). Leaves are
+/// numbered so that those below any node follow one another, those of its first child first.
 struct ProgressiveParts {
     std::string name;
     glm::dvec3 origin_m{0.0};                  ///< positions are relative to it
@@ -62,15 +62,22 @@ struct NodeShape {
 /// A mesh with the vertex hierarchy that simplified it: a forest whose leaves are the original
 /// vertices. Shared by any number of fronts (SelectiveRefiner), never changed. About 130 bytes an
 /// original vertex, see bytes().
+///
+/// Nodes: first the leaves, then the inner ones. From the last number down to the first inner one a
+/// node is followed by all below its first child, then by all below its second: what lies close
+/// together on the surface does so in memory, and parents are met before their children.
 class ProgressiveMesh {
 public:
-    /// The parts must keep their promises (asserted where cheap).
+    /// The parts must keep their promises (asserted where cheap). Throws Error for more faces than
+    /// `most_faces`.
     explicit ProgressiveMesh(ProgressiveParts parts);
 
     /// Positions that are floats already are kept bit for bit, others rounded to float relative to
     /// the middle of the mesh; colours have 16 bits a part. Corner normals of the original are
     /// averaged into one a vertex; without them faces give the normals, weighted by area.
     explicit ProgressiveMesh(const models::CollapseSequence& sequence);
+
+    static constexpr std::size_t most_faces = 5'592'400; ///< that a front can number corners of
 
     std::size_t leaf_count() const { return parts_.original_vertices.size(); }
 
@@ -89,11 +96,39 @@ public:
     }
 
     /// Of an inner node.
-    const Split& split_of(std::uint32_t node) const { return parts_.splits[node - leaf_count()]; }
+    Split split_of(std::uint32_t node) const {
+        const Fork& fork = forks_[node - leaf_count()];
+        const std::uint32_t below_first = fork.middle - fork.first_leaf; // leaves
+        Split split;
+        split.first = below_first == 1 ? fork.first_leaf : node - 1;
+        split.second = fork.second_is_leaf != 0 ? std::uint32_t{fork.middle} : node - below_first;
+        split.left_face = fork.left_face;
+        split.right_face = fork.right_face;
+        split.error_m = fork.error_m;
+        split.left_cut = fork.left_cut;
+        split.right_cut = fork.right_cut;
+        split.first_leaf = fork.first_leaf;
+        split.middle = fork.middle;
+        return split;
+    }
+
+    /// Inner nodes, the last collapse's first.
+    std::vector<std::uint32_t> coarsest_first() const;
+
+    /// Whether a face belongs to the base mesh already; one a face.
+    std::vector<bool> base_faces() const;
 
     /// Leaves below a node are numbered from this one on; a leaf is its own.
     std::uint32_t first_leaf(std::uint32_t node) const {
-        return is_leaf(node) ? node : split_of(node).first_leaf;
+        return is_leaf(node) ? node : forks_[node - leaf_count()].first_leaf;
+    }
+
+    /// The last one of them.
+    std::uint32_t last_leaf(std::uint32_t node) const {
+        while (!is_leaf(node)) {
+            node = split_of(node).second;
+        }
+        return node;
     }
 
     const NodeShape& shape(std::uint32_t node) const { return shapes_[places_[node]]; }
@@ -118,7 +153,7 @@ public:
 
     /// Of the surface where this node is active; 0 for leaves, never falling towards the root.
     float error_m(std::uint32_t node) const {
-        return is_leaf(node) ? 0.0F : split_of(node).error_m;
+        return is_leaf(node) ? 0.0F : forks_[node - leaf_count()].error_m;
     }
 
     /// About the node's position, holds the positions of all nodes below it, the original faces
@@ -137,7 +172,8 @@ public:
 
     std::span<const std::uint32_t> roots() const { return roots_; }
 
-    /// What it is made from, but for positions, normals and colours: these are in shape().
+    /// What it is made from, but for splits, positions, normals and colours: these are in
+    /// split_of() and shape().
     const ProgressiveParts& parts() const { return parts_; }
 
     /// All that it can be made from again.
@@ -146,7 +182,8 @@ public:
     /// The number that a CollapseSequence gives a node: that of the vertex in the original mesh,
     /// or the vertex count plus the collapse's place.
     std::uint32_t sequence_number(std::uint32_t node) const {
-        return is_leaf(node) ? parts_.original_vertices[node] : node;
+        return is_leaf(node) ? parts_.original_vertices[node]
+                             : sequence_numbers_[node - leaf_count()];
     }
 
     /// Unit normal of an original face; 0 for one without area.
@@ -156,16 +193,29 @@ public:
     std::size_t bytes() const;
 
 private:
+    /// What split_of() tells, packed. 28 bytes.
+    struct Fork {
+        std::uint32_t first_leaf;
+        std::uint32_t middle : 31;
+        std::uint32_t second_is_leaf : 1;
+        std::uint32_t left_face;
+        std::uint32_t right_face;
+        std::uint32_t left_cut;
+        std::uint32_t right_cut;
+        float error_m;
+    };
+
     void order_faces();
-    void find_places();
-    void raise_errors();
-    void move_shapes();
-    void find_first_leaves();
+    std::vector<std::uint32_t> new_numbers() const;
+    void order_nodes();
+    void place_shapes(const std::vector<std::uint32_t>& numbers);
     void find_cuts();
     void bound_leaves();
     void bound_nodes();
 
     ProgressiveParts parts_;
+    std::vector<Fork> forks_;                     ///< one an inner node
+    std::vector<std::uint32_t> sequence_numbers_; ///< one an inner node
 
     /// Place of an inner node's children in shapes_: behind the roots, the coarsest split's first.
     std::size_t first_child_place(std::uint32_t node) const {
@@ -174,7 +224,7 @@ private:
 
     NodeShape& shape(std::uint32_t node) { return shapes_[places_[node]]; }
 
-    std::vector<std::uint32_t> roots_;
+    std::vector<std::uint32_t> roots_;  ///< by their first leaves
     std::vector<std::uint32_t> places_; ///< in shapes_, one a node; says its parent too
     std::vector<NodeShape> shapes_;
     bool has_colours_ = false;

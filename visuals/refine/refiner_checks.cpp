@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 namespace octant::visuals::refine {
@@ -125,16 +126,22 @@ std::size_t SelectiveRefiner::turned_faces() const {
 }
 
 /// Of a face that is not an original one as it was.
-std::uint32_t SelectiveRefiner::coarsest_corner(std::uint32_t place) const {
-    std::uint32_t coarsest = none;
+std::uint32_t SelectiveRefiner::coarsest_corner(
+    std::uint32_t place, const std::function<bool(std::uint32_t)>& spare) const {
+    std::array<std::uint32_t, 2> coarsest{none, none}; // of all, of those not spared
     for (std::uint32_t k = 0; k < 3; ++k) {
         const std::uint32_t node = node_at(faces_.vertex(3 * place + k));
-        if (!mesh_->is_leaf(node) &&
-            (coarsest == none || mesh_->error_m(node) > mesh_->error_m(coarsest))) {
-            coarsest = node;
+        if (mesh_->is_leaf(node)) {
+            continue;
+        }
+        const bool spared = spare && spare(node);
+        for (std::size_t i = 0; i < (spared ? 1U : 2U); ++i) {
+            if (coarsest[i] == none || mesh_->error_m(node) > mesh_->error_m(coarsest[i])) {
+                coarsest[i] = node;
+            }
         }
     }
-    return coarsest;
+    return coarsest[1] != none ? coarsest[1] : coarsest[0];
 }
 
 void SelectiveRefiner::note_change(std::uint32_t slot) {
@@ -144,14 +151,14 @@ void SelectiveRefiner::note_change(std::uint32_t slot) {
     }
 }
 
-std::size_t SelectiveRefiner::repair() {
+std::size_t SelectiveRefiner::repair(const std::function<bool(std::uint32_t)>& spare) {
     const std::size_t before = counts_.splits;
     const std::size_t by_rule = counts_.forced_by_rule;
     while (!changed_.empty()) {
         const std::uint32_t slot = changed_.back();
         changed_.pop_back();
         unmark(slot, changed);
-        repair_around(slot);
+        repair_around(slot, spare);
     }
     const std::size_t done = counts_.splits - before;
     counts_.forced_by_rule = by_rule;
@@ -159,7 +166,8 @@ std::size_t SelectiveRefiner::repair() {
     return done;
 }
 
-void SelectiveRefiner::repair_around(std::uint32_t slot) {
+void SelectiveRefiner::repair_around(
+    std::uint32_t slot, const std::function<bool(std::uint32_t)>& spare) {
     if (node_at(slot) == none) {
         return;
     }
@@ -170,12 +178,43 @@ void SelectiveRefiner::repair_around(std::uint32_t slot) {
     if (turned == none) {
         return;
     }
-    const std::uint32_t coarsest = coarsest_corner(turned);
+    const std::uint32_t coarsest = coarsest_corner(turned, spare);
     if (coarsest == none) {
         return; // an original face that rounding turned
     }
     note_change(slot); // looked at again behind the split
     split(coarsest);
+}
+
+void SelectiveRefiner::nodes_forced_by(
+    std::uint32_t active_node, std::vector<std::uint32_t>& forced) const {
+    forced.clear();
+    add_forced(active_node, forced);
+    forced.pop_back();
+}
+
+/// Adds what must be split for a node that is active once those in `split` are, then that node.
+void SelectiveRefiner::add_forced(std::uint32_t node, std::vector<std::uint32_t>& split) const {
+    const Split wanted = mesh_->split_of(node);
+    while (wanted.left_cut != none && wanted.right_cut != none) {
+        const std::uint32_t left = ancestor_after(wanted.left_cut, split);
+        if (left != ancestor_after(wanted.right_cut, split)) {
+            break;
+        }
+        add_forced(left, split);
+    }
+    split.push_back(node);
+}
+
+/// The active node above a leaf once those in `split` are split.
+std::uint32_t
+SelectiveRefiner::ancestor_after(std::uint32_t leaf, std::span<const std::uint32_t> split) const {
+    std::uint32_t node = active_ancestor(leaf);
+    while (std::ranges::find(split, node) != split.end()) {
+        const Split done = mesh_->split_of(node);
+        node = leaf < done.middle ? done.first : done.second;
+    }
+    return node;
 }
 
 } // namespace octant::visuals::refine

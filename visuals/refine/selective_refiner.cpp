@@ -9,7 +9,11 @@
 //   walking from one cut vertex to the other.
 #include "visuals/refine/selective_refiner.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cassert>
+#include <functional>
 
 namespace octant::visuals::refine {
 
@@ -17,6 +21,24 @@ namespace {
 
 RefinedVertex drawn(const NodeShape& shape) {
     return {shape.position_m, shape.normal, drawn_colour(shape.colour)};
+}
+
+/// The same nodes, each once, the largest number first.
+std::vector<std::uint32_t> falling(std::span<const std::uint32_t> nodes, std::size_t node_count) {
+    std::vector<std::uint64_t> wanted(node_count / 64 + 1, 0);
+    for (const std::uint32_t node : nodes) {
+        wanted[node / 64] |= std::uint64_t{1} << node % 64;
+    }
+    std::vector<std::uint32_t> ordered;
+    ordered.reserve(nodes.size());
+    for (std::size_t word = wanted.size(); word-- > 0;) {
+        for (std::uint64_t bits = wanted[word]; bits != 0;) {
+            const auto bit = static_cast<std::size_t>(63 - std::countl_zero(bits));
+            ordered.push_back(static_cast<std::uint32_t>(64 * word + bit));
+            bits ^= std::uint64_t{1} << bit;
+        }
+    }
+    return ordered;
 }
 
 } // namespace
@@ -30,6 +52,7 @@ SelectiveRefiner::SelectiveRefiner(
         options_.earlier = std::make_shared<const EarlierRules>(*mesh_);
     }
     stack_.reserve(64);
+    path_.reserve(64);
     restart();
 }
 
@@ -48,16 +71,9 @@ void SelectiveRefiner::restart() {
         note_change(slot);
     }
     active_count_ = faces_.vertex_count();
-    std::vector<bool> introduced(mesh_->face_count(), false);
-    for (const Split& split : mesh_->parts().splits) {
-        for (const std::uint32_t face : {split.left_face, split.right_face}) {
-            if (face != none) {
-                introduced[face] = true;
-            }
-        }
-    }
-    for (std::uint32_t face = 0; face < introduced.size(); ++face) {
-        if (!introduced[face]) {
+    const std::vector<bool> base = mesh_->base_faces();
+    for (std::uint32_t face = 0; face < base.size(); ++face) {
+        if (base[face]) {
             std::array<std::uint32_t, 3> corners = mesh_->faces()[face];
             for (std::uint32_t& corner : corners) {
                 corner = slot_above(corner);
@@ -84,6 +100,11 @@ void SelectiveRefiner::put(std::uint32_t slot, std::uint32_t node, const NodeSha
 }
 
 std::size_t SelectiveRefiner::split(std::uint32_t node) {
+    return split_one(node, nullptr);
+}
+
+/// Adds the nodes that were split for others to `forced`.
+std::size_t SelectiveRefiner::split_one(std::uint32_t node, std::vector<std::uint32_t>* forced) {
     assert(!mesh_->is_leaf(node));
     const std::uint32_t leaf = mesh_->first_leaf(node);
     const std::uint32_t begins_there = starts_.has(leaf) ? node_at(slots_[leaf]) : none;
@@ -97,9 +118,15 @@ std::size_t SelectiveRefiner::split(std::uint32_t node) {
         }
     }
     const std::size_t before = counts_.splits;
-    std::size_t asked = 0; // the node itself and its ancestors
-    for (std::uint32_t path = node; path != none && !is_split(path); path = mesh_->parent(path)) {
-        ++asked;
+    split_with_others(node, forced);
+    return counts_.splits - before;
+}
+
+/// Splits an inner node that is not split yet, and before it what is above it and what it needs.
+void SelectiveRefiner::split_with_others(std::uint32_t node, std::vector<std::uint32_t>* forced) {
+    path_.clear(); // the node itself and its ancestors: asked for
+    for (std::uint32_t at = node; at != none && !is_split(at); at = mesh_->parent(at)) {
+        path_.push_back(at);
     }
     stack_.push_back(node);
     while (!stack_.empty()) {
@@ -115,11 +142,31 @@ std::size_t SelectiveRefiner::split(std::uint32_t node) {
         } else {
             split_now(next, cuts);
             stack_.pop_back();
+            if (std::ranges::find(path_, next) == path_.end()) {
+                ++counts_.forced_by_rule;
+                if (forced != nullptr) {
+                    forced->push_back(next);
+                }
+            }
         }
     }
-    const std::size_t done = counts_.splits - before;
-    counts_.forced_by_rule += done - asked;
-    return done;
+}
+
+/// By falling numbers: then each split finds most of what it reads where the one before left it.
+std::size_t SelectiveRefiner::split_all(std::span<const std::uint32_t> nodes) {
+    const std::size_t before = counts_.splits;
+    const std::vector<std::uint32_t> ordered = falling(nodes, mesh_->node_count());
+    std::vector<std::uint32_t> forced;
+    for (const std::uint32_t node : ordered) {
+        split_one(node, &forced);
+    }
+    for (const std::uint32_t node : forced) { // asked for after all where one below it was
+        const auto next = std::ranges::lower_bound(ordered, node, std::greater{});
+        const std::uint32_t below = mesh_->last_leaf(node) - mesh_->first_leaf(node);
+        counts_.forced_by_rule -=
+            static_cast<std::size_t>(next != ordered.end() && *next + below > node);
+    }
+    return counts_.splits - before;
 }
 
 /// Where the active vertices beside both children begin: those of val and var.
@@ -168,7 +215,7 @@ std::uint32_t SelectiveRefiner::needed_by_xia(std::uint32_t node) const {
 }
 
 void SelectiveRefiner::split_now(std::uint32_t node, const Cuts& cuts) {
-    const Split& split = mesh_->split_of(node);
+    const Split split = mesh_->split_of(node);
     const std::uint32_t middle = split.middle;
     const std::uint32_t first_slot = slots_[split.first_leaf];
     const std::uint32_t second_slot = new_slot();
@@ -208,7 +255,7 @@ void SelectiveRefiner::split_now(std::uint32_t node, const Cuts& cuts) {
 
 bool SelectiveRefiner::may_collapse(std::uint32_t node) {
     assert(!mesh_->is_leaf(node));
-    const Split& split = mesh_->split_of(node);
+    const Split split = mesh_->split_of(node);
     if (!is_active(split.first) || !is_active(split.second)) {
         return false;
     }
@@ -229,7 +276,7 @@ bool SelectiveRefiner::collapse(std::uint32_t node) {
 }
 
 void SelectiveRefiner::collapse_now(std::uint32_t node) {
-    const Split& split = mesh_->split_of(node);
+    const Split split = mesh_->split_of(node);
     const std::uint32_t first_slot = slot(split.first);
     const std::uint32_t second_slot = slot(split.second);
     for (const std::uint32_t face : {split.left_face, split.right_face}) {
@@ -270,7 +317,8 @@ void SelectiveRefiner::take_dirty_faces(std::vector<PlaceRange>& ranges) {
 }
 
 std::size_t SelectiveRefiner::bytes() const {
-    const std::size_t numbers = stack_.capacity() + changed_.capacity() + recent_splits_.capacity();
+    const std::size_t numbers =
+        stack_.capacity() + path_.capacity() + changed_.capacity() + recent_splits_.capacity();
     return sizeof(*this) + faces_.bytes() + starts_.bytes() + slots_.bytes() +
            sizeof(std::uint32_t) * numbers + dirty_vertices_.bytes() + dirty_faces_.bytes();
 }

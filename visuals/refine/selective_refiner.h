@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -65,9 +66,13 @@ public:
     /// splits were done: 0 when it is split already.
     std::size_t split(std::uint32_t node);
 
-    /// split() of each, in this order, in less time: what a later one needs from memory is fetched
-    /// while an earlier one is split.
+    /// split() of each, in an order of its own that takes the least time. Counts of forced splits
+    /// leave out those that were asked for.
     std::size_t split_all(std::span<const std::uint32_t> nodes);
+
+    /// Puts the nodes that split(active_node) would split before that one into `forced`, in order;
+    /// by the rule Selective.
+    void nodes_forced_by(std::uint32_t active_node, std::vector<std::uint32_t>& forced) const;
 
     /// Back to the base mesh. Keeps the memory; counts go on.
     void restart();
@@ -89,7 +94,8 @@ public:
     /// Splits the coarsest corner of each face that is turned over against its original, until none
     /// is (only faces changed since the last call are looked at). Returns how many splits were
     /// done. Without options().repair nothing happens. A split made here may be collapsed again.
-    std::size_t repair();
+    /// Corners whose nodes spare(node) is true for are only split where there is no other.
+    std::size_t repair(const std::function<bool(std::uint32_t)>& spare = {});
 
     /// Faces of the active mesh that are turned over: their normal is more than 90 degrees off the
     /// original face's.
@@ -162,19 +168,14 @@ private:
         std::uint32_t right = none;
     };
 
-    struct Ahead;
-
-    void fetch_node(std::uint32_t node) const;
-    void fetch_children(std::uint32_t node) const;
-    void fetch_vertices(std::uint32_t node, Ahead& ahead) const;
-    void fetch_around(Ahead& ahead) const;
-
     Cuts active_cuts(std::uint32_t node) const;
     std::uint32_t needed_before(std::uint32_t node) const;
     std::uint32_t needed_by_hoppe(std::uint32_t node) const;
     std::uint32_t needed_by_xia(std::uint32_t node) const;
     std::uint32_t new_slot();
     void put(std::uint32_t slot, std::uint32_t node, const NodeShape& shape);
+    std::size_t split_one(std::uint32_t node, std::vector<std::uint32_t>* forced);
+    void split_with_others(std::uint32_t node, std::vector<std::uint32_t>* forced);
     void split_now(std::uint32_t node, const Cuts& cuts);
     void collapse_now(std::uint32_t node);
     void note_change(std::uint32_t slot);
@@ -184,9 +185,12 @@ private:
     void clear_link_marks(std::uint32_t slot);
     const glm::vec3& position_at(std::uint32_t corner) const;
     bool turns_faces(std::uint32_t slot, std::uint32_t other, std::uint32_t node) const;
-    void repair_around(std::uint32_t slot);
+    void repair_around(std::uint32_t slot, const std::function<bool(std::uint32_t)>& spare);
+    void add_forced(std::uint32_t node, std::vector<std::uint32_t>& split) const;
+    std::uint32_t ancestor_after(std::uint32_t leaf, std::span<const std::uint32_t> split) const;
     bool is_turned(std::uint32_t place) const;
-    std::uint32_t coarsest_corner(std::uint32_t place) const;
+    std::uint32_t
+    coarsest_corner(std::uint32_t place, const std::function<bool(std::uint32_t)>& spare) const;
 
     std::shared_ptr<const ProgressiveMesh> mesh_;
     RefinerOptions options_;
@@ -195,6 +199,8 @@ private:
     ActiveStarts starts_;                 ///< first leaves of active nodes
     ShortNumbers slots_;                  ///< by first leaf, of active nodes; else anything
     std::vector<std::uint32_t> stack_;    ///< nodes to split, the next one last
+    std::vector<std::uint32_t> path_;     ///< of split_with_others
+    std::vector<std::uint32_t> forced_;   ///< nodes split for others in a split_all
     std::vector<std::uint32_t> changed_;  ///< slots whose faces repair() looks at
     std::vector<std::uint32_t> recent_splits_;
     DirtyBlocks dirty_vertices_;

@@ -22,8 +22,6 @@ public:
 
     void set(std::size_t at, std::uint32_t number) { std::memcpy(&bytes_[3 * at], &number, 3); }
 
-    const void* address(std::size_t at) const { return &bytes_[3 * at]; }
-
     std::size_t bytes() const { return bytes_.capacity(); }
 
 private:
