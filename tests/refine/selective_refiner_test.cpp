@@ -274,6 +274,55 @@ TEST_CASE("splits handed over in one call leave the mesh that they leave one by 
     }
 }
 
+TEST_CASE("only splits that were not asked for in a call count as forced") {
+    const auto mesh = hierarchy(collapsed(made_sphere(4)));
+    std::mt19937 numbers(11);
+    std::size_t forced = 0;
+    for (int round = 0; round < 50; ++round) {
+        std::vector<bool> wanted(mesh->node_count(), false);
+        for (int i = 0; i < 3; ++i) {
+            auto node = static_cast<std::uint32_t>(numbers() % mesh->leaf_count());
+            while ((node = mesh->parent(node)) != none) {
+                wanted[node] = true;
+            }
+        }
+        std::vector<std::uint32_t> nodes;
+        for (std::uint32_t node = 0; node < wanted.size(); ++node) {
+            if (wanted[node]) {
+                nodes.push_back(node);
+            }
+        }
+        SelectiveRefiner refiner(mesh, {.repair = false});
+        CHECK(refiner.split_all(nodes) == refiner.counts().splits);
+        CHECK(refiner.counts().forced_by_rule == refiner.counts().splits - nodes.size());
+        forced += refiner.counts().forced_by_rule;
+    }
+    CHECK(forced > 0);
+}
+
+TEST_CASE("what a split will force is what it forces") {
+    std::size_t all = 0;
+    for (const auto& made : {made_sphere(4), made_torus(40, 20), made_ground(30, 2)}) {
+        const auto mesh = hierarchy(collapsed(made));
+        std::mt19937 numbers(5);
+        std::vector<std::uint32_t> forced;
+        for (int round = 0; round < 20; ++round) {
+            SelectiveRefiner refiner(mesh, {.remember_splits = true, .repair = false});
+            std::uint32_t leaf = static_cast<std::uint32_t>(numbers() % mesh->leaf_count());
+            while (!refiner.is_active(leaf)) {
+                const std::uint32_t node = refiner.active_ancestor(leaf);
+                refiner.nodes_forced_by(node, forced);
+                refiner.forget_recent_splits();
+                refiner.split(node);
+                all += forced.size();
+                forced.push_back(node);
+                CHECK(std::ranges::equal(forced, refiner.recent_splits()));
+            }
+        }
+    }
+    CHECK(all > 5);
+}
+
 TEST_CASE("a front that starts again is as a new one") {
     const auto mesh = hierarchy(collapsed(made_torus(12, 8)));
     SelectiveRefiner used(mesh);

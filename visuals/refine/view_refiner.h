@@ -13,7 +13,7 @@ namespace octant::visuals::refine {
 
 struct ViewRefinerOptions {
     double error_px = 1.0;       ///< what shows a larger error is split
-    double merge_share = 0.6;    ///< of error_px: what shows a smaller one is merged, < 1
+    double merge_share = 0.75;   ///< of error_px: what shows a smaller one is merged, < 1
     double merge_play_rad = 0.2; ///< criterion.play_rad for merges: what comes into sight keeps
     int rest_frames = 10;        ///< a node that was split is not merged for so many
     /// Nor is one that was merged split again for so many, nor another one that forces it, unless
