@@ -34,7 +34,7 @@ void turn(models::TriangleMesh& mesh, const models::FileAxes& axes) {
 
 std::shared_ptr<const refine::ProgressiveMesh>
 turned(const refine::ProgressiveMesh& mesh, const models::FileAxes& axes) {
-    refine::ProgressiveParts parts = mesh.parts();
+    refine::ProgressiveParts parts = mesh.whole_parts();
     parts.origin_m = axes.body_from_file(parts.origin_m);
     for (glm::vec3& position_m : parts.positions_m) {
         position_m = glm::vec3(axes.body_from_file(glm::dvec3(position_m)));
@@ -48,9 +48,11 @@ turned(const refine::ProgressiveMesh& mesh, const models::FileAxes& axes) {
 /// The hierarchy's mesh after as many of its coarsest splits as far polygons allow.
 models::TriangleMesh far_mesh(const std::shared_ptr<const refine::ProgressiveMesh>& hierarchy) {
     refine::SelectiveRefiner front(hierarchy);
-    std::size_t node = hierarchy->node_count();
-    while (front.face_count() + 2 < far_faces && node > hierarchy->leaf_count()) {
-        front.split(static_cast<std::uint32_t>(--node));
+    for (const std::uint32_t node : hierarchy->coarsest_first()) {
+        if (front.face_count() + 2 >= far_faces) {
+            break;
+        }
+        front.split(node);
     }
     return refine::active_mesh(front).mesh;
 }

@@ -43,12 +43,60 @@ glm::dvec2 pixel(const refine::RefineView& view, const glm::dvec3& point_m) {
            (view.focal_px / depth_m);
 }
 
+/// Which inner nodes are split, frame by frame.
+class SplitWatch {
+public:
+    explicit SplitWatch(const refine::SelectiveRefiner& front)
+        : leaves_(static_cast<std::uint32_t>(front.mesh().leaf_count()))
+        , nodes_(front.mesh().node_count() - leaves_) {
+        for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+            nodes_[i].is_split = front.is_split(leaves_ + i);
+        }
+    }
+
+    void look(const refine::ViewRefiner& refiner, int frame) {
+        constexpr int soon_frames = 10;
+        for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+            Node& node = nodes_[i];
+            const bool is_split = refiner.front().is_split(leaves_ + i);
+            split_ += is_split ? 1U : 0U;
+            kept_ += is_split && refiner.keeps_split(leaves_ + i) ? 1U : 0U;
+            if (is_split != node.is_split) {
+                soon_ += node.changed > 0 && frame - node.changed <= soon_frames ? 1U : 0U;
+                node = {is_split, frame};
+            }
+        }
+    }
+
+    /// Nodes split and merged, or merged and split, within 10 frames.
+    std::size_t soon() const { return soon_; }
+
+    /// Split ones over those that the criterion kept split, all frames.
+    double split_over_kept() const {
+        return static_cast<double>(split_) / static_cast<double>(std::max<std::size_t>(kept_, 1));
+    }
+
+private:
+    struct Node {
+        bool is_split = false;
+        int changed = 0; ///< frame; 0 = never
+    };
+
+    std::uint32_t leaves_;
+    std::vector<Node> nodes_;
+    std::size_t soon_ = 0;
+    std::size_t split_ = 0;
+    std::size_t kept_ = 0;
+};
+
 struct PathRun {
     double operations_mean = 0.0;
     std::size_t operations_most = 0;
     double active_mean = 0.0;
     double largest_step_px = 0.0;
     double ms_mean = 0.0; ///< processor time of an update
+    std::size_t soon = 0; ///< see SplitWatch
+    double split_over_kept = 0.0;
 };
 
 /// Where each original vertex is drawn.
@@ -69,11 +117,13 @@ PathRun run_path(const RefinedModel& model, int frames) {
     std::vector<glm::vec3> before_m;
     std::vector<glm::vec3> after_m;
     drawn_places(refiner.front(), before_m);
+    SplitWatch watch(refiner.front());
     for (int frame = 1; frame <= frames; ++frame) {
         const refine::RefineView view = path_view(place, frame, frames);
         const double start_s = cpu_s();
         const refine::RefinedFrame done = refiner.update(view);
         run.ms_mean += 1000.0 * (cpu_s() - start_s) / frames;
+        watch.look(refiner, frame);
         const std::size_t operations = done.splits + done.collapses;
         run.operations_mean += static_cast<double>(operations) / frames;
         run.operations_most = std::max(run.operations_most, operations);
@@ -91,6 +141,8 @@ PathRun run_path(const RefinedModel& model, int frames) {
         }
         std::swap(before_m, after_m);
     }
+    run.soon = watch.soon();
+    run.split_over_kept = watch.split_over_kept();
     return run;
 }
 
@@ -129,6 +181,8 @@ report::HtmlTable refinement_path_table(std::span<const RefinedModel> models, in
         "active vertices, mean",
         "largest step of a vertex, px",
         "ms a frame",
+        "split and merged within 10 frames",
+        "split / kept",
         "split / wanted",
         "with repair"};
     for (const RefinedModel& model : models) {
@@ -142,12 +196,17 @@ report::HtmlTable refinement_path_table(std::span<const RefinedModel> models, in
              fmt::format("{:.0f}", run.active_mean),
              fmt::format("{:.3f}", run.largest_step_px),
              fmt::format("{:.3f}", run.ms_mean),
+             fmt::format("{}", run.soon),
+             fmt::format("{:.4f}", run.split_over_kept),
              fmt::format("{:.4f}", static_cast<double>(sums.bare) / wanted),
              fmt::format("{:.4f}", static_cast<double>(sums.repaired) / wanted)});
     }
     table.note = "1280x720, 50 degrees. A step: of any original vertex, as drawn, between two "
-                 "frames seen from the second one's eye. Split / wanted: fresh fronts at 20 places "
-                 "of the path against the nodes that the criterion wants split.";
+                 "frames seen from the second one's eye. Split and merged: nodes, either way "
+                 "around. Split / kept: of all frames, against the nodes that the criterion for "
+                 "merging keeps; the others are on their way to a merge or rest. Split / wanted: "
+                 "fresh fronts at 20 places of the path against the nodes that the criterion "
+                 "wants split.";
     return table;
 }
 

@@ -35,14 +35,17 @@ double median(std::vector<double> values) {
 /// All of them in turn, again and again: what else the machine does meets all alike.
 int compare(const Hierarchy& mesh, std::size_t rounds) {
     std::vector<std::unique_ptr<PeerRefinement>> peers;
-    for (const SplitOrder order : {SplitOrder::CoarseFirst, SplitOrder::BySubtree}) {
+    constexpr std::array orders = {SplitOrder::CoarseFirst, SplitOrder::BySubtree};
+    for (const SplitOrder order : orders) {
         for (const bool together : {false, true}) {
             peers.push_back(our_refinement(mesh, order, together));
         }
     }
 #ifdef OCTANT_PEER_OPENMESH
     try {
-        peers.push_back(openmesh_refinement(mesh));
+        for (const SplitOrder order : orders) {
+            peers.push_back(openmesh_refinement(mesh, order));
+        }
     } catch (const std::runtime_error& fault) {
         std::fprintf(stderr, "OpenMesh left out: %s\n", fault.what());
     }

@@ -27,8 +27,9 @@ OpenMesh::Vec3f vec(const glm::vec3& v) {
 
 class OpenMeshRefinement : public PeerRefinement {
 public:
-    explicit OpenMeshRefinement(const Hierarchy& hierarchy)
+    OpenMeshRefinement(const Hierarchy& hierarchy, SplitOrder order)
         : source_(*hierarchy)
+        , order_(split_order(*hierarchy, order))
         , handles_(source_.node_count())
         , vertices_(source_.node_count(), none) {
         const double before = heap_bytes_now();
@@ -60,7 +61,7 @@ public:
     }
 
     void split_all() override {
-        for (std::size_t node = source_.node_count(); node-- > source_.leaf_count();) {
+        for (const std::uint32_t node : order_) {
             if (front_.is_active(handles_[node])) {
                 force(handles_[node]);
             }
@@ -86,14 +87,14 @@ public:
     }
 
 private:
+    /// Its nodes and vertices lie in the order in which they come.
     /// A split keeps its vertex for the first child, as ours, and adds one for the second.
     void number_vertices() {
         std::uint32_t next = 0;
         for (const std::uint32_t root : source_.roots()) {
             vertices_[root] = next++;
         }
-        for (auto node = static_cast<std::uint32_t>(source_.node_count());
-             node-- > source_.leaf_count();) {
+        for (const std::uint32_t node : order_) {
             vertices_[source_.split_of(node).first] = vertices_[node];
             vertices_[source_.split_of(node).second] = next++;
         }
@@ -108,9 +109,8 @@ private:
             tree_.node(made).set_index(tree_.generate_node_index(i, 1));
             put(source_.roots()[i], made);
         }
-        for (auto node = static_cast<std::uint32_t>(source_.node_count());
-             node-- > source_.leaf_count();) {
-            const visuals::refine::Split& split = source_.split_of(node);
+        for (const std::uint32_t node : order_) {
+            const visuals::refine::Split split = source_.split_of(node);
             const unsigned depth = depths[node] + 1;
             if (depth + 1U + tree_.tree_id_bits() > 32U) {
                 throw std::runtime_error("hierarchy too deep for OpenMesh's 32-bit node numbers");
@@ -157,16 +157,9 @@ private:
                 base_.data(made).set_vhierarchy_node_handle(handles_[node]);
             }
         }
-        std::vector<bool> introduced(source_.face_count(), false);
-        for (const visuals::refine::Split& split : source_.parts().splits) {
-            for (const std::uint32_t face : {split.left_face, split.right_face}) {
-                if (face != none) {
-                    introduced[face] = true;
-                }
-            }
-        }
-        for (std::size_t face = 0; face < introduced.size(); ++face) {
-            if (!introduced[face]) {
+        const std::vector<bool> is_base = source_.base_faces();
+        for (std::size_t face = 0; face < is_base.size(); ++face) {
+            if (is_base[face]) {
                 std::array<Vertex, 3> corners;
                 for (std::size_t k = 0; k < 3; ++k) {
                     std::uint32_t node = source_.faces()[face][k];
@@ -231,6 +224,7 @@ private:
     }
 
     const visuals::refine::ProgressiveMesh& source_;
+    std::vector<std::uint32_t> order_;
     OpenMesh::VDPM::VHierarchy tree_;
     OpenMesh::VDPM::VFront front_;
     Mesh base_;
@@ -242,9 +236,10 @@ private:
 
 } // namespace
 
-std::unique_ptr<PeerRefinement> openmesh_refinement(const Hierarchy& mesh) {
-    auto made = std::make_unique<OpenMeshRefinement>(mesh);
-    made->name = "OpenMesh VDPM, coarse first";
+std::unique_ptr<PeerRefinement> openmesh_refinement(const Hierarchy& mesh, SplitOrder order) {
+    auto made = std::make_unique<OpenMeshRefinement>(mesh, order);
+    made->name = order == SplitOrder::BySubtree ? "OpenMesh VDPM, by subtree"
+                                                : "OpenMesh VDPM, coarse first";
     return made;
 }
 

@@ -8,32 +8,11 @@ namespace {
 
 namespace refine = visuals::refine;
 
-std::vector<std::uint32_t> nodes_in_order(const refine::ProgressiveMesh& mesh, SplitOrder order) {
-    std::vector<std::uint32_t> nodes;
-    if (order == SplitOrder::CoarseFirst) {
-        for (std::size_t node = mesh.node_count(); node-- > mesh.leaf_count();) {
-            nodes.push_back(static_cast<std::uint32_t>(node));
-        }
-        return nodes;
-    }
-    std::vector<std::uint32_t> open(mesh.roots().begin(), mesh.roots().end());
-    while (!open.empty()) {
-        const std::uint32_t node = open.back();
-        open.pop_back();
-        if (!mesh.is_leaf(node)) {
-            nodes.push_back(node);
-            open.push_back(mesh.split_of(node).second);
-            open.push_back(mesh.split_of(node).first);
-        }
-    }
-    return nodes;
-}
-
 class OurRefinement : public PeerRefinement {
 public:
     OurRefinement(const Hierarchy& mesh, SplitOrder order, bool together)
         : front_(mesh, {.repair = false})
-        , nodes_(nodes_in_order(*mesh, order))
+        , nodes_(split_order(*mesh, order))
         , together_(together) {}
 
     void restart() override { front_.restart(); }

@@ -45,13 +45,22 @@ enum class SplitOrder {
     BySubtree    ///< a node's subtree before the next node
 };
 
+inline std::vector<std::uint32_t>
+split_order(const visuals::refine::ProgressiveMesh& mesh, SplitOrder order) {
+    std::vector<std::uint32_t> nodes = mesh.coarsest_first();
+    if (order == SplitOrder::BySubtree) {
+        std::sort(nodes.rbegin(), nodes.rend());
+    }
+    return nodes;
+}
+
 /// `together`: handed over in one call.
 std::unique_ptr<PeerRefinement>
 our_refinement(const Hierarchy& mesh, SplitOrder order, bool together);
 
-/// OpenMesh's view-dependent progressive meshes over the same hierarchy, coarse first. Throws
+/// OpenMesh's view-dependent progressive meshes over the same hierarchy. Throws
 /// std::runtime_error where its node numbers have too few bits for the hierarchy's depth.
-std::unique_ptr<PeerRefinement> openmesh_refinement(const Hierarchy& mesh);
+std::unique_ptr<PeerRefinement> openmesh_refinement(const Hierarchy& mesh, SplitOrder order);
 
 inline void sort_faces(FaceSet& faces) {
     for (auto& face : faces) {

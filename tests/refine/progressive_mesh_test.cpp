@@ -47,7 +47,7 @@ TEST_CASE("leaves below a node follow one another") {
     std::vector<std::uint32_t> sizes(mesh.node_count(), 1);
     for (auto node = static_cast<std::uint32_t>(mesh.leaf_count()); node < mesh.node_count();
          ++node) {
-        const Split& split = mesh.split_of(node);
+        const Split split = mesh.split_of(node);
         sizes[node] = sizes[split.first] + sizes[split.second];
         CHECK(mesh.first_leaf(split.first) == mesh.first_leaf(node));
         CHECK(mesh.first_leaf(split.second) == mesh.first_leaf(node) + sizes[split.first]);

@@ -17,6 +17,14 @@ std::shared_ptr<const ProgressiveMesh> hierarchy(const models::CollapseSequence&
     return std::make_shared<const ProgressiveMesh>(sequence);
 }
 
+std::uint32_t node_of(const ProgressiveMesh& mesh, std::uint32_t sequence_number) {
+    std::uint32_t node = 0;
+    while (mesh.sequence_number(node) != sequence_number) {
+        ++node;
+    }
+    return node;
+}
+
 void split_all(SelectiveRefiner& refiner) {
     const ProgressiveMesh& mesh = refiner.mesh();
     for (auto node = static_cast<std::uint32_t>(mesh.node_count()); node-- > mesh.leaf_count();) {
@@ -34,7 +42,7 @@ void walk(SelectiveRefiner& refiner, int operations, std::uint64_t seed) {
         if (refiner.is_active(node)) {
             done += refiner.split(node) > 0 ? 1 : 0;
         } else if (refiner.is_split(node)) {
-            const Split& split = refiner.mesh().split_of(node);
+            const Split split = refiner.mesh().split_of(node);
             const bool ready = refiner.is_active(split.first) && refiner.is_active(split.second);
             done += ready ? 1 : 0;
             refiner.collapse(node);
@@ -78,21 +86,23 @@ TEST_CASE("a split whose two cut vertices are one active node forces that node, 
         {.first = 3, .second = 0, .position_m = {0, 1, 0}, .left = 0, .right = 2, .error_m = 0.1},
         {.first = 1, .second = 2, .position_m = {-1, -1, 0}, .left = 1, .error_m = 0.2}};
     const auto mesh = hierarchy(sequence);
+    const std::uint32_t five = node_of(*mesh, 5);
+    const std::uint32_t six = node_of(*mesh, 6);
     SelectiveRefiner refiner(mesh);
     CHECK(active_faces(refiner) == NamedFaces{{4, 6, 5}});
-    CHECK(refiner.split(5) == 2);
+    CHECK(refiner.split(five) == 2);
     CHECK(refiner.counts().forced_by_rule == 1);
     CHECK(active_faces(refiner) == NamedFaces{{0, 1, 3}, {0, 3, 2}, {0, 4, 1}, {1, 2, 3}});
     // Now 1 and 2 would leave the triangles 0 3 6 and 3 0 6.
-    CHECK_FALSE(refiner.collapse(6));
+    CHECK_FALSE(refiner.collapse(six));
     CHECK(refiner.counts().blocked == 1);
-    CHECK(refiner.collapse(5));
-    CHECK(refiner.collapse(6));
+    CHECK(refiner.collapse(five));
+    CHECK(refiner.collapse(six));
 
     SelectiveRefiner the_other_first(mesh);
-    CHECK(the_other_first.split(6) == 1);
+    CHECK(the_other_first.split(six) == 1);
     CHECK(active_faces(the_other_first) == NamedFaces{{1, 2, 5}, {1, 5, 4}});
-    CHECK(the_other_first.split(5) == 1);
+    CHECK(the_other_first.split(five) == 1);
     CHECK(the_other_first.counts().forced_by_rule == 0);
 }
 
@@ -160,7 +170,7 @@ TEST_CASE("after 100,000 random splits and collapses the mesh is a manifold of t
 TEST_CASE("operations need no memory once everything was split and collapsed") {
     SelectiveRefiner refiner(hierarchy(collapsed(made_ground(30, 2))), {.repair = false});
     split_all(refiner);
-    CHECK(refiner.bytes() <= 72 * refiner.active_count());
+    CHECK(refiner.bytes() <= 60 * refiner.active_count()); // index list included
     const ProgressiveMesh& mesh = refiner.mesh();
     for (auto node = static_cast<std::uint32_t>(mesh.leaf_count()); node < mesh.node_count();
          ++node) {
@@ -249,14 +259,68 @@ TEST_CASE("splits handed over in one call leave the mesh that they leave one by 
         }
         SelectiveRefiner together(mesh);
         SelectiveRefiner apart(mesh);
+        SelectiveRefiner once_more(mesh);
         const std::size_t done = together.split_all(nodes);
         for (const std::uint32_t node : nodes) {
             apart.split(node);
         }
         CHECK(done == apart.counts().splits);
+        CHECK(together.counts().splits == done);
+        CHECK(together.counts().forced_by_rule <= apart.counts().forced_by_rule);
         CHECK(active_faces(together) == active_faces(apart));
-        CHECK(std::ranges::equal(together.indices(), apart.indices()));
+        std::ranges::reverse(nodes); // their order does not matter
+        CHECK(once_more.split_all(nodes) == done);
+        CHECK(std::ranges::equal(together.indices(), once_more.indices()));
     }
+}
+
+TEST_CASE("only splits that were not asked for in a call count as forced") {
+    const auto mesh = hierarchy(collapsed(made_sphere(4)));
+    std::mt19937 numbers(11);
+    std::size_t forced = 0;
+    for (int round = 0; round < 50; ++round) {
+        std::vector<bool> wanted(mesh->node_count(), false);
+        for (int i = 0; i < 3; ++i) {
+            auto node = static_cast<std::uint32_t>(numbers() % mesh->leaf_count());
+            while ((node = mesh->parent(node)) != none) {
+                wanted[node] = true;
+            }
+        }
+        std::vector<std::uint32_t> nodes;
+        for (std::uint32_t node = 0; node < wanted.size(); ++node) {
+            if (wanted[node]) {
+                nodes.push_back(node);
+            }
+        }
+        SelectiveRefiner refiner(mesh, {.repair = false});
+        CHECK(refiner.split_all(nodes) == refiner.counts().splits);
+        CHECK(refiner.counts().forced_by_rule == refiner.counts().splits - nodes.size());
+        forced += refiner.counts().forced_by_rule;
+    }
+    CHECK(forced > 0);
+}
+
+TEST_CASE("what a split will force is what it forces") {
+    std::size_t all = 0;
+    for (const auto& made : {made_sphere(4), made_torus(40, 20), made_ground(30, 2)}) {
+        const auto mesh = hierarchy(collapsed(made));
+        std::mt19937 numbers(5);
+        std::vector<std::uint32_t> forced;
+        for (int round = 0; round < 20; ++round) {
+            SelectiveRefiner refiner(mesh, {.remember_splits = true, .repair = false});
+            std::uint32_t leaf = static_cast<std::uint32_t>(numbers() % mesh->leaf_count());
+            while (!refiner.is_active(leaf)) {
+                const std::uint32_t node = refiner.active_ancestor(leaf);
+                refiner.nodes_forced_by(node, forced);
+                refiner.forget_recent_splits();
+                refiner.split(node);
+                all += forced.size();
+                forced.push_back(node);
+                CHECK(std::ranges::equal(forced, refiner.recent_splits()));
+            }
+        }
+    }
+    CHECK(all > 5);
 }
 
 TEST_CASE("a front that starts again is as a new one") {

@@ -1,5 +1,6 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "tests/ui/command_checks.h"
 #include "tests/ui/command_line.h"
 
 #include <catch2/catch.hpp>
@@ -110,25 +111,12 @@ Faces expected_faces(const Faces& originals, const std::string& nodes_file) {
     return sorted(faces);
 }
 
-nlohmann::json refine(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "refine");
-    arguments.insert(arguments.end(), {"--json", "--quiet"});
-    const tests::ProgramRun run = run_octant(arguments);
-    INFO(run.err);
-    REQUIRE(run.exit_code == 0);
-    CHECK(run.err.empty());
-    return nlohmann::json::parse(run.out);
+nlohmann::json refine(const std::vector<std::string>& arguments) {
+    return tests::figures_of("refine", arguments);
 }
 
-void check_refused(std::vector<std::string> arguments, const std::string& expected) {
-    arguments.insert(arguments.begin(), "refine");
-    arguments.emplace_back("--quiet");
-    const tests::ProgramRun run = run_octant(arguments);
-    INFO(run.err);
-    CHECK(run.exit_code == 2);
-    CHECK(tests::lines_in(run.err) == 1);
-    CHECK(run.err.find(expected) != std::string::npos);
-    CHECK(run.out.empty());
+void check_refused(const std::vector<std::string>& arguments, const std::string& expected) {
+    tests::check_refused("refine", arguments, expected);
 }
 
 } // namespace

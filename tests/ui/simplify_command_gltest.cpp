@@ -2,6 +2,7 @@
 #include "models/triangle_mesh.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "tests/ui/command_checks.h"
 #include "tests/ui/command_line.h"
 #include "ui/report/frame_csv.h"
 
@@ -47,25 +48,12 @@ std::string waves(int side) {
     return file;
 }
 
-nlohmann::json figures(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "simplify");
-    arguments.insert(arguments.end(), {"--json", "--quiet"});
-    const tests::ProgramRun run = run_octant(arguments);
-    INFO(run.err);
-    REQUIRE(run.exit_code == 0);
-    CHECK(run.err.empty());
-    return nlohmann::json::parse(run.out);
+nlohmann::json figures(const std::vector<std::string>& arguments) {
+    return tests::figures_of("simplify", arguments);
 }
 
-void check_refused(std::vector<std::string> arguments, const std::string& expected) {
-    arguments.insert(arguments.begin(), "simplify");
-    arguments.emplace_back("--quiet");
-    const tests::ProgramRun run = run_octant(arguments);
-    INFO(run.err);
-    CHECK(run.exit_code == 2);
-    CHECK(tests::lines_in(run.err) == 1);
-    CHECK(run.err.find(expected) != std::string::npos);
-    CHECK(run.out.empty());
+void check_refused(const std::vector<std::string>& arguments, const std::string& expected) {
+    tests::check_refused("simplify", arguments, expected);
 }
 
 /// Rows of a short flight's frames.csv.

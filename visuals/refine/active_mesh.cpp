@@ -58,8 +58,8 @@ ActiveMesh active_mesh(const SelectiveRefiner& refiner) {
         vertices[slot] = static_cast<std::uint32_t>(active.nodes.size());
         active.nodes.push_back(hierarchy.sequence_number(node));
         active.mesh.vertices_m.push_back(glm::dvec3(hierarchy.position_m(node)) + parts.origin_m);
-        if (!parts.colours.empty()) {
-            active.mesh.colours.push_back(unpacked(parts.colours[node]));
+        if (hierarchy.has_colours()) {
+            active.mesh.colours.push_back(unpacked(hierarchy.packed_colour(node)));
         }
     }
     add_triangles(refiner, vertices, active.mesh);

@@ -43,14 +43,19 @@ EarlierRules::EarlierRules(const ProgressiveMesh& mesh)
     : leaves_(static_cast<std::uint32_t>(mesh.leaf_count()))
     , introducers_(mesh.face_count(), none) {
     FaceLists faces(mesh.node_count(), mesh.face_count());
-    faces.resize_vertices(mesh.node_count());
+    for (std::uint32_t node = 0; node < mesh.node_count(); ++node) {
+        faces.add_vertex();
+    }
     for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
         faces.add(mesh.faces()[face], face);
     }
-    ring_begins_.push_back(0);
-    for (std::uint32_t node = leaves_; node < mesh.node_count(); ++node) {
-        const Split& split = mesh.split_of(node);
-        auto& beside = faces_beside_.emplace_back();
+    faces_beside_.resize(mesh.node_count() - leaves_);
+    rings_.resize(faces_beside_.size());
+    const std::vector<std::uint32_t> order = mesh.coarsest_first();
+    for (auto at = order.rbegin(); at != order.rend(); ++at) {
+        const std::uint32_t node = *at;
+        const Split split = mesh.split_of(node);
+        auto& beside = faces_beside_[node - leaves_];
         std::size_t k = 0;
         for (const std::uint32_t face : {split.left_face, split.right_face}) {
             beside[k] = none;
@@ -67,14 +72,13 @@ EarlierRules::EarlierRules(const ProgressiveMesh& mesh)
         for (const std::uint32_t child : {split.first, split.second}) {
             faces.move_corners(child, node, [](std::uint32_t) { return true; });
         }
+        std::vector<std::uint32_t>& ring = rings_[node - leaves_];
         faces.each_corner(node, [&](std::uint32_t corner) {
-            rings_.push_back(faces.vertex(FaceLists::next_in_face(corner)));
-            rings_.push_back(faces.vertex(FaceLists::before_in_face(corner)));
+            ring.push_back(faces.vertex(FaceLists::next_in_face(corner)));
+            ring.push_back(faces.vertex(FaceLists::before_in_face(corner)));
         });
-        const auto begin = rings_.begin() + static_cast<std::ptrdiff_t>(ring_begins_.back());
-        std::sort(begin, rings_.end());
-        rings_.erase(std::unique(begin, rings_.end()), rings_.end());
-        ring_begins_.push_back(rings_.size());
+        std::ranges::sort(ring);
+        ring.erase(std::ranges::unique(ring).begin(), ring.end());
     }
 }
 

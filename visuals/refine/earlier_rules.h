@@ -29,10 +29,7 @@ public:
     }
 
     /// The nodes around both children when they collapsed.
-    std::span<const std::uint32_t> ring(std::uint32_t node) const {
-        const std::size_t i = node - leaves_;
-        return std::span(rings_).subspan(ring_begins_[i], ring_begins_[i + 1] - ring_begins_[i]);
-    }
+    std::span<const std::uint32_t> ring(std::uint32_t node) const { return rings_[node - leaves_]; }
 
     /// The node whose split brings an original face in; none for faces of the base mesh.
     std::uint32_t introducer(std::uint32_t face) const { return introducers_[face]; }
@@ -40,8 +37,7 @@ public:
 private:
     std::uint32_t leaves_;
     std::vector<std::array<std::uint32_t, 4>> faces_beside_;
-    std::vector<std::uint32_t> rings_;
-    std::vector<std::size_t> ring_begins_;
+    std::vector<std::vector<std::uint32_t>> rings_;
     std::vector<std::uint32_t> introducers_;
 };
 

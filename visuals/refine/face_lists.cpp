@@ -4,60 +4,99 @@
 
 namespace octant::visuals::refine {
 
+FaceLists::FaceLists(std::size_t vertices_at_most, std::size_t faces_at_most)
+    : vertices_at_most_(vertices_at_most)
+    , faces_at_most_(faces_at_most) {
+    assert(3 * faces_at_most < no_corner);
+}
+
 void FaceLists::clear() {
-    first_corners_.clear();
     vertices_.clear();
+    indices_.clear();
     links_.clear();
-    free_ = none;
+    free_ = no_corner;
+    free_vertices_ = no_corner;
     face_count_ = 0;
 }
 
-std::uint32_t FaceLists::add(const std::array<std::uint32_t, 3>& vertices, std::uint32_t label) {
-    std::uint32_t face = free_;
-    if (face != none) {
-        free_ = links_[face].next[0];
-    } else {
-        face = static_cast<std::uint32_t>(links_.size());
-        make_room(links_, links_.size() + 1, most_faces_);
-        make_room(vertices_, vertices_.size() + 3, 3 * most_faces_);
-        links_.emplace_back();
-        vertices_.resize(vertices_.size() + 3);
+std::uint32_t FaceLists::add_vertex() {
+    if (free_vertices_ == no_corner) {
+        make_room(vertices_, vertices_.size() + 1, vertices_at_most_);
+        vertices_.emplace_back();
+        return static_cast<std::uint32_t>(vertices_.size() - 1);
     }
-    links_[face].label = label;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-        const std::uint32_t corner = 3 * face + k;
-        vertices_[corner] = vertices[k];
-        links_[face].next[k] = first_corners_[vertices[k]];
-        first_corners_[vertices[k]] = corner;
+    const std::uint32_t vertex = free_vertices_;
+    free_vertices_ = vertices_[vertex].first;
+    vertices_[vertex].first = no_corner;
+    return vertex;
+}
+
+void FaceLists::remove_vertex(std::uint32_t vertex) {
+    assert(vertices_[vertex].first == no_corner);
+    vertices_[vertex].label = none;
+    vertices_[vertex].first = free_vertices_ & no_corner;
+    free_vertices_ = vertex;
+}
+
+void FaceLists::set_label(std::uint32_t face, std::uint32_t label) {
+    Link* links = &links_[3 * std::size_t{face}];
+    links[0].label_part = label & 0xffU;
+    links[1].label_part = label >> 8U & 0xffU;
+    links[2].label_part = label >> 16U & 0xffU;
+}
+
+std::uint32_t FaceLists::add(const std::array<std::uint32_t, 3>& vertices, std::uint32_t label) {
+    std::uint32_t corner = free_;
+    if (corner != no_corner) {
+        free_ = links_[corner].next;
+    } else {
+        corner = static_cast<std::uint32_t>(links_.size());
+        make_room(links_, links_.size() + 3, 3 * faces_at_most_);
+        make_room(indices_, indices_.size() + 3, 3 * faces_at_most_);
+        links_.resize(links_.size() + 3);
+        indices_.resize(indices_.size() + 3);
+    }
+    const std::uint32_t face = corner / 3;
+    set_label(face, label);
+    for (const std::uint32_t vertex : vertices) {
+        indices_[corner] = vertex;
+        links_[corner].next = vertices_[vertex].first;
+        vertices_[vertex].first = corner & no_corner;
+        ++corner;
     }
     ++face_count_;
     return face;
 }
 
 void FaceLists::unlink(std::uint32_t corner) {
-    std::uint32_t* link = &first_corners_[vertices_[corner]];
-    while (*link != corner) {
-        assert(*link != none);
-        link = &next(*link);
+    Vertex& vertex = vertices_[indices_[corner]];
+    if (vertex.first == corner) {
+        vertex.first = links_[corner].next;
+        return;
     }
-    *link = next(corner);
+    std::uint32_t before = vertex.first;
+    while (links_[before].next != corner) {
+        assert(links_[before].next != no_corner);
+        before = links_[before].next;
+    }
+    links_[before].next = links_[corner].next;
 }
 
 void FaceLists::remove(std::uint32_t face) {
-    assert(links_[face].label != none);
+    assert(label(face) != none);
     for (std::uint32_t k = 0; k < 3; ++k) {
         unlink(3 * face + k);
-        vertices_[3 * face + k] = 0;
+        indices_[3 * face + k] = 0;
     }
-    links_[face].label = none;
-    links_[face].next[0] = free_;
-    free_ = face;
+    set_label(face, none);
+    links_[3 * std::size_t{face}].next = free_ & no_corner;
+    free_ = 3 * face;
     --face_count_;
 }
 
 std::uint32_t FaceLists::find(std::uint32_t vertex, std::uint32_t label) const {
-    for (std::uint32_t c = first_corners_[vertex]; c != none; c = next(c)) {
-        if (links_[c / 3].label == label) {
+    for (std::uint32_t c = vertices_[vertex].first; c != no_corner; c = links_[c].next) {
+        if (this->label(c / 3) == label) {
             return c / 3;
         }
     }
@@ -65,8 +104,8 @@ std::uint32_t FaceLists::find(std::uint32_t vertex, std::uint32_t label) const {
 }
 
 std::size_t FaceLists::bytes() const {
-    return sizeof(std::uint32_t) * (first_corners_.capacity() + vertices_.capacity()) +
-           sizeof(Links) * links_.capacity();
+    return sizeof(Vertex) * vertices_.capacity() + sizeof(std::uint32_t) * indices_.capacity() +
+           sizeof(Link) * links_.capacity();
 }
 
 } // namespace octant::visuals::refine

@@ -23,22 +23,42 @@ void make_room(std::vector<Item>& items, std::size_t count, std::size_t most) {
 /// the corners themselves: adding and taking away needs no memory once there was as much before.
 /// Corner 3 f + k is the kth of face f. A face that was taken away is left as a degenerate one
 /// (all corners at vertex 0) until its place is used again.
+///
+/// 24 bytes a face, half of them the index list, and 8 a vertex: corners and the labels of faces
+/// have 24 bits.
 class FaceLists {
 public:
     static constexpr std::uint32_t none = models::none;
 
-    /// There will be no more than so many at a time.
-    FaceLists(std::size_t most_vertices, std::size_t most_faces)
-        : most_vertices_(most_vertices)
-        , most_faces_(most_faces) {}
+    /// There will be no more than so many at a time. Corners and labels of faces are below 2^24
+    /// - 1.
+    FaceLists(std::size_t vertices_at_most, std::size_t faces_at_most);
 
     /// No vertices, no faces; the memory is kept.
     void clear();
 
-    /// Makes room; vertices that are new have no faces.
-    void resize_vertices(std::size_t count) {
-        make_room(first_corners_, count, most_vertices_);
-        first_corners_.resize(count, none);
+    /// A vertex without faces, with `none` for a label. Returns its number: that of the one taken
+    /// away last, whose marks it keeps, else one more.
+    std::uint32_t add_vertex();
+
+    /// Takes one without faces away.
+    void remove_vertex(std::uint32_t vertex);
+
+    /// Those taken away included.
+    std::size_t vertex_count() const { return vertices_.size(); }
+
+    /// Of the caller's, kept with the vertex.
+    std::uint32_t vertex_label(std::uint32_t vertex) const { return vertices_[vertex].label; }
+
+    void set_vertex_label(std::uint32_t vertex, std::uint32_t label) {
+        vertices_[vertex].label = label;
+    }
+
+    /// Eight bits of the caller's.
+    std::uint32_t marks(std::uint32_t vertex) const { return vertices_[vertex].marks; }
+
+    void set_marks(std::uint32_t vertex, std::uint32_t marks) {
+        vertices_[vertex].marks = marks & 0xffU;
     }
 
     /// `label`: of the caller's, kept with the face. Returns its number.
@@ -49,7 +69,7 @@ public:
     /// Calls use(corner) for each corner at a vertex.
     template <class Use>
     void each_corner(std::uint32_t vertex, const Use& use) const {
-        for (std::uint32_t c = first_corners_[vertex]; c != none; c = next(c)) {
+        for (std::uint32_t c = vertices_[vertex].first; c != no_corner; c = links_[c].next) {
             use(c);
         }
     }
@@ -58,40 +78,25 @@ public:
     /// own corners follow behind. Without branches on what moves: it is as good as chance.
     template <class Moves>
     void move_corners(std::uint32_t from, std::uint32_t to, const Moves& moves) {
-        std::array<std::uint32_t, 2> heads{none, first_corners_[to]};
+        std::array<std::uint32_t, 2> heads{no_corner, vertices_[to].first};
         const std::array<std::uint32_t, 2> vertices{from, to};
-        std::uint32_t corner = first_corners_[from];
-        while (corner != none) {
-            std::uint32_t& link = next(corner);
-            const std::uint32_t following = link;
+        std::uint32_t corner = vertices_[from].first;
+        while (corner != no_corner) {
+            const std::uint32_t following = links_[corner].next;
             const auto side = static_cast<std::size_t>(moves(corner));
-            link = heads[side];
+            links_[corner].next = heads[side] & no_corner;
             heads[side] = corner;
-            vertices_[corner] = vertices[side];
+            indices_[corner] = vertices[side];
             corner = following;
         }
-        first_corners_[from] = heads[0];
-        first_corners_[to] = heads[1];
-    }
-
-    /// Asks for memory that a walk over a vertex's corners reads first; returns the first corner.
-    std::uint32_t fetch_first(std::uint32_t vertex) const {
-        return vertex < first_corners_.size() ? fetch(first_corners_[vertex]) : none;
-    }
-
-    /// The same for what is read after `corner`.
-    std::uint32_t fetch_next(std::uint32_t corner) const {
-        return corner == none ? none : fetch(next(corner));
-    }
-
-    const std::uint32_t* first_corner_address(std::uint32_t vertex) const {
-        return first_corners_.data() + vertex;
+        vertices_[from].first = heads[0] & no_corner;
+        vertices_[to].first = heads[1] & no_corner;
     }
 
     /// The face with a label at a vertex; none when there is none.
     std::uint32_t find(std::uint32_t vertex, std::uint32_t label) const;
 
-    std::uint32_t vertex(std::uint32_t corner) const { return vertices_[corner]; }
+    std::uint32_t vertex(std::uint32_t corner) const { return indices_[corner]; }
 
     /// The other two corners of a corner's face, counter-clockwise.
     static std::uint32_t next_in_face(std::uint32_t corner) {
@@ -103,45 +108,49 @@ public:
     }
 
     /// none for a place without a face.
-    std::uint32_t label(std::uint32_t face) const { return links_[face].label; }
+    std::uint32_t label(std::uint32_t face) const {
+        const Link* links = &links_[3 * std::size_t{face}];
+        const std::uint32_t label =
+            links[0].label_part | links[1].label_part << 8U | links[2].label_part << 16U;
+        return label == no_corner ? none : label;
+    }
 
     /// Places of faces, those without one included.
-    std::size_t place_count() const { return links_.size(); }
+    std::size_t place_count() const { return links_.size() / 3; }
 
     std::size_t face_count() const { return face_count_; }
 
     /// Three a place.
-    std::span<const std::uint32_t> indices() const { return vertices_; }
+    std::span<const std::uint32_t> indices() const { return indices_; }
 
     std::size_t bytes() const;
 
 private:
-    struct Links {
-        std::array<std::uint32_t, 3> next; ///< corners at the same vertices
-        std::uint32_t label;
+    static constexpr std::uint32_t no_corner = 0xffffffU;
+
+    struct Vertex {
+        std::uint32_t first : 24 = no_corner; ///< of its corners
+        std::uint32_t marks : 8 = 0;
+        std::uint32_t label = none;
     };
 
-    std::uint32_t fetch(std::uint32_t corner) const {
-        if (corner != none) {
-            __builtin_prefetch(&links_[corner / 3], 1);
-            __builtin_prefetch(&vertices_[corner], 1);
-        }
-        return corner;
-    }
+    /// Of a corner. The three of a face hold its label together.
+    struct Link {
+        std::uint32_t next : 24; ///< corner at the same vertex
+        std::uint32_t label_part : 8;
+    };
 
-    std::uint32_t& next(std::uint32_t corner) { return links_[corner / 3].next[corner % 3]; }
-
-    std::uint32_t next(std::uint32_t corner) const { return links_[corner / 3].next[corner % 3]; }
-
+    void set_label(std::uint32_t face, std::uint32_t label);
     void unlink(std::uint32_t corner);
 
-    std::vector<std::uint32_t> first_corners_; ///< one a vertex
-    std::vector<std::uint32_t> vertices_;      ///< one a corner
-    std::vector<Links> links_;                 ///< one a face
-    std::uint32_t free_ = none;                ///< list of places, through their first corners
+    std::vector<Vertex> vertices_;
+    std::vector<std::uint32_t> indices_;      ///< vertices, one a corner
+    std::vector<Link> links_;                 ///< one a corner
+    std::uint32_t free_ = no_corner;          ///< list of places, through their first corners
+    std::uint32_t free_vertices_ = no_corner; ///< list of them, through Vertex::first
     std::size_t face_count_ = 0;
-    std::size_t most_vertices_;
-    std::size_t most_faces_;
+    std::size_t vertices_at_most_;
+    std::size_t faces_at_most_;
 };
 
 } // namespace octant::visuals::refine

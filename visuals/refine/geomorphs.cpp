@@ -73,7 +73,7 @@ RefinedVertex Geomorphs::drawn(const SelectiveRefiner& refiner, const Move& move
 }
 
 void Geomorphs::start(const SelectiveRefiner& refiner, std::uint32_t split_node) {
-    const Split& split = refiner.mesh().split_of(split_node);
+    const Split split = refiner.mesh().split_of(split_node);
     const std::uint32_t first = refiner.slot_below(split.first);
     const Move* known = find(first);
     const RefinedVertex from =

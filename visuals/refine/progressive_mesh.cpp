@@ -5,6 +5,7 @@
 // they are the third corners of the two original faces that the collapse takes away.
 #include "visuals/refine/progressive_mesh.h"
 
+#include "sim/base/error.h"
 #include "visuals/refine/sequence_parts.h"
 
 #include <glm/geometric.hpp>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 #include <numeric>
 
@@ -52,9 +54,15 @@ ProgressiveMesh::ProgressiveMesh(ProgressiveParts parts)
     : parts_(std::move(parts)) {
     assert(parts_.positions_m.size() == leaf_count() + parts_.splits.size());
     assert(parts_.normals.size() == parts_.positions_m.size());
+    if (face_count() > most_faces) {
+        throw Error(fmt::format(
+            "{}: expected at most {} faces to refine, got {}",
+            parts_.name,
+            most_faces,
+            face_count()));
+    }
     order_faces();
-    find_parents();
-    find_first_leaves();
+    order_nodes();
     find_cuts();
     bound_leaves();
     bound_nodes();
@@ -97,80 +105,196 @@ void ProgressiveMesh::order_faces() {
     }
 }
 
-void ProgressiveMesh::find_parents() {
-    parents_.assign(parts_.positions_m.size(), none);
-    auto node = static_cast<std::uint32_t>(leaf_count());
+/// Finds the roots and gives inner nodes their numbers.
+void ProgressiveMesh::order_nodes() {
+    const auto leaves = static_cast<std::uint32_t>(leaf_count());
+    std::vector<std::uint32_t> first_leaves(parts_.positions_m.size());
+    std::iota(first_leaves.begin(), first_leaves.end(), 0U);
+    std::vector<bool> has_parent(first_leaves.size(), false);
+    auto node = leaves;
     for (Split& split : parts_.splits) {
         assert(split.first < node && split.second < node && split.first != split.second);
-        assert(parents_[split.first] == none && parents_[split.second] == none);
-        parents_[split.first] = node;
-        parents_[split.second] = node;
-        split.error_m = std::max({split.error_m, error_m(split.first), error_m(split.second)});
+        for (const std::uint32_t child : {split.first, split.second}) {
+            assert(!has_parent[child]);
+            has_parent[child] = true;
+            const float error_m = child < leaves ? 0.0F : parts_.splits[child - leaves].error_m;
+            split.error_m = std::max(split.error_m, error_m);
+        }
+        first_leaves[node] = first_leaves[split.first];
+        split.first_leaf = first_leaves[node];
+        split.middle = first_leaves[split.second];
         ++node;
     }
-    for (node = 0; node < parents_.size(); ++node) {
-        if (parents_[node] == none) {
+    for (node = 0; node < has_parent.size(); ++node) {
+        if (!has_parent[node]) {
             roots_.push_back(node);
         }
     }
+    std::ranges::sort(roots_, {}, [&](std::uint32_t root) { return first_leaves[root]; });
+    const std::vector<std::uint32_t> numbers = new_numbers();
+    for (std::uint32_t& root : roots_) {
+        root = numbers[root];
+    }
+    forks_.resize(parts_.splits.size());
+    sequence_numbers_.resize(forks_.size());
+    for (node = leaves; node < numbers.size(); ++node) {
+        const Split& split = parts_.splits[node - leaves];
+        sequence_numbers_[numbers[node] - leaves] = node;
+        forks_[numbers[node] - leaves] = {
+            split.first_leaf,
+            split.middle & 0x7fffffffU,
+            split.second < leaves ? 1U : 0U,
+            split.left_face,
+            split.right_face,
+            none,
+            none,
+            split.error_m};
+    }
+    parts_.splits = {};
+    place_shapes(numbers);
 }
 
-void ProgressiveMesh::find_first_leaves() {
-    for (Split& split : parts_.splits) {
-        split.first_leaf = first_leaf(split.first);
-        split.middle = first_leaf(split.second);
+/// Of each node of the parts, which has its roots and splits by the numbers there.
+std::vector<std::uint32_t> ProgressiveMesh::new_numbers() const {
+    const std::size_t leaves = leaf_count();
+    std::vector<std::uint32_t> numbers(parts_.positions_m.size());
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    auto next = static_cast<std::uint32_t>(numbers.size());
+    std::vector<std::uint32_t> open(roots_.rbegin(), roots_.rend());
+    while (!open.empty()) {
+        const std::uint32_t node = open.back();
+        open.pop_back();
+        if (node >= leaves) {
+            numbers[node] = --next;
+            open.push_back(parts_.splits[node - leaves].second);
+            open.push_back(parts_.splits[node - leaves].first);
+        }
     }
+    return numbers;
+}
+
+std::vector<std::uint32_t> ProgressiveMesh::coarsest_first() const {
+    std::vector<std::uint32_t> nodes(forks_.size());
+    for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+        nodes[node_count() - 1 - sequence_numbers_[i]] =
+            static_cast<std::uint32_t>(leaf_count()) + i;
+    }
+    return nodes;
+}
+
+std::vector<bool> ProgressiveMesh::base_faces() const {
+    std::vector<bool> base(face_count(), true);
+    for (const Fork& fork : forks_) {
+        for (const std::uint32_t face : {fork.left_face, fork.right_face}) {
+            if (face != none) {
+                base[face] = false;
+            }
+        }
+    }
+    return base;
+}
+
+void ProgressiveMesh::place_shapes(const std::vector<std::uint32_t>& numbers) {
+    places_.resize(numbers.size());
+    shapes_.resize(numbers.size());
+    for (std::uint32_t i = 0; i < roots_.size(); ++i) {
+        places_[roots_[i]] = i;
+    }
+    for (auto node = static_cast<std::uint32_t>(leaf_count()); node < places_.size(); ++node) {
+        const std::size_t place = first_child_place(node);
+        places_[split_of(node).first] = static_cast<std::uint32_t>(place);
+        places_[split_of(node).second] = static_cast<std::uint32_t>(place + 1);
+    }
+    has_colours_ = !parts_.colours.empty();
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        NodeShape& here = shape(numbers[i]);
+        here.position_m = parts_.positions_m[i];
+        here.normal = parts_.normals[i];
+        if (has_colours_) {
+            here.colour = parts_.colours[i];
+        }
+    }
+    parts_.positions_m = {};
+    parts_.normals = {};
+    parts_.colours = {};
+}
+
+ProgressiveParts ProgressiveMesh::whole_parts() const {
+    ProgressiveParts parts = parts_;
+    std::vector<std::uint32_t> nodes(leaf_count());
+    std::iota(nodes.begin(), nodes.end(), 0U);
+    const std::vector<std::uint32_t> inner = coarsest_first();
+    nodes.insert(nodes.end(), inner.rbegin(), inner.rend());
+    const auto old_number = [&](std::uint32_t node) {
+        return is_leaf(node) ? node : sequence_number(node);
+    };
+    for (const std::uint32_t node : nodes) {
+        parts.positions_m.push_back(shape(node).position_m);
+        parts.normals.push_back(shape(node).normal);
+        if (has_colours_) {
+            parts.colours.push_back(shape(node).colour);
+        }
+        if (!is_leaf(node)) {
+            const Split split = split_of(node);
+            parts.splits.push_back(
+                {old_number(split.first),
+                 old_number(split.second),
+                 split.left_face,
+                 split.right_face,
+                 split.error_m});
+        }
+    }
+    return parts;
 }
 
 void ProgressiveMesh::find_cuts() {
-    std::vector<std::uint32_t> ends(parts_.splits.size()); // of the leaves below each inner node
-    const auto leaves = static_cast<std::uint32_t>(leaf_count());
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-        Split& split = parts_.splits[i];
-        ends[i] = is_leaf(split.second) ? split.second + 1 : ends[split.second - leaves];
+    std::vector<std::uint32_t> ends(forks_.size()); // of the leaves below each inner node
+    for (auto node = static_cast<std::uint32_t>(leaf_count()); node < node_count(); ++node) {
+        const std::size_t i = node - leaf_count();
+        const std::uint32_t second = split_of(node).second;
+        ends[i] = is_leaf(second) ? second + 1 : ends[second - leaf_count()];
         const auto cut = [&](std::uint32_t face) {
             return face == none ? none
-                                : third_corner(parts_.faces[face], split.first_leaf, ends[i]);
+                                : third_corner(parts_.faces[face], forks_[i].first_leaf, ends[i]);
         };
-        split.left_cut = cut(split.left_face);
-        split.right_cut = cut(split.right_face);
+        forks_[i].left_cut = cut(forks_[i].left_face);
+        forks_[i].right_cut = cut(forks_[i].right_face);
     }
 }
 
 void ProgressiveMesh::bound_leaves() {
-    radii_m_.assign(node_count(), 0.0F);
-    cones_.assign(node_count(), 0);
     for (std::uint32_t face = 0; face < face_count(); ++face) {
         const glm::vec3 normal_of_face = face_normal(face);
         const bool flat = normal_of_face == glm::vec3(0.0F);
         const Triangle& corners = parts_.faces[face];
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t leaf = corners[k];
+        for (const std::uint32_t leaf : corners) {
+            NodeShape& here = shape(leaf);
             for (const std::uint32_t other : corners) {
-                radii_m_[leaf] = std::max(
-                    radii_m_[leaf], rounding * glm::distance(position_m(leaf), position_m(other)));
+                here.radius_m = std::max(
+                    here.radius_m, rounding * glm::distance(here.position_m, position_m(other)));
             }
             const float angle = flat ? 0.0F : angle_rad(normal(leaf), normal_of_face);
-            cones_[leaf] = std::max(cones_[leaf], packed_angle(angle));
+            here.cone = std::max(here.cone, packed_angle(angle));
         }
     }
 }
 
 void ProgressiveMesh::bound_nodes() {
     for (auto node = static_cast<std::uint32_t>(leaf_count()); node < node_count(); ++node) {
-        const Split& split = split_of(node);
+        const Split split = split_of(node);
+        NodeShape& here = shape(node);
         float cone = 0.0F;
         for (const std::uint32_t child : {split.first, split.second}) {
-            const float away_m = glm::distance(position_m(node), position_m(child));
-            radii_m_[node] = std::max(radii_m_[node], rounding * (away_m + radii_m_[child]));
+            const float away_m = glm::distance(here.position_m, position_m(child));
+            here.radius_m = std::max(here.radius_m, rounding * (away_m + radius_m(child)));
             cone = std::max(cone, angle_rad(normal(node), normal(child)) + cone_rad(child));
         }
-        cones_[node] = packed_angle(cone);
+        here.cone = packed_angle(cone);
     }
 }
 
 float ProgressiveMesh::cone_rad(std::uint32_t node) const {
-    return static_cast<float>(cones_[node]) / 65535.0F * pi;
+    return static_cast<float>(shape(node).cone) / 65535.0F * pi;
 }
 
 glm::vec3 ProgressiveMesh::face_normal(std::uint32_t face) const {
@@ -183,11 +307,10 @@ glm::vec3 ProgressiveMesh::face_normal(std::uint32_t face) const {
 }
 
 std::size_t ProgressiveMesh::bytes() const {
-    return sizeof(*this) + bytes_of(parts_.positions_m) + bytes_of(parts_.normals) +
-           bytes_of(parts_.colours) + bytes_of(parts_.splits) + bytes_of(parts_.faces) +
+    return sizeof(*this) + bytes_of(forks_) + bytes_of(sequence_numbers_) + bytes_of(parts_.faces) +
            bytes_of(parts_.face_materials) + bytes_of(parts_.original_faces) +
-           bytes_of(parts_.original_vertices) + bytes_of(parents_) + bytes_of(roots_) +
-           bytes_of(radii_m_) + bytes_of(cones_);
+           bytes_of(parts_.original_vertices) + bytes_of(roots_) + bytes_of(places_) +
+           bytes_of(shapes_);
 }
 
 } // namespace octant::visuals::refine

@@ -17,21 +17,15 @@ class ProgressiveWriting {
 public:
     explicit ProgressiveWriting(const ProgressiveMesh& mesh)
         : mesh_(mesh)
-        , introduced_(mesh.face_count(), false) {}
+        , is_base_(mesh.base_faces())
+        , order_(mesh.coarsest_first()) {}
 
     std::string text() {
-        for (const Split& split : mesh_.parts().splits) {
-            for (const std::uint32_t face : {split.left_face, split.right_face}) {
-                if (face != none) {
-                    introduced_[face] = true;
-                }
-            }
-        }
         add_block(base());
         ByteWriter block;
         std::size_t in_block = 0;
-        for (auto node = mesh_.node_count(); node-- > mesh_.leaf_count();) {
-            put_split(block, static_cast<std::uint32_t>(node));
+        for (const std::uint32_t node : order_) {
+            put_split(block, node);
             if (++in_block == splits_a_block) {
                 add_block(block.bytes());
                 block.bytes().clear();
@@ -67,11 +61,11 @@ private:
         out.put(progressive_version);
         out.put(file_bytes);
         out.put(static_cast<std::uint32_t>(mesh_.leaf_count()));
-        out.put(static_cast<std::uint32_t>(parts.splits.size()));
+        out.put(static_cast<std::uint32_t>(order_.size()));
         out.put(static_cast<std::uint32_t>(mesh_.face_count()));
         out.put(static_cast<std::uint32_t>(mesh_.roots().size()));
         out.put(static_cast<std::uint8_t>(
-            (parts.colours.empty() ? 0 : has_colours) |
+            (mesh_.has_colours() ? has_colours : 0) |
             (parts.face_materials.empty() ? 0 : has_materials)));
         out.put(parts.origin_m);
         out.put_text(parts.name);
@@ -85,9 +79,9 @@ private:
 
     void put_node(ByteWriter& out, std::uint32_t node) const {
         out.put(mesh_.position_m(node));
-        out.put(mesh_.parts().normals[node]);
-        if (!mesh_.parts().colours.empty()) {
-            out.put(mesh_.parts().colours[node]);
+        out.put(mesh_.packed_normal(node));
+        if (mesh_.has_colours()) {
+            out.put(mesh_.packed_colour(node));
         }
     }
 
@@ -115,10 +109,10 @@ private:
             out.put_short(*std::next(at) - *at);
             put_node(out, root);
         }
-        const auto inner = std::ranges::count(introduced_, false);
+        const auto inner = std::ranges::count(is_base_, true);
         out.put_short(static_cast<std::uint64_t>(inner));
-        for (std::uint32_t face = 0; face < introduced_.size(); ++face) {
-            if (!introduced_[face]) {
+        for (std::uint32_t face = 0; face < is_base_.size(); ++face) {
+            if (is_base_[face]) {
                 put_face(out, face, 0);
             }
         }
@@ -126,7 +120,7 @@ private:
     }
 
     void put_split(ByteWriter& out, std::uint32_t node) const {
-        const Split& split = mesh_.split_of(node);
+        const Split split = mesh_.split_of(node);
         const std::uint32_t begin = mesh_.first_leaf(node);
         const std::uint32_t middle = mesh_.first_leaf(split.second);
         out.put_short(begin);
@@ -151,13 +145,13 @@ private:
             last = number;
         };
         std::ranges::for_each(mesh_.parts().original_vertices, put);
-        for (std::uint32_t face = 0; face < introduced_.size(); ++face) {
-            if (!introduced_[face]) {
+        for (std::uint32_t face = 0; face < is_base_.size(); ++face) {
+            if (is_base_[face]) {
                 put(mesh_.original_face(face));
             }
         }
-        for (auto node = mesh_.node_count(); node-- > mesh_.leaf_count();) {
-            const Split& split = mesh_.split_of(static_cast<std::uint32_t>(node));
+        for (const std::uint32_t node : order_) {
+            const Split split = mesh_.split_of(node);
             for (const std::uint32_t face : {split.left_face, split.right_face}) {
                 if (face != none) {
                     put(mesh_.original_face(face));
@@ -168,7 +162,8 @@ private:
     }
 
     const ProgressiveMesh& mesh_;
-    std::vector<bool> introduced_;
+    std::vector<bool> is_base_;
+    std::vector<std::uint32_t> order_; ///< of the splits
     std::string text_;
 };
 

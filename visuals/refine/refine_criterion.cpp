@@ -31,8 +31,8 @@ double facing_weight(
     }
     const double cosine = glm::dot(glm::dvec3(mesh.normal(node)), to_eye_m) / distance_m;
     const double angle_rad = std::acos(std::clamp(cosine, -1.0, 1.0));
-    const double play_rad =
-        static_cast<double>(mesh.cone_rad(node)) + std::asin(radius_m / distance_m);
+    const double play_rad = static_cast<double>(mesh.cone_rad(node)) +
+                            std::asin(radius_m / distance_m) + options.play_rad;
     // Largest and least angle between a normal below the node and the way to the eye; monotone
     // up the tree, and so is the weight.
     const double most = (angle_rad + play_rad - right_angle_rad) / ramp_rad;
@@ -54,7 +54,7 @@ double picture_weight(
     if (distance_m <= radius_m) {
         return 1.0;
     }
-    const double play_rad = std::asin(radius_m / distance_m);
+    const double play_rad = std::asin(radius_m / distance_m) + options.play_rad;
     double outside_rad = 0.0;
     for (const glm::dvec3& normal : view.side_normals) {
         const double sine = glm::dot(normal, to_eye_m) / distance_m;

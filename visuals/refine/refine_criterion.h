@@ -36,6 +36,7 @@ struct CriterionOptions {
     double front_weight = 1.0;
     double back_weight = 0.0;    ///< of what is turned away as a whole
     double outside_weight = 0.1; ///< of what is not in the picture: it may be soon
+    double play_rad = 0.0;       ///< weights are the largest for directions so far off
 };
 
 /// Error of an inner node as it would show on the screen, pixels, weighted. A node's is never more

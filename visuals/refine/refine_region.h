@@ -16,7 +16,7 @@ struct Sphere {
     double radius_m = 0.0;
 };
 
-/// Splits, coarsest first, until every original vertex in one of the spheres is active. Returns how
+/// Splits until every original vertex in one of the spheres is active. Returns how
 /// many splits of the base mesh that takes by itself: inner nodes with such a vertex below. Without
 /// repair().
 std::size_t refine_regions(SelectiveRefiner& refiner, std::span<const Sphere> regions);
@@ -24,7 +24,7 @@ std::size_t refine_regions(SelectiveRefiner& refiner, std::span<const Sphere> re
 /// The same for all vertices below a node.
 std::size_t refine_below(SelectiveRefiner& refiner, std::uint32_t node);
 
-/// Splits every node that shows an error above `error_px`, coarsest first. Returns how many these
+/// Splits every node that shows an error above `error_px`. Returns how many these
 /// are. Without repair().
 std::size_t refine_for_view(
     SelectiveRefiner& refiner,

@@ -5,17 +5,18 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 namespace octant::visuals::refine {
 
 namespace {
 
-constexpr std::uint8_t once = 1;  // seen in one face of the first vertex
-constexpr std::uint8_t twice = 2; // in two
-constexpr std::uint8_t seen = 4;  // met at the second vertex
-constexpr std::uint8_t changed = 8;
-constexpr std::uint8_t link_bits = once | twice | seen;
+constexpr std::uint32_t once = 1;  // seen in one face of the first vertex
+constexpr std::uint32_t twice = 2; // in two
+constexpr std::uint32_t seen = 4;  // met at the second vertex
+constexpr std::uint32_t changed = 8;
+constexpr std::uint32_t link_bits = once | twice | seen;
 
 /// Whether a triangle's normal is more than 90 degrees off another one.
 bool is_against(
@@ -37,9 +38,10 @@ bool SelectiveRefiner::links_allow(std::uint32_t first_slot, std::uint32_t secon
         ++first_faces;
         for (const std::uint32_t at :
              {FaceLists::next_in_face(corner), FaceLists::before_in_face(corner)}) {
-            std::uint8_t& mark = marks_[faces_.vertex(at)];
-            first_open += (mark & once) == 0 ? 1 : -1;
-            mark |= (mark & once) == 0 ? once : twice;
+            const std::uint32_t other = faces_.vertex(at);
+            const bool is_new = (faces_.marks(other) & once) == 0;
+            first_open += is_new ? 1 : -1;
+            mark(other, is_new ? once : twice);
         }
     });
     std::size_t second_faces = 0;
@@ -51,12 +53,11 @@ bool SelectiveRefiner::links_allow(std::uint32_t first_slot, std::uint32_t secon
         for (const std::uint32_t at :
              {FaceLists::next_in_face(corner), FaceLists::before_in_face(corner)}) {
             const std::uint32_t other = faces_.vertex(at);
-            std::uint8_t& mark = marks_[other];
             between += static_cast<std::size_t>(other == first_slot);
-            if ((mark & seen) == 0) {
-                mark |= seen;
+            if ((faces_.marks(other) & seen) == 0) {
+                mark(other, seen);
                 ++second_neighbours;
-                common += static_cast<std::size_t>((mark & once) != 0);
+                common += static_cast<std::size_t>((faces_.marks(other) & once) != 0);
             }
         }
     });
@@ -69,12 +70,24 @@ bool SelectiveRefiner::links_allow(std::uint32_t first_slot, std::uint32_t secon
     return common == between && !(both_open && between == 2) && !alone;
 }
 
+void SelectiveRefiner::mark(std::uint32_t slot, std::uint32_t bits) {
+    faces_.set_marks(slot, faces_.marks(slot) | bits);
+}
+
+void SelectiveRefiner::unmark(std::uint32_t slot, std::uint32_t bits) {
+    faces_.set_marks(slot, faces_.marks(slot) & ~bits);
+}
+
 void SelectiveRefiner::clear_link_marks(std::uint32_t slot) {
-    constexpr auto kept = static_cast<std::uint8_t>(~link_bits);
     faces_.each_corner(slot, [&](std::uint32_t corner) {
-        marks_[faces_.vertex(FaceLists::next_in_face(corner))] &= kept;
-        marks_[faces_.vertex(FaceLists::before_in_face(corner))] &= kept;
+        unmark(faces_.vertex(FaceLists::next_in_face(corner)), link_bits);
+        unmark(faces_.vertex(FaceLists::before_in_face(corner)), link_bits);
     });
+}
+
+/// Where the node at a corner lies.
+const glm::vec3& SelectiveRefiner::position_at(std::uint32_t corner) const {
+    return mesh_->position_m(node_at(faces_.vertex(corner)));
 }
 
 /// Whether a face at a slot, but not at `other`, is turned over when the slot's vertex lies where
@@ -88,8 +101,8 @@ bool SelectiveRefiner::turns_faces(
         turns = turns || (b != other && c != other &&
                           is_against(
                               mesh_->position_m(node),
-                              mesh_->position_m(nodes_[b]),
-                              mesh_->position_m(nodes_[c]),
+                              mesh_->position_m(node_at(b)),
+                              mesh_->position_m(node_at(c)),
                               mesh_->face_normal(faces_.label(corner / 3))));
     });
     return turns;
@@ -98,9 +111,9 @@ bool SelectiveRefiner::turns_faces(
 bool SelectiveRefiner::is_turned(std::uint32_t place) const {
     const std::uint32_t face = faces_.label(place);
     return face != none && is_against(
-                               mesh_->position_m(nodes_[faces_.vertex(3 * place)]),
-                               mesh_->position_m(nodes_[faces_.vertex(3 * place + 1)]),
-                               mesh_->position_m(nodes_[faces_.vertex(3 * place + 2)]),
+                               position_at(3 * place),
+                               position_at(3 * place + 1),
+                               position_at(3 * place + 2),
                                mesh_->face_normal(face));
 }
 
@@ -113,33 +126,39 @@ std::size_t SelectiveRefiner::turned_faces() const {
 }
 
 /// Of a face that is not an original one as it was.
-std::uint32_t SelectiveRefiner::coarsest_corner(std::uint32_t place) const {
-    std::uint32_t coarsest = none;
+std::uint32_t SelectiveRefiner::coarsest_corner(
+    std::uint32_t place, const std::function<bool(std::uint32_t)>& spare) const {
+    std::array<std::uint32_t, 2> coarsest{none, none}; // of all, of those not spared
     for (std::uint32_t k = 0; k < 3; ++k) {
-        const std::uint32_t node = nodes_[faces_.vertex(3 * place + k)];
-        if (!mesh_->is_leaf(node) &&
-            (coarsest == none || mesh_->error_m(node) > mesh_->error_m(coarsest))) {
-            coarsest = node;
+        const std::uint32_t node = node_at(faces_.vertex(3 * place + k));
+        if (mesh_->is_leaf(node)) {
+            continue;
+        }
+        const bool spared = spare && spare(node);
+        for (std::size_t i = 0; i < (spared ? 1U : 2U); ++i) {
+            if (coarsest[i] == none || mesh_->error_m(node) > mesh_->error_m(coarsest[i])) {
+                coarsest[i] = node;
+            }
         }
     }
-    return coarsest;
+    return coarsest[1] != none ? coarsest[1] : coarsest[0];
 }
 
 void SelectiveRefiner::note_change(std::uint32_t slot) {
-    if (options_.repair && (marks_[slot] & changed) == 0) {
-        marks_[slot] |= changed;
+    if (options_.repair && (faces_.marks(slot) & changed) == 0) {
+        mark(slot, changed);
         changed_.push_back(slot);
     }
 }
 
-std::size_t SelectiveRefiner::repair() {
+std::size_t SelectiveRefiner::repair(const std::function<bool(std::uint32_t)>& spare) {
     const std::size_t before = counts_.splits;
     const std::size_t by_rule = counts_.forced_by_rule;
     while (!changed_.empty()) {
         const std::uint32_t slot = changed_.back();
         changed_.pop_back();
-        marks_[slot] &= static_cast<std::uint8_t>(~changed);
-        repair_around(slot);
+        unmark(slot, changed);
+        repair_around(slot, spare);
     }
     const std::size_t done = counts_.splits - before;
     counts_.forced_by_rule = by_rule;
@@ -147,8 +166,9 @@ std::size_t SelectiveRefiner::repair() {
     return done;
 }
 
-void SelectiveRefiner::repair_around(std::uint32_t slot) {
-    if (nodes_[slot] == none) {
+void SelectiveRefiner::repair_around(
+    std::uint32_t slot, const std::function<bool(std::uint32_t)>& spare) {
+    if (node_at(slot) == none) {
         return;
     }
     std::uint32_t turned = none;
@@ -158,12 +178,43 @@ void SelectiveRefiner::repair_around(std::uint32_t slot) {
     if (turned == none) {
         return;
     }
-    const std::uint32_t coarsest = coarsest_corner(turned);
+    const std::uint32_t coarsest = coarsest_corner(turned, spare);
     if (coarsest == none) {
         return; // an original face that rounding turned
     }
     note_change(slot); // looked at again behind the split
     split(coarsest);
+}
+
+void SelectiveRefiner::nodes_forced_by(
+    std::uint32_t active_node, std::vector<std::uint32_t>& forced) const {
+    forced.clear();
+    add_forced(active_node, forced);
+    forced.pop_back();
+}
+
+/// Adds what must be split for a node that is active once those in `split` are, then that node.
+void SelectiveRefiner::add_forced(std::uint32_t node, std::vector<std::uint32_t>& split) const {
+    const Split wanted = mesh_->split_of(node);
+    while (wanted.left_cut != none && wanted.right_cut != none) {
+        const std::uint32_t left = ancestor_after(wanted.left_cut, split);
+        if (left != ancestor_after(wanted.right_cut, split)) {
+            break;
+        }
+        add_forced(left, split);
+    }
+    split.push_back(node);
+}
+
+/// The active node above a leaf once those in `split` are split.
+std::uint32_t
+SelectiveRefiner::ancestor_after(std::uint32_t leaf, std::span<const std::uint32_t> split) const {
+    std::uint32_t node = active_ancestor(leaf);
+    while (std::ranges::find(split, node) != split.end()) {
+        const Split done = mesh_->split_of(node);
+        node = leaf < done.middle ? done.first : done.second;
+    }
+    return node;
 }
 
 } // namespace octant::visuals::refine

@@ -9,9 +9,39 @@
 //   walking from one cut vertex to the other.
 #include "visuals/refine/selective_refiner.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cassert>
+#include <functional>
 
 namespace octant::visuals::refine {
+
+namespace {
+
+RefinedVertex drawn(const NodeShape& shape) {
+    return {shape.position_m, shape.normal, drawn_colour(shape.colour)};
+}
+
+/// The same nodes, each once, the largest number first.
+std::vector<std::uint32_t> falling(std::span<const std::uint32_t> nodes, std::size_t node_count) {
+    std::vector<std::uint64_t> wanted(node_count / 64 + 1, 0);
+    for (const std::uint32_t node : nodes) {
+        wanted[node / 64] |= std::uint64_t{1} << node % 64;
+    }
+    std::vector<std::uint32_t> ordered;
+    ordered.reserve(nodes.size());
+    for (std::size_t word = wanted.size(); word-- > 0;) {
+        for (std::uint64_t bits = wanted[word]; bits != 0;) {
+            const auto bit = static_cast<std::size_t>(63 - std::countl_zero(bits));
+            ordered.push_back(static_cast<std::uint32_t>(64 * word + bit));
+            bits ^= std::uint64_t{1} << bit;
+        }
+    }
+    return ordered;
+}
+
+} // namespace
 
 SelectiveRefiner::SelectiveRefiner(
     std::shared_ptr<const ProgressiveMesh> mesh, RefinerOptions options)
@@ -22,42 +52,31 @@ SelectiveRefiner::SelectiveRefiner(
         options_.earlier = std::make_shared<const EarlierRules>(*mesh_);
     }
     stack_.reserve(64);
+    path_.reserve(64);
     restart();
 }
 
 void SelectiveRefiner::restart() {
     faces_.clear();
-    nodes_.clear();
     vertices_.clear();
-    marks_.clear();
-    free_slots_.clear();
     changed_.clear();
     recent_splits_.clear();
-    active_.assign(mesh_->node_count() / 64 + 1, 0);
-    split_.assign(mesh_->node_count() / 64 + 1, 0);
-    slots_.assign(mesh_->node_count(), 0);
+    starts_.assign(mesh_->leaf_count());
+    slots_.assign(mesh_->leaf_count());
     for (const std::uint32_t root : mesh_->roots()) {
-        flip(active_, root);
+        starts_.add(mesh_->first_leaf(root));
         const std::uint32_t slot = new_slot();
-        nodes_[slot] = root;
-        slots_[root] = slot;
-        vertices_[slot] = vertex_of(root);
+        slots_.set(mesh_->first_leaf(root), slot);
+        put(slot, root, mesh_->shape(root));
         note_change(slot);
     }
-    active_count_ = nodes_.size();
-    std::vector<bool> introduced(mesh_->face_count(), false);
-    for (const Split& split : mesh_->parts().splits) {
-        for (const std::uint32_t face : {split.left_face, split.right_face}) {
-            if (face != none) {
-                introduced[face] = true;
-            }
-        }
-    }
-    for (std::uint32_t face = 0; face < introduced.size(); ++face) {
-        if (!introduced[face]) {
+    active_count_ = faces_.vertex_count();
+    const std::vector<bool> base = mesh_->base_faces();
+    for (std::uint32_t face = 0; face < base.size(); ++face) {
+        if (base[face]) {
             std::array<std::uint32_t, 3> corners = mesh_->faces()[face];
             for (std::uint32_t& corner : corners) {
-                corner = slot(active_ancestor(corner));
+                corner = slot_above(corner);
             }
             dirty_faces_.mark(faces_.add(corners, face));
         }
@@ -65,39 +84,49 @@ void SelectiveRefiner::restart() {
 }
 
 std::uint32_t SelectiveRefiner::new_slot() {
-    std::uint32_t slot = 0;
-    if (!free_slots_.empty()) {
-        slot = free_slots_.back();
-        free_slots_.pop_back();
-    } else {
-        slot = static_cast<std::uint32_t>(nodes_.size());
-        make_room(nodes_, nodes_.size() + 1, mesh_->leaf_count());
-        make_room(vertices_, nodes_.size() + 1, mesh_->leaf_count());
-        nodes_.push_back(none);
-        marks_.push_back(0);
+    const std::uint32_t slot = faces_.add_vertex();
+    if (slot >= vertices_.size()) {
+        make_room(vertices_, vertices_.size() + 1, mesh_->leaf_count());
         vertices_.emplace_back();
-        faces_.resize_vertices(nodes_.size());
     }
     dirty_vertices_.mark(slot);
     return slot;
 }
 
+/// Lets a slot stand for a node, where the node lies.
+void SelectiveRefiner::put(std::uint32_t slot, std::uint32_t node, const NodeShape& shape) {
+    faces_.set_vertex_label(slot, node);
+    vertices_[slot] = drawn(shape);
+}
+
 std::size_t SelectiveRefiner::split(std::uint32_t node) {
+    return split_one(node, nullptr);
+}
+
+/// Adds the nodes that were split for others to `forced`.
+std::size_t SelectiveRefiner::split_one(std::uint32_t node, std::vector<std::uint32_t>* forced) {
     assert(!mesh_->is_leaf(node));
-    const std::size_t before = counts_.splits;
-    if (is_split(node)) {
-        return 0;
+    const std::uint32_t leaf = mesh_->first_leaf(node);
+    const std::uint32_t begins_there = starts_.has(leaf) ? node_at(slots_[leaf]) : none;
+    if (begins_there < node) {
+        return 0; // it is split
     }
-    if (is_active(node) && options_.rule == SplitRule::Selective) {
-        fetch_children(node);
+    if (begins_there == node && options_.rule == SplitRule::Selective) {
         if (const Cuts cuts = active_cuts(node); cuts.left != cuts.right) { // nearly always
             split_now(node, cuts);
             return 1;
         }
     }
-    std::size_t asked = 0; // the node itself and its ancestors
-    for (std::uint32_t path = node; path != none && !is_split(path); path = mesh_->parent(path)) {
-        ++asked;
+    const std::size_t before = counts_.splits;
+    split_with_others(node, forced);
+    return counts_.splits - before;
+}
+
+/// Splits an inner node that is not split yet, and before it what is above it and what it needs.
+void SelectiveRefiner::split_with_others(std::uint32_t node, std::vector<std::uint32_t>* forced) {
+    path_.clear(); // the node itself and its ancestors: asked for
+    for (std::uint32_t at = node; at != none && !is_split(at); at = mesh_->parent(at)) {
+        path_.push_back(at);
     }
     stack_.push_back(node);
     while (!stack_.empty()) {
@@ -109,25 +138,44 @@ std::size_t SelectiveRefiner::split(std::uint32_t node) {
         } else if (const std::uint32_t first = needed_before(next); first != none) {
             stack_.push_back(first);
         } else if (const Cuts cuts = active_cuts(next); cuts.left == cuts.right) {
-            stack_.push_back(cuts.left);
+            stack_.push_back(node_at(slots_[cuts.left]));
         } else {
             split_now(next, cuts);
             stack_.pop_back();
+            if (std::ranges::find(path_, next) == path_.end()) {
+                ++counts_.forced_by_rule;
+                if (forced != nullptr) {
+                    forced->push_back(next);
+                }
+            }
         }
     }
-    const std::size_t done = counts_.splits - before;
-    counts_.forced_by_rule += done - asked;
-    return done;
 }
 
-/// The active vertices beside both children of an active node once it has split: val and var. Only
-/// two of them are ever the same: one of a boundary is numbered beyond all nodes.
+/// By falling numbers: then each split finds most of what it reads where the one before left it.
+std::size_t SelectiveRefiner::split_all(std::span<const std::uint32_t> nodes) {
+    const std::size_t before = counts_.splits;
+    const std::vector<std::uint32_t> ordered = falling(nodes, mesh_->node_count());
+    std::vector<std::uint32_t> forced;
+    for (const std::uint32_t node : ordered) {
+        split_one(node, &forced);
+    }
+    for (const std::uint32_t node : forced) { // asked for after all where one below it was
+        const auto next = std::ranges::lower_bound(ordered, node, std::greater{});
+        const std::uint32_t below = mesh_->last_leaf(node) - mesh_->first_leaf(node);
+        counts_.forced_by_rule -=
+            static_cast<std::size_t>(next != ordered.end() && *next + below > node);
+    }
+    return counts_.splits - before;
+}
+
+/// Where the active vertices beside both children begin: those of val and var.
 SelectiveRefiner::Cuts SelectiveRefiner::active_cuts(std::uint32_t node) const {
     const std::uint32_t left = mesh_->split_of(node).left_cut;
     const std::uint32_t right = mesh_->split_of(node).right_cut;
     return {
-        left == none ? none : active_ancestor(left),
-        right == none ? none - 1 : active_ancestor(right)};
+        left == none ? none : starts_.at_or_before(left),
+        right == none ? none - 1 : starts_.at_or_before(right)};
 }
 
 /// A node that the earlier rules want split before an active one; none when it may split.
@@ -167,22 +215,20 @@ std::uint32_t SelectiveRefiner::needed_by_xia(std::uint32_t node) const {
 }
 
 void SelectiveRefiner::split_now(std::uint32_t node, const Cuts& cuts) {
-    const Split& split = mesh_->split_of(node);
+    const Split split = mesh_->split_of(node);
     const std::uint32_t middle = split.middle;
-    const std::uint32_t first_slot = slot(node);
+    const std::uint32_t first_slot = slots_[split.first_leaf];
     const std::uint32_t second_slot = new_slot();
-    swap_activity(node);
+    starts_.add(middle);
+    slots_.set(middle, second_slot);
     ++active_count_;
     ++counts_.splits;
     if (options_.remember_splits) {
         recent_splits_.push_back(node);
     }
-    nodes_[first_slot] = split.first;
-    nodes_[second_slot] = split.second;
-    slots_[split.first] = first_slot;
-    slots_[split.second] = second_slot;
-    vertices_[first_slot] = vertex_of(split.first);
-    vertices_[second_slot] = vertex_of(split.second);
+    const auto shapes = mesh_->child_shapes(node);
+    put(first_slot, split.first, shapes[0]);
+    put(second_slot, split.second, shapes[1]);
     dirty_vertices_.mark(first_slot);
     faces_.move_corners(first_slot, second_slot, [&](std::uint32_t corner) {
         const bool moves = mesh_->faces()[faces_.label(corner / 3)][corner % 3] >= middle;
@@ -190,9 +236,10 @@ void SelectiveRefiner::split_now(std::uint32_t node, const Cuts& cuts) {
         return moves;
     });
     const auto add_face = [&](std::uint32_t face, std::uint32_t cut_leaf, std::uint32_t cut) {
+        const std::uint32_t cut_slot = slots_[cut];
         std::array<std::uint32_t, 3> corners = mesh_->faces()[face];
         for (std::uint32_t& corner : corners) {
-            corner = corner == cut_leaf ? slot(cut) : corner >= middle ? second_slot : first_slot;
+            corner = corner == cut_leaf ? cut_slot : corner >= middle ? second_slot : first_slot;
         }
         dirty_faces_.mark(faces_.add(corners, face));
     };
@@ -206,18 +253,9 @@ void SelectiveRefiner::split_now(std::uint32_t node, const Cuts& cuts) {
     note_change(second_slot);
 }
 
-/// Between an inner node and its children.
-void SelectiveRefiner::swap_activity(std::uint32_t node) {
-    const Split& split = mesh_->split_of(node);
-    flip(active_, node);
-    flip(split_, node);
-    flip(active_, split.first);
-    flip(active_, split.second);
-}
-
 bool SelectiveRefiner::may_collapse(std::uint32_t node) {
     assert(!mesh_->is_leaf(node));
-    const Split& split = mesh_->split_of(node);
+    const Split split = mesh_->split_of(node);
     if (!is_active(split.first) || !is_active(split.second)) {
         return false;
     }
@@ -238,7 +276,7 @@ bool SelectiveRefiner::collapse(std::uint32_t node) {
 }
 
 void SelectiveRefiner::collapse_now(std::uint32_t node) {
-    const Split& split = mesh_->split_of(node);
+    const Split split = mesh_->split_of(node);
     const std::uint32_t first_slot = slot(split.first);
     const std::uint32_t second_slot = slot(split.second);
     for (const std::uint32_t face : {split.left_face, split.right_face}) {
@@ -252,19 +290,17 @@ void SelectiveRefiner::collapse_now(std::uint32_t node) {
         dirty_faces_.mark(corner / 3);
         return true;
     });
-    swap_activity(node);
+    starts_.remove(split.middle);
     --active_count_;
     ++counts_.collapses;
-    nodes_[first_slot] = node;
-    nodes_[second_slot] = none;
-    free_slots_.push_back(second_slot);
-    vertices_[first_slot] = vertex_of(node);
+    faces_.remove_vertex(second_slot);
+    put(first_slot, node, mesh_->shape(node));
     dirty_vertices_.mark(first_slot);
     note_change(first_slot);
 }
 
 RefinedVertex SelectiveRefiner::vertex_of(std::uint32_t node) const {
-    return {mesh_->position_m(node), mesh_->packed_normal(node), mesh_->colour(node)};
+    return drawn(mesh_->shape(node));
 }
 
 void SelectiveRefiner::draw_at(std::uint32_t slot, const RefinedVertex& vertex) {
@@ -281,11 +317,10 @@ void SelectiveRefiner::take_dirty_faces(std::vector<PlaceRange>& ranges) {
 }
 
 std::size_t SelectiveRefiner::bytes() const {
-    const std::size_t numbers = nodes_.capacity() + slots_.capacity() + free_slots_.capacity() +
-                                stack_.capacity() + changed_.capacity();
-    return sizeof(*this) + faces_.bytes() + sizeof(std::uint32_t) * numbers +
-           sizeof(std::uint64_t) * (active_.capacity() + split_.capacity()) + marks_.capacity() +
-           dirty_vertices_.bytes() + dirty_faces_.bytes();
+    const std::size_t numbers =
+        stack_.capacity() + path_.capacity() + changed_.capacity() + recent_splits_.capacity();
+    return sizeof(*this) + faces_.bytes() + starts_.bytes() + slots_.bytes() +
+           sizeof(std::uint32_t) * numbers + dirty_vertices_.bytes() + dirty_faces_.bytes();
 }
 
 } // namespace octant::visuals::refine

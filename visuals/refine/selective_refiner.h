@@ -1,14 +1,17 @@
 #pragma once
 
+#include "visuals/refine/active_starts.h"
 #include "visuals/refine/dirty_blocks.h"
 #include "visuals/refine/earlier_rules.h"
 #include "visuals/refine/face_lists.h"
 #include "visuals/refine/progressive_mesh.h"
+#include "visuals/refine/short_numbers.h"
 
 #include <glm/vec3.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -63,9 +66,13 @@ public:
     /// splits were done: 0 when it is split already.
     std::size_t split(std::uint32_t node);
 
-    /// split() of each, in this order, in less time: what a later one needs from memory is fetched
-    /// while an earlier one is split.
+    /// split() of each, in an order of its own that takes the least time. Counts of forced splits
+    /// leave out those that were asked for.
     std::size_t split_all(std::span<const std::uint32_t> nodes);
+
+    /// Puts the nodes that split(active_node) would split before that one into `forced`, in order;
+    /// by the rule Selective.
+    void nodes_forced_by(std::uint32_t active_node, std::vector<std::uint32_t>& forced) const;
 
     /// Back to the base mesh. Keeps the memory; counts go on.
     void restart();
@@ -87,22 +94,29 @@ public:
     /// Splits the coarsest corner of each face that is turned over against its original, until none
     /// is (only faces changed since the last call are looked at). Returns how many splits were
     /// done. Without options().repair nothing happens. A split made here may be collapsed again.
-    std::size_t repair();
+    /// Corners whose nodes spare(node) is true for are only split where there is no other.
+    std::size_t repair(const std::function<bool(std::uint32_t)>& spare = {});
 
     /// Faces of the active mesh that are turned over: their normal is more than 90 degrees off the
     /// original face's.
     std::size_t turned_faces() const;
 
-    bool is_active(std::uint32_t node) const { return bit(active_, node); }
+    bool is_active(std::uint32_t node) const {
+        const std::uint32_t leaf = mesh_->first_leaf(node);
+        return starts_.has(leaf) && node_at(slots_[leaf]) == node;
+    }
 
-    bool is_split(std::uint32_t node) const { return bit(split_, node); }
+    bool is_split(std::uint32_t node) const { // what is active there lies below it
+        const std::uint32_t leaf = mesh_->first_leaf(node);
+        return starts_.has(leaf) && node_at(slots_[leaf]) < node;
+    }
 
     /// The active node that a leaf lies below.
-    std::uint32_t active_ancestor(std::uint32_t leaf) const {
-        while (!is_active(leaf)) {
-            leaf = mesh_->parent(leaf);
-        }
-        return leaf;
+    std::uint32_t active_ancestor(std::uint32_t leaf) const { return node_at(slot_above(leaf)); }
+
+    /// Its place in the arrays below.
+    std::uint32_t slot_above(std::uint32_t leaf) const {
+        return slots_[starts_.at_or_before(leaf)];
     }
 
     std::size_t active_count() const { return active_count_; }
@@ -112,15 +126,15 @@ public:
     const RefinerCounts& counts() const { return counts_; }
 
     /// Place of an active node in the arrays below. A node's first child takes its place over.
-    std::uint32_t slot(std::uint32_t active_node) const { return slots_[active_node]; }
-
-    /// The same for a split node: the place of the active node at its first leaf.
-    std::uint32_t slot_below(std::uint32_t split_node) const {
-        return slots_[split_node]; // handed down with every split
+    std::uint32_t slot(std::uint32_t active_node) const {
+        return slots_[mesh_->first_leaf(active_node)];
     }
 
+    /// The same for a split node: the place of the active node at its first leaf.
+    std::uint32_t slot_below(std::uint32_t split_node) const { return slot(split_node); }
+
     /// none for a place without a vertex.
-    std::uint32_t node_at(std::uint32_t slot) const { return nodes_[slot]; }
+    std::uint32_t node_at(std::uint32_t slot) const { return faces_.vertex_label(slot); }
 
     /// By slot, places without a vertex included.
     std::span<const RefinedVertex> vertices() const { return vertices_; }
@@ -147,57 +161,48 @@ public:
     std::size_t bytes() const;
 
 private:
-    using Bits = std::vector<std::uint64_t>;
-
+    /// First leaves of the active nodes beside both children of a node that is to be split; none
+    /// and none - 1 beyond a boundary.
     struct Cuts {
         std::uint32_t left = none;
         std::uint32_t right = none;
     };
-
-    struct Ahead;
-
-    void fetch_node(std::uint32_t node) const;
-    void fetch_children(std::uint32_t node) const;
-    void fetch_slot(std::uint32_t slot) const;
-    void fetch_around(Ahead& ahead) const;
-
-    static bool bit(const Bits& bits, std::uint32_t at) {
-        return (bits[at / 64] >> (at % 64) & 1U) != 0;
-    }
-
-    static void flip(Bits& bits, std::uint32_t at) {
-        bits[at / 64] ^= std::uint64_t{1} << (at % 64);
-    }
 
     Cuts active_cuts(std::uint32_t node) const;
     std::uint32_t needed_before(std::uint32_t node) const;
     std::uint32_t needed_by_hoppe(std::uint32_t node) const;
     std::uint32_t needed_by_xia(std::uint32_t node) const;
     std::uint32_t new_slot();
+    void put(std::uint32_t slot, std::uint32_t node, const NodeShape& shape);
+    std::size_t split_one(std::uint32_t node, std::vector<std::uint32_t>* forced);
+    void split_with_others(std::uint32_t node, std::vector<std::uint32_t>* forced);
     void split_now(std::uint32_t node, const Cuts& cuts);
-    void swap_activity(std::uint32_t node);
     void collapse_now(std::uint32_t node);
     void note_change(std::uint32_t slot);
     bool links_allow(std::uint32_t first_slot, std::uint32_t second_slot);
+    void mark(std::uint32_t slot, std::uint32_t bits);
+    void unmark(std::uint32_t slot, std::uint32_t bits);
     void clear_link_marks(std::uint32_t slot);
+    const glm::vec3& position_at(std::uint32_t corner) const;
     bool turns_faces(std::uint32_t slot, std::uint32_t other, std::uint32_t node) const;
-    void repair_around(std::uint32_t slot);
+    void repair_around(std::uint32_t slot, const std::function<bool(std::uint32_t)>& spare);
+    void add_forced(std::uint32_t node, std::vector<std::uint32_t>& split) const;
+    std::uint32_t ancestor_after(std::uint32_t leaf, std::span<const std::uint32_t> split) const;
     bool is_turned(std::uint32_t place) const;
-    std::uint32_t coarsest_corner(std::uint32_t place) const;
+    std::uint32_t
+    coarsest_corner(std::uint32_t place, const std::function<bool(std::uint32_t)>& spare) const;
 
     std::shared_ptr<const ProgressiveMesh> mesh_;
     RefinerOptions options_;
-    FaceLists faces_; ///< labels are original faces
-    std::vector<RefinedVertex> vertices_;
-    std::vector<std::uint32_t> nodes_; ///< one a slot
-    std::vector<std::uint32_t> slots_; ///< by node, of active and split ones; else anything
-    Bits active_;
-    Bits split_;
-    std::vector<std::uint32_t> free_slots_;
-    std::vector<std::uint32_t> stack_;   ///< nodes to split, the next one last
-    std::vector<std::uint32_t> changed_; ///< slots whose faces repair() looks at
+    FaceLists faces_; ///< vertices are slots labelled with their nodes, faces with the originals
+    std::vector<RefinedVertex> vertices_; ///< one a slot
+    ActiveStarts starts_;                 ///< first leaves of active nodes
+    ShortNumbers slots_;                  ///< by first leaf, of active nodes; else anything
+    std::vector<std::uint32_t> stack_;    ///< nodes to split, the next one last
+    std::vector<std::uint32_t> path_;     ///< of split_with_others
+    std::vector<std::uint32_t> forced_;   ///< nodes split for others in a split_all
+    std::vector<std::uint32_t> changed_;  ///< slots whose faces repair() looks at
     std::vector<std::uint32_t> recent_splits_;
-    std::vector<std::uint8_t> marks_; ///< one a slot: bits of links_allow and changed_
     DirtyBlocks dirty_vertices_;
     DirtyBlocks dirty_faces_;
     RefinerCounts counts_;

@@ -22,7 +22,7 @@ RefinedFrame ViewRefiner::update(const RefineView& view) {
     const RefinerCounts before = front_.counts();
     gather();
     split_worst();
-    front_.repair();
+    front_.repair([this](std::uint32_t node) { return needs_resting(node); });
     start_moves();
     turn_back_moves();
     merge_smallest();
@@ -63,9 +63,8 @@ void ViewRefiner::gather() {
             !front_.is_active(mesh.split_of(parent).second)) {
             continue;
         }
-        const double shown_px = error_px(parent);
-        if (shown_px < options_.merge_share * options_.error_px) {
-            merges_.push_back({shown_px, parent});
+        if (!keeps_split(parent)) {
+            merges_.push_back({merged_error_px(parent), parent});
         }
     }
 }
@@ -76,10 +75,6 @@ void ViewRefiner::consider_split(std::uint32_t node) {
     }
     const double shown_px = error_px(node);
     if (shown_px > options_.error_px) {
-        if (shown_px <= options_.again_share * options_.error_px && rests_after_merge(node)) {
-            waiting_ = true;
-            return;
-        }
         splits_.push_back({shown_px, node});
         std::ranges::push_heap(splits_, [](const Candidate& a, const Candidate& b) {
             return a.error_px != b.error_px ? a.error_px < b.error_px : a.node < b.node;
@@ -94,13 +89,18 @@ void ViewRefiner::split_worst() {
     std::size_t left = options_.operations;
     while (!splits_.empty() && left > 0) {
         std::ranges::pop_heap(splits_, less);
-        const std::uint32_t node = splits_.back().node;
+        const auto [shown_px, node] = splits_.back();
         splits_.pop_back();
-        if (front_.split(node) == 0) {
+        if (!front_.is_active(node)) {
             continue; // forced by another one
         }
+        if (shown_px <= options_.again_share * options_.error_px && needs_resting(node)) {
+            waiting_ = true;
+            continue;
+        }
+        front_.split(node);
         --left;
-        const Split& split = front_.mesh().split_of(node);
+        const Split split = front_.mesh().split_of(node);
         for (const std::uint32_t child : {split.first, split.second}) {
             if (front_.is_active(child)) {
                 consider_split(child);
@@ -113,7 +113,7 @@ void ViewRefiner::split_worst() {
 void ViewRefiner::start_moves() {
     split_frames_.resize(front_.vertices().size(), 0);
     for (const std::uint32_t node : front_.recent_splits()) {
-        const Split& split = front_.mesh().split_of(node);
+        const Split split = front_.mesh().split_of(node);
         split_frames_[front_.slot_below(split.first)] = frame_;
         split_frames_[front_.slot_below(split.second)] = frame_;
         if (options_.geomorphs) {
@@ -131,7 +131,7 @@ void ViewRefiner::turn_back_moves() {
         if (target == node) {
             return;
         }
-        const Split& split = front_.mesh().split_of(target);
+        const Split split = front_.mesh().split_of(target);
         if (!front_.is_active(split.first) || !front_.is_active(split.second) ||
             error_px(target) > options_.error_px || !front_.may_collapse(target)) {
             turning_.push_back(slot);
@@ -148,7 +148,7 @@ void ViewRefiner::merge_smallest() {
     });
     std::size_t left = options_.operations;
     for (const Candidate& candidate : merges_) {
-        const Split& split = front_.mesh().split_of(candidate.node);
+        const Split split = front_.mesh().split_of(candidate.node);
         if (!front_.is_active(split.first) || !front_.is_active(split.second)) {
             continue; // forced to split
         }
@@ -161,7 +161,7 @@ void ViewRefiner::merge_smallest() {
 }
 
 bool ViewRefiner::is_resting(std::uint32_t node) const {
-    const Split& split = front_.mesh().split_of(node);
+    const Split split = front_.mesh().split_of(node);
     const std::uint32_t came =
         std::max(split_frames_[front_.slot(split.first)], split_frames_[front_.slot(split.second)]);
     return came != 0 && frame_ - came <= static_cast<std::uint32_t>(options_.rest_frames);
@@ -173,9 +173,20 @@ bool ViewRefiner::rests_after_merge(std::uint32_t node) const {
            frame_ - merged_[slot].frame <= static_cast<std::uint32_t>(options_.rest_frames);
 }
 
+/// Whether splitting an active node splits one that rests after its merge: itself or a forced one.
+bool ViewRefiner::needs_resting(std::uint32_t node) {
+    if (rests_after_merge(node)) {
+        return true;
+    }
+    front_.nodes_forced_by(node, forced_);
+    return std::ranges::any_of(forced_, [this](std::uint32_t forced) {
+        return front_.is_active(forced) && rests_after_merge(forced);
+    });
+}
+
 /// Merges a node's children, or sends them to where it lies. False when that is not possible now.
 bool ViewRefiner::merge(std::uint32_t node) {
-    const Split& split = front_.mesh().split_of(node);
+    const Split split = front_.mesh().split_of(node);
     const std::uint32_t first = front_.slot(split.first);
     const std::uint32_t second = front_.slot(split.second);
     const bool there = moves_.target(first) == node && moves_.target(second) == node &&

@@ -12,15 +12,16 @@
 namespace octant::visuals::refine {
 
 struct ViewRefinerOptions {
-    double error_px = 1.0;    ///< what shows a larger error is split
-    double merge_share = 0.6; ///< of error_px: what shows a smaller one is merged, < 1
-    int rest_frames = 10;     ///< a node that was split is not merged for so many
-    /// Nor is one that was merged split again for so many, unless a neighbour or a turned face
-    /// needs it or it shows more than again_share times error_px.
-    double again_share = 1.5;
+    double error_px = 1.0;       ///< what shows a larger error is split
+    double merge_share = 0.75;   ///< of error_px: what shows a smaller one is merged, < 1
+    double merge_play_rad = 0.2; ///< criterion.play_rad for merges: what comes into sight keeps
+    int rest_frames = 10;        ///< a node that was split is not merged for so many
+    /// Nor is one that was merged split again for so many, nor another one that forces it, unless
+    /// that one shows more than again_share times error_px or nothing else mends a turned face.
+    double again_share = 3.0;
     std::size_t operations = 2000; ///< splits and collapses asked for in a frame, at most
     bool geomorphs = true;
-    CriterionOptions criterion{};
+    CriterionOptions criterion{}; ///< of splits
     GeomorphOptions geomorph{};
     bool repair = true; ///< of fold-overs
 };
@@ -52,6 +53,11 @@ public:
 
     SelectiveRefiner& front() { return front_; }
 
+    /// Whether the criterion alone keeps a node split in the view of the last frame.
+    bool keeps_split(std::uint32_t node) const {
+        return merged_error_px(node) >= options_.merge_share * options_.error_px;
+    }
+
     /// Inner nodes that the criterion alone wants split for a view.
     std::size_t wanted_splits(const RefineView& view) const;
 
@@ -63,6 +69,13 @@ private:
 
     double error_px(std::uint32_t node) const {
         return projected_error_px(front_.mesh(), node, view_, options_.criterion);
+    }
+
+    /// What a node would show once its children are merged into it, with play.
+    double merged_error_px(std::uint32_t node) const {
+        CriterionOptions criterion = options_.criterion;
+        criterion.play_rad += options_.merge_play_rad;
+        return projected_error_px(front_.mesh(), node, view_, criterion);
     }
 
     struct Merged {
@@ -79,6 +92,7 @@ private:
     bool merge(std::uint32_t node);
     bool is_resting(std::uint32_t node) const;
     bool rests_after_merge(std::uint32_t node) const;
+    bool needs_resting(std::uint32_t node);
 
     ViewRefinerOptions options_;
     SelectiveRefiner front_;
@@ -91,6 +105,7 @@ private:
     std::vector<Candidate> splits_; ///< a heap, the worst on top
     std::vector<Candidate> merges_;
     std::vector<std::uint32_t> turning_;      ///< slots
+    std::vector<std::uint32_t> forced_;       ///< of needs_resting
     std::vector<std::uint32_t> split_frames_; ///< one a slot: when its node came
     std::vector<Merged> merged_;              ///< one a slot: what was last merged there
 };

@@ -146,8 +146,8 @@ void add_progressive(
     std::shared_ptr<const refine::ProgressiveMesh> mesh,
     double polygons_error_m) {
     const glm::dvec3& origin_m = mesh->parts().origin_m;
-    for (const glm::vec3& position_m : mesh->parts().positions_m) {
-        include(model, origin_m + glm::dvec3(position_m));
+    for (std::uint32_t node = 0; node < mesh->node_count(); ++node) {
+        include(model, origin_m + glm::dvec3(mesh->position_m(node)));
     }
     model.progressive = std::move(mesh);
     model.errors_m = {0.0, polygons_error_m};
