@@ -43,8 +43,7 @@ void visit_shading_settings(SomeSettings& s, Visit& visit) {
         Info{
             "shading",
             "KIND",
-            "aircraft: flat, gouraud, or hybrid (the polygons that gain most are smooth; of a mesh "
-            "that is refined all are)"},
+            "aircraft: flat, gouraud, or hybrid (the polygons that gain most are smooth)"},
         s.shading);
     visit(
         Info{
@@ -70,6 +69,13 @@ void visit_shading_settings(SomeSettings& s, Visit& visit) {
     visit(
         Info{"shading-far", "METRES", "paper's rule: all flat from this distance", 0.0, 1e7},
         s.shading_far_m);
+    visit(
+        Info{
+            "show-model",
+            "WHAT",
+            "colours on aircraft: none, shading (smooth polygons blue, flat ones orange) or levels "
+            "(a colour for each halving of what a mesh is wrong by, white where it is not)"},
+        s.show_model);
 }
 
 } // namespace octant::ui

@@ -192,7 +192,8 @@ void add_shading(CLI::App& study) {
             [options](const std::vector<std::string>& files) {
                 options->meshes.assign(files.begin(), files.end());
             },
-            "OBJ file to look at too; may be given more than once")
+            "mesh file to look at too, as it is and as it is refined for an eye; may be given more "
+            "than once")
         ->type_name("FILE");
     command->add_option("--size", options->size_px, "side of the square pictures in pixels")
         ->type_name("PIXELS")
@@ -200,6 +201,8 @@ void add_shading(CLI::App& study) {
         ->check(CLI::Range(16, 2048));
     command->add_flag("--json", options->json, "print the tables as JSON");
     command->add_flag("--quiet", options->quiet, "no progress, no notes");
+    command->add_flag(
+        "!--no-times", options->times, "no flights for frame times, which differ from run to run");
     command->footer("Example:\n  octant study shading --out tables --mesh cow.obj");
     command->callback([options] { study_shading(*options); });
 }

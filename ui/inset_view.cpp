@@ -76,11 +76,14 @@ void InsetView::follow(const scene::Settings& settings) {
     planner_.emplace(scene_, settings_);
 }
 
-const scene::FramePlan&
-InsetView::plan(const scene::Camera& camera, std::span<const sim::AircraftState> states) {
+const scene::FramePlan& InsetView::plan(
+    const scene::Camera& camera,
+    std::span<const sim::AircraftState> states,
+    std::optional<double> smooth_share) {
     if (std::exchange(settles_, false)) {
         planner_->settle(camera);
     }
+    planner_->set_smooth_share(smooth_share);
     scene::PlanCounts counts;
     return planner_->plan(camera, states, counts);
 }

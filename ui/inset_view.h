@@ -33,8 +33,11 @@ public:
     /// As Planner's.
     void prepare(const visuals::scene::Camera& camera) { planner_->prepare(camera); }
 
-    const visuals::scene::FramePlan&
-    plan(const visuals::scene::Camera& camera, std::span<const sim::AircraftState> states);
+    /// `smooth_share`: Planner::set_smooth_share.
+    const visuals::scene::FramePlan& plan(
+        const visuals::scene::Camera& camera,
+        std::span<const sim::AircraftState> states,
+        std::optional<double> smooth_share);
 
 private:
     void place(const visuals::scene::Settings& settings);

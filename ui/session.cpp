@@ -137,7 +137,7 @@ void Session::adapt_shading(const scene::PlanCounts& counts, const report::Frame
     shading_ = visuals::shading::next_shading(
         *shading_,
         control,
-        {record.frame_ms, counts.may_be_smooth - counts.chosen_smooth, counts.chosen_smooth},
+        {record.frame_ms, counts.may_be_smooth - counts.smooth_polygons, counts.smooth_polygons},
         counts.may_be_smooth);
 }
 
@@ -214,7 +214,11 @@ scene::PlanCounts Session::make_plans() {
     if (ids_) {
         plan_ = &ids_->of(*plan_);
     }
-    inset_plan_ = inset_ ? &inset_->plan(now_.inset_camera, now_.states) : nullptr;
+    std::optional<double> share; // of the picture's polygons, and so of the inset's
+    if (smooth_target_ && counts.may_be_smooth > 0) {
+        share = std::min(static_cast<double>(*smooth_target_) / counts.may_be_smooth, 1.0);
+    }
+    inset_plan_ = inset_ ? &inset_->plan(now_.inset_camera, now_.states, share) : nullptr;
     return counts;
 }
 

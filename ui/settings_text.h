@@ -115,6 +115,11 @@ struct EnumNames<visuals::scene::MeshLook> {
 };
 
 template <>
+struct EnumNames<visuals::scene::ModelLook> {
+    static std::vector<std::string_view> names() { return {"none", "shading", "levels"}; }
+};
+
+template <>
 struct EnumNames<visuals::scene::Palette> {
     static std::vector<std::string_view> names() { return {"temperate", "arid"}; }
 };

@@ -4,15 +4,22 @@
 #include "models/obj_reader.h"
 #include "sim/base/units.h"
 #include "ui/data_files.h"
+#include "ui/refine_input.h"
+#include "visuals/refine/active_mesh.h"
+#include "visuals/refine/view_refiner.h"
 #include "visuals/shading/vertex_normals.h"
+
+#include <glm/geometric.hpp>
 
 #include <cassert>
 #include <cmath>
+#include <memory>
 
 namespace octant::ui {
 
 namespace {
 
+namespace refine = visuals::refine;
 namespace shading = visuals::shading;
 
 /// The angle between the torus' quads along the inner side is more than the usual crease.
@@ -55,6 +62,19 @@ glm::dvec3 ball_point(double polar_rad, double azimuth_rad) {
     return (1.0 + 0.12 * dents) * unit;
 }
 
+/// As fine as an eye three radii from its middle, to its side and above, needs it in a picture of
+/// 720 rows.
+models::TriangleMesh refined_mesh(const std::shared_ptr<const refine::ProgressiveMesh>& hierarchy) {
+    const double radius_m = hierarchy->radius_m(hierarchy->roots().front());
+    refine::RefineView view;
+    view.eye_m = hierarchy->parts().origin_m + radius_m * glm::dvec3(1.8, 1.2, 2.1);
+    view.ahead = glm::normalize(hierarchy->parts().origin_m - view.eye_m);
+    view.focal_px = 870.0;
+    refine::ViewRefiner refiner(hierarchy);
+    refiner.settle(view);
+    return refine::active_mesh(refiner.front()).mesh;
+}
+
 } // namespace
 
 models::TriangleMesh uneven_ball(int rings, int slices) {
@@ -95,7 +115,17 @@ std::vector<ShadedModel> shading_models(const std::vector<std::filesystem::path>
     }
     all.push_back(shaded("uneven ball", uneven_ball(48, 97), round_crease_rad));
     for (const std::filesystem::path& file : more) {
-        all.push_back(shaded(file.stem().string(), models::read_obj(file), round_crease_rad));
+        const auto hierarchy =
+            read_refine_mesh({.file = file.string(), .base = 0, .quiet = true}).mesh;
+        refine::SelectiveRefiner whole(hierarchy);
+        for (std::uint32_t node = 0; node < hierarchy->node_count(); ++node) {
+            if (!hierarchy->is_leaf(node)) {
+                whole.split(node);
+            }
+        }
+        const std::string name = file.stem().string();
+        all.push_back(shaded(name, refine::active_mesh(whole).mesh, round_crease_rad));
+        all.push_back(shaded(name + " refined", refined_mesh(hierarchy), round_crease_rad));
     }
     return all;
 }

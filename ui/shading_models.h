@@ -20,7 +20,8 @@ struct ShadedModel {
 models::TriangleMesh uneven_ball(int rings, int slices);
 
 /// The paper's torus in its 416 triangles, that of this program in 416 quads, f15, 500md, an uneven
-/// ball of 9,118 triangles and OBJ files (`more`). Throws Error.
+/// ball of 9,118 triangles; mesh files (`more`), each as it is and refined for one eye. Throws
+/// Error.
 std::vector<ShadedModel> shading_models(const std::vector<std::filesystem::path>& more);
 
 } // namespace octant::ui

@@ -8,6 +8,7 @@
 #include "ui/shading_pictures.h"
 #include "ui/shading_runs.h"
 #include "ui/shading_tables.h"
+#include "ui/shading_times.h"
 #include "ui/table_text.h"
 
 #include <algorithm>
@@ -157,6 +158,14 @@ void study_shading(const ShadingStudyOptions& options) {
     for (const ShadingRun& run : runs) {
         tables.push_back(quality_table(run));
         files.push_back("quality-" + file_part(run.name));
+    }
+    if (options.times) {
+        std::vector<std::string> aircraft{"f15", "500md"};
+        for (const std::filesystem::path& mesh : options.meshes) {
+            aircraft.push_back(mesh.string());
+        }
+        tables.push_back(shading_times_table(aircraft, options.quiet));
+        files.push_back("times");
     }
     std::string markdown;
     for (std::size_t i = 0; i < tables.size(); ++i) {

@@ -7,8 +7,9 @@ namespace octant::ui {
 
 struct ShadingStudyOptions {
     std::filesystem::path out;
-    std::vector<std::filesystem::path> meshes; ///< OBJ files, beside the models of its own
+    std::vector<std::filesystem::path> meshes; ///< files, beside the models of its own
     int size_px = 320;                         ///< of the square pictures
+    bool times = true;                         ///< fly too, for frame times
     bool json = false;                         ///< print the tables as JSON instead of Markdown
     bool quiet = false;
 };
@@ -18,7 +19,7 @@ struct ShadingStudyOptions {
 /// are smooth, chosen at random, by the paper's rule and by the error in the picture; and how the
 /// share follows frame times. Prints the tables and writes them to `out` as CSV and together as
 /// Markdown, curves as PNG, and a strip of pictures of each model. The same options give the same
-/// bytes. Throws Error.
+/// bytes but for frame times. Throws Error.
 void study_shading(const ShadingStudyOptions& options);
 
 } // namespace octant::ui

@@ -107,11 +107,11 @@ TEST_CASE("light beyond white is cut before the haze is mixed in") {
     CHECK(middle(studio.picture(plan)) == Pixel{94, 94, 94, 255}); // 255 / e
 }
 
-TEST_CASE("an aircraft's polygon has one colour, that of the corner its fan starts from") {
+TEST_CASE("a flat polygon has one colour, the face colour of the corner its fan starts from") {
     Studio studio;
     scene::ModelBuffers model = square_model(red);
     for (std::size_t corner : {1U, 2U, 3U}) {
-        model.vertices[corner].colour = models::packed_colour(green);
+        model.vertices[corner].face_colour = models::packed_colour(green);
     }
     studio.renderer().load_models({&model, 1});
     scene::FramePlan plan = empty_plan();

@@ -21,7 +21,8 @@ scene::ModelBuffers box_model(const glm::vec3& half_m) {
             const auto first = static_cast<std::uint32_t>(model.vertices.size());
             const std::uint32_t colour = models::packed_colour(0.5F + 0.3F * (normal + right));
             for (const glm::vec3& corner : {-right - up, right - up, right + up, up - right}) {
-                model.vertices.push_back({half_m * (normal + corner), normal, normal, colour});
+                model.vertices.push_back(
+                    {half_m * (normal + corner), normal, normal, colour, colour});
             }
             for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) {
                 model.indices.push_back(first + corner);

@@ -81,6 +81,7 @@ inline scene::ModelBuffers square_model(const glm::vec3& colour) {
             {glm::vec3(corner, 0.0F),
              glm::vec3(0, 0, 1),
              glm::vec3(0, 0, 1),
+             models::packed_colour(colour),
              models::packed_colour(colour)});
     }
     model.indices = {0, 1, 2, 0, 2, 3};

@@ -1,4 +1,5 @@
 #include "visuals/scene/mesh_levels.h"
+#include "visuals/scene/model_look.h"
 #include "visuals/scene/refined_aircraft.h"
 
 #include <catch2/catch.hpp>
@@ -16,6 +17,7 @@
 using namespace octant;
 using namespace octant::tests;
 namespace refine = octant::visuals::refine;
+namespace shading = octant::visuals::shading;
 namespace scene = octant::visuals::scene;
 
 namespace {
@@ -93,6 +95,15 @@ std::vector<glm::vec3> places(const scene::RefinedDraw& draw) {
     return found;
 }
 
+int smooth_in(const scene::RefinedDraw& draw) {
+    int smooth = 0;
+    for (std::size_t i = 0; i + 2 < draw.indices.size(); i += 3) {
+        const bool is_triangle = draw.indices[i] != draw.indices[i + 1];
+        smooth += is_triangle && draw.vertices[draw.indices[i]].polygon == 0 ? 1 : 0;
+    }
+    return smooth;
+}
+
 } // namespace
 
 TEST_CASE("a nearer eye sees more triangles of a refined aircraft, up to all of them") {
@@ -117,27 +128,83 @@ TEST_CASE(
     CHECK(aircraft.update(below(20.0), looking_down(), false).splits > 0);
 }
 
-TEST_CASE("flat, each triangle has vertices of its own with its own normal; smooth, they share") {
-    scene::RefinedAircraft aircraft(hierarchy(), refining());
-    aircraft.update(below(60.0), looking_down(), true);
-    const auto triangles = static_cast<std::size_t>(aircraft.triangles());
-    const scene::RefinedDraw flat = aircraft.draw(false);
-    REQUIRE(flat.indices.size() == 3 * triangles);
-    REQUIRE(flat.vertices.size() == 3 * triangles);
-    for (std::size_t t = 0; t < triangles; ++t) {
-        const std::array<scene::ModelVertex, 3> corners{
-            flat.vertices[flat.indices[3 * t]],
-            flat.vertices[flat.indices[3 * t + 1]],
-            flat.vertices[flat.indices[3 * t + 2]]};
-        const glm::vec3 normal = glm::normalize(glm::cross(
-            corners[1].position_m - corners[0].position_m,
-            corners[2].position_m - corners[0].position_m));
-        CHECK(normal.z < 0.0F); // up
-        CHECK(glm::distance(corners[0].face_normal, normal) < 1e-5F);
+TEST_CASE(
+    "as many triangles are smooth as asked for; a flat one begins with a vertex of its own that "
+    "has its normal and the mean of its corners' colours") {
+    for (const int smooth : {0, 1, 5, 12}) {
+        scene::RefinedAircraft aircraft(hierarchy(), refining());
+        aircraft.update(below(60.0), looking_down(), true);
+        REQUIRE(aircraft.triangles() == 12);
+        shading::ShadingLight light;
+        light.to_light = glm::normalize(glm::vec3(1.0F, 0.3F, -1.0F));
+        aircraft.shade({0.0, 0.0, -60.0}, light, smooth);
+        const scene::RefinedDraw draw = aircraft.draw();
+        CHECK(smooth_in(draw) == smooth);
+        for (std::size_t i = 0; i + 2 < draw.indices.size(); i += 3) {
+            const std::array<scene::ModelVertex, 3> corners{
+                draw.vertices[draw.indices[i]],
+                draw.vertices[draw.indices[i + 1]],
+                draw.vertices[draw.indices[i + 2]]};
+            const glm::vec3 normal = glm::normalize(glm::cross(
+                corners[1].position_m - corners[0].position_m,
+                corners[2].position_m - corners[0].position_m));
+            CHECK(normal.z < 0.0F); // up
+            if (corners[0].polygon == 1) {
+                CHECK(glm::distance(corners[0].face_normal, normal) < 1e-5F);
+                CHECK(corners[0].face_colour == 0xffffffffU);
+                CHECK(std::ranges::count(draw.indices, draw.indices[i]) == 1);
+            }
+        }
     }
-    const scene::RefinedDraw smooth = aircraft.draw(true);
-    CHECK(smooth.vertices.size() < 3 * triangles);
-    CHECK(*std::max_element(smooth.indices.begin(), smooth.indices.end()) < smooth.vertices.size());
+}
+
+TEST_CASE("a frame in which nothing moves changes no triangle's shading") {
+    scene::RefinedAircraft aircraft(hierarchy(), refining());
+    shading::ShadingLight light;
+    light.to_light = glm::normalize(glm::vec3(1.0F, 0.3F, -1.0F));
+    aircraft.update(below(60.0), looking_down(), true);
+    aircraft.shade({0.0, 0.0, -60.0}, light, 4);
+    const scene::RefinedDraw first = aircraft.draw();
+    const std::vector<std::uint32_t> before(first.indices.begin(), first.indices.end());
+    aircraft.update(below(60.0), looking_down(), false);
+    aircraft.shade({0.0, 0.0, -60.0}, light, 4);
+    const scene::RefinedDraw second = aircraft.draw();
+    CHECK(before == std::vector<std::uint32_t>(second.indices.begin(), second.indices.end()));
+    CHECK(first.vertices.size() == second.vertices.size());
+}
+
+TEST_CASE("shading follows a mesh that is refined further, and turns all smooth and back") {
+    scene::RefinedAircraft aircraft(hierarchy(), refining());
+    shading::ShadingLight light;
+    light.to_light = glm::normalize(glm::vec3(1.0F, 0.3F, -1.0F));
+    aircraft.update(below(60.0), looking_down(), true);
+    aircraft.shade({0.0, 0.0, -60.0}, light, 4);
+    CHECK(smooth_in(aircraft.draw()) == 4);
+    for (int frame = 0; frame < 40; ++frame) {
+        aircraft.update(below(5.0), looking_down(), false);
+        aircraft.shade({0.0, 0.0, -5.0}, light, 7);
+        CHECK(smooth_in(aircraft.draw()) == 7);
+    }
+    CHECK(aircraft.triangles() == 24);
+    aircraft.shade({0.0, 0.0, -5.0}, light, 24);
+    CHECK(smooth_in(aircraft.draw()) == 24);
+    aircraft.shade({0.0, 0.0, -5.0}, light, 0);
+    CHECK(smooth_in(aircraft.draw()) == 0);
+    aircraft.shade({0.0, 0.0, -5.0}, light, 7);
+    CHECK(smooth_in(aircraft.draw()) == 7);
+}
+
+TEST_CASE("a refined mesh shows its levels: white where it is as its file, else by its error") {
+    scene::Settings settings = refining();
+    settings.show_model = scene::ModelLook::Levels;
+    scene::RefinedAircraft fine(hierarchy(), settings);
+    fine.update(below(5.0), looking_down(), true);
+    for (const scene::ModelVertex& vertex : fine.draw().vertices) {
+        CHECK(vertex.colour == 0xffffffffU);
+    }
+    CHECK(scene::level_colour(0.0, 4.0) == 0xffffffffU);
+    CHECK(scene::level_colour(0.09, 4.0) != scene::level_colour(0.2, 4.0));
+    CHECK(scene::level_colour(0.09, 4.0) == scene::level_colour(0.9, 40.0));
 }
 
 TEST_CASE("aircraft that share a hierarchy have fronts of their own") {
@@ -150,7 +217,7 @@ TEST_CASE("aircraft that share a hierarchy have fronts of their own") {
     CHECK(far_off.triangles() == 3);
     scene::RefinedAircraft alone(shared, refining());
     alone.update(below(5.0), looking_down(), true);
-    CHECK(places(near_by.draw(true)) == places(alone.draw(true)));
+    CHECK(places(near_by.draw()) == places(alone.draw()));
     CHECK(shared.use_count() == 4);
 }
 

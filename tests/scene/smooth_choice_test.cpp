@@ -95,6 +95,41 @@ TEST_CASE("shading flat, gouraud and hybrid by a share are bits of the plan") {
     CHECK(box.shown(5).bits == 5);
 }
 
+TEST_CASE("a share that is set goes before the settings' own, until a number is set or neither") {
+    Box box;
+    box.settings.smooth_share = 0.5;
+    scene::Planner planner(box.scene, box.settings);
+    scene::PlanCounts counts;
+    const std::array there{state_at({20, 0, 50})};
+    const auto smooth = [&] {
+        planner.plan(box.camera, there, counts);
+        return counts.smooth_polygons;
+    };
+    planner.set_smooth_share(1.0 / 3.0);
+    CHECK(smooth() == 2);
+    planner.set_smooth(5);
+    CHECK(smooth() == 5);
+    planner.set_smooth_share(std::nullopt);
+    CHECK(smooth() == 3);
+}
+
+TEST_CASE(
+    "models show their shading and their levels by tints, but for refined ones their levels") {
+    Box box;
+    const auto tints = [&](scene::ModelLook look) {
+        box.settings.show_model = look;
+        scene::Planner planner(box.scene, box.settings);
+        scene::PlanCounts counts;
+        const std::array there{state_at({20, 0, 50})};
+        return planner.plan(box.camera, there, counts).aircraft.at(0).tints;
+    };
+    CHECK(tints(scene::ModelLook::None).smooth == 0);
+    CHECK(tints(scene::ModelLook::None).flat == 0);
+    CHECK(tints(scene::ModelLook::Shading).smooth == scene::shading_tints.smooth);
+    CHECK(tints(scene::ModelLook::Shading).flat == scene::shading_tints.flat);
+    CHECK(tints(scene::ModelLook::Levels).flat == scene::level_colour(0.0, 1.0));
+}
+
 TEST_CASE("the paper's rule shades less smoothly the farther away") {
     Box box;
     box.settings.shading_rule = scene::HybridRule::Paper;

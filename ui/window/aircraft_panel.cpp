@@ -11,10 +11,11 @@ namespace octant::ui {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> controls{
+constexpr std::array<std::string_view, 10> controls{
     "axes",
     "shadows",
     "aircraft-error-px",
+    "show-model",
     "shading",
     "shading-rule",
     "smooth-share",

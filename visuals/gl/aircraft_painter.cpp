@@ -86,7 +86,8 @@ void AircraftPainter::upload(const scene::FramePlan& plan) {
              .first_index = static_cast<GLuint>(model.first_index) + draw.first_index,
              .first_vertex = model.first_vertex,
              .first_instance = static_cast<GLuint>(commands_.size())});
-        instances_.push_back({draw.first_part, draw.first_smooth});
+        instances_.push_back(
+            {draw.first_part, draw.first_smooth, draw.tints.smooth, draw.tints.flat});
     }
     part_buffer_.fill({std::as_bytes(std::span(plan.parts))});
     smooth_buffer_.fill({std::as_bytes(std::span(plan.smooth))});

@@ -25,6 +25,7 @@ Object make_model_array(const Functions& gl, GLuint vertices, GLuint indices, GL
     add_vector_input(gl, array, position_input, offsetof(ModelVertex, position_m));
     add_vector_input(gl, array, normal_input, offsetof(ModelVertex, normal));
     add_colour_input(gl, array, offsetof(ModelVertex, colour));
+    add_colour_input(gl, array, offsetof(ModelVertex, face_colour), face_colour_input);
     add_number_input(gl, array, part_input, vertex_binding, offsetof(ModelVertex, part));
     add_vector_input(gl, array, face_normal_input, offsetof(ModelVertex, face_normal));
     add_number_input(gl, array, polygon_input, vertex_binding, offsetof(ModelVertex, polygon));
@@ -32,6 +33,10 @@ Object make_model_array(const Functions& gl, GLuint vertices, GLuint indices, GL
         gl, array, first_part_input, instance_binding, offsetof(ModelInstance, first_part));
     add_number_input(
         gl, array, first_smooth_input, instance_binding, offsetof(ModelInstance, first_smooth));
+    add_colour_input(
+        gl, array, offsetof(ModelInstance, smooth_tint), smooth_tint_input, instance_binding);
+    add_colour_input(
+        gl, array, offsetof(ModelInstance, flat_tint), flat_tint_input, instance_binding);
     return array;
 }
 

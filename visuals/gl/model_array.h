@@ -6,10 +6,12 @@
 
 namespace octant::visuals::gl {
 
-/// What the vertices of one aircraft have in common: scene::AircraftDraw.
+/// What the vertices of one aircraft have in common: scene::AircraftDraw, scene::RefinedDraw.
 struct ModelInstance {
     std::uint32_t first_part = 0;
     std::uint32_t first_smooth = 0;
+    std::uint32_t smooth_tint = 0;
+    std::uint32_t flat_tint = 0;
 };
 
 /// The vertex array of scene::ModelVertex, one ModelInstance an instance.

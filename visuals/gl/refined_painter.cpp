@@ -29,7 +29,8 @@ void RefinedPainter::upload(const scene::FramePlan& plan) {
     for (const scene::RefinedDraw& draw : plan.refined) {
         assert(draw.first_smooth < plan.smooth.size() && draw.first_part < plan.parts.size());
         places_.push_back({indices, draw.indices.size(), static_cast<GLint>(vertices)});
-        instance_values_.push_back({draw.first_part, draw.first_smooth});
+        instance_values_.push_back(
+            {draw.first_part, draw.first_smooth, draw.tints.smooth, draw.tints.flat});
         vertices += draw.vertices.size();
         indices += draw.indices.size();
         pieces_.push_back(std::as_bytes(draw.vertices));

@@ -99,7 +99,7 @@ void Renderer::draw(const FramePlan& plan) {
     rows_ = fits ? Rows::FromBelow : Rows::FromTop;
     gl_.bind_framebuffer(GL_FRAMEBUFFER, target_of(plan));
     state_.begin_picture(rows_);
-    draw_into(plan, whole);
+    draw_into(plan, {whole, false});
 }
 
 void Renderer::draw_inset(const FramePlan& plan, const PixelRect& rect) {
@@ -114,7 +114,7 @@ void Renderer::draw_inset(const FramePlan& plan, const PixelRect& rect) {
     gl_.scissor(at.x - frame, at.y - frame, at.width + 2 * frame, at.height + 2 * frame);
     gl_.clear_named_framebufferfv(target, GL_COLOR, 0, glm::value_ptr(inset_frame));
     gl_.scissor(at.x, at.y, at.width, at.height);
-    draw_into(plan, at);
+    draw_into(plan, {at, true});
     gl_.disable(GL_SCISSOR_TEST);
 }
 
@@ -135,15 +135,16 @@ GLuint Renderer::target_of(const FramePlan& plan) const {
     return with_depth ? framebuffer_.name() : framebuffer_.name_without_depth();
 }
 
-/// Into what is bound; `rect` is all of it or what the scissor leaves.
-void Renderer::draw_into(const FramePlan& plan, const PixelRect& rect) {
+/// Into what is bound.
+void Renderer::draw_into(const FramePlan& plan, const Place& place) {
+    const PixelRect& rect = place.rect;
     gl_.viewport(rect.x, rect.y, rect.width, rect.height);
     clear(plan);
     upload(plan, rect);
     if (plan.hidden_surface == HiddenSurface::DepthBuffer) {
         draw_by_depth(plan);
     } else {
-        paint(plan, rect);
+        paint(plan, place);
     }
     overlay_.draw(plan.overlay, rect.width, rect.height);
 }
@@ -170,7 +171,7 @@ void Renderer::upload(const FramePlan& plan, const PixelRect& rect) {
 }
 
 /// Background, sky, ground, then each step over what is there: no depth but that of solids.
-void Renderer::paint(const FramePlan& plan, const PixelRect& rect) {
+void Renderer::paint(const FramePlan& plan, const Place& place) {
     triangles_.draw_sky(Depth::Unused);
     triangles_.draw_ground(Depth::Unused);
     for (const PaintStep& step : plan.steps) {
@@ -184,7 +185,7 @@ void Renderer::paint(const FramePlan& plan, const PixelRect& rect) {
             triangles_.repaint(step.first, step.count, clip);
             break;
         case PaintStep::What::ClearDepth:
-            clear_depth(plan, plan.depth_boxes[step.first], rect);
+            clear_depth(plan, plan.depth_boxes[step.first], place);
             break;
         case PaintStep::What::GroundDepth:
             triangles_.draw_depth(step.first, step.count);
@@ -199,10 +200,9 @@ void Renderer::paint(const FramePlan& plan, const PixelRect& rect) {
     }
 }
 
-/// In a box of the picture that `rect` of the target shows.
-void Renderer::clear_depth(
-    const FramePlan& plan, const scene::PixelBox& box, const PixelRect& rect) {
-    const bool inset = rect.width < framebuffer_.width() || rect.height < framebuffer_.height();
+/// In a box of the plan's picture.
+void Renderer::clear_depth(const FramePlan& plan, const scene::PixelBox& box, const Place& place) {
+    const PixelRect& rect = place.rect;
     const glm::ivec2 least = glm::max(box.least, glm::ivec2(0));
     const glm::ivec2 size = glm::min(box.most, glm::ivec2(rect.width, rect.height)) - least;
     if (size.x <= 0 || size.y <= 0) {
@@ -213,7 +213,7 @@ void Renderer::clear_depth(
     gl_.scissor(rect.x + least.x, rect.y + least.y, size.x, size.y);
     const float infinitely_far = 0.0F;
     gl_.clear_named_framebufferfv(target_of(plan), GL_DEPTH, 0, &infinitely_far);
-    if (inset) {
+    if (place.is_inset) {
         gl_.scissor(rect.x, rect.y, rect.width, rect.height);
     } else {
         gl_.disable(GL_SCISSOR_TEST);
@@ -255,6 +255,10 @@ void Renderer::warm_up() {
         ColourVertex{{1.0F, -1.0F, -2.0F}, 0U},
         ColourVertex{{0.0F, 1.0F, -2.0F}, 0U}};
     const std::array<std::uint32_t, 3> triangle{0, 1, 2};
+    const std::array<scene::ModelVertex, 3> mesh_corners{
+        scene::ModelVertex{.position_m = corners[0].position_m},
+        scene::ModelVertex{.position_m = corners[1].position_m},
+        scene::ModelVertex{.position_m = corners[2].position_m}};
     FramePlan plan;
     plan.view_to_clip = glm::mat4(0.0F);
     plan.view_to_clip[0][0] = 1.0F;
@@ -283,6 +287,8 @@ void Renderer::warm_up() {
         plan.steps.push_back({PaintStep::What::ClearDepth, 0, 1, PaintStep::whole});
         plan.steps.push_back({PaintStep::What::GroundDepth, 0, 3, PaintStep::whole});
         plan.steps.push_back({PaintStep::What::Solid, 0, aircraft, PaintStep::whole});
+        plan.refined.push_back({mesh_corners, triangle, 0, 0, {}});
+        plan.steps.push_back({PaintStep::What::Refined, 0, 1, PaintStep::whole});
     }
     Picture picture;
     for (const HiddenSurface way : {HiddenSurface::Octant, HiddenSurface::DepthBuffer}) {

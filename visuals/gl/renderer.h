@@ -91,14 +91,19 @@ public:
     int draw_calls() const { return state_.draw_calls(); }
 
 private:
+    /// Where on the target a plan is drawn.
+    struct Place {
+        PixelRect rect;
+        bool is_inset = false; ///< the scissor leaves no more than `rect`
+    };
+
     GLuint target_of(const scene::FramePlan& plan) const;
     PixelRect on_target(const PixelRect& rect) const;
-    void draw_into(const scene::FramePlan& plan, const PixelRect& rect);
+    void draw_into(const scene::FramePlan& plan, const Place& place);
     void clear(const scene::FramePlan& plan);
     void upload(const scene::FramePlan& plan, const PixelRect& rect);
-    void paint(const scene::FramePlan& plan, const PixelRect& rect);
-    void
-    clear_depth(const scene::FramePlan& plan, const scene::PixelBox& box, const PixelRect& rect);
+    void paint(const scene::FramePlan& plan, const Place& place);
+    void clear_depth(const scene::FramePlan& plan, const scene::PixelBox& box, const Place& place);
     void draw_by_depth(const scene::FramePlan& plan);
 
     const Functions& gl_;

@@ -16,11 +16,12 @@ void add_place_input(const Functions& gl, const Object& array, GLuint input, std
     gl.vertex_array_attrib_binding(array.name(), input, 0);
 }
 
-void add_colour_input(const Functions& gl, const Object& array, std::size_t offset) {
-    gl.enable_vertex_array_attrib(array.name(), colour_input);
+void add_colour_input(
+    const Functions& gl, const Object& array, std::size_t offset, GLuint input, GLuint binding) {
+    gl.enable_vertex_array_attrib(array.name(), input);
     gl.vertex_array_attrib_format(
-        array.name(), colour_input, 4, GL_UNSIGNED_BYTE, GL_TRUE, static_cast<GLuint>(offset));
-    gl.vertex_array_attrib_binding(array.name(), colour_input, 0);
+        array.name(), input, 4, GL_UNSIGNED_BYTE, GL_TRUE, static_cast<GLuint>(offset));
+    gl.vertex_array_attrib_binding(array.name(), input, binding);
 }
 
 void add_number_input(

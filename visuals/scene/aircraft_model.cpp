@@ -61,6 +61,7 @@ private:
                  normals_[buffers_.vertices.size()],
                  normal,
                  colour,
+                 colour,
                  part,
                  static_cast<std::uint32_t>(polygon)});
         }

@@ -22,13 +22,14 @@ enum class HiddenSurface {
     BackFace     ///< back faces removed, polygons in file order: the 1989 paper's fast, wrong way
 };
 
-/// A vertex of an aircraft as uploaded once at loading. Body axes x forward, y right, z down. 48
+/// A vertex of an aircraft as uploaded once at loading. Body axes x forward, y right, z down. 52
 /// bytes.
 struct ModelVertex {
     glm::vec3 position_m{0.0F};
-    glm::vec3 normal{0.0F};      ///< of the surface there: what a smooth polygon is lit by
-    glm::vec3 face_normal{0.0F}; ///< of the polygon that begins here: what a flat one is lit by
-    std::uint32_t colour = 0;    ///< as ColourVertex::colour
+    glm::vec3 normal{0.0F};        ///< of the surface there: what a smooth polygon is lit by
+    glm::vec3 face_normal{0.0F};   ///< of the polygon that begins here: what a flat one is lit by
+    std::uint32_t colour = 0;      ///< as ColourVertex::colour
+    std::uint32_t face_colour = 0; ///< of the polygon that begins here, where that is flat
     std::uint32_t part = 0; ///< 0 = body, k = pivot k - 1 of the model: turns with FramePlan::parts
     std::uint32_t polygon = 0; ///< that begins here: AircraftDraw::first_smooth counts on from it
 };
@@ -42,6 +43,12 @@ struct ModelBuffers {
     bool has_meshes = false; ///< whether a plan may ask for PaintStep::What::Solid
 };
 
+/// Colours that polygons are shown in instead of their own, as ColourVertex::colour; 0 = their own.
+struct Tints {
+    std::uint32_t smooth = 0; ///< of the smooth ones
+    std::uint32_t flat = 0;   ///< of the flat ones
+};
+
 /// One aircraft of one frame: one range of its model's index buffer.
 struct AircraftDraw {
     std::uint32_t model = 0; ///< index into the ModelBuffers given to the renderer
@@ -49,14 +56,19 @@ struct AircraftDraw {
     std::uint32_t index_count = 0;
     std::uint32_t first_part = 0;   ///< index into FramePlan::parts
     std::uint32_t first_smooth = 0; ///< word of FramePlan::smooth whose bit 0 is polygon 0
+    Tints tints{};
 };
 
 /// A mesh that is another one in each frame. Memory as TriangleDraw.
 struct RefinedDraw {
+    /// ModelVertex::polygon is 0 where a smooth triangle begins, 1 where a flat one does.
     std::span<const ModelVertex> vertices;
-    std::span<const std::uint32_t> indices; ///< as ModelBuffers::indices
-    std::uint32_t first_part = 0;           ///< index into FramePlan::parts
-    std::uint32_t first_smooth = 0;         ///< as AircraftDraw::first_smooth
+    /// Triangles. A flat one's first corner belongs to it alone; a place without a triangle has
+    /// three equal ones.
+    std::span<const std::uint32_t> indices;
+    std::uint32_t first_part = 0;   ///< index into FramePlan::parts
+    std::uint32_t first_smooth = 0; ///< word of FramePlan::smooth whose bits 0 and 1 are 1 and 0
+    Tints tints{};
 };
 
 /// Pixels of the picture from its upper left corner: columns least.x to most.x - 1, rows alike.
@@ -163,7 +175,8 @@ struct FramePlan {
     std::vector<PaintStep> steps;
     std::vector<Clip> clips;
     std::vector<PixelBox> depth_boxes; ///< not empty: some steps need a depth buffer
-    /// A bit for each polygon of each aircraft: 1 = lit smoothly (Gouraud), 0 = flat.
+    /// A bit for each polygon of each aircraft: 1 = lit smoothly (Gouraud), 0 = flat; and a word
+    /// for all that is refined.
     std::vector<std::uint32_t> smooth;
     std::vector<std::uint32_t> repaint_indices; ///< of ground.vertices, then shadow_vertices
     /// Shadow pieces. Their indices count on after ground.vertices.

@@ -1,11 +1,13 @@
 #include "visuals/scene/id_plan.h"
 
+#include "sim/base/error.h"
 #include "sim/base/hash.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstring>
+#include <fmt/format.h>
 #include <span>
 
 namespace octant::visuals::scene {
@@ -31,6 +33,16 @@ std::uint32_t ground_id(const std::array<glm::vec3, 3>& corners) {
     return std::max(number & number_mask, 1U);
 }
 
+/// Numbers of a model's polygons. Not how many they are: a model may be split in one way of
+/// drawing, whole in another.
+std::uint32_t number_count(const AircraftModel& model) {
+    std::uint32_t count = 0;
+    for (std::size_t polygon = 0; polygon < model.polygons.polygons.size(); ++polygon) {
+        count = std::max(count, model.polygons.parent_of(polygon) + 1);
+    }
+    return count;
+}
+
 /// The model's vertices with the numbers of their polygons for colours, counted from `first`.
 ModelBuffers numbered(const AircraftModel& model, std::uint32_t first) {
     ModelBuffers buffers = model.buffers;
@@ -39,27 +51,40 @@ ModelBuffers numbered(const AircraftModel& model, std::uint32_t first) {
         const std::uint32_t id = first + model.polygons.parent_of(polygon);
         assert(id <= number_mask);
         for (std::uint32_t corner = 0; corner < range.corner_count; ++corner) {
-            buffers.vertices[range.first_corner + corner].colour = opaque | aircraft_bit | id;
+            buffers.vertices[range.first_corner + corner].face_colour = opaque | aircraft_bit | id;
         }
     }
+    // Behind them those of the levels of detail: one of them begins each triangle.
+    for (std::size_t i = model.polygons.corner_vertices.size(); i < buffers.vertices.size(); ++i) {
+        const auto id = static_cast<std::uint32_t>(first + number_count(model) + i);
+        assert(id <= number_mask);
+        buffers.vertices[i].face_colour = opaque | aircraft_bit | id;
+    }
     return buffers;
+}
+
+void refuse_refined(const AircraftModel& model) {
+    if (model.progressive) {
+        throw Error(fmt::format(
+            "pictures of polygon numbers: expected polygons or levels of detail, got {}, which is "
+            "refined in each frame and whose triangles have no numbers",
+            model.polygons.name));
+    }
 }
 
 } // namespace
 
 IdPlan::IdPlan(const Scene& scene) {
     std::uint32_t first = 0;
-    std::uint32_t next = 0;
     const auto add = [&](const AircraftModel& model) {
+        refuse_refined(model);
         const std::size_t parts = model.polygons.pivots.size() + 1;
         model_of_part_.insert(
             model_of_part_.end(), parts, static_cast<std::uint32_t>(models_.size()));
         models_.push_back(numbered(model, first));
-        // Not the number of polygons: a model may be split in one way of drawing, whole in another.
-        for (std::size_t polygon = 0; polygon < model.polygons.polygons.size(); ++polygon) {
-            next = std::max(next, first + model.polygons.parent_of(polygon) + 1);
-        }
-        first = next;
+        first += number_count(model);
+        first +=
+            model.levels.empty() ? 0 : static_cast<std::uint32_t>(model.buffers.vertices.size());
     };
     for (const std::uint32_t model : scene.aircraft) {
         add(scene.models[model]);
@@ -94,9 +119,11 @@ const FramePlan& IdPlan::of(const FramePlan& plan) {
     plan_.ambient = glm::vec3(1.0F);
     plan_.sunlight = glm::vec3(0.0F);
     plan_.sky = {};
+    std::ranges::fill(plan_.smooth, 0U); // a flat polygon has one colour
     plan_.overlay = {};
     for (AircraftDraw& draw : plan_.aircraft) {
         draw.model = model_of_part_[draw.first_part];
+        draw.tints = {};
     }
     add_ground(plan, plan.ground.indices);
     const std::size_t ground_indices = indices_.size();

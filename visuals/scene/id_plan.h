@@ -14,7 +14,8 @@ namespace octant::visuals::scene {
 /// alike. For pictures with one sample a pixel, of plans without shadows.
 class IdPlan {
 public:
-    /// The scene must outlive it.
+    /// The scene must outlive it. Throws Error for one with a mesh that is refined in each frame:
+    /// its triangles have no numbers.
     explicit IdPlan(const Scene& scene);
 
     /// What a renderer has to load for these plans, in place of the scene's models.

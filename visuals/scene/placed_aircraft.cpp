@@ -26,6 +26,7 @@ AircraftDraw draw_of(const PlacedAircraft& aircraft) {
     draw.index_count = aircraft.range.index_count;
     draw.first_part = aircraft.first_part;
     draw.first_smooth = aircraft.first_smooth;
+    draw.tints = aircraft.tints;
     return draw;
 }
 

@@ -22,7 +22,8 @@ struct PlacedAircraft {
     bool is_represented = false;             ///< in the last frame, in view
     std::size_t representation = 0;          ///< index into AircraftModel::errors_m
     std::uint32_t first_smooth = 0;          ///< as AircraftDraw::first_smooth
-    std::uint32_t first_part = 0;            ///< index into FramePlan::parts
+    Tints tints{};
+    std::uint32_t first_part = 0; ///< index into FramePlan::parts
     /// Body axes to world axes with the eye at the origin: the body, then each pivot turned.
     std::span<const glm::dmat4> parts;
 };

@@ -33,6 +33,21 @@ sim::AircraftState sunk(sim::AircraftState state, const glm::dvec3& eye_m, doubl
     return state;
 }
 
+Tints tints_of(const PlacedAircraft& aircraft, ModelLook look) {
+    const AircraftModel& model = *aircraft.model;
+    if (look == ModelLook::None || (look == ModelLook::Levels && is_refined(aircraft))) {
+        return {};
+    }
+    if (look == ModelLook::Shading) {
+        return shading_tints;
+    }
+    const double radius_m = model.progressive
+                                ? model.progressive->radius_m(model.progressive->roots().front())
+                                : model.subject.radius_m;
+    const std::uint32_t colour = level_colour(model.errors_m[aircraft.representation], radius_m);
+    return {colour, colour};
+}
+
 double distance_to_edge_m(const Ground& ground, const glm::dvec3& eye_m) {
     const glm::dvec2 half_m = ground.half_extent_m();
     return std::max(std::min(half_m.x - std::abs(eye_m.x), half_m.y - std::abs(eye_m.y)), 0.0);
@@ -160,9 +175,8 @@ const FramePlan& Planner::plan(
         plan_head_up_display(camera, states.front());
     }
     const SmoothChoice::Count shaded = smooth_.choose(
-        placed_, to_sun_, glm::vec2(plan_.ambient.x, plan_.sunlight.x), plan_.smooth);
+        placed_, refined_, to_sun_, glm::vec2(plan_.ambient.x, plan_.sunlight.x), plan_.smooth);
     counts.may_be_smooth = shaded.polygons;
-    counts.chosen_smooth = shaded.smooth;
     counts.smooth_polygons = shaded.smooth;
     count_aircraft(counts);
     counts.shadow_triangles = static_cast<int>(ground_.shadow_indices.size() / 3);
@@ -217,6 +231,7 @@ void Planner::place(
         model.order.cell_of(draworder::eye_in_body(eye_m, state.position_m, state.body_to_world));
     aircraft.cell = cell;
     represent(aircraft);
+    aircraft.tints = tints_of(aircraft, settings_.show_model);
     if (is_solid(aircraft)) {
         aircraft.polygons = {};
         aircraft.range =
@@ -290,9 +305,6 @@ void Planner::plan_head_up_display(const Camera& camera, const sim::AircraftStat
 void Planner::count_aircraft(PlanCounts& counts) const {
     for (const PlacedAircraft& aircraft : placed_) {
         counts.aircraft_polygons += aircraft.range.polygons;
-        const bool refined_smooth =
-            is_refined(aircraft) && settings_.shading != AircraftShading::Flat;
-        counts.smooth_polygons += refined_smooth ? aircraft.range.polygons : 0;
     }
     counts.refine_splits = refine_splits_;
     counts.refine_collapses = refine_collapses_;

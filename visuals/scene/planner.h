@@ -45,9 +45,8 @@ struct PlanCounts {
     int knots = 0;     ///< aircraft painted polygon by polygon: they meet, or stand in a ring
     int unordered = 0; ///< polygons that should have been painted again and were too many
     int shadow_triangles = 0;
-    int may_be_smooth = 0;   ///< polygons that shading chooses among, whole models
-    int smooth_polygons = 0; ///< lit smoothly, of whole models, and all triangles of refined meshes
-    int chosen_smooth = 0;   ///< of may_be_smooth
+    int may_be_smooth = 0;   ///< polygons of whole models, triangles of refined meshes
+    int smooth_polygons = 0; ///< of them: lit smoothly
     int aircraft_level = 0;  ///< representation of the first aircraft, 0 = the finest
     int refine_splits = 0;   ///< of all aircraft's meshes
     int refine_collapses = 0;
@@ -81,6 +80,9 @@ public:
 
     /// SmoothChoice::set_smooth.
     void set_smooth(std::optional<int> polygons) { smooth_.set_smooth(polygons); }
+
+    /// SmoothChoice::set_smooth_share.
+    void set_smooth_share(std::optional<double> share) { smooth_.set_smooth_share(share); }
 
     /// The plan of the next frame; `states` are those of Scene::aircraft. Valid until the next
     /// call. No allocation once the first frames have been planned.

@@ -48,9 +48,10 @@ void Planner::paint(const PlacedAircraft& aircraft) {
         return;
     }
     const auto i = static_cast<std::size_t>(&aircraft - placed_.data());
-    RefinedDraw draw = refined_[i]->draw(settings_.shading != AircraftShading::Flat);
+    RefinedDraw draw = refined_[i]->draw();
     draw.first_part = aircraft.first_part;
-    draw.first_smooth = aircraft.first_smooth;
+    draw.first_smooth = smooth_.refined_word();
+    draw.tints = aircraft.tints;
     steps_.paint_solid(draw);
 }
 

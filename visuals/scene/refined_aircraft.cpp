@@ -1,14 +1,19 @@
 #include "visuals/scene/refined_aircraft.h"
 
+#include "visuals/scene/model_look.h"
+
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace octant::visuals::scene {
 
 namespace {
+
+constexpr std::uint32_t flat_polygon = 1; ///< RefinedDraw::first_smooth
 
 refine::ViewRefinerOptions options_of(const Settings& settings) {
     refine::ViewRefinerOptions options;
@@ -17,11 +22,38 @@ refine::ViewRefinerOptions options_of(const Settings& settings) {
     return options;
 }
 
+shading::ShadingRuleSettings rule_of(const Settings& settings) {
+    shading::ShadingRuleSettings rule;
+    rule.rule = settings.shading_rule == HybridRule::Paper ? shading::ShadingRule::Paper
+                                                           : shading::ShadingRule::Error;
+    return rule;
+}
+
+float part_of(std::uint32_t colour, unsigned shift) {
+    return static_cast<float>(colour >> shift & 0xffU);
+}
+
+float colour_sum(std::uint32_t colour) {
+    return (part_of(colour, 0) + part_of(colour, 8) + part_of(colour, 16)) / 255.0F;
+}
+
+std::uint32_t mean_colour(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    std::uint32_t mean = 0xff000000U;
+    for (unsigned shift = 0; shift < 24; shift += 8) {
+        const std::uint32_t sum =
+            (a >> shift & 0xffU) + (b >> shift & 0xffU) + (c >> shift & 0xffU);
+        mean |= (sum + 1) / 3 << shift;
+    }
+    return mean;
+}
+
 } // namespace
 
 RefinedAircraft::RefinedAircraft(
     std::shared_ptr<const refine::ProgressiveMesh> mesh, const Settings& settings)
-    : refiner_(std::move(mesh), options_of(settings)) {}
+    : refiner_(std::move(mesh), options_of(settings))
+    , selector_(rule_of(settings))
+    , shows_levels_(settings.show_model == ModelLook::Levels) {}
 
 refine::RefinedFrame
 RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const RefineLook& look, bool first) {
@@ -35,60 +67,133 @@ RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const RefineLook& l
     view.focal_px = 1.0 / look.pixel_rad;
     if (first) {
         refiner_.settle(view);
+        front_changed_ = true;
     }
-    return refiner_.update(view);
+    const refine::RefinedFrame frame = refiner_.update(view);
+    front_changed_ = front_changed_ || frame.splits + frame.collapses > 0;
+    drawn_changed_ = drawn_changed_ || front_changed_ || frame.moving > 0;
+    return frame;
 }
 
-ModelVertex RefinedAircraft::drawn(const refine::RefinedVertex& vertex) const {
-    const glm::vec3 origin_m(refiner_.front().mesh().parts().origin_m);
-    const glm::vec3 normal = refine::unpacked(vertex.normal);
-    return {vertex.position_m + origin_m, normal, normal, vertex.colour, 0, 0};
+ModelVertex RefinedAircraft::drawn(std::uint32_t slot) const {
+    const refine::ProgressiveMesh& mesh = refiner_.front().mesh();
+    const refine::RefinedVertex& vertex = refiner_.front().vertices()[slot];
+    ModelVertex drawn;
+    drawn.position_m = vertex.position_m + glm::vec3(mesh.parts().origin_m);
+    drawn.normal = refine::unpacked(vertex.normal);
+    drawn.colour = vertex.colour;
+    const std::uint32_t node = refiner_.front().node_at(slot);
+    if (shows_levels_ && node != refine::none) {
+        const double radius_m = mesh.radius_m(mesh.roots().front());
+        drawn.colour = level_colour(mesh.error_m(node), radius_m);
+    }
+    return drawn;
 }
 
-void RefinedAircraft::fill_shared() {
-    vertices_.clear();
-    for (const refine::RefinedVertex& vertex : refiner_.front().vertices()) {
-        vertices_.push_back(drawn(vertex));
+/// Takes over what has been written of the front's vertices.
+void RefinedAircraft::follow_front() {
+    refine::SelectiveRefiner& front = refiner_.front();
+    front.take_dirty_vertices(ranges_);
+    slot_count_ = front.vertices().size();
+    vertices_.resize(slot_count_);
+    points_.resize(slot_count_);
+    for (const refine::PlaceRange& range : ranges_) {
+        for (std::size_t slot = range.first; slot < range.end; ++slot) {
+            const ModelVertex vertex = drawn(static_cast<std::uint32_t>(slot));
+            vertices_[slot] = vertex;
+            points_[slot] = {vertex.position_m, vertex.normal, colour_sum(vertex.colour)};
+        }
     }
 }
 
-void RefinedAircraft::fill_apart() {
-    vertices_.clear();
-    indices_.clear();
+/// The same of its triangles' numbers.
+void RefinedAircraft::follow_labels() {
+    refine::SelectiveRefiner& front = refiner_.front();
+    front.take_dirty_faces(ranges_);
+    labels_.resize(front.indices().size() / 3);
+    for (const refine::PlaceRange& range : ranges_) {
+        for (std::size_t place = range.first; place < range.end; ++place) {
+            labels_[place] = front.face_at(place);
+        }
+    }
+}
+
+void RefinedAircraft::shade(
+    const glm::dvec3& eye_m, const shading::ShadingLight& light, int smooth) {
+    assert(smooth >= 0 && smooth <= triangles());
+    const bool chooses = smooth > 0 && smooth < triangles();
+    const bool all_flat = smooth == 0;
+    if (chooses != choosing_ || all_flat != all_flat_) {
+        front_changed_ = true;
+        drawn_changed_ = true;
+    }
+    choosing_ = chooses;
+    all_flat_ = all_flat;
+    if (!chooses) {
+        return;
+    }
+    if (drawn_changed_) {
+        follow_front();
+        follow_labels();
+    }
+    const shading::ChangingMesh mesh{
+        .points = points_,
+        .indices = refiner_.front().indices(),
+        .labels = labels_,
+        .triangle_count = refiner_.front().face_count(),
+        .centre_m = glm::vec3(refiner_.front().mesh().parts().origin_m)};
+    const bool chosen =
+        selector_.choose(mesh, eye_m, light, static_cast<std::size_t>(smooth), front_changed_);
+    front_changed_ = false;
+    drawn_changed_ = drawn_changed_ || chosen;
+}
+
+/// Gives a flat triangle a first corner of its own.
+void RefinedAircraft::write_flat(std::span<const std::uint32_t> corners) {
+    const ModelVertex& second = vertices_[corners[1]];
+    const ModelVertex& third = vertices_[corners[2]];
+    ModelVertex first = vertices_[corners[0]];
+    const glm::vec3 across =
+        glm::cross(second.position_m - first.position_m, third.position_m - first.position_m);
+    const float size = glm::length(across);
+    first.face_normal = size > 0.0F ? across / size : first.normal;
+    first.face_colour = mean_colour(first.colour, second.colour, third.colour);
+    first.polygon = flat_polygon;
+    indices_.push_back(static_cast<std::uint32_t>(vertices_.size()));
+    indices_.push_back(corners[1]);
+    indices_.push_back(corners[2]);
+    vertices_.push_back(first);
+}
+
+void RefinedAircraft::write_indices() {
     const auto shared = refiner_.front().indices();
-    const auto corners = refiner_.front().vertices();
-    std::uint32_t polygon = 0;
-    for (std::size_t i = 0; i + 2 < shared.size(); i += 3) {
-        if (shared[i] == shared[i + 1]) {
-            continue; // a place without a face
+    const auto smooth = selector_.smooth();
+    indices_.clear();
+    for (std::size_t place = 0; 3 * place < shared.size(); ++place) {
+        const auto corners = shared.subspan(3 * place, 3);
+        if (corners[0] == corners[1]) {
+            continue; // a place without a triangle
         }
-        std::array<ModelVertex, 3> triangle{
-            drawn(corners[shared[i]]),
-            drawn(corners[shared[i + 1]]),
-            drawn(corners[shared[i + 2]])};
-        const glm::vec3 across = glm::cross(
-            triangle[1].position_m - triangle[0].position_m,
-            triangle[2].position_m - triangle[0].position_m);
-        const float size = glm::length(across);
-        triangle[0].face_normal = size > 0.0F ? across / size : triangle[0].normal;
-        triangle[0].polygon = polygon++;
-        for (const ModelVertex& corner : triangle) {
-            indices_.push_back(static_cast<std::uint32_t>(vertices_.size()));
-            vertices_.push_back(corner);
+        if (all_flat_ || smooth[place] == 0) {
+            write_flat(corners);
+        } else {
+            indices_.insert(indices_.end(), corners.begin(), corners.end());
         }
     }
 }
 
-RefinedDraw RefinedAircraft::draw(bool smooth) {
-    RefinedDraw draw;
-    if (smooth) {
-        fill_shared();
-        draw.indices = refiner_.front().indices();
-    } else {
-        fill_apart();
-        draw.indices = indices_;
+RefinedDraw RefinedAircraft::draw() {
+    const bool all_smooth = !choosing_ && !all_flat_;
+    if (drawn_changed_) {
+        follow_front();
+        if (!all_smooth) {
+            write_indices();
+        }
     }
+    drawn_changed_ = false;
+    RefinedDraw draw;
     draw.vertices = vertices_;
+    draw.indices = all_smooth ? refiner_.front().indices() : indices_;
     return draw;
 }
 

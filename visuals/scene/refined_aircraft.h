@@ -3,6 +3,7 @@
 #include "visuals/refine/view_refiner.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
+#include "visuals/shading/changing_mesh_shading.h"
 
 #include <glm/mat4x4.hpp>
 
@@ -23,7 +24,7 @@ struct RefineLook {
 };
 
 /// One aircraft's mesh, kept as fine as each frame needs it. Several share a hierarchy. Keeps its
-/// memory.
+/// memory; what stays from frame to frame is not worked out again.
 class RefinedAircraft {
 public:
     /// The hierarchy is in body axes.
@@ -36,18 +37,35 @@ public:
 
     int triangles() const { return static_cast<int>(refiner_.front().face_count()); }
 
-    /// The mesh of the last update() for drawing. `smooth`: corners share vertices; else each
-    /// triangle has its own, with its own normal. Until the next call.
-    RefinedDraw draw(bool smooth);
+    /// Chooses which triangles of the last update() are smooth: exactly `smooth`, from 0 to
+    /// triangles(). Eye and light are in body axes.
+    void shade(const glm::dvec3& eye_m, const shading::ShadingLight& light, int smooth);
+
+    /// The mesh of the last update() for drawing, shaded as the last shade() chose, before that all
+    /// smooth. Corners share vertices, but a flat triangle's first one is its own, with its normal
+    /// and the mean of its corners' colours. Until the next call.
+    RefinedDraw draw();
 
 private:
-    ModelVertex drawn(const refine::RefinedVertex& vertex) const;
-    void fill_shared();
-    void fill_apart();
+    ModelVertex drawn(std::uint32_t slot) const;
+    void follow_front();
+    void follow_labels();
+    void write_indices();
+    void write_flat(std::span<const std::uint32_t> corners);
 
     refine::ViewRefiner refiner_;
+    shading::ChangingMeshSelector selector_;
+    bool shows_levels_;
+    bool choosing_ = false;      ///< some triangles are smooth and some are not
+    bool all_flat_ = false;      ///< else
+    bool front_changed_ = true;  ///< since the selector has seen it
+    bool drawn_changed_ = true;  ///< since draw()
+    std::size_t slot_count_ = 0; ///< of vertices_; those of flat triangles lie behind
     std::vector<ModelVertex> vertices_;
+    std::vector<shading::LitPoint> points_; ///< one a slot
+    std::vector<std::uint32_t> labels_;     ///< one a place of the front's indices
     std::vector<std::uint32_t> indices_;
+    std::vector<refine::PlaceRange> ranges_;
 };
 
 } // namespace octant::visuals::scene

@@ -2,6 +2,7 @@
 
 #include "visuals/draworder/ordered_model.h"
 #include "visuals/scene/frame_plan.h"
+#include "visuals/scene/model_look.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -97,6 +98,7 @@ struct Settings {
     int control_r = 4;      ///< r, earlier frames that the damping looks back at
 
     MeshLook show_mesh = MeshLook::None;
+    ModelLook show_model = ModelLook::None;
     bool sky = true;
     double visibility_m = 30000.0; ///< 0 = no haze
     glm::vec3 background{158.0F / 255.0F, 184.0F / 255.0F, 214.0F / 255.0F};

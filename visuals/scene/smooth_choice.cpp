@@ -19,7 +19,7 @@ constexpr std::size_t word_bits = 32;
 constexpr double nearest_radii = 1.0;
 
 std::size_t words_for(const AircraftModel& model) {
-    std::size_t most = model.progressive ? model.progressive->face_count() : 0;
+    std::size_t most = 0;
     for (std::size_t as = 0; as <= model.levels.size(); ++as) {
         most = std::max(most, model.shaded_as(as).size());
     }
@@ -33,8 +33,26 @@ double distance_m(const PlacedAircraft& aircraft) {
 /// Those that may be flat or smooth.
 int polygons_of(const PlacedAircraft& aircraft) {
     return is_refined(aircraft)
-               ? 0
+               ? aircraft.range.polygons
                : static_cast<int>(aircraft.model->shaded_as(aircraft.representation).size());
+}
+
+shading::ShadingRuleSettings rule_of(const Settings& settings) {
+    shading::ShadingRuleSettings rule;
+    rule.rule = settings.shading_rule == HybridRule::Paper ? shading::ShadingRule::Paper
+                                                           : shading::ShadingRule::Error;
+    return rule;
+}
+
+/// Of the sun, in body axes.
+shading::ShadingLight
+light_on(const PlacedAircraft& aircraft, const glm::dvec3& to_sun, const glm::vec2& light) {
+    shading::ShadingLight sun;
+    sun.to_light = glm::vec3(to_sun * glm::dmat3(aircraft.parts[0]));
+    sun.ambient = light.x;
+    sun.diffuse = light.y;
+    sun.specular = 0.0F;
+    return sun;
 }
 
 /// About the solid angle under which an aircraft is seen.
@@ -78,19 +96,17 @@ SmoothChoice::SmoothChoice(const Settings& settings, std::span<PlacedAircraft> p
     , choosers_(placed.size())
     , shares_(placed.size())
     , given_(placed.size()) {
-    shading::ShadingRuleSettings rule;
-    rule.rule = settings.shading_rule == HybridRule::Paper ? shading::ShadingRule::Paper
-                                                           : shading::ShadingRule::Error;
     std::size_t words = 0;
     for (std::size_t i = 0; i < placed.size(); ++i) {
         const AircraftModel& model = *placed[i].model;
         placed[i].first_smooth = static_cast<std::uint32_t>(words);
         words += words_for(model);
         for (std::size_t as = 0; chooses() && as <= model.levels.size(); ++as) {
-            choosers_[i].emplace_back(model.shaded_as(as), rule);
+            choosers_[i].emplace_back(model.shaded_as(as), rule_of(settings));
         }
     }
     bits_.assign(words, settings.shading == AircraftShading::Flat ? 0U : ~0U);
+    bits_.push_back(1);
 }
 
 /// Whether some polygons may be smooth while others are not.
@@ -107,9 +123,9 @@ int SmoothChoice::wanted_of(std::span<const PlacedAircraft> placed) {
         shares_[i] = {polygons_of(placed[i]), weight_of(placed[i])};
         all += shares_[i].polygons;
     }
-    const double share = settings_.smooth_share;
+    const double share = wanted_share_.value_or(settings_.smooth_share);
     int wanted = static_cast<int>(std::lround(share * all));
-    if (settings_.device_ratio) {
+    if (settings_.device_ratio && !wanted_share_) {
         wanted = shading::device_smooth_count(*settings_.device_ratio, all);
     }
     wanted = std::min(wanted_.value_or(wanted), all);
@@ -127,48 +143,34 @@ int SmoothChoice::wanted_of(std::span<const PlacedAircraft> placed) {
 
 SmoothChoice::Count SmoothChoice::choose(
     std::span<const PlacedAircraft> placed,
+    std::span<const std::unique_ptr<RefinedAircraft>> refined,
     const glm::dvec3& to_sun,
     const glm::vec2& light,
     std::vector<std::uint32_t>& smooth) {
-    const int all = wanted_of(placed);
-    int count = settings_.shading == AircraftShading::Flat ? 0 : all;
-    if (chooses()) {
-        count = 0;
-        for (std::size_t i = 0; i < placed.size(); ++i) {
-            if (is_refined(placed[i])) {
-                fill_bits(placed, i);
-                continue;
-            }
-            const glm::dmat3 turn(placed[i].parts[0]);
-            shading::ShadingLight sun;
-            sun.to_light = glm::vec3(to_sun * turn);
-            sun.ambient = light.x;
-            sun.diffuse = light.y;
-            sun.specular = 0.0F;
-            const glm::dvec3 eye_m = -glm::dvec3(placed[i].parts[0][3]) * turn;
-            const shading::ShadingChoice choice =
-                chooser_of(i, placed[i]).choose(eye_m, sun, given_[i]);
-            write_bits(placed[i], choice);
-            count += choice.smooth_count;
+    Count count{wanted_of(placed), 0};
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        int given = settings_.shading == AircraftShading::Flat ? 0 : shares_[i].polygons;
+        const shading::ShadingLight sun = light_on(placed[i], to_sun, light);
+        const glm::dvec3 eye_m =
+            -glm::dvec3(placed[i].parts[0][3]) * glm::dmat3(placed[i].parts[0]);
+        if (chooses()) {
+            given = given_[i];
         }
+        if (is_refined(placed[i])) {
+            refined[i]->shade(eye_m, sun, given);
+        } else if (chooses()) {
+            write_bits(placed[i], chooser_of(i, placed[i]).choose(eye_m, sun, given));
+        }
+        count.smooth += given;
     }
     smooth.assign(bits_.begin(), bits_.end());
-    return {all, count};
+    return count;
 }
 
 shading::ShadingSelector&
 SmoothChoice::chooser_of(std::size_t aircraft, const PlacedAircraft& placed) {
     const bool polygons = !is_solid(placed);
     return polygons ? choosers_[aircraft].back() : choosers_[aircraft][placed.representation];
-}
-
-/// All smooth.
-void SmoothChoice::fill_bits(std::span<const PlacedAircraft> placed, std::size_t aircraft) {
-    const auto first = bits_.begin() + placed[aircraft].first_smooth;
-    const auto end = aircraft + 1 < placed.size()
-                         ? bits_.begin() + placed[aircraft + 1].first_smooth
-                         : bits_.end();
-    std::fill(first, end, ~0U);
 }
 
 void SmoothChoice::write_bits(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "visuals/scene/placed_aircraft.h"
+#include "visuals/scene/refined_aircraft.h"
 #include "visuals/scene/settings.h"
 #include "visuals/shading/shading_rule.h"
 
@@ -9,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,15 +27,27 @@ struct SmoothShare {
 /// in all as many as asked for, or all. `given`: one an aircraft.
 void share_out_smooth(std::span<const SmoothShare> aircraft, int smooth, std::span<int> given);
 
-/// Chooses in each frame which polygons of which aircraft are lit smoothly; of meshes that are
-/// refined all or none. Keeps the choice, so that shading does not flicker, and its memory.
+/// Chooses in each frame which polygons of which aircraft are lit smoothly, triangles of meshes
+/// that are refined included. Keeps the choice, so that shading does not flicker, and its memory.
 class SmoothChoice {
 public:
     /// Gives each aircraft its place in FramePlan::smooth. Loading work.
     SmoothChoice(const Settings& settings, std::span<PlacedAircraft> placed);
 
     /// From now on so many polygons are smooth in each frame; nothing: as the settings say.
-    void set_smooth(std::optional<int> polygons) { wanted_ = polygons; }
+    void set_smooth(std::optional<int> polygons) {
+        wanted_ = polygons;
+        wanted_share_.reset();
+    }
+
+    /// The same by their share, from 0 to 1.
+    void set_smooth_share(std::optional<double> share) {
+        wanted_.reset();
+        wanted_share_ = share;
+    }
+
+    /// RefinedDraw::first_smooth of all that is refined.
+    std::uint32_t refined_word() const { return static_cast<std::uint32_t>(bits_.size() - 1); }
 
     /// Of how many polygons, and how many of them.
     struct Count {
@@ -41,11 +55,13 @@ public:
         int smooth = 0;
     };
 
-    /// Fills in the bits of the aircraft as they are placed; counts all polygons of their models,
-    /// painted or not, but none of meshes that are refined.
+    /// Fills in the bits of the aircraft as they are placed and shades what is refined (`refined`:
+    /// one an aircraft, some null); counts all polygons of models, painted or not, and the
+    /// triangles that refined meshes have now.
     /// `to_sun`: unit vector, world axes. `light`: share of it from everywhere and from the sun.
     Count choose(
         std::span<const PlacedAircraft> placed,
+        std::span<const std::unique_ptr<RefinedAircraft>> refined,
         const glm::dvec3& to_sun,
         const glm::vec2& light,
         std::vector<std::uint32_t>& smooth);
@@ -57,7 +73,6 @@ private:
     bool chooses() const;
     int wanted_of(std::span<const PlacedAircraft> placed);
     shading::ShadingSelector& chooser_of(std::size_t aircraft, const PlacedAircraft& placed);
-    void fill_bits(std::span<const PlacedAircraft> placed, std::size_t aircraft);
     void write_bits(const PlacedAircraft& aircraft, const shading::ShadingChoice& choice);
 
     const Settings& settings_;
@@ -66,6 +81,7 @@ private:
     std::vector<SmoothShare> shares_;
     std::vector<int> given_;
     std::optional<int> wanted_;
+    std::optional<double> wanted_share_;
 };
 
 } // namespace octant::visuals::scene

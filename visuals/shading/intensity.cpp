@@ -33,17 +33,17 @@ float intensity(
     const glm::vec3& eye_m) {
     assert(light.shininess >= 1);
     const float cosine = glm::dot(normal, light.to_light);
-    if (cosine <= 0.0F) {
-        return light.ambient * colour_sum;
+    if (cosine <= 0.0F || light.specular <= 0.0F) {
+        return matt_intensity(cosine, colour_sum, light);
     }
     const glm::vec3 mirrored = 2.0F * cosine * normal - light.to_light;
     const glm::vec3 to_eye = eye_m - place_m;
     const float towards_eye = glm::dot(mirrored, to_eye);
     float specular = 0.0F;
-    if (towards_eye > 0.0F && light.specular > 0.0F) {
+    if (towards_eye > 0.0F) {
         specular = light.specular * whole_power(towards_eye / glm::length(to_eye), light.shininess);
     }
-    return (light.ambient + light.diffuse * cosine) * colour_sum + 3.0F * specular;
+    return matt_intensity(cosine, colour_sum, light) + 3.0F * specular;
 }
 
 } // namespace octant::visuals::shading

@@ -2,6 +2,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <algorithm>
+
 namespace octant::visuals::shading {
 
 /// One far white light and how surfaces throw it back. Axes as those of the polygons it falls on.
@@ -14,6 +16,11 @@ struct ShadingLight {
 
     bool operator==(const ShadingLight&) const = default;
 };
+
+/// intensity() of a surface without gloss, by the cosine between its normal and the light.
+inline float matt_intensity(float cosine, float colour_sum, const ShadingLight& light) {
+    return (light.ambient + light.diffuse * std::max(cosine, 0.0F)) * colour_sum;
+}
 
 /// Phong reflection at a point, red + green + blue, not cut off at what a screen can show: ambient
 /// + diffuse + specular. `normal`: unit vector. What faces away from the light has ambient only.

@@ -14,7 +14,8 @@
 // - A single slow frame is not learnt from. Three in a row are a change of load: a is learnt anew.
 // - The target moves at once when frames come too near to T, otherwise only over a dead band.
 // - bg - bf below two of its deviations: flat polygons gain nothing that can be measured, and all
-//   are smooth. On the way there g changes as much as it can, so that a gain then shows.
+//   are smooth. On the way there g changes as much as it can, so that a gain then shows. What may
+//   still be a fifth of T is not called nothing.
 #include "visuals/shading/shading_controller.h"
 
 #include <algorithm>
@@ -120,14 +121,15 @@ double slope_sd_ms(const ShadingFit& fit) {
     return fit.noise_ms * std::sqrt(std::max(fit.covariance[4 * slope], 0.0));
 }
 
-/// Whether flat polygons gain nothing, judged with the memory of the last judgement.
+/// Whether flat polygons gain nothing, or so little that it does not show, judged with the memory
+/// of the last judgement.
 bool without_gain(bool before, const ShadingFit& fit, const ShadingControl& control) {
     const double sd_ms = slope_sd_ms(fit);
-    if (fit.frames < learning_frames) {
-        return before && fit.ms[slope] < 4.0 * sd_ms;
+    const bool is_little = fit.ms[slope] + 2.0 * sd_ms < control.little_gain * control.share_ms;
+    if (before) {
+        return fit.ms[slope] < 4.0 * sd_ms && (is_little || fit.frames < learning_frames);
     }
-    const bool is_measured = sd_ms < 0.15 * control.share_ms;
-    return before ? fit.ms[slope] < 4.0 * sd_ms : is_measured && fit.ms[slope] < 2.0 * sd_ms;
+    return fit.frames >= learning_frames && is_little && fit.ms[slope] < 2.0 * sd_ms;
 }
 
 /// Moves `target` towards the best number for n polygons.
@@ -159,7 +161,7 @@ void aim(ShadingState& state, const ShadingControl& control) {
 /// g of the next frame: the target, a little less of it while more must be learnt.
 int probed(ShadingState& state, const ShadingControl& control) {
     const bool is_known = slope_sd_ms(state.fit) < 0.2 * state.fit.ms[slope];
-    const int target = static_cast<int>(std::lround(state.target));
+    const int target = static_cast<int>(state.target + 1e-6); // rounded up it would not fit
     if (is_known || state.moving || state.no_gain || target == state.polygons) {
         state.probe_frame = 0;
         return target;
@@ -171,6 +173,9 @@ int probed(ShadingState& state, const ShadingControl& control) {
     // Where not even all flat fits, the machine is asked in one large step what smooth ones cost.
     const double share = target == 0 ? control.largest_step : control.probe;
     const int probe = std::max(static_cast<int>(share * state.polygons), 1);
+    if (target != 0 && probe > control.largest_probe * state.polygons) {
+        return target; // few polygons: one of them is too much
+    }
     return target >= probe ? target - probe : target + probe;
 }
 

@@ -21,6 +21,10 @@ struct ShadingControl {
     /// the fit cannot tell well what they cost; `largest_step` turn smooth where all are flat.
     double probe = 0.01;
     int probe_frames = 40;
+    /// Share of the polygons that one at least may be for that: of fewer polygons none is asked.
+    double largest_probe = 0.05;
+    /// Flat polygons that may gain more than this share of T are not said to gain nothing.
+    double little_gain = 0.2;
     double surprise_sds = 2.5; ///< three frames in a row beyond this on one side: the load changed
     double outlier_sds = 4.0;  ///< a frame beyond this says nothing of the fit
 };

@@ -31,10 +31,6 @@ std::uint64_t mixed(std::uint64_t bits) {
     return bits ^ (bits >> 31U);
 }
 
-double angle_rad(const glm::dvec3& one, const glm::dvec3& other) {
-    return std::atan2(glm::length(glm::cross(one, other)), glm::dot(one, other));
-}
-
 } // namespace
 
 ShadingRuleSettings without_memory(ShadingRule rule) {
@@ -46,28 +42,11 @@ ShadingSelector::ShadingSelector(
     : polygons_(&polygons)
     , settings_(settings)
     , intensities_(polygons.points.size())
-    , candidates_(polygons.size())
+    , keys_(polygons.size())
     , smooth_(polygons.size())
     , next_(polygons.size()) {
     assert(settings.hold >= 1.0F);
     assert(settings.reselect_rad >= 0.0 && settings.reselect_distance >= 0.0);
-}
-
-bool ShadingSelector::has_moved(const glm::dvec3& eye_m, const ShadingLight& light) const {
-    if (eye_m == eye_m_ && light == light_) {
-        return false;
-    }
-    ShadingLight turned = light_;
-    turned.to_light = light.to_light;
-    if (turned != light || angle_rad(glm::dvec3(light.to_light), glm::dvec3(light_.to_light)) >
-                               settings_.reselect_rad) {
-        return true;
-    }
-    const glm::dvec3 before_m = eye_m_ - glm::dvec3(polygons_->centre_m);
-    const glm::dvec3 now_m = eye_m - glm::dvec3(polygons_->centre_m);
-    const double farther_m = std::abs(glm::length(now_m) - glm::length(before_m));
-    return farther_m > settings_.reselect_distance * glm::length(before_m) ||
-           angle_rad(before_m, now_m) > settings_.reselect_rad;
 }
 
 void ShadingSelector::light_points(const glm::vec3& eye_m, const ShadingLight& light) {
@@ -77,13 +56,13 @@ void ShadingSelector::light_points(const glm::vec3& eye_m, const ShadingLight& l
     }
 }
 
-ShadingSelector::Candidate ShadingSelector::by_error(
-    std::uint32_t polygon, const glm::vec3& eye_m, const ShadingLight& light) const {
+std::uint32_t ShadingSelector::by_error(
+    std::size_t polygon, const glm::vec3& eye_m, const ShadingLight& light) const {
     const ShadedPolygon& shape = polygons_->polygons[polygon];
     const glm::vec3 to_eye_m = eye_m - shape.centre_m;
     const float in_front_m = glm::dot(to_eye_m, shape.normal);
     if (in_front_m <= 0.0F) {
-        return {.tier = 0, .rank = 0.0F, .polygon = polygon};
+        return key_of(0, 0.0F);
     }
     const float flat = intensity(shape.centre_m, shape.normal, shape.colour_sum, light, eye_m);
     const std::uint32_t* const points = &polygons_->corner_points[shape.first_corner];
@@ -93,16 +72,15 @@ ShadingSelector::Candidate ShadingSelector::by_error(
     for (std::uint32_t k = 1; k + 1 < shape.corner_count; ++k) {
         const float here = intensities_[points[k]] - flat;
         const float next = intensities_[points[k + 1]] - flat;
-        error += fan_m2[k] * (first * first + here * here + next * next + first * here +
-                              here * next + next * first);
+        error += fan_m2[k] * error_square(first, here, next);
     }
     const float distance_m = glm::length(to_eye_m);
     const float on_screen = in_front_m / (distance_m * distance_m * distance_m);
     const float hold = smooth_[polygon] != 0 ? settings_.hold : 1.0F;
-    return {.tier = 1, .rank = hold * on_screen * error / 6.0F, .polygon = polygon};
+    return key_of(1, hold * on_screen * error / 6.0F);
 }
 
-ShadingSelector::Candidate ShadingSelector::by_paper(std::uint32_t polygon) const {
+std::uint32_t ShadingSelector::by_paper(std::size_t polygon) const {
     const ShadedPolygon& shape = polygons_->polygons[polygon];
     float least = intensities_[polygons_->corner_points[shape.first_corner]];
     float most = least;
@@ -114,42 +92,28 @@ ShadingSelector::Candidate ShadingSelector::by_paper(std::uint32_t polygon) cons
     const float hold = smooth_[polygon] != 0 ? settings_.hold : 1.0F;
     const bool differs = hold * (most - least) > settings_.threshold;
     const bool is_large = shape.perimeter_m > polygons_->mean_perimeter_m;
-    return {
-        .tier = differs ? (is_large ? 2U : 1U) : 0U, .rank = shape.perimeter_m, .polygon = polygon};
+    return key_of(differs ? (is_large ? 2U : 1U) : 0U, shape.perimeter_m);
 }
 
 void ShadingSelector::rank_all(const glm::vec3& eye_m, const ShadingLight& light) {
-    for (std::uint32_t i = 0; i < candidates_.size(); ++i) {
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
         switch (settings_.rule) {
         case ShadingRule::Error:
-            candidates_[i] = by_error(i, eye_m, light);
+            keys_[i] = by_error(i, eye_m, light);
             break;
         case ShadingRule::Paper:
-            candidates_[i] = by_paper(i);
+            keys_[i] = by_paper(i);
             break;
         case ShadingRule::Random:
-            candidates_[i] = {
-                .tier = static_cast<std::uint32_t>(
-                    mixed(mixed(settings_.seed) + 0x9e3779b97f4a7c15ULL * (i + 1)) >> 32U),
-                .rank = 0.0F,
-                .polygon = i};
+            keys_[i] = static_cast<std::uint32_t>(
+                mixed(mixed(settings_.seed) + 0x9e3779b97f4a7c15ULL * (i + 1)) >> 32U);
             break;
         }
     }
 }
 
 int ShadingSelector::take_best(int smooth_count) {
-    const auto is_better = [](const Candidate& one, const Candidate& other) {
-        if (one.tier != other.tier) {
-            return one.tier > other.tier;
-        }
-        return one.rank != other.rank ? one.rank > other.rank : one.polygon < other.polygon;
-    };
-    std::ranges::nth_element(candidates_, candidates_.begin() + smooth_count, is_better);
-    std::ranges::fill(next_, std::uint8_t{0});
-    for (int i = 0; i < smooth_count; ++i) {
-        next_[candidates_[static_cast<std::size_t>(i)].polygon] = 1;
-    }
+    greatest_.choose(keys_, static_cast<std::size_t>(smooth_count), next_);
     int changed = 0;
     for (std::size_t i = 0; i < next_.size(); ++i) {
         changed += next_[i] != smooth_[i] ? 1 : 0;
@@ -161,16 +125,18 @@ int ShadingSelector::take_best(int smooth_count) {
 ShadingChoice
 ShadingSelector::choose(const glm::dvec3& eye_m, const ShadingLight& light, int smooth_count) {
     assert(smooth_count >= 0 && static_cast<std::size_t>(smooth_count) <= polygons_->size());
-    const bool moved = !chosen_ || has_moved(eye_m, light);
+    const RememberedLook look{eye_m, light};
+    const LookTolerance tolerance{settings_.reselect_rad, settings_.reselect_distance};
+    const bool moved =
+        !chosen_ || is_other_look(look_, look, glm::dvec3(polygons_->centre_m), tolerance);
     if (!moved && smooth_count == smooth_count_) {
         return {.smooth = smooth_, .smooth_count = smooth_count};
     }
     if (moved) {
-        eye_m_ = eye_m;
-        light_ = light;
+        look_ = look;
         light_points(glm::vec3(eye_m), light);
     }
-    rank_all(glm::vec3(eye_m_), light_);
+    rank_all(glm::vec3(look_.eye_m), look_.light);
     const int changed = take_best(smooth_count);
     smooth_count_ = smooth_count;
     return {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "visuals/shading/greatest_keys.h"
 #include "visuals/shading/intensity.h"
+#include "visuals/shading/remembered_look.h"
 #include "visuals/shading/shaded_polygons.h"
 
 #include <glm/vec3.hpp>
@@ -35,6 +37,12 @@ struct ShadingRuleSettings {
 /// Every call with new eye and light is looked at, and nothing of the last choice is held.
 ShadingRuleSettings without_memory(ShadingRule rule);
 
+/// Six times the mean square of a triangle's error where its corners are off by a, b and c and
+/// points between by straight lines.
+inline float error_square(float a, float b, float c) {
+    return a * a + b * b + c * c + a * b + b * c + c * a;
+}
+
 /// Which polygons of a model are smooth.
 struct ShadingChoice {
     std::span<const std::uint8_t> smooth; ///< one a polygon: 1 = smooth, 0 = flat
@@ -44,7 +52,7 @@ struct ShadingChoice {
 };
 
 /// Chooses the smooth polygons of one drawn model and remembers the choice: one a drawn aircraft.
-/// Allocates only in its constructor. Same calls, same choices.
+/// No allocation once it has chosen a few times. Same calls, same choices.
 class ShadingSelector {
 public:
     /// `polygons` stay where they are as long as the selector.
@@ -59,29 +67,21 @@ public:
     std::span<const std::uint8_t> smooth() const { return smooth_; }
 
 private:
-    /// Polygons are wanted by (tier downwards, rank downwards, index upwards).
-    struct Candidate {
-        std::uint32_t tier = 0;
-        float rank = 0.0F;
-        std::uint32_t polygon = 0;
-    };
-
-    bool has_moved(const glm::dvec3& eye_m, const ShadingLight& light) const;
     void light_points(const glm::vec3& eye_m, const ShadingLight& light);
-    Candidate
-    by_error(std::uint32_t polygon, const glm::vec3& eye_m, const ShadingLight& light) const;
-    Candidate by_paper(std::uint32_t polygon) const;
+    std::uint32_t
+    by_error(std::size_t polygon, const glm::vec3& eye_m, const ShadingLight& light) const;
+    std::uint32_t by_paper(std::size_t polygon) const;
     void rank_all(const glm::vec3& eye_m, const ShadingLight& light);
     int take_best(int smooth_count);
 
     const ShadedPolygons* polygons_;
     ShadingRuleSettings settings_;
-    std::vector<float> intensities_; ///< one a point
-    std::vector<Candidate> candidates_;
+    std::vector<float> intensities_;  ///< one a point
+    std::vector<std::uint32_t> keys_; ///< one a polygon, key_of
+    GreatestKeys greatest_;
     std::vector<std::uint8_t> smooth_;
     std::vector<std::uint8_t> next_;
-    glm::dvec3 eye_m_{0.0};
-    ShadingLight light_;
+    RememberedLook look_;
     int smooth_count_ = 0;
     bool chosen_ = false;
 };

@@ -9,6 +9,9 @@ layout(location = 4) in uint first_part; // of the aircraft
 layout(location = 5) in vec3 face_normal; // of the polygon that begins here, body axes, unit
 layout(location = 6) in uint polygon;
 layout(location = 7) in uint first_smooth; // of the aircraft
+layout(location = 8) in vec4 face_colour; // of the polygon that begins here
+layout(location = 9) in vec4 smooth_tint; // of the aircraft's smooth polygons; a = 0: none
+layout(location = 10) in vec4 flat_tint; // the same of its flat ones
 
 layout(std140, binding = 0) uniform Picture {
     mat4 world_to_clip;
@@ -30,9 +33,9 @@ layout(std430, binding = 1) readonly buffer Smooth {
 flat out vec4 flat_colour; // a = 1: the smooth one counts
 out vec3 smooth_colour;
 
-vec3 lit(vec3 outwards) {
+vec3 lit(vec3 colour, vec3 outwards) {
     vec3 light = ambient.rgb + sunlight.rgb * max(dot(outwards, to_sun.xyz), 0.0);
-    return min(own_colour.rgb * light, vec3(1.0));
+    return min(colour * light, vec3(1.0));
 }
 
 void main() {
@@ -41,7 +44,7 @@ void main() {
     mat3 turn = mat3(part_to_eye_world);
     uint bit = smooth_polygons[first_smooth + polygon / 32u] >> (polygon % 32u) & 1u;
     float haze_share = 1.0 - exp(-length(place.xyz) * haze.w);
-    flat_colour = vec4(mix(lit(turn * face_normal), haze.rgb, haze_share), float(bit));
-    smooth_colour = mix(lit(turn * normal), haze.rgb, haze_share);
+    flat_colour = vec4(mix(lit(mix(face_colour.rgb, flat_tint.rgb, flat_tint.a), turn * face_normal), haze.rgb, haze_share), float(bit));
+    smooth_colour = mix(lit(mix(own_colour.rgb, smooth_tint.rgb, smooth_tint.a), turn * normal), haze.rgb, haze_share);
     gl_Position = world_to_clip * place;
 }

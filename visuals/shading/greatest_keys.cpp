@@ -1,0 +1,41 @@
+#include "visuals/shading/greatest_keys.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace octant::visuals::shading {
+
+void GreatestKeys::choose(
+    std::span<const std::uint32_t> keys, std::size_t count, std::span<std::uint8_t> chosen) {
+    assert(count <= keys.size() && chosen.size() == keys.size());
+    if (count == 0 || count == keys.size()) {
+        std::ranges::fill(chosen, count == 0 ? std::uint8_t{0} : std::uint8_t{1});
+        return;
+    }
+    counts_.fill(0);
+    for (const std::uint32_t key : keys) {
+        ++counts_[key >> bucket_shift];
+    }
+    std::size_t bucket = counts_.size() - 1;
+    std::size_t left = count; // to be found in this bucket and below
+    while (counts_[bucket] < left) {
+        left -= counts_[bucket--];
+    }
+    border_.clear();
+    for (std::uint32_t i = 0; i < keys.size(); ++i) {
+        const std::size_t own = keys[i] >> bucket_shift;
+        chosen[i] = own > bucket ? 1 : 0;
+        if (own == bucket) {
+            border_.push_back(i);
+        }
+    }
+    const auto last = border_.begin() + static_cast<std::ptrdiff_t>(left);
+    if (last != border_.end()) {
+        std::ranges::nth_element(border_, last, [&](std::uint32_t a, std::uint32_t b) {
+            return keys[a] != keys[b] ? keys[a] > keys[b] : a < b;
+        });
+    }
+    std::for_each(border_.begin(), last, [&](std::uint32_t i) { chosen[i] = 1; });
+}
+
+} // namespace octant::visuals::shading

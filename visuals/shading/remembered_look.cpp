@@ -1,0 +1,39 @@
+#include "visuals/shading/remembered_look.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace octant::visuals::shading {
+
+namespace {
+
+double angle_rad(const glm::dvec3& one, const glm::dvec3& other) {
+    return std::atan2(glm::length(glm::cross(one, other)), glm::dot(one, other));
+}
+
+} // namespace
+
+bool is_other_look(
+    const RememberedLook& before,
+    const RememberedLook& now,
+    const glm::dvec3& centre_m,
+    const LookTolerance& tolerance) {
+    if (now.eye_m == before.eye_m && now.light == before.light) {
+        return false;
+    }
+    ShadingLight turned = before.light;
+    turned.to_light = now.light.to_light;
+    if (turned != now.light ||
+        angle_rad(glm::dvec3(now.light.to_light), glm::dvec3(before.light.to_light)) >
+            tolerance.angle_rad) {
+        return true;
+    }
+    const glm::dvec3 before_m = before.eye_m - centre_m;
+    const glm::dvec3 now_m = now.eye_m - centre_m;
+    const double farther_m = std::abs(glm::length(now_m) - glm::length(before_m));
+    return farther_m > tolerance.distance_share * glm::length(before_m) ||
+           angle_rad(before_m, now_m) > tolerance.angle_rad;
+}
+
+} // namespace octant::visuals::shading
