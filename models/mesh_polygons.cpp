@@ -17,15 +17,6 @@ std::array<int, 3> step_of(const glm::vec3& colour) {
         static_cast<int>(colour.z * steps + 0.5F)};
 }
 
-glm::vec3 colour_of(const TriangleMesh& mesh, std::size_t triangle) {
-    if (!mesh.colours.empty()) {
-        const Triangle& corners = mesh.triangles[triangle];
-        return (mesh.colours[corners[0]] + mesh.colours[corners[1]] + mesh.colours[corners[2]]) /
-               3.0F;
-    }
-    return material_colour(mesh, triangle);
-}
-
 } // namespace
 
 PolygonModel as_polygons(const TriangleMesh& mesh) {
@@ -35,7 +26,7 @@ PolygonModel as_polygons(const TriangleMesh& mesh) {
     model.parts = {"default"};
     std::map<std::array<int, 3>, std::uint32_t> materials;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const glm::vec3 colour = colour_of(mesh, t);
+        const glm::vec3 colour = mean_colour(mesh, t);
         const auto [place, is_new] = materials.try_emplace(
             step_of(colour), static_cast<std::uint32_t>(model.materials.size()));
         if (is_new) {

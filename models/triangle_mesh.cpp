@@ -44,4 +44,12 @@ glm::vec3 material_colour(const TriangleMesh& mesh, std::size_t triangle) {
                : mesh.materials[mesh.triangle_materials[triangle]].colour;
 }
 
+glm::vec3 mean_colour(const TriangleMesh& mesh, std::size_t triangle) {
+    if (mesh.colours.empty()) {
+        return material_colour(mesh, triangle);
+    }
+    const Triangle& corners = mesh.triangles[triangle];
+    return (mesh.colours[corners[0]] + mesh.colours[corners[1]] + mesh.colours[corners[2]]) / 3.0F;
+}
+
 } // namespace octant::models

@@ -52,4 +52,7 @@ glm::dvec3 normal_of(
 /// Colour of a triangle's material, the plain one's where it has none.
 glm::vec3 material_colour(const TriangleMesh& mesh, std::size_t triangle);
 
+/// Mean colour of a triangle's vertices, its material's where they have none.
+glm::vec3 mean_colour(const TriangleMesh& mesh, std::size_t triangle);
+
 } // namespace octant::models

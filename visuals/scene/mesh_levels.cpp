@@ -97,22 +97,13 @@ private:
         return 0;
     }
 
-    std::uint32_t mean_colour(std::uint32_t triangle) const {
-        const models::Triangle& corners = mesh_.triangles[triangle];
-        if (mesh_.colours.empty()) {
-            return colour_of(triangle, corners[0]);
-        }
-        const glm::vec3 sum =
-            mesh_.colours[corners[0]] + mesh_.colours[corners[1]] + mesh_.colours[corners[2]];
-        return models::packed_colour(sum / 3.0F);
-    }
-
     void claim(std::uint32_t vertex, std::uint32_t triangle) {
         is_first_[vertex - first_] = 1;
         buffers_.vertices[vertex].polygon = triangle;
         buffers_.vertices[vertex].face_normal =
             models::normal_of(mesh_, mesh_.triangles[triangle], {0.0, 0.0, -1.0});
-        buffers_.vertices[vertex].face_colour = mean_colour(triangle);
+        buffers_.vertices[vertex].face_colour =
+            models::packed_colour(models::mean_colour(mesh_, triangle));
     }
 
     ModelBuffers& buffers_;
