@@ -37,6 +37,7 @@ constexpr std::array ways{
 scene::Settings settings_of(const std::string& aircraft, const Way& way) {
     scene::Settings settings;
     settings.path = "turn";
+    settings.view = scene::View::Orbit; // so that the choice changes
     settings.terrain = "none";
     settings.aircraft = {aircraft};
     settings.frames = frames;
@@ -104,7 +105,7 @@ report::HtmlTable shading_times_table(std::span<const std::string> aircraft, boo
         }
     }
     table.note = fmt::format(
-        "Medians of {} frames of the path turn without ground, chase view, 1280 x 720, the ways "
+        "Medians of {} frames of the path turn without ground, orbit view, 1280 x 720, the ways "
         "frame by frame beside each other. Counts are the last frame's: of polygon models those in "
         "view of the eye's cell and the smooth ones of the whole model, of meshes triangles as "
         "they are refined. Planning: without refining; the choice of smooth polygons and the "

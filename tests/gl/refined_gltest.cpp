@@ -2,7 +2,6 @@
 #include "tests/gl/small_scene.h"
 #include "visuals/scene/mesh_levels.h"
 #include "visuals/scene/refined_aircraft.h"
-#include "visuals/shading/vertex_normals.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -21,7 +20,6 @@ namespace {
 
 constexpr std::uint32_t whole = PaintStep::whole;
 constexpr int picture_px = 160;
-constexpr float smooth_crease_rad = 2.0F;
 
 /// A coloured torus of triangles whose normals are those of its vertices.
 models::TriangleMesh torus_mesh() {
@@ -37,17 +35,15 @@ models::TriangleMesh torus_mesh() {
         mesh.triangles.push_back({corners[0], corners[1], corners[2]});
         mesh.triangles.push_back({corners[0], corners[2], corners[3]});
     }
-    const std::vector<glm::vec3> normals =
-        visuals::shading::corner_normals(mesh, smooth_crease_rad);
-    mesh.normals.resize(mesh.vertices_m.size());
-    for (std::size_t corner = 0; corner < normals.size(); ++corner) {
-        mesh.normals[mesh.triangles[corner / 3][corner % 3]] = normals[corner];
+    for (const glm::dvec3& vertex_m : mesh.vertices_m) {
+        const glm::dvec3 ring_m = glm::normalize(glm::dvec3(vertex_m.x, vertex_m.y, 0.0));
+        mesh.normals.emplace_back(glm::normalize(vertex_m - ring_m));
     }
     mesh.corner_normals = mesh.triangles;
     return mesh;
 }
 
-/// A torus 3 m ahead, leaning so that it hides a part of itself, as a level of detail drawn in full
+/// A torus 2 m ahead, leaning so that it hides a part of itself, as a level of detail drawn in full
 /// and as a refined mesh of the same triangles.
 class TwoTori {
 public:

@@ -1,7 +1,9 @@
+#include "models/meshfile/mesh_file.h"
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
 #include "ui/report/png_file.h"
 #include "ui/session.h"
+#include "ui/shading_models.h"
 
 #include <catch2/catch.hpp>
 
@@ -132,6 +134,21 @@ TEST_CASE("pictures with a head-up display are those that were approved") {
     banked.size_px = {640, 360};
     banked.rate_hz = 1.0 / 7.0;
     check_against_golden("f15-pop-up-canyon-head-up", banked);
+}
+
+TEST_CASE("pictures of a refined mesh, three in ten smooth, are those that were approved") {
+    using visuals::scene::ModelLook;
+    const auto file = tests::scratch_folder() / "ball.ply";
+    models::meshfile::write_mesh(file, ui::uneven_ball(24, 49));
+    Settings ball = small("turn", file.string(), "hills", View::Chase);
+    ball.smooth_share = 0.3;
+    ball.sun_azimuth_deg = 45.0; // on the side that is seen
+    ball.aircraft_error_px = 0.2;
+    check_against_golden("ball-turn-hills-hybrid", ball);
+    ball.show_model = ModelLook::Shading;
+    check_against_golden("ball-turn-hills-shading", ball);
+    ball.show_model = ModelLook::Levels;
+    check_against_golden("ball-turn-hills-levels", ball);
 }
 
 TEST_CASE("pictures of textured ground are those that were approved") {

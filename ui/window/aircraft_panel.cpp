@@ -71,14 +71,17 @@ void aircraft_panel(ViewState& state, const Session& session) {
     show_models(session.world().scene);
     if (!state.history.empty()) {
         const report::FrameRecord& last = state.history.last();
+        ImGui::Text("drawn: %d polygons,", last.aircraft_polygons);
+        ImGui::Text("  %d smooth, %d shadow pieces", last.smooth_polygons, last.shadow_triangles);
+        if (const auto& adapted = session.shading()) {
+            ImGui::Text(
+                "  adapted: %d smooth%s",
+                adapted->smooth,
+                adapted->no_gain ? ", flat is no faster" : "");
+        }
+        ImGui::Text("first aircraft: level %d", last.aircraft_level);
         ImGui::Text(
-            "drawn: %d polygons, %d of them smooth, %d shadow pieces",
-            last.aircraft_polygons,
-            last.smooth_polygons,
-            last.shadow_triangles);
-        ImGui::Text(
-            "first aircraft: level %d; refined: %d splits, %d collapses, %.2f ms",
-            last.aircraft_level,
+            "refined: %d splits, %d merges, %.2f ms",
             last.refine_splits,
             last.refine_collapses,
             last.refine_ms);

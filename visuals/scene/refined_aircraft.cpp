@@ -67,11 +67,11 @@ RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const RefineLook& l
     view.focal_px = 1.0 / look.pixel_rad;
     if (first) {
         refiner_.settle(view);
-        front_changed_ = true;
     }
     const refine::RefinedFrame frame = refiner_.update(view);
-    front_changed_ = front_changed_ || frame.splits + frame.collapses > 0;
-    drawn_changed_ = drawn_changed_ || front_changed_ || frame.moving > 0;
+    const bool changed = first || frame.splits + frame.collapses > 0;
+    front_changed_ = front_changed_ || changed;
+    drawn_changed_ = drawn_changed_ || changed || frame.moving > 0;
     return frame;
 }
 
