@@ -48,6 +48,7 @@ refine::ProgressiveMesh made_hierarchy(const RefineInput& input, std::vector<std
     Progress progress("collapsing edges", steps, input.quiet, "thousandths");
     models::simplify::SimplifyOptions options;
     options.quality = models::simplify::Quality::Fast;
+    options.length_share = 0.03;
     if (input.base > 0) {
         options.goal.vertices = input.base;
     }

@@ -43,6 +43,7 @@ RefinedModel made_ground(int base) {
     mesh.name = "hills";
     models::simplify::SimplifyOptions options;
     options.quality = models::simplify::Quality::Fast;
+    options.length_share = 0.03;
     options.goal.vertices = static_cast<std::size_t>(base);
     return std::make_shared<const refine::ProgressiveMesh>(
         models::simplify::simplified(std::move(mesh), options).sequence);

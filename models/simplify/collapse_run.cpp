@@ -20,10 +20,12 @@ constexpr EdgeWeights fast_weights{.boundary = 1.0, .crease = 0.1, .crease_cosin
 
 } // namespace
 
-CollapseRun::CollapseRun(WorkingSurface& surface, const WorkingUnits& units, TrackedPoints* points)
+CollapseRun::CollapseRun(
+    WorkingSurface& surface, const WorkingUnits& units, TrackedPoints* points, double length_share)
     : surface_(surface)
     , units_(units)
     , points_(points)
+    , length_share_(length_share)
     , quadrics_(surface, points != nullptr ? EdgeWeights{} : fast_weights)
     , heap_(surface.mesh.face_slots() * 3)
     , checked_(surface.mesh.face_slots() * 3, false)
@@ -113,7 +115,7 @@ bool CollapseRun::is_allowed(HalfEdge h, const Placement& placement) {
 void CollapseRun::update_cost(HalfEdge edge) {
     const Placement placement = placed(edge);
     if (points_ == nullptr) {
-        heap_.set(edge, static_cast<float>(placement.cost));
+        heap_.set(edge, static_cast<float>(placement.cost + length_cost(edge, placement)));
         return;
     }
     checked_[edge] = true;
@@ -123,6 +125,14 @@ void CollapseRun::update_cost(HalfEdge edge) {
     }
     const double there = surface_increase(edge, placement, std::numeric_limits<double>::infinity());
     heap_.set(edge, static_cast<float>(there + cost_.way_back(surface_, ring_, placement.place)));
+}
+
+double CollapseRun::length_cost(HalfEdge edge, const Placement& placement) const {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    const double length =
+        glm::distance(surface_.places[mesh.origin(edge)], surface_.places[mesh.target(edge)]);
+    const double off = length_share_ * length;
+    return placement.weight * off * off;
 }
 
 /// Expects the edge's ring in ring_.

@@ -19,8 +19,12 @@ namespace octant::models::simplify {
 class CollapseRun {
 public:
     /// Quality::Surface needs `points`, the tracked ones of the surface; they and the surface are
-    /// changed.
-    CollapseRun(WorkingSurface& surface, const WorkingUnits& units, TrackedPoints* points);
+    /// changed. `length_share`: as in SimplifyOptions, without points.
+    CollapseRun(
+        WorkingSurface& surface,
+        const WorkingUnits& units,
+        TrackedPoints* points,
+        double length_share = 0.0);
 
     /// Goes on until a goal is met or nothing can be collapsed any more. An error goal is compared
     /// with estimates.
@@ -33,6 +37,7 @@ private:
     void fill();
     bool next_edge(HalfEdge& h);
     void update_cost(HalfEdge edge);
+    double length_cost(HalfEdge edge, const Placement& placement) const;
     double surface_increase(HalfEdge h, const Placement& placement, double enough);
     Placement placed(HalfEdge h) const;
     bool is_allowed(HalfEdge h, const Placement& placement);
@@ -42,6 +47,7 @@ private:
     WorkingSurface& surface_;
     const WorkingUnits& units_;
     TrackedPoints* points_; ///< null: costs by quadrics
+    double length_share_;
     VertexQuadrics quadrics_;
     EdgeHeap heap_;
     std::vector<bool> checked_;          ///< of each edge: cost and permission are those of now

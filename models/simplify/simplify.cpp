@@ -166,7 +166,7 @@ Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
     if (options.quality == Quality::Surface) {
         points.emplace(surface, least_points);
     }
-    CollapseRun run(surface, units, points ? &*points : nullptr);
+    CollapseRun run(surface, units, points ? &*points : nullptr, options.length_share);
     Goal goal = options.goal;
     if (goal.error_m && points) {
         goal.error_m = *goal.error_m * beyond_goal;

@@ -49,6 +49,28 @@ TEST_CASE("a cube of many triangles becomes the cube of 12 without an error") {
     }
 }
 
+TEST_CASE("with a share of their length counted, edges of flat sides stay alike") {
+    const TriangleMesh fine = cube(12);
+    const auto longest_m = [](const TriangleMesh& mesh) {
+        double most_m = 0.0;
+        for (const auto& [a, b, c] : mesh.triangles) {
+            most_m = std::max(
+                {most_m,
+                 glm::distance(mesh.vertices_m[a], mesh.vertices_m[b]),
+                 glm::distance(mesh.vertices_m[b], mesh.vertices_m[c]),
+                 glm::distance(mesh.vertices_m[c], mesh.vertices_m[a])});
+        }
+        return most_m;
+    };
+    SimplifyOptions options = to_faces(400, Quality::Fast);
+    const TriangleMesh plain = simplified(fine, options).mesh;
+    options.length_share = 0.03;
+    const TriangleMesh even = simplified(fine, options).mesh;
+    CHECK(even.triangles.size() == plain.triangles.size());
+    CHECK(longest_m(even) < 0.7 * longest_m(plain));
+    CHECK(apart(fine, even).most_hausdorff_m() < 2e-4);
+}
+
 TEST_CASE("a flat strip becomes two triangles, its boundary where it was") {
     const TriangleMesh fine = strip(5, 15);
     for (const Quality quality : both) {

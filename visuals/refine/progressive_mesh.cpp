@@ -54,12 +54,14 @@ ProgressiveMesh::ProgressiveMesh(ProgressiveParts parts)
     : parts_(std::move(parts)) {
     assert(parts_.positions_m.size() == leaf_count() + parts_.splits.size());
     assert(parts_.normals.size() == parts_.positions_m.size());
-    if (face_count() > most_faces) {
+    if (face_count() > most_faces || leaf_count() > most_leaves) {
         throw Error(fmt::format(
-            "{}: expected at most {} faces to refine, got {}",
+            "{}: expected at most {} faces and {} vertices to refine, got {} and {}",
             parts_.name,
             most_faces,
-            face_count()));
+            most_leaves,
+            face_count(),
+            leaf_count()));
     }
     order_faces();
     order_nodes();

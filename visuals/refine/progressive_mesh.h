@@ -69,7 +69,7 @@ struct NodeShape {
 class ProgressiveMesh {
 public:
     /// The parts must keep their promises (asserted where cheap). Throws Error for more faces than
-    /// `most_faces`.
+    /// `most_faces` or more leaves than `most_leaves`.
     explicit ProgressiveMesh(ProgressiveParts parts);
 
     /// Positions that are floats already are kept bit for bit, others rounded to float relative to
@@ -77,7 +77,8 @@ public:
     /// averaged into one a vertex; without them faces give the normals, weighted by area.
     explicit ProgressiveMesh(const models::CollapseSequence& sequence);
 
-    static constexpr std::size_t most_faces = 5'592'400; ///< that a front can number corners of
+    static constexpr std::size_t most_faces = 5'592'400; ///< fronts number corners in 24 bits
+    static constexpr std::size_t most_leaves = 16'777'000;
 
     std::size_t leaf_count() const { return parts_.original_vertices.size(); }
 
