@@ -55,6 +55,15 @@ bool may_become(
     return round >= least || round >= roundness(before, std::sqrt(old2));
 }
 
+bool may_flip_to(
+    const std::array<std::array<glm::dvec3, 3>, 2>& before,
+    const std::array<std::array<glm::dvec3, 3>, 2>& after) {
+    return std::ranges::all_of(before, [&](const auto& from) {
+        return std::ranges::all_of(
+            after, [&](const auto& to) { return may_become(from, to, Strictness::Normal); });
+    });
+}
+
 std::array<glm::dvec3, 3>
 moved_corners(const WorkingSurface& surface, const RingFace& face, const glm::dvec3& place) {
     return {

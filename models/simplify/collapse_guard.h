@@ -23,6 +23,12 @@ bool may_become(
     const std::array<glm::dvec3, 3>& after,
     Strictness strictness);
 
+/// Whether two triangles on either side of an edge may become these when it is flipped: whichever
+/// is taken for which.
+bool may_flip_to(
+    const std::array<std::array<glm::dvec3, 3>, 2>& before,
+    const std::array<std::array<glm::dvec3, 3>, 2>& after);
+
 /// Whether all triangles of a ring may have their moving corner at `place`.
 bool may_move(
     const WorkingSurface& surface,

@@ -298,11 +298,7 @@ void PeakLowering::try_flip(HalfEdge h) {
     const Heights before = seen(everything);
     mesh.flip(h);
     set();
-    const bool allowed = std::ranges::all_of(old, [&](const Corners& from) {
-        return std::ranges::all_of(
-            corners_, [&](const Corners& to) { return may_become(from, to, Strictness::Normal); });
-    });
-    if (allowed) {
+    if (may_flip_to({old[0], old[1]}, {corners_[0], corners_[1]})) {
         const Heights after = seen(before.most2);
         if (is_better(before, after, Strictness::Normal)) {
             keep(before, after);

@@ -64,6 +64,58 @@ OCTANT_INLINE void clamp_share(V& value) {
     value = value < 1.0F ? value : V{} + 1.0F;
 }
 
+/// Points in a triangle's plane, and what lies between them and the nearest place of its edges.
+template <typename F>
+struct EdgeFeet {
+    F away_x, away_y, away2;
+};
+
+template <bool coloured, typename F>
+OCTANT_INLINE void
+nearest_on_edges(EdgeFeet<F>& feet, const F& x, const F& y, const FlatTriangle& t) {
+    const F qx = x - t.bx;
+    const float ex = t.cx - t.bx;
+    F ab = x * (t.bx * t.per_ab2);
+    F bc = (qx * ex + y * t.cy) * t.per_bc2;
+    F ca = (x * t.cx + y * t.cy) * t.per_ca2;
+    clamp_share(ab);
+    clamp_share(bc);
+    clamp_share(ca);
+    const F ab_x = x - ab * t.bx;
+    const F bc_x = qx - bc * ex;
+    const F bc_y = y - bc * t.cy;
+    const F ca_x = x - ca * t.cx;
+    const F ca_y = y - ca * t.cy;
+    const F ab2 = ab_x * ab_x + y * y;
+    const F bc2 = bc_x * bc_x + bc_y * bc_y;
+    const F ca2 = ca_x * ca_x + ca_y * ca_y;
+    feet.away2 = ab2;
+    make_least(feet.away2, bc2);
+    if constexpr (coloured) {
+        const auto is_bc = bc2 < ab2;
+        const auto is_ca = ca2 < feet.away2;
+        feet.away_x = is_bc ? bc_x : ab_x;
+        feet.away_y = is_bc ? bc_y : y;
+        feet.away_x = is_ca ? ca_x : feet.away_x;
+        feet.away_y = is_ca ? ca_y : feet.away_y;
+    }
+    make_least(feet.away2, ca2);
+}
+
+/// Squares of the differences between the colours of points and of places of a triangle.
+template <typename F>
+OCTANT_INLINE void colour_errors(
+    F& error2, PointBlock& points, std::size_t i, const FlatTriangle& t, const F& x, const F& y) {
+    error2 = F{};
+    const std::array<const float*, 3> colours = {&points.red[i], &points.green[i], &points.blue[i]};
+    for (std::size_t part = 0; part < 3; ++part) {
+        F colour;
+        load(colour, colours[part]);
+        const F off = t.colour[part] + x * t.colour_x[part] + y * t.colour_y[part] - colour;
+        error2 += off * off;
+    }
+}
+
 /// One triangle against `lanes` points. Without branches; every point's result is the same however
 /// many are done at once.
 template <typename Width, bool coloured>
@@ -80,54 +132,21 @@ nearest_to_one(PointBlock& points, std::size_t i, const FlatTriangle& t, std::in
     const F x = dx * t.x_axis[0] + dy * t.x_axis[1] + dz * t.x_axis[2];
     const F y = dx * t.y_axis[0] + dy * t.y_axis[1] + dz * t.y_axis[2];
     const F h = dx * t.normal[0] + dy * t.normal[1] + dz * t.normal[2];
-    const F qx = x - t.bx;
-    const float ex = t.cx - t.bx;
-    // Feet on the three edges.
-    F ab = x * (t.bx * t.per_ab2);
-    F bc = (qx * ex + y * t.cy) * t.per_bc2;
-    F ca = (x * t.cx + y * t.cy) * t.per_ca2;
-    clamp_share(ab);
-    clamp_share(bc);
-    clamp_share(ca);
-    const F ab_x = x - ab * t.bx;
-    const F bc_x = qx - bc * ex;
-    const F bc_y = y - bc * t.cy;
-    const F ca_x = x - ca * t.cx;
-    const F ca_y = y - ca * t.cy;
-    const F ab2 = ab_x * ab_x + y * y;
-    const F bc2 = bc_x * bc_x + bc_y * bc_y;
-    const F ca2 = ca_x * ca_x + ca_y * ca_y;
+    EdgeFeet<F> feet;
+    nearest_on_edges<coloured>(feet, x, y, t);
     F inside = y;
-    make_least(inside, F(ex * y - t.cy * qx));
+    make_least(inside, F((t.cx - t.bx) * y - t.cy * (x - t.bx)));
     make_least(inside, F(t.cy * x - t.cx * y));
-    F edge2 = ab2;
-    make_least(edge2, bc2);
-    const auto is_ca = ca2 < edge2;
-    make_least(edge2, ca2);
     const auto is_inside = inside >= 0.0F;
-    const F distance2 = (is_inside ? F{} : edge2) + h * h;
+    const F distance2 = (is_inside ? F{} : feet.away2) + h * h;
     F known;
     load(known, &points.distances2[i]);
     const auto is_nearer = distance2 < known;
     if constexpr (coloured) {
-        const auto is_bc = bc2 < ab2;
-        F away_x = is_bc ? bc_x : ab_x;
-        F away_y = is_bc ? bc_y : y;
-        away_x = is_ca ? ca_x : away_x;
-        away_y = is_ca ? ca_y : away_y;
-        const F foot_x = x - (is_inside ? F{} : away_x);
-        const F foot_y = y - (is_inside ? F{} : away_y);
-        F error2 = {};
-        const std::array<const float*, 3> colours = {
-            &points.red[i], &points.green[i], &points.blue[i]};
-        for (std::size_t part = 0; part < 3; ++part) {
-            F colour;
-            load(colour, colours[part]);
-            const F off =
-                t.colour[part] + foot_x * t.colour_x[part] + foot_y * t.colour_y[part] - colour;
-            error2 += off * off;
-        }
-        F known_error2;
+        const F foot_x = x - (is_inside ? F{} : feet.away_x);
+        const F foot_y = y - (is_inside ? F{} : feet.away_y);
+        F error2, known_error2;
+        colour_errors(error2, points, i, t, foot_x, foot_y);
         load(known_error2, &points.colour_errors2[i]);
         store(F(is_nearer ? error2 : known_error2), &points.colour_errors2[i]);
     }

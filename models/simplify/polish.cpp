@@ -244,12 +244,8 @@ bool Polishing::try_flip(HalfEdge h) {
     const std::array<glm::dvec3, 3> second = {p[w], p[u], p[y]};
     const std::array<glm::dvec3, 3> new_first = {p[y], p[x], p[u]};
     const std::array<glm::dvec3, 3> new_second = {p[x], p[y], p[w]};
-    for (const auto* before : {&first, &second}) {
-        for (const auto* after : {&new_first, &new_second}) {
-            if (!may_become(*before, *after, Strictness::Normal)) {
-                return false;
-            }
-        }
+    if (!may_flip_to({first, second}, {new_first, new_second})) {
+        return false;
     }
     faces_.assign({face_of(h), face_of(o)});
     cost_.gather(points_, faces_);

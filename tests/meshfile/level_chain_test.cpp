@@ -13,22 +13,6 @@ using namespace octant::models::meshfile::test;
 
 namespace {
 
-void check_same(const TriangleMesh& a, const TriangleMesh& b) {
-    CHECK(a.name == b.name);
-    CHECK(a.vertices_m == b.vertices_m);
-    CHECK(a.colours == b.colours);
-    CHECK(a.triangles == b.triangles);
-    CHECK(a.normals == b.normals);
-    CHECK(a.corner_normals == b.corner_normals);
-    CHECK(a.triangle_materials == b.triangle_materials);
-    CHECK(a.notes == b.notes);
-    REQUIRE(a.materials.size() == b.materials.size());
-    for (std::size_t m = 0; m < a.materials.size(); ++m) {
-        CHECK(a.materials[m].name == b.materials[m].name);
-        CHECK(a.materials[m].colour == b.materials[m].colour);
-    }
-}
-
 std::string refused(const std::string& bytes) {
     const std::filesystem::path path = file_with("a.chain", bytes);
     try {

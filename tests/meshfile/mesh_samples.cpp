@@ -5,6 +5,7 @@
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
 
+#include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -91,6 +92,22 @@ TriangleMesh tetrahedron() {
     mesh.vertices_m = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
     return mesh;
+}
+
+void check_same(const TriangleMesh& a, const TriangleMesh& b) {
+    CHECK(a.name == b.name);
+    CHECK(a.vertices_m == b.vertices_m);
+    CHECK(a.colours == b.colours);
+    CHECK(a.triangles == b.triangles);
+    CHECK(a.normals == b.normals);
+    CHECK(a.corner_normals == b.corner_normals);
+    CHECK(a.triangle_materials == b.triangle_materials);
+    CHECK(a.notes == b.notes);
+    REQUIRE(a.materials.size() == b.materials.size());
+    for (std::size_t m = 0; m < a.materials.size(); ++m) {
+        CHECK(a.materials[m].name == b.materials[m].name);
+        CHECK(a.materials[m].colour == b.materials[m].colour);
+    }
 }
 
 std::string index_fault(const TriangleMesh& mesh) {

@@ -28,6 +28,9 @@ TriangleMesh coloured_cube();
 /// Four triangles.
 TriangleMesh tetrahedron();
 
+/// Checks that everything two meshes hold is the same.
+void check_same(const TriangleMesh& a, const TriangleMesh& b);
+
 /// What is wrong with a mesh's indices and lists; empty for a sound one.
 std::string index_fault(const TriangleMesh& mesh);
 

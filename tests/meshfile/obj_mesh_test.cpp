@@ -126,18 +126,7 @@ TEST_CASE("a mesh written as OBJ comes back the same") {
     const TriangleMesh before = coloured_cube();
     const std::filesystem::path path = scratch_file("cube.obj");
     write_mesh(path, before);
-    const TriangleMesh after = read_mesh(path);
-    CHECK(after.name == before.name);
-    CHECK(after.vertices_m == before.vertices_m);
-    CHECK(after.colours == before.colours);
-    CHECK(after.triangles == before.triangles);
-    CHECK(after.normals == before.normals);
-    CHECK(after.corner_normals == before.corner_normals);
-    CHECK(after.triangle_materials == before.triangle_materials);
-    REQUIRE(after.materials.size() == 2);
-    CHECK(after.materials[1].name == "deck plate");
-    CHECK(after.materials[1].colour == before.materials[1].colour);
-    CHECK(after.notes.empty());
+    check_same(read_mesh(path), before);
 }
 
 TEST_CASE("material names that a file cannot hold are made fit for it") {

@@ -1,3 +1,5 @@
+#include "models/measure/flipped_area.h"
+#include "models/measure/mesh_defects.h"
 #include "models/measure/mesh_distance.h"
 #include "models/simplify/simplify.h"
 #include "tests/simplify/simplify_meshes.h"
@@ -284,4 +286,25 @@ TEST_CASE("a cylinder's side goes down to strips without leaving the surface") {
     const Simplified result = simplified(tube, options);
     CHECK(result.mesh.triangles.size() <= 4 * around);
     CHECK(apart(tube, result.mesh).most_hausdorff_m() < 1e-3);
+}
+
+TEST_CASE("closed shapes stay closed, of their genus and nothing turned over, at every size") {
+    for (const TriangleMesh& fine : {ball(24), ring(24, 12), machined_part(6)}) {
+        const measure::MeshDefects before = measure::defects(fine);
+        REQUIRE(before.genus.has_value());
+        for (const Quality quality : both) {
+            for (const double share : {0.5, 0.15}) {
+                const auto faces =
+                    static_cast<std::size_t>(share * static_cast<double>(fine.triangles.size()));
+                const TriangleMesh made = simplified(fine, to_faces(faces, quality)).mesh;
+                INFO(fine.triangles.size() << " to " << faces);
+                measure::MeshDefects expected;
+                expected.shells = 1;
+                expected.genus = before.genus;
+                expected.euler_characteristic = before.euler_characteristic;
+                CHECK(measure::defects(made) == expected);
+                CHECK(measure::flipped_area_share(made, fine, {.samples = 20'000}) < 0.0005);
+            }
+        }
+    }
 }
