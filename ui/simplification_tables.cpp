@@ -98,13 +98,19 @@ std::vector<std::string> error_row(const PaperRun& run, const PaperRun& previous
         fmt::format("{:.0f}", run.time_ms)};
 }
 
-/// The least value of the libraries on the same mesh at the same goal.
+/// Whether a result has the faces asked for, and not many more.
+bool is_at_goal(const QualityRun& run) {
+    return static_cast<double>(run.faces) <= 1.02 * static_cast<double>(run.wanted_faces);
+}
+
+/// The least value of the libraries on the same mesh at the same goal, of those that reach it.
 template <typename Value>
 std::optional<double>
 best_of_peers(std::span<const QualityRun> runs, const QualityRun& beside, const Value& value) {
     std::optional<double> best;
     for (const QualityRun& run : runs) {
-        if (run.peer && run.mesh == beside.mesh && run.wanted_faces == beside.wanted_faces) {
+        if (run.peer && is_at_goal(run) && run.mesh == beside.mesh &&
+            run.wanted_faces == beside.wanted_faces) {
             best = std::min(best.value_or(std::numeric_limits<double>::infinity()), value(run));
         }
     }
@@ -124,6 +130,15 @@ time_of_lindstrom_turk(std::span<const QualityRun> runs, const QualityRun& besid
 
 std::string ratio_text(double value, const std::optional<double>& to) {
     return to && *to > 0.0 ? fmt::format("{:.2f}", value / *to) : "";
+}
+
+/// Of two distances as fractions of the diagonal: below 1e-8 they are rounding.
+std::string distance_ratio_text(double value, const std::optional<double>& to) {
+    constexpr double exact = 1e-8;
+    if (!to || *to >= exact) {
+        return ratio_text(value, to);
+    }
+    return value < exact ? "both exact" : "library exact";
 }
 
 std::vector<std::string>
@@ -260,8 +275,8 @@ report::HtmlTable quality_table(std::span<const QualityRun> runs, bool with_peer
              fmt::format("{:.3f}", 1e3 * run.hausdorff),
              fmt::format("{:.3f}", 1e4 * run.rms),
              run.colour_rms ? fmt::format("{:.4f}", *run.colour_rms) : "",
-             ratio_text(run.hausdorff, hausdorff),
-             ratio_text(run.rms, rms),
+             distance_ratio_text(run.hausdorff, hausdorff),
+             distance_ratio_text(run.rms, rms),
              fmt::format("{:.1f}", run.time_ms),
              ratio_text(run.time_ms, time_of_lindstrom_turk(runs, run))});
     }
@@ -269,7 +284,7 @@ report::HtmlTable quality_table(std::span<const QualityRun> runs, bool with_peer
         "Both ways between result and repaired original, the larger one, as fractions of the "
         "diagonal; Hausdorff is a certified upper bound, 2 % wide. One thread, wall time without "
         "reading and writing; of the libraries the median of three. The libraries are given "
-        "positions only.";
+        "positions only; the best one is that of those that came down to the faces wanted.";
     if (!with_peers) {
         table.note += " No libraries: build the target octant_peers (needs CGAL, meshoptimizer or "
                       "OpenMesh) and name the program octant-peers by --peers.";
