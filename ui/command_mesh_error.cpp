@@ -238,7 +238,8 @@ void add_mesh_error_command(CLI::App& program) {
         ->add_option(
             "A",
             options->a,
-            "the original: globe, torus, f15, 500md, concave or a file (.obj, .ply, .stl, .gltf, "
+            "the original: globe, torus, machined-part, f15, 500md, concave or a file (.obj, .ply, "
+            ".stl, .gltf, "
             ".glb, .ac, .wrl)")
         ->type_name("MESH")
         ->required();

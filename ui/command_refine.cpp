@@ -219,7 +219,8 @@ void add_what(CLI::App& command, RefineOptions& options) {
         .add_option(
             "in",
             options.input.file,
-            "a mesh: globe, torus, f15, 500md, concave or a file (.obj, .ply, .stl, .gltf, .glb, "
+            "a mesh: globe, torus, machined-part, f15, 500md, concave or a file (.obj, .ply, .stl, "
+            ".gltf, .glb, "
             ".ac, .wrl); or a progressive mesh")
         ->type_name("MESH|FILE.pm")
         ->required();
