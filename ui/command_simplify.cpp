@@ -101,7 +101,8 @@ void add_goal_options(CLI::App& cli, SimplifyCommand& command) {
     cli.add_option(
            "in",
            command.in,
-           "mesh to simplify: globe, torus, machined-part, f15, 500md or a file: .obj, .ply, .stl, "
+           "mesh to simplify: globe, torus, machined-part, f15, 500md, concave or a file: .obj, "
+           ".ply, .stl, "
            ".gltf, .glb, .ac, .wrl")
         ->type_name("IN")
         ->required();

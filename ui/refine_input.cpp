@@ -7,6 +7,8 @@
 #include "ui/progress.h"
 #include "visuals/refine/progressive_file.h"
 
+#include <fmt/format.h>
+
 namespace octant::ui {
 
 namespace refine = visuals::refine;
@@ -33,6 +35,22 @@ void colour_by_materials(models::TriangleMesh& mesh) {
     }
 }
 
+void refuse_too_many(const std::string& file, const models::TriangleMesh& mesh) {
+    using refine::ProgressiveMesh;
+    if (mesh.triangles.size() > ProgressiveMesh::most_faces ||
+        mesh.vertices_m.size() > ProgressiveMesh::most_leaves) {
+        error_in(
+            file,
+            fmt::format(
+                "expected at most {} triangles and {} vertices to refine, got {} and {} "
+                "(octant simplify makes fewer of them)",
+                ProgressiveMesh::most_faces,
+                ProgressiveMesh::most_leaves,
+                mesh.triangles.size(),
+                mesh.vertices_m.size()));
+    }
+}
+
 refine::ProgressiveMesh made_hierarchy(const RefineInput& input, std::vector<std::string>& notes) {
     models::meshfile::RepairedMesh repaired =
         models::meshfile::repaired(read_mesh_input(input.file));
@@ -43,6 +61,7 @@ refine::ProgressiveMesh made_hierarchy(const RefineInput& input, std::vector<std
     if (repaired.mesh.triangles.empty()) {
         error_in(input.file, "expected a mesh with triangles, got none");
     }
+    refuse_too_many(input.file, repaired.mesh);
     colour_by_materials(repaired.mesh);
     constexpr int steps = 1000;
     Progress progress("collapsing edges", steps, input.quiet, "thousandths");
@@ -66,6 +85,9 @@ RefineMesh read_refine_mesh(const RefineInput& input) {
     if (refine::is_progressive_file(input.file)) {
         result.mesh = std::make_shared<const refine::ProgressiveMesh>(
             refine::read_progressive(input.file, input.most_vertices));
+        if (result.mesh->face_count() == 0) {
+            error_in(input.file, "expected a mesh with triangles, got none");
+        }
         result.notes = result.mesh->parts().notes;
     } else {
         result.mesh =

@@ -65,10 +65,10 @@ glm::dvec3 ball_point(double polar_rad, double azimuth_rad) {
 /// As fine as an eye three radii from its middle, to its side and above, needs it in a picture of
 /// 720 rows.
 models::TriangleMesh refined_mesh(const std::shared_ptr<const refine::ProgressiveMesh>& hierarchy) {
-    const double radius_m = hierarchy->radius_m(hierarchy->roots().front());
+    const double radius_m = hierarchy->half_diagonal_m();
     refine::RefineView view;
-    view.eye_m = hierarchy->parts().origin_m + radius_m * glm::dvec3(1.8, 1.2, 2.1);
-    view.ahead = glm::normalize(hierarchy->parts().origin_m - view.eye_m);
+    view.eye_m = hierarchy->middle_m() + radius_m * glm::dvec3(1.8, 1.2, 2.1);
+    view.ahead = glm::normalize(hierarchy->middle_m() - view.eye_m);
     view.focal_px = 870.0;
     refine::ViewRefiner refiner(hierarchy);
     refiner.settle(view);

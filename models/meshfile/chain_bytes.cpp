@@ -216,14 +216,25 @@ bool is_unit(const glm::vec<3, Part>& vector) {
     return std::abs(glm::length(vector) - Part(1)) < Part(1e-3);
 }
 
-bool sound(const PolygonModel& model, const Polygon& polygon) {
-    return polygon.corner_count >= 3 &&
-           std::size_t{polygon.first_corner} + polygon.corner_count <=
-               model.corner_vertices.size() &&
-           polygon.material < model.materials.size() && polygon.part < model.parts.size();
+/// Whether polygons have all corners among them, one polygon's behind the other's, each a few.
+bool corners_in_order(const PolygonModel& model) {
+    constexpr std::uint32_t most = 1000; // what follows looks at all pairs
+    std::size_t next = 0;
+    for (const Polygon& polygon : model.polygons) {
+        if (polygon.first_corner != next || polygon.corner_count < 3 ||
+            polygon.corner_count > most) {
+            return false;
+        }
+        next += polygon.corner_count;
+    }
+    return next == model.corner_vertices.size();
 }
 
-/// Needs sound polygons.
+bool sound(const PolygonModel& model, const Polygon& polygon) {
+    return polygon.material < model.materials.size() && polygon.part < model.parts.size();
+}
+
+/// Needs corners in order.
 bool all_convex(const PolygonModel& model) {
     const double tolerance_m = flatness_tolerance_m(model);
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
@@ -261,6 +272,7 @@ TriangleMesh take_mesh(ByteReader& reader) {
     TriangleMesh mesh;
     each_part_of_mesh(mesh, [&](auto& part) { taking.take(part); });
     const std::size_t count = mesh.triangles.size();
+    taking.check(count > 0, "triangles");
     taking.check(
         mesh.colours.empty() || mesh.colours.size() == mesh.vertices_m.size(),
         "a colour for each vertex");
@@ -299,11 +311,13 @@ PolygonModel take_model(ByteReader& reader) {
         good = good && pivot.part < model.parts.size();
     }
     taking.check(good, "indices in range");
+    taking.check(corners_in_order(model), "polygons of 3 to 1000 corners, one behind the other");
     taking.check(sound(model.materials), "colours of 0 to 1");
     taking.check(!model.materials.empty() && !model.parts.empty(), "a material and a part");
     taking.check(
         model.parents.empty() || model.parents.size() == model.polygons.size(),
         "a parent for each polygon");
+    taking.check(model.pivots.size() <= 1000, "at most 1000 pivots");
     taking.check(one_pivot_a_part(model), "one pivot a part at most");
     taking.check(
         std::ranges::all_of(model.pivots, [](const Pivot& pivot) { return is_unit(pivot.axis); }),

@@ -102,8 +102,8 @@ TEST_CASE("a chain whose checksum is right but whose content is not is refused")
     chain.levels[0].mesh.colours.pop_back();
     CHECK_THAT(said(chain), Catch::Contains("expected a colour for each vertex before"));
     chain = sample_chain();
-    chain.polygons->polygons[0].corner_count = 9;
-    CHECK_THAT(said(chain), Catch::Contains("expected indices in range before"));
+    chain.levels[1].mesh.triangles.clear();
+    CHECK_THAT(said(chain), Catch::Contains("expected triangles before"));
     chain = sample_chain();
     chain.levels[0].error_m = 0.01;
     CHECK_THAT(
@@ -125,6 +125,11 @@ TEST_CASE("polygons of a chain that no model can have are refused") {
     CHECK_THAT(
         said_of([](PolygonModel& model) { model.parents[0] = 1; }),
         Catch::Contains("expected indices in range before"));
+    for (const Polygon& polygon : {Polygon{0, 9, 0, 1}, Polygon{0, 3, 0, 1}, Polygon{1, 3, 0, 1}}) {
+        CHECK_THAT( // more corners than there are, one behind or one before that is in none
+            said_of([&](PolygonModel& model) { model.polygons[0] = polygon; }),
+            Catch::Contains("expected polygons of 3 to 1000 corners, one behind the other before"));
+    }
     CHECK_THAT(
         said_of([](PolygonModel& model) {
             model.pivots[0].axis = {0.0, 0.5, 0.0};

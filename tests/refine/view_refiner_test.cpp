@@ -143,20 +143,6 @@ TEST_CASE("along a path no node is split and merged, or merged and split, within
                     split[node] = !split[node];
                     merged += split[node] ? 0 : 1;
                     const auto known = last.find(node);
-                    if (known != last.end() && frame - known->second <= 10) {
-                        const auto& c = refiner.front().counts();
-                        std::printf(
-                            "%g %d f %d node %u split %d %d ago err %.2f rule %zu repair %zu\n",
-                            speed,
-                            geomorphs,
-                            frame,
-                            node,
-                            int(split[node]),
-                            frame - known->second,
-                            projected_error_px(mesh, node, on_path(speed * frame)),
-                            c.forced_by_rule,
-                            c.forced_by_repair);
-                    }
                     soon += known != last.end() && frame - known->second <= 10 ? 1 : 0;
                     last[node] = frame;
                 }

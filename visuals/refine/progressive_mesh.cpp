@@ -8,6 +8,7 @@
 #include "sim/base/error.h"
 #include "visuals/refine/sequence_parts.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -68,6 +69,7 @@ ProgressiveMesh::ProgressiveMesh(ProgressiveParts parts)
     find_cuts();
     bound_leaves();
     bound_nodes();
+    bound_all();
 }
 
 ProgressiveMesh::ProgressiveMesh(const models::CollapseSequence& sequence)
@@ -262,6 +264,20 @@ void ProgressiveMesh::find_cuts() {
         forks_[i].left_cut = cut(forks_[i].left_face);
         forks_[i].right_cut = cut(forks_[i].right_face);
     }
+}
+
+void ProgressiveMesh::bound_all() {
+    if (leaf_count() == 0) {
+        return;
+    }
+    glm::vec3 least_m = position_m(0);
+    glm::vec3 most_m = least_m;
+    for (std::uint32_t leaf = 0; leaf < leaf_count(); ++leaf) {
+        least_m = glm::min(least_m, position_m(leaf));
+        most_m = glm::max(most_m, position_m(leaf));
+    }
+    middle_m_ = parts_.origin_m + 0.5 * (glm::dvec3(least_m) + glm::dvec3(most_m));
+    half_diagonal_m_ = 0.5 * glm::distance(glm::dvec3(least_m), glm::dvec3(most_m));
 }
 
 void ProgressiveMesh::bound_leaves() {

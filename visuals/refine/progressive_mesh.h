@@ -173,6 +173,12 @@ public:
 
     std::span<const std::uint32_t> roots() const { return roots_; }
 
+    /// Middle of the box around the original vertices, in file axes.
+    const glm::dvec3& middle_m() const { return middle_m_; }
+
+    /// Half the box's diagonal.
+    double half_diagonal_m() const { return half_diagonal_m_; }
+
     /// What it is made from, but for splits, positions, normals and colours: these are in
     /// split_of() and shape().
     const ProgressiveParts& parts() const { return parts_; }
@@ -213,6 +219,7 @@ private:
     void find_cuts();
     void bound_leaves();
     void bound_nodes();
+    void bound_all();
 
     ProgressiveParts parts_;
     std::vector<Fork> forks_;                     ///< one an inner node
@@ -229,6 +236,8 @@ private:
     std::vector<std::uint32_t> places_; ///< in shapes_, one a node; says its parent too
     std::vector<NodeShape> shapes_;
     bool has_colours_ = false;
+    glm::dvec3 middle_m_{0.0};
+    double half_diagonal_m_ = 0.0;
 };
 
 } // namespace octant::visuals::refine

@@ -148,11 +148,19 @@ private:
             material.colour = in.take<glm::vec3>();
             materials_.push_back(material);
         }
-        const bool fits = static_cast<std::uint64_t>(head_.roots) + head_.splits == head_.leaves &&
-                          head_.leaves < none / 2;
+        const bool fits = static_cast<std::uint64_t>(head_.roots) + head_.splits == head_.leaves;
         if (!in.good() || in.left() > 0 || !fits || !std::isfinite(origin_m_.x) ||
             !std::isfinite(origin_m_.y) || !std::isfinite(origin_m_.z)) {
             refuse("expected a head, got numbers that do not fit together");
+        }
+        if (head_.leaves > ProgressiveMesh::most_leaves ||
+            head_.faces > ProgressiveMesh::most_faces) {
+            refuse(fmt::format(
+                "expected at most {} vertices and {} faces, got {} and {}",
+                ProgressiveMesh::most_leaves,
+                ProgressiveMesh::most_faces,
+                head_.leaves,
+                head_.faces));
         }
         if (file_bytes_ > head_.file_bytes) {
             error_in(

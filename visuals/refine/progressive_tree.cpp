@@ -15,6 +15,12 @@ bool lies_in(std::uint32_t leaf, std::uint32_t begin, std::uint32_t end) {
     return leaf >= begin && leaf < end;
 }
 
+/// The corner that is not in [begin, end), of a face that lies across.
+std::uint32_t outside_corner(const TreeFace& face, std::uint32_t begin, std::uint32_t end) {
+    return *std::ranges::find_if(
+        face.corners, [&](std::uint32_t corner) { return !lies_in(corner, begin, end); });
+}
+
 /// Whether a face has one corner in each half of [begin, end) and one outside it, but below `all`.
 bool lies_across(
     const TreeFace& face,
@@ -65,7 +71,14 @@ bool ProgressiveTree::roots_cover(std::uint32_t leaves) {
         root_begins_.push_back(root.begin);
         covered = root.end;
     }
-    return covered == leaves;
+    if (covered != leaves) {
+        return false;
+    }
+    starts_.assign(leaves);
+    for (const std::uint32_t begin : root_begins_) {
+        starts_.add(begin);
+    }
+    return true;
 }
 
 std::uint32_t ProgressiveTree::add_face(const TreeFace& face) {
@@ -86,6 +99,14 @@ bool ProgressiveTree::add_base_face(const TreeFace& face) {
     return roots[0] != roots[1] && roots[1] != roots[2] && roots[2] != roots[0];
 }
 
+/// Whether the vertices beside both children are two: a split waits for others until they are, and
+/// would wait for ever.
+bool ProgressiveTree::is_cut_apart(const TreeSplit& split, std::uint32_t end) const {
+    return !split.left || !split.right ||
+           starts_.at_or_before(outside_corner(*split.left, split.begin, end)) !=
+               starts_.at_or_before(outside_corner(*split.right, split.begin, end));
+}
+
 bool ProgressiveTree::add_split(const TreeSplit& split) {
     const auto at = active_.find(split.begin);
     if (at == active_.end()) {
@@ -102,7 +123,7 @@ bool ProgressiveTree::add_split(const TreeSplit& split) {
     for (const auto& face : {split.left, split.right}) {
         good = good && (!face || lies_across(*face, split.begin, split.middle, end, leaves_));
     }
-    if (!good) {
+    if (!good || !is_cut_apart(split, end)) {
         return false;
     }
     grown.left_face = split.left ? add_face(*split.left) : none;
@@ -115,6 +136,7 @@ bool ProgressiveTree::add_split(const TreeSplit& split) {
     nodes_.back().end = end;
     at->second = grown.first_child;
     active_.emplace(split.middle, grown.first_child + 1);
+    starts_.add(split.middle);
     splits_.push_back(grown);
     return true;
 }

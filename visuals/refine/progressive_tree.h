@@ -1,5 +1,6 @@
 #pragma once
 
+#include "visuals/refine/active_starts.h"
 #include "visuals/refine/progressive_mesh.h"
 
 #include <array>
@@ -72,6 +73,7 @@ private:
     };
 
     std::uint32_t add_face(const TreeFace& face);
+    bool is_cut_apart(const TreeSplit& split, std::uint32_t end) const;
     std::vector<std::uint32_t> final_numbers() const;
 
     std::vector<TreeNode> nodes_; ///< roots, then two a split
@@ -80,6 +82,7 @@ private:
     std::vector<Grown> splits_;
     std::vector<TreeFace> faces_;
     std::unordered_map<std::uint32_t, std::uint32_t> active_; ///< node by its first leaf
+    ActiveStarts starts_;                                     ///< the first leaves
     std::vector<std::uint32_t> vertex_numbers_;
     std::vector<std::uint32_t> face_numbers_;
 };

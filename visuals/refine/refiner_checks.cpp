@@ -188,22 +188,23 @@ void SelectiveRefiner::repair_around(
 
 void SelectiveRefiner::nodes_forced_by(
     std::uint32_t active_node, std::vector<std::uint32_t>& forced) const {
+    constexpr std::size_t most = 200; // of hierarchies that simplification makes it is a few
     forced.clear();
-    add_forced(active_node, forced);
-    forced.pop_back();
-}
-
-/// Adds what must be split for a node that is active once those in `split` are, then that node.
-void SelectiveRefiner::add_forced(std::uint32_t node, std::vector<std::uint32_t>& split) const {
-    const Split wanted = mesh_->split_of(node);
-    while (wanted.left_cut != none && wanted.right_cut != none) {
-        const std::uint32_t left = ancestor_after(wanted.left_cut, split);
-        if (left != ancestor_after(wanted.right_cut, split)) {
-            break;
+    std::vector<std::uint32_t> waiting{active_node}; // each for the next one
+    while (!waiting.empty() && forced.size() + waiting.size() <= most) {
+        const Split wanted = mesh_->split_of(waiting.back());
+        const bool is_inside = wanted.left_cut != none && wanted.right_cut != none;
+        const std::uint32_t left = is_inside ? ancestor_after(wanted.left_cut, forced) : none;
+        if (is_inside && left == ancestor_after(wanted.right_cut, forced)) {
+            waiting.push_back(left);
+            continue;
         }
-        add_forced(left, split);
+        forced.push_back(waiting.back());
+        waiting.pop_back();
     }
-    split.push_back(node);
+    if (waiting.empty()) {
+        forced.pop_back(); // the node itself
+    }
 }
 
 /// The active node above a leaf once those in `split` are split.

@@ -70,8 +70,8 @@ public:
     /// leave out those that were asked for.
     std::size_t split_all(std::span<const std::uint32_t> nodes);
 
-    /// Puts the nodes that split(active_node) would split before that one into `forced`, in order;
-    /// by the rule Selective.
+    /// Puts the nodes that split(active_node) would split before that one into `forced`, in order,
+    /// the first 200 of them; by the rule Selective.
     void nodes_forced_by(std::uint32_t active_node, std::vector<std::uint32_t>& forced) const;
 
     /// Back to the base mesh. Keeps the memory; counts go on.
@@ -186,7 +186,6 @@ private:
     const glm::vec3& position_at(std::uint32_t corner) const;
     bool turns_faces(std::uint32_t slot, std::uint32_t other, std::uint32_t node) const;
     void repair_around(std::uint32_t slot, const std::function<bool(std::uint32_t)>& spare);
-    void add_forced(std::uint32_t node, std::vector<std::uint32_t>& split) const;
     std::uint32_t ancestor_after(std::uint32_t leaf, std::span<const std::uint32_t> split) const;
     bool is_turned(std::uint32_t place) const;
     std::uint32_t
@@ -200,7 +199,6 @@ private:
     ShortNumbers slots_;                  ///< by first leaf, of active nodes; else anything
     std::vector<std::uint32_t> stack_;    ///< nodes to split, the next one last
     std::vector<std::uint32_t> path_;     ///< of split_with_others
-    std::vector<std::uint32_t> forced_;   ///< nodes split for others in a split_all
     std::vector<std::uint32_t> changed_;  ///< slots whose faces repair() looks at
     std::vector<std::uint32_t> recent_splits_;
     DirtyBlocks dirty_vertices_;

@@ -46,18 +46,24 @@ std::uint32_t number_count(const AircraftModel& model) {
 /// The model's vertices with the numbers of their polygons for colours, counted from `first`.
 ModelBuffers numbered(const AircraftModel& model, std::uint32_t first) {
     ModelBuffers buffers = model.buffers;
+    const std::uint32_t count = number_count(model);
+    if (first + count + buffers.vertices.size() > number_mask) {
+        throw Error(fmt::format(
+            "pictures of polygon numbers: expected less than {} polygons and corners in all, got "
+            "more with {}",
+            number_mask,
+            model.polygons.name));
+    }
     for (std::size_t polygon = 0; polygon < model.polygons.polygons.size(); ++polygon) {
         const models::Polygon& range = model.polygons.polygons[polygon];
         const std::uint32_t id = first + model.polygons.parent_of(polygon);
-        assert(id <= number_mask);
         for (std::uint32_t corner = 0; corner < range.corner_count; ++corner) {
             buffers.vertices[range.first_corner + corner].face_colour = opaque | aircraft_bit | id;
         }
     }
     // Behind them those of the levels of detail: one of them begins each triangle.
     for (std::size_t i = model.polygons.corner_vertices.size(); i < buffers.vertices.size(); ++i) {
-        const auto id = static_cast<std::uint32_t>(first + number_count(model) + i);
-        assert(id <= number_mask);
+        const auto id = static_cast<std::uint32_t>(first + count + i);
         buffers.vertices[i].face_colour = opaque | aircraft_bit | id;
     }
     return buffers;

@@ -41,9 +41,8 @@ Tints tints_of(const PlacedAircraft& aircraft, ModelLook look) {
     if (look == ModelLook::Shading) {
         return shading_tints;
     }
-    const double radius_m = model.progressive
-                                ? model.progressive->radius_m(model.progressive->roots().front())
-                                : model.subject.radius_m;
+    const double radius_m =
+        model.progressive ? model.progressive->half_diagonal_m() : model.subject.radius_m;
     const std::uint32_t colour = level_colour(model.errors_m[aircraft.representation], radius_m);
     return {colour, colour};
 }

@@ -84,8 +84,7 @@ ModelVertex RefinedAircraft::drawn(std::uint32_t slot) const {
     drawn.colour = vertex.colour;
     const std::uint32_t node = refiner_.front().node_at(slot);
     if (shows_levels_ && node != refine::none) {
-        const double radius_m = mesh.radius_m(mesh.roots().front());
-        drawn.colour = level_colour(mesh.error_m(node), radius_m);
+        drawn.colour = level_colour(mesh.error_m(node), mesh.half_diagonal_m());
     }
     return drawn;
 }
@@ -141,7 +140,7 @@ void RefinedAircraft::shade(
         .indices = refiner_.front().indices(),
         .labels = labels_,
         .triangle_count = refiner_.front().face_count(),
-        .centre_m = glm::vec3(refiner_.front().mesh().parts().origin_m)};
+        .centre_m = glm::vec3(refiner_.front().mesh().middle_m())};
     const bool chosen =
         selector_.choose(mesh, eye_m, light, static_cast<std::size_t>(smooth), front_changed_);
     front_changed_ = false;
@@ -184,6 +183,7 @@ void RefinedAircraft::write_indices() {
 
 RefinedDraw RefinedAircraft::draw() {
     const bool all_smooth = !choosing_ && !all_flat_;
+    assert(!choosing_ || !front_changed_);
     if (drawn_changed_) {
         follow_front();
         if (!all_smooth) {

@@ -41,9 +41,9 @@ public:
     /// triangles(). Eye and light are in body axes.
     void shade(const glm::dvec3& eye_m, const shading::ShadingLight& light, int smooth);
 
-    /// The mesh of the last update() for drawing, shaded as the last shade() chose, before that all
-    /// smooth. Corners share vertices, but a flat triangle's first one is its own, with its normal
-    /// and the mean of its corners' colours. Until the next call.
+    /// The mesh of the last update() for drawing, shaded as shade() chose after it, before the
+    /// first one all smooth. Corners share vertices, but a flat triangle's first one is its own,
+    /// with its normal and the mean of its corners' colours. Until the next call.
     RefinedDraw draw();
 
 private:

@@ -61,10 +61,10 @@ std::uint32_t ChangingMeshSelector::by_error(
     const glm::vec3 centre_m = (a.place_m + b.place_m + c.place_m) / 3.0F;
     const glm::vec3 to_eye_m = eye_m - centre_m;
     const float in_front_m3 = glm::dot(doubled_m2, to_eye_m); // twice the area with it
-    if (!(in_front_m3 > 0.0F)) {
+    const float size_m2 = glm::length(doubled_m2);
+    if (!(in_front_m3 > 0.0F) || !(size_m2 > 0.0F)) {
         return least_key;
     }
-    const float size_m2 = glm::length(doubled_m2);
     const float colour_sum = (a.colour_sum + b.colour_sum + c.colour_sum) / 3.0F;
     const ShadingLight& light = look_.light;
     const float flat =
