@@ -18,4 +18,23 @@ std::vector<GridSample> sample_grid(int fields) {
     return samples;
 }
 
+std::vector<GridSample> middle_grid(int fields) {
+    std::vector<GridSample> samples;
+    const double share = 1.0 / static_cast<double>(fields * fields);
+    const auto add = [&](double i, double j) {
+        const double u = i / fields;
+        const double v = j / fields;
+        samples.push_back({glm::dvec3(1.0 - u - v, u, v), share});
+    };
+    for (int i = 0; i < fields; ++i) {
+        for (int j = 0; i + j < fields; ++j) {
+            add(i + 1.0 / 3.0, j + 1.0 / 3.0);
+            if (i + j + 1 < fields) {
+                add(i + 2.0 / 3.0, j + 2.0 / 3.0);
+            }
+        }
+    }
+    return samples;
+}
+
 } // namespace octant::models::simplify

@@ -12,6 +12,7 @@ struct Heights {
     double most2 = 0.0;   ///< largest squared distance
     double squares = 0.0; ///< sum of weight times squared distance
     double powers = 0.0;  ///< sum of weight times squared distance to the fourth
+    double turned = 0.0;  ///< area that faces against the target
 
     void add(double distance2, double weight) {
         const double fourth = distance2 * distance2;
@@ -24,6 +25,7 @@ struct Heights {
         most2 = std::max(most2, other.most2);
         squares += other.squares;
         powers += other.powers;
+        turned += other.turned;
     }
 };
 
@@ -34,5 +36,8 @@ struct GridSample {
 
 /// A grid of so many fields a side on a triangle, with its border.
 std::vector<GridSample> sample_grid(int fields);
+
+/// The middles of the fields of such a grid: none on the border.
+std::vector<GridSample> middle_grid(int fields);
 
 } // namespace octant::models::simplify

@@ -5,7 +5,7 @@
 
 #include "models/simplify/collapse_guard.h"
 #include "models/simplify/peak_heights.h"
-#include "models/simplify/surface_cost.h"
+#include "models/simplify/ring_heights.h"
 #include "models/simplify/vertex_fit.h"
 
 #include <glm/geometric.hpp>
@@ -37,13 +37,6 @@ constexpr double tall_growth = 0.05;
 
 constexpr double everything = std::numeric_limits<double>::infinity();
 
-/// As many samples as triangles of the target come on one of the surface, within bounds.
-int grid_fields(std::size_t target_faces, std::size_t faces) {
-    const double ratio =
-        static_cast<double>(target_faces) / static_cast<double>(std::max<std::size_t>(faces, 1));
-    return std::clamp(static_cast<int>(std::sqrt(ratio)), 4, 8);
-}
-
 class PeakLowering {
 public:
     PeakLowering(
@@ -52,10 +45,7 @@ public:
         const PolishTarget& target,
         double most_growth)
         : surface_(surface)
-        , points_(points)
-        , target_(target)
-        , grid_(
-              sample_grid(grid_fields(target.surface.mesh.face_count(), surface.mesh.face_count())))
+        , around_(surface, points, target)
         , heights_(surface.mesh.face_slots()) {
         double squares = 0.0;
         double area = 0.0;
@@ -79,11 +69,6 @@ public:
 
 private:
     void measure(std::uint32_t face);
-    Heights points_heights();
-    Heights samples_heights(double most2);
-    Heights seen(double most2);
-    void take_ring(std::uint32_t vertex);
-    void set_ring(const glm::dvec3& place, const glm::dvec3& colour);
     VertexFit fitted() const;
     bool is_better(const Heights& before, const Heights& after, Strictness strictness) const;
     bool step_to(
@@ -96,97 +81,22 @@ private:
     void try_flip(HalfEdge h);
 
     WorkingSurface& surface_;
-    TrackedPoints& points_;
-    PolishTarget target_;
-    std::vector<GridSample> grid_;
+    RingHeights around_;
     std::vector<Heights> heights_; ///< of each triangle
     double allowance_ = 0.0;       ///< by which the sum of squares may still grow
     double tall2_ = everything;    ///< squares of distances beyond that stand alone
     double tall_allowance_ = 0.0;  ///< the same beyond that, for peaks that stand alone
-    SurfaceCost cost_;
-    std::vector<RingFace> ring_;
-    std::vector<std::uint32_t> faces_; ///< whose points are in cost_
-    std::vector<Corners> corners_;     ///< of the triangles in cost_
-    std::vector<Heights> each_;        ///< around each of these triangles
-    std::vector<glm::dvec3> aims_;     ///< from their samples to the target
 };
 
-/// Distances of the points in cost_ to its triangles; keeps them by triangle in each_.
-Heights PeakLowering::points_heights() {
-    Heights heights;
-    each_.assign(corners_.size(), {});
-    cost_.total();
-    const PointBlock& block = cost_.block();
-    for (std::size_t i = 0; i < block.size(); ++i) {
-        each_[static_cast<std::size_t>(block.nearest[i])].add(
-            static_cast<double>(block.distances2[i]), static_cast<double>(block.weights[i]));
-    }
-    for (const Heights& one : each_) {
-        heights.add(one);
-    }
-    return heights;
-}
-
-/// Distances of samples of corners_ to the target, added to each_; what they aim at goes to aims_.
-/// Not all of them where one is above `most2`.
-Heights PeakLowering::samples_heights(double most2) {
-    Heights heights;
-    aims_.clear();
-    for (std::size_t i = 0; i < corners_.size() && heights.most2 <= most2; ++i) {
-        const Corners& corners = corners_[i];
-        const double area = 0.5 * glm::length(area_vector(corners));
-        Heights one;
-        for (const auto& [w, share] : grid_) {
-            const glm::dvec3 place = w.x * corners[0] + w.y * corners[1] + w.z * corners[2];
-            const measure::NearestOnMesh nearest = target_.bvh.nearest(place);
-            one.add(nearest.distance2, share * area);
-            aims_.push_back(nearest.point - place);
-        }
-        each_[i].add(one);
-        heights.add(one);
-    }
-    return heights;
-}
-
-/// Both ways around what cost_ and corners_ hold; not all of it where that is above `most2`.
-Heights PeakLowering::seen(double most2) {
-    Heights heights = points_heights();
-    if (heights.most2 <= most2) {
-        heights.add(samples_heights(most2));
-    }
-    return heights;
-}
-
 void PeakLowering::measure(std::uint32_t face) {
-    faces_.assign(1, face);
-    corners_.assign(1, surface_.corner_places(face));
-    cost_.gather(points_, faces_);
-    cost_.triangles.assign(1, flat(corners_[0]));
-    heights_[face] = seen(everything);
-}
-
-void PeakLowering::take_ring(std::uint32_t vertex) {
-    ring_.clear();
-    faces_.clear();
-    surface_.mesh.around(vertex, [this](HalfEdge h) {
-        ring_.push_back({face_of(h), h});
-        faces_.push_back(face_of(h));
-    });
-    cost_.gather(points_, faces_);
-}
-
-void PeakLowering::set_ring(const glm::dvec3& place, const glm::dvec3& colour) {
-    cost_.set_triangles(surface_, ring_, place, colour);
-    corners_.clear();
-    for (const RingFace& face : ring_) {
-        corners_.push_back(moved_corners(surface_, face, place));
-    }
+    around_.take_face(face);
+    heights_[face] = around_.seen({});
 }
 
 /// The way that lessens the sum of powers: each weight times distance to the sixth.
 VertexFit PeakLowering::fitted() const {
     VertexFit fit;
-    const PointBlock& block = cost_.block();
+    const PointBlock& block = around_.cost().block();
     const auto cubed = [](double distance2) { return distance2 * distance2 * distance2; };
     for (std::size_t i = 0; i < block.size(); ++i) {
         const double weight =
@@ -195,19 +105,17 @@ VertexFit PeakLowering::fitted() const {
             fit,
             block,
             i,
-            cost_.triangles[static_cast<std::size_t>(block.nearest[i])],
+            around_.cost().triangles[static_cast<std::size_t>(block.nearest[i])],
             weight,
             false);
     }
-    std::size_t sample = 0;
-    for (const Corners& corners : corners_) {
-        const glm::dvec3 area2 = area_vector(corners);
-        const double size = glm::length(area2);
-        for (const auto& [w, share] : grid_) {
-            const glm::dvec3& off = aims_[sample++];
-            if (w.x > 0.0 && size > 0.0) {
-                fit.add(off, area2 / size, w.x, 0.5 * size * share * cubed(glm::dot(off, off)));
-            }
+    for (const SeenSample& sample : around_.samples()) {
+        if (sample.share > 0.0) {
+            fit.add(
+                sample.off,
+                sample.normal,
+                sample.share,
+                sample.area * cubed(glm::dot(sample.off, sample.off)));
         }
     }
     return fit;
@@ -232,20 +140,20 @@ void PeakLowering::keep(const Heights& before, const Heights& after) {
         tall_allowance_ += allowance_;
         allowance_ = 0.0;
     }
-    points_.assign(cost_.block(), faces_, faces_);
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-        heights_[faces_[i]] = each_[i];
+    around_.keep();
+    for (std::size_t i = 0; i < around_.faces().size(); ++i) {
+        heights_[around_.faces()[i]] = around_.each()[i];
     }
 }
 
 /// Expects the ring and its heights of now.
 bool PeakLowering::step_to(
     const glm::dvec3& place, std::uint32_t vertex, const Heights& before, Strictness strictness) {
-    if (!may_move(surface_, ring_, place, strictness)) {
+    if (!may_move(surface_, around_.ring(), place, strictness)) {
         return false;
     }
-    set_ring(place, surface_.coloured() ? surface_.colours[vertex] : glm::dvec3(0.0));
-    const Heights after = seen(before.most2);
+    around_.set_ring(place, surface_.coloured() ? surface_.colours[vertex] : glm::dvec3(0.0));
+    const Heights after = around_.seen({.most2 = before.most2});
     if (!is_better(before, after, strictness)) {
         return false;
     }
@@ -255,11 +163,11 @@ bool PeakLowering::step_to(
 }
 
 void PeakLowering::lower_at(std::uint32_t vertex) {
-    take_ring(vertex);
+    around_.take_ring(vertex);
     const glm::dvec3 place = surface_.places[vertex];
     const glm::dvec3 colour = surface_.coloured() ? surface_.colours[vertex] : glm::dvec3(0.0);
-    set_ring(place, colour);
-    const Heights before = seen(everything);
+    around_.set_ring(place, colour);
+    const Heights before = around_.seen({});
     const glm::dvec3 way = fitted().way();
     for (const Strictness strictness : {Strictness::Normal, Strictness::Loose}) {
         if (strictness == Strictness::Loose && !(before.most2 > tall2_)) {
@@ -278,28 +186,14 @@ void PeakLowering::try_flip(HalfEdge h) {
     if (surface_.is_material_border(h) || !mesh.may_flip(h)) {
         return;
     }
-    const std::array<std::uint32_t, 2> pair = {face_of(h), face_of(mesh.twin(h))};
-    faces_.assign(pair.begin(), pair.end());
-    const auto set = [&] {
-        cost_.triangles.clear();
-        corners_.clear();
-        for (const std::uint32_t face : pair) {
-            corners_.push_back(surface_.corner_places(face));
-            const Triangle v = mesh.corners(face);
-            const auto& c = surface_.colours;
-            cost_.triangles.push_back(
-                c.empty() ? flat(corners_.back())
-                          : flat(corners_.back(), {c[v[0]], c[v[1]], c[v[2]]}));
-        }
-    };
-    cost_.gather(points_, faces_);
-    set();
-    const std::vector<Corners> old = corners_;
-    const Heights before = seen(everything);
+    around_.take_pair(h);
+    const std::vector<Corners> old = around_.corners();
+    const Heights before = around_.seen({});
     mesh.flip(h);
-    set();
-    if (may_flip_to({old[0], old[1]}, {corners_[0], corners_[1]})) {
-        const Heights after = seen(before.most2);
+    around_.set_faces();
+    const std::vector<Corners>& now = around_.corners();
+    if (may_flip_to({old[0], old[1]}, {now[0], now[1]})) {
+        const Heights after = around_.seen({.most2 = before.most2});
         if (is_better(before, after, Strictness::Normal)) {
             keep(before, after);
             return;

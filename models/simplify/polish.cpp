@@ -8,6 +8,7 @@
 #include "models/simplify/collapse_guard.h"
 #include "models/simplify/peaks.h"
 #include "models/simplify/surface_cost.h"
+#include "models/simplify/turned_faces.h"
 #include "models/simplify/vertex_fit.h"
 #include "sim/base/worker_team.h"
 
@@ -299,6 +300,8 @@ void polish(
     }
     polishing.list_again();
     lower_peaks(surface, points, target, {});
+    polishing.list_again();
+    turn_back(surface, points, target, {});
 }
 
 } // namespace octant::models::simplify

@@ -1,0 +1,168 @@
+#include "models/simplify/ring_heights.h"
+
+#include "models/simplify/collapse_guard.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace octant::models::simplify {
+
+namespace {
+
+/// As many samples as triangles of the target come on one of the surface, within bounds.
+int grid_fields(std::size_t target_faces, std::size_t faces) {
+    const double ratio =
+        static_cast<double>(target_faces) / static_cast<double>(std::max<std::size_t>(faces, 1));
+    return std::clamp(static_cast<int>(std::sqrt(ratio)), 4, 8);
+}
+
+/// Of a grid with a spacing.
+constexpr int least_fields = 3;
+constexpr int most_fields = 24;
+
+} // namespace
+
+RingHeights::RingHeights(
+    const WorkingSurface& surface,
+    TrackedPoints& points,
+    const PolishTarget& target,
+    double spacing)
+    : surface_(surface)
+    , points_(points)
+    , target_(target)
+    , facing_(target)
+    , spacing_(spacing) {
+    if (spacing > 0.0) {
+        for (int fields = least_fields; fields <= most_fields; ++fields) {
+            grids_.push_back(middle_grid(fields));
+        }
+    } else {
+        grids_.push_back(
+            sample_grid(grid_fields(target.surface.mesh.face_count(), surface.mesh.face_count())));
+    }
+}
+
+std::span<const GridSample> RingHeights::grid_for(const std::array<glm::dvec3, 3>& corners) const {
+    if (grids_.size() == 1) {
+        return grids_.front();
+    }
+    const double longest = std::max(
+        {glm::distance(corners[0], corners[1]),
+         glm::distance(corners[1], corners[2]),
+         glm::distance(corners[2], corners[0])});
+    const double fields = std::clamp(
+        longest / spacing_, static_cast<double>(least_fields), static_cast<double>(most_fields));
+    return grids_[static_cast<std::size_t>(fields) - least_fields];
+}
+
+void RingHeights::take_face(std::uint32_t face) {
+    faces_.assign(1, face);
+    cost_.gather(points_, faces_);
+    set_faces();
+}
+
+void RingHeights::take_ring(std::uint32_t vertex) {
+    ring_.clear();
+    faces_.clear();
+    surface_.mesh.around(vertex, [this](HalfEdge h) {
+        ring_.push_back({face_of(h), h});
+        faces_.push_back(face_of(h));
+    });
+    cost_.gather(points_, faces_);
+}
+
+void RingHeights::take_pair(HalfEdge h) {
+    faces_.assign({face_of(h), face_of(surface_.mesh.twin(h))});
+    cost_.gather(points_, faces_);
+    set_faces();
+}
+
+void RingHeights::set_ring(const glm::dvec3& place, const glm::dvec3& colour) {
+    cost_.set_triangles(surface_, ring_, place, colour);
+    corners_.clear();
+    for (const RingFace& face : ring_) {
+        corners_.push_back(moved_corners(surface_, face, place));
+    }
+}
+
+void RingHeights::set_faces() {
+    cost_.triangles.clear();
+    corners_.clear();
+    for (const std::uint32_t face : faces_) {
+        corners_.push_back(surface_.corner_places(face));
+        const Triangle v = surface_.mesh.corners(face);
+        const auto& c = surface_.colours;
+        cost_.triangles.push_back(
+            c.empty() ? flat(corners_.back()) : flat(corners_.back(), {c[v[0]], c[v[1]], c[v[2]]}));
+    }
+}
+
+/// Distances of the points in cost_ to its triangles; keeps them by triangle in each_.
+Heights RingHeights::points_heights() {
+    Heights heights;
+    each_.assign(corners_.size(), {});
+    cost_.total();
+    const PointBlock& block = cost_.block();
+    for (std::size_t i = 0; i < block.size(); ++i) {
+        each_[static_cast<std::size_t>(block.nearest[i])].add(
+            static_cast<double>(block.distances2[i]), static_cast<double>(block.weights[i]));
+    }
+    for (const Heights& one : each_) {
+        heights.add(one);
+    }
+    return heights;
+}
+
+/// Distances of samples of triangle `i` to the target, as long as limits allow.
+void RingHeights::add_samples(std::size_t i, Heights& heights, const HeightLimits& limits) {
+    const auto& corners = corners_[i];
+    const glm::dvec3 area2 = area_vector(corners);
+    const double size = glm::length(area2);
+    SeenSample sample;
+    sample.normal = size > 0.0 ? area2 / size : glm::dvec3(0.0);
+    Heights sum = heights;
+    for (const auto& [w, share] : grid_for(corners)) {
+        const glm::dvec3 place = w.x * corners[0] + w.y * corners[1] + w.z * corners[2];
+        const measure::NearestOnMesh nearest = nearest_to(place);
+        sample.place = place;
+        sample.off = nearest.point - place;
+        sample.share = w.x;
+        sample.area = share * 0.5 * size;
+        sample.turned = facing_.is_against(place, nearest, area2);
+        samples_.push_back(sample);
+        ++looks_;
+        Heights one;
+        one.add(nearest.distance2, sample.area);
+        one.turned = sample.turned ? sample.area : 0.0;
+        each_[i].add(one);
+        sum.add(one);
+        if (!limits.allow(sum)) {
+            break;
+        }
+    }
+    heights = sum;
+}
+
+/// The last sample's distance bounds this one's.
+measure::NearestOnMesh RingHeights::nearest_to(const glm::dvec3& place) const {
+    if (samples_.empty()) {
+        return target_.bvh.nearest(place);
+    }
+    const SeenSample& last = samples_.back();
+    const double within = glm::length(last.off) + glm::distance(last.place, place);
+    return target_.bvh.nearest(place, (1.0 + 1e-9) * within + target_.bvh.rounding_m());
+}
+
+Heights RingHeights::seen(const HeightLimits& limits) {
+    Heights heights = points_heights();
+    points_most2_ = heights.most2;
+    samples_.clear();
+    for (std::size_t i = 0; i < corners_.size() && limits.allow(heights); ++i) {
+        add_samples(i, heights, limits);
+    }
+    return heights;
+}
+
+} // namespace octant::models::simplify
