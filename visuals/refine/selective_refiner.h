@@ -52,7 +52,7 @@ struct RefinerCounts {
 ///   that needs it, so there is an end. A boundary collapse has one cut vertex and causes none.
 /// - Hoppe, Xia: every split that brings back what lay around at the collapse.
 ///
-/// Needs no memory after it has once held as many vertices and faces.
+/// Needs no memory after it has once held as many vertices and faces, but for split_all.
 class SelectiveRefiner {
 public:
     explicit SelectiveRefiner(
