@@ -192,6 +192,11 @@ void refine_mesh(RefineOptions options) {
         throw Error(fmt::format(
             "--save: expected a file name that ends in .pm, got '{}'", printable(options.save)));
     }
+    for (const std::string& file : {options.save, options.out, options.partition, options.nodes}) {
+        if (!file.empty()) {
+            check_can_write(file);
+        }
+    }
     const Stopwatch watch;
     const auto mesh = read_refine_input(options.input);
     Json figures;

@@ -1,6 +1,7 @@
 #include "models/meshfile/level_chain.h"
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/error.h"
+#include "sim/base/output_file.h"
 #include "ui/commands.h"
 #include "ui/figures_text.h"
 #include "ui/settings_options.h"
@@ -34,6 +35,9 @@ void refuse_faults(const SimplifyCommand& command) {
                 "OUT: expected another file than the input, got '{}'", printable(command.out)));
         }
     }
+    if (!command.error.empty()) {
+        error_m_from(command.error, 1.0);
+    }
     if (command.chain != meshfile::is_chain_file(out)) {
         throw Error(fmt::format(
             "OUT: expected a name that ends in .chain with --chain, and another one without, got "
@@ -64,6 +68,7 @@ void refuse_faults(const SimplifyCommand& command) {
     if (!command.polygons.empty() && !command.chain) {
         throw Error("--polygons: expected --chain with it, got none");
     }
+    check_can_write(out);
 }
 
 void print(Json figures, bool json) {

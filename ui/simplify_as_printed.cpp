@@ -31,9 +31,10 @@ void add_paper_figures(
     figures["counted_vertices"] = result.counted_vertices;
     figures["feet"] = result.feet;
     figures["feet_outside"] = result.feet_outside;
-    figures["share_outside"] = result.feet > 0 ? static_cast<double>(result.feet_outside) /
-                                                     static_cast<double>(result.feet)
-                                               : 0.0;
+    if (result.feet > 0) { // the plane's measure has none
+        figures["share_outside"] =
+            static_cast<double>(result.feet_outside) / static_cast<double>(result.feet);
+    }
     figures["error_sum_plane"] = result.sums.plane_m2;
     figures["error_sum_triangle"] = result.sums.triangle_m2;
     figures["error_sum_bidirectional"] = result.sums.bidirectional_m2;

@@ -33,19 +33,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// "0.5" in the file's units or "0.1%" of the diagonal.
-double error_m_from(const std::string& text, double diagonal_m) {
-    const bool share = text.ends_with('%');
-    const std::string number = share ? text.substr(0, text.size() - 1) : text;
-    const double value = finite_number(number).value_or(0.0);
-    if (!(value > 0.0)) {
-        throw Error(fmt::format(
-            "--error: expected a number above 0 in file units, or with % of the diagonal, got '{}'",
-            printable(text)));
-    }
-    return share ? value / 100.0 * diagonal_m : value;
-}
-
 simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diagonal_m) {
     simplify::SimplifyOptions options;
     options.quality =
@@ -111,6 +98,18 @@ models::PolygonModel polygons_in_file_axes(const std::filesystem::path& file) {
 }
 
 } // namespace
+
+double error_m_from(const std::string& text, double diagonal_m) {
+    const bool share = text.ends_with('%');
+    const std::string number = share ? text.substr(0, text.size() - 1) : text;
+    const double value = finite_number(number).value_or(0.0);
+    if (!(value > 0.0)) {
+        throw Error(fmt::format(
+            "--error: expected a number above 0 in file units, or with % of the diagonal, got '{}'",
+            printable(text)));
+    }
+    return share ? value / 100.0 * diagonal_m : value;
+}
 
 std::optional<simplify::PaperMeasure> paper_measure(const std::string& method) {
     using simplify::PaperMeasure;

@@ -26,6 +26,10 @@ struct SimplifyCommand {
     bool quiet = false;
 };
 
+/// A largest error of `octant simplify` from text: "0.5" in the file's units or "0.1%" of the
+/// diagonal. Throws Error for anything else.
+double error_m_from(const std::string& text, double diagonal_m);
+
 /// The paper's measure where the method is one of the paper's.
 std::optional<models::simplify::PaperMeasure> paper_measure(const std::string& method);
 

@@ -67,8 +67,8 @@ std::vector<RefinedModel> read_models(const RefinementStudyOptions& options) {
 } // namespace
 
 void study_refinement(const RefinementStudyOptions& options) {
-    make_folder(options.out);
     const std::vector<RefinedModel> models = read_models(options);
+    make_folder(options.out);
     std::vector<report::HtmlTable> tables;
     std::string markdown;
     const auto add = [&](const char* file, report::HtmlTable table) {

@@ -142,8 +142,8 @@ std::string write_figures(
 } // namespace
 
 void study_shading(const ShadingStudyOptions& options) {
-    make_folder(options.out);
     const std::vector<ShadedModel> models = shading_models(options.meshes);
+    make_folder(options.out);
     std::vector<ShadingRun> runs;
     for (const ShadedModel& model : models) {
         const int views = static_cast<int>(study_eyes(model.polygons).size());

@@ -159,8 +159,8 @@ void write_and_print(
 } // namespace
 
 void study_simplification(const SimplificationStudyOptions& options) {
-    make_folder(options.out);
     const StudyMeshes given = meshes_of(options);
+    make_folder(options.out);
     const QualityOptions quality = options.paper_only ? QualityOptions() : quality_options(options);
     const std::vector<PaperRun> paper = all_paper_runs(given.meshes, options.quiet);
     FiledTables tables;

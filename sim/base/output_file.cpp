@@ -68,6 +68,17 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
     cannot_write(path);
 }
 
+void check_can_write(const std::filesystem::path& path) {
+    if (std::filesystem::is_directory(path)) {
+        errno = EISDIR;
+        cannot_write(path);
+    }
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    if (::access(std::filesystem::exists(path) ? path.c_str() : folder.c_str(), W_OK) != 0) {
+        cannot_write(path);
+    }
+}
+
 void make_folder(const std::filesystem::path& path) {
     std::error_code code;
     std::filesystem::create_directories(path, code);

@@ -10,6 +10,10 @@ namespace octant {
 /// `path`. Throws Error (no permission, no such folder, disk full) and leaves no temporary behind.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// Before long work: throws Error where write_file would find no folder, none that it may write in,
+/// or a folder in the file's place. Writes nothing.
+void check_can_write(const std::filesystem::path& path);
+
 /// Makes the folder and its parents. Throws Error when that is not possible.
 void make_folder(const std::filesystem::path& path);
 

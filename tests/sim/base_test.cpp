@@ -136,3 +136,12 @@ TEST_CASE("text from outside is made printable and short") {
     CHECK(printable("a\nb\x1b") == "a?b?");
     CHECK(printable(std::string(80, 'x')) == std::string(60, 'x') + "...");
 }
+
+TEST_CASE("what could not be written is refused before the work, and nothing is written") {
+    const auto folder = tests::scratch_folder();
+    const auto file = folder / "to-be-written";
+    check_can_write(file);
+    CHECK_FALSE(std::filesystem::exists(file));
+    CHECK_THROWS_AS(check_can_write(folder), Error);
+    CHECK_THROWS_AS(check_can_write(folder / "none" / "file"), Error);
+}

@@ -51,6 +51,15 @@ TEST_CASE("a bunny that is none, meshes that are not there and peers that are no
     CHECK(other.exit_code == 2);
     CHECK(other.err.find("expected the Stanford bunny") != std::string::npos);
     CHECK(study({"--mesh", "/nowhere.obj"}).exit_code == 2);
+    for (const char* name : {"simplification", "refinement", "shading"}) {
+        INFO(name);
+        const std::filesystem::path out = folder() / "no-tables";
+        const tests::ProgramRun none =
+            tests::run_octant({"study", name, "--mesh", "/nowhere.obj", "--out", out.string()});
+        CHECK(none.exit_code == 2);
+        CHECK(none.err.find("/nowhere.obj") != std::string::npos);
+        CHECK_FALSE(std::filesystem::exists(out));
+    }
     const tests::ProgramRun peers = study({"--peers", "/bin/true"});
     CHECK(peers.exit_code == 2);
     CHECK(peers.err.find("expected a line of JSON") != std::string::npos);

@@ -165,6 +165,7 @@ TEST_CASE("simplify refuses wrong input in one line with exit code 2") {
     check_refused({in, file_named("x.xyz"), "--faces", "10"}, "expected a name that ends in");
     check_refused({in, file_named("x.obj")}, "expected one of --vertices, --faces and --error");
     check_refused({in, file_named("x.obj"), "--error", "-1"}, "--error: expected a number above 0");
+    check_refused({in, file_named("none/x.obj"), "--faces", "10"}, "none/x.obj: cannot be written");
     check_refused({in, file_named("x.obj"), "--chain"}, "ends in .chain");
     check_refused(
         {in, file_named("x.chain"), "--chain", "--method", "plane"}, "--method plane: expected");
