@@ -48,39 +48,39 @@ struct NearestInPlane {
     bool uncertain = true; ///< the triangle is nearly a line: weights may be wrong
 };
 
-/// Along the longest edge and the height over it, which keeps its accuracy for thin triangles.
-inline NearestInPlane nearest_in_plane(
-    const std::array<glm::dvec3, 3>& corners,
-    const glm::dvec3& ab,
-    const glm::dvec3& bc,
-    const glm::dvec3& ca) {
-    const std::array<const glm::dvec3*, 3> edges = {&ab, &bc, &ca};
-    const std::array<double, 3> lengths2 = {glm::dot(ab, ab), glm::dot(bc, bc), glm::dot(ca, ca)};
-    int start = lengths2[1] > lengths2[0] ? 1 : 0;
-    start = lengths2[2] > lengths2[static_cast<std::size_t>(start)] ? 2 : start;
-    const int end = start == 2 ? 0 : start + 1;
-    const int apex = end == 2 ? 0 : end + 1;
-    const glm::dvec3& base = *edges[static_cast<std::size_t>(start)];
-    const glm::dvec3 side = -*edges[static_cast<std::size_t>(apex)];
-    const double base2 = lengths2[static_cast<std::size_t>(start)];
-    if (!(base2 > 0.0)) {
-        return {};
-    }
+/// For a triangle whose longest edge runs from corner 0 to corner 1: along that edge and the height
+/// over it, which keeps its accuracy for thin triangles. Weights in the order of the corners.
+inline NearestInPlane nearest_over_base(
+    const glm::dvec3& from, const glm::dvec3& base, const glm::dvec3& side, double base2) {
     const double foot = glm::dot(side, base) / base2;
     const glm::dvec3 height = side - foot * base;
     const double height2 = glm::dot(height, height);
     if (!(height2 > 0.0)) {
         return {};
     }
-    const glm::dvec3& from = corners[static_cast<std::size_t>(start)];
     const double along = -glm::dot(from, base) / base2;
     const double up = -glm::dot(from + along * base, height) / height2;
-    NearestInPlane found;
-    found.weights[apex] = up;
-    found.weights[end] = along - up * foot;
-    found.weights[start] = 1.0 - up - found.weights[end];
-    found.uncertain = height2 < 1e-12 * base2;
-    return found;
+    const double end = along - up * foot;
+    return {{1.0 - up - end, end, up}, height2 < 1e-12 * base2};
+}
+
+inline NearestInPlane nearest_in_plane(
+    const std::array<glm::dvec3, 3>& corners,
+    const glm::dvec3& ab,
+    const glm::dvec3& bc,
+    const glm::dvec3& ca) {
+    const double ab2 = glm::dot(ab, ab);
+    const double bc2 = glm::dot(bc, bc);
+    const double ca2 = glm::dot(ca, ca);
+    if (ca2 > std::max(ab2, bc2)) {
+        const NearestInPlane found = nearest_over_base(corners[2], ca, -bc, ca2);
+        return {{found.weights.y, found.weights.z, found.weights.x}, found.uncertain};
+    }
+    if (bc2 > ab2) {
+        const NearestInPlane found = nearest_over_base(corners[1], bc, -ab, bc2);
+        return {{found.weights.z, found.weights.x, found.weights.y}, found.uncertain};
+    }
+    return ab2 > 0.0 ? nearest_over_base(corners[0], ab, -ca, ab2) : NearestInPlane{};
 }
 
 /// nearest_on_triangle for the origin.
@@ -89,18 +89,9 @@ inline NearestOnTriangle nearest_to_origin(const std::array<glm::dvec3, 3>& corn
     const glm::dvec3 ab = b - a;
     const glm::dvec3 bc = c - b;
     const glm::dvec3 ca = a - c;
-    NearestOnTriangle found{a, {1.0, 0.0, 0.0}, glm::dot(a, a)};
-    if (is_at_corner(a, ab, -ca)) {
-        return found;
-    }
-    if (is_at_corner(b, bc, -ab)) {
-        return {b, {0.0, 1.0, 0.0}, glm::dot(b, b)};
-    }
-    if (is_at_corner(c, ca, -bc)) {
-        return {c, {0.0, 0.0, 1.0}, glm::dot(c, c)};
-    }
     const NearestInPlane plane = nearest_in_plane(corners, ab, bc, ca);
     const glm::dvec3& weights = plane.weights;
+    NearestOnTriangle found{a, {1.0, 0.0, 0.0}, glm::dot(a, a)};
     if (weights.x > 0.0 && weights.y > 0.0 && weights.z > 0.0) {
         const glm::dvec3 point = weights.x * a + weights.y * b + weights.z * c;
         const NearestOnTriangle inside{point, weights, glm::dot(point, point)};
@@ -108,6 +99,15 @@ inline NearestOnTriangle nearest_to_origin(const std::array<glm::dvec3, 3>& corn
             return inside;
         }
         found = inside.distance2 < found.distance2 ? inside : found;
+    }
+    if (is_at_corner(a, ab, -ca)) {
+        return {a, {1.0, 0.0, 0.0}, glm::dot(a, a)};
+    }
+    if (is_at_corner(b, bc, -ab)) {
+        return {b, {0.0, 1.0, 0.0}, glm::dot(b, b)};
+    }
+    if (is_at_corner(c, ca, -bc)) {
+        return {c, {0.0, 0.0, 1.0}, glm::dot(c, c)};
     }
     if (plane.uncertain || !(weights.z > 0.0)) {
         take_from_edge(corners, 0, 1, found);

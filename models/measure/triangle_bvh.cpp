@@ -1,170 +1,127 @@
 #include "models/measure/triangle_bvh.h"
 
 #include "models/measure/nearest_point.h"
+#include "models/measure/triangle_split.h"
 
 #include <glm/common.hpp>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 
-// I. Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007: splits between
-// bins of the longest axis of the triangles' middles, by the surface area heuristic.
-// Deviations: below depth 64, and where no bin splits, triangles are split at their median, so that
-// the depth is bounded.
+// I. Wald, C. Benthin, S. Boulos, "Getting rid of packets", 2008: nodes of four boxes; here by
+// splitting twice.
 
 namespace octant::models::measure {
 
 namespace {
 
-struct Extent {
-    glm::dvec3 least{std::numeric_limits<double>::infinity()};
-    glm::dvec3 most{-std::numeric_limits<double>::infinity()};
+/// Of a distance in single precision, against the largest number in it.
+constexpr double rounding = 4e-6;
+/// In units of the mesh's size: farther away places are as good as that one for finding everything.
+constexpr double farthest_place = 1e9;
+/// A smaller mesh is taken for that large.
+constexpr double least_size_m = 1e-150;
 
-    void take(const glm::dvec3& point) {
-        least = glm::min(least, point);
-        most = glm::max(most, point);
-    }
-
-    void take(const Extent& other) {
-        least = glm::min(least, other.least);
-        most = glm::max(most, other.most);
-    }
-
-    double half_area() const {
-        const glm::dvec3 size = most - least;
-        return size.x >= 0.0 ? size.x * size.y + size.y * size.z + size.z * size.x : 0.0;
-    }
-};
-
-/// A triangle while the tree is built.
-struct Item {
-    Extent extent;
-    glm::dvec3 middle{0.0};
-    std::uint32_t triangle = 0;
-};
-
-int longest_axis(const Extent& extent) {
-    const glm::dvec3 size = extent.most - extent.least;
-    const int first = size.y > size.x ? 1 : 0;
-    return size.z > size[first] ? 2 : first;
+double largest(const glm::dvec3& v) {
+    return std::max({v.x, v.y, v.z});
 }
 
-constexpr std::size_t bin_count = 16;
-constexpr std::size_t leaf_size = 4;
-constexpr int median_depth = 64; ///< 64 + 32 levels of halving stay below most_depth
-
-struct Bins {
-    double start = 0.0;
-    double scale = 0.0;
-    int axis = 0;
-
-    std::size_t bin_of(const Item& item) const {
-        const double place = (item.middle[axis] - start) * scale;
-        return std::min(bin_count - 1, static_cast<std::size_t>(std::max(0.0, place)));
+template <typename Floats>
+void set_lane(PlaneFrame<Floats>& frames, std::size_t lane, const PlaneFrame<float>& frame) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        frames.origin[axis][lane] = frame.origin[axis];
+        frames.x_axis[axis][lane] = frame.x_axis[axis];
+        frames.y_axis[axis][lane] = frame.y_axis[axis];
+        frames.normal[axis][lane] = frame.normal[axis];
     }
-};
-
-/// The first bin behind the cheapest split; 0 when there is none.
-std::size_t cheapest_split(std::span<const Item> items, const Bins& bins) {
-    std::array<Extent, bin_count> extents;
-    std::array<std::size_t, bin_count> counts{};
-    for (const Item& item : items) {
-        const std::size_t bin = bins.bin_of(item);
-        extents[bin].take(item.extent);
-        ++counts[bin];
-    }
-    std::array<double, bin_count> behind{};
-    Extent extent;
-    std::size_t count = 0;
-    for (std::size_t bin = bin_count - 1; bin > 0; --bin) {
-        extent.take(extents[bin]);
-        count += counts[bin];
-        behind[bin] = extent.half_area() * static_cast<double>(count);
-    }
-    extent = {};
-    count = 0;
-    std::size_t best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t bin = 1; bin < bin_count; ++bin) {
-        extent.take(extents[bin - 1]);
-        count += counts[bin - 1];
-        const double cost = extent.half_area() * static_cast<double>(count) + behind[bin];
-        if (count > 0 && count < items.size() && cost < least) {
-            least = cost;
-            best = bin;
-        }
-    }
-    return best;
-}
-
-/// Orders the items into two parts, neither of them empty; gives the size of the first.
-std::size_t split(std::span<Item> items, int depth) {
-    Extent middles;
-    for (const Item& item : items) {
-        middles.take(item.middle);
-    }
-    Bins bins;
-    bins.axis = longest_axis(middles);
-    bins.start = middles.least[bins.axis];
-    const double size = middles.most[bins.axis] - bins.start;
-    if (size > 0.0 && depth < median_depth) {
-        bins.scale = static_cast<double>(bin_count) / size;
-        const std::size_t bin = cheapest_split(items, bins);
-        if (bin > 0) {
-            const auto behind =
-                std::stable_partition(items.begin(), items.end(), [&](const Item& item) {
-                    return bins.bin_of(item) < bin;
-                });
-            return static_cast<std::size_t>(behind - items.begin());
-        }
-    }
-    const std::size_t half = items.size() / 2;
-    std::ranges::sort(items, [&](const Item& one, const Item& other) {
-        const double difference = one.middle[bins.axis] - other.middle[bins.axis];
-        return difference < 0.0 || (difference == 0.0 && one.triangle < other.triangle);
-    });
-    return half;
+    frames.bx[lane] = frame.bx;
+    frames.cx[lane] = frame.cx;
+    frames.cy[lane] = frame.cy;
+    frames.per_ab2[lane] = frame.per_ab2;
+    frames.per_bc2[lane] = frame.per_bc2;
+    frames.per_ca2[lane] = frame.per_ca2;
 }
 
 } // namespace
 
 struct TriangleBvh::Builder {
     TriangleBvh& tree;
-    std::vector<Item> items;
-    double margin = 0.0; ///< for the rounding of positions relative to the centre
+    std::span<const glm::dvec3> vertices_m;
+    std::span<const Triangle> triangles;
+    std::vector<Item> items; ///< in units of the mesh's size
 
-    Box box_of(std::span<const Item> part) const {
+    glm::dvec3 scaled(const glm::dvec3& point_m) const {
+        return (point_m - tree.centre_m_) * tree.per_size_;
+    }
+
+    void set_box(Node& node, std::size_t lane, std::span<const Item> part) const {
         Extent extent;
         for (const Item& item : part) {
             extent.take(item.extent);
         }
-        Box box{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            constexpr float far = std::numeric_limits<float>::infinity();
-            const int a = static_cast<int>(axis);
-            box.least[axis] = std::nextafter(static_cast<float>(extent.least[a] - margin), -far);
-            box.most[axis] = std::nextafter(static_cast<float>(extent.most[a] + margin), far);
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<std::size_t>(axis);
+            node.least[i][lane] = static_cast<float>(extent.least[axis]);
+            node.most[i][lane] = static_cast<float>(extent.most[axis]);
         }
-        return box;
     }
 
-    Box build(std::size_t first, std::size_t count, int depth) {
-        const std::span<Item> part = std::span(items).subspan(first, count);
-        Box box = box_of(part);
-        if (count <= leaf_size) {
-            box.first = static_cast<std::uint32_t>(first);
-            box.count = static_cast<std::uint32_t>(count);
-            return box;
+    std::uint32_t leaf(std::size_t first, std::size_t count) const {
+        Leaf made;
+        made.first = static_cast<std::uint32_t>(first);
+        made.count = static_cast<std::uint32_t>(count);
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const Item& item = items[first + std::min(lane, count - 1)];
+            const auto& [a, b, c] = triangles[item.triangle];
+            set_lane(
+                made.frames,
+                lane,
+                plane_frame({scaled(vertices_m[a]), scaled(vertices_m[b]), scaled(vertices_m[c])}));
         }
-        box.first = static_cast<std::uint32_t>(tree.nodes_.size());
-        tree.nodes_.emplace_back();
-        const std::size_t left = split(part, depth);
-        const Box one = build(first, left, depth + 1);
-        const Box other = build(first + left, count - left, depth + 1);
-        tree.nodes_[box.first] = {{one, other}};
-        return box;
+        tree.leaves_.push_back(made);
+        return static_cast<std::uint32_t>(tree.leaves_.size() - 1) | leaf_bit;
+    }
+
+    std::uint32_t below(std::size_t first, std::size_t count, int depth) {
+        return count <= lanes ? leaf(first, count) : build(first, count, depth);
+    }
+
+    /// Four parts by splitting twice.
+    std::uint32_t build(std::size_t first, std::size_t count, int depth) {
+        const auto number = static_cast<std::uint32_t>(tree.nodes_.size());
+        tree.nodes_.push_back(empty_node());
+        std::size_t lane = 0;
+        const auto add = [&](std::size_t from, std::size_t size) {
+            const std::uint32_t made = below(from, size, depth + 2);
+            set_box(tree.nodes_[number], lane, std::span(items).subspan(from, size));
+            tree.nodes_[number].below[lane++] = made;
+        };
+        const auto add_half = [&](std::size_t from, std::size_t size) {
+            if (size <= lanes) {
+                add(from, size);
+                return;
+            }
+            const std::size_t left = split(std::span(items).subspan(from, size), depth + 1);
+            add(from, left);
+            add(from + left, size - left);
+        };
+        const std::size_t left =
+            count > 1 ? split(std::span(items).subspan(first, count), depth) : count;
+        add_half(first, left);
+        if (left < count) {
+            add_half(first + left, count - left);
+        }
+        return number;
+    }
+
+    static Node empty_node() {
+        Node node{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            node.least[axis] = Floats{} + std::numeric_limits<float>::infinity();
+            node.most[axis] = Floats{} - std::numeric_limits<float>::infinity();
+        }
+        return node;
     }
 };
 
@@ -183,92 +140,124 @@ TriangleBvh::TriangleBvh(
             whole.take(vertices_m[vertex]);
         }
     }
-    centre_ = 0.5 * (whole.least + whole.most);
+    centre_m_ = 0.5 * (whole.least + whole.most);
+    const double size_m = 0.5 * largest(whole.most - whole.least);
+    per_size_ = size_m > least_size_m ? 1.0 / size_m : 1.0 / least_size_m;
     const glm::dvec3 farthest = glm::max(glm::abs(whole.least), glm::abs(whole.most));
-    rounding_m_ = 64.0 * std::numeric_limits<double>::epsilon() *
-                  std::max({farthest.x, farthest.y, farthest.z});
-    Builder builder{*this, std::vector<Item>(triangles.size()), rounding_m_};
+    rounding_m_ = 64.0 * std::numeric_limits<double>::epsilon() * largest(farthest);
+    Builder builder{*this, vertices_m, triangles, std::vector<Item>(triangles.size())};
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         Item& item = builder.items[i];
         for (const std::uint32_t vertex : triangles[i]) {
-            item.extent.take(vertices_m[vertex] - centre_);
+            item.extent.take(builder.scaled(vertices_m[vertex]));
         }
         item.middle = 0.5 * (item.extent.least + item.extent.most);
         item.triangle = static_cast<std::uint32_t>(i);
     }
-    nodes_.reserve(triangles.size());
-    const Box root = builder.build(0, triangles.size(), 0);
-    if (root.count > 0) { // a leaf alone: a node with it and an empty half
-        Box empty{};
-        empty.least.fill(std::numeric_limits<float>::infinity());
-        empty.most.fill(-std::numeric_limits<float>::infinity());
-        nodes_.push_back({{root, empty}});
-    }
-    corners_.reserve(triangles.size());
+    nodes_.reserve(triangles.size() / lanes + 1);
+    leaves_.reserve(triangles.size() / 2 + 1);
+    builder.build(0, triangles.size(), 0);
+    corners_m_.reserve(triangles.size());
     triangles_.reserve(triangles.size());
     for (const Item& item : builder.items) {
-        const Triangle& triangle = triangles[item.triangle];
-        corners_.push_back(
-            {vertices_m[triangle[0]], vertices_m[triangle[1]], vertices_m[triangle[2]]});
+        const auto& [a, b, c] = triangles[item.triangle];
+        corners_m_.push_back({vertices_m[a], vertices_m[b], vertices_m[c]});
         triangles_.push_back(item.triangle);
     }
 }
 
+/// Rounding of places and of what is computed of them takes less than `slack`, in single precision
+/// and the rounding of double precision included: up to fifty roundings, each of 2^-24.
+TriangleBvh::Probe TriangleBvh::probe(const glm::dvec3& point_m) const {
+    const glm::dvec3 local = (point_m - centre_m_) * per_size_;
+    Probe made;
+    const glm::dvec3 within =
+        glm::clamp(local, glm::dvec3(-farthest_place), glm::dvec3(farthest_place));
+    for (int axis = 0; axis < 3; ++axis) {
+        made.place[static_cast<std::size_t>(axis)] = Floats{} + static_cast<float>(within[axis]);
+    }
+    made.slack = rounding * (1.0 + largest(glm::abs(local))) + rounding_m_ * per_size_;
+    return made;
+}
+
+void TriangleBvh::Probe::set_reach(double distance) {
+    const double reach = distance + slack;
+    const bool all = slack > 1.0 || !(reach < farthest_place);
+    reach2 = all ? std::numeric_limits<float>::max()
+                 : static_cast<float>((1.0 + rounding) * reach * reach);
+}
+
 struct TriangleBvh::Search {
     NearestOnMesh found;
-    double reach2 = 0.0; ///< nothing farther is looked at
+    double reach2_m2 = 0.0; ///< nothing farther is looked at
+    Probe probe;
 };
 
-void TriangleBvh::search_leaf(const Box& leaf, const glm::dvec3& point, Search& search) const {
-    for (std::size_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
-        const auto& [a, b, c] = corners_[i];
-        const NearestOnTriangle here = detail::nearest_to_origin({a - point, b - point, c - point});
-        const bool tie = here.distance2 == search.reach2 && triangles_[i] < search.found.triangle;
-        if (here.distance2 < search.reach2 || tie) {
-            search.found = {triangles_[i], here.point, here.weights, here.distance2};
-            search.reach2 = here.distance2;
+void TriangleBvh::search_leaf(const Leaf& leaf, const glm::dvec3& point_m, Search& search) const {
+    Floats distances2;
+    triangle_distances2(distances2, leaf, search.probe);
+    for (std::size_t looked = 0; looked < leaf.count; ++looked) {
+        std::size_t i = 0;
+        for (std::size_t lane = 1; lane < leaf.count; ++lane) {
+            i = distances2[lane] < distances2[i] ? lane : i;
+        }
+        if (!(distances2[i] <= search.probe.reach2)) {
+            return;
+        }
+        distances2[i] = std::numeric_limits<float>::infinity();
+        const auto& [a, b, c] = corners_m_[leaf.first + i];
+        const std::uint32_t triangle = triangles_[leaf.first + i];
+        const NearestOnTriangle here =
+            detail::nearest_to_origin({a - point_m, b - point_m, c - point_m});
+        const bool tie = here.distance2 == search.reach2_m2 && triangle < search.found.triangle;
+        if (here.distance2 < search.reach2_m2 || tie) {
+            search.found = {triangle, here.point, here.weights, here.distance2};
+            search.reach2_m2 = here.distance2;
+            search.probe.set_reach(std::sqrt(here.distance2) * per_size_);
         }
     }
 }
 
 NearestOnMesh TriangleBvh::nearest(const glm::dvec3& point, double within_m) const {
-    Search search;
-    search.reach2 = std::min(within_m * within_m, std::numeric_limits<double>::max());
     if (nodes_.empty()) {
         return {};
     }
+    Search search;
+    search.reach2_m2 = std::min(within_m * within_m, std::numeric_limits<double>::max());
+    search.probe = probe(point);
+    search.probe.set_reach(within_m * per_size_);
 
-    struct Waiting {
-        const Box* box;
-        double distance2;
-    };
-
-    const glm::dvec3 local = point - centre_;
-    std::array<Waiting, most_depth> waiting;
+    std::array<float, most_waiting> away2; // of what is waiting
+    std::array<std::uint32_t, most_waiting> waiting;
     std::size_t count = 0;
-    const Node* node = nodes_.data();
-    while (node != nullptr) {
-        const Box* near = &node->halves[0];
-        const Box* far = &node->halves[1];
-        double near2 = box_distance2(*near, local);
-        double far2 = box_distance2(*far, local);
-        if (far2 < near2) {
-            std::swap(near, far);
-            std::swap(near2, far2);
+    away2[count] = 0.0F;
+    waiting[count++] = 0;
+    Floats distances2;
+    while (count > 0) {
+        --count;
+        if (!(away2[count] <= search.probe.reach2)) {
+            continue;
         }
-        waiting[count++] = {far, far2};
-        waiting[count++] = {near, near2};
-        node = nullptr;
-        while (count > 0 && node == nullptr) {
-            const Waiting next = waiting[--count];
-            if (!(next.distance2 <= search.reach2)) {
+        const std::uint32_t next = waiting[count];
+        if ((next & leaf_bit) != 0) {
+            search_leaf(leaves_[next & ~leaf_bit], point, search);
+            continue;
+        }
+        const Node& node = nodes_[next];
+        box_distances2(distances2, node, search.probe);
+        const std::size_t first = count;
+        for (std::size_t i = 0; i < lanes; ++i) {
+            const float here2 = distances2[i];
+            if (!(here2 <= search.probe.reach2)) {
                 continue;
             }
-            if (next.box->count == 0) {
-                node = &nodes_[next.box->first];
-            } else {
-                search_leaf(*next.box, point, search);
+            std::size_t place = count++; // the nearest last
+            for (; place > first && away2[place - 1] < here2; --place) {
+                away2[place] = away2[place - 1];
+                waiting[place] = waiting[place - 1];
             }
+            away2[place] = here2;
+            waiting[place] = node.below[i];
         }
     }
     search.found.point += point;

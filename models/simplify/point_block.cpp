@@ -1,31 +1,13 @@
 #include "models/simplify/point_block.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <cstring>
 #include <limits>
 
 namespace octant::models::simplify {
 
 namespace {
-
-std::array<float, 3> narrow(const glm::dvec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-float inverse(double value) {
-    return value > 1e-30 ? static_cast<float>(1.0 / value) : 0.0F;
-}
-
-/// Any unit vector across a unit vector.
-glm::dvec3 across(const glm::dvec3& axis) {
-    const glm::dvec3 helper =
-        std::abs(axis.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
-    return glm::normalize(glm::cross(axis, helper));
-}
 
 /// Four numbers, and as many whole ones; the compiler knows their instructions on any processor.
 struct Narrow {
@@ -40,9 +22,6 @@ struct Wide {
     static constexpr std::size_t lanes = 8;
 };
 
-// Results go out by reference: vectors as return values would depend on the processor's ABI.
-#define OCTANT_INLINE [[gnu::always_inline]] inline
-
 template <typename V, typename T>
 OCTANT_INLINE void load(V& out, const T* from) {
     std::memcpy(&out, from, sizeof(V));
@@ -51,55 +30,6 @@ OCTANT_INLINE void load(V& out, const T* from) {
 template <typename V, typename T>
 OCTANT_INLINE void store(const V& value, T* to) {
     std::memcpy(to, &value, sizeof(V));
-}
-
-template <typename V>
-OCTANT_INLINE void make_least(V& value, const V& other) {
-    value = other < value ? other : value;
-}
-
-template <typename V>
-OCTANT_INLINE void clamp_share(V& value) {
-    value = value > 0.0F ? value : V{};
-    value = value < 1.0F ? value : V{} + 1.0F;
-}
-
-/// Points in a triangle's plane, and what lies between them and the nearest place of its edges.
-template <typename F>
-struct EdgeFeet {
-    F away_x, away_y, away2;
-};
-
-template <bool coloured, typename F>
-OCTANT_INLINE void
-nearest_on_edges(EdgeFeet<F>& feet, const F& x, const F& y, const FlatTriangle& t) {
-    const F qx = x - t.bx;
-    const float ex = t.cx - t.bx;
-    F ab = x * (t.bx * t.per_ab2);
-    F bc = (qx * ex + y * t.cy) * t.per_bc2;
-    F ca = (x * t.cx + y * t.cy) * t.per_ca2;
-    clamp_share(ab);
-    clamp_share(bc);
-    clamp_share(ca);
-    const F ab_x = x - ab * t.bx;
-    const F bc_x = qx - bc * ex;
-    const F bc_y = y - bc * t.cy;
-    const F ca_x = x - ca * t.cx;
-    const F ca_y = y - ca * t.cy;
-    const F ab2 = ab_x * ab_x + y * y;
-    const F bc2 = bc_x * bc_x + bc_y * bc_y;
-    const F ca2 = ca_x * ca_x + ca_y * ca_y;
-    feet.away2 = ab2;
-    make_least(feet.away2, bc2);
-    if constexpr (coloured) {
-        const auto is_bc = bc2 < ab2;
-        const auto is_ca = ca2 < feet.away2;
-        feet.away_x = is_bc ? bc_x : ab_x;
-        feet.away_y = is_bc ? bc_y : y;
-        feet.away_x = is_ca ? ca_x : feet.away_x;
-        feet.away_y = is_ca ? ca_y : feet.away_y;
-    }
-    make_least(feet.away2, ca2);
 }
 
 /// Squares of the differences between the colours of points and of places of a triangle.
@@ -122,29 +52,18 @@ template <typename Width, bool coloured>
 OCTANT_INLINE void
 nearest_to_one(PointBlock& points, std::size_t i, const FlatTriangle& t, std::int32_t index) {
     using F = typename Width::Floats;
-    F dx, dy, dz;
-    load(dx, &points.x[i]);
-    load(dy, &points.y[i]);
-    load(dz, &points.z[i]);
-    dx -= t.origin[0];
-    dy -= t.origin[1];
-    dz -= t.origin[2];
-    const F x = dx * t.x_axis[0] + dy * t.x_axis[1] + dz * t.x_axis[2];
-    const F y = dx * t.y_axis[0] + dy * t.y_axis[1] + dz * t.y_axis[2];
-    const F h = dx * t.normal[0] + dy * t.normal[1] + dz * t.normal[2];
-    EdgeFeet<F> feet;
-    nearest_on_edges<coloured>(feet, x, y, t);
-    F inside = y;
-    make_least(inside, F((t.cx - t.bx) * y - t.cy * (x - t.bx)));
-    make_least(inside, F(t.cy * x - t.cx * y));
-    const auto is_inside = inside >= 0.0F;
-    const F distance2 = (is_inside ? F{} : feet.away2) + h * h;
+    std::array<F, 3> place;
+    load(place[0], &points.x[i]);
+    load(place[1], &points.y[i]);
+    load(place[2], &points.z[i]);
+    measure::FramePoints<F> found;
+    measure::find_in_frame<coloured>(found, place, t);
     F known;
     load(known, &points.distances2[i]);
-    const auto is_nearer = distance2 < known;
+    const auto is_nearer = found.distance2 < known;
     if constexpr (coloured) {
-        const F foot_x = x - (is_inside ? F{} : feet.away_x);
-        const F foot_y = y - (is_inside ? F{} : feet.away_y);
+        const F foot_x = found.x - found.feet.away_x;
+        const F foot_y = found.y - found.feet.away_y;
         F error2, known_error2;
         colour_errors(error2, points, i, t, foot_x, foot_y);
         load(known_error2, &points.colour_errors2[i]);
@@ -154,7 +73,7 @@ nearest_to_one(PointBlock& points, std::size_t i, const FlatTriangle& t, std::in
     load(nearest, &points.nearest[i]);
     nearest = is_nearer ? typename Width::Ints{} + index : nearest;
     store(nearest, &points.nearest[i]);
-    store(F(is_nearer ? distance2 : known), &points.distances2[i]);
+    store(F(is_nearer ? found.distance2 : known), &points.distances2[i]);
 }
 
 template <typename Width, bool coloured>
@@ -187,7 +106,7 @@ OCTANT_INLINE float least2(const PointBlock& points, const std::array<float, 3>&
         dx -= place[0];
         dy -= place[1];
         dz -= place[2];
-        make_least(least, F(dx * dx + dy * dy + dz * dz));
+        measure::make_least(least, F(dx * dx + dy * dy + dz * dz));
     }
     float found = least[0];
     for (std::size_t lane = 1; lane < Width::lanes; ++lane) {
@@ -227,26 +146,7 @@ bool has_wide_vectors() {
 } // namespace
 
 FlatTriangle flat(const std::array<glm::dvec3, 3>& corners) {
-    const glm::dvec3 ab = corners[1] - corners[0];
-    const glm::dvec3 ac = corners[2] - corners[0];
-    const double length = glm::length(ab);
-    const glm::dvec3 x_axis = length > 0.0 ? ab / length : glm::dvec3(1.0, 0.0, 0.0);
-    const double along = glm::dot(ac, x_axis);
-    const glm::dvec3 height = ac - along * x_axis;
-    const double up = glm::length(height);
-    const glm::dvec3 y_axis = up > 1e-12 * glm::length(ac) ? height / up : across(x_axis);
-    FlatTriangle t{};
-    t.origin = narrow(corners[0]);
-    t.x_axis = narrow(x_axis);
-    t.y_axis = narrow(y_axis);
-    t.normal = narrow(glm::cross(x_axis, y_axis));
-    t.bx = static_cast<float>(length);
-    t.cx = static_cast<float>(along);
-    t.cy = static_cast<float>(up);
-    t.per_ab2 = inverse(length * length);
-    t.per_bc2 = inverse((along - length) * (along - length) + up * up);
-    t.per_ca2 = inverse(along * along + up * up);
-    return t;
+    return {measure::plane_frame(corners), {}, {}, {}};
 }
 
 FlatTriangle
@@ -259,9 +159,9 @@ flat(const std::array<glm::dvec3, 3>& corners, const std::array<glm::dvec3, 3>& 
     const glm::dvec3 along_x = length > 0.0 ? to_b / length : glm::dvec3(0.0);
     const glm::dvec3 along_y =
         up > 1e-6 * length ? (to_c - along_x * static_cast<double>(t.cx)) / up : glm::dvec3(0.0);
-    t.colour = narrow(corner_colours[0]);
-    t.colour_x = narrow(along_x);
-    t.colour_y = narrow(along_y);
+    t.colour = measure::narrow(corner_colours[0]);
+    t.colour_x = measure::narrow(along_x);
+    t.colour_y = measure::narrow(along_y);
     return t;
 }
 

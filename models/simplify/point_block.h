@@ -1,5 +1,7 @@
 #pragma once
 
+#include "models/measure/plane_frame.h"
+
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -10,14 +12,8 @@
 
 namespace octant::models::simplify {
 
-/// A triangle in a plane of its own: corner a at the origin, b on the x axis.
-struct FlatTriangle {
-    std::array<float, 3> origin;
-    std::array<float, 3> x_axis;
-    std::array<float, 3> y_axis;
-    std::array<float, 3> normal;
-    float bx, cx, cy;
-    float per_ab2, per_bc2, per_ca2; ///< 1 / length^2; 0 for an edge without length
+/// A triangle in a plane of its own, with colours where there are any.
+struct FlatTriangle : measure::PlaneFrame<float> {
     /// Colour: at corner a, and how it grows along x and y.
     std::array<float, 3> colour;
     std::array<float, 3> colour_x;

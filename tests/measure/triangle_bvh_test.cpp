@@ -44,7 +44,8 @@ void check_against_all(const TriangleMesh& mesh, std::uint64_t seed, double reac
         const NearestOnMesh found = bvh.nearest(point);
         CHECK(found.triangle == triangle);
         CHECK(found.distance2 == distance2);
-        CHECK(std::abs(glm::distance(found.point, point) - std::sqrt(distance2)) < 1e-12);
+        CHECK(
+            std::abs(glm::distance(found.point, point) - std::sqrt(distance2)) <= 1e-12 * reach_m);
     }
 }
 
@@ -71,6 +72,68 @@ TEST_CASE("the nearest triangle is the one found by trying all") {
     check_against_all(tests::scattered(3, 300, 3.0), 23, 5.0);
     check_against_all(tests::shaken(tests::plate(12), 4, 0.02), 24, 3.0);
     check_against_all(tests::ball(20), 25, 2.0);
+}
+
+TEST_CASE("a mesh of any size is looked through in full, from near and far") {
+    for (const double size_m : {1e-12, 1e-3, 1e6, 1e15}) {
+        TriangleMesh mesh = tests::shaken(tests::ball(12), 5, 0.02);
+        for (glm::dvec3& vertex_m : mesh.vertices_m) {
+            vertex_m *= size_m;
+        }
+        check_against_all(mesh, 41, 2.0 * size_m);
+        check_against_all(mesh, 42, 1e3 * size_m);
+        check_against_all(mesh, 43, 1e7 * size_m); // single precision tells nothing apart
+    }
+}
+
+TEST_CASE("needles and specks of triangles are found as any other") {
+    TriangleMesh mesh = tests::scattered(14, 200, 1.0);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto& [a, b, c] = mesh.triangles[i];
+        glm::dvec3& end_m = mesh.vertices_m[c];
+        if (i % 3 == 0) {
+            end_m = 0.3 * mesh.vertices_m[a] + 0.7 * mesh.vertices_m[b] + 1e-9 * end_m;
+        } else if (i % 3 == 1) {
+            mesh.vertices_m[b] = mesh.vertices_m[a];
+            end_m = mesh.vertices_m[a];
+        }
+    }
+    check_against_all(mesh, 44, 1.5);
+}
+
+TEST_CASE("short triangles of next to no height are found from far away") {
+    tests::Dice dice(51);
+    TriangleMesh mesh;
+    for (int i = 0; i < 400; ++i) {
+        const double edge = std::pow(10.0, -3.0 - 3.0 * (i % 20) / 20.0);
+        const double height = std::pow(10.0, -14.0 + 5.0 * (i % 7) / 7.0);
+        const glm::dvec3 a = dice.point(-1.0, 1.0);
+        const glm::dvec3 along = edge * dice.point(-1.0, 1.0);
+        mesh.vertices_m.insert(
+            mesh.vertices_m.end(),
+            {a, a + along, a + 0.3 * along + height * dice.point(-1.0, 1.0)});
+        const auto first = static_cast<std::uint32_t>(3 * i);
+        mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    check_against_all(mesh, 52, 1.5);
+}
+
+TEST_CASE("a tree of a few triangles finds each, and what touches a place at no distance") {
+    for (int count = 1; count <= 6; ++count) {
+        TriangleMesh mesh = tests::plate(2);
+        mesh.triangles.resize(static_cast<std::size_t>(count));
+        check_against_all(mesh, 53, 2.0);
+        const TriangleBvh bvh(mesh);
+        const glm::dvec3 vertex_m = mesh.vertices_m[mesh.triangles.back()[1]];
+        CHECK(bvh.nearest(vertex_m, 0.0).distance2 == 0.0);
+        int near = 0;
+        bvh.for_each_near(
+            vertex_m, std::numeric_limits<double>::infinity(), [&](std::uint32_t) { ++near; });
+        CHECK(near == count);
+        int touching = 0;
+        bvh.for_each_near(vertex_m, 0.0, [&](std::uint32_t) { ++touching; });
+        CHECK(touching >= 1);
+    }
 }
 
 TEST_CASE("of several triangles at the same distance the lowest index is found") {
