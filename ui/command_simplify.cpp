@@ -138,9 +138,8 @@ void add_other_options(CLI::App& cli, SimplifyCommand& command) {
                    "surface", "fast", "plane", "triangle", "bidirectional"};
                command.method = names[read_choice({"--method", "", ""}, text, names)];
            },
-           "surface (distance to the original surface, both ways) or fast (quadrics); as printed "
-           "in "
-           "the 2005 paper: plane, triangle or bidirectional")
+           "surface (distance to the original surface, both ways) or fast (quadrics, a short "
+           "polish); as printed in the 2005 paper: plane, triangle or bidirectional")
         ->type_name("KIND")
         ->default_str("surface");
     add_number_option(

@@ -72,10 +72,10 @@ refine::ProgressiveMesh made_hierarchy(const RefineInput& input, std::vector<std
         options.goal.vertices = input.base;
     }
     options.show_progress = [&](double share) { progress.show(static_cast<int>(share * steps)); };
-    const models::simplify::Simplified simplified =
-        models::simplify::simplified(std::move(repaired.mesh), options);
+    const models::CollapseSequence sequence =
+        models::simplify::fast_sequence(std::move(repaired.mesh), options);
     progress.finish();
-    return refine::ProgressiveMesh(simplified.sequence);
+    return refine::ProgressiveMesh(sequence);
 }
 
 } // namespace

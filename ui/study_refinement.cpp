@@ -46,7 +46,7 @@ RefinedModel made_ground(int base) {
     options.length_share = 0.03;
     options.goal.vertices = static_cast<std::size_t>(base);
     return std::make_shared<const refine::ProgressiveMesh>(
-        models::simplify::simplified(std::move(mesh), options).sequence);
+        models::simplify::fast_sequence(std::move(mesh), options));
 }
 
 std::vector<RefinedModel> read_models(const RefinementStudyOptions& options) {

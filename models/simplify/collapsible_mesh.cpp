@@ -119,6 +119,16 @@ void CollapsibleMesh::ring_of(HalfEdge h, std::vector<RingFace>& ring) const {
     around(target(h), add);
 }
 
+void CollapsibleMesh::ring_at(
+    std::uint32_t vertex, std::vector<RingFace>& ring, std::vector<std::uint32_t>& faces) const {
+    ring.clear();
+    faces.clear();
+    around(vertex, [&](HalfEdge h) {
+        ring.push_back({face_of(h), h});
+        faces.push_back(face_of(h));
+    });
+}
+
 void CollapsibleMesh::join(HalfEdge a, HalfEdge b) {
     if (a != none) {
         twins_[a] = b;

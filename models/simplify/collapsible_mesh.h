@@ -66,6 +66,9 @@ public:
 
     bool is_boundary_vertex(std::uint32_t vertex) const { return twins_[outs_[vertex]] == none; }
 
+    /// Some triangle at the vertex, which must be there.
+    std::uint32_t face_at(std::uint32_t vertex) const { return face_of(outs_[vertex]); }
+
     Triangle corners(std::uint32_t face) const {
         return {origins_[face * 3], origins_[face * 3 + 1], origins_[face * 3 + 2]};
     }
@@ -106,6 +109,10 @@ public:
 
     /// Triangles that stay when `h` collapses and have a corner moved.
     void ring_of(HalfEdge h, std::vector<RingFace>& ring) const;
+
+    /// The triangles at a vertex, their half-edges starting there, and their numbers.
+    void ring_at(
+        std::uint32_t vertex, std::vector<RingFace>& ring, std::vector<std::uint32_t>& faces) const;
 
     /// Moves what was at target(h) to origin(h) and takes the edge's triangles out. Expects
     /// may_collapse(h).

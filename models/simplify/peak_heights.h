@@ -1,9 +1,6 @@
 #pragma once
 
-#include <glm/vec3.hpp>
-
 #include <algorithm>
-#include <vector>
 
 namespace octant::models::simplify {
 
@@ -28,16 +25,5 @@ struct Heights {
         turned += other.turned;
     }
 };
-
-struct GridSample {
-    glm::dvec3 weights{0.0}; ///< of the triangle's corners
-    double share = 0.0;      ///< of its area, exact for functions linear on the fields
-};
-
-/// A grid of so many fields a side on a triangle, with its border.
-std::vector<GridSample> sample_grid(int fields);
-
-/// The middles of the fields of such a grid: none on the border.
-std::vector<GridSample> middle_grid(int fields);
 
 } // namespace octant::models::simplify

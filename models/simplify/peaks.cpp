@@ -43,10 +43,12 @@ public:
         WorkingSurface& surface,
         TrackedPoints& points,
         const PolishTarget& target,
-        double most_growth)
+        const PeakOptions& options)
         : surface_(surface)
         , around_(surface, points, target)
-        , heights_(surface.mesh.face_slots()) {
+        , heights_(surface.mesh.face_slots())
+        , tried_vertices_(surface.mesh.vertex_slots(), false)
+        , tried_edges_(surface.mesh.face_slots() * 3, false) {
         double squares = 0.0;
         double area = 0.0;
         for (std::uint32_t face = 0; face < heights_.size(); ++face) {
@@ -56,8 +58,11 @@ public:
             }
             squares += heights_[face].squares;
         }
+        most_looks_ =
+            around_.looks() +
+            std::max(options.least_looks, options.looks_a_face * target.surface.mesh.face_count());
         const auto allowance = [&](double growth) { return (2.0 + growth) * growth * squares; };
-        allowance_ = allowance(most_growth);
+        allowance_ = allowance(options.most_growth);
         tall_allowance_ = allowance(tall_growth) - allowance_;
         // Both ways are in the sum, each over the area.
         tall2_ = area > 0.0 ? tall * tall * squares / (2.0 * area) : everything;
@@ -82,10 +87,13 @@ private:
 
     WorkingSurface& surface_;
     RingHeights around_;
-    std::vector<Heights> heights_; ///< of each triangle
-    double allowance_ = 0.0;       ///< by which the sum of squares may still grow
-    double tall2_ = everything;    ///< squares of distances beyond that stand alone
-    double tall_allowance_ = 0.0;  ///< the same beyond that, for peaks that stand alone
+    std::vector<Heights> heights_;     ///< of each triangle
+    std::vector<bool> tried_vertices_; ///< in vain, and nothing has changed there since
+    std::vector<bool> tried_edges_;    ///< the same
+    std::size_t most_looks_ = 0;
+    double allowance_ = 0.0;      ///< by which the sum of squares may still grow
+    double tall2_ = everything;   ///< squares of distances beyond that stand alone
+    double tall_allowance_ = 0.0; ///< the same beyond that, for peaks that stand alone
 };
 
 void PeakLowering::measure(std::uint32_t face) {
@@ -142,7 +150,12 @@ void PeakLowering::keep(const Heights& before, const Heights& after) {
     }
     around_.keep();
     for (std::size_t i = 0; i < around_.faces().size(); ++i) {
-        heights_[around_.faces()[i]] = around_.each()[i];
+        const std::uint32_t face = around_.faces()[i];
+        heights_[face] = around_.each()[i];
+        for (std::uint32_t corner = 0; corner < 3; ++corner) {
+            tried_vertices_[surface_.mesh.origin(3 * face + corner)] = false;
+            tried_edges_[surface_.mesh.edge_of(3 * face + corner)] = false;
+        }
     }
 }
 
@@ -171,7 +184,7 @@ void PeakLowering::lower_at(std::uint32_t vertex) {
     const glm::dvec3 way = fitted().way();
     for (const Strictness strictness : {Strictness::Normal, Strictness::Loose}) {
         if (strictness == Strictness::Loose && !(before.most2 > tall2_)) {
-            return;
+            break;
         }
         for (const double step : {1.0, 0.5, 0.2, 0.1}) {
             if (step_to(place + step * way, vertex, before, strictness)) {
@@ -179,6 +192,7 @@ void PeakLowering::lower_at(std::uint32_t vertex) {
             }
         }
     }
+    tried_vertices_[vertex] = true;
 }
 
 void PeakLowering::try_flip(HalfEdge h) {
@@ -202,6 +216,7 @@ void PeakLowering::try_flip(HalfEdge h) {
     for (int turn = 0; turn < 3; ++turn) { // back to the same edge
         mesh.flip(h);
     }
+    tried_edges_[mesh.edge_of(h)] = true;
 }
 
 void PeakLowering::round() {
@@ -211,7 +226,10 @@ void PeakLowering::round() {
     for (std::uint32_t face = 0; face < heights_.size(); ++face) {
         if (heights_[face].most2 > hot2) {
             for (std::uint32_t corner = 0; corner < 3; ++corner) {
-                try_flip(3 * face + corner);
+                const HalfEdge h = 3 * face + corner;
+                if (!tried_edges_[mesh.edge_of(h)] && around_.looks() < most_looks_) {
+                    try_flip(h);
+                }
             }
             const Triangle corners = mesh.corners(face);
             vertices.insert(vertices.end(), corners.begin(), corners.end());
@@ -221,7 +239,9 @@ void PeakLowering::round() {
     const auto repeated = std::ranges::unique(vertices);
     vertices.erase(repeated.begin(), repeated.end());
     for (const std::uint32_t vertex : vertices) {
-        lower_at(vertex);
+        if (!tried_vertices_[vertex] && around_.looks() < most_looks_) {
+            lower_at(vertex);
+        }
     }
 }
 
@@ -232,8 +252,8 @@ void lower_peaks(
     TrackedPoints& points,
     const PolishTarget& target,
     const PeakOptions& options) {
-    PeakLowering lowering(surface, points, target, options.most_growth);
-    for (int round = 0; round < options.rounds; ++round) {
+    PeakLowering lowering(surface, points, target, options);
+    for (int round = 0; round < options.rounds && lowering.most2() > peak_rounding2; ++round) {
         const double before2 = lowering.most2();
         lowering.round();
         const double least2 = (1.0 - least_gain) * (1.0 - least_gain) * before2;

@@ -5,40 +5,37 @@
 // sum and no triangle turns over.
 #include "models/simplify/polish.h"
 
+#include "models/simplify/aims.h"
 #include "models/simplify/collapse_guard.h"
 #include "models/simplify/peaks.h"
 #include "models/simplify/surface_cost.h"
 #include "models/simplify/turned_faces.h"
 #include "models/simplify/vertex_fit.h"
-#include "sim/base/worker_team.h"
-
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
 namespace octant::models::simplify {
 
 namespace {
 
-/// Where samples lie on a triangle: weights of its corners.
-constexpr std::array<std::array<double, 3>, 4> sample_weights = {
-    {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, {0.7, 0.15, 0.15}, {0.15, 0.7, 0.15}, {0.15, 0.15, 0.7}}};
-
 class Polishing {
 public:
     Polishing(
-        WorkingSurface& surface, TrackedPoints& points, const PolishTarget& target, int threads)
+        WorkingSurface& surface,
+        TrackedPoints& points,
+        const PolishTarget& target,
+        const PolishOptions& options)
         : surface_(surface)
         , points_(points)
         , target_(target)
-        , threads_(threads) {}
+        , threads_(options.threads)
+        , aims_(options.fields) {}
 
     void round() {
         list_again();
-        aim();
+        aims_.take(surface_, target_, threads_);
         for (std::uint32_t vertex = 0; vertex < surface_.mesh.vertex_slots(); ++vertex) {
             if (surface_.mesh.vertex_is_there(vertex)) {
                 fit(vertex);
@@ -50,43 +47,27 @@ public:
     void list_again();
 
 private:
-    template <typename Work>
-    void for_each_face(const Work& work) const;
-    void aim();
     void fit(std::uint32_t vertex);
     double cost_at(const glm::dvec3& place, const glm::dvec3& colour);
     void take_ring(std::uint32_t vertex);
     VertexFit fitted();
     bool try_flip(HalfEdge h);
-    double aim_cost(const std::array<glm::dvec3, 3>& corners) const;
 
     WorkingSurface& surface_;
     TrackedPoints& points_;
     PolishTarget target_;
     int threads_;
-    /// Of each triangle's samples: the nearest places of the target.
-    std::vector<std::array<glm::dvec3, sample_weights.size()>> aims_;
+    SampleAims aims_;
     SurfaceCost cost_;
     std::vector<RingFace> ring_;
     std::vector<std::uint32_t> faces_;
 };
 
-/// Calls `work(first, end)` for ranges of all triangles, on several threads.
-template <typename Work>
-void Polishing::for_each_face(const Work& work) const {
-    constexpr std::size_t chunk = 256;
-    const std::size_t slots = surface_.mesh.face_slots();
-    share_out((slots + chunk - 1) / chunk, threads_, [&](std::size_t part, std::size_t) {
-        const std::size_t end = std::min((part + 1) * chunk, slots);
-        work(static_cast<std::uint32_t>(part * chunk), static_cast<std::uint32_t>(end));
-    });
-}
-
 /// Puts points into the lists of nearer triangles, among those that share a vertex with theirs.
 void Polishing::list_again() {
     const CollapsibleMesh& mesh = surface_.mesh;
     std::vector<std::uint32_t> chosen(points_.size(), none);
-    for_each_face([&](std::uint32_t first, std::uint32_t end) {
+    for_face_ranges(mesh, threads_, [&](std::uint32_t first, std::uint32_t end) {
         PointBlock block;
         std::vector<FlatTriangle> triangles;
         std::vector<std::uint32_t> near;
@@ -117,31 +98,8 @@ void Polishing::list_again() {
     points_.assign_all(chosen, mesh.face_slots());
 }
 
-void Polishing::aim() {
-    const CollapsibleMesh& mesh = surface_.mesh;
-    aims_.resize(mesh.face_slots());
-    for_each_face([&](std::uint32_t first, std::uint32_t end) {
-        for (std::uint32_t face = first; face < end; ++face) {
-            if (!mesh.face_is_there(face)) {
-                continue;
-            }
-            const std::array<glm::dvec3, 3> corners = surface_.corner_places(face);
-            for (std::size_t i = 0; i < sample_weights.size(); ++i) {
-                const auto& w = sample_weights[i];
-                const glm::dvec3 place = w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
-                aims_[face][i] = target_.bvh.nearest(place).point;
-            }
-        }
-    });
-}
-
 void Polishing::take_ring(std::uint32_t vertex) {
-    ring_.clear();
-    faces_.clear();
-    surface_.mesh.around(vertex, [this](HalfEdge h) {
-        ring_.push_back({face_of(h), h});
-        faces_.push_back(face_of(h));
-    });
+    surface_.mesh.ring_at(vertex, ring_, faces_);
     cost_.gather(points_, faces_);
 }
 
@@ -154,19 +112,7 @@ VertexFit Polishing::fitted() {
             fit, block, i, nearest, static_cast<double>(block.weights[i]), points_.coloured());
     }
     for (const RingFace& face : ring_) {
-        const std::array<glm::dvec3, 3> corners = surface_.corner_places(face.face);
-        const glm::dvec3 area2 = area_vector(corners);
-        const double size = glm::length(area2);
-        const std::size_t corner = face.half_edge % 3;
-        for (std::size_t i = 0; i < sample_weights.size() && size > 0.0; ++i) {
-            const auto& w = sample_weights[i];
-            const glm::dvec3 place = w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
-            fit.add(
-                aims_[face.face][i] - place,
-                area2 / size,
-                w[corner],
-                0.5 * size / static_cast<double>(sample_weights.size()));
-        }
+        aims_.add_to(fit, face.face, surface_.corner_places(face.face), face.half_edge % 3);
     }
     return fit;
 }
@@ -178,19 +124,7 @@ double Polishing::cost_at(const glm::dvec3& place, const glm::dvec3& colour) {
     for (const RingFace& face : ring_) {
         std::array<glm::dvec3, 3> corners = surface_.corner_places(face.face);
         corners[face.half_edge % 3] = place;
-        const glm::dvec3 area2 = area_vector(corners);
-        const double size = glm::length(area2);
-        if (!(size > 0.0)) {
-            continue;
-        }
-        for (std::size_t i = 0; i < sample_weights.size(); ++i) {
-            const auto& w = sample_weights[i];
-            const glm::dvec3 off =
-                aims_[face.face][i] - w[0] * corners[0] - w[1] * corners[1] - w[2] * corners[2];
-            const double along = glm::dot(off, area2) / size;
-            sum += 0.5 * size / static_cast<double>(sample_weights.size()) *
-                   (along * along + 0.1 * glm::dot(off, off));
-        }
+        sum += aims_.cost(face.face, corners);
     }
     return sum;
 }
@@ -200,6 +134,9 @@ void Polishing::fit(std::uint32_t vertex) {
     const glm::dvec3 place = surface_.places[vertex];
     const glm::dvec3 colour = surface_.coloured() ? surface_.colours[vertex] : glm::dvec3(0.0);
     const double before = cost_at(place, colour);
+    if (before <= cost_.negligible()) {
+        return;
+    }
     const VertexFit fit = fitted();
     const glm::dvec3 way = fit.way();
     const glm::dvec3 colour_change = fit.colour_change();
@@ -218,16 +155,6 @@ void Polishing::fit(std::uint32_t vertex) {
             return;
         }
     }
-}
-
-double Polishing::aim_cost(const std::array<glm::dvec3, 3>& corners) const {
-    double sum = 0.0;
-    for (const auto& w : sample_weights) {
-        sum += target_.bvh.nearest(w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2])
-                   .distance2;
-    }
-    return sum * 0.5 * glm::length(area_vector(corners)) /
-           static_cast<double>(sample_weights.size());
 }
 
 bool Polishing::try_flip(HalfEdge h) {
@@ -259,14 +186,18 @@ bool Polishing::try_flip(HalfEdge h) {
     };
     cost_.triangles = {triangle(first, {u, w, x}), triangle(second, {w, u, y})};
     const double before = cost_.total();
+    if (before <= cost_.negligible()) {
+        return false;
+    }
     cost_.triangles = {triangle(new_first, {y, x, u}), triangle(new_second, {x, y, w})};
     const double after = cost_.total();
     constexpr double enough = 0.98;
     if (!(after < enough * before)) {
         return false;
     }
-    const double aim_before = aim_cost(first) + aim_cost(second);
-    const double aim_after = aim_cost(new_first) + aim_cost(new_second);
+    const double aim_before = aims_.true_cost(target_, first) + aims_.true_cost(target_, second);
+    const double aim_after =
+        aims_.true_cost(target_, new_first) + aims_.true_cost(target_, new_second);
     if (!(after + aim_after < enough * (before + aim_before))) {
         return false;
     }
@@ -293,10 +224,13 @@ void polish(
     TrackedPoints& points,
     const PolishTarget& target,
     const PolishOptions& options) {
-    Polishing polishing(surface, points, target, options.threads);
+    Polishing polishing(surface, points, target, options);
     for (int round = 0; round < options.rounds; ++round) {
         polishing.round();
         polishing.flip_edges();
+    }
+    if (!options.extremes) {
+        return;
     }
     polishing.list_again();
     lower_peaks(surface, points, target, {});

@@ -1,22 +1,16 @@
 #pragma once
 
-#include "models/measure/triangle_bvh.h"
+#include "models/simplify/polish_target.h"
 #include "models/simplify/tracked_points.h"
 #include "models/simplify/working_surface.h"
 
-#include <cstddef>
-
 namespace octant::models::simplify {
 
-/// The surface that is approached, in working units.
-struct PolishTarget {
-    const WorkingSurface& surface;
-    const measure::TriangleBvh& bvh;
-};
-
 struct PolishOptions {
-    int rounds = 10;
-    int threads = 1; ///< changes no result
+    int rounds = 7;
+    int fields = 3;       ///< a side, of the grid of samples on each triangle
+    bool extremes = true; ///< afterwards lower_peaks and turn_back
+    int threads = 1;      ///< changes no result
 };
 
 /// Moves vertices, changes their colours and flips edges as long as the sum of squared distances,

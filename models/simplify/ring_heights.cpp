@@ -18,9 +18,11 @@ int grid_fields(std::size_t target_faces, std::size_t faces) {
     return std::clamp(static_cast<int>(std::sqrt(ratio)), 4, 8);
 }
 
-/// Of a grid with a spacing.
-constexpr int least_fields = 3;
-constexpr int most_fields = 24;
+/// Of a triangle's samples with a spacing.
+constexpr std::size_t least_samples = 12;
+constexpr std::size_t most_samples = 400;
+/// So many as the longest edge is longer than the spacing come on top of those by area.
+constexpr double along_edge = 2.0;
 
 } // namespace
 
@@ -32,29 +34,32 @@ RingHeights::RingHeights(
     : surface_(surface)
     , points_(points)
     , target_(target)
-    , facing_(target)
+    , in_turn_(target)
     , spacing_(spacing) {
     if (spacing > 0.0) {
-        for (int fields = least_fields; fields <= most_fields; ++fields) {
-            grids_.push_back(middle_grid(fields));
+        for (std::size_t i = 0; i < most_samples; ++i) {
+            samples_on_.push_back({spread_weights(i), 0.0});
         }
     } else {
-        grids_.push_back(
-            sample_grid(grid_fields(target.surface.mesh.face_count(), surface.mesh.face_count())));
+        samples_on_ =
+            sample_grid(grid_fields(target.surface.mesh.face_count(), surface.mesh.face_count()));
     }
 }
 
-std::span<const GridSample> RingHeights::grid_for(const std::array<glm::dvec3, 3>& corners) const {
-    if (grids_.size() == 1) {
-        return grids_.front();
+std::size_t RingHeights::count_for(const std::array<glm::dvec3, 3>& corners) const {
+    if (!(spacing_ > 0.0)) {
+        return samples_on_.size();
     }
     const double longest = std::max(
         {glm::distance(corners[0], corners[1]),
          glm::distance(corners[1], corners[2]),
          glm::distance(corners[2], corners[0])});
-    const double fields = std::clamp(
-        longest / spacing_, static_cast<double>(least_fields), static_cast<double>(most_fields));
-    return grids_[static_cast<std::size_t>(fields) - least_fields];
+    const double area = 0.5 * glm::length(area_vector(corners));
+    const double wanted = area / (spacing_ * spacing_) + along_edge * longest / spacing_;
+    return std::clamp(
+        static_cast<std::size_t>(std::min(wanted, static_cast<double>(most_samples))),
+        least_samples,
+        most_samples);
 }
 
 void RingHeights::take_face(std::uint32_t face) {
@@ -64,12 +69,7 @@ void RingHeights::take_face(std::uint32_t face) {
 }
 
 void RingHeights::take_ring(std::uint32_t vertex) {
-    ring_.clear();
-    faces_.clear();
-    surface_.mesh.around(vertex, [this](HalfEdge h) {
-        ring_.push_back({face_of(h), h});
-        faces_.push_back(face_of(h));
-    });
+    surface_.mesh.ring_at(vertex, ring_, faces_);
     cost_.gather(points_, faces_);
 }
 
@@ -122,37 +122,26 @@ void RingHeights::add_samples(std::size_t i, Heights& heights, const HeightLimit
     const double size = glm::length(area2);
     SeenSample sample;
     sample.normal = size > 0.0 ? area2 / size : glm::dvec3(0.0);
-    Heights sum = heights;
-    for (const auto& [w, share] : grid_for(corners)) {
-        const glm::dvec3 place = w.x * corners[0] + w.y * corners[1] + w.z * corners[2];
-        const measure::NearestOnMesh nearest = nearest_to(place);
-        sample.place = place;
-        sample.off = nearest.point - place;
+    const std::size_t count = count_for(corners);
+    for (const auto& [w, grid_share] : std::span(samples_on_).first(count)) {
+        const double share = spacing_ > 0.0 ? 1.0 / static_cast<double>(count) : grid_share;
+        sample.place = w.x * corners[0] + w.y * corners[1] + w.z * corners[2];
+        const measure::NearestOnMesh nearest = in_turn_.nearest(sample.place);
+        sample.off = nearest.point - sample.place;
         sample.share = w.x;
         sample.area = share * 0.5 * size;
-        sample.turned = facing_.is_against(place, nearest, area2);
+        sample.turned = is_against(target_, sample.place, nearest, area2);
         samples_.push_back(sample);
         ++looks_;
         Heights one;
         one.add(nearest.distance2, sample.area);
         one.turned = sample.turned ? sample.area : 0.0;
         each_[i].add(one);
-        sum.add(one);
-        if (!limits.allow(sum)) {
-            break;
+        heights.add(one);
+        if (!limits.allow(heights)) {
+            return;
         }
     }
-    heights = sum;
-}
-
-/// The last sample's distance bounds this one's.
-measure::NearestOnMesh RingHeights::nearest_to(const glm::dvec3& place) const {
-    if (samples_.empty()) {
-        return target_.bvh.nearest(place);
-    }
-    const SeenSample& last = samples_.back();
-    const double within = glm::length(last.off) + glm::distance(last.place, place);
-    return target_.bvh.nearest(place, (1.0 + 1e-9) * within + target_.bvh.rounding_m());
 }
 
 Heights RingHeights::seen(const HeightLimits& limits) {

@@ -1,11 +1,10 @@
 #pragma once
 
 #include "models/simplify/peak_heights.h"
-#include "models/simplify/polish.h"
+#include "models/simplify/polish_target.h"
 #include "models/simplify/surface_cost.h"
-#include "models/simplify/target_facing.h"
 #include "models/simplify/tracked_points.h"
-#include "models/simplify/vertex_fit.h"
+#include "models/simplify/triangle_samples.h"
 #include "models/simplify/working_surface.h"
 
 #include <glm/vec3.hpp>
@@ -33,9 +32,11 @@ struct HeightLimits {
     double most2 = std::numeric_limits<double>::infinity();
     double squares = std::numeric_limits<double>::infinity(); ///< with turned area at its price
     double price = 0.0;
+    double turned = std::numeric_limits<double>::infinity();
 
     bool allow(const Heights& heights) const {
-        return heights.most2 <= most2 && heights.squares + price * heights.turned <= squares;
+        return heights.most2 <= most2 && heights.turned <= turned &&
+               heights.squares + price * heights.turned <= squares;
     }
 };
 
@@ -81,22 +82,19 @@ public:
 
     const SurfaceCost& cost() const { return cost_; }
 
-    const TargetFacing& facing() const { return facing_; }
-
     const std::vector<std::array<glm::dvec3, 3>>& corners() const { return corners_; }
 
 private:
     Heights points_heights();
-    measure::NearestOnMesh nearest_to(const glm::dvec3& place) const;
     void add_samples(std::size_t i, Heights& heights, const HeightLimits& limits);
-    std::span<const GridSample> grid_for(const std::array<glm::dvec3, 3>& corners) const;
+    std::size_t count_for(const std::array<glm::dvec3, 3>& corners) const;
 
     const WorkingSurface& surface_;
     TrackedPoints& points_;
     PolishTarget target_;
-    TargetFacing facing_;
+    NearestInTurn in_turn_;
     double spacing_ = 0.0;
-    std::vector<std::vector<GridSample>> grids_; ///< from the coarsest on; one without a spacing
+    std::vector<TriangleSample> samples_on_; ///< of one triangle; with a spacing its first ones
     SurfaceCost cost_;
     std::vector<RingFace> ring_;
     std::vector<std::uint32_t> faces_;               ///< whose points are in cost_

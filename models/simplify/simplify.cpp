@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -18,13 +19,27 @@ namespace {
 
 /// Points that stand for the original surface: at least that many.
 constexpr std::size_t least_points = 24'000;
-constexpr int polish_rounds = 8;
 /// How far collapses go beyond an error goal by their estimate: what comes after may lessen it.
 constexpr double beyond_goal = 2.0;
 /// Tries that an error goal may cost, each a polish and a certified distance.
 constexpr int most_tries = 6;
 /// A larger part than that of the faces would have to go for another try.
 constexpr double close_enough = 0.03;
+
+PolishOptions polish_options(
+    const WorkingSurface& surface, const WorkingSurface& target, const SimplifyOptions& options) {
+    constexpr std::size_t many = 9; // of the target for one of the surface
+    PolishOptions polish;
+    polish.threads = options.threads;
+    if (options.quality == Quality::Fast) {
+        polish.rounds = 1;
+        polish.fields = 2;
+        polish.extremes = false;
+    } else if (target.mesh.face_count() > many * surface.mesh.face_count()) {
+        polish.fields = 4;
+    }
+    return polish;
+}
 
 TriangleMesh polished_in(
     WorkingSurface& surface,
@@ -38,7 +53,7 @@ TriangleMesh polished_in(
         triangles.push_back(target.mesh.corners(face));
     }
     const measure::TriangleBvh bvh(target.places, triangles);
-    polish(surface, points, {target, bvh}, {polish_rounds, options.threads});
+    polish(surface, points, {target, bvh}, polish_options(surface, target, options));
     return surface.to_mesh(names, units);
 }
 
@@ -53,13 +68,12 @@ TriangleMesh with_normals(TriangleMesh mesh, const TriangleMesh& original) {
 TriangleMesh
 finished(const CollapseSequence& sequence, std::size_t collapses, const SimplifyOptions& options) {
     TriangleMesh mesh = mesh_after(sequence, collapses);
-    if (options.quality == Quality::Surface && collapses > 0) {
-        return polished(std::move(mesh), sequence.original, options);
-    }
-    return with_normals(std::move(mesh), sequence.original);
+    return collapses > 0 ? polished(std::move(mesh), sequence.original, options)
+                         : with_normals(std::move(mesh), sequence.original);
 }
 
-/// Looks for the most collapses whose mesh keeps an error goal, by certified distances.
+/// Looks for the most collapses whose mesh keeps an error goal, by certified distances: so that
+/// whoever measures again, as tightly as is usual, finds it kept.
 class ErrorSearch {
 public:
     ErrorSearch(const CollapseSequence& sequence, const SimplifyOptions& options)
@@ -111,7 +125,7 @@ private:
         const double about_m = 0.5 * (distance.least_hausdorff_m() + distance.most_hausdorff_m());
         likely_faces_ = faces_after(collapses) *
                         std::clamp(std::pow(about_m / (aim * error_m_), steepness), 0.4, 2.5);
-        if (distance.most_hausdorff_m() <= error_m_) {
+        if (distance.most_hausdorff_m() * measure::DistanceOptions().tightness <= error_m_) {
             fits_ = collapses;
             best_ = std::move(mesh);
         } else {
@@ -157,37 +171,126 @@ private:
     TriangleMesh best_;
 };
 
-} // namespace
+/// Where there are colours, they must tell their borders.
+std::size_t wanted_points(const WorkingSurface& target, Quality quality) {
+    return quality == Quality::Surface || target.coloured() ? least_points : 0;
+}
 
-Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
+/// Points of the target, in the lists of the nearest triangles of a surface that has not changed.
+TrackedPoints points_on(
+    const WorkingSurface& surface, const WorkingSurface& target, const SimplifyOptions& options) {
+    TrackedPoints points(target, wanted_points(target, options.quality));
+    std::vector<Triangle> triangles;
+    for (std::uint32_t face = 0; face < surface.mesh.face_slots(); ++face) {
+        triangles.push_back(surface.mesh.corners(face));
+    }
+    const measure::TriangleBvh bvh(surface.places, triangles);
+    std::vector<std::uint32_t> nearest(points.size());
+    for (std::uint32_t point = 0; point < points.size(); ++point) {
+        const auto& place = points.place(point);
+        nearest[point] = bvh.nearest({place[0], place[1], place[2]}).triangle;
+    }
+    points.assign_all(nearest, surface.mesh.face_slots());
+    return points;
+}
+
+/// The same by where the collapses took the original's vertices: near enough to start from.
+TrackedPoints points_carried(
+    const WorkingSurface& surface,
+    const WorkingSurface& target,
+    const std::vector<Collapse>& collapses) {
+    const std::size_t vertices = target.mesh.vertex_slots();
+    std::vector<std::uint32_t> slots(vertices + collapses.size()); // of all that there ever were
+    std::iota(slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(vertices), 0U);
+    for (std::size_t i = 0; i < collapses.size(); ++i) {
+        slots[vertices + i] = slots[collapses[i].first];
+    }
+    for (std::size_t i = collapses.size(); i-- > 0;) { // what they became
+        slots[collapses[i].first] = slots[vertices + i];
+        slots[collapses[i].second] = slots[vertices + i];
+    }
+    TrackedPoints points(target, wanted_points(target, Quality::Fast));
+    std::vector<std::uint32_t> nearest(points.size());
+    for (std::uint32_t point = 0; point < points.size(); ++point) {
+        const std::uint32_t corner = target.mesh.origin(3 * points.face(point));
+        nearest[point] = surface.mesh.face_at(slots[corner]);
+    }
+    points.assign_all(nearest, surface.mesh.face_slots());
+    return points;
+}
+
+/// Contracts edges of the surface until the goal is met.
+std::vector<Collapse> contracted(
+    WorkingSurface& surface,
+    std::optional<TrackedPoints>& points,
+    const WorkingUnits& units,
+    const Goal& goal,
+    const SimplifyOptions& options) {
+    CollapseRun run(surface, units, points ? &*points : nullptr, options.length_share);
+    run.run(goal, options.show_progress);
+    return std::move(run.collapses());
+}
+
+CollapseSequence
+sequence_to(const Goal& goal, TriangleMesh original, const SimplifyOptions& options) {
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
     WorkingSurface surface(original, units);
     std::optional<TrackedPoints> points;
     if (options.quality == Quality::Surface) {
         points.emplace(surface, least_points);
     }
-    CollapseRun run(surface, units, points ? &*points : nullptr, options.length_share);
+    CollapseSequence sequence;
+    sequence.collapses = contracted(surface, points, units, goal, options);
+    sequence.original = std::move(original);
+    return sequence;
+}
+
+Simplified simplified_to_error(TriangleMesh original, const SimplifyOptions& options) {
     Goal goal = options.goal;
-    if (goal.error_m && points) {
+    if (options.quality == Quality::Surface) {
         goal.error_m = *goal.error_m * beyond_goal;
     }
-    run.run(goal, options.show_progress);
     Simplified result;
-    result.sequence = {std::move(original), std::move(run.collapses())};
-    CollapseSequence& sequence = result.sequence;
-    if (options.goal.error_m) {
-        ErrorSearch search(sequence, options);
-        sequence.collapses.resize(search.find());
-        result.mesh = std::move(search.best());
-    } else if (points && !sequence.collapses.empty()) {
-        const WorkingSurface target(sequence.original, units);
-        result.mesh = with_normals(
-            polished_in(surface, *points, sequence.original, target, units, options),
-            sequence.original);
-    } else {
-        result.mesh = finished(sequence, sequence.collapses.size(), options);
-    }
+    result.sequence = sequence_to(goal, std::move(original), options);
+    ErrorSearch search(result.sequence, options);
+    result.sequence.collapses.resize(search.find());
+    result.mesh = std::move(search.best());
     return result;
+}
+
+} // namespace
+
+Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
+    if (options.goal.error_m) {
+        return simplified_to_error(std::move(original), options);
+    }
+    const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
+    const WorkingSurface target(original, units);
+    WorkingSurface surface = target;
+    std::optional<TrackedPoints> points;
+    if (options.quality == Quality::Surface) {
+        points.emplace(target, least_points);
+    }
+    Simplified result;
+    CollapseSequence& sequence = result.sequence;
+    sequence.collapses = contracted(surface, points, units, options.goal, options);
+    sequence.original = std::move(original);
+    if (sequence.collapses.empty()) {
+        result.mesh = finished(sequence, 0, options);
+        return result;
+    }
+    if (!points) {
+        points.emplace(points_carried(surface, target, sequence.collapses));
+    }
+    result.mesh = with_normals(
+        polished_in(surface, *points, sequence.original, target, units, options),
+        sequence.original);
+    return result;
+}
+
+CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& options) {
+    assert(options.quality == Quality::Fast && !options.goal.error_m);
+    return sequence_to(options.goal, std::move(original), options);
 }
 
 TriangleMesh
@@ -198,14 +301,7 @@ polished(TriangleMesh mesh, const TriangleMesh& original, const SimplifyOptions&
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
     const WorkingSurface target(original, units);
     WorkingSurface surface(mesh, units);
-    TrackedPoints points(target, least_points);
-    const measure::TriangleBvh bvh(surface.places, mesh.triangles);
-    std::vector<std::uint32_t> faces(points.size());
-    for (std::uint32_t point = 0; point < points.size(); ++point) {
-        const auto& place = points.place(point);
-        faces[point] = bvh.nearest({place[0], place[1], place[2]}).triangle;
-    }
-    points.assign_all(faces, mesh.triangles.size());
+    TrackedPoints points = points_on(surface, target, options);
     return with_normals(polished_in(surface, points, mesh, target, units, options), original);
 }
 

@@ -21,7 +21,7 @@ using ShowProgress = std::function<void(double share)>;
 
 enum class Quality {
     Surface, ///< distance to the triangles of the original surface, both ways
-    Fast     ///< quadrics
+    Fast     ///< quadrics, and a short polish
 };
 
 struct SimplifyOptions {
@@ -46,8 +46,12 @@ struct Simplified {
 /// bytes.
 Simplified simplified(TriangleMesh original, const SimplifyOptions& options);
 
-/// Moves vertices and flips edges of a mesh for a smaller distance to the original, both ways;
-/// what Quality::Surface ends with.
+/// The sequence of Quality::Fast alone, without a polish. For that quality and a goal without an
+/// error (asserted).
+CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& options);
+
+/// Moves vertices and flips edges of a mesh for a smaller distance to the original, both ways: what
+/// simplified() ends with.
 TriangleMesh
 polished(TriangleMesh mesh, const TriangleMesh& original, const SimplifyOptions& options);
 

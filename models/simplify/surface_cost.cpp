@@ -57,16 +57,24 @@ double SurfaceCost::total() {
     return cost_sum(block_, 0, block_.size(), coloured_);
 }
 
+double SurfaceCost::area() const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < block_.size(); ++i) {
+        sum += static_cast<double>(block_.weights[i]);
+    }
+    return sum;
+}
+
+double SurfaceCost::negligible() const {
+    return point_rounding * point_rounding * area();
+}
+
 double SurfaceCost::way_back(
     const WorkingSurface& surface, std::span<const RingFace> ring, const glm::dvec3& place) {
-    double area = 0.0;
-    for (std::size_t i = 0; i < block_.size(); ++i) {
-        area += static_cast<double>(block_.weights[i]);
-    }
     if (block_.size() == 0) {
         return 0.0;
     }
-    const double apart2 = 2.0 * area / static_cast<double>(block_.size());
+    const double apart2 = 2.0 * area() / static_cast<double>(block_.size());
     const auto beyond = [&](const glm::dvec3& sample) {
         const std::array<float, 3> at = {
             static_cast<float>(sample.x),

@@ -33,6 +33,9 @@ public:
     /// Sum over the points of weight times squared distance to the triangles.
     double total();
 
+    /// A total that rounding of the points may make.
+    double negligible() const;
+
     /// What is seen the other way: area of the new triangles times squared distance to the points,
     /// as far as that is more than the points are apart.
     double way_back(
@@ -43,6 +46,8 @@ public:
     std::vector<FlatTriangle> triangles;
 
 private:
+    double area() const; ///< that the points stand for
+
     PointBlock block_;
     double cost_now_ = 0.0;
     bool coloured_ = false;

@@ -1,9 +1,11 @@
 #include "models/simplify/tracked_points.h"
 
+#include "models/simplify/triangle_samples.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <cassert>
 
 namespace octant::models::simplify {
 
@@ -12,26 +14,6 @@ namespace {
 /// The share of a triangle's area that its corners stand for; with one more point in the middle
 /// the sum is exact for squares of linear functions.
 constexpr double corner_share = 0.25;
-
-std::array<float, 3> narrow(const glm::dvec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-/// Corner weights of point `i` of a sequence that fills triangles evenly.
-glm::dvec3 spread(std::size_t i, std::size_t count) {
-    if (count == 1) {
-        return glm::dvec3(1.0 / 3.0);
-    }
-    // R2 sequence of M. Roberts, folded into the triangle.
-    const double step = 0.5 + static_cast<double>(i);
-    double u = std::fmod(step * 0.7548776662466927, 1.0);
-    double v = std::fmod(step * 0.5698402909980532, 1.0);
-    if (u + v > 1.0) {
-        u = 1.0 - u;
-        v = 1.0 - v;
-    }
-    return {1.0 - u - v, u, v};
-}
 
 } // namespace
 
@@ -51,6 +33,7 @@ TrackedPoints::TrackedPoints(const WorkingSurface& original, std::size_t wanted)
     const double more = wanted > least ? static_cast<double>(wanted - least) : 0.0;
     make_face_room(mesh.face_slots());
     for (std::uint32_t vertex = 0; vertex < mesh.vertex_slots(); ++vertex) {
+        assert(mesh.vertex_is_there(vertex));
         std::uint32_t face = none;
         mesh.around(vertex, [&](HalfEdge h) { face = std::min(face, face_of(h)); });
         add(original.places[vertex],
@@ -64,7 +47,7 @@ TrackedPoints::TrackedPoints(const WorkingSurface& original, std::size_t wanted)
         const std::array<glm::dvec3, 3> corners = original.corner_places(face);
         const Triangle vertices = mesh.corners(face);
         for (std::size_t i = 0; i < count; ++i) {
-            const glm::dvec3 w = spread(i, count);
+            const glm::dvec3 w = count == 1 ? glm::dvec3(1.0 / 3.0) : spread_weights(i);
             glm::dvec3 colour(0.0);
             if (original.coloured()) {
                 colour = w.x * original.colours[vertices[0]] + w.y * original.colours[vertices[1]] +
@@ -81,9 +64,9 @@ TrackedPoints::TrackedPoints(const WorkingSurface& original, std::size_t wanted)
 void TrackedPoints::add(
     const glm::dvec3& place, const glm::dvec3* colour, double weight, std::uint32_t face) {
     const auto point = static_cast<std::uint32_t>(places_.size());
-    places_.push_back(narrow(place));
+    places_.push_back(measure::narrow(place));
     if (colour != nullptr) {
-        colours_.push_back(narrow(*colour));
+        colours_.push_back(measure::narrow(*colour));
     }
     weights_.push_back(static_cast<float>(weight));
     distances2_.push_back(0.0F);

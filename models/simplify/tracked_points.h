@@ -11,12 +11,19 @@
 
 namespace octant::models::simplify {
 
+/// Places of tracked points are rounded to about that, of the diagonal: distances below say
+/// nothing.
+inline constexpr double point_rounding = 1e-7;
+/// The same for the largest squared distance of many.
+inline constexpr double peak_rounding2 = 100.0 * point_rounding * point_rounding;
+
 /// Points of the original surface, each in the list of the triangle of the current surface that is
 /// nearest to it, with the share of the original's area that it stands for.
 class TrackedPoints {
 public:
     /// Every vertex of the surface and one or more points of each triangle: about `wanted` in all,
-    /// more where there are more vertices and triangles than that.
+    /// more where there are more vertices and triangles than that. Every vertex lies in a
+    /// triangle (asserted).
     TrackedPoints(const WorkingSurface& original, std::size_t wanted);
 
     std::size_t size() const { return places_.size(); }

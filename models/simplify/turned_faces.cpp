@@ -23,9 +23,9 @@ using Corners = std::array<glm::dvec3, 3>;
 /// What turned area costs, in mean squares of the distance.
 constexpr double price = 200.0;
 /// Of the largest squared distance: what steps may lead to.
-constexpr double most2_share = 0.7;
+constexpr double most2_share = 0.85;
 /// The same seen from the points, which may lie far apart.
-constexpr double points_most2_share = 0.6;
+constexpr double points_most2_share = 0.85;
 /// How much a turned sample pulls, beside one that is not.
 constexpr double pull = 10.0;
 /// A round that leaves more than that part of the turned area is the last one.
@@ -51,14 +51,14 @@ public:
         const PolishTarget& target,
         const TurnOptions& options)
         : surface_(surface)
+        , target_(target)
         , around_(
               surface,
               points,
               target,
-              std::sqrt(2.0 * area_of(surface) / static_cast<double>(options.samples)))
+              std::sqrt(area_of(surface) / static_cast<double>(options.samples)))
         , heights_(surface.mesh.face_slots())
-        , tried_vertices_(surface.mesh.vertex_slots(), false)
-        , tried_edges_(surface.mesh.face_slots() * 3, false) {
+        , tried_vertices_(surface.mesh.vertex_slots(), false) {
         Heights all;
         for (std::uint32_t face = 0; face < heights_.size(); ++face) {
             if (surface.mesh.face_is_there(face)) {
@@ -84,6 +84,9 @@ public:
         return sum;
     }
 
+    /// Distances are rounding alone.
+    bool is_exact() const { return most2_ <= peak_rounding2; }
+
     void round();
 
 private:
@@ -96,17 +99,16 @@ private:
     bool step_to(const glm::dvec3& place, std::uint32_t vertex, const Heights& before);
     bool step_along_axes(std::uint32_t vertex, const Heights& before);
     void move(std::uint32_t vertex);
-    void try_flip(HalfEdge h);
 
     glm::dvec3 colour(std::uint32_t vertex) const {
         return surface_.coloured() ? surface_.colours[vertex] : glm::dvec3(0.0);
     }
 
     WorkingSurface& surface_;
+    PolishTarget target_;
     RingHeights around_;
     std::vector<Heights> heights_;     ///< of each triangle
     std::vector<bool> tried_vertices_; ///< in vain, and nothing has changed there since
-    std::vector<bool> tried_edges_;    ///< the same
     double points_before2_ = 0.0;      ///< seen around the points before a step
     std::size_t most_looks_ = 0;
     double mean2_ = 0.0;     ///< of distances
@@ -129,7 +131,8 @@ HeightLimits TurningBack::limits(const Heights& before) const {
     return {
         std::max(most2_share * most2_, std::min(before.most2, most2_)),
         before.squares + turned_price * before.turned,
-        turned_price};
+        turned_price,
+        before.turned};
 }
 
 bool TurningBack::is_better(const Heights& before, const Heights& after) const {
@@ -147,7 +150,6 @@ void TurningBack::keep(const Heights& before, const Heights& after) {
         heights_[face] = around_.each()[i];
         for (std::uint32_t corner = 0; corner < 3; ++corner) {
             tried_vertices_[surface_.mesh.origin(3 * face + corner)] = false;
-            tried_edges_[surface_.mesh.edge_of(3 * face + corner)] = false;
         }
     }
 }
@@ -171,8 +173,7 @@ glm::dvec3 TurningBack::way() const {
             continue;
         }
         const double within = std::max(6.0 * glm::length(sample.off), 4.0 * std::sqrt(mean2_));
-        if (const auto alike =
-                around_.facing().nearest_alike(sample.place, sample.normal, within)) {
+        if (const auto alike = nearest_alike(target_, sample.place, sample.normal, within)) {
             fit.add(*alike - sample.place, sample.normal, sample.share, pull * sample.area);
         }
     }
@@ -237,45 +238,9 @@ void TurningBack::move(std::uint32_t vertex) {
     tried_vertices_[vertex] = !step_along_axes(vertex, before);
 }
 
-void TurningBack::try_flip(HalfEdge h) {
-    CollapsibleMesh& mesh = surface_.mesh;
-    if (surface_.is_material_border(h) || !mesh.may_flip(h)) {
-        return;
-    }
-    around_.take_pair(h);
-    const std::vector<Corners> old = around_.corners();
-    const Heights before = around_.seen({});
-    points_before2_ = around_.points_most2();
-    mesh.flip(h);
-    around_.set_faces();
-    bool may = true;
-    for (std::size_t i = 0; i < 2; ++i) {
-        for (const Corners& now : around_.corners()) {
-            may = may && may_become_here(around_.faces()[i], old[i], now);
-        }
-    }
-    if (may) {
-        const Heights after = around_.seen(limits(before));
-        if (is_better(before, after)) {
-            keep(before, after);
-            return;
-        }
-    }
-    for (int turn = 0; turn < 3; ++turn) { // back to the same edge
-        mesh.flip(h);
-    }
-    tried_edges_[mesh.edge_of(h)] = true;
-}
-
 void TurningBack::round() {
     std::vector<std::uint32_t> vertices;
     for (std::uint32_t face = 0; face < heights_.size(); ++face) {
-        for (std::uint32_t corner = 0; corner < 3 && heights_[face].turned > 0.0; ++corner) {
-            const HalfEdge h = 3 * face + corner;
-            if (!tried_edges_[surface_.mesh.edge_of(h)] && around_.looks() < most_looks_) {
-                try_flip(h);
-            }
-        }
         if (heights_[face].turned > 0.0) {
             const Triangle corners = surface_.mesh.corners(face);
             vertices.insert(vertices.end(), corners.begin(), corners.end());
@@ -299,7 +264,7 @@ void turn_back(
     const PolishTarget& target,
     const TurnOptions& options) {
     TurningBack turning(surface, points, target, options);
-    for (int round = 0; round < options.rounds; ++round) {
+    for (int round = 0; round < options.rounds && !turning.is_exact(); ++round) {
         const double before = turning.turned();
         turning.round();
         if (!(turning.turned() < most_left * before)) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/simplify/polish.h"
+#include "models/simplify/polish_target.h"
 #include "models/simplify/tracked_points.h"
 #include "models/simplify/working_surface.h"
 
@@ -10,12 +10,12 @@ namespace octant::models::simplify {
 
 struct TurnOptions {
     int rounds = 8;
-    double most_growth = 0.005;    ///< of the root of the mean square, that it may cost
-    std::size_t samples = 40'000;  ///< about so many show where the surface is turned
-    std::size_t looks = 3'000'000; ///< ends after so many distances of samples
+    double most_growth = 0.01;     ///< of the root of the mean square, that it may cost
+    std::size_t samples = 30'000;  ///< by area; more on long thin triangles
+    std::size_t looks = 1'000'000; ///< ends after so many distances of samples
 };
 
-/// Moves vertices and flips edges where the surface faces against the target, see
+/// Moves vertices where the surface faces against the target, see
 /// measure::flipped_area_share, as long as there is less of that, distances hardly grow and the
 /// largest ones do not. The points must be in the lists of triangles that are near.
 void turn_back(

@@ -19,7 +19,7 @@ Hierarchy read_hierarchy(const std::string& path, std::size_t base) {
     options.goal.vertices = base;
     auto mesh = models::meshfile::repaired(models::meshfile::read_mesh(path)).mesh;
     return std::make_shared<const visuals::refine::ProgressiveMesh>(
-        models::simplify::simplified(std::move(mesh), options).sequence);
+        models::simplify::fast_sequence(std::move(mesh), options));
 }
 
 FaceSet original_faces(const visuals::refine::ProgressiveMesh& mesh) {

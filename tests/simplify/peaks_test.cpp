@@ -1,6 +1,7 @@
 #include "models/measure/triangle_bvh.h"
 #include "models/simplify/peak_heights.h"
 #include "models/simplify/peaks.h"
+#include "models/simplify/triangle_samples.h"
 #include "tests/simplify/simplify_meshes.h"
 
 #include <catch2/catch.hpp>
@@ -16,7 +17,7 @@ TEST_CASE("the samples of a grid stand for a triangle's whole area, its middle i
     for (const int fields : {1, 2, 5}) {
         double sum = 0.0;
         glm::dvec3 middle(0.0);
-        for (const GridSample& sample : sample_grid(fields)) {
+        for (const TriangleSample& sample : sample_grid(fields)) {
             sum += sample.share;
             middle += sample.share * sample.weights;
         }

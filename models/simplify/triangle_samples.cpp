@@ -1,9 +1,11 @@
-#include "models/simplify/peak_heights.h"
+#include "models/simplify/triangle_samples.h"
+
+#include <cmath>
 
 namespace octant::models::simplify {
 
-std::vector<GridSample> sample_grid(int fields) {
-    std::vector<GridSample> samples;
+std::vector<TriangleSample> sample_grid(int fields) {
+    std::vector<TriangleSample> samples;
     const double unit = 1.0 / (3.0 * fields * fields);
     for (int i = 0; i <= fields; ++i) {
         for (int j = 0; i + j <= fields; ++j) {
@@ -18,8 +20,8 @@ std::vector<GridSample> sample_grid(int fields) {
     return samples;
 }
 
-std::vector<GridSample> middle_grid(int fields) {
-    std::vector<GridSample> samples;
+std::vector<TriangleSample> middle_grid(int fields) {
+    std::vector<TriangleSample> samples;
     const double share = 1.0 / static_cast<double>(fields * fields);
     const auto add = [&](double i, double j) {
         const double u = i / fields;
@@ -35,6 +37,18 @@ std::vector<GridSample> middle_grid(int fields) {
         }
     }
     return samples;
+}
+
+/// The R2 sequence of M. Roberts, folded into the triangle.
+glm::dvec3 spread_weights(std::size_t i) {
+    const double step = 0.5 + static_cast<double>(i);
+    double u = std::fmod(step * 0.7548776662466927, 1.0);
+    double v = std::fmod(step * 0.5698402909980532, 1.0);
+    if (u + v > 1.0) {
+        u = 1.0 - u;
+        v = 1.0 - v;
+    }
+    return {1.0 - u - v, u, v};
 }
 
 } // namespace octant::models::simplify
