@@ -8,13 +8,8 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// How much a sample pulls whose nearest place faces the other way.
-constexpr double turned_pull = 10.0;
 /// Of its distance, and of the usual one: how far it looks for one that faces its way.
 constexpr double turned_reach = 4.0;
-
-/// How much distances along a triangle count.
-constexpr double sideways = 0.1;
 
 glm::dvec3 place_of(const std::array<glm::dvec3, 3>& corners, const TriangleSample& sample) {
     return sample.weights.x * corners[0] + sample.weights.y * corners[1] +

@@ -16,6 +16,9 @@ struct PolishTarget {
     const measure::TriangleBvh& bvh;
 };
 
+/// How much a sample pulls to the side that faces its way, beside one whose nearest place does.
+inline constexpr double turned_pull = 10.0;
+
 /// Finds the nearest places of the target for places that lie close one after the other.
 class NearestInTurn {
 public:

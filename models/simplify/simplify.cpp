@@ -41,6 +41,15 @@ PolishOptions polish_options(
     return polish;
 }
 
+/// Of a surface that has not changed, its triangles in the order of their numbers.
+measure::TriangleBvh tree_of(const WorkingSurface& surface) {
+    std::vector<Triangle> triangles;
+    for (std::uint32_t face = 0; face < surface.mesh.face_slots(); ++face) {
+        triangles.push_back(surface.mesh.corners(face));
+    }
+    return {surface.places, triangles};
+}
+
 TriangleMesh polished_in(
     WorkingSurface& surface,
     TrackedPoints& points,
@@ -48,11 +57,7 @@ TriangleMesh polished_in(
     const WorkingSurface& target,
     const WorkingUnits& units,
     const SimplifyOptions& options) {
-    std::vector<Triangle> triangles;
-    for (std::uint32_t face = 0; face < target.mesh.face_slots(); ++face) {
-        triangles.push_back(target.mesh.corners(face));
-    }
-    const measure::TriangleBvh bvh(target.places, triangles);
+    const measure::TriangleBvh bvh = tree_of(target);
     polish(surface, points, {target, bvh}, polish_options(surface, target, options));
     return surface.to_mesh(names, units);
 }
@@ -180,11 +185,7 @@ std::size_t wanted_points(const WorkingSurface& target, Quality quality) {
 TrackedPoints points_on(
     const WorkingSurface& surface, const WorkingSurface& target, const SimplifyOptions& options) {
     TrackedPoints points(target, wanted_points(target, options.quality));
-    std::vector<Triangle> triangles;
-    for (std::uint32_t face = 0; face < surface.mesh.face_slots(); ++face) {
-        triangles.push_back(surface.mesh.corners(face));
-    }
-    const measure::TriangleBvh bvh(surface.places, triangles);
+    const measure::TriangleBvh bvh = tree_of(surface);
     std::vector<std::uint32_t> nearest(points.size());
     for (std::uint32_t point = 0; point < points.size(); ++point) {
         const auto& place = points.place(point);

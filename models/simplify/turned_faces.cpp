@@ -26,8 +26,6 @@ constexpr double price = 200.0;
 constexpr double most2_share = 0.85;
 /// The same seen from the points, which may lie far apart.
 constexpr double points_most2_share = 0.85;
-/// How much a turned sample pulls, beside one that is not.
-constexpr double pull = 10.0;
 /// A round that leaves more than that part of the turned area is the last one.
 constexpr double most_left = 0.98;
 
@@ -174,7 +172,7 @@ glm::dvec3 TurningBack::way() const {
         }
         const double within = std::max(6.0 * glm::length(sample.off), 4.0 * std::sqrt(mean2_));
         if (const auto alike = nearest_alike(target_, sample.place, sample.normal, within)) {
-            fit.add(*alike - sample.place, sample.normal, sample.share, pull * sample.area);
+            fit.add(*alike - sample.place, sample.normal, sample.share, turned_pull * sample.area);
         }
     }
     return fit.way();

@@ -10,10 +10,6 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// How much of the distance along the triangle counts: none would be a Gauss-Newton step, all of it
-/// the slower one of iterated closest points.
-constexpr double sideways = 0.1;
-
 glm::dvec3 widen(const std::array<float, 3>& v) {
     return {v[0], v[1], v[2]};
 }

@@ -10,6 +10,10 @@
 
 namespace octant::models::simplify {
 
+/// How much of the distance along the triangle counts: none would be a Gauss-Newton step, all of it
+/// the slower one of iterated closest points.
+inline constexpr double sideways = 0.1;
+
 /// The way of one vertex, and change of its colour, that lessen a sum of squared distances most,
 /// as far as distances are linear functions of them.
 class VertexFit {
