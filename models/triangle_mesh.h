@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/material.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,6 +1,6 @@
 #include "sim/base/error.h"
-#include "ui/commands.h"
-#include "ui/version.h"
+#include "ui/commands/commands.h"
+#include "ui/base/version.h"
 #include "visuals/gl/platform_tuning.h"
 
 #include <CLI/CLI.hpp>
@@ -30,7 +30,7 @@ int run(int argc, char** argv) {
                      "terrain, and times it.");
     program.set_version_flag(
         "--version",
-        fmt::format("octant {} ({})", octant::ui::program_version(), octant::ui::program_commit()));
+        fmt::format("octant {} ({})", octant::ui::base::program_version(), octant::ui::base::program_commit()));
     program.require_subcommand(1);
     program.get_formatter()->column_width(34);
     program.footer(
@@ -43,19 +43,19 @@ int run(int argc, char** argv) {
         "  octant refine bunny.ply --base 100 --save bunny.pm\n"
         "  octant simplify bunny.ply small.obj --faces 1000\n"
         "octant COMMAND --help shows every option with its unit, default and an example.");
-    octant::ui::add_fly_command(program);
-    octant::ui::add_view_command(program);
-    octant::ui::add_report_command(program);
-    octant::ui::add_terrain_command(program);
-    octant::ui::add_draw_order_command(program);
-    octant::ui::add_mesh_error_command(program);
-    octant::ui::add_refine_command(program);
-    octant::ui::add_simplify_command(program);
-    octant::ui::add_study_command(program);
-    octant::ui::add_bench_command(program);
+    octant::ui::commands::add_fly_command(program);
+    octant::ui::commands::add_view_command(program);
+    octant::ui::commands::add_report_command(program);
+    octant::ui::commands::add_terrain_command(program);
+    octant::ui::commands::add_draw_order_command(program);
+    octant::ui::commands::add_mesh_error_command(program);
+    octant::ui::commands::add_refine_command(program);
+    octant::ui::commands::add_simplify_command(program);
+    octant::ui::commands::add_study_command(program);
+    octant::ui::commands::add_bench_command(program);
     try {
         program.parse(argc, argv);
-    } catch (const octant::ui::CheckSaidNo&) {
+    } catch (const octant::ui::commands::CheckSaidNo&) {
         return check_said_no;
     } catch (const CLI::ParseError& fault) {
         if (fault.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {

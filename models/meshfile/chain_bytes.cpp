@@ -1,7 +1,7 @@
 #include "models/meshfile/chain_bytes.h"
 
 #include "models/meshfile/byte_writer.h"
-#include "models/polygon_check.h"
+#include "models/polygons/polygon_check.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -46,14 +46,14 @@ void append(std::string& bytes, const Material& material) {
     append(bytes, material.colour);
 }
 
-void append(std::string& bytes, const Polygon& polygon) {
+void append(std::string& bytes, const polygons::Polygon& polygon) {
     append(bytes, polygon.first_corner);
     append(bytes, polygon.corner_count);
     append(bytes, polygon.material);
     append(bytes, polygon.part);
 }
 
-void append(std::string& bytes, const Pivot& pivot) {
+void append(std::string& bytes, const polygons::Pivot& pivot) {
     append(bytes, pivot.part);
     append(bytes, pivot.point_m);
     append(bytes, pivot.axis);
@@ -76,7 +76,7 @@ constexpr std::size_t least_bytes<std::string> = 8;
 template <>
 constexpr std::size_t least_bytes<Material> = 20;
 template <>
-constexpr std::size_t least_bytes<Pivot> = 60;
+constexpr std::size_t least_bytes<polygons::Pivot> = 60;
 
 /// Takes what append made, in the same order.
 class Taking {
@@ -117,14 +117,14 @@ public:
         take(material.colour);
     }
 
-    void take(Polygon& polygon) {
+    void take(polygons::Polygon& polygon) {
         take(polygon.first_corner);
         take(polygon.corner_count);
         take(polygon.material);
         take(polygon.part);
     }
 
-    void take(Pivot& pivot) {
+    void take(polygons::Pivot& pivot) {
         take(pivot.part);
         take(pivot.point_m);
         take(pivot.axis);
@@ -217,10 +217,10 @@ bool is_unit(const glm::vec<3, Part>& vector) {
 }
 
 /// Whether polygons have all corners among them, one polygon's behind the other's, each a few.
-bool corners_in_order(const PolygonModel& model) {
+bool corners_in_order(const polygons::PolygonModel& model) {
     constexpr std::uint32_t most = 1000; // what follows looks at all pairs
     std::size_t next = 0;
-    for (const Polygon& polygon : model.polygons) {
+    for (const polygons::Polygon& polygon : model.polygons) {
         if (polygon.first_corner != next || polygon.corner_count < 3 ||
             polygon.corner_count > most) {
             return false;
@@ -230,25 +230,25 @@ bool corners_in_order(const PolygonModel& model) {
     return next == model.corner_vertices.size();
 }
 
-bool sound(const PolygonModel& model, const Polygon& polygon) {
+bool sound(const polygons::PolygonModel& model, const polygons::Polygon& polygon) {
     return polygon.material < model.materials.size() && polygon.part < model.parts.size();
 }
 
 /// Needs corners in order.
-bool all_convex(const PolygonModel& model) {
-    const double tolerance_m = flatness_tolerance_m(model);
+bool all_convex(const polygons::PolygonModel& model) {
+    const double tolerance_m = polygons::flatness_tolerance_m(model);
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-        if (model.polygons[i].corner_count > 3 && polygon_fault(model, i, tolerance_m)) {
+        if (model.polygons[i].corner_count > 3 && polygons::polygon_fault(model, i, tolerance_m)) {
             return false;
         }
     }
     return true;
 }
 
-bool one_pivot_a_part(const PolygonModel& model) {
+bool one_pivot_a_part(const polygons::PolygonModel& model) {
     std::vector<char> turns(model.parts.size(), 0);
     return std::ranges::all_of(
-        model.pivots, [&](const Pivot& pivot) { return ++turns[pivot.part] == 1; });
+        model.pivots, [&](const polygons::Pivot& pivot) { return ++turns[pivot.part] == 1; });
 }
 
 } // namespace
@@ -293,21 +293,21 @@ TriangleMesh take_mesh(ByteReader& reader) {
     return mesh;
 }
 
-void append_model(std::string& bytes, const PolygonModel& model) {
+void append_model(std::string& bytes, const polygons::PolygonModel& model) {
     each_part_of_model(model, [&](const auto& part) { append(bytes, part); });
 }
 
-PolygonModel take_model(ByteReader& reader) {
+polygons::PolygonModel take_model(ByteReader& reader) {
     Taking taking(reader);
-    PolygonModel model;
+    polygons::PolygonModel model;
     each_part_of_model(model, [&](auto& part) { taking.take(part); });
     // Every polygon of the file it came from has a piece at least.
     bool good = all_below(model.corner_vertices, model.vertices_m.size()) &&
                 all_below(model.parents, model.polygons.size());
-    for (const Polygon& polygon : model.polygons) {
+    for (const polygons::Polygon& polygon : model.polygons) {
         good = good && sound(model, polygon);
     }
-    for (const Pivot& pivot : model.pivots) {
+    for (const polygons::Pivot& pivot : model.pivots) {
         good = good && pivot.part < model.parts.size();
     }
     taking.check(good, "indices in range");
@@ -320,7 +320,7 @@ PolygonModel take_model(ByteReader& reader) {
     taking.check(model.pivots.size() <= 1000, "at most 1000 pivots");
     taking.check(one_pivot_a_part(model), "one pivot a part at most");
     taking.check(
-        std::ranges::all_of(model.pivots, [](const Pivot& pivot) { return is_unit(pivot.axis); }),
+        std::ranges::all_of(model.pivots, [](const polygons::Pivot& pivot) { return is_unit(pivot.axis); }),
         "axes of length 1");
     taking.check(all_convex(model), "convex planar polygons");
     return model;

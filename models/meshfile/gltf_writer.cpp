@@ -3,6 +3,8 @@
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 
+#include <glm/common.hpp>
+
 #include <map>
 #include <nlohmann/json.hpp>
 #include <tuple>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 #include "models/triangle_mesh.h"
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct ChainLevel {
 struct LevelChain {
     std::string name;
     std::vector<ChainLevel> levels;       ///< at least one
-    std::optional<PolygonModel> polygons; ///< of draw-order size, behind the last level
+    std::optional<polygons::PolygonModel> polygons; ///< of draw-order size, behind the last level
     double polygons_error_m = 0.0;        ///< certified, of `polygons`
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 
 #include <span>
 #include <string>

@@ -1,8 +1,8 @@
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/word_scanner.h"
-#include "models/mtl_reader.h"
-#include "models/obj_lines.h"
+#include "models/polygons/mtl_reader.h"
+#include "models/polygons/obj_lines.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
@@ -27,7 +27,7 @@ public:
 
     TriangleMesh read() {
         const std::string text = read_text_file(path_, largest_file_bytes);
-        ObjLines lines(text);
+        polygons::ObjLines lines(text);
         while (lines.next()) {
             line_ = lines.number();
             take(lines.text());
@@ -55,10 +55,10 @@ private:
         } else if (words[0] == "f") {
             take_polygon(words);
         } else if (words[0] == "usemtl") {
-            material_name_ = std::string(after_first_word(line));
+            material_name_ = std::string(polygons::after_first_word(line));
             material_ = no_index;
         } else if (words[0] == "mtllib") {
-            take_material_files(std::string(after_first_word(line)), words);
+            take_material_files(std::string(polygons::after_first_word(line)), words);
         }
     }
 
@@ -165,7 +165,7 @@ private:
         if (!std::filesystem::is_regular_file(file, ignored)) {
             return false;
         }
-        for (const Material& material : read_mtl(file)) {
+        for (const Material& material : polygons::read_mtl(file)) {
             colours_.insert_or_assign(material.name, material.colour);
         }
         return true;

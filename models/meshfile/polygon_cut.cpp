@@ -1,6 +1,6 @@
 #include "models/meshfile/polygon_cut.h"
 
-#include "models/flat_outline.h"
+#include "models/polygons/flat_outline.h"
 
 #include <glm/geometric.hpp>
 
@@ -37,8 +37,8 @@ std::vector<glm::dvec2> seen_outline(std::span<const glm::dvec3> corners_m) {
 bool is_strictly_convex(std::span<const glm::dvec2> outline) {
     const std::size_t count = outline.size();
     for (std::size_t i = 0; i < count; ++i) {
-        if (turn_of(outline[i], outline[(i + 1) % count], outline[(i + 2) % count]) <= 0.0 ||
-            turn_of(outline[0], outline[i], outline[(i + 1) % count]) < 0.0) {
+        if (polygons::turn_of(outline[i], outline[(i + 1) % count], outline[(i + 2) % count]) <= 0.0 ||
+            polygons::turn_of(outline[0], outline[i], outline[(i + 1) % count]) < 0.0) {
             return false;
         }
     }
@@ -81,7 +81,7 @@ public:
 
 private:
     double turn_at(std::size_t i) const {
-        return turn_of(outline_[before_[i]], outline_[i], outline_[after_[i]]);
+        return polygons::turn_of(outline_[before_[i]], outline_[i], outline_[after_[i]]);
     }
 
     bool is_ear(std::size_t i) const {
@@ -93,8 +93,8 @@ private:
         const glm::dvec2& c = outline_[after_[i]];
         for (std::size_t k = after_[after_[i]]; k != before_[i]; k = after_[k]) {
             const glm::dvec2& p = outline_[k];
-            if (dented_[k] && p != a && p != b && p != c && turn_of(a, b, p) >= 0.0 &&
-                turn_of(b, c, p) >= 0.0 && turn_of(c, a, p) >= 0.0) {
+            if (dented_[k] && p != a && p != b && p != c && polygons::turn_of(a, b, p) >= 0.0 &&
+                polygons::turn_of(b, c, p) >= 0.0 && polygons::turn_of(c, a, p) >= 0.0) {
                 return false;
             }
         }

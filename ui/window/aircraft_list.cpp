@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 std::vector<std::string> with_count(std::vector<std::string> aircraft, int count) {
     const std::string first = aircraft.front();
@@ -17,4 +17,4 @@ std::vector<std::string> with_leader(std::vector<std::string> aircraft, const st
     return aircraft;
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace {
 
@@ -62,7 +62,7 @@ void show_models(const visuals::scene::Scene& scene) {
 
 } // namespace
 
-void aircraft_panel(ViewState& state, const Session& session) {
+void aircraft_panel(ViewState& state, const flight::Session& session) {
     const Panel panel(
         "Aircraft", {{1.0F, 1.0F}, {360.0F, 10.0F}, {300.0F, 190.0F}}, state.open.aircraft);
     if (!panel.is_seen()) {
@@ -92,4 +92,4 @@ void aircraft_panel(ViewState& state, const Session& session) {
     edit_settings(state.wanted, controls);
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

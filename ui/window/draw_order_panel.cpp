@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <string_view>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace {
 
@@ -46,7 +46,7 @@ void show_pixel_check(ViewState& state) {
 
 } // namespace
 
-void draw_order_panel(ViewState& state, const Session& session) {
+void draw_order_panel(ViewState& state, const flight::Session& session) {
     const Panel panel(
         "Draw order", {{1.0F, 1.0F}, {10.0F, 10.0F}, {340.0F, 300.0F}}, state.open.draw_order);
     if (!panel.is_seen()) {
@@ -64,4 +64,4 @@ void draw_order_panel(ViewState& state, const Session& session) {
     show_pixel_check(state);
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -1,6 +1,6 @@
 #include "sim/base/units.h"
 #include "sim/fixed_step.h"
-#include "ui/settings_fields.h"
+#include "ui/settings/settings_fields.h"
 #include "ui/window/aircraft_list.h"
 #include "ui/window/look_control.h"
 #include "ui/window/panel_parts.h"
@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 #include <string_view>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace scene = visuals::scene;
 
@@ -23,7 +23,7 @@ namespace {
 void choose_flight(ViewState& state) {
     constexpr std::array<std::string_view, 1> path{"path"};
     constexpr std::array<std::string_view, 1> terrain{"terrain"};
-    constexpr FieldInfo leader_info{
+    constexpr settings::FieldInfo leader_info{
         "aircraft", "NAME|FILE", "the first aircraft and all of its kind: f15, 500md or a file"};
     ImGui::BeginDisabled(state.recording.has_value());
     ImGui::BeginGroup();
@@ -105,7 +105,7 @@ void time_sliders(ViewState& state, bool by_hand) {
         key_of(ViewCommand::Faster)));
 }
 
-void choose_view(ViewState& state, const Session& session) {
+void choose_view(ViewState& state, const flight::Session& session) {
     struct Choice {
         scene::View view;
         ViewCommand command;
@@ -122,7 +122,7 @@ void choose_view(ViewState& state, const Session& session) {
             ImGui::SameLine(0.0F, 4.0F * gui_scale());
         }
         const std::string label =
-            fmt::format("{} {}", key_of(choice.command), text_of(choice.view));
+            fmt::format("{} {}", key_of(choice.command), settings::text_of(choice.view));
         const bool is_it = state.wanted.view == choice.view;
         if (ImGui::RadioButton(label.c_str(), is_it) && !is_it) {
             state.wanted = with_view(state.wanted, choice.view, session.camera());
@@ -132,7 +132,7 @@ void choose_view(ViewState& state, const Session& session) {
     edit_settings(state.wanted, inset);
 }
 
-void show_hand_flight(const Simulation& simulation) {
+void show_hand_flight(const flight::Simulation& simulation) {
     const sim::HandFlight& pilot = simulation.pilot();
     const sim::AircraftState& at = pilot.state();
     const auto throttle = static_cast<float>(simulation.controls().throttle);
@@ -153,7 +153,7 @@ void show_hand_flight(const Simulation& simulation) {
         ImGui::SameLine();
         ImGui::TextColored(
             warning,
-            simulation.end_of_flight() == Simulation::End::OffTheMap ? "left the map"
+            simulation.end_of_flight() == flight::Simulation::End::OffTheMap ? "left the map"
                                                                      : "met the ground");
     } else if (pilot.warnings().stalled) {
         ImGui::SameLine();
@@ -164,7 +164,7 @@ void show_hand_flight(const Simulation& simulation) {
     }
 }
 
-void hand_buttons(ViewState& state, const Simulation& simulation) {
+void hand_buttons(ViewState& state, const flight::Simulation& simulation) {
     const bool by_hand = simulation.by_hand();
     if (ImGui::Button(by_hand ? "Back to the path###hand" : "Fly by hand###hand")) {
         state.requests.toggle_hand = true;
@@ -181,7 +181,7 @@ void hand_buttons(ViewState& state, const Simulation& simulation) {
     show_hand_flight(simulation);
 }
 
-void recording_buttons(ViewState& state, const Simulation& simulation) {
+void recording_buttons(ViewState& state, const flight::Simulation& simulation) {
     if (ImGui::Button(state.recording ? "Stop recording###record" : "Record###record")) {
         state.requests.toggle_recording = true;
     }
@@ -202,7 +202,7 @@ void recording_buttons(ViewState& state, const Simulation& simulation) {
 
 } // namespace
 
-void flight_panel(ViewState& state, Session& session) {
+void flight_panel(ViewState& state, flight::Session& session) {
     const Panel panel(
         "Flight", {{0.0F, 1.0F}, {10.0F, 10.0F}, {430.0F, 330.0F}}, state.open.flight);
     if (!panel.is_seen()) {
@@ -219,4 +219,4 @@ void flight_panel(ViewState& state, Session& session) {
     recording_buttons(state, session.simulation());
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

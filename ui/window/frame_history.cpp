@@ -1,6 +1,6 @@
 #include "ui/window/frame_history.h"
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 void FrameHistory::add(const report::FrameRecord& record) {
     constexpr std::size_t renewed_every = 30;
@@ -13,4 +13,4 @@ void FrameHistory::add(const report::FrameRecord& record) {
     }
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

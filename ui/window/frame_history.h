@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 /// The last frames of a window, oldest first.
 class FrameHistory {
@@ -31,4 +31,4 @@ private:
     std::size_t added_ = 0;
 };
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <span>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace gl = visuals::gl;
 
@@ -119,4 +119,4 @@ bool Gui::wants_keys() const {
     return ImGui::GetIO().WantTextInput;
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -12,7 +12,7 @@
 
 struct GLFWwindow;
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 /// Dear ImGui over a window: its context, input and drawing. One at a time in a process.
 class Gui {
@@ -49,4 +49,4 @@ private:
     std::vector<visuals::gl::PanelDraw> draws_;
 };
 
-} // namespace octant::ui
+} // namespace octant::ui::window

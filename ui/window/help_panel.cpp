@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace {
 
@@ -46,4 +46,4 @@ void first_steps_panel(ViewState& state) {
     }
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace scene = visuals::scene;
 using scene::Settings;
@@ -105,4 +105,4 @@ Settings moved(const Settings& settings, const FreeMove& move, double wall_s) {
     return changed;
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -5,7 +5,7 @@
 
 #include <glm/vec2.hpp>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 /// Which way the free camera is asked to move, each -1, 0 or 1, in its own axes.
 struct FreeMove {
@@ -36,4 +36,4 @@ visuals::scene::Settings with_view(
 visuals::scene::Settings
 moved(const visuals::scene::Settings& settings, const FreeMove& move, double wall_s);
 
-} // namespace octant::ui
+} // namespace octant::ui::window

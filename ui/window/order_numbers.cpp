@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace scene = visuals::scene;
 
@@ -94,8 +94,8 @@ void write_number(int number, const ImVec2& at) {
 
 } // namespace
 
-void write_order_numbers(const Session& session) {
-    const World& world = session.world();
+void write_order_numbers(const flight::Session& session) {
+    const world::World& world = session.world();
     if (session.states().empty() || session.settings().view == scene::View::Cockpit) {
         return;
     }
@@ -131,4 +131,4 @@ void write_order_numbers(const Session& session) {
     }
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

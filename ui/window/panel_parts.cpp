@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <utility>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 Panel::Panel(const char* title, const PanelPlace& place, bool& open) {
     if (!open) {
@@ -97,4 +97,4 @@ void count_slider(std::vector<std::string>& aircraft) {
     }
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 /// Where a panel lies before a person moves it. Sizes at a font of 13 pixels.
 struct PanelPlace {
@@ -64,4 +64,4 @@ void count_slider(std::vector<std::string>& aircraft);
 /// A line "name: value" in two columns.
 void show_value(const char* name, const std::string& value);
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace {
 
@@ -128,4 +128,4 @@ controls_after(const sim::PilotControls& before, const PilotDevices& devices, do
         std::clamp(throttle, 0.0, 1.0)};
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -7,7 +7,7 @@
 #include <array>
 #include <optional>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 /// A gamepad in the standard layout, axes and buttons in the order of GLFWgamepadstate: left x,
 /// left y (down is positive), right x, right y, left and right trigger (-1 let go, 1 pressed). The
@@ -63,4 +63,4 @@ controls_after(const sim::PilotControls& before, const PilotDevices& devices, do
 /// rising, 1 at 1. Not-a-numbers are 0.
 double shaped_axis(double axis);
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 Playback::Moved Playback::pass(double wall_s, bool open_ended) {
     if (!playing) {
@@ -31,4 +31,4 @@ void Playback::change_speed(int steps) {
     speed = std::clamp(speed * std::pow(2.0, steps), slowest, fastest);
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

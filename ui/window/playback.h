@@ -1,6 +1,6 @@
 #pragma once
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 /// Where a path is being played. A value; wall time is handed in.
 struct Playback {
@@ -31,4 +31,4 @@ struct Playback {
     void change_speed(int steps);
 };
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 FramePlot::FramePlot(float height_px, double least, double most)
     : from_(ImGui::GetCursorScreenPos())
@@ -88,4 +88,4 @@ void stacked_bar(std::span<const BarPart> parts, double whole, const char* unit)
     }
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 /// A plot of the last frames over the panel's width, the newest at its right edge, between two
 /// values. Its lines are cut off at them.
@@ -68,4 +68,4 @@ struct BarPart {
 /// where that is more; below it a legend with their values in `unit`.
 void stacked_bar(std::span<const BarPart> parts, double whole, const char* unit);
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <string_view>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace {
 
@@ -56,7 +56,7 @@ void time_of_day(visuals::scene::Settings& settings, double latitude_deg) {
 
 } // namespace
 
-void scene_panel(ViewState& state, const Session& session) {
+void scene_panel(ViewState& state, const flight::Session& session) {
     const Panel panel("Scene", {{1.0F, 0.0F}, {360.0F, 60.0F}, {330.0F, 340.0F}}, state.open.scene);
     if (!panel.is_seen()) {
         return;
@@ -71,4 +71,4 @@ void scene_panel(ViewState& state, const Session& session) {
     ImGui::EndDisabled();
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -1,11 +1,11 @@
-#include "ui/settings_fields.h"
+#include "ui/settings/settings_fields.h"
 #include "ui/window/setting_widgets.h"
 
 #include <array>
 #include <string_view>
 #include <vector>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 using visuals::scene::Settings;
 
@@ -16,7 +16,7 @@ struct Names {
     std::vector<std::string_view> all;
 
     template <class Value>
-    void operator()(const FieldInfo& info, const Value& /*value*/) {
+    void operator()(const settings::FieldInfo& info, const Value& /*value*/) {
         all.push_back(info.name);
     }
 };
@@ -25,25 +25,25 @@ std::vector<std::string_view> names_of(const Settings& settings, SettingGroup gr
     Names names;
     switch (group) {
     case SettingGroup::Path:
-        visit_path_settings(settings, names);
+        settings::visit_path_settings(settings, names);
         break;
     case SettingGroup::View:
-        visit_view_settings(settings, names);
+        settings::visit_view_settings(settings, names);
         break;
     case SettingGroup::Time:
-        visit_time_settings(settings, names);
+        settings::visit_time_settings(settings, names);
         break;
     case SettingGroup::Surface:
-        visit_surface_settings(settings, names);
+        settings::visit_surface_settings(settings, names);
         break;
     case SettingGroup::Shading:
-        visit_shading_settings(settings, names);
+        settings::visit_shading_settings(settings, names);
         break;
     case SettingGroup::Ground:
-        visit_ground_settings(settings, names);
+        settings::visit_ground_settings(settings, names);
         break;
     case SettingGroup::Air:
-        visit_air_settings(settings, names);
+        settings::visit_air_settings(settings, names);
         break;
     }
     return names.all;
@@ -67,4 +67,4 @@ void edit_group(Settings& settings, SettingGroup group) {
     edit_settings(settings, names_of(settings, group));
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

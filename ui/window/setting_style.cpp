@@ -1,6 +1,6 @@
 #include "ui/window/setting_style.h"
 
-#include "ui/settings_change.h"
+#include "ui/settings/settings_change.h"
 
 #include <algorithm>
 #include <array>
@@ -8,21 +8,21 @@
 #include <fmt/ranges.h>
 #include <utility>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace {
 
 constexpr double three_decades = 1000.0;
 
-bool is_wide(const FieldInfo& info) {
+bool is_wide(const settings::FieldInfo& info) {
     const double smallest = info.least > 0.0 ? info.least : 1.0;
     return info.most / smallest >= three_decades;
 }
 
 } // namespace
 
-NumberStyle number_style(const FieldInfo& info) {
-    if (change_by(info.name) == SettingsChange::World) {
+NumberStyle number_style(const settings::FieldInfo& info) {
+    if (settings::change_by(info.name) == settings::SettingsChange::World) {
         return NumberStyle::Typed;
     }
     if (info.least < 0.0) {
@@ -31,7 +31,7 @@ NumberStyle number_style(const FieldInfo& info) {
     return is_wide(info) ? NumberStyle::LogSlider : NumberStyle::Slider;
 }
 
-double start_value(const FieldInfo& info) {
+double start_value(const settings::FieldInfo& info) {
     constexpr std::array starts{
         std::pair<std::string_view, double>{"fov", 45.0},
         std::pair<std::string_view, double>{"triangles", 20000.0},
@@ -45,7 +45,7 @@ double start_value(const FieldInfo& info) {
     return std::clamp(found == starts.end() ? 0.0 : found->second, info.least, info.most);
 }
 
-std::string_view unset_meaning(const FieldInfo& info) {
+std::string_view unset_meaning(const settings::FieldInfo& info) {
     const std::size_t from = info.meaning.rfind('[');
     const std::size_t to = info.meaning.rfind(']');
     if (from == std::string_view::npos || to == std::string_view::npos || to < from) {
@@ -54,7 +54,7 @@ std::string_view unset_meaning(const FieldInfo& info) {
     return info.meaning.substr(from + 1, to - from - 1);
 }
 
-std::string_view unset_word(const FieldInfo& info) {
+std::string_view unset_word(const settings::FieldInfo& info) {
     const std::string_view meaning = unset_meaning(info);
     return meaning.empty() || meaning == "none" ? "none" : "auto";
 }
@@ -76,7 +76,7 @@ std::span<const std::string_view> known_names(std::string_view setting) {
     return {};
 }
 
-std::string tooltip_of(const FieldInfo& info) {
+std::string tooltip_of(const settings::FieldInfo& info) {
     std::string text = fmt::format("{}\n--{}", info.meaning, info.name);
     if (!info.form.empty()) {
         text += fmt::format(" {}", info.form);
@@ -105,4 +105,4 @@ std::vector<std::string> parted(std::string_view text) {
     return names;
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "ui/settings_text.h"
+#include "ui/settings/settings_text.h"
 
 #include <span>
 #include <string>
 #include <string_view>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 // How a setting is shown, decided from what the list of settings says of it. Knows no widgets.
 
@@ -18,25 +18,25 @@ enum class NumberStyle {
     Typed      ///< takes effect on Enter: each change loads something anew
 };
 
-NumberStyle number_style(const FieldInfo& info);
+NumberStyle number_style(const settings::FieldInfo& info);
 
 /// Where an optional number begins when a person switches it on; within its bounds.
-double start_value(const FieldInfo& info);
+double start_value(const settings::FieldInfo& info);
 
 /// What an optional setting is called while it is not set: "auto" or "none".
-std::string_view unset_word(const FieldInfo& info);
+std::string_view unset_word(const settings::FieldInfo& info);
 
 /// What the meaning says in brackets of a setting that is not set; may be empty.
-std::string_view unset_meaning(const FieldInfo& info);
+std::string_view unset_meaning(const settings::FieldInfo& info);
 
 /// Built-in names that a text setting takes beside files; empty where it takes other text.
 std::span<const std::string_view> known_names(std::string_view setting);
 
 /// Meaning with its unit, then the option with its form and bounds.
-std::string tooltip_of(const FieldInfo& info);
+std::string tooltip_of(const settings::FieldInfo& info);
 
 /// Names parted by commas, and back. Blanks around names and empty names are dropped.
 std::string joined(std::span<const std::string> names);
 std::vector<std::string> parted(std::string_view text);
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -1,6 +1,6 @@
 #include "ui/window/setting_widgets.h"
 
-#include "ui/settings_fields.h"
+#include "ui/settings/settings_fields.h"
 #include "ui/window/panel_parts.h"
 #include "ui/window/setting_style.h"
 
@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 using visuals::scene::Settings;
 
@@ -21,7 +21,7 @@ namespace {
 /// Frame of one setting: the value's widget, then its name; both show what it means.
 class Row {
 public:
-    explicit Row(const FieldInfo& info)
+    explicit Row(const settings::FieldInfo& info)
         : info_(info) {
         ImGui::PushID(info.name.data(), info.name.data() + info.name.size());
         ImGui::BeginGroup();
@@ -47,7 +47,7 @@ public:
     float width() const { return width_; }
 
 private:
-    const FieldInfo& info_;
+    const settings::FieldInfo& info_;
     float width_ = 0.0F;
 };
 
@@ -69,7 +69,7 @@ choose(const std::string& shown, std::span<const std::string_view> names, int ch
 }
 
 template <class Number>
-bool edit_number(const FieldInfo& info, Number& value) {
+bool edit_number(const settings::FieldInfo& info, Number& value) {
     constexpr bool whole = std::is_same_v<Number, int>;
     constexpr ImGuiDataType type = whole ? ImGuiDataType_S32 : ImGuiDataType_Double;
     const auto least = static_cast<Number>(info.least);
@@ -101,27 +101,27 @@ bool edit_number(const FieldInfo& info, Number& value) {
     return true;
 }
 
-bool edit(const FieldInfo& info, double& value) {
+bool edit(const settings::FieldInfo& info, double& value) {
     return edit_number(info, value);
 }
 
-bool edit(const FieldInfo& info, int& value) {
+bool edit(const settings::FieldInfo& info, int& value) {
     if (info.name != "samples") {
         return edit_number(info, value);
     }
     constexpr std::array<std::string_view, 2> names{"1", "4"};
-    const auto picked = choose(text_of(value), names, value == 1 ? 0 : 1);
+    const auto picked = choose(settings::text_of(value), names, value == 1 ? 0 : 1);
     if (picked) {
         value = *picked == 0 ? 1 : 4;
     }
     return picked.has_value();
 }
 
-bool edit(const FieldInfo& /*info*/, bool& value) {
+bool edit(const settings::FieldInfo& /*info*/, bool& value) {
     return ImGui::Checkbox("##value", &value);
 }
 
-bool edit(const FieldInfo& info, std::string& value) {
+bool edit(const settings::FieldInfo& info, std::string& value) {
     if (const auto names = known_names(info.name); !names.empty()) {
         return choose_name(info, value, names);
     }
@@ -133,7 +133,7 @@ bool edit(const FieldInfo& info, std::string& value) {
     return true;
 }
 
-bool edit(const FieldInfo& info, std::vector<std::string>& value) {
+bool edit(const settings::FieldInfo& info, std::vector<std::string>& value) {
     const auto typed = typed_text("##value", joined(value), info.form);
     const std::vector<std::string> names = typed ? parted(*typed) : std::vector<std::string>();
     if (names.empty()) {
@@ -143,7 +143,7 @@ bool edit(const FieldInfo& info, std::vector<std::string>& value) {
     return true;
 }
 
-bool edit(const FieldInfo& info, glm::ivec2& value) {
+bool edit(const settings::FieldInfo& info, glm::ivec2& value) {
     std::array<int, 2> edited{value.x, value.y};
     if (!ImGui::InputInt2("##value", edited.data(), ImGuiInputTextFlags_EnterReturnsTrue)) {
         return false;
@@ -155,7 +155,7 @@ bool edit(const FieldInfo& info, glm::ivec2& value) {
     return true;
 }
 
-bool edit(const FieldInfo& info, glm::dvec3& value) {
+bool edit(const settings::FieldInfo& info, glm::dvec3& value) {
     std::array<double, 3> edited{value.x, value.y, value.z};
     constexpr float speed_m = 5.0F;
     if (!ImGui::DragScalarN(
@@ -179,11 +179,11 @@ bool edit(const FieldInfo& info, glm::dvec3& value) {
     return true;
 }
 
-bool edit(const FieldInfo& /*info*/, glm::vec3& colour) {
+bool edit(const settings::FieldInfo& /*info*/, glm::vec3& colour) {
     return ImGui::ColorEdit3("##value", &colour.x, ImGuiColorEditFlags_DisplayHex);
 }
 
-bool edit(const FieldInfo& /*info*/, visuals::scene::Adaptation& adapt) {
+bool edit(const settings::FieldInfo& /*info*/, visuals::scene::Adaptation& adapt) {
     bool changed = ImGui::Checkbox("terrain", &adapt.terrain);
     ImGui::SameLine();
     changed = ImGui::Checkbox("shading", &adapt.shading) || changed;
@@ -193,8 +193,8 @@ bool edit(const FieldInfo& /*info*/, visuals::scene::Adaptation& adapt) {
 template <class Enum>
 requires std::is_enum_v<Enum>
 
-bool edit(const FieldInfo& /*info*/, Enum& value) {
-    const auto picked = choose(text_of(value), EnumNames<Enum>::names(), static_cast<int>(value));
+bool edit(const settings::FieldInfo& /*info*/, Enum& value) {
+    const auto picked = choose(settings::text_of(value), settings::EnumNames<Enum>::names(), static_cast<int>(value));
     if (picked) {
         value = static_cast<Enum>(*picked);
     }
@@ -204,8 +204,8 @@ bool edit(const FieldInfo& /*info*/, Enum& value) {
 template <class Enum>
 requires std::is_enum_v<Enum>
 
-bool edit(const FieldInfo& info, std::optional<Enum>& value) {
-    std::vector<std::string_view> names = EnumNames<Enum>::names();
+bool edit(const settings::FieldInfo& info, std::optional<Enum>& value) {
+    std::vector<std::string_view> names = settings::EnumNames<Enum>::names();
     names.insert(names.begin(), unset_word(info));
     const int chosen = value ? static_cast<int>(*value) + 1 : 0;
     const auto picked = choose(std::string(names[static_cast<std::size_t>(chosen)]), names, chosen);
@@ -217,7 +217,7 @@ bool edit(const FieldInfo& info, std::optional<Enum>& value) {
     return picked.has_value();
 }
 
-bool edit(const FieldInfo& info, std::optional<std::string>& value) {
+bool edit(const settings::FieldInfo& info, std::optional<std::string>& value) {
     const std::string hint(unset_meaning(info).empty() ? unset_word(info) : unset_meaning(info));
     const auto typed = typed_text("##value", value.value_or(""), hint);
     if (!typed) {
@@ -228,7 +228,7 @@ bool edit(const FieldInfo& info, std::optional<std::string>& value) {
 }
 
 template <class Value>
-Value started(const FieldInfo& info) {
+Value started(const settings::FieldInfo& info) {
     if constexpr (std::is_arithmetic_v<Value>) {
         return static_cast<Value>(start_value(info));
     } else {
@@ -238,7 +238,7 @@ Value started(const FieldInfo& info) {
 
 /// A check mark while it is not set, and then what that means; else the value.
 template <class Value>
-bool edit(const FieldInfo& info, std::optional<Value>& value) {
+bool edit(const settings::FieldInfo& info, std::optional<Value>& value) {
     const float whole = ImGui::CalcItemWidth();
     const float from = ImGui::GetCursorPosX();
     bool unset = !value;
@@ -265,7 +265,7 @@ bool is_fixed(std::string_view setting) {
 
 struct RowOfWidgets {
     template <class Value>
-    void operator()(const FieldInfo& info, Value& value) const {
+    void operator()(const settings::FieldInfo& info, Value& value) const {
         const Row row(info);
         ImGui::BeginDisabled(is_fixed(info.name));
         edit(info, value);
@@ -276,7 +276,7 @@ struct RowOfWidgets {
 } // namespace
 
 bool choose_name(
-    const FieldInfo& info, std::string& name, std::span<const std::string_view> names) {
+    const settings::FieldInfo& info, std::string& name, std::span<const std::string_view> names) {
     bool changed = false;
     if (!ImGui::BeginCombo("##value", name.c_str())) {
         return changed;
@@ -306,7 +306,7 @@ bool choose_name(
 void edit_settings(Settings& settings, std::span<const std::string_view> names) {
     const RowOfWidgets row;
     for (const std::string_view name : names) {
-        visit_settings(settings, [&](const FieldInfo& info, auto& value) {
+        settings::visit_settings(settings, [&](const settings::FieldInfo& info, auto& value) {
             if (info.name == name) {
                 row(info, value);
             }
@@ -314,4 +314,4 @@ void edit_settings(Settings& settings, std::span<const std::string_view> names) 
     }
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

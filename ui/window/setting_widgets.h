@@ -1,13 +1,13 @@
 #pragma once
 
-#include "ui/settings_text.h"
+#include "ui/settings/settings_text.h"
 #include "visuals/scene/settings.h"
 
 #include <span>
 #include <string>
 #include <string_view>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 // Widgets made from the list of all settings (ui/settings_fields.h), between ImGui::NewFrame and
 // ImGui::Render. What a person changes is in the settings at once; text and what loads something
@@ -27,6 +27,6 @@ const char* title_of(SettingGroup group);
 void edit_group(visuals::scene::Settings& settings, SettingGroup group);
 
 /// A list of built-in names, and a field for any other such as a file. True when it was changed.
-bool choose_name(const FieldInfo& info, std::string& name, std::span<const std::string_view> names);
+bool choose_name(const settings::FieldInfo& info, std::string& name, std::span<const std::string_view> names);
 
-} // namespace octant::ui
+} // namespace octant::ui::window

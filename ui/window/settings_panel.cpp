@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace {
 
@@ -49,4 +49,4 @@ void settings_panel(ViewState& state) {
     }
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

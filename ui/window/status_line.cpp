@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <optional>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace {
 
-std::optional<HandStatus> hand_status(const Simulation& simulation) {
+std::optional<HandStatus> hand_status(const flight::Simulation& simulation) {
     if (!simulation.by_hand()) {
         return std::nullopt;
     }
@@ -17,7 +17,7 @@ std::optional<HandStatus> hand_status(const Simulation& simulation) {
     return HandStatus{
         simulation.pilot().warnings(),
         end.has_value(),
-        end.has_value() && *end == Simulation::End::OffTheMap};
+        end.has_value() && *end == flight::Simulation::End::OffTheMap};
 }
 
 const ImVec4 warning_colour{1.0F, 0.35F, 0.25F, 1.0F};
@@ -25,7 +25,7 @@ const ImVec4 mark_colour{1.0F, 0.95F, 0.7F, 1.0F};
 
 } // namespace
 
-void status_line(const ViewState& state, Session& session, double now_s) {
+void status_line(const ViewState& state, flight::Session& session, double now_s) {
     const auto marks = status_marks(state, hand_status(session.simulation()));
     const bool speaks = now_s < state.message.until_s && !state.message.text.empty();
     if (marks.empty() && !speaks) {
@@ -56,7 +56,7 @@ void status_line(const ViewState& state, Session& session, double now_s) {
     ImGui::End();
 }
 
-void all_panels(ViewState& state, Session& session, double now_s) {
+void all_panels(ViewState& state, flight::Session& session, double now_s) {
     if (state.order_numbers) {
         write_order_numbers(session);
     }
@@ -75,4 +75,4 @@ void all_panels(ViewState& state, Session& session, double now_s) {
     first_steps_panel(state);
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 std::vector<StatusMark>
 status_marks(const ViewState& state, const std::optional<HandStatus>& hand) {
@@ -33,4 +33,4 @@ status_marks(const ViewState& state, const std::optional<HandStatus>& hand) {
     return marks;
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 /// A word that is always to be seen.
 struct StatusMark {
@@ -25,4 +25,4 @@ struct HandStatus {
 /// "REC folder", "paused", "x0.5", "by hand", "STALL", ... in this order; each where it holds.
 std::vector<StatusMark> status_marks(const ViewState& state, const std::optional<HandStatus>& hand);
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 SunPosition sun_position(double latitude_deg, double day, double solar_hour) {
     const double declination = rad_from_deg(23.45) * std::sin(2.0 * pi * (284.0 + day) / 365.0);
@@ -28,4 +28,4 @@ SunPosition sun_position(double latitude_deg, double day, double solar_hour) {
         deg_from_rad(std::asin(std::clamp(up, -1.0, 1.0)))};
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

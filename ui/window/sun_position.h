@@ -1,6 +1,6 @@
 #pragma once
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 /// Where the sun stands.
 struct SunPosition {
@@ -12,4 +12,4 @@ struct SunPosition {
 /// the sun overhead, the azimuth is some direction. Within about a degree.
 SunPosition sun_position(double latitude_deg, double day, double solar_hour);
 
-} // namespace octant::ui
+} // namespace octant::ui::window

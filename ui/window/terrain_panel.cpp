@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <string_view>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace {
 
@@ -78,7 +78,7 @@ void show_counts(const FrameRecord& last) {
 
 } // namespace
 
-void terrain_panel(ViewState& state, const Session& session) {
+void terrain_panel(ViewState& state, const flight::Session& session) {
     const Panel panel(
         "Terrain", {{1.0F, 0.0F}, {10.0F, 10.0F}, {340.0F, 390.0F}}, state.open.terrain);
     if (!panel.is_seen()) {
@@ -94,4 +94,4 @@ void terrain_panel(ViewState& state, const Session& session) {
     edit_settings(state.wanted, controls);
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <span>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace {
 
@@ -149,4 +149,4 @@ void timing_panel(ViewState& state) {
     ImGui::Checkbox("wait for the display (vsync)", &state.vsync);
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

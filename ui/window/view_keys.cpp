@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace {
 
@@ -63,4 +63,4 @@ std::span<const HeldKey> held_keys() {
     return held;
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 /// What a key asks of the window.
 enum class ViewCommand {
@@ -59,4 +59,4 @@ struct HeldKey {
 
 std::span<const HeldKey> held_keys();
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 /// Which panels are open.
 struct OpenPanels {
@@ -67,4 +67,4 @@ struct ViewState {
     std::optional<std::filesystem::path> recording; ///< where one is being written
 };
 
-} // namespace octant::ui
+} // namespace octant::ui::window

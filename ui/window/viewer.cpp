@@ -2,7 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
-#include "ui/settings_change.h"
+#include "ui/settings/settings_change.h"
 #include "ui/window/look_control.h"
 #include "ui/window/panels.h"
 
@@ -16,7 +16,7 @@
 #include <thread>
 #include <utility>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace fs = std::filesystem;
 namespace scene = visuals::scene;
@@ -50,7 +50,7 @@ Viewer::Viewer(const ViewOptions& options)
     scene::Settings settings = options.settings;
     settings.context = scene::ContextKind::Window;
     settings.size_px = input_->size_px();
-    session_ = std::make_unique<Session>(settings, Shows::World, std::move(context));
+    session_ = std::make_unique<flight::Session>(settings, flight::Shows::World, std::move(context));
     session_->present_by([this](gl::Renderer& renderer) {
         if (!renderer.is_in_window()) {
             renderer.copy_to(0, input_->size_px());
@@ -78,7 +78,7 @@ Viewer::Viewer(const ViewOptions& options)
     if (options.record) {
         start_recording(*options.record);
     }
-    clock_ = Stopwatch();
+    clock_ = base::Stopwatch();
 }
 
 /// Without a folder of the user's own it does as well.
@@ -134,7 +134,7 @@ bool Viewer::turn() {
     apply_wanted();
     if (state_.playback.playing && session_->simulation().end_of_flight()) {
         state_.playback.playing = false;
-        say(session_->simulation().end_of_flight() == Simulation::End::OffTheMap
+        say(session_->simulation().end_of_flight() == flight::Simulation::End::OffTheMap
                 ? "the edge of the map ends the flight: H goes back to the path"
                 : "the ground ends the flight: T flies on above it, H goes back to the path");
     }
@@ -191,7 +191,7 @@ void Viewer::move_free_camera(double wall_s) {
 }
 
 void Viewer::fly_by_hand(double wall_s, bool typing) {
-    Simulation& simulation = session_->simulation();
+    flight::Simulation& simulation = session_->simulation();
     if (!simulation.by_hand()) {
         return;
     }
@@ -213,7 +213,7 @@ void Viewer::apply_wanted() {
         return;
     }
     const bool other_flight =
-        change_between(session_->settings(), state_.wanted) == SettingsChange::World;
+        settings::change_between(session_->settings(), state_.wanted) == settings::SettingsChange::World;
     try {
         if (other_flight && recording_) {
             throw Error("a recording keeps what is loaded: stop it first (F9)");
@@ -273,4 +273,4 @@ void Viewer::wait_for_display(double turn_began_s) const {
     }
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ui/session.h"
-#include "ui/stopwatch.h"
+#include "ui/flight/session.h"
+#include "ui/base/stopwatch.h"
 #include "ui/window/gui.h"
 #include "ui/window/pilot_input.h"
 #include "ui/window/view_keys.h"
@@ -16,7 +16,7 @@
 #include <optional>
 #include <string>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 struct ViewOptions {
     visuals::scene::Settings settings; ///< size_px: of the window, in the display's units
@@ -52,7 +52,7 @@ public:
 
     const Gui& gui() const { return *gui_; }
 
-    Session& session() { return *session_; }
+    flight::Session& session() { return *session_; }
 
     ViewState& state() { return state_; }
 
@@ -89,12 +89,12 @@ private:
 
     ViewOptions options_;
     visuals::gl::WindowContext* context_ = nullptr; ///< the session's
-    std::unique_ptr<Session> session_;
+    std::unique_ptr<flight::Session> session_;
     std::optional<WindowInput> input_;
     std::optional<Gui> gui_;
     ViewState state_;
     std::optional<WindowRecording> recording_;
-    Stopwatch clock_;
+    base::Stopwatch clock_;
     double last_turn_s_ = 0.0;
     double shown_s_ = 0.0;       ///< simulated time of the next picture
     double input_s_ = 0.0;       ///< when the input of the picture after it was read
@@ -106,4 +106,4 @@ private:
     glm::ivec2 windowed_size_{0};
 };
 
-} // namespace octant::ui
+} // namespace octant::ui::window

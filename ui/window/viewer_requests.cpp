@@ -1,10 +1,10 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
-#include "ui/flight_recorder.h"
-#include "ui/id_comparison.h"
-#include "ui/input_files.h"
+#include "ui/flight/flight_recorder.h"
+#include "ui/studies/draw_order/id_comparison.h"
+#include "ui/world/input_files.h"
 #include "ui/report/png_file.h"
-#include "ui/settings_file.h"
+#include "ui/settings/settings_file.h"
 #include "ui/window/look_control.h"
 #include "ui/window/view_keys.h"
 #include "ui/window/viewer.h"
@@ -18,7 +18,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace fs = std::filesystem;
 namespace scene = visuals::scene;
@@ -180,13 +180,13 @@ void Viewer::take_requests() {
     }
     try {
         if (requests.save_settings) {
-            scene::Settings saved = with_absolute_files(session_->settings());
+            scene::Settings saved = world::with_absolute_files(session_->settings());
             saved.context = scene::ContextKind::OsMesa;
-            write_file(*requests.save_settings, settings_json(saved).dump(2) + "\n");
+            write_file(*requests.save_settings, settings::settings_json(saved).dump(2) + "\n");
             say(fmt::format("settings: {}", requests.save_settings->string()));
         }
         if (requests.load_settings) {
-            state_.wanted = read_settings(*requests.load_settings);
+            state_.wanted = settings::read_settings(*requests.load_settings);
             state_.wanted.context = scene::ContextKind::Window;
             fit_to_window();
         }
@@ -199,7 +199,7 @@ void Viewer::take_flight_requests(const ViewRequests& requests) {
     if (requests.toggle_hand) {
         toggle_hand();
     }
-    Simulation& simulation = session_->simulation();
+    flight::Simulation& simulation = session_->simulation();
     if (requests.level_off && simulation.by_hand()) {
         simulation.level_off(session_->settings().aircraft.front());
         state_.playback.playing = true;
@@ -228,7 +228,7 @@ void Viewer::go_to(double time_s) {
 
 /// Back on the path it goes on where the path is at that time.
 void Viewer::toggle_hand() {
-    Simulation& simulation = session_->simulation();
+    flight::Simulation& simulation = session_->simulation();
     if (!simulation.by_hand()) {
         simulation.advance_to(simulation.time_s());
         simulation.take_over(session_->settings().aircraft.front());
@@ -290,7 +290,7 @@ void Viewer::take_screenshot() {
     const fs::path file = unused_path("picture", ".png");
     try {
         session_->read_picture();
-        report::write_png(file, view_of(session_->picture()));
+        report::write_png(file, flight::view_of(session_->picture()));
         say(fmt::format("picture: {}", file.string()));
     } catch (const Error& fault) {
         say(fault.what());
@@ -299,7 +299,7 @@ void Viewer::take_screenshot() {
 
 void Viewer::count_wrong_pixels() {
     try {
-        const PixelCheck check = check_pixels(*session_, context_->functions());
+        const studies::draw_order::PixelCheck check = studies::draw_order::check_pixels(*session_, context_->functions());
         state_.wrong_pixels = {check.wrong, check.differing, check.pixels};
     } catch (const Error& fault) {
         say(fault.what());
@@ -330,4 +330,4 @@ void Viewer::toggle_full_screen() {
     glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -1,13 +1,13 @@
 #include "ui/window/window_bench.h"
 
-#include "ui/progress.h"
+#include "ui/base/progress.h"
 #include "ui/report/statistics.h"
-#include "ui/stopwatch.h"
+#include "ui/base/stopwatch.h"
 
 #include <algorithm>
 #include <vector>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace {
 
@@ -30,17 +30,17 @@ WindowBench bench_window(const ViewOptions& options, int frames, bool quiet) {
     Viewer viewer(unhurried(options));
     visuals::scene::Settings settings = viewer.session().settings();
     settings.context = visuals::scene::ContextKind::OsMesa;
-    Session session(settings);
+    flight::Session session(settings);
     const int count = std::min(frames + warm_up_frames, session.frames());
     viewer.state().playback.speed = 0.5;
     viewer.state().open.timing = true;
     std::vector<double> without;
     std::vector<double> hidden;
     std::vector<double> open;
-    Progress progress("window", count, quiet);
+    base::Progress progress("window", count, quiet);
     for (int frame = 0; frame < count; ++frame) {
         const auto timed = [&](std::vector<double>& all, const auto& work) {
-            const Stopwatch watch;
+            const base::Stopwatch watch;
             work();
             if (frame >= warm_up_frames) {
                 all.push_back(watch.ms());
@@ -59,4 +59,4 @@ WindowBench bench_window(const ViewOptions& options, int frames, bool quiet) {
     return {times_of(without), times_of(hidden), times_of(open)};
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -2,7 +2,7 @@
 
 #include "ui/window/viewer.h"
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 /// Median and tail of one way to show a flight.
 struct WindowTimes {
@@ -21,4 +21,4 @@ struct WindowBench {
 /// read or shown, with everything that the window does in between. Opens a window. Throws Error.
 WindowBench bench_window(const ViewOptions& options, int frames, bool quiet);
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 struct WindowCallbacks {
     static WindowInput& input_of(GLFWwindow* window) {
@@ -98,4 +98,4 @@ glm::ivec2 WindowInput::size() const {
     return size;
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

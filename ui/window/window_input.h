@@ -8,7 +8,7 @@
 
 struct GLFWwindow;
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 /// What a person did to a window since it was last asked.
 struct WindowEvents {
@@ -55,4 +55,4 @@ private:
     friend struct WindowCallbacks;
 };
 
-} // namespace octant::ui
+} // namespace octant::ui::window

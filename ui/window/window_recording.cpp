@@ -3,18 +3,18 @@
 #include "flightpaths/track_writer.h"
 #include "sim/base/error.h"
 #include "sim/fixed_step.h"
-#include "ui/flight_recorder.h"
-#include "ui/input_files.h"
-#include "ui/settings_file.h"
-#include "ui/stopwatch.h"
-#include "ui/track_files.h"
+#include "ui/flight/flight_recorder.h"
+#include "ui/world/input_files.h"
+#include "ui/settings/settings_file.h"
+#include "ui/base/stopwatch.h"
+#include "ui/flight/track_files.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 namespace scene = visuals::scene;
 
@@ -26,8 +26,8 @@ constexpr const char* flight_name = "flight.csv";
 
 /// Settings that fly without a window what a window flies from this step on.
 scene::Settings
-from_step(const Session& session, long step, const std::filesystem::path& folder, bool by_hand) {
-    scene::Settings settings = with_absolute_files(session.settings());
+from_step(const flight::Session& session, long step, const std::filesystem::path& folder, bool by_hand) {
+    scene::Settings settings = world::with_absolute_files(session.settings());
     settings.context = scene::ContextKind::OsMesa;
     settings.frames.reset();
     settings.seconds.reset();
@@ -45,8 +45,8 @@ from_step(const Session& session, long step, const std::filesystem::path& folder
 
 /// Takes the step of the session's time where it has only been gone to. Throws Error at a path's
 /// end.
-long first_step_of(Session& session) {
-    Simulation& simulation = session.simulation();
+long first_step_of(flight::Session& session) {
+    flight::Simulation& simulation = session.simulation();
     simulation.advance_to(simulation.time_s());
     if (!simulation.by_hand() && simulation.time_s() >= session.world().flight.trajectory.end_s()) {
         throw Error("the path has ended: begin it again (Home), then record");
@@ -54,9 +54,9 @@ long first_step_of(Session& session) {
     return simulation.step();
 }
 
-report::RunInfo info_of(const Session& session, const scene::Settings& to_repeat) {
-    report::RunInfo info = run_info(with_absolute_files(session.settings()), session);
-    info.settings_json = settings_json(to_repeat).dump(2);
+report::RunInfo info_of(const flight::Session& session, const scene::Settings& to_repeat) {
+    report::RunInfo info = flight::run_info(world::with_absolute_files(session.settings()), session);
+    info.settings_json = settings::settings_json(to_repeat).dump(2);
     info.facts.emplace_back(report::flown_fact, "in a window, by the clock");
     return info;
 }
@@ -70,7 +70,7 @@ std::string lines_of(std::span<const sim::AircraftState> states, bool with_head)
 
 } // namespace
 
-WindowRecording::WindowRecording(std::filesystem::path folder, Session& session)
+WindowRecording::WindowRecording(std::filesystem::path folder, flight::Session& session)
     : first_step_(first_step_of(session))
     , recording_(
           folder,
@@ -82,7 +82,7 @@ WindowRecording::WindowRecording(std::filesystem::path folder, Session& session)
     last_hash_ = session.simulation().state_hash();
 }
 
-void WindowRecording::append_states(Session& session) {
+void WindowRecording::append_states(flight::Session& session) {
     const auto log = session.simulation().log();
     if (!flight_) {
         flight_.emplace(recording_.folder() / flight_name);
@@ -94,21 +94,21 @@ void WindowRecording::append_states(Session& session) {
     flight_->flush();
 }
 
-void WindowRecording::add(report::FrameRecord record, Session& session) {
+void WindowRecording::add(report::FrameRecord record, flight::Session& session) {
     if (std::exchange(first_is_older_, false)) {
         return;
     }
-    const Stopwatch writing;
+    const base::Stopwatch writing;
     record.frame = frames_++;
     last_time_s_ = record.sim_time_s;
     last_hash_ = session.picture_state_hash();
     if (!by_hand_ && session.simulation().by_hand()) {
         by_hand_ = true;
-        recording_.set_settings(settings_json(settings_to_repeat(session)).dump(2));
+        recording_.set_settings(settings::settings_json(settings_to_repeat(session)).dump(2));
     }
     if (record.sim_time_s >= next_picture_s_) {
         session.read_picture();
-        recording_.add_picture(record.frame, view_of(session.picture()));
+        recording_.add_picture(record.frame, flight::view_of(session.picture()));
         next_picture_s_ += picture_every_s;
     }
     if (by_hand_ && record.wall_s - flushed_wall_s_ >= flush_every_s) {
@@ -124,12 +124,12 @@ double WindowRecording::length_s() const {
 }
 
 /// States from the first step to the last picture's; fewer where a flight by hand ended before.
-std::size_t WindowRecording::states_to_the_end(Session& session) const {
+std::size_t WindowRecording::states_to_the_end(flight::Session& session) const {
     const long steps = sim::step_at(last_time_s_) - first_step_ + 1;
     return std::min(static_cast<std::size_t>(steps), session.simulation().log().size());
 }
 
-scene::Settings WindowRecording::settings_to_repeat(Session& session) const {
+scene::Settings WindowRecording::settings_to_repeat(flight::Session& session) const {
     scene::Settings settings = from_step(session, first_step_, recording_.folder(), by_hand_);
     const long steps = sim::step_at(last_time_s_) - first_step_;
     if (!by_hand_ && steps > 0) {
@@ -140,20 +140,20 @@ scene::Settings WindowRecording::settings_to_repeat(Session& session) const {
     return settings;
 }
 
-std::string WindowRecording::finish(Session& session) {
+std::string WindowRecording::finish(flight::Session& session) {
     const auto states = session.simulation().log().first(states_to_the_end(session));
-    recording_.set_settings(settings_json(settings_to_repeat(session)).dump(2));
+    recording_.set_settings(settings::settings_json(settings_to_repeat(session)).dump(2));
     if (by_hand_) {
         flight_.reset();
         write_file(recording_.folder() / flight_name, lines_of(states, true));
     }
-    write_tracks(
+    flight::write_tracks(
         recording_.folder(),
         session.world(),
         sim::Trajectory(std::vector<sim::AircraftState>(states.begin(), states.end())));
     recording_.finish({last_hash_, std::nullopt, report::read_cpu_times()});
     session.simulation().stop_log();
-    return write_report(recording_.folder());
+    return flight::write_report(recording_.folder());
 }
 
-} // namespace octant::ui
+} // namespace octant::ui::window

@@ -2,7 +2,7 @@
 
 #include "sim/base/output_file.h"
 #include "ui/report/recording.h"
-#include "ui/session.h"
+#include "ui/flight/session.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-namespace octant::ui {
+namespace octant::ui::window {
 
 /// A flight in a window being recorded. Its run.json flies the same simulation steps again without
 /// a window: along the path from where the recording began for as long as it took, or, where it was
@@ -18,14 +18,14 @@ namespace octant::ui {
 class WindowRecording {
 public:
     /// Begins with the session's last simulation step. Throws Error.
-    WindowRecording(std::filesystem::path folder, Session& session);
+    WindowRecording(std::filesystem::path folder, flight::Session& session);
 
     /// Takes the frame that the session has just drawn. A picture is kept every simulated second.
     /// Throws Error (disk full).
-    void add(report::FrameRecord record, Session& session);
+    void add(report::FrameRecord record, flight::Session& session);
 
     /// Ends with the last picture. Gives the line that says where the report is. Throws Error.
-    std::string finish(Session& session);
+    std::string finish(flight::Session& session);
 
     const std::filesystem::path& folder() const { return recording_.folder(); }
 
@@ -33,9 +33,9 @@ public:
     double length_s() const;
 
 private:
-    void append_states(Session& session);
-    visuals::scene::Settings settings_to_repeat(Session& session) const;
-    std::size_t states_to_the_end(Session& session) const;
+    void append_states(flight::Session& session);
+    visuals::scene::Settings settings_to_repeat(flight::Session& session) const;
+    std::size_t states_to_the_end(flight::Session& session) const;
 
     long first_step_;
     report::Recording recording_;
@@ -50,4 +50,4 @@ private:
     double flushed_wall_s_ = 0.0;
 };
 
-} // namespace octant::ui
+} // namespace octant::ui::window

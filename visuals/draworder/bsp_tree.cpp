@@ -35,7 +35,7 @@ enum class Among {
 
 class BspBuilding {
 public:
-    BspBuilding(models::PolygonModel model, Among among)
+    BspBuilding(models::polygons::PolygonModel model, Among among)
         : tolerance_m_(split_tolerance_m(model))
         , among_(among) {
         tree_.model = std::move(model);
@@ -88,7 +88,7 @@ private:
     };
 
     std::vector<Side> sides_of(std::uint32_t cutter, const Polygons& polygons) const {
-        const Plane plane = models::plane_of(tree_.model, cutter);
+        const Plane plane = models::polygons::plane_of(tree_.model, cutter);
         std::vector<Side> sides;
         for (const std::uint32_t polygon : polygons) {
             sides.push_back(polygon == cutter ? Side::In : side_of(polygon, plane));
@@ -154,7 +154,7 @@ private:
         tree_.depth = std::max(tree_.depth, task.level);
         BspTree::Node node;
         const std::uint32_t chosen = best_of(task.polygons);
-        node.plane = models::plane_of(tree_.model, chosen);
+        node.plane = models::polygons::plane_of(tree_.model, chosen);
         node.first = tree_.polygons.size();
         Task front{{}, number, true, task.level + 1};
         Task back{{}, number, false, task.level + 1};
@@ -185,7 +185,7 @@ private:
     void add_to_plane(std::uint32_t polygon, const Plane& plane) {
         tree_.polygons.push_back(polygon);
         tree_.along.push_back(
-            glm::dot(models::normal_of(tree_.model, polygon), plane.normal) > 0.0);
+            glm::dot(models::polygons::normal_of(tree_.model, polygon), plane.normal) > 0.0);
     }
 
     BspTree tree_;
@@ -195,7 +195,7 @@ private:
 
 } // namespace
 
-BspTree bsp_tree(const models::PolygonModel& model) {
+BspTree bsp_tree(const models::polygons::PolygonModel& model) {
     BspTree even = BspBuilding(model, Among::Even).build();
     BspTree settled = BspBuilding(model, Among::Settled).build();
     return settled.splits < even.splits ? settled : even;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 #include "sim/base/plane.h"
 
 #include <glm/vec3.hpp>
@@ -26,7 +26,7 @@ struct BspTree {
         std::size_t count = 0;
     };
 
-    models::PolygonModel model;          ///< with the pieces; parents say of what
+    models::polygons::PolygonModel model;          ///< with the pieces; parents say of what
     std::vector<Node> nodes;             ///< node 0 is the root; children are later nodes
     std::vector<std::uint32_t> polygons; ///< each polygon of `model` once, node after node
     std::vector<bool> along;             ///< whether polygons[i] faces where its node's normal does
@@ -39,7 +39,7 @@ struct BspTree {
 /// leaves the two sides nearest in number, or the one that leaves the fewest polygons whose planes
 /// cut others: of these two trees the one with fewer cuts. The time grows with the square of the
 /// polygons at least.
-BspTree bsp_tree(const models::PolygonModel& model);
+BspTree bsp_tree(const models::polygons::PolygonModel& model);
 
 /// The polygons that face an eye, first painted first, appended to `painted`. Takes no memory once
 /// both vectors have grown; `to_do` is working space.

@@ -45,7 +45,7 @@ glm::dvec3 best_coordinates(const WorkingModel& work, const Cycles& cycles) {
     return best;
 }
 
-glm::dvec3 middle_m(const models::PolygonModel& model) {
+glm::dvec3 middle_m(const models::polygons::PolygonModel& model) {
     glm::dvec3 least(std::numeric_limits<double>::max());
     glm::dvec3 most(-std::numeric_limits<double>::max());
     for (const std::uint32_t vertex : model.corner_vertices) {

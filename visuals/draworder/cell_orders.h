@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 #include "sim/base/plane.h"
 #include "visuals/draworder/ordered_model.h"
 

@@ -45,7 +45,7 @@ struct Axis {
     }
 };
 
-Axis axis_of(const models::Pivot& pivot, const CheckFrame& frame) {
+Axis axis_of(const models::polygons::Pivot& pivot, const CheckFrame& frame) {
     const glm::dvec3 aside =
         std::abs(pivot.axis.x) > 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     const glm::dvec3 right = glm::normalize(glm::cross(aside, pivot.axis));
@@ -106,7 +106,7 @@ std::vector<Plane> swept_planes(const Axis& axis, const Plane& plane) {
 
 } // namespace
 
-CheckFrame check_frame(const models::PolygonModel& model) {
+CheckFrame check_frame(const models::polygons::PolygonModel& model) {
     glm::dvec3 least(model.vertices_m[model.corner_vertices.front()]);
     glm::dvec3 most = least;
     for (const std::uint32_t vertex : model.corner_vertices) {
@@ -117,7 +117,7 @@ CheckFrame check_frame(const models::PolygonModel& model) {
 }
 
 std::vector<CheckShape> check_shapes(
-    const models::PolygonModel& model,
+    const models::polygons::PolygonModel& model,
     const CheckFrame& frame,
     std::span<const std::uint32_t> two_sided) {
     std::vector<CheckShape> shapes;
@@ -127,12 +127,12 @@ std::vector<CheckShape> check_shapes(
             shape.corners.push_back(frame.from_body(model.vertices_m[vertex]));
         }
         shape.corners = drawn_together(std::move(shape.corners));
-        const Plane plane = frame.from_body(models::plane_of(model, i));
+        const Plane plane = frame.from_body(models::polygons::plane_of(model, i));
         shape.fronts = {plane};
         if (std::ranges::find(two_sided, i) != two_sided.end()) {
             shape.fronts.push_back({-plane.normal, -plane.offset_m});
         }
-        shape.pivot = models::pivot_of(model, i);
+        shape.pivot = models::polygons::pivot_of(model, i);
         shape.swept = shape.corners;
         shape.swept_fronts = shape.fronts;
         if (shape.pivot) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 #include "sim/base/plane.h"
 
 #include <glm/vec3.hpp>
@@ -26,7 +26,7 @@ struct CheckFrame {
     }
 };
 
-CheckFrame check_frame(const models::PolygonModel& model);
+CheckFrame check_frame(const models::polygons::PolygonModel& model);
 
 /// A polygon as a check sees it, in a CheckFrame. Its corners are drawn towards their middle by
 /// check_tolerance, so that polygons which touch do not overlap.
@@ -43,7 +43,7 @@ struct CheckShape {
 };
 
 std::vector<CheckShape> check_shapes(
-    const models::PolygonModel& model,
+    const models::polygons::PolygonModel& model,
     const CheckFrame& frame,
     std::span<const std::uint32_t> two_sided);
 

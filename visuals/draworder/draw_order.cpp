@@ -66,7 +66,7 @@ std::span<const std::uint32_t> DrawOrder::polygons_of(int cell) const {
     return polygons().subspan(range.first, range.count);
 }
 
-DrawOrder file_order(const models::PolygonModel& model) {
+DrawOrder file_order(const models::polygons::PolygonModel& model) {
     std::vector<std::uint32_t> list(model.polygons.size());
     std::iota(list.begin(), list.end(), 0U);
     return DrawOrder(std::move(list));

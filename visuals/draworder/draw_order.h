@@ -70,6 +70,6 @@ private:
 
 /// One cell that lists all polygons in file order: for painting with a depth buffer, and for models
 /// whose file order is their painting order.
-DrawOrder file_order(const models::PolygonModel& model);
+DrawOrder file_order(const models::polygons::PolygonModel& model);
 
 } // namespace octant::visuals::draworder

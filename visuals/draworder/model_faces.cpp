@@ -15,7 +15,7 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-double farthest_m(const models::PolygonModel& model, const glm::dvec3& origin_m) {
+double farthest_m(const models::polygons::PolygonModel& model, const glm::dvec3& origin_m) {
     double farthest = 0.0;
     for (const std::uint32_t vertex : model.corner_vertices) {
         farthest = std::max(farthest, glm::distance(model.vertices_m[vertex], origin_m));
@@ -23,10 +23,10 @@ double farthest_m(const models::PolygonModel& model, const glm::dvec3& origin_m)
     return farthest > 0.0 ? farthest : 1.0;
 }
 
-Tolerances tolerances_of(const models::PolygonModel& model, double unit_m) {
+Tolerances tolerances_of(const models::polygons::PolygonModel& model, double unit_m) {
     double bent = 0.0;
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-        const Plane plane = models::plane_of(model, i);
+        const Plane plane = models::polygons::plane_of(model, i);
         for (const std::uint32_t vertex : model.corners(i)) {
             bent = std::max(bent, std::abs(distance_m(plane, model.vertices_m[vertex])) / unit_m);
         }
@@ -37,18 +37,18 @@ Tolerances tolerances_of(const models::PolygonModel& model, double unit_m) {
     return tolerances;
 }
 
-Face outline_of(const models::PolygonModel& model, std::size_t polygon, const ModelFaces& faces) {
+Face outline_of(const models::polygons::PolygonModel& model, std::size_t polygon, const ModelFaces& faces) {
     std::vector<glm::dvec3> corners;
     for (const std::uint32_t vertex : model.corners(polygon)) {
         corners.push_back((model.vertices_m[vertex] - faces.origin_m) / faces.unit_m);
     }
-    const Plane plane = faces.in_faces(models::plane_of(model, polygon));
+    const Plane plane = faces.in_faces(models::polygons::plane_of(model, polygon));
     return outline_face(corners, plane, faces.tolerances.inset);
 }
 
 /// Pairs within one part, for eyes everywhere. Where they form cycles, the pairs that an order by
 /// number breaks are left out.
-void add_rigid_pairs(const models::PolygonModel& model, std::uint32_t pivot, ModelFaces& out) {
+void add_rigid_pairs(const models::polygons::PolygonModel& model, std::uint32_t pivot, ModelFaces& out) {
     HidingTest test(out.tolerances);
     PolygonSet part(out.faces.size());
     std::vector<Face> still(out.faces.size());
@@ -92,7 +92,7 @@ void add_rigid_pairs(const models::PolygonModel& model, std::uint32_t pivot, Mod
 }
 
 /// Marks what a turning polygon runs into at some angle.
-void find_meetings(const models::PolygonModel& model, std::size_t polygon, ModelFaces& out) {
+void find_meetings(const models::polygons::PolygonModel& model, std::size_t polygon, ModelFaces& out) {
     const HidingTest test(out.tolerances);
     const Face& face = out.faces[polygon];
     for (std::size_t other = 0; other < out.faces.size(); ++other) {
@@ -125,7 +125,7 @@ Plane ModelFaces::in_faces(const Plane& plane) const {
     return {plane.normal, distance_m(plane, origin_m) / unit_m};
 }
 
-ModelFaces model_faces(const models::PolygonModel& model, const glm::dvec3& origin_m) {
+ModelFaces model_faces(const models::polygons::PolygonModel& model, const glm::dvec3& origin_m) {
     const std::size_t count = model.polygons.size();
     ModelFaces out{
         .faces = {},
@@ -137,7 +137,7 @@ ModelFaces model_faces(const models::PolygonModel& model, const glm::dvec3& orig
         .notes = {}};
     out.tolerances = tolerances_of(model, out.unit_m);
     for (std::size_t i = 0; i < count; ++i) {
-        const auto pivot = models::pivot_of(model, i);
+        const auto pivot = models::polygons::pivot_of(model, i);
         out.faces.push_back(
             pivot ? turning_face(
                         model,

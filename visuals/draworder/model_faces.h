@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 #include "visuals/draworder/face.h"
 #include "visuals/draworder/hiding_graph.h"
 
@@ -32,6 +32,6 @@ struct ModelFaces {
 
 /// Outlines are drawn in by 1e-6 of the radius or, in models whose polygons are less flat than
 /// that, by twice the largest distance of a corner from its polygon's plane.
-ModelFaces model_faces(const models::PolygonModel& model, const glm::dvec3& origin_m);
+ModelFaces model_faces(const models::polygons::PolygonModel& model, const glm::dvec3& origin_m);
 
 } // namespace octant::visuals::draworder

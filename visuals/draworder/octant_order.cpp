@@ -32,14 +32,14 @@ namespace {
 /// Normal components below this are rounding.
 constexpr double least_component = 1e-12;
 
-glm::dvec3 first_corner_m(const models::PolygonModel& model, std::size_t polygon) {
+glm::dvec3 first_corner_m(const models::polygons::PolygonModel& model, std::size_t polygon) {
     return model.vertices_m[model.corners(polygon)[0]];
 }
 
 /// Step 1: n . l > 0.
 bool faces_point(
-    const models::PolygonModel& model, std::size_t polygon, const glm::dvec3& point_m) {
-    const glm::dvec3 normal = models::normal_of(model, polygon);
+    const models::polygons::PolygonModel& model, std::size_t polygon, const glm::dvec3& point_m) {
+    const glm::dvec3 normal = models::polygons::normal_of(model, polygon);
     return glm::dot(normal, point_m - first_corner_m(model, polygon)) > 0.0;
 }
 
@@ -47,11 +47,11 @@ bool faces_point(
 /// the octant's sign, eyes far out along its axis see the front. If none has, n . eye is largest
 /// at distance R on the axis where n has its smallest component.
 bool faces_some_eye(
-    const models::PolygonModel& model,
+    const models::polygons::PolygonModel& model,
     std::size_t polygon,
     const glm::dvec3& signs,
     double radius_m) {
-    const glm::dvec3 normal = models::normal_of(model, polygon);
+    const glm::dvec3 normal = models::polygons::normal_of(model, polygon);
     const glm::dvec3 outward = normal * signs;
     const double largest = std::max({outward.x, outward.y, outward.z});
     if (largest > least_component) {
@@ -62,7 +62,7 @@ bool faces_some_eye(
 }
 
 std::vector<std::uint32_t> listed_polygons(
-    const models::PolygonModel& model,
+    const models::polygons::PolygonModel& model,
     const PaperOptions& options,
     const glm::dvec3& signs,
     double radius_m) {
@@ -117,9 +117,9 @@ glm::dvec3 octant_signs(int octant) {
         octant % 2 == 0 ? 1.0 : -1.0, octant / 2 % 2 == 0 ? 1.0 : -1.0, octant < 4 ? 1.0 : -1.0};
 }
 
-OctantOrders paper_orders(const models::PolygonModel& model, const PaperOptions& options) {
+OctantOrders paper_orders(const models::polygons::PolygonModel& model, const PaperOptions& options) {
     assert(glm::all(glm::greaterThan(options.viewpoint_radii, glm::dvec3(0.0))));
-    const double radius_m = models::radius_m(model);
+    const double radius_m = models::polygons::radius_m(model);
     OctantOrders orders;
     for (int octant = 0; octant < 8; ++octant) {
         const glm::dvec3 signs = octant_signs(octant);

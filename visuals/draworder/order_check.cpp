@@ -23,7 +23,7 @@ using Planes = std::vector<Plane>;
 
 class Certifying {
 public:
-    Certifying(const models::PolygonModel& model, const CellOrders& orders)
+    Certifying(const models::polygons::PolygonModel& model, const CellOrders& orders)
         : model_(model)
         , orders_(orders)
         , frame_(check_frame(model))
@@ -136,7 +136,7 @@ private:
         }
     }
 
-    const models::PolygonModel& model_;
+    const models::polygons::PolygonModel& model_;
     const CellOrders& orders_;
     CheckFrame frame_;
     std::vector<CheckShape> shapes_;
@@ -147,7 +147,7 @@ private:
 } // namespace
 
 OrderCheck certify(
-    const models::PolygonModel& model,
+    const models::polygons::PolygonModel& model,
     const CellOrders& orders,
     const std::function<void(std::size_t, std::size_t)>& progress) {
     assert(orders.faces == model.polygons.size());

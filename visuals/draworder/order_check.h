@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 #include "visuals/draworder/cell_orders.h"
 
 #include <cstddef>
@@ -44,7 +44,7 @@ struct OrderCheck {
 /// `progress(done, all)` is called after each cell. Time grows with the pairs: about 10,000 a
 /// second, more when planes of the cell decide.
 OrderCheck certify(
-    const models::PolygonModel& model,
+    const models::polygons::PolygonModel& model,
     const CellOrders& orders,
     const std::function<void(std::size_t, std::size_t)>& progress = {});
 

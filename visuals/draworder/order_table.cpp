@@ -39,7 +39,7 @@ std::string sum_in_words(const glm::dvec3& normal) {
 }
 
 std::string
-in_words(const Plane& plane, const models::PolygonModel& model, const models::FileAxes& axes) {
+in_words(const Plane& plane, const models::polygons::PolygonModel& model, const models::polygons::FileAxes& axes) {
     const glm::dvec3 normal = axes.file_from_body(plane.normal);
     for (int axis = 0; axis < 3; ++axis) {
         if (std::abs(normal[axis]) > 1.0 - 1e-12) {
@@ -51,9 +51,9 @@ in_words(const Plane& plane, const models::PolygonModel& model, const models::Fi
                 number(up ? -plane.offset_m : plane.offset_m));
         }
     }
-    const double tolerance_m = same_normal * (1.0 + models::radius_m(model));
+    const double tolerance_m = same_normal * (1.0 + models::polygons::radius_m(model));
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-        const Plane of_polygon = models::plane_of(model, i);
+        const Plane of_polygon = models::polygons::plane_of(model, i);
         if (same(plane, of_polygon, tolerance_m)) {
             return fmt::format("in front of P{}", i + 1);
         }
@@ -88,8 +88,8 @@ std::string list_in_words(std::span<const std::uint32_t> list) {
 
 std::string region_in_words(
     std::span<const Plane> planes,
-    const models::PolygonModel& model,
-    const models::FileAxes& axes) {
+    const models::polygons::PolygonModel& model,
+    const models::polygons::FileAxes& axes) {
     std::string text;
     for (const Plane& plane : planes) {
         text += (text.empty() ? "" : ", ") + in_words(plane, model, axes);
@@ -98,7 +98,7 @@ std::string region_in_words(
 }
 
 std::vector<OrderRow> order_table(
-    const models::PolygonModel& model, const CellOrders& orders, const models::FileAxes& axes) {
+    const models::polygons::PolygonModel& model, const CellOrders& orders, const models::polygons::FileAxes& axes) {
     std::vector<OrderRow> rows;
     bool only_octants = true;
     for (std::size_t i = 0; i < orders.cells.size(); ++i) {

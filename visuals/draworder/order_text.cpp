@@ -21,7 +21,7 @@ std::string indices(const std::vector<std::uint32_t>& list) {
     return text;
 }
 
-std::string region_text(const ListedCell& cell, const models::FileAxes& axes) {
+std::string region_text(const ListedCell& cell, const models::polygons::FileAxes& axes) {
     if (!cell.path.empty()) {
         return path_in_file(cell.path, axes);
     }
@@ -80,15 +80,15 @@ std::string with_axes_changed(const std::string& path, ToOther to_other) {
 
 } // namespace
 
-std::string path_in_file(const std::string& path, const models::FileAxes& axes) {
+std::string path_in_file(const std::string& path, const models::polygons::FileAxes& axes) {
     return with_axes_changed(path, [&](const glm::dvec3& v) { return axes.file_from_body(v); });
 }
 
-std::string path_in_body(const std::string& path, const models::FileAxes& axes) {
+std::string path_in_body(const std::string& path, const models::polygons::FileAxes& axes) {
     return with_axes_changed(path, [&](const glm::dvec3& v) { return axes.body_from_file(v); });
 }
 
-std::string order_text(const CellOrders& orders, const models::FileAxes& axes) {
+std::string order_text(const CellOrders& orders, const models::polygons::FileAxes& axes) {
     std::string text = "draworder 1\n";
     if (orders.centre_m != glm::dvec3(0.0)) {
         text += fmt::format("center {}\n", numbers(axes.file_from_body(orders.centre_m)));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/file_axes.h"
+#include "models/polygons/file_axes.h"
 #include "visuals/draworder/cell_orders.h"
 
 #include <cstddef>
@@ -24,19 +24,19 @@ namespace octant::visuals::draworder {
 /// Coordinates are in `axes`, those of the model file that the orders speak of; so the letters
 /// A, B, C of octant paths belong to that file's x, y, z. Numbers have 17 significant digits.
 /// Cells without path or directions are written as `half`.
-std::string order_text(const CellOrders& orders, const models::FileAxes& axes = {});
+std::string order_text(const CellOrders& orders, const models::polygons::FileAxes& axes = {});
 
 /// An octant path of the body axes as the file's axes say it: signs and children change places.
-std::string path_in_file(const std::string& path, const models::FileAxes& axes);
+std::string path_in_file(const std::string& path, const models::polygons::FileAxes& axes);
 
 /// The inverse of path_in_file.
-std::string path_in_body(const std::string& path, const models::FileAxes& axes);
+std::string path_in_body(const std::string& path, const models::polygons::FileAxes& axes);
 
 /// Reads order_text for a model of `faces` polygons. Normals of any length become unit vectors.
 /// Throws Error "file:line: expected ..., got ...": no header, unknown keywords and regions,
 /// numbers that are missing, too many, not finite or too large, indices out of range, a polygon
 /// twice in one cell, another count of faces, a keyword twice or after the cells, no cells.
 CellOrders read_order_file(
-    const std::filesystem::path& path, std::size_t faces, const models::FileAxes& axes = {});
+    const std::filesystem::path& path, std::size_t faces, const models::polygons::FileAxes& axes = {});
 
 } // namespace octant::visuals::draworder

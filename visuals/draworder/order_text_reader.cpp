@@ -21,7 +21,7 @@ constexpr std::size_t most_cells = 1'000'000;
 
 class OrderReading {
 public:
-    OrderReading(const std::filesystem::path& path, std::size_t faces, const models::FileAxes& axes)
+    OrderReading(const std::filesystem::path& path, std::size_t faces, const models::polygons::FileAxes& axes)
         : path_(path)
         , axes_(axes)
         , used_(faces) {
@@ -249,7 +249,7 @@ private:
     }
 
     std::filesystem::path path_;
-    models::FileAxes axes_;
+    models::polygons::FileAxes axes_;
     CellOrders orders_;
     std::vector<bool> used_; ///< all false between lines
     std::set<std::string> seen_;
@@ -261,7 +261,7 @@ private:
 } // namespace
 
 CellOrders read_order_file(
-    const std::filesystem::path& path, std::size_t faces, const models::FileAxes& axes) {
+    const std::filesystem::path& path, std::size_t faces, const models::polygons::FileAxes& axes) {
     return OrderReading(path, faces, axes).read();
 }
 

@@ -27,7 +27,7 @@ constexpr std::size_t most_edges_searched_again = 2'000;
 const std::array<TreeSearch, 3> tree_searches{{{.power = 1.0}, {.power = 0.5}, {.power = 1.5}}};
 const TreeSearch quick_search{.edge_planes = 300, .closer = 48, .exact = 2};
 
-OrderedModel by_paper(models::PolygonModel model, const OrderOptions& options) {
+OrderedModel by_paper(models::polygons::PolygonModel model, const OrderOptions& options) {
     const OctantOrders orders = paper_orders(model, options.paper);
     OrderedModel out{
         .model = std::move(model), .order = DrawOrder(orders), .cells = {}, .notes = {}};
@@ -39,7 +39,7 @@ OrderedModel by_paper(models::PolygonModel model, const OrderOptions& options) {
     }
     out.cyclic_cells = orders.cyclic_octants;
     // Lists are for eyes at the radius or beyond: all with |x| + |y| + |z| of sqrt(3) radii are.
-    out.min_distance_m = std::sqrt(3.0) * models::radius_m(out.model);
+    out.min_distance_m = std::sqrt(3.0) * models::polygons::radius_m(out.model);
     return out;
 }
 
@@ -71,7 +71,7 @@ Orders tree_orders(WorkingModel work, const EyeNode& root, const TreeSearch& sea
     return out;
 }
 
-Orders best_tree(const models::PolygonModel& model) {
+Orders best_tree(const models::polygons::PolygonModel& model) {
     const WorkingModel work(model, glm::dvec3(0.0));
     RegionGraphs graphs(work.faces);
     const EyeNode root = eye_node(graphs, EyeRegion::everywhere());
@@ -94,7 +94,7 @@ Orders cell_orders(WorkingModel work, double least_distance) {
     return out;
 }
 
-Orders best_cells(const models::PolygonModel& model, double least_distance) {
+Orders best_cells(const models::polygons::PolygonModel& model, double least_distance) {
     std::optional<Orders> best;
     const auto centres = cell_centres(WorkingModel(model, glm::dvec3(0.0)));
     for (const glm::dvec3& centre_m : centres) {
@@ -106,7 +106,7 @@ Orders best_cells(const models::PolygonModel& model, double least_distance) {
     return std::move(*best);
 }
 
-OrderedModel exact(models::PolygonModel model, const OrderOptions& options) {
+OrderedModel exact(models::polygons::PolygonModel model, const OrderOptions& options) {
     const int penetrating = split_penetrating(model);
     const bool by_cells = options.method == Method::Cells;
     Orders orders = by_cells ? best_cells(model, options.min_distance_radii) : best_tree(model);
@@ -131,7 +131,7 @@ OrderedModel exact(models::PolygonModel model, const OrderOptions& options) {
 
 } // namespace
 
-OrderedModel ordered(models::PolygonModel model, const OrderOptions& options) {
+OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& options) {
     if (options.method == Method::Paper) {
         return by_paper(std::move(model), options);
     }

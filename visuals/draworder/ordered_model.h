@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 #include "sim/base/plane.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/octant_order.h"
@@ -31,7 +31,7 @@ struct OrderCell {
 
 /// A model with its painting orders.
 struct OrderedModel {
-    models::PolygonModel model; ///< polygons split where no order exists; parents say of what
+    models::polygons::PolygonModel model; ///< polygons split where no order exists; parents say of what
     DrawOrder order;            ///< cell i is cells[i]
     std::vector<OrderCell> cells;
     glm::dvec3 centre_m{0.0};       ///< Paper, Cells: where the octants meet, body axes
@@ -43,6 +43,6 @@ struct OrderedModel {
 
 /// Finds the orders of a model. Loading work. Throws Error when the model needs more cells than
 /// can be held.
-OrderedModel ordered(models::PolygonModel model, const OrderOptions& options = {});
+OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& options = {});
 
 } // namespace octant::visuals::draworder

@@ -127,7 +127,7 @@ glm::dvec3 ScreenView::screen_from_body(const glm::dvec3& point_m) const {
 }
 
 ScreenPolygon
-on_screen(const models::PolygonModel& model, std::size_t polygon, const ScreenView& view) {
+on_screen(const models::polygons::PolygonModel& model, std::size_t polygon, const ScreenView& view) {
     ScreenPolygon seen;
     for (const std::uint32_t vertex : model.corners(polygon)) {
         seen.corners.push_back(view.screen_from_body(model.vertices_m[vertex]));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 
 #include <glm/vec3.hpp>
 
@@ -41,7 +41,7 @@ struct ScreenPolygon {
 };
 
 ScreenPolygon
-on_screen(const models::PolygonModel& model, std::size_t polygon, const ScreenView& view);
+on_screen(const models::polygons::PolygonModel& model, std::size_t polygon, const ScreenView& view);
 
 /// Which of two polygons has to be painted first.
 enum class First { A, B, Either };

@@ -24,20 +24,20 @@ struct Facet {
     std::vector<glm::dvec3> inward;
 };
 
-Facet facet_of(const models::PolygonModel& model, std::size_t polygon, double turn_rad) {
+Facet facet_of(const models::polygons::PolygonModel& model, std::size_t polygon, double turn_rad) {
     Facet facet;
-    facet.normal = models::normal_of(model, polygon);
+    facet.normal = models::polygons::normal_of(model, polygon);
     for (const std::uint32_t vertex : model.corners(polygon)) {
         facet.corners_m.push_back(model.vertices_m[vertex]);
     }
-    const auto pivot = models::pivot_of(model, polygon);
+    const auto pivot = models::polygons::pivot_of(model, polygon);
     if (pivot && turn_rad != 0.0) {
-        models::Pivot turn = model.pivots[*pivot];
+        models::polygons::Pivot turn = model.pivots[*pivot];
         for (glm::dvec3& corner_m : facet.corners_m) {
-            corner_m = models::turned(turn, corner_m, turn_rad);
+            corner_m = models::polygons::turned(turn, corner_m, turn_rad);
         }
         turn.point_m = glm::dvec3(0.0);
-        facet.normal = models::turned(turn, facet.normal, turn_rad);
+        facet.normal = models::polygons::turned(turn, facet.normal, turn_rad);
     }
     facet.point_m = facet.corners_m[0];
     for (std::size_t i = 0; i < facet.corners_m.size(); ++i) {
@@ -79,11 +79,11 @@ glm::dvec3 target_on_disc(Dice& dice, const glm::dvec3& eye_m, double radius_m) 
 class Sampling {
 public:
     Sampling(
-        const models::PolygonModel& model,
+        const models::polygons::PolygonModel& model,
         const EyeSamples& samples,
         std::span<const std::uint32_t> two_sided)
         : samples_(samples)
-        , radius_m_(models::radius_m(model))
+        , radius_m_(models::polygons::radius_m(model))
         , dice_(samples.seed) {
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
             facets_.push_back(facet_of(model, i, samples.turn_rad));
@@ -146,7 +146,7 @@ RayCount& RayCount::operator+=(const RayCount& other) {
 }
 
 RayCount count_wrong_rays(
-    const models::PolygonModel& model, const DrawOrder& order, const EyeSamples& samples) {
+    const models::polygons::PolygonModel& model, const DrawOrder& order, const EyeSamples& samples) {
     Sampling sampling(model, samples, {});
     RayCount count;
     for (int eye = 0; eye < samples.eyes; ++eye) {
@@ -158,7 +158,7 @@ RayCount count_wrong_rays(
 }
 
 RayCount count_wrong_rays(
-    const models::PolygonModel& model, const CellOrders& orders, const EyeSamples& samples) {
+    const models::polygons::PolygonModel& model, const CellOrders& orders, const EyeSamples& samples) {
     Sampling sampling(model, samples, orders.two_sided);
     RayCount count;
     for (int eye = 0; eye < samples.eyes; ++eye) {
@@ -177,7 +177,7 @@ RayCount count_wrong_rays(
 }
 
 RayCount count_wrong_rays_from(
-    const models::PolygonModel& model,
+    const models::polygons::PolygonModel& model,
     std::span<const std::uint32_t> painted,
     const glm::dvec3& eye_m,
     int rays) {

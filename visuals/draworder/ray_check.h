@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 #include "visuals/draworder/cell_orders.h"
 #include "visuals/draworder/draw_order.h"
 
@@ -38,15 +38,15 @@ struct RayCount {
 /// the origin as an eye that looks at it sees it, so that shares are shares of pixels; eyes inside
 /// that radius look in all directions. Polygons that face away from the eye are not painted.
 RayCount count_wrong_rays(
-    const models::PolygonModel& model, const DrawOrder& order, const EyeSamples& samples);
+    const models::polygons::PolygonModel& model, const DrawOrder& order, const EyeSamples& samples);
 
 /// The same for orders by cells: eyes out of their range are passed over.
 RayCount count_wrong_rays(
-    const models::PolygonModel& model, const CellOrders& orders, const EyeSamples& samples);
+    const models::polygons::PolygonModel& model, const CellOrders& orders, const EyeSamples& samples);
 
 /// Rays from one eye for one list.
 RayCount count_wrong_rays_from(
-    const models::PolygonModel& model,
+    const models::polygons::PolygonModel& model,
     std::span<const std::uint32_t> painted,
     const glm::dvec3& eye_m,
     int rays);

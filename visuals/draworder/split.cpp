@@ -12,7 +12,7 @@
 
 #include "visuals/draworder/split.h"
 
-#include "models/polygon_check.h"
+#include "models/polygons/polygon_check.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -32,7 +32,7 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-using models::PolygonModel;
+using models::polygons::PolygonModel;
 using Corners = std::vector<glm::dvec3>;
 using Outline = std::vector<std::uint32_t>;
 
@@ -203,10 +203,10 @@ class Splitter {
 public:
     explicit Splitter(PolygonModel& model)
         : model_(model)
-        , tolerance_m_(models::flatness_tolerance_m(model)) {
+        , tolerance_m_(models::polygons::flatness_tolerance_m(model)) {
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
             faces_.push_back(face_of(
-                corners_of(model, i), models::plane_of(model, i), models::pivot_of(model, i)));
+                corners_of(model, i), models::polygons::plane_of(model, i), models::polygons::pivot_of(model, i)));
         }
         partners_.resize(faces_.size());
         cuts_.resize(faces_.size());
@@ -312,7 +312,7 @@ private:
 } // namespace
 
 double split_tolerance_m(const PolygonModel& model) {
-    return models::flatness_tolerance_m(model) * on_plane_share_of_flatness;
+    return models::polygons::flatness_tolerance_m(model) * on_plane_share_of_flatness;
 }
 
 std::uint32_t split_polygon(PolygonModel& model, std::size_t polygon, const Plane& plane) {
@@ -325,7 +325,7 @@ std::uint32_t split_polygon(PolygonModel& model, std::size_t polygon, const Plan
         std::iota(model.parents.begin(), model.parents.end(), 0U);
     }
     std::vector<std::uint32_t> corner_vertices;
-    const auto add = [&](models::Polygon& to, const Outline& outline) {
+    const auto add = [&](models::polygons::Polygon& to, const Outline& outline) {
         to.first_corner = static_cast<std::uint32_t>(corner_vertices.size());
         to.corner_count = static_cast<std::uint32_t>(outline.size());
         corner_vertices.insert(corner_vertices.end(), outline.begin(), outline.end());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 #include "sim/base/plane.h"
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace octant::visuals::draworder {
 
 /// How far a corner may lie beside a plane and still count as on it when a polygon is cut: 1e-7 of
 /// the diagonal of the model's bounding box, metres.
-double split_tolerance_m(const models::PolygonModel& model);
+double split_tolerance_m(const models::polygons::PolygonModel& model);
 
 /// Cuts a polygon along a plane (unit normal). The piece in front of the plane keeps the number,
 /// the piece behind it is appended; returns its number. Both keep material and part, and
@@ -22,7 +22,7 @@ double split_tolerance_m(const models::PolygonModel& model);
 ///
 /// Corners lie more than split_tolerance_m away on both sides of the plane (asserted). Time grows
 /// with the corners of the whole model.
-std::uint32_t split_polygon(models::PolygonModel& model, std::size_t polygon, const Plane& plane);
+std::uint32_t split_polygon(models::polygons::PolygonModel& model, std::size_t polygon, const Plane& plane);
 
 /// Cuts polygons that pass through one another until none does, each along the plane of another;
 /// returns how many polygons were added. In each step the cut is made that leaves the fewest pairs,
@@ -33,6 +33,6 @@ std::uint32_t split_polygon(models::PolygonModel& model, std::size_t polygon, co
 /// (shared edges, T-joints, a corner on a face) do not; less than flatness_tolerance_m
 /// (models/polygon_check.h) is touching. A polygon that turns about a pivot is cut only against
 /// those that turn about the same one.
-int split_penetrating(models::PolygonModel& model);
+int split_penetrating(models::polygons::PolygonModel& model);
 
 } // namespace octant::visuals::draworder

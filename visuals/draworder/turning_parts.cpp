@@ -35,14 +35,14 @@ void append_ring(
 } // namespace
 
 Face turning_face(
-    const models::PolygonModel& model,
+    const models::polygons::PolygonModel& model,
     std::size_t polygon,
-    const models::Pivot& pivot,
+    const models::polygons::Pivot& pivot,
     const glm::dvec3& origin_m,
     double scale,
     double inset) {
     const glm::dvec3 foot = (pivot.point_m - origin_m) * scale;
-    const glm::dvec3 normal = models::normal_of(model, polygon);
+    const glm::dvec3 normal = models::polygons::normal_of(model, polygon);
     const double facing = glm::dot(normal, pivot.axis);
     double farthest = 0.0;
     double height_sum = 0.0;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 #include "visuals/draworder/face.h"
 
 #include <cstddef>
@@ -24,9 +24,9 @@ namespace octant::visuals::draworder {
 ///
 /// `scale`: factor from metres to the unit of the face, about `origin_m`.
 Face turning_face(
-    const models::PolygonModel& model,
+    const models::polygons::PolygonModel& model,
     std::size_t polygon,
-    const models::Pivot& pivot,
+    const models::polygons::Pivot& pivot,
     const glm::dvec3& origin_m,
     double scale,
     double inset);

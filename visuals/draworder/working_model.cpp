@@ -28,7 +28,7 @@ void WorkingModel::resolve(const Deadlock& deadlock) {
                 first_count,
                 twins.size() - 1));
         }
-        split_polygon(model, cut->polygon, models::plane_of(model, cut->along));
+        split_polygon(model, cut->polygon, models::polygons::plane_of(model, cut->along));
         twins.push_back(cut->polygon);
         const Face whole = faces.faces[cut->polygon];
         const Plane plane = *faces.faces[cut->along].plane;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 #include "visuals/draworder/eye_node.h"
 #include "visuals/draworder/model_faces.h"
 
@@ -19,7 +19,7 @@ namespace octant::visuals::draworder {
 /// finished list the new piece goes behind its twin, and in an unfinished graph it gets its twin's
 /// pairs until they are tested again.
 struct WorkingModel {
-    WorkingModel(models::PolygonModel of, const glm::dvec3& origin_m)
+    WorkingModel(models::polygons::PolygonModel of, const glm::dvec3& origin_m)
         : model(std::move(of))
         , faces(model_faces(model, origin_m))
         , first_count(static_cast<std::uint32_t>(model.polygons.size()))
@@ -35,7 +35,7 @@ struct WorkingModel {
     /// The same for a list that was made when there were so many polygons.
     void catch_up(std::vector<std::uint32_t>& list, std::size_t polygons) const;
 
-    models::PolygonModel model;
+    models::polygons::PolygonModel model;
     ModelFaces faces;
     std::uint32_t first_count = 0;
     std::vector<std::uint32_t> twins; ///< of polygon first_count + i: whose other piece it is

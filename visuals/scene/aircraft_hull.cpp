@@ -21,7 +21,7 @@ void widen(HullExtent& extent, const glm::dvec3& least_m, const glm::dvec3& most
 }
 
 /// Corners of the circle that a point runs about the axis of a pivot.
-void widen_by_circle(HullExtent& extent, const models::Pivot& pivot, const glm::dvec3& point_m) {
+void widen_by_circle(HullExtent& extent, const models::polygons::Pivot& pivot, const glm::dvec3& point_m) {
     const glm::dvec3 arm_m = point_m - pivot.point_m;
     const glm::dvec3 along_m = pivot.axis * glm::dot(arm_m, pivot.axis);
     const double radius_m = glm::length(arm_m - along_m);
@@ -94,10 +94,10 @@ bool apart_on_screen(const SightCone& cone, const std::array<glm::dvec3, 8>& cor
 
 } // namespace
 
-HullExtent hull_extent(const models::PolygonModel& model) {
+HullExtent hull_extent(const models::polygons::PolygonModel& model) {
     HullExtent extent{glm::dvec3(infinite), glm::dvec3(-infinite)};
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-        const std::optional<std::uint32_t> pivot = models::pivot_of(model, i);
+        const std::optional<std::uint32_t> pivot = models::polygons::pivot_of(model, i);
         for (const std::uint32_t vertex : model.corners(i)) {
             const glm::dvec3& point_m = model.vertices_m[vertex];
             widen(extent, point_m, point_m);

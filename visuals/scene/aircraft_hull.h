@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 #include "sim/base/plane.h"
 #include "visuals/scene/sight.h"
 
@@ -20,7 +20,7 @@ struct HullExtent {
 };
 
 /// Loading work.
-HullExtent hull_extent(const models::PolygonModel& model);
+HullExtent hull_extent(const models::polygons::PolygonModel& model);
 
 /// A box that stands in for one aircraft, or for several: world axes with the eye at the origin.
 struct HullBox {

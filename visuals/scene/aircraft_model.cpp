@@ -20,7 +20,7 @@ namespace {
 
 class BufferMaker {
 public:
-    BufferMaker(const models::PolygonModel& model, std::span<const glm::vec3> normals)
+    BufferMaker(const models::polygons::PolygonModel& model, std::span<const glm::vec3> normals)
         : model_(model)
         , normals_(normals) {
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
@@ -50,10 +50,10 @@ public:
 
 private:
     void add_corners(std::size_t polygon) {
-        const glm::vec3 normal(models::normal_of(model_, polygon));
+        const glm::vec3 normal(models::polygons::normal_of(model_, polygon));
         const std::uint32_t colour =
             models::packed_colour(model_.materials[model_.polygons[polygon].material].colour);
-        const std::optional<std::uint32_t> pivot = models::pivot_of(model_, polygon);
+        const std::optional<std::uint32_t> pivot = models::polygons::pivot_of(model_, polygon);
         const std::uint32_t part = pivot ? *pivot + 1 : 0;
         for (const std::uint32_t vertex : model_.corners(polygon)) {
             buffers_.vertices.push_back(
@@ -67,7 +67,7 @@ private:
         }
     }
 
-    const models::PolygonModel& model_;
+    const models::polygons::PolygonModel& model_;
     std::span<const glm::vec3> normals_;
     ModelBuffers buffers_;
 };
@@ -75,7 +75,7 @@ private:
 } // namespace
 
 AircraftModel aircraft_model(
-    models::PolygonModel polygons,
+    models::polygons::PolygonModel polygons,
     draworder::DrawOrder order,
     const glm::dvec3& eye_m,
     std::vector<glm::vec3> normals) {
@@ -99,7 +99,7 @@ AircraftModel aircraft_model(
     std::vector<std::uint32_t> file_list(polygons.polygons.size());
     std::iota(file_list.begin(), file_list.end(), 0U);
     const IndexRange all = maker.append(file_list);
-    const double radius_m = models::radius_m(polygons);
+    const double radius_m = models::polygons::radius_m(polygons);
     const HullExtent hull = hull_extent(polygons);
     ModelBuffers buffers = maker.take();
     return {
@@ -155,7 +155,7 @@ void add_progressive(
     model.buffers.has_meshes = true;
 }
 
-glm::dvec3 pilot_eye_m(const models::PolygonModel& model) {
+glm::dvec3 pilot_eye_m(const models::polygons::PolygonModel& model) {
     // F-15: eye 5.0 m behind the nose tip (Zaretto F-15vsp.xml) and 0.94 m above the reference line
     // (JSBSim f15.xml); the origin is 10.4 m behind the nose. 500MD: front seat on the left,
     // eye 1.2 m behind the nose and 1.5 m above the skids; the origin is on the mast axis, 1.2 m

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/refine/progressive_mesh.h"
 #include "visuals/scene/aircraft_hull.h"
@@ -22,7 +22,7 @@ namespace octant::visuals::scene {
 /// PolygonModel::corner_vertices; one index buffer that holds the list of every draw cell and,
 /// behind them, all polygons in file order. As meshes, where it has levels of detail: behind both.
 struct AircraftModel {
-    models::PolygonModel polygons;
+    models::polygons::PolygonModel polygons;
     draworder::DrawOrder order;
     ModelBuffers buffers;
     std::vector<IndexRange> cells; ///< one for each cell of the order
@@ -49,7 +49,7 @@ struct AircraftModel {
 /// Makes a model ready to be drawn. `pilot_eye_m`: body axes. `normals`: one a corner, for smooth
 /// shading; empty = made here by crease angle, for polygons that are whole. Loading work.
 AircraftModel aircraft_model(
-    models::PolygonModel polygons,
+    models::polygons::PolygonModel polygons,
     draworder::DrawOrder order,
     const glm::dvec3& pilot_eye_m,
     std::vector<glm::vec3> normals = {});
@@ -67,6 +67,6 @@ void add_progressive(
 
 /// Where the pilot's eye is in an aircraft, body axes: a stated point for the built-in "f15" and
 /// "500md", else a quarter of the length behind the nose at the height of the top.
-glm::dvec3 pilot_eye_m(const models::PolygonModel& model);
+glm::dvec3 pilot_eye_m(const models::polygons::PolygonModel& model);
 
 } // namespace octant::visuals::scene

@@ -62,7 +62,7 @@ bool is_same(const terrain::MeshView& a, const terrain::MeshView& b) {
 
 class FieldGround final : public Ground {
 public:
-    FieldGround(models::HeightField field, const Settings& settings)
+    FieldGround(models::heights::HeightField field, const Settings& settings)
         : field_(std::move(field))
         , tree_(field_, quadtree_options(settings))
         , settings_(settings)
@@ -168,7 +168,7 @@ private:
         return {camera.eye_m, frustum_normals(camera, aspect), std::max(zoom, 1.0), order_};
     }
 
-    models::HeightField field_;
+    models::heights::HeightField field_;
     terrain::Quadtree tree_;
     Settings settings_;
     std::vector<std::uint32_t> colours_;
@@ -187,7 +187,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<Ground> ground_from_field(models::HeightField field, const Settings& settings) {
+std::unique_ptr<Ground> ground_from_field(models::heights::HeightField field, const Settings& settings) {
     return std::make_unique<FieldGround>(std::move(field), settings);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "models/height_field.h"
-#include "models/polygon_model.h"
+#include "models/heights/height_field.h"
+#include "models/polygons/polygon_model.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
@@ -89,7 +89,7 @@ protected:
 };
 
 /// A height field under a quadtree whose triangle count is held. Takes the field over.
-std::unique_ptr<Ground> ground_from_field(models::HeightField field, const Settings& settings);
+std::unique_ptr<Ground> ground_from_field(models::heights::HeightField field, const Settings& settings);
 
 /// Ground under a mesh by screen-space error.
 std::unique_ptr<Ground> ground_from_tiles(terrain::GroundTiles ground, const Settings& settings);
@@ -97,6 +97,6 @@ std::unique_ptr<Ground> ground_from_tiles(terrain::GroundTiles ground, const Set
 /// Polygons painted in file order over a level datum. Body axes of the model: x north, y east, z
 /// down. Without polygons: nothing to see and a map of 2,000 km, for aircraft alone.
 std::unique_ptr<Ground>
-ground_from_polygons(models::PolygonModel polygons, const Settings& settings);
+ground_from_polygons(models::polygons::PolygonModel polygons, const Settings& settings);
 
 } // namespace octant::visuals::scene

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/image.h"
+#include "models/heights/image.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_samples.h"
@@ -42,7 +42,7 @@ inline constexpr int largest_from_samples = 4097;
 /// north up, and has at most largest_texture pixels a side (asserted). Uses all processors; same
 /// bytes for any number of them.
 GroundTexture ground_texture(
-    const terrain::GroundSamples& ground, const Settings& settings, const models::Image* drape);
+    const terrain::GroundSamples& ground, const Settings& settings, const models::heights::Image* drape);
 
 /// Where an eye stands in the texture.
 TexturePlaces texture_places(const GroundTexture& texture, const glm::dvec3& eye_m);

@@ -55,7 +55,7 @@ ModelBuffers numbered(const AircraftModel& model, std::uint32_t first) {
             model.polygons.name));
     }
     for (std::size_t polygon = 0; polygon < model.polygons.polygons.size(); ++polygon) {
-        const models::Polygon& range = model.polygons.polygons[polygon];
+        const models::polygons::Polygon& range = model.polygons.polygons[polygon];
         const std::uint32_t id = first + model.polygons.parent_of(polygon);
         for (std::uint32_t corner = 0; corner < range.corner_count; ++corner) {
             buffers.vertices[range.first_corner + corner].face_colour = opaque | aircraft_bit | id;

@@ -17,11 +17,11 @@ namespace {
 
 class PaintedGround final : public Ground {
 public:
-    PaintedGround(const models::PolygonModel& model, const Settings& settings)
+    PaintedGround(const models::polygons::PolygonModel& model, const Settings& settings)
         : settings_(settings) {
         const glm::vec3 sun = direction_to_sun(settings);
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-            const glm::vec3 normal(world_from_body(models::normal_of(model, i)));
+            const glm::vec3 normal(world_from_body(models::polygons::normal_of(model, i)));
             const float light = ambient_light + sun_light * std::max(glm::dot(normal, sun), 0.0F);
             const glm::vec3 colour = model.materials[model.polygons[i].material].colour * light;
             const auto first = static_cast<std::uint32_t>(corners_m_.size());
@@ -106,7 +106,7 @@ private:
 } // namespace
 
 std::unique_ptr<Ground>
-ground_from_polygons(models::PolygonModel polygons, const Settings& settings) {
+ground_from_polygons(models::polygons::PolygonModel polygons, const Settings& settings) {
     return std::make_unique<PaintedGround>(polygons, settings);
 }
 

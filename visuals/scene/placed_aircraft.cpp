@@ -10,7 +10,7 @@
 namespace octant::visuals::scene {
 
 void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, SightPolygon& placed) {
-    const models::PolygonModel& model = aircraft.model->polygons;
+    const models::polygons::PolygonModel& model = aircraft.model->polygons;
     const std::uint32_t first_corner = model.polygons[polygon].first_corner;
     const glm::dmat4& part = aircraft.parts[aircraft.model->buffers.vertices[first_corner].part];
     placed.clear();
@@ -30,19 +30,19 @@ AircraftDraw draw_of(const PlacedAircraft& aircraft) {
     return draw;
 }
 
-std::uint32_t index_count_of(const models::Polygon& polygon) {
+std::uint32_t index_count_of(const models::polygons::Polygon& polygon) {
     return 3 * (polygon.corner_count - 2);
 }
 
 void place_parts(
-    const models::PolygonModel& model,
+    const models::polygons::PolygonModel& model,
     const glm::dmat4& body_to_eye_world,
     double time_s,
     std::span<glm::dmat4> parts) {
     assert(parts.size() == model.pivots.size() + 1);
     parts[0] = body_to_eye_world;
     for (std::size_t i = 0; i < model.pivots.size(); ++i) {
-        const models::Pivot& pivot = model.pivots[i];
+        const models::polygons::Pivot& pivot = model.pivots[i];
         const double turns = pivot.turns_per_s * time_s;
         const double angle_rad = 2.0 * pi * (turns - std::floor(turns));
         const glm::dmat4 there = glm::translate(body_to_eye_world, pivot.point_m);

@@ -46,11 +46,11 @@ void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, SightP
 AircraftDraw draw_of(const PlacedAircraft& aircraft);
 
 /// Number of indices of a polygon as a fan of triangles.
-std::uint32_t index_count_of(const models::Polygon& polygon);
+std::uint32_t index_count_of(const models::polygons::Polygon& polygon);
 
 /// The body matrix of an aircraft and one matrix for each pivot of its model, at a time.
 void place_parts(
-    const models::PolygonModel& model,
+    const models::polygons::PolygonModel& model,
     const glm::dmat4& body_to_eye_world,
     double time_s,
     std::span<glm::dmat4> parts);

@@ -27,10 +27,10 @@ struct Outline {
 
 /// How far a point lies outside of a polygon, seen along its normal; 0 inside.
 double
-outside_m(const models::PolygonModel& model, std::size_t polygon, const glm::dvec3& point_m) {
-    const glm::dvec3 normal = models::normal_of(model, polygon);
+outside_m(const models::polygons::PolygonModel& model, std::size_t polygon, const glm::dvec3& point_m) {
+    const glm::dvec3 normal = models::polygons::normal_of(model, polygon);
     const auto corners = model.corners(polygon);
-    double most_m = std::abs(distance_m(models::plane_of(model, polygon), point_m));
+    double most_m = std::abs(distance_m(models::polygons::plane_of(model, polygon), point_m));
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const glm::dvec3& here_m = model.vertices_m[corners[i]];
         const glm::dvec3& next_m = model.vertices_m[corners[(i + 1) % corners.size()]];
@@ -41,7 +41,7 @@ outside_m(const models::PolygonModel& model, std::size_t polygon, const glm::dve
 }
 
 std::size_t polygon_around(
-    const models::PolygonModel& whole,
+    const models::polygons::PolygonModel& whole,
     std::span<const std::size_t> candidates,
     const glm::dvec3& point_m) {
     std::size_t best = candidates.front();
@@ -91,7 +91,7 @@ glm::dvec3 normal_at(const Outline& outline, const glm::dvec3& point_m) {
 }
 
 Outline outline_of(
-    const models::PolygonModel& model, std::size_t polygon, std::span<const glm::vec3> normals) {
+    const models::polygons::PolygonModel& model, std::size_t polygon, std::span<const glm::vec3> normals) {
     Outline outline;
     for (const std::uint32_t vertex : model.corners(polygon)) {
         const std::size_t corner = model.polygons[polygon].first_corner + outline.places_m.size();
@@ -101,7 +101,7 @@ Outline outline_of(
     return outline;
 }
 
-glm::dvec3 middle_of(const models::PolygonModel& model, std::size_t polygon) {
+glm::dvec3 middle_of(const models::polygons::PolygonModel& model, std::size_t polygon) {
     glm::dvec3 sum_m(0.0);
     const auto corners = model.corners(polygon);
     for (const std::uint32_t vertex : corners) {
@@ -113,9 +113,9 @@ glm::dvec3 middle_of(const models::PolygonModel& model, std::size_t polygon) {
 } // namespace
 
 std::vector<glm::vec3> normals_of_pieces(
-    const models::PolygonModel& whole,
+    const models::polygons::PolygonModel& whole,
     std::span<const glm::vec3> normals,
-    const models::PolygonModel& pieces) {
+    const models::polygons::PolygonModel& pieces) {
     assert(normals.size() == whole.corner_vertices.size());
     std::unordered_map<std::uint32_t, std::vector<std::size_t>> of_parent;
     for (std::size_t i = 0; i < whole.polygons.size(); ++i) {
@@ -132,7 +132,7 @@ std::vector<glm::vec3> normals_of_pieces(
             const glm::dvec3 normal = normal_at(outline, pieces.vertices_m[vertex]);
             const double length = glm::length(normal);
             made[corner++] =
-                glm::vec3(length > 0.0 ? normal / length : models::normal_of(whole, polygon));
+                glm::vec3(length > 0.0 ? normal / length : models::polygons::normal_of(whole, polygon));
         }
     }
     return made;

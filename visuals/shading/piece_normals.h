@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 
 #include <glm/vec3.hpp>
 
@@ -15,8 +15,8 @@ namespace octant::visuals::shading {
 /// corners. `whole`: the model before it was cut, `normals`: one a corner of it. The parents of
 /// `pieces` are those of `whole`. As many normals as `pieces` has corners.
 std::vector<glm::vec3> normals_of_pieces(
-    const models::PolygonModel& whole,
+    const models::polygons::PolygonModel& whole,
     std::span<const glm::vec3> normals,
-    const models::PolygonModel& pieces);
+    const models::polygons::PolygonModel& pieces);
 
 } // namespace octant::visuals::shading

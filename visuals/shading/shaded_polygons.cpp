@@ -118,14 +118,14 @@ float colour_sum(const models::TriangleMesh& mesh, std::size_t triangle, std::ui
 } // namespace
 
 ShadedPolygons
-shaded_polygons(const models::PolygonModel& model, std::span<const glm::vec3> corner_normals) {
+shaded_polygons(const models::polygons::PolygonModel& model, std::span<const glm::vec3> corner_normals) {
     assert(corner_normals.size() == model.corner_vertices.size());
     ShadedPolygons shaded;
     std::vector<LitPoint> corners(model.corner_vertices.size());
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-        const models::Polygon& polygon = model.polygons[i];
+        const models::polygons::Polygon& polygon = model.polygons[i];
         shaded.polygons.push_back(
-            {.normal = glm::vec3(models::normal_of(model, i)),
+            {.normal = glm::vec3(models::polygons::normal_of(model, i)),
              .first_corner = polygon.first_corner,
              .corner_count = polygon.corner_count});
         for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {

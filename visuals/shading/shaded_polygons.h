@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 #include "models/triangle_mesh.h"
 
 #include <glm/vec3.hpp>
@@ -49,7 +49,7 @@ struct ShadedPolygons {
 /// `corner_normals`: one a corner, as vertex_normals.h makes them. Colours are those of materials;
 /// of a mesh those of vertices where it has any, grey 0.7 where it has neither.
 ShadedPolygons
-shaded_polygons(const models::PolygonModel& model, std::span<const glm::vec3> corner_normals);
+shaded_polygons(const models::polygons::PolygonModel& model, std::span<const glm::vec3> corner_normals);
 ShadedPolygons
 shaded_polygons(const models::TriangleMesh& mesh, std::span<const glm::vec3> corner_normals);
 

@@ -195,14 +195,14 @@ std::vector<glm::vec3> normals_of(const Faces& faces, double crease_rad) {
 
 } // namespace
 
-std::vector<glm::vec3> corner_normals(const models::PolygonModel& model, double crease_rad) {
+std::vector<glm::vec3> corner_normals(const models::polygons::PolygonModel& model, double crease_rad) {
     const std::vector<std::uint32_t> places = places_of(model.vertices_m);
     Faces faces;
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
         add_corners(faces, model.corners(i), places, model.vertices_m);
-        const auto pivot = models::pivot_of(model, i);
+        const auto pivot = models::polygons::pivot_of(model, i);
         faces.faces.push_back(
-            {models::normal_of(model, i), pivot ? static_cast<int>(*pivot) : fixed});
+            {models::polygons::normal_of(model, i), pivot ? static_cast<int>(*pivot) : fixed});
     }
     return normals_of(faces, crease_rad);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/polygon_model.h"
+#include "models/polygons/polygon_model.h"
 #include "models/triangle_mesh.h"
 #include "sim/base/units.h"
 
@@ -20,7 +20,7 @@ inline constexpr double default_crease_rad = rad_from_deg(40.0);
 /// different pivots, or of which one is fixed, do not mix. Work for loading: it grows with the
 /// square of the faces around one vertex.
 std::vector<glm::vec3>
-corner_normals(const models::PolygonModel& model, double crease_rad = default_crease_rad);
+corner_normals(const models::polygons::PolygonModel& model, double crease_rad = default_crease_rad);
 
 /// The same for a mesh, three a triangle; triangles without area count nowhere. Normals of the
 /// mesh's own file are not looked at.

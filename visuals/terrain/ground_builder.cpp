@@ -12,7 +12,7 @@ namespace octant::visuals::terrain {
 namespace {
 
 std::vector<std::int16_t>
-numbers_of(const models::HeightField& field, const GroundShape& shape, int threads) {
+numbers_of(const models::heights::HeightField& field, const GroundShape& shape, int threads) {
     const auto columns = static_cast<std::size_t>(shape.columns);
     std::vector<std::int16_t> numbers(columns * static_cast<std::size_t>(shape.rows));
     share_out(
@@ -28,7 +28,7 @@ numbers_of(const models::HeightField& field, const GroundShape& shape, int threa
 
 } // namespace
 
-GroundTiles ground_of(const models::HeightField& field, int threads) {
+GroundTiles ground_of(const models::heights::HeightField& field, int threads) {
     const GroundShape shape = shape_of(
         field.columns(),
         field.rows(),

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/height_field.h"
+#include "models/heights/height_field.h"
 #include "visuals/terrain/ground_tiles.h"
 
 namespace octant::visuals::terrain {
@@ -8,6 +8,6 @@ namespace octant::visuals::terrain {
 /// Heights and errors of a field, in memory of their own; the field is not needed afterwards.
 /// Heights are rounded to the finest power of two of a metre with which the field's range fits 16
 /// bits. Same bytes for every number of threads.
-GroundTiles ground_of(const models::HeightField& field, int threads = 2);
+GroundTiles ground_of(const models::heights::HeightField& field, int threads = 2);
 
 } // namespace octant::visuals::terrain

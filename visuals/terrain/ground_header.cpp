@@ -31,7 +31,7 @@ std::uint64_t checksum_of(const GroundSystem& system) {
     return hash_of(std::as_bytes(std::span(&system, 1)));
 }
 
-GroundSystem stored(const models::MapSystem& system) {
+GroundSystem stored(const models::heights::MapSystem& system) {
     GroundSystem result;
     if (system.wkt.size() <= result.wkt.size()) {
         result.centre_x = system.centre_x;
@@ -171,10 +171,10 @@ GroundFacts facts_of(const GroundHeader& h) {
     GroundFacts facts;
     facts.name = cleaned({h.name.data(), h.name_length});
     if (h.has_place != 0) {
-        facts.place = models::GeoPlace{h.latitude_deg, h.longitude_deg};
+        facts.place = models::heights::GeoPlace{h.latitude_deg, h.longitude_deg};
     }
     if (h.system.wkt_length > 0) {
-        facts.system = models::MapSystem{
+        facts.system = models::heights::MapSystem{
             {h.system.wkt.data(), h.system.wkt_length},
             h.system.centre_x,
             h.system.centre_y,

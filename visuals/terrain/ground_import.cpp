@@ -1,6 +1,6 @@
 #include "visuals/terrain/ground_import.h"
 
-#include "models/height_source.h"
+#include "models/heights/height_source.h"
 #include "sim/base/error.h"
 #include "visuals/terrain/ground_assembly.h"
 #include "visuals/terrain/ground_header.h"
@@ -76,7 +76,7 @@ private:
     path part_;
     GroundImportOptions options_;
     const ImportWatch& watch_;
-    models::HeightSource source_;
+    models::heights::HeightSource source_;
     GroundLayout layout_;
     GroundFilePlan plan_;
     std::uint64_t inputs_;

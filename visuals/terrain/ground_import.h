@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/height_field_import.h"
+#include "models/heights/height_field_import.h"
 #include "visuals/terrain/ground_tiles.h"
 
 #include <cstddef>
@@ -26,7 +26,7 @@ enum class ImportStage {
 using ImportWatch = std::function<bool(ImportStage stage, double done)>;
 
 struct GroundImportOptions {
-    models::ImportOptions picture;
+    models::heights::ImportOptions picture;
     int threads = 2;
 };
 

@@ -5,7 +5,7 @@
 // too: least value and first zero are exact.
 #include "visuals/terrain/ground_query.h"
 
-#include "models/bilinear.h"
+#include "models/heights/bilinear.h"
 #include "visuals/terrain/earth_drop.h"
 
 #include <glm/geometric.hpp>
@@ -170,7 +170,7 @@ Line line_between(
 } // namespace
 
 std::optional<double> ground_height_m(const GroundSamples& ground, double x_m, double y_m) {
-    return models::bilinear_height_m(ground, x_m, y_m);
+    return models::heights::bilinear_height_m(ground, x_m, y_m);
 }
 
 SightLine sight_between(

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/height_field.h"
+#include "models/heights/height_field.h"
 #include "visuals/terrain/ground_tiles.h"
 
 #include <glm/vec2.hpp>
@@ -12,9 +12,9 @@ namespace octant::visuals::terrain {
 /// ground, which must outlive it. World axes as in HeightField.
 class GroundSamples {
 public:
-    explicit GroundSamples(const models::HeightField& field)
+    explicit GroundSamples(const models::heights::HeightField& field)
         : GroundSamples(field, field.highest_m(), [](const void* ground, int column, int row) {
-            return static_cast<const models::HeightField*>(ground)->height_m(column, row);
+            return static_cast<const models::heights::HeightField*>(ground)->height_m(column, row);
         }) {}
 
     explicit GroundSamples(const GroundTiles& tiles)

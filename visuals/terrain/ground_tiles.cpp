@@ -1,6 +1,6 @@
 #include "visuals/terrain/ground_tiles.h"
 
-#include "models/bilinear.h"
+#include "models/heights/bilinear.h"
 
 #include <algorithm>
 #include <bit>
@@ -74,7 +74,7 @@ glm::dvec2 GroundTiles::half_extent_m() const {
 }
 
 std::optional<double> GroundTiles::height_at(double x_m, double y_m) const {
-    return models::bilinear_height_m(*this, x_m, y_m);
+    return models::heights::bilinear_height_m(*this, x_m, y_m);
 }
 
 } // namespace octant::visuals::terrain

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/height_field.h"
+#include "models/heights/height_field.h"
 #include "visuals/terrain/ground_layout.h"
 
 #include <glm/vec2.hpp>
@@ -20,8 +20,8 @@ namespace octant::visuals::terrain {
 /// What is known of a ground besides its numbers.
 struct GroundFacts {
     std::string name;
-    std::optional<models::GeoPlace> place; ///< nothing for made ground
-    std::optional<models::MapSystem> system; ///< as HeightField::system
+    std::optional<models::heights::GeoPlace> place; ///< nothing for made ground
+    std::optional<models::heights::MapSystem> system; ///< as HeightField::system
     std::int64_t filled_voids = 0;         ///< samples without data that were filled in
     float lowest_m = 0.0F;
     float highest_m = 0.0F;

@@ -1,6 +1,6 @@
 #include "visuals/terrain/import_rows.h"
 
-#include "models/height_raster.h"
+#include "models/heights/height_raster.h"
 #include "visuals/terrain/ground_assembly.h"
 #include "visuals/terrain/number_voids.h"
 
@@ -13,7 +13,7 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-static_assert(void_number == models::void_metres);
+static_assert(void_number == models::heights::void_metres);
 
 void take_range(double lowest_m, double highest_m, GroundProgress& progress) {
     progress.lowest_m = std::min(progress.lowest_m, lowest_m);
@@ -21,7 +21,7 @@ void take_range(double lowest_m, double highest_m, GroundProgress& progress) {
 }
 
 void read_whole_metres(
-    models::HeightSource& source,
+    models::heights::HeightSource& source,
     int first_row,
     std::span<std::int16_t> numbers,
     GroundProgress& progress) {
@@ -42,7 +42,7 @@ void read_whole_metres(
 }
 
 void read_fractions(
-    models::HeightSource& source,
+    models::heights::HeightSource& source,
     int first_row,
     std::span<std::int16_t> numbers,
     GroundProgress& progress) {
@@ -58,7 +58,7 @@ void read_fractions(
 
 } // namespace
 
-void scan_rows(models::HeightSource& source, int first_row, int count, GroundProgress& progress) {
+void scan_rows(models::heights::HeightSource& source, int first_row, int count, GroundProgress& progress) {
     std::vector<float> heights_m(
         static_cast<std::size_t>(count) * static_cast<std::size_t>(source.columns()));
     source.read(first_row, heights_m);
@@ -70,7 +70,7 @@ void scan_rows(models::HeightSource& source, int first_row, int count, GroundPro
 }
 
 void read_rows(
-    models::HeightSource& source,
+    models::heights::HeightSource& source,
     int first_row,
     std::span<std::int16_t> numbers,
     GroundProgress& progress) {

@@ -27,7 +27,7 @@ Mesher::Mesher(const Quadtree& tree, std::span<const std::uint32_t> colours)
     , survey_(tree)
     , in_mesh_(tree.nodes().size(), 0)
     , vertex_of_sample_(colours.size(), 0) {
-    const models::HeightField& field = tree.field();
+    const models::heights::HeightField& field = tree.field();
     assert(
         colours.size() ==
         static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()));
@@ -284,7 +284,7 @@ std::uint32_t Mesher::vertex_at(std::ptrdiff_t sample, const At& at) {
 }
 
 void Mesher::add_vertex(Sample at, std::uint32_t colour) {
-    const models::HeightField& field = tree_->field();
+    const models::heights::HeightField& field = tree_->field();
     const double height_m = static_cast<double>(field.height_m(at.column, at.row));
     vertices_[vertex_count_] = {
         glm::vec3(

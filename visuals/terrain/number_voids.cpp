@@ -1,6 +1,6 @@
 #include "visuals/terrain/number_voids.h"
 
-#include "models/height_voids.h"
+#include "models/heights/height_voids.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,8 +43,8 @@ float block_mean(const Field& field, int column, int row, int edge) {
     return known == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(sum / known);
 }
 
-models::HeightGrid block_means(const Field& field, int edge) {
-    models::HeightGrid means;
+models::heights::HeightGrid block_means(const Field& field, int edge) {
+    models::heights::HeightGrid means;
     means.columns = (field.columns + edge - 1) / edge;
     means.rows = (field.rows + edge - 1) / edge;
     for (int row = 0; row < field.rows; row += edge) {
@@ -73,7 +73,7 @@ bool has_voids(const Field& field, const Piece& piece) {
     return false;
 }
 
-void put_filled(const Field& field, const Piece& piece, const models::HeightGrid& grid, Piece of) {
+void put_filled(const Field& field, const Piece& piece, const models::heights::HeightGrid& grid, Piece of) {
     for (int row = piece.south; row < piece.north; ++row) {
         for (int column = piece.west; column < piece.east; ++column) {
             std::int16_t& number = field.at(column, row);
@@ -86,13 +86,13 @@ void put_filled(const Field& field, const Piece& piece, const models::HeightGrid
 }
 
 void fill_piece(
-    const Field& field, const Piece& piece, const models::HeightGrid& coarse, int edge) {
+    const Field& field, const Piece& piece, const models::heights::HeightGrid& coarse, int edge) {
     const Piece wide{
         std::max(0, piece.west - margin),
         std::min(field.columns, piece.east + margin),
         std::max(0, piece.south - margin),
         std::min(field.rows, piece.north + margin)};
-    models::HeightGrid grid;
+    models::heights::HeightGrid grid;
     grid.columns = wide.east - wide.west;
     grid.rows = wide.north - wide.south;
     for (int row = wide.south; row < wide.north; ++row) {
@@ -100,8 +100,8 @@ void fill_piece(
             grid.heights_m.push_back(height_of(field.at(column, row)));
         }
     }
-    models::fill_voids_from(grid, [&](int column, int row) {
-        return models::interpolated(
+    models::heights::fill_voids_from(grid, [&](int column, int row) {
+        return models::heights::interpolated(
             coarse, (wide.west + column + 0.5) / edge - 0.5, (wide.south + row + 0.5) / edge - 0.5);
     });
     put_filled(field, piece, grid, wide);
@@ -115,8 +115,8 @@ void fill_number_voids(std::span<std::int16_t> numbers, int columns, int rows) {
     while (numbers.size() > most_at_once * static_cast<std::size_t>(edge * edge)) {
         edge *= 2;
     }
-    models::HeightGrid coarse = block_means(field, edge);
-    models::fill_voids(coarse);
+    models::heights::HeightGrid coarse = block_means(field, edge);
+    models::heights::fill_voids(coarse);
     if (edge == 1) {
         const Piece all{0, columns, 0, rows};
         put_filled(field, all, coarse, all);

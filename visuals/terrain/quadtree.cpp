@@ -47,7 +47,7 @@ struct NineSamples {
     std::array<std::array<float, 3>, 3> height_m; ///< [row][column]
 };
 
-NineSamples nine_samples(const models::HeightField& field, int west, int south, int edge) {
+NineSamples nine_samples(const models::heights::HeightField& field, int west, int south, int edge) {
     NineSamples nine{};
     for (std::size_t k = 0; k < 3; ++k) {
         const int along = static_cast<int>(k) * edge / 2;
@@ -112,7 +112,7 @@ float cut_middle_deviation_m(const NineSamples& nine) {
 
 } // namespace
 
-Quadtree::Quadtree(const models::HeightField& field, const QuadtreeOptions& options)
+Quadtree::Quadtree(const models::heights::HeightField& field, const QuadtreeOptions& options)
     : field_(&field)
     , options_(options)
     , base_m_(static_cast<double>(field.lowest_m()))

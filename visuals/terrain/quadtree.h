@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/height_field.h"
+#include "models/heights/height_field.h"
 #include "visuals/terrain/detail_settings.h"
 
 #include <bit>
@@ -33,9 +33,9 @@ class Quadtree {
 public:
     /// Computes all nodes. The field must outlive the tree and stay where it is. Options are as
     /// their comments demand (asserted).
-    explicit Quadtree(const models::HeightField& field, const QuadtreeOptions& options = {});
+    explicit Quadtree(const models::heights::HeightField& field, const QuadtreeOptions& options = {});
 
-    const models::HeightField& field() const { return *field_; }
+    const models::heights::HeightField& field() const { return *field_; }
 
     const QuadtreeOptions& options() const { return options_; }
 
@@ -84,7 +84,7 @@ private:
     void take_from_children(int level);
     float roughest_child(int level, int column, int row) const;
 
-    const models::HeightField* field_;
+    const models::heights::HeightField* field_;
     QuadtreeOptions options_;
     double base_m_;
     double step_m_;

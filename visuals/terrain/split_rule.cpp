@@ -43,7 +43,7 @@ SplitRule::SplitRule(const Quadtree& tree)
 void SplitRule::look_from(const MeshView& view, const Detail& detail) {
     assert(view.magnification >= 1.0);
     assert(detail.roughness_weight >= 0.0 && detail.roughness_weight < 1e6);
-    const models::HeightField& field = tree_->field();
+    const models::heights::HeightField& field = tree_->field();
     const glm::dvec2 half_m = field.half_extent_m();
     const double ground_m = field
                                 .height_at(
@@ -90,7 +90,7 @@ std::array<float, 4> SplitRule::critical_squared_of_four(int level, int column, 
 }
 
 NodeBox SplitRule::box_of(const GroundFan& node) const {
-    const models::HeightField& field = tree_->field();
+    const models::heights::HeightField& field = tree_->field();
     const QuadtreeNode& bounds = tree_->nodes()[node.node];
     const int edge = levels_[node.level].edge;
     const int west = node.column * edge;
@@ -105,7 +105,7 @@ NodeBox SplitRule::box_of(const GroundFan& node) const {
 }
 
 unsigned SplitRule::planes_cutting_node(const GroundFan& node, unsigned planes) const {
-    const models::HeightField& field = tree_->field();
+    const models::heights::HeightField& field = tree_->field();
     const QuadtreeNode& bounds = tree_->nodes()[node.node];
     const int edge = levels_[node.level].edge;
     const int west = node.column * edge;

@@ -1,0 +1,130 @@
+#include "models/heights/height_field_export.h"
+
+#include "models/heights/gdal_session.h"
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+
+#include <array>
+#include <atomic>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+#include <gdal.h>
+#include <limits>
+#include <ogr_srs_api.h>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace octant::models::heights {
+
+namespace {
+
+/// A name for a file in GDAL's memory, gone with its content when this ends.
+class MemoryFile {
+public:
+    MemoryFile() {
+        static std::atomic<int> count = 0;
+        name_ = fmt::format("/vsimem/octant-height-field-{}.tif", count++);
+    }
+
+    ~MemoryFile() { VSIUnlink(name_.c_str()); }
+
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+    MemoryFile(MemoryFile&&) = delete;
+    MemoryFile& operator=(MemoryFile&&) = delete;
+
+    const char* name() const { return name_.c_str(); }
+
+    std::string_view bytes() const {
+        vsi_l_offset size = 0;
+        const GByte* data = VSIGetMemFileBuffer(name_.c_str(), &size, FALSE);
+        return {reinterpret_cast<const char*>(data), data == nullptr ? 0 : size};
+    }
+
+private:
+    std::string name_;
+};
+
+void set_system(GDALDatasetH dataset, const HeightField& field) {
+    const OGRSpatialReferenceH system = OSRNewSpatialReference(nullptr);
+    if (field.place) {
+        const std::string text = fmt::format(
+            "+proj=tmerc +lat_0={:.17g} +lon_0={:.17g} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m",
+            field.place->latitude_deg,
+            field.place->longitude_deg);
+        OSRImportFromProj4(system, text.c_str());
+    } else {
+        OSRSetLocalCS(system, "metres east and north of the map centre");
+        OSRSetLinearUnits(system, "metre", 1.0);
+    }
+    GDALSetSpatialRef(dataset, system);
+    OSRRelease(system);
+}
+
+void set_frame(GDALDatasetH dataset, const HeightField& field) {
+    const double spacing_m = field.spacing_m();
+    std::array<double, 6> transform = {
+        -0.5 * field.columns() * spacing_m,
+        spacing_m,
+        0.0,
+        0.5 * field.rows() * spacing_m,
+        0.0,
+        -spacing_m};
+    GDALSetGeoTransform(dataset, transform.data());
+    set_system(dataset, field);
+    // A declared value for missing data, and one that no height equals, keeps -9999 a height.
+    const GDALRasterBandH band = GDALGetRasterBand(dataset, 1);
+    GDALSetRasterNoDataValue(band, std::numeric_limits<double>::quiet_NaN());
+    GDALSetRasterUnitType(band, "m");
+}
+
+bool write_lines(GDALDatasetH dataset, const HeightField& field) {
+    const GDALRasterBandH band = GDALGetRasterBand(dataset, 1);
+    const int columns = field.columns();
+    std::vector<float> line(static_cast<std::size_t>(columns));
+    for (int row = field.rows() - 1; row >= 0; --row) {
+        for (int column = 0; column < columns; ++column) {
+            line[static_cast<std::size_t>(column)] = field.height_m(column, row);
+        }
+        const int y = field.rows() - 1 - row;
+        const CPLErr result = GDALRasterIO(
+            band, GF_Write, 0, y, columns, 1, line.data(), columns, 1, GDT_Float32, 0, 0);
+        if (result != CE_None) {
+            return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+void write_height_field(const std::filesystem::path& path, const HeightField& field) {
+    const GdalSession gdal;
+    const MemoryFile memory;
+    char** options = CSLSetNameValue(nullptr, "COMPRESS", "DEFLATE");
+    options = CSLSetNameValue(options, "PREDICTOR", "3");
+    options = CSLSetNameValue(options, "BIGTIFF", "IF_SAFER");
+    Dataset dataset(GDALCreate(
+        GDALGetDriverByName("GTiff"),
+        memory.name(),
+        field.columns(),
+        field.rows(),
+        1,
+        GDT_Float32,
+        options));
+    CSLDestroy(options);
+    bool written = dataset != nullptr;
+    if (written) {
+        set_frame(dataset.get(), field);
+        written = write_lines(dataset.get(), field);
+        dataset.reset();
+    }
+    if (!written || gdal.failed()) {
+        error_in(path, "cannot be written: " + gdal.reason(memory.name()));
+    }
+    write_file(path, memory.bytes());
+}
+
+} // namespace octant::models::heights

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace octant::models::heights {
+
+/// Heights on their way into a HeightField: row after row from the south, west to east. NaN marks
+/// a sample without data until fill_voids has run.
+struct HeightGrid {
+    int columns = 0;
+    int rows = 0;
+    std::vector<float> heights_m;
+
+    float at(int column, int row) const { return heights_m[index(column, row)]; }
+
+    std::size_t index(int column, int row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+               static_cast<std::size_t>(column);
+    }
+};
+
+/// Bilinear height at fractional grid coordinates; beyond the grid the height of its rim. At least
+/// 2 x 2 samples (asserted).
+float interpolated(const HeightGrid& grid, double column, double row);
+
+/// A grid whose samples are `step_east_m` and `step_north_m` apart, resampled to square cells of
+/// `spacing_m` about the same centre; nothing beyond the old rim.
+HeightGrid
+squared(const HeightGrid& grid, double step_east_m, double step_north_m, double spacing_m);
+
+} // namespace octant::models::heights

@@ -1,0 +1,172 @@
+// Source: see made_canyon.cpp.
+#include "models/made/canyon_network.h"
+
+#include "models/made/drainage.h"
+#include "models/made/terrain_grid.h"
+#include "models/made/terrain_noise.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace octant::models::made {
+
+namespace {
+
+constexpr double cell_m = 100.0;
+/// The network is made on a grid turned by the angle of (3, 4, 5) and larger than the field.
+constexpr double turned_east = 0.8;
+constexpr double turned_north = 0.6;
+constexpr double larger = 1.42;
+constexpr double margin_m = 1500.0;
+/// How much stronger than a Warp's own shift streams are bent.
+constexpr double bend = 2.0;
+constexpr double stream_area_m2 = 3.0e5;
+constexpr double steepness_m = 270.0;
+/// Beds above this run over the plateau.
+constexpr double highest_bed_m = 2200.0;
+
+/// Working state: the grid, its outlets (the river) and where its cells really lie.
+struct Network {
+    TerrainGrid ground;
+    std::vector<char> is_river;
+    std::vector<glm::dvec2> places; ///< of cells, in the turned frame
+    std::vector<glm::dvec2> river;  ///< along the river, in the turned frame
+};
+
+std::vector<glm::dvec2> winding_river(double extent_m, std::uint64_t seed) {
+    const Fractal course = {seed + 301, 9000.0, 2, 0.4};
+    const Warp meanders = {seed + 307, 3600.0, 2};
+    std::vector<glm::dvec2> river;
+    const int steps = static_cast<int>(extent_m * 1.2 / 40.0);
+    for (int i = 0; i <= steps; ++i) {
+        const double x_m = -0.1 * extent_m + i * 40.0;
+        const double y_m = 0.5 * extent_m + 3000.0 * course.at(x_m, 0.0);
+        river.emplace_back(
+            x_m + 2.2 * meanders.east_m(x_m, y_m), y_m + 2.2 * meanders.north_m(x_m, y_m));
+    }
+    return river;
+}
+
+Network first_network(double extent_m, std::uint64_t seed) {
+    const int side = std::clamp(static_cast<int>(extent_m / cell_m) + 1, 65, 1025);
+    Network network;
+    network.ground = TerrainGrid(side, extent_m / (side - 1));
+    TerrainGrid& ground = network.ground;
+    network.is_river.assign(ground.values.size(), 0);
+    network.places.resize(ground.values.size());
+    const Fractal plateau = {seed + 311, 5200.0, 5, 0.55};
+    const Warp warp = {seed + 313, 28.0 * ground.cell_m, 4};
+    for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column) {
+            const std::size_t i = ground.index(column, row);
+            const double x_m = column * ground.cell_m;
+            const double y_m = row * ground.cell_m;
+            ground.values[i] = 400.0 + 160.0 * plateau.at(x_m, y_m);
+            network.places[i] = {
+                x_m + bend * warp.east_m(x_m, y_m), y_m + bend * warp.north_m(x_m, y_m)};
+        }
+    }
+    for (const glm::dvec2& point : winding_river(extent_m, seed)) {
+        const int column = static_cast<int>(std::floor(point.x / ground.cell_m + 0.5));
+        const int row = static_cast<int>(std::floor(point.y / ground.cell_m + 0.5));
+        network.river.emplace_back(
+            point.x + bend * warp.east_m(point.x, point.y),
+            point.y + bend * warp.north_m(point.x, point.y));
+        if (column >= 0 && row >= 0 && column < side && row < side) {
+            network.is_river[ground.index(column, row)] = 1;
+            ground.values[ground.index(column, row)] = 0.0;
+        }
+    }
+    return network;
+}
+
+/// Erodes the ground until streams have joined into a tree.
+Drainage grown(Network& network, std::uint64_t seed) {
+    const std::vector<double> uplift(network.ground.values.size(), 1.0);
+    const StreamPower power = {12.0, 60.0};
+    for (int step = 0; step < 24; ++step) {
+        if (step % 6 == 0) {
+            fill_pits(network.ground, network.is_river);
+        }
+        const auto turn = static_cast<std::uint64_t>(step / 6);
+        erode(
+            network.ground,
+            drained(network.ground, network.is_river, seed + 331 + turn),
+            uplift,
+            power);
+    }
+    fill_pits(network.ground, network.is_river);
+    return drained(network.ground, network.is_river, seed + 337);
+}
+
+/// Draws every stream cell toward the middle of its receiver and its largest donor.
+void straighten(std::vector<glm::dvec2>& places, const Drainage& water) {
+    std::vector<int> donor(places.size(), -1);
+    for (const int cell : water.upstream) {
+        const auto i = static_cast<std::size_t>(cell);
+        const auto receiver = static_cast<std::size_t>(water.receiver[i]);
+        const int best = donor[receiver];
+        if (receiver != i &&
+            (best < 0 || water.area_m2[static_cast<std::size_t>(best)] < water.area_m2[i])) {
+            donor[receiver] = cell;
+        }
+    }
+    for (int pass = 0; pass < 3; ++pass) {
+        const std::vector<glm::dvec2> old = places;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const auto receiver = static_cast<std::size_t>(water.receiver[i]);
+            if (receiver != i && donor[i] >= 0) {
+                places[i] =
+                    0.5 * old[i] + 0.25 * (old[receiver] + old[static_cast<std::size_t>(donor[i])]);
+            }
+        }
+    }
+}
+
+/// From the turned frame to the field's, with the middle of the river at the field's centre.
+glm::dvec2 in_field(const glm::dvec2& place, const Network& network) {
+    const glm::dvec2& middle = network.river[network.river.size() / 2];
+    const double x = place.x - middle.x;
+    const double y = place.y - middle.y;
+    return {turned_east * x + turned_north * y, turned_east * y - turned_north * x};
+}
+
+} // namespace
+
+std::vector<Reach> canyon_network(double field_m, std::uint64_t seed) {
+    const double extent_m = larger * field_m + 2.0 * margin_m;
+    Network network = first_network(extent_m, seed);
+    const Drainage water = grown(network, seed);
+    straighten(network.places, water);
+    std::vector<Reach> reaches;
+    for (std::size_t i = 1; i < network.river.size(); ++i) {
+        reaches.push_back(
+            {in_field(network.river[i - 1], network),
+             in_field(network.river[i], network),
+             0.0,
+             0.0,
+             55.0});
+    }
+    std::vector<double> bed_m(network.places.size(), 0.0);
+    for (const int cell : water.upstream) {
+        const auto i = static_cast<std::size_t>(cell);
+        const auto receiver = static_cast<std::size_t>(water.receiver[i]);
+        if (receiver == i) {
+            continue;
+        }
+        const double area_m2 = water.area_m2[i];
+        bed_m[i] = bed_m[receiver] + water.length_m[i] * steepness_m / std::sqrt(area_m2);
+        if (area_m2 < stream_area_m2 || bed_m[i] > highest_bed_m) {
+            continue;
+        }
+        reaches.push_back(
+            {in_field(network.places[i], network),
+             in_field(network.places[receiver], network),
+             bed_m[i],
+             bed_m[receiver],
+             std::min(40.0, 0.006 * std::sqrt(area_m2))});
+    }
+    return reaches;
+}
+
+} // namespace octant::models::made

@@ -1,0 +1,192 @@
+// Source: J. Braun and S. Willett, A very efficient O(n), implicit and parallel method to solve the
+// stream power equation, Geomorphology 180-181, 2013 (receivers, stack order, implicit step with
+// n = 1, m = 0.5); R. Barnes, C. Lehman and D. Mulla, Priority-Flood, Computers & Geosciences 62,
+// 2014 (filling of pits, algorithm 3 with its trace of slope).
+// The direction of descent is that of D. Tarboton, A new method for the determination of flow
+// directions and upslope areas in grid DEMs, Water Resources Research 33(2), 1997 (facets).
+// Deviations: water is not shared between the two neighbours of a facet but given to one of them,
+// with the chance that leads in the facet's direction on average (after Fairfield and Leymarie's
+// Rho8, 1991): streams do not run along the grid. The stack order is built breadth first.
+#include "models/made/drainage.h"
+
+#include "models/made/terrain_noise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <queue>
+#include <utility>
+
+namespace octant::models::made {
+
+namespace {
+
+struct Step {
+    int dx = 0;
+    int dy = 0;
+};
+
+constexpr double diagonal = 1.4142135623730951;
+
+/// The eight neighbours in a circle; even ones share a side with the cell.
+constexpr std::array<Step, 8> circle = {
+    {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+
+bool is_inside(const TerrainGrid& grid, int column, int row) {
+    return column >= 0 && row >= 0 && column < grid.side && row < grid.side;
+}
+
+/// The descent over one facet: a triangle of a cell, a side neighbour and a corner neighbour.
+struct Facet {
+    double slope = 0.0;         ///< of the steepest descent within it, a cell
+    double corner_chance = 0.0; ///< share of corner steps that leads in its direction
+};
+
+Facet facet_from(double to_side, double side_to_corner) {
+    if (side_to_corner <= 0.0) {
+        return {to_side, 0.0};
+    }
+    if (side_to_corner >= to_side) {
+        return {(to_side + side_to_corner) / diagonal, 1.0};
+    }
+    return {
+        std::sqrt(to_side * to_side + side_to_corner * side_to_corner), side_to_corner / to_side};
+}
+
+void choose_receiver(
+    const TerrainGrid& ground, int column, int row, double chance, Drainage& water) {
+    const std::size_t i = ground.index(column, row);
+    const double height = ground.values[i];
+    double steepest = 0.0;
+    for (std::size_t n = 0; n < circle.size(); ++n) {
+        const std::size_t corner = n | 1U;
+        const std::size_t side = (n & 1U) == 0 ? n : (n + 1) % circle.size();
+        const Step to_side = circle[side];
+        const Step to_corner = circle[corner];
+        if (!is_inside(ground, column + to_side.dx, row + to_side.dy) ||
+            !is_inside(ground, column + to_corner.dx, row + to_corner.dy)) {
+            continue;
+        }
+        const double side_height = ground.at(column + to_side.dx, row + to_side.dy);
+        const double corner_height = ground.at(column + to_corner.dx, row + to_corner.dy);
+        const Facet facet = facet_from(height - side_height, side_height - corner_height);
+        if (facet.slope <= steepest) {
+            continue;
+        }
+        steepest = facet.slope;
+        const bool by_corner = chance < facet.corner_chance;
+        const Step step = by_corner ? to_corner : to_side;
+        water.receiver[i] = static_cast<int>(ground.index(column + step.dx, row + step.dy));
+        water.length_m[i] = by_corner ? diagonal * ground.cell_m : ground.cell_m;
+    }
+}
+
+/// Fills `upstream` from `receiver`: outlets and pits first, then always the donors of what stands
+/// already.
+void order_upstream(Drainage& water) {
+    const std::size_t count = water.receiver.size();
+    std::vector<int> first_donor(count + 1, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto receiver = static_cast<std::size_t>(water.receiver[i]);
+        if (receiver != i) {
+            ++first_donor[receiver + 1];
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        first_donor[i + 1] += first_donor[i];
+    }
+    std::vector<int> donors(count);
+    std::vector<int> next = first_donor;
+    water.upstream.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto receiver = static_cast<std::size_t>(water.receiver[i]);
+        if (receiver != i) {
+            donors[static_cast<std::size_t>(next[receiver]++)] = static_cast<int>(i);
+        } else {
+            water.upstream.push_back(static_cast<int>(i));
+        }
+    }
+    for (std::size_t at = 0; at < water.upstream.size(); ++at) {
+        const auto i = static_cast<std::size_t>(water.upstream[at]);
+        for (int d = first_donor[i]; d < first_donor[i + 1]; ++d) {
+            water.upstream.push_back(donors[static_cast<std::size_t>(d)]);
+        }
+    }
+}
+
+} // namespace
+
+void fill_pits(TerrainGrid& ground, const std::vector<char>& is_outlet) {
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+    std::vector<char> reached = is_outlet;
+    for (std::size_t i = 0; i < is_outlet.size(); ++i) {
+        if (is_outlet[i] != 0) {
+            front.emplace(ground.values[i], static_cast<int>(i));
+        }
+    }
+    const double trace_m = 1e-5 * ground.cell_m;
+    while (!front.empty()) {
+        const auto [height, cell] = front.top();
+        front.pop();
+        for (const Step& n : circle) {
+            const int x = cell % ground.side + n.dx;
+            const int y = cell / ground.side + n.dy;
+            if (!is_inside(ground, x, y) || reached[ground.index(x, y)] != 0) {
+                continue;
+            }
+            const std::size_t i = ground.index(x, y);
+            reached[i] = 1;
+            ground.values[i] = std::max(ground.values[i], height + trace_m);
+            front.emplace(ground.values[i], static_cast<int>(i));
+        }
+    }
+}
+
+Drainage
+drained(const TerrainGrid& ground, const std::vector<char>& is_outlet, std::uint64_t seed) {
+    Drainage water;
+    const std::size_t count = ground.values.size();
+    water.receiver.resize(count);
+    water.length_m.assign(count, ground.cell_m);
+    water.area_m2.assign(count, ground.cell_m * ground.cell_m);
+    for (int row = 0; row < ground.side; ++row) {
+        for (int column = 0; column < ground.side; ++column) {
+            const std::size_t i = ground.index(column, row);
+            water.receiver[i] = static_cast<int>(i);
+            if (is_outlet[i] == 0) {
+                choose_receiver(ground, column, row, hashed_unit(seed, column, row), water);
+            }
+        }
+    }
+    order_upstream(water);
+    for (std::size_t at = count; at-- > 0;) {
+        const auto i = static_cast<std::size_t>(water.upstream[at]);
+        const auto receiver = static_cast<std::size_t>(water.receiver[i]);
+        if (receiver != i) {
+            water.area_m2[receiver] += water.area_m2[i];
+        }
+    }
+    return water;
+}
+
+void erode(
+    TerrainGrid& ground,
+    const Drainage& water,
+    const std::vector<double>& uplift,
+    const StreamPower& power) {
+    for (const int cell : water.upstream) {
+        const auto i = static_cast<std::size_t>(cell);
+        const auto receiver = static_cast<std::size_t>(water.receiver[i]);
+        if (receiver == i) {
+            continue;
+        }
+        const double cut =
+            power.step / power.steepness_m * std::sqrt(water.area_m2[i]) / water.length_m[i];
+        const double raised = ground.values[i] + power.step * uplift[i];
+        ground.values[i] = (raised + cut * ground.values[receiver]) / (1.0 + cut);
+    }
+}
+
+} // namespace octant::models::made

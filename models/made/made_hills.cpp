@@ -1,0 +1,150 @@
+// Source: ground in balance between uplift and stream power (see drainage.cpp), made from coarse to
+// fine as in G. Cordonnier et al., Large Scale Terrain Generation from Tectonic Uplift and Fluvial
+// Erosion, Computer Graphics Forum 35(2), 2016: the streams give the branching valleys, diffusion
+// rounds the tops.
+// Deviations: a regular grid with hashed receivers and warped sampling instead of an irregular
+// mesh; valley floors are flattened by the height above the nearest stream.
+#include "models/made/drainage.h"
+#include "models/made/made_terrain.h"
+#include "models/made/terrain_noise.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace octant::models::made {
+
+namespace {
+
+/// Ground is made on a grid turned by the angle of (3, 4, 5) and larger than the field, so that
+/// neither its lattice nor its rim shows.
+constexpr double turned_east = 0.8;
+constexpr double turned_north = 0.6;
+constexpr double larger = 1.42;
+constexpr double margin_m = 1000.0;
+constexpr double coarse_cell_m = 200.0;
+
+std::vector<char> rim_of(const TerrainGrid& grid) {
+    std::vector<char> rim(grid.values.size(), 0);
+    for (int i = 0; i < grid.side; ++i) {
+        rim[grid.index(i, 0)] = 1;
+        rim[grid.index(i, grid.side - 1)] = 1;
+        rim[grid.index(0, i)] = 1;
+        rim[grid.index(grid.side - 1, i)] = 1;
+    }
+    return rim;
+}
+
+TerrainGrid first_ground(double extent_m, std::uint64_t seed) {
+    const int side = std::clamp(static_cast<int>(extent_m / coarse_cell_m) + 1, 33, 513);
+    TerrainGrid ground(side, extent_m / (side - 1));
+    const Fractal lowland = {seed + 11, 7000.0, 3, 0.5};
+    for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column) {
+            const double x_m = column * ground.cell_m;
+            const double y_m = row * ground.cell_m;
+            ground.values[ground.index(column, row)] = 130.0 + 120.0 * lowland.at(x_m, y_m);
+        }
+    }
+    return ground;
+}
+
+/// Relative rate of uplift: ranges of hills and quiet basins between them.
+std::vector<double> uplift_of(const TerrainGrid& ground, std::uint64_t seed) {
+    const Fractal ranges = {seed + 23, 6500.0, 3, 0.45};
+    std::vector<double> uplift(ground.values.size());
+    for (int row = 0; row < ground.side; ++row) {
+        for (int column = 0; column < ground.side; ++column) {
+            const double n = ranges.at(column * ground.cell_m, row * ground.cell_m);
+            uplift[ground.index(column, row)] = 0.22 + 0.95 * smooth_step(-0.35, 0.5, n);
+        }
+    }
+    return uplift;
+}
+
+struct Level {
+    int steps = 0;
+    StreamPower power;
+    double diffusion = 0.0;
+};
+
+void shape(TerrainGrid& ground, const Level& level, std::uint64_t seed) {
+    const std::vector<char> rim = rim_of(ground);
+    const std::vector<double> uplift = uplift_of(ground, seed);
+    for (int step = 0; step < level.steps; ++step) {
+        if (step % 8 == 0) {
+            fill_pits(ground, rim);
+        }
+        const std::uint64_t turn = seed + 37 + static_cast<std::uint64_t>(step / 8);
+        erode(ground, drained(ground, rim, turn), uplift, level.power);
+        if (level.diffusion > 0.0) {
+            diffuse(ground, level.diffusion);
+        }
+    }
+}
+
+/// Lays flat floors beside streams: a height h above the nearest stream becomes about
+/// h - floor_m h / (h + 3 floor_m).
+void flatten_floors(TerrainGrid& ground, std::uint64_t seed) {
+    constexpr double stream_area_m2 = 6.0e5;
+    const std::vector<char> rim = rim_of(ground);
+    fill_pits(ground, rim);
+    const Drainage water = drained(ground, rim, seed + 37);
+    std::vector<double> stream_m(ground.values.size());
+    const std::vector<double> old = ground.values;
+    for (const int cell : water.upstream) {
+        const auto i = static_cast<std::size_t>(cell);
+        const auto receiver = static_cast<std::size_t>(water.receiver[i]);
+        const bool is_stream = receiver == i || water.area_m2[i] > stream_area_m2;
+        stream_m[i] = is_stream ? old[i] : stream_m[receiver];
+        const double above_m = std::max(0.0, old[i] - stream_m[i]);
+        constexpr double floor_m = 14.0;
+        ground.values[i] = old[i] - floor_m * above_m / (above_m + 2.0 * floor_m);
+    }
+}
+
+} // namespace
+
+heights::HeightField made_hills(const MadeOptions& options) {
+    assert(options.size >= 2 && options.size <= 20000);
+    assert(options.spacing_m > 0.0 && std::isfinite(options.spacing_m));
+    const double field_m = (options.size - 1) * options.spacing_m;
+    const double extent_m = larger * field_m + 2.0 * margin_m;
+    const std::uint64_t seed = options.seed * 1000003U;
+    TerrainGrid ground = first_ground(extent_m, seed);
+    shape(ground, {44, {50.0, 58.0}, 0.0}, seed);
+    ground = refined(ground, {seed + 61, 12.0 * ground.cell_m, 3});
+    shape(ground, {16, {34.0, 58.0}, 0.09}, seed);
+    if (ground.cell_m > 2.0 * options.spacing_m) {
+        ground = refined(ground, {seed + 67, 10.0 * ground.cell_m, 3});
+        shape(ground, {5, {22.0, 58.0}, 0.22}, seed);
+    }
+    flatten_floors(ground, seed);
+    for (int i = 0; i < 4; ++i) {
+        diffuse(ground, 0.15);
+    }
+    const Warp warp = {seed + 41, 10.0 * ground.cell_m, 3};
+    const Fractal detail = {seed + 47, 500.0, 5, 0.5};
+    std::vector<float> heights_m;
+    heights_m.reserve(
+        static_cast<std::size_t>(options.size) * static_cast<std::size_t>(options.size));
+    for (int row = 0; row < options.size; ++row) {
+        for (int column = 0; column < options.size; ++column) {
+            const double east_m = column * options.spacing_m - 0.5 * field_m;
+            const double north_m = row * options.spacing_m - 0.5 * field_m;
+            const double x_m = 0.5 * extent_m + turned_east * east_m - turned_north * north_m;
+            const double y_m = 0.5 * extent_m + turned_north * east_m + turned_east * north_m;
+            const double warped_x_m = x_m + warp.east_m(x_m, y_m);
+            const double warped_y_m = y_m + warp.north_m(x_m, y_m);
+            const double height_m =
+                ground.smooth_at(warped_x_m, warped_y_m) + 9.0 * detail.at(x_m, y_m);
+            heights_m.push_back(static_cast<float>(height_m));
+        }
+    }
+    heights::HeightField field(options.size, options.size, options.spacing_m, std::move(heights_m));
+    field.name = "hills";
+    return field;
+}
+
+} // namespace octant::models::made

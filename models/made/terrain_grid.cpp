@@ -1,0 +1,66 @@
+#include "models/made/terrain_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace octant::models::made {
+
+namespace {
+
+std::array<double, 4> catmull_rom(double t) {
+    return {
+        0.5 * t * (-1.0 + t * (2.0 - t)),
+        0.5 * (2.0 + t * t * (-5.0 + 3.0 * t)),
+        0.5 * t * (1.0 + t * (4.0 - 3.0 * t)),
+        0.5 * t * t * (t - 1.0)};
+}
+
+} // namespace
+
+double TerrainGrid::smooth_at(double x_m, double y_m) const {
+    const double x = std::clamp(x_m / cell_m, 0.0, side - 1.0);
+    const double y = std::clamp(y_m / cell_m, 0.0, side - 1.0);
+    const int column = std::min(static_cast<int>(x), side - 2);
+    const int row = std::min(static_cast<int>(y), side - 2);
+    const auto across = catmull_rom(x - column);
+    const auto up = catmull_rom(y - row);
+    double sum = 0.0;
+    for (int j = 0; j < 4; ++j) {
+        const int r = std::clamp(row + j - 1, 0, side - 1);
+        double line = 0.0;
+        for (int i = 0; i < 4; ++i) {
+            const int c = std::clamp(column + i - 1, 0, side - 1);
+            line += across[static_cast<std::size_t>(i)] * at(c, r);
+        }
+        sum += up[static_cast<std::size_t>(j)] * line;
+    }
+    return sum;
+}
+
+TerrainGrid refined(const TerrainGrid& grid, const Warp& warp) {
+    TerrainGrid fine(2 * grid.side - 1, grid.cell_m / 2.0);
+    for (int row = 0; row < fine.side; ++row) {
+        for (int column = 0; column < fine.side; ++column) {
+            const double x_m = column * fine.cell_m;
+            const double y_m = row * fine.cell_m;
+            fine.values[fine.index(column, row)] =
+                grid.smooth_at(x_m + warp.east_m(x_m, y_m), y_m + warp.north_m(x_m, y_m));
+        }
+    }
+    return fine;
+}
+
+void diffuse(TerrainGrid& grid, double share) {
+    const std::vector<double> old = grid.values;
+    const auto step = static_cast<std::size_t>(grid.side);
+    for (int row = 1; row + 1 < grid.side; ++row) {
+        for (int column = 1; column + 1 < grid.side; ++column) {
+            const std::size_t i = grid.index(column, row);
+            const double around = old[i - 1] + old[i + 1] + old[i - step] + old[i + step];
+            grid.values[i] = old[i] + share * (around - 4.0 * old[i]);
+        }
+    }
+}
+
+} // namespace octant::models::made

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "models/made/terrain_noise.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace octant::models::made {
+
+/// Working heights of made ground: a square of side * side values, row after row from the south.
+struct TerrainGrid {
+    int side = 0;
+    double cell_m = 0.0; ///< between samples
+    std::vector<double> values;
+
+    TerrainGrid() = default;
+
+    TerrainGrid(int samples, double cell)
+        : side(samples)
+        , cell_m(cell)
+        , values(static_cast<std::size_t>(samples) * static_cast<std::size_t>(samples)) {}
+
+    std::size_t index(int column, int row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(side) +
+               static_cast<std::size_t>(column);
+    }
+
+    double at(int column, int row) const { return values[index(column, row)]; }
+
+    /// Smooth value (Catmull-Rom) at a place in metres from sample (0, 0); the rim's beyond it.
+    double smooth_at(double x_m, double y_m) const;
+};
+
+/// The same ground with half the cell, interpolated smoothly and bent by the warp.
+TerrainGrid refined(const TerrainGrid& grid, const Warp& warp);
+
+/// One pass of diffusion: each inner value moves by `share` (0 to 0.25) of the sum of differences
+/// to its four neighbours.
+void diffuse(TerrainGrid& grid, double share);
+
+} // namespace octant::models::made

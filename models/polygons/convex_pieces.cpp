@@ -1,0 +1,293 @@
+// Ear clipping: G. H. Meisters, "Polygons have ears", 1975. Merging of triangles into convex
+// pieces: S. Hertel, K. Mehlhorn, "Fast triangulation of simple polygons", 1983.
+// Deviations:
+// - Both leave open which ear is clipped and which diagonal is removed first. Here the ear is
+//   clipped that lies in one plane with a side next to it, the one of greatest height among them,
+//   and long diagonals are removed first: bent polygons fold where they should, and needles are
+//   avoided.
+// - A second triangulation prefers ears beside dents, so that cuts end where outlines turn right;
+//   the one that gives fewer pieces is taken.
+// - A diagonal is removed only where the piece that results passes corners_fault.
+
+#include "models/polygons/convex_pieces.h"
+
+#include "models/polygons/flat_outline.h"
+#include "models/polygons/polygon_check.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace octant::models::polygons {
+
+namespace {
+
+using Corners = std::span<const glm::dvec3>;
+using Outline = std::vector<glm::dvec2>;
+using Piece = std::vector<std::size_t>;
+
+/// What makes one ear better than another.
+enum class Prefer { High, BesideDents };
+
+/// How good an ear is, best first compared; nothing where a corner is no ear.
+using Rank = std::optional<std::tuple<bool, int, double>>;
+
+class EarClipper {
+public:
+    EarClipper(Corners corners_m, const Outline& outline, double tolerance_m, Prefer prefer)
+        : corners_m_(corners_m)
+        , outline_(outline)
+        , tolerance_m_(tolerance_m)
+        , prefer_(prefer) {
+        for (std::size_t i = 0; i < outline.size(); ++i) {
+            ring_.push_back(i);
+        }
+    }
+
+    /// Nothing when the corners run out of ears.
+    std::optional<std::vector<Piece>> triangles() {
+        std::vector<Piece> out;
+        rank_all(tolerance_m_);
+        while (ring_.size() > 3) {
+            std::optional<std::size_t> ear = best();
+            for (const double clearance_m : {tolerance_m_, 0.0}) {
+                if (!ear) {
+                    rank_all(clearance_m);
+                    ear = best();
+                }
+            }
+            if (!ear) {
+                return std::nullopt;
+            }
+            out.push_back({at(*ear, -1), at(*ear, 0), at(*ear, 1)});
+            clip(*ear);
+        }
+        out.push_back(ring_);
+        return out;
+    }
+
+private:
+    /// Place in the polygon of the corner `step` behind place `i` of the ring.
+    std::size_t at(std::size_t i, int step) const {
+        const auto count = static_cast<std::ptrdiff_t>(ring_.size());
+        const std::ptrdiff_t place = (static_cast<std::ptrdiff_t>(i) + step + count) % count;
+        return ring_[static_cast<std::size_t>(place)];
+    }
+
+    const glm::dvec2& flat(std::size_t i, int step) const { return outline_[at(i, step)]; }
+
+    void rank_all(double clearance_m) {
+        clearance_m_ = clearance_m;
+        ranks_.resize(ring_.size());
+        for (std::size_t i = 0; i < ring_.size(); ++i) {
+            ranks_[i] = rank_of(i);
+        }
+    }
+
+    std::optional<std::size_t> best() const {
+        const auto found = std::ranges::max_element(ranks_);
+        return *found ? std::optional(static_cast<std::size_t>(found - ranks_.begin()))
+                      : std::nullopt;
+    }
+
+    void clip(std::size_t ear) {
+        ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(ear));
+        ranks_.erase(ranks_.begin() + static_cast<std::ptrdiff_t>(ear));
+        // Two corners on either side: planes and dents reach that far.
+        const std::size_t count = ring_.size();
+        for (std::size_t step = 0; step < 4; ++step) {
+            const std::size_t i = (ear + count + step - 2) % count;
+            ranks_[i] = rank_of(i);
+        }
+    }
+
+    Rank rank_of(std::size_t i) const {
+        const std::array<glm::dvec2, 3> ear{flat(i, -1), flat(i, 0), flat(i, 1)};
+        const double longest_m = std::max(
+            {glm::distance(ear[0], ear[1]),
+             glm::distance(ear[1], ear[2]),
+             glm::distance(ear[2], ear[0])});
+        const double height_m = turn_of(ear[0], ear[1], ear[2]) / longest_m;
+        if (height_m <= std::max(clearance_m_, 1e-9 * longest_m) || !is_free(i, ear)) {
+            return std::nullopt;
+        }
+        const bool beside = prefer_ == Prefer::BesideDents;
+        return std::tuple(in_a_plane(i), beside ? dents_beside(i) : 0, height_m);
+    }
+
+    /// True when no other corner lies in the ear or nearer to it than the clearance.
+    bool is_free(std::size_t i, const std::array<glm::dvec2, 3>& ear) const {
+        for (const std::size_t other : ring_) {
+            if (other == at(i, -1) || other == at(i, 0) || other == at(i, 1)) {
+                continue;
+            }
+            bool inside = true;
+            for (std::size_t side = 0; side < 3 && inside; ++side) {
+                const glm::dvec2& from = ear[side];
+                const glm::dvec2& to = ear[(side + 1) % 3];
+                const double length_m = glm::distance(from, to);
+                inside = turn_of(from, to, outline_[other]) >= -clearance_m_ * length_m;
+            }
+            if (inside) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// True when the corner before or behind the ear lies in its plane.
+    bool in_a_plane(std::size_t i) const {
+        const glm::dvec3& origin_m = corners_m_[at(i, 0)];
+        const glm::dvec3 normal = glm::normalize(
+            glm::cross(corners_m_[at(i, 1)] - origin_m, corners_m_[at(i, -1)] - origin_m));
+        const auto near = [&](int step) {
+            const glm::dvec3 offset_m = corners_m_[at(i, step)] - origin_m;
+            return std::abs(glm::dot(offset_m, normal)) <= tolerance_m_;
+        };
+        return near(-2) || near(2);
+    }
+
+    /// How many of the ear's neighbours are dents.
+    int dents_beside(std::size_t i) const {
+        const auto dent = [&](int step) {
+            return turn_of(flat(i, step - 1), flat(i, step), flat(i, step + 1)) < 0.0 ? 1 : 0;
+        };
+        return dent(-1) + dent(1);
+    }
+
+    Corners corners_m_;
+    const Outline& outline_;
+    double tolerance_m_;
+    Prefer prefer_;
+    double clearance_m_ = 0.0;
+    std::vector<std::size_t> ring_; ///< places of the corners not yet clipped
+    std::vector<Rank> ranks_;       ///< of each corner of the ring
+};
+
+std::vector<glm::dvec3> corners_of(Corners corners_m, const Piece& piece) {
+    std::vector<glm::dvec3> out;
+    for (const std::size_t place : piece) {
+        out.push_back(corners_m[place]);
+    }
+    return out;
+}
+
+/// The two pieces as one without the side that they share; `side` is where it begins in the first.
+Piece joined(const Piece& first, std::size_t side, const Piece& second) {
+    const std::size_t to = first[(side + 1) % first.size()];
+    const auto begin = std::ranges::find(second, to) - second.begin();
+    Piece out;
+    for (std::size_t i = 1; i <= first.size(); ++i) {
+        out.push_back(first[(side + i) % first.size()]);
+    }
+    // `second` runs to -> from and on; what lies behind `from` comes between from and to.
+    for (std::size_t i = 2; i < second.size(); ++i) {
+        out.push_back(second[(static_cast<std::size_t>(begin) + i) % second.size()]);
+    }
+    return out;
+}
+
+/// A side of two pieces.
+struct Diagonal {
+    std::size_t from = 0;
+    std::size_t to = 0;
+    double length_m = 0.0;
+};
+
+/// Diagonals of a triangulation, longest first.
+std::vector<Diagonal> diagonals_of(Corners corners_m, const std::vector<Piece>& triangles) {
+    std::vector<Diagonal> out;
+    for (const Piece& triangle : triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t from = triangle[i];
+            const std::size_t to = triangle[(i + 1) % 3];
+            if (from < to && to - from > 1 && to - from + 1 < corners_m.size()) {
+                out.push_back({from, to, glm::distance(corners_m[from], corners_m[to])});
+            }
+        }
+    }
+    std::ranges::stable_sort(out, std::ranges::greater(), &Diagonal::length_m);
+    return out;
+}
+
+/// Where a side begins in a piece.
+std::optional<std::size_t> side_in(const Piece& piece, std::size_t from, std::size_t to) {
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+        if (piece[i] == from && piece[(i + 1) % piece.size()] == to) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+std::vector<Piece> merged(Corners corners_m, std::vector<Piece> pieces, double tolerance_m) {
+    for (const Diagonal& diagonal : diagonals_of(corners_m, pieces)) {
+        const auto has = [](std::size_t from, std::size_t to) {
+            return [=](const Piece& piece) { return side_in(piece, from, to).has_value(); };
+        };
+        const auto first = std::ranges::find_if(pieces, has(diagonal.from, diagonal.to));
+        const auto second = std::ranges::find_if(pieces, has(diagonal.to, diagonal.from));
+        const Piece both = joined(*first, *side_in(*first, diagonal.from, diagonal.to), *second);
+        if (!corners_fault(corners_of(corners_m, both), tolerance_m)) {
+            *first = both;
+            pieces.erase(second);
+        }
+    }
+    return pieces;
+}
+
+/// Each piece from its lowest place on, the pieces by that place.
+void put_in_order(std::vector<Piece>& pieces) {
+    for (Piece& piece : pieces) {
+        std::ranges::rotate(piece, std::ranges::min_element(piece));
+    }
+    std::ranges::sort(pieces);
+}
+
+} // namespace
+
+ConvexPieces convex_pieces(std::span<const glm::dvec3> corners_m, double tolerance_m) {
+    if (const auto fault = outline_fault(corners_m)) {
+        return {{}, *fault};
+    }
+    const Outline outline = flat_outline(corners_m);
+    const std::size_t count = corners_m.size();
+    if (const auto sides = meeting_sides(outline)) {
+        return {
+            {},
+            fmt::format(
+                "expected a polygon whose sides do not meet, got the sides from corner {} to {} "
+                "and {} to {} meeting",
+                sides->first + 1,
+                (sides->first + 1) % count + 1,
+                sides->second + 1,
+                (sides->second + 1) % count + 1)};
+    }
+    ConvexPieces best;
+    for (const Prefer prefer : {Prefer::High, Prefer::BesideDents}) {
+        auto triangles = EarClipper(corners_m, outline, tolerance_m, prefer).triangles();
+        if (!triangles) {
+            continue;
+        }
+        std::vector<Piece> pieces = merged(corners_m, std::move(*triangles), tolerance_m);
+        const bool good = std::ranges::none_of(pieces, [&](const Piece& piece) {
+            return corners_fault(corners_of(corners_m, piece), tolerance_m).has_value();
+        });
+        if (good && (best.pieces.empty() || pieces.size() < best.pieces.size())) {
+            best.pieces = std::move(pieces);
+        }
+    }
+    put_in_order(best.pieces);
+    if (best.pieces.empty()) {
+        best.fault = "expected a polygon that can be cut into convex ones, got needles only";
+    }
+    return best;
+}
+
+} // namespace octant::models::polygons

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "models/polygons/polygon_model.h"
+#include "models/triangle_mesh.h"
+
+namespace octant::models::polygons {
+
+/// A mesh's triangles as polygons: one part, and one material for all colours that differ by less
+/// than 1/31.
+PolygonModel as_polygons(const TriangleMesh& mesh);
+
+/// The polygons cut into fans, without colours: what their distance is measured by.
+TriangleMesh as_triangles(const PolygonModel& polygons);
+
+} // namespace octant::models::polygons

@@ -1,0 +1,92 @@
+#include "models/polygons/mtl_reader.h"
+
+#include "models/polygons/obj_lines.h"
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+#include <utility>
+
+namespace octant::models::polygons {
+
+namespace {
+
+constexpr std::size_t largest_file_bytes = std::size_t{16} << 20U;
+constexpr std::string_view blanks = " \t\r";
+
+class MtlReading {
+public:
+    explicit MtlReading(const std::filesystem::path& path)
+        : path_(path) {}
+
+    std::vector<Material> read() {
+        const std::string text = read_text_file(path_, largest_file_bytes);
+        for (const std::string_view line : split_lines(without_byte_order_mark(text))) {
+            ++line_;
+            const auto words = split_words(line);
+            if (!words.empty() && words[0] == "newmtl") {
+                add_material(std::string(after_first_word(line)));
+            } else if (!words.empty() && words[0] == "Kd") {
+                set_colour(words, line);
+            }
+        }
+        return std::move(materials_);
+    }
+
+private:
+    void add_material(const std::string& name) {
+        if (name.empty()) {
+            error_at(path_, line_, "expected a material name after newmtl, got none");
+        }
+        if (!names_.insert(name).second) {
+            error_at(
+                path_,
+                line_,
+                fmt::format("expected a new material name, got '{}' again", printable(name)));
+        }
+        materials_.push_back({.name = name});
+    }
+
+    void set_colour(const std::vector<std::string_view>& words, std::string_view line) {
+        if (materials_.empty()) {
+            error_at(path_, line_, "expected newmtl before Kd, got Kd");
+        }
+        glm::vec3 colour(0.0F);
+        bool good = words.size() == 4;
+        for (int part = 0; good && part < 3; ++part) {
+            const auto value = finite_number(words[static_cast<std::size_t>(part) + 1]);
+            good = value && *value >= 0.0 && *value <= 1.0;
+            colour[part] = good ? static_cast<float>(*value) : 0.0F;
+        }
+        if (!good) {
+            error_at(
+                path_,
+                line_,
+                fmt::format(
+                    "expected Kd and three numbers 0..1, got '{}'", printable(std::string(line))));
+        }
+        materials_.back().colour = colour;
+    }
+
+    std::filesystem::path path_;
+    std::vector<Material> materials_;
+    std::set<std::string> names_;
+    int line_ = 0;
+};
+
+} // namespace
+
+std::vector<Material> read_mtl(const std::filesystem::path& path) {
+    return MtlReading(path).read();
+}
+
+std::string_view after_first_word(std::string_view line) {
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    line.remove_prefix(std::min(line.find_first_of(blanks), line.size()));
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    return line.substr(0, line.find_last_not_of(blanks) + 1);
+}
+
+} // namespace octant::models::polygons

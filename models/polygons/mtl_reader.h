@@ -1,0 +1,21 @@
+#pragma once
+
+#include "models/polygons/polygon_model.h"
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace octant::models::polygons {
+
+/// Materials of an MTL file in file order: `newmtl NAME` and its `Kd R G B`, taken as they are; a
+/// material without Kd keeps the default colour, all other lines are ignored. Throws Error
+/// "file:line: expected ..., got ..." for a Kd that is not three numbers 0..1 or that comes before
+/// any newmtl, for a name that is missing or comes twice, and for a file that is not text.
+std::vector<Material> read_mtl(const std::filesystem::path& path);
+
+/// What follows the first word of a line, without blanks at either end: names in OBJ and MTL files
+/// may have blanks inside. A view into `line`.
+std::string_view after_first_word(std::string_view line);
+
+} // namespace octant::models::polygons

@@ -1,0 +1,79 @@
+#include "models/polygons/obj_lines.h"
+
+#include "models/polygons/obj_reader.h"
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace octant::models::polygons {
+
+namespace {
+
+bool is_comment(std::string_view line) {
+    const std::size_t first = line.find_first_not_of(" \t");
+    return first != std::string_view::npos && line[first] == '#';
+}
+
+/// Takes the backslash off the end; false when there is none.
+bool goes_on(std::string_view& line) {
+    if (!line.ends_with('\\')) {
+        return false;
+    }
+    line.remove_suffix(1);
+    return true;
+}
+
+} // namespace
+
+std::string_view without_byte_order_mark(std::string_view text) {
+    if (text.starts_with("\xef\xbb\xbf")) {
+        text.remove_prefix(3);
+    }
+    return text;
+}
+
+ObjLines::ObjLines(std::string_view text)
+    : lines_(split_lines(without_byte_order_mark(text))) {}
+
+bool ObjLines::next() {
+    if (at_ == lines_.size()) {
+        return false;
+    }
+    text_ = lines_[at_++];
+    number_ = static_cast<int>(at_);
+    if (is_comment(text_) || !goes_on(text_)) {
+        return true;
+    }
+    joined_ = text_;
+    bool more = true;
+    while (more && at_ < lines_.size()) {
+        std::string_view part = lines_[at_++];
+        more = goes_on(part);
+        joined_ += ' ';
+        joined_ += part;
+    }
+    text_ = joined_;
+    return true;
+}
+
+double obj_number(std::string_view word, const std::filesystem::path& path, int line) {
+    const auto value = finite_number(word);
+    if (!value) {
+        error_at(
+            path, line, fmt::format("expected a number, got '{}'", printable(std::string(word))));
+    }
+    if (std::abs(*value) > most_obj_coordinate_m) {
+        error_at(
+            path,
+            line,
+            fmt::format(
+                "expected a number within {:g}, got '{}'",
+                most_obj_coordinate_m,
+                printable(std::string(word))));
+    }
+    return *value;
+}
+
+} // namespace octant::models::polygons

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace octant::models::polygons {
+
+/// The text behind the three bytes (EF BB BF) that some editors put before UTF-8.
+std::string_view without_byte_order_mark(std::string_view text);
+
+/// The lines of an OBJ text. A line that ends in a backslash goes on in the next one, joined by a
+/// blank; a comment never does, since a path at its end may well end so. A byte order mark before
+/// the first line is no part of it.
+class ObjLines {
+public:
+    /// Keeps views into `text`.
+    explicit ObjLines(std::string_view text);
+
+    /// Goes to the next line; false when there is none.
+    bool next();
+
+    /// Until the next call of next().
+    std::string_view text() const { return text_; }
+
+    /// Where the line begins in the file, from 1.
+    int number() const { return number_; }
+
+private:
+    std::vector<std::string_view> lines_;
+    std::size_t at_ = 0;
+    std::string joined_;
+    std::string_view text_;
+    int number_ = 0;
+};
+
+/// A finite number within most_obj_coordinate_m (obj_reader.h). Throws Error "file:line: ...".
+double obj_number(std::string_view word, const std::filesystem::path& path, int line);
+
+} // namespace octant::models::polygons

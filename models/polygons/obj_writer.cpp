@@ -1,0 +1,80 @@
+#include "models/polygons/obj_writer.h"
+
+#include "models/polygons/obj_pivots.h"
+#include "sim/base/output_file.h"
+
+#include <fmt/format.h>
+#include <iterator>
+#include <optional>
+
+namespace octant::models::polygons {
+
+namespace {
+
+std::string mtl_text(const PolygonModel& model) {
+    std::string text;
+    for (const Material& material : model.materials) {
+        fmt::format_to(
+            std::back_inserter(text),
+            "newmtl {}\nKd {} {} {}\n",
+            material.name,
+            material.colour.x,
+            material.colour.y,
+            material.colour.z);
+    }
+    return text;
+}
+
+void append_polygons(std::string& text, const PolygonModel& model) {
+    std::optional<std::uint32_t> part;
+    std::optional<std::uint32_t> material;
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        const Polygon& polygon = model.polygons[i];
+        if (part != polygon.part) {
+            part = polygon.part;
+            text += fmt::format("g {}\n", model.parts[polygon.part]);
+        }
+        if (material != polygon.material) {
+            material = polygon.material;
+            text += fmt::format("usemtl {}\n", model.materials[polygon.material].name);
+        }
+        text += 'f';
+        for (const std::uint32_t vertex : model.corners(i)) {
+            text += fmt::format(" {}", vertex + 1);
+        }
+        text += '\n';
+    }
+}
+
+} // namespace
+
+ObjText obj_text(const PolygonModel& model, const FileAxes& axes, std::string_view mtl_name) {
+    ObjText out;
+    out.mtl = mtl_text(model);
+    std::string& text = out.obj;
+    text = fmt::format(
+        "# {} vertices, {} polygons; metres, x y z = {}\nmtllib {}\n",
+        model.vertices_m.size(),
+        model.polygons.size(),
+        axes.text(),
+        mtl_name);
+    for (const Pivot& pivot : model.pivots) {
+        text += pivot_text(pivot, model.parts[pivot.part], axes);
+    }
+    for (const glm::dvec3& vertex_m : model.vertices_m) {
+        const glm::dvec3 in_file = axes.file_from_body(vertex_m);
+        text += fmt::format("v {} {} {}\n", in_file.x, in_file.y, in_file.z);
+    }
+    append_polygons(text, model);
+    return out;
+}
+
+void write_obj(const std::filesystem::path& path, const PolygonModel& model, const FileAxes& axes) {
+    std::filesystem::path mtl = path;
+    mtl.replace_extension(".mtl");
+    const ObjText text = obj_text(model, axes, mtl.filename().string());
+    write_file(mtl, text.mtl);
+    write_file(path, text.obj);
+}
+
+} // namespace octant::models::polygons

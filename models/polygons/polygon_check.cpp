@@ -1,0 +1,142 @@
+#include "models/polygons/polygon_check.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <cassert>
+#include <cmath>
+#include <fmt/format.h>
+#include <vector>
+
+namespace octant::models::polygons {
+
+namespace {
+
+constexpr double flatness = 1e-4;
+
+/// Area over squared extent below which a polygon is a line.
+constexpr double least_area_share = 1e-9;
+
+using Corners = std::span<const glm::dvec3>;
+
+std::vector<glm::dvec3> corners_of(const PolygonModel& model, std::size_t polygon) {
+    std::vector<glm::dvec3> corners;
+    for (const std::uint32_t vertex : model.corners(polygon)) {
+        corners.push_back(model.vertices_m[vertex]);
+    }
+    return corners;
+}
+
+std::optional<std::string> repeated_corner(Corners corners) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        for (std::size_t j = i + 1; j < corners.size(); ++j) {
+            if (corners[i] == corners[j]) {
+                return fmt::format(
+                    "expected corners in different places, got corners {} and {} in one",
+                    i + 1,
+                    j + 1);
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+glm::dvec3 double_area_vector(Corners corners) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+        sum += glm::cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+    }
+    return sum;
+}
+
+double extent_of(Corners corners) {
+    glm::dvec3 least = corners[0];
+    glm::dvec3 most = corners[0];
+    for (const glm::dvec3& corner : corners) {
+        least = glm::min(least, corner);
+        most = glm::max(most, corner);
+    }
+    return glm::distance(least, most);
+}
+
+std::optional<std::string> bent(Corners corners, const glm::dvec3& normal, double tolerance_m) {
+    glm::dvec3 middle(0.0);
+    for (const glm::dvec3& corner : corners) {
+        middle += corner - corners[0];
+    }
+    middle = corners[0] + middle / static_cast<double>(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const double off_m = std::abs(glm::dot(corners[i] - middle, normal));
+        if (off_m > tolerance_m) {
+            return fmt::format(
+                "expected a planar polygon (within {:.3g} m), got corner {} {:.3g} m off the plane",
+                tolerance_m,
+                i + 1,
+                off_m);
+        }
+    }
+    return std::nullopt;
+}
+
+/// With every corner on the inner side of every edge's line the outline turns one way, once.
+std::optional<std::string> dented(Corners corners, const glm::dvec3& normal, double tolerance_m) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const std::size_t next = (i + 1) % corners.size();
+        const glm::dvec3 inward = glm::cross(normal, glm::normalize(corners[next] - corners[i]));
+        for (std::size_t j = 0; j < corners.size(); ++j) {
+            const double outside_m = -glm::dot(corners[j] - corners[i], inward);
+            if (outside_m > tolerance_m) {
+                return fmt::format(
+                    "expected a convex polygon, got corner {} {:.3g} m outside the edge from "
+                    "corner {} to {}",
+                    j + 1,
+                    outside_m,
+                    i + 1,
+                    next + 1);
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+double flatness_tolerance_m(const PolygonModel& model) {
+    return model.vertices_m.empty() ? 0.0 : flatness * extent_of(model.vertices_m);
+}
+
+std::optional<std::string> outline_fault(std::span<const glm::dvec3> corners_m) {
+    assert(corners_m.size() >= 3);
+    if (auto fault = repeated_corner(corners_m)) {
+        return fault;
+    }
+    const double extent_m = extent_of(corners_m);
+    if (glm::length(double_area_vector(corners_m)) * 0.5 <=
+        least_area_share * extent_m * extent_m) {
+        return "expected a polygon with an area, got corners on one line";
+    }
+    return std::nullopt;
+}
+
+bool is_planar(std::span<const glm::dvec3> corners_m, double tolerance_m) {
+    return !bent(corners_m, glm::normalize(double_area_vector(corners_m)), tolerance_m);
+}
+
+std::optional<std::string>
+corners_fault(std::span<const glm::dvec3> corners_m, double tolerance_m) {
+    if (auto fault = outline_fault(corners_m)) {
+        return fault;
+    }
+    const glm::dvec3 normal = glm::normalize(double_area_vector(corners_m));
+    if (auto fault = bent(corners_m, normal, tolerance_m)) {
+        return fault;
+    }
+    return dented(corners_m, normal, tolerance_m);
+}
+
+std::optional<std::string>
+polygon_fault(const PolygonModel& model, std::size_t polygon, double tolerance_m) {
+    return corners_fault(corners_of(model, polygon), tolerance_m);
+}
+
+} // namespace octant::models::polygons

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <gdal.h>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace octant::models::heights::test {
+
+/// A raster to be written by GDAL, values row after row from the north.
+struct RasterFile {
+    int columns = 0;
+    int rows = 0;
+    std::vector<double> values;
+    GDALDataType type = GDT_Float32;
+    int bands = 1; ///< one behind the other in values, or each gets the same values
+    std::vector<double> transform{}; ///< GDAL's six numbers, or none
+    std::string system{};            ///< "EPSG:4326", PROJ text or none
+    std::string unit{};
+    std::optional<double> no_data{};
+    double scale = 1.0;
+    double offset = 0.0;
+    bool has_palette = false;
+};
+
+/// A path in a scratch folder of this test program; a file of that name is removed first.
+std::filesystem::path scratch_file(const std::string& name);
+
+/// Writes with the GDAL driver of that name ("GTiff", "PNG", ...) and fails the test if it cannot.
+void write_raster(const std::filesystem::path& path, const char* driver, const RasterFile& raster);
+
+/// The first `bytes` of a file stay.
+void truncate_file(const std::filesystem::path& path, std::uintmax_t bytes);
+
+/// The folder of large real files, if this computer has it: OCTANT_SHARED_DATA, else beside the
+/// source. Prints "SKIPPED: why" when it has not.
+std::optional<std::filesystem::path> real_terrain_file(const std::string& name);
+
+} // namespace octant::models::heights::test

@@ -1,0 +1,224 @@
+#include "models/made/canyon_network.h"
+#include "models/made/drainage.h"
+#include "models/made/made_terrain.h"
+#include "models/made/terrain_grid.h"
+#include "models/made/terrain_noise.h"
+#include "sim/base/hash.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+using namespace octant;
+using namespace octant::models;
+using namespace octant::models::heights;
+using namespace octant::models::made;
+
+namespace {
+
+std::uint64_t hash_of(const HeightField& field) {
+    Hash hash;
+    for (int row = 0; row < field.rows(); ++row) {
+        for (int column = 0; column < field.columns(); ++column) {
+            const float height = field.height_m(column, row);
+            std::uint32_t bits = 0;
+            std::memcpy(&bits, &height, sizeof bits);
+            hash.add_word(bits);
+        }
+    }
+    return hash.value();
+}
+
+/// Slopes of all samples in degrees, least first.
+std::vector<double> slopes_deg(const HeightField& field) {
+    std::vector<double> slopes;
+    for (int row = 0; row < field.rows(); ++row) {
+        for (int column = 0; column < field.columns(); ++column) {
+            const double up = std::min(1.0F, field.normal_at_sample(column, row).z);
+            slopes.push_back(std::acos(up) * 57.29577951308232);
+        }
+    }
+    std::sort(slopes.begin(), slopes.end());
+    return slopes;
+}
+
+double share_of(const std::vector<double>& sorted, double share) {
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+} // namespace
+
+TEST_CASE("made ground is the same in every build: the hash of its heights is fixed") {
+    CHECK(hash_of(made_hills({129, 40.0, 1})) == 0x425f6c75ad33e670ULL);
+    CHECK(hash_of(made_hills({129, 40.0, 2})) == 0xe629b9233d911a32ULL);
+    CHECK(hash_of(made_canyon({129, 40.0, 1})) == 0x9790aa8e9904017fULL);
+    CHECK(hash_of(made_canyon({129, 40.0, 2})) == 0xe521718d1369301fULL);
+}
+
+TEST_CASE("made ground is known by its names") {
+    const auto hills = made_terrain("hills", {33, 30.0, 5});
+    const auto canyon = made_terrain("canyon", {33, 30.0, 5});
+    REQUIRE(hills);
+    REQUIRE(canyon);
+    CHECK(hills->name == "hills");
+    CHECK(canyon->name == "canyon");
+    CHECK(hills->columns() == 33);
+    CHECK(canyon->rows() == 33);
+    CHECK(canyon->spacing_m() == 30.0);
+    CHECK_FALSE(hills->place);
+    CHECK(hash_of(*hills) == hash_of(made_hills({33, 30.0, 5})));
+    CHECK_FALSE(made_terrain("Hills"));
+    CHECK_FALSE(made_terrain(""));
+}
+
+TEST_CASE("hills are gentle: some hundred metres of relief, nine tenths below 20 degrees") {
+    for (const std::uint64_t seed : {1U, 2U}) {
+        const HeightField field = made_hills({257, 80.0, seed});
+        CHECK(field.highest_m() - field.lowest_m() > 300.0F);
+        CHECK(field.highest_m() - field.lowest_m() < 650.0F);
+        CHECK(field.lowest_m() > 0.0F);
+        const std::vector<double> slopes = slopes_deg(field);
+        CHECK(share_of(slopes, 0.5) > 3.0);
+        CHECK(share_of(slopes, 0.9) < 20.0);
+        CHECK(slopes.back() < 45.0);
+    }
+}
+
+TEST_CASE("the canyon cuts a plateau near 2000 m more than 1000 m deep, with cliffs and benches") {
+    for (const std::uint64_t seed : {1U, 2U}) {
+        const HeightField field = made_canyon({513, 40.0, seed});
+        CHECK(field.lowest_m() > 800.0F);
+        CHECK(field.lowest_m() < 900.0F);
+        CHECK(field.highest_m() > 1900.0F);
+        CHECK(field.highest_m() < 2200.0F);
+        const std::vector<double> slopes = slopes_deg(field);
+        CHECK(share_of(slopes, 0.2) < 8.0);
+        CHECK(share_of(slopes, 0.95) > 45.0);
+    }
+}
+
+TEST_CASE("the river crosses the middle of the canyon whatever the size") {
+    for (const int size : {2, 17, 65}) {
+        const HeightField field = made_canyon({size, 20.0, 3});
+        CHECK(*field.height_at(0.0, 0.0) < 900.0);
+    }
+    CHECK(made_hills({2, 20.0, 3}).highest_m() < 1000.0F);
+}
+
+TEST_CASE("no lattice shows: neighbouring differences along rows and columns are alike") {
+    const HeightField field = made_hills({257, 40.0, 4});
+    double east = 0.0;
+    double north = 0.0;
+    for (int row = 0; row + 1 < 257; ++row) {
+        for (int column = 0; column + 1 < 257; ++column) {
+            const double here = field.height_m(column, row);
+            east += std::abs(field.height_m(column + 1, row) - here);
+            north += std::abs(field.height_m(column, row + 1) - here);
+        }
+    }
+    CHECK(east / north == Approx(1.0).epsilon(0.3));
+}
+
+TEST_CASE("tributaries run downhill into the river") {
+    const std::vector<Reach> reaches = canyon_network(8000.0, 1);
+    long rising = 0;
+    for (const Reach& reach : reaches) {
+        CHECK(reach.from_m >= reach.to_m);
+        CHECK(reach.to_m >= 0.0);
+        rising += reach.from_m > 0.0 ? 1 : 0;
+    }
+    CHECK(rising > 100);
+}
+
+TEST_CASE("a pit is filled to its lowest rim and water then leaves it") {
+    // A bowl of 5 x 5 whose rim is 9 except for one gap of height 4.
+    TerrainGrid ground(5, 10.0);
+    std::vector<char> outlet(25, 0);
+    for (int row = 0; row < 5; ++row) {
+        for (int column = 0; column < 5; ++column) {
+            const bool rim = column == 0 || row == 0 || column == 4 || row == 4;
+            ground.values[ground.index(column, row)] = rim ? 9.0 : 1.0;
+            outlet[ground.index(column, row)] = rim ? 1 : 0;
+        }
+    }
+    ground.values[ground.index(4, 2)] = 4.0;
+    fill_pits(ground, outlet);
+    CHECK(ground.at(2, 2) == Approx(4.0).margin(0.001));
+    CHECK(ground.at(2, 2) > 4.0);
+    const Drainage water = drained(ground, outlet, 1);
+    CHECK(
+        water.area_m2[ground.index(4, 2)] + water.area_m2[ground.index(4, 1)] +
+            water.area_m2[ground.index(4, 3)] ==
+        Approx(12 * 100.0));
+    REQUIRE(water.upstream.size() == 25);
+    std::vector<char> seen(25, 0);
+    for (const int cell : water.upstream) {
+        const auto i = static_cast<std::size_t>(cell);
+        const auto receiver = static_cast<std::size_t>(water.receiver[i]);
+        CHECK((receiver == i || seen[receiver] != 0));
+        seen[i] = 1;
+    }
+}
+
+TEST_CASE("on a plane water runs in the direction of descent on average") {
+    // Falls two cells east for each cell north.
+    TerrainGrid ground(81, 1.0);
+    std::vector<char> outlet(81 * 81, 0);
+    for (int row = 0; row < 81; ++row) {
+        for (int column = 0; column < 81; ++column) {
+            ground.values[ground.index(column, row)] = 500.0 - 2.0 * column - row;
+        }
+    }
+    const Drainage water = drained(ground, outlet, 7);
+    double east = 0.0;
+    double north = 0.0;
+    for (int row = 5; row < 75; ++row) {
+        for (int column = 5; column < 75; ++column) {
+            const int receiver = water.receiver[ground.index(column, row)];
+            east += receiver % 81 - column;
+            north += receiver / 81 - row;
+        }
+    }
+    CHECK(north / east == Approx(0.5).margin(0.02));
+}
+
+TEST_CASE("a stream in balance has the slope of its steepness over the root of its area") {
+    // A strip that drains along one line: cell i carries the area of all cells above it.
+    TerrainGrid ground(12, 100.0);
+    std::vector<char> outlet(144, 0);
+    for (int row = 0; row < 12; ++row) {
+        outlet[ground.index(0, row)] = 1;
+        for (int column = 0; column < 12; ++column) {
+            ground.values[ground.index(column, row)] = column;
+        }
+    }
+    const std::vector<double> uplift(144, 1.0);
+    for (int step = 0; step < 400; ++step) {
+        erode(ground, drained(ground, outlet, 1), uplift, {5.0, 80.0});
+    }
+    const Drainage water = drained(ground, outlet, 1);
+    for (int column = 1; column < 12; ++column) {
+        const std::size_t i = ground.index(column, 6);
+        const auto receiver = static_cast<std::size_t>(water.receiver[i]);
+        const double slope = (ground.values[i] - ground.values[receiver]) / water.length_m[i];
+        CHECK(slope == Approx(80.0 / std::sqrt(water.area_m2[i])).epsilon(1e-3));
+    }
+}
+
+TEST_CASE("noise is zero at lattice points, bounded, smooth and without a mean") {
+    double sum = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+        const double x = 0.137 * i;
+        const double y = 0.071 * i - 300.0;
+        const double value = gradient_noise(5, x, y);
+        CHECK(std::abs(value) < 1.7);
+        CHECK(std::abs(gradient_noise(5, x + 1e-4, y) - value) < 1e-3);
+        sum += value;
+    }
+    CHECK(std::abs(sum / 20000) < 0.02);
+    CHECK(gradient_noise(5, 3.0, -4.0) == 0.0);
+    CHECK(gradient_noise(5, 3.5, -4.0) != gradient_noise(6, 3.5, -4.0));
+}

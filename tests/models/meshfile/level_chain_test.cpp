@@ -1,0 +1,147 @@
+#include "models/meshfile/level_chain.h"
+#include "sim/base/error.h"
+#include "sim/base/hash.h"
+#include "sim/base/text_file.h"
+#include "tests/models/meshfile/chain_samples.h"
+#include "tests/models/meshfile/mesh_samples.h"
+
+#include <catch2/catch.hpp>
+
+using namespace octant::models;
+using namespace octant::models::polygons;
+using namespace octant::models::meshfile;
+using namespace octant::models::meshfile::test;
+
+namespace {
+
+std::string refused(const std::string& bytes) {
+    const std::filesystem::path path = file_with("a.chain", bytes);
+    try {
+        read_chain(path);
+    } catch (const octant::Error& error) {
+        return std::string(error.what()).substr(path.parent_path().string().size() + 1);
+    }
+    return {};
+}
+
+/// What reading says of a chain that was written.
+std::string said(const LevelChain& faulty) {
+    const std::filesystem::path path = scratch_file("c.chain");
+    write_chain(path, faulty);
+    return refused(octant::read_file(path));
+}
+
+} // namespace
+
+TEST_CASE("a chain of levels comes back bit for bit, with the polygons behind it") {
+    const LevelChain before = sample_chain();
+    const std::filesystem::path path = scratch_file("a.chain");
+    CHECK(is_chain_file(path));
+    CHECK_FALSE(is_chain_file("a.ply"));
+    write_chain(path, before);
+    const LevelChain after = read_chain(path);
+    CHECK(after.name == before.name);
+    REQUIRE(after.levels.size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        CHECK(after.levels[i].error_m == before.levels[i].error_m);
+        check_same(after.levels[i].mesh, before.levels[i].mesh);
+    }
+    CHECK(after.polygons_error_m == before.polygons_error_m);
+    REQUIRE(after.polygons.has_value());
+    const PolygonModel& was = *before.polygons;
+    const PolygonModel& is = *after.polygons;
+    CHECK(is.name == was.name);
+    CHECK(is.vertices_m == was.vertices_m);
+    CHECK(is.corner_vertices == was.corner_vertices);
+    REQUIRE(is.polygons.size() == 1);
+    CHECK(is.polygons[0].corner_count == 4);
+    CHECK(is.polygons[0].part == 1);
+    CHECK(is.parts == was.parts);
+    REQUIRE(is.pivots.size() == 1);
+    CHECK(is.pivots[0].point_m == was.pivots[0].point_m);
+    CHECK(is.pivots[0].axis == was.pivots[0].axis);
+    CHECK(is.pivots[0].turns_per_s == was.pivots[0].turns_per_s);
+    CHECK(is.parents == was.parents);
+    CHECK(is.notes == was.notes);
+}
+
+TEST_CASE("a chain without polygons has none when it is read") {
+    LevelChain chain = sample_chain();
+    chain.polygons.reset();
+    const std::filesystem::path path = scratch_file("a.chain");
+    write_chain(path, chain);
+    CHECK_FALSE(read_chain(path).polygons.has_value());
+}
+
+TEST_CASE("a file that is no chain, of another version, cut or changed is refused") {
+    const std::filesystem::path path = scratch_file("b.chain");
+    write_chain(path, sample_chain());
+    const std::string good = octant::read_file(path);
+    CHECK(refused(good).empty());
+    CHECK(
+        refused("octopus!") == "a.chain: at byte 0: expected a chain of levels, got another file");
+    CHECK_THAT(
+        refused("oct"), Catch::StartsWith("a.chain: at byte 0: expected a chain of levels (8"));
+    std::string newer = good;
+    newer[8] = 2;
+    CHECK(refused(newer) == "a.chain: at byte 8: expected version 1, got 2");
+    CHECK_THAT(
+        refused(good.substr(0, good.size() - 1)), Catch::StartsWith("a.chain: at byte 16: "));
+    std::string changed = good;
+    changed[100] = static_cast<char>(changed[100] ^ 1);
+    CHECK_THAT(refused(changed), Catch::StartsWith("a.chain: at byte 24: expected the checksum "));
+}
+
+TEST_CASE("a chain whose checksum is right but whose content is not is refused") {
+    LevelChain chain = sample_chain();
+    chain.levels[1].error_m = -1.0;
+    CHECK_THAT(said(chain), Catch::Contains("expected an error of at least 0, got -1"));
+    chain = sample_chain();
+    chain.levels[0].mesh.triangles[3][1] = 99;
+    CHECK_THAT(said(chain), Catch::Contains("expected indices in range before"));
+    chain = sample_chain();
+    chain.levels[0].mesh.colours.pop_back();
+    CHECK_THAT(said(chain), Catch::Contains("expected a colour for each vertex before"));
+    chain = sample_chain();
+    chain.levels[1].mesh.triangles.clear();
+    CHECK_THAT(said(chain), Catch::Contains("expected triangles before"));
+    chain = sample_chain();
+    chain.levels[0].error_m = 0.01;
+    CHECK_THAT(
+        said(chain), Catch::Contains("expected an error of 0 of the finest level, got 0.01"));
+    const std::filesystem::path path = scratch_file("d.chain");
+    write_chain(path, sample_chain());
+    std::string bytes = octant::read_file(path);
+    bytes[32 + 4] = 1; // of the name's length: now 2^32 more
+    CHECK_THAT(refused(sealed(bytes)), Catch::StartsWith("a.chain: at byte 40: expected a text ("));
+}
+
+TEST_CASE("polygons of a chain that no model can have are refused") {
+    const auto said_of = [](const auto& spoil) {
+        LevelChain chain = sample_chain();
+        spoil(*chain.polygons);
+        return said(chain);
+    };
+    CHECK(said_of([](PolygonModel&) {}).empty());
+    CHECK_THAT(
+        said_of([](PolygonModel& model) { model.parents[0] = 1; }),
+        Catch::Contains("expected indices in range before"));
+    for (const Polygon& polygon : {Polygon{0, 9, 0, 1}, Polygon{0, 3, 0, 1}, Polygon{1, 3, 0, 1}}) {
+        CHECK_THAT( // more corners than there are, one behind or one before that is in none
+            said_of([&](PolygonModel& model) { model.polygons[0] = polygon; }),
+            Catch::Contains("expected polygons of 3 to 1000 corners, one behind the other before"));
+    }
+    CHECK_THAT(
+        said_of([](PolygonModel& model) {
+            model.pivots[0].axis = {0.0, 0.5, 0.0};
+        }),
+        Catch::Contains("expected axes of length 1 before"));
+    CHECK_THAT(
+        said_of([](PolygonModel& model) { model.pivots.push_back(model.pivots[0]); }),
+        Catch::Contains("expected one pivot a part at most before"));
+    for (const glm::dvec3 place : {glm::dvec3(0.2, 0.2, 0.0), glm::dvec3(1.0, 1.0, 0.3)}) {
+        CHECK_THAT( // a dent, a bend
+            said_of([&](PolygonModel& model) { model.vertices_m[2] = place; }),
+            Catch::Contains("expected convex planar polygons before"));
+    }
+}

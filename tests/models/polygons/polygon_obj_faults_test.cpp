@@ -1,0 +1,141 @@
+#include "models/polygons/obj_reader.h"
+#include "sim/base/output_file.h"
+
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+
+#include "obj_texts.h"
+
+using namespace octant::models;
+using namespace octant::models::polygons;
+using namespace octant::models::polygons::test;
+
+TEST_CASE("messages name the line where a continued line begins, and later lines as they are") {
+    CHECK(message("\nv 0 \\\n0 x1\n") == "m.obj:2: expected a number, got 'x1'");
+    CHECK(message("v 0 \\\n\\\n0 0\nv 1 0\n") == "m.obj:4: expected three coordinates, got 2");
+    CHECK(
+        message(square + "\nf 1 \\\n2 \\\n2\n") ==
+        "m.obj:6: expected corners in different places, got corners 2 and 3 in one");
+}
+
+TEST_CASE("wrong OBJ lines are refused with file, line, expected and got") {
+    CHECK(message("v 0 0\n") == "m.obj:1: expected three coordinates, got 2");
+    CHECK(message("v 0 0 x1\n") == "m.obj:1: expected a number, got 'x1'");
+    CHECK(message("\nv 0 nan 0\n") == "m.obj:2: expected a number, got 'nan'");
+    CHECK(message("v inf 0 0\n") == "m.obj:1: expected a number, got 'inf'");
+    CHECK(message("v 1e400 0 0\n") == "m.obj:1: expected a number, got '1e400'");
+    CHECK(message("v 1,5 0 0\n") == "m.obj:1: expected a number, got '1,5'");
+    CHECK(message("v 1e8 0 0\n") == "m.obj:1: expected a number within 1e+07, got '1e8'");
+    CHECK(message(square + "f 1 2\n") == "m.obj:5: expected at least three corners, got 2");
+    CHECK(
+        message(square + "f 1 2 5\n") == "m.obj:5: expected a vertex 1 to 4 (or -4 to -1), got 5");
+    CHECK(
+        message(square + "f 1 2 0\n") == "m.obj:5: expected a vertex 1 to 4 (or -4 to -1), got 0");
+    CHECK(
+        message(square + "f 1 2 -5\n") ==
+        "m.obj:5: expected a vertex 1 to 4 (or -4 to -1), got -5");
+    CHECK(message("f 1 2 3\n") == "m.obj:1: expected vertices before a polygon, got 1");
+    for (const std::string corner : {"x", "1.5", "1/", "1/2/3/4", "/1", "1/x/1", "1/1/"}) {
+        CHECK(
+            message(square + fmt::format("f 1 2 {}\n", corner)) ==
+            "m.obj:5: expected a corner such as 7, 7/1, 7//3 or 7/1/3, got '" + corner + "'");
+    }
+    CHECK(
+        message("vertex 1 2 3\n") ==
+        "m.obj:1: expected an OBJ line (v, f, g, o, usemtl, mtllib), got 'vertex'");
+    CHECK(message("usemtl\n") == "m.obj:1: expected a material name, got none");
+    CHECK(message("mtllib \n") == "m.obj:1: expected a file name, got none");
+}
+
+TEST_CASE("polygons that cannot be cut into convex ones are refused at their line") {
+    CHECK(
+        message(square + "f 1 2 3 4\nf 1 2 2\n") ==
+        "m.obj:6: expected corners in different places, got corners 2 and 3 in one");
+    CHECK(
+        message("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n") ==
+        "m.obj:4: expected a polygon with an area, got corners on one line");
+    CHECK(
+        message("v 0 10 0\nv -6 -8 0\nv 9 3 0\nv -9 3 0\nv 6 -8 0\nf 1 2 3 4 5\n") ==
+        "m.obj:6: expected a polygon whose sides do not meet, got the sides from corner 1 to 2 and "
+        "3 to 4 meeting");
+}
+
+TEST_CASE("files that are no model are refused") {
+    CHECK(message("") == "m.obj: expected at least one polygon (f), got none");
+    CHECK(message(square) == "m.obj: expected at least one polygon (f), got none");
+    CHECK(message(std::string("v 0 0 0\n\0\1", 10)) == "m.obj: expected text, got binary data");
+    CHECK(
+        message("\x89PNG\r\n") ==
+        "m.obj:1: expected an OBJ line (v, f, g, o, usemtl, mtllib), got '?PNG'");
+    CHECK_THROWS_WITH(
+        read_obj(scratch("absent.obj")),
+        scratch("absent.obj").string() + ": expected a file, found none");
+}
+
+TEST_CASE("a polygon with too many corners is refused") {
+    std::string face = "f";
+    for (int i = 0; i < 1001; ++i) {
+        face += " 1";
+    }
+    CHECK(message(square + face + "\n") == "m.obj:5: expected at most 1000 corners, got 1001");
+}
+
+TEST_CASE("too many vertices are refused") {
+    std::string text;
+    for (std::size_t i = 0; i <= most_obj_vertices; ++i) {
+        text += "v 0 0 0\n";
+    }
+    CHECK(message(text) == "m.obj:1000001: expected at most 1000000 vertices, got more");
+}
+
+TEST_CASE("material faults are refused at their line") {
+    octant::write_file(scratch("one.mtl"), "newmtl red\nKd 1 0 0\n");
+    CHECK(
+        message("mtllib one.mtl\n" + square + "usemtl rd\n\nf 1 2 3\n") ==
+        "m.obj:6: expected a material of the material file, got 'rd'");
+    const auto mtl = [](const std::string& text) {
+        octant::write_file(scratch("bad.mtl"), text);
+        return message("mtllib bad.mtl\n");
+    };
+    CHECK(mtl("newmtl\n") == "bad.mtl:1: expected a material name after newmtl, got none");
+    CHECK(mtl("Kd 1 1 1\n") == "bad.mtl:1: expected newmtl before Kd, got Kd");
+    CHECK(
+        mtl("newmtl a\nKd 1 1\n") == "bad.mtl:2: expected Kd and three numbers 0..1, got 'Kd 1 1'");
+    CHECK(
+        mtl("newmtl a\nKd 1 1 1.5\n") ==
+        "bad.mtl:2: expected Kd and three numbers 0..1, got 'Kd 1 1 1.5'");
+    CHECK(
+        mtl("newmtl a\nKd 1 nan 1\n") ==
+        "bad.mtl:2: expected Kd and three numbers 0..1, got 'Kd 1 nan 1'");
+    CHECK(
+        mtl("newmtl a\nnewmtl b\nnewmtl a\n") ==
+        "bad.mtl:3: expected a new material name, got 'a' again");
+}
+
+TEST_CASE("pivot faults are refused at their line") {
+    const std::string rotor = square + "g rotor\nf 1 2 3\n";
+    CHECK(
+        message(rotor + "# pivot rotor 0 0 axis 0 1 0\n") ==
+        "m.obj:7: expected # pivot NAME X Y Z axis AX AY AZ [rpm N], got '# pivot rotor 0 0 axis 0 "
+        "1 0'");
+    CHECK(
+        message(rotor + "# pivot rotor 0 0 0 axis 0 0 0\n") ==
+        "m.obj:7: expected an axis with a length, got '# pivot rotor 0 0 0 axis 0 0 0'");
+    CHECK(
+        message(rotor + "# pivot rotor 0 0 0 axis 0 1 0 rpm\n") ==
+        "m.obj:7: expected # pivot NAME X Y Z axis AX AY AZ [rpm N], got "
+        "'# pivot rotor 0 0 0 axis 0 1 0 rpm'");
+    CHECK(
+        message(rotor + "# pivot rotor 0 0 0 axis 0 1 0 rpm fast\n") ==
+        "m.obj:7: expected a number, got 'fast'");
+    CHECK(
+        message(rotor + "# pivot rotor 0 0 a axis 0 1 0\n") ==
+        "m.obj:7: expected a number, got 'a'");
+    CHECK(
+        message(rotor + "# pivot roter 0 0 0 axis 0 1 0\n") ==
+        "m.obj:7: expected a group with polygons, got 'roter'");
+    CHECK(
+        message(rotor + "# pivot rotor 0 0 0 axis 0 1 0\n# pivot rotor 0 0 0 axis 1 0 0\n") ==
+        "m.obj:8: expected one pivot a group, got 'rotor' again");
+}

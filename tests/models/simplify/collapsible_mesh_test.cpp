@@ -1,0 +1,115 @@
+#include "models/simplify/collapsible_mesh.h"
+#include "tests/models/simplify/simplify_meshes.h"
+
+#include <catch2/catch.hpp>
+
+#include <set>
+
+using namespace octant::models;
+using namespace octant::models::simplify;
+using namespace octant::tests;
+
+namespace {
+
+CollapsibleMesh collapsible(const TriangleMesh& mesh) {
+    return {mesh.vertices_m.size(), mesh.triangles};
+}
+
+HalfEdge edge_between(const CollapsibleMesh& mesh, std::uint32_t from, std::uint32_t to) {
+    HalfEdge found = none;
+    for (HalfEdge h = 0; h < mesh.face_slots() * 3; ++h) {
+        if (mesh.face_is_there(face_of(h)) && mesh.origin(h) == from && mesh.target(h) == to) {
+            found = h;
+        }
+    }
+    return found;
+}
+
+TriangleMesh what_is_there(const CollapsibleMesh& mesh, const TriangleMesh& places) {
+    TriangleMesh made;
+    made.vertices_m = places.vertices_m;
+    made.vertices_m.resize(mesh.vertex_slots());
+    for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
+        if (mesh.face_is_there(face)) {
+            made.triangles.push_back(mesh.corners(face));
+        }
+    }
+    return made;
+}
+
+std::set<std::uint32_t> neighbours(const CollapsibleMesh& mesh, std::uint32_t vertex) {
+    std::set<std::uint32_t> found;
+    mesh.edges_around(vertex, [&](HalfEdge h) {
+        found.insert(mesh.origin(h) == vertex ? mesh.target(h) : mesh.origin(h));
+    });
+    return found;
+}
+
+} // namespace
+
+TEST_CASE("a tetrahedron may not collapse any edge: two equal triangles would be left") {
+    const CollapsibleMesh mesh = collapsible(tetrahedron());
+    for (HalfEdge h = 0; h < 12; ++h) {
+        CHECK_FALSE(mesh.may_collapse(h));
+    }
+}
+
+TEST_CASE("an octahedron collapses to a closed manifold of 6 triangles and 5 vertices") {
+    const TriangleMesh original = octahedron();
+    CollapsibleMesh mesh = collapsible(original);
+    const HalfEdge h = edge_between(mesh, 0, 4);
+    REQUIRE(mesh.may_collapse(h));
+    mesh.collapse(h);
+    CHECK(mesh.face_count() == 6);
+    CHECK(mesh.vertex_count() == 5);
+    CHECK_FALSE(mesh.vertex_is_there(4));
+    CHECK(neighbours(mesh, 0) == std::set<std::uint32_t>{1, 2, 3, 5});
+    const TriangleMesh after = what_is_there(mesh, original);
+    CHECK(is_manifold(after));
+    CHECK(boundary_edges(after) == 0);
+}
+
+TEST_CASE("an edge whose ends share a neighbour beside its triangles stays: it is a bottleneck") {
+    // A ring of three quads around: edges 0-1, 1-2, 2-0 run round the hole without a triangle.
+    TriangleMesh prism;
+    prism.vertices_m.resize(6);
+    prism.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+    const CollapsibleMesh mesh = collapsible(prism);
+    CHECK_FALSE(mesh.may_collapse(edge_between(mesh, 0, 1)));
+    CHECK_FALSE(mesh.may_collapse(edge_between(mesh, 0, 4))); // from boundary to boundary, inside
+}
+
+TEST_CASE("an edge of the boundary may collapse, but neither a lone triangle nor one across") {
+    const TriangleMesh flat = strip(1, 3);
+    const CollapsibleMesh mesh = collapsible(flat);
+    CHECK(mesh.face_count() == 6);
+    std::size_t may = 0;
+    for (HalfEdge h = 0; h < 18; ++h) {
+        const bool across = mesh.twin(h) != none;
+        if (mesh.may_collapse(h)) {
+            ++may;
+            CHECK_FALSE(across);
+        }
+    }
+    CHECK(may > 0);
+    TriangleMesh lone;
+    lone.vertices_m.resize(3);
+    lone.triangles = {{0, 1, 2}};
+    CHECK_FALSE(collapsible(lone).may_collapse(0));
+}
+
+TEST_CASE("a flip leaves a closed manifold") {
+    const TriangleMesh original = octahedron();
+    CollapsibleMesh mesh = collapsible(original);
+    CHECK_FALSE(CollapsibleMesh(collapsible(tetrahedron())).may_flip(0));
+    const HalfEdge h = edge_between(mesh, 0, 2);
+    REQUIRE(mesh.may_flip(h));
+    mesh.flip(h);
+    CHECK(neighbours(mesh, 4).contains(5));
+    CHECK_FALSE(neighbours(mesh, 0).contains(2));
+    const TriangleMesh after = what_is_there(mesh, original);
+    CHECK(after.triangles.size() == 8);
+    CHECK(is_manifold(after));
+    CHECK(boundary_edges(after) == 0);
+    CHECK(euler_number(after) == 2);
+}

@@ -1,0 +1,331 @@
+#include "models/measure/flipped_area.h"
+#include "models/measure/mesh_defects.h"
+#include "models/measure/mesh_distance.h"
+#include "models/simplify/simplify.h"
+#include "tests/models/simplify/simplify_meshes.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+using namespace octant::models;
+using namespace octant::models::simplify;
+using namespace octant::tests;
+
+namespace {
+
+/// Coarse figures are enough here, and quicker.
+measure::MeshDistance apart(const TriangleMesh& a, const TriangleMesh& b) {
+    return measure::distance(a, b, {.tightness = 1.05, .negligible_m = 1e-4, .samples = 20'000});
+}
+
+SimplifyOptions to_faces(std::size_t faces, Quality quality = Quality::Surface) {
+    SimplifyOptions options;
+    options.quality = quality;
+    options.goal.faces = faces;
+    return options;
+}
+
+const Quality both[] = {Quality::Surface, Quality::Fast};
+
+TriangleMesh two_coloured(TriangleMesh mesh) {
+    for (const glm::dvec3& v : mesh.vertices_m) {
+        mesh.colours.push_back(
+            v.x < 0.5001 ? glm::vec3(1.0F, 0.0F, 0.0F) : glm::vec3(0.0F, 0.0F, 1.0F));
+    }
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("a cube of many triangles becomes the cube of 12 without an error") {
+    const TriangleMesh fine = cube(6);
+    for (const Quality quality : both) {
+        const Simplified result = simplified(fine, to_faces(12, quality));
+        CHECK(result.mesh.triangles.size() == 12);
+        CHECK(result.mesh.vertices_m.size() == 8);
+        CHECK(is_manifold(result.mesh));
+        CHECK(volume_m3(result.mesh) == Approx(1.0).epsilon(1e-6));
+        CHECK(apart(fine, result.mesh).most_hausdorff_m() < 2e-4);
+    }
+}
+
+TEST_CASE("with a share of their length counted, edges of flat sides stay alike") {
+    const TriangleMesh fine = cube(12);
+    const auto longest_m = [](const TriangleMesh& mesh) {
+        double most_m = 0.0;
+        for (const auto& [a, b, c] : mesh.triangles) {
+            most_m = std::max(
+                {most_m,
+                 glm::distance(mesh.vertices_m[a], mesh.vertices_m[b]),
+                 glm::distance(mesh.vertices_m[b], mesh.vertices_m[c]),
+                 glm::distance(mesh.vertices_m[c], mesh.vertices_m[a])});
+        }
+        return most_m;
+    };
+    const auto coarse = [&fine](double length_share) {
+        SimplifyOptions options = to_faces(400, Quality::Fast);
+        options.length_share = length_share;
+        const CollapseSequence sequence = fast_sequence(fine, options);
+        return mesh_after(sequence, sequence.collapses.size());
+    };
+    const TriangleMesh plain = coarse(0.0);
+    const TriangleMesh even = coarse(0.03);
+    CHECK(even.triangles.size() == plain.triangles.size());
+    CHECK(longest_m(even) < 0.7 * longest_m(plain));
+    CHECK(apart(fine, even).most_hausdorff_m() < 2e-4);
+}
+
+TEST_CASE("a flat strip becomes two triangles, its boundary where it was") {
+    const TriangleMesh fine = strip(5, 15);
+    for (const Quality quality : both) {
+        const Simplified result = simplified(fine, to_faces(2, quality));
+        CHECK(result.mesh.triangles.size() == 2);
+        CHECK(area_m2(result.mesh) == Approx(3.0).epsilon(1e-5));
+        CHECK(apart(fine, result.mesh).most_hausdorff_m() < 2e-4);
+    }
+}
+
+TEST_CASE("without a goal a ball is collapsed as far as it goes: to a tetrahedron") {
+    for (const Quality quality : both) {
+        SimplifyOptions options;
+        options.quality = quality;
+        const Simplified result = simplified(ball(12), options);
+        CHECK(result.mesh.triangles.size() == 4);
+        CHECK(is_manifold(result.mesh));
+    }
+}
+
+TEST_CASE("a ring keeps its hole") {
+    for (const Quality quality : both) {
+        for (const std::size_t faces : {std::size_t{400}, std::size_t{60}, std::size_t{1}}) {
+            const Simplified result = simplified(ring(24, 16), to_faces(faces, quality));
+            CHECK(is_manifold(result.mesh));
+            CHECK(boundary_edges(result.mesh) == 0);
+            CHECK(euler_number(result.mesh) == 0);
+        }
+    }
+}
+
+TEST_CASE("goals of vertices and of faces are kept") {
+    SimplifyOptions options;
+    options.goal.vertices = 100;
+    CHECK(simplified(ball(24), options).mesh.vertices_m.size() == 100);
+    options.goal.vertices.reset();
+    options.goal.faces = 300;
+    CHECK(simplified(ball(24), options).mesh.triangles.size() == 300);
+    options.goal.faces = 100'000;
+    const TriangleMesh fine = ball(10);
+    CHECK(same_bytes(simplified(fine, options).mesh, fine));
+}
+
+TEST_CASE("an error goal is kept by the certified distance, and not by staying fine") {
+    const TriangleMesh fine = ball(40);
+    for (const Quality quality : both) {
+        SimplifyOptions options;
+        options.quality = quality;
+        options.goal.error_m = 0.02;
+        const Simplified result = simplified(fine, options);
+        const measure::MeshDistance distance =
+            measure::distance(fine, result.mesh, {.samples = 20'000});
+        CHECK(distance.most_hausdorff_m() <= 0.02);
+        CHECK(result.mesh.triangles.size() < fine.triangles.size() / 4);
+        options.goal.error_m = 0.0;
+        CHECK(apart(fine, simplified(fine, options).mesh).most_hausdorff_m() < 2e-4);
+    }
+}
+
+TEST_CASE("a sequence leads to the mesh before the polish: each collapse takes out what it says") {
+    for (const TriangleMesh& fine : {ball(16), ring(16, 12), strip(8, 12), machined_part(6)}) {
+        const SimplifyOptions options = to_faces(40, Quality::Fast);
+        const CollapseSequence sequence = fast_sequence(fine, options);
+        const Simplified result = simplified(fine, options);
+        CHECK(result.sequence.collapses.size() == sequence.collapses.size());
+        const TriangleMesh end = mesh_after(sequence, sequence.collapses.size());
+        CHECK(result.mesh.triangles.size() == end.triangles.size());
+        std::size_t faces = fine.triangles.size();
+        double error_m = 0.0;
+        for (std::size_t i = 0; i < sequence.collapses.size(); ++i) {
+            const Collapse& collapse = sequence.collapses[i];
+            REQUIRE(collapse.first < fine.vertices_m.size() + i);
+            REQUIRE(collapse.second < fine.vertices_m.size() + i);
+            REQUIRE(collapse.left != none);
+            CHECK(collapse.error_m >= error_m);
+            error_m = collapse.error_m;
+            faces -= collapse.right == none ? 1 : 2;
+            if (i % 25 == 0) {
+                const TriangleMesh state = mesh_after(sequence, i + 1);
+                REQUIRE(state.triangles.size() == faces);
+                REQUIRE(is_manifold(state));
+                REQUIRE(boundary_edges(state) <= boundary_edges(fine));
+            }
+        }
+    }
+}
+
+TEST_CASE("left of a collapse lies left of the edge from first to second") {
+    const TriangleMesh fine = octahedron();
+    SimplifyOptions options;
+    options.goal.faces = 6;
+    const Simplified result = simplified(fine, options);
+    REQUIRE(result.sequence.collapses.size() == 1);
+    const Collapse& collapse = result.sequence.collapses[0];
+    const Triangle& left = fine.triangles[collapse.left];
+    const Triangle& right = fine.triangles[collapse.right];
+    bool runs = false;
+    bool runs_back = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        runs = runs || (left[i] == collapse.first && left[(i + 1) % 3] == collapse.second);
+        runs_back =
+            runs_back || (right[i] == collapse.second && right[(i + 1) % 3] == collapse.first);
+    }
+    CHECK(runs);
+    CHECK(runs_back);
+}
+
+TEST_CASE("sharp edges of a machined part stay sharp") {
+    const TriangleMesh fine = machined_part(12);
+    REQUIRE(is_manifold(fine));
+    REQUIRE(boundary_edges(fine) == 0);
+    const Simplified result = simplified(fine, to_faces(120));
+    const measure::MeshDistance distance = apart(fine, result.mesh);
+    CHECK(distance.most_hausdorff_m() < 0.02 * diagonal_m(fine));
+    CHECK(volume_m3(result.mesh) == Approx(volume_m3(fine)).epsilon(0.005));
+}
+
+TEST_CASE("a border of colours stays where it was") {
+    const TriangleMesh fine = two_coloured(cube(12));
+    for (const Quality quality : both) {
+        const Simplified result = simplified(fine, to_faces(160, quality));
+        CHECK(apart(fine, result.mesh).colour_rms() < 0.02);
+    }
+}
+
+TEST_CASE("a border of materials stays where it was") {
+    TriangleMesh fine = strip(8, 16);
+    fine.materials = {{"grass", glm::vec3(0.2F)}, {"sand", glm::vec3(0.8F)}};
+    for (const Triangle& t : fine.triangles) {
+        const double x =
+            (fine.vertices_m[t[0]].x + fine.vertices_m[t[1]].x + fine.vertices_m[t[2]].x) / 3;
+        fine.triangle_materials.push_back(x < 1.0 ? 0 : 1);
+    }
+    for (const Quality quality : both) {
+        const Simplified result = simplified(fine, to_faces(4, quality));
+        REQUIRE(result.mesh.triangle_materials.size() == result.mesh.triangles.size());
+        TriangleMesh grass = result.mesh;
+        grass.triangles.clear();
+        for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t) {
+            if (result.mesh.triangle_materials[t] == 0) {
+                grass.triangles.push_back(result.mesh.triangles[t]);
+            }
+        }
+        CHECK(area_m2(grass) == Approx(1.0).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("corner normals come from the original, on both sides of a sharp edge") {
+    TriangleMesh fine = cube(4);
+    for (const Triangle& t : fine.triangles) {
+        const auto& v = fine.vertices_m;
+        const glm::dvec3 n = glm::normalize(glm::cross(v[t[1]] - v[t[0]], v[t[2]] - v[t[0]]));
+        const auto number = static_cast<std::uint32_t>(fine.normals.size());
+        fine.normals.emplace_back(n);
+        fine.corner_normals.push_back({number, number, number});
+    }
+    const TriangleMesh mesh = simplified(fine, to_faces(12)).mesh;
+    REQUIRE(mesh.corner_normals.size() == 12);
+    CHECK(mesh.normals.size() == 6);
+    for (std::size_t t = 0; t < 12; ++t) {
+        const Triangle& c = mesh.triangles[t];
+        const auto& v = mesh.vertices_m;
+        const glm::vec3 facing(glm::normalize(glm::cross(v[c[1]] - v[c[0]], v[c[2]] - v[c[0]])));
+        for (const std::uint32_t normal : mesh.corner_normals[t]) {
+            CHECK(glm::dot(mesh.normals[normal], facing) > 0.999F);
+        }
+    }
+}
+
+TEST_CASE("the same input gives the same bytes, on one thread and on three") {
+    const TriangleMesh fine = two_coloured(ring(40, 24));
+    SimplifyOptions options = to_faces(300);
+    const Simplified one = simplified(fine, options);
+    const Simplified again = simplified(fine, options);
+    options.threads = 3;
+    const Simplified three = simplified(fine, options);
+    CHECK(same_bytes(one.mesh, again.mesh));
+    CHECK(same_bytes(one.mesh, three.mesh));
+    CHECK(one.sequence.collapses.size() == three.sequence.collapses.size());
+}
+
+TEST_CASE("a polish lessens the distance and turns nothing over") {
+    const TriangleMesh fine = ball(40);
+    const TriangleMesh coarse = simplified(fine, to_faces(200, Quality::Fast)).mesh;
+    const TriangleMesh fitted = polished(coarse, fine, {});
+    CHECK(fitted.triangles.size() == coarse.triangles.size());
+    CHECK(is_manifold(fitted));
+    CHECK(apart(fine, fitted).rms_m() < 0.9 * apart(fine, coarse).rms_m());
+    for (const Triangle& t : fitted.triangles) {
+        const auto& v = fitted.vertices_m;
+        const glm::dvec3 normal = glm::cross(v[t[1]] - v[t[0]], v[t[2]] - v[t[0]]);
+        CHECK(glm::dot(normal, v[t[0]]) > 0.0);
+    }
+}
+
+TEST_CASE("a cylinder's side goes down to strips without leaving the surface") {
+    TriangleMesh tube; // 48 strips of 40 fields, as long as it is round
+    constexpr std::uint32_t around = 48;
+    constexpr std::uint32_t along = 40;
+    for (std::uint32_t ring = 0; ring <= along; ++ring) {
+        for (std::uint32_t i = 0; i < around; ++i) {
+            const double angle = 6.283185307179586 * i / around;
+            tube.vertices_m.emplace_back(std::cos(angle), std::sin(angle), 6.0 * ring / along);
+        }
+    }
+    for (std::uint32_t ring = 0; ring < along; ++ring) {
+        for (std::uint32_t i = 0; i < around; ++i) {
+            const std::uint32_t a = ring * around + i;
+            const std::uint32_t b = ring * around + (i + 1) % around;
+            tube.triangles.push_back({a, b, b + around});
+            tube.triangles.push_back({a, b + around, a + around});
+        }
+    }
+    SimplifyOptions options;
+    options.goal.faces = 4 * around;
+    const Simplified result = simplified(tube, options);
+    CHECK(result.mesh.triangles.size() <= 4 * around);
+    CHECK(apart(tube, result.mesh).most_hausdorff_m() < 1e-3);
+}
+
+TEST_CASE("closed shapes stay closed, of their genus and nothing turned over, at every size") {
+    for (const TriangleMesh& fine : {ball(24), ring(24, 12), machined_part(6)}) {
+        const measure::MeshDefects before = measure::defects(fine);
+        REQUIRE(before.genus.has_value());
+        for (const Quality quality : both) {
+            for (const double share : {0.5, 0.15}) {
+                const auto faces =
+                    static_cast<std::size_t>(share * static_cast<double>(fine.triangles.size()));
+                const TriangleMesh made = simplified(fine, to_faces(faces, quality)).mesh;
+                INFO(fine.triangles.size() << " to " << faces);
+                measure::MeshDefects expected;
+                expected.shells = 1;
+                expected.genus = before.genus;
+                expected.euler_characteristic = before.euler_characteristic;
+                CHECK(measure::defects(made) == expected);
+                CHECK(measure::flipped_area_share(made, fine, {.samples = 20'000}) < 0.0005);
+            }
+        }
+    }
+}
+
+TEST_CASE("next to nothing of a thin sheet's surface is turned over") {
+    TriangleMesh fine = ring(32, 12);
+    for (glm::dvec3& v : fine.vertices_m) {
+        v.z = 0.2 * v.z + 0.3 * std::sin(2.0 * std::atan2(v.y, v.x));
+    }
+    const TriangleMesh made = simplified(fine, to_faces(200)).mesh;
+    CHECK(is_manifold(made));
+    CHECK(boundary_edges(made) == 0);
+    CHECK(euler_number(made) == 0);
+    CHECK(measure::flipped_area_share(made, fine, {.samples = 20'000}) < 0.004);
+}

@@ -1,0 +1,31 @@
+#include "tests/ui/commands/command_checks.h"
+
+#include <catch2/catch.hpp>
+
+#include <nlohmann/json.hpp>
+
+namespace octant::tests {
+
+nlohmann::json figures_of(const std::string& command, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), command);
+    arguments.insert(arguments.end(), {"--json", "--quiet"});
+    const ProgramRun run = run_octant(arguments);
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    CHECK(run.err.empty());
+    return nlohmann::json::parse(run.out);
+}
+
+void check_refused(
+    const std::string& command, std::vector<std::string> arguments, const std::string& expected) {
+    arguments.insert(arguments.begin(), command);
+    arguments.emplace_back("--quiet");
+    const ProgramRun run = run_octant(arguments);
+    INFO(run.err);
+    CHECK(run.exit_code == 2);
+    CHECK(lines_in(run.err) == 1);
+    CHECK(run.err.find(expected) != std::string::npos);
+    CHECK(run.out.empty());
+}
+
+} // namespace octant::tests

@@ -1,0 +1,103 @@
+#include "tests/ui/commands/command_line.h"
+
+#include "sim/base/text_file.h"
+#include "tests/scratch.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fcntl.h>
+#include <spawn.h>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+extern char** environ; // NOLINT(readability-redundant-declaration)
+
+namespace octant::tests {
+
+namespace {
+
+pid_t start(
+    const std::vector<std::string>& arguments,
+    const std::vector<std::string>& environment,
+    const std::string& out,
+    const std::string& err) {
+    std::vector<std::string> words = {OCTANT_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<std::string> variables = environment;
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+        variables.emplace_back(*variable);
+    }
+    const auto pointers = [](std::vector<std::string>& texts) {
+        std::vector<char*> list;
+        std::transform(texts.begin(), texts.end(), std::back_inserter(list), [](std::string& text) {
+            return text.data();
+        });
+        list.push_back(nullptr);
+        return list;
+    };
+    posix_spawn_file_actions_t files{};
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(
+        &files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    posix_spawn_file_actions_addopen(
+        &files, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    pid_t child = 0;
+    const int fault = posix_spawn(
+        &child,
+        OCTANT_PROGRAM,
+        &files,
+        nullptr,
+        pointers(words).data(),
+        pointers(variables).data());
+    posix_spawn_file_actions_destroy(&files);
+    if (fault != 0) {
+        throw std::runtime_error("the program cannot be started");
+    }
+    return child;
+}
+
+int wait_for(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+} // namespace
+
+ProgramRun
+run_octant(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {
+    const std::string out = (scratch_folder() / "stdout").string();
+    const std::string err = (scratch_folder() / "stderr").string();
+    ProgramRun run;
+    run.exit_code = wait_for(start(arguments, environment, out, err));
+    run.out = read_file(out);
+    run.err = read_file(err);
+    return run;
+}
+
+void run_octant_and_kill(
+    const std::vector<std::string>& arguments, const std::filesystem::path& file) {
+    const pid_t child = start(arguments, {}, "/dev/null", "/dev/null");
+    for (int tenth = 0; tenth < 1200 && !std::filesystem::exists(file); ++tenth) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    kill(child, SIGKILL);
+    wait_for(child);
+}
+
+std::filesystem::path empty_folder(const std::string& name) {
+    const auto folder = scratch_folder() / name;
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    return folder;
+}
+
+int lines_in(const std::string& text) {
+    return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
+
+} // namespace octant::tests

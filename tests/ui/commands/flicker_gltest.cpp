@@ -1,0 +1,117 @@
+#include "sim/base/text_file.h"
+#include "tests/ui/commands/command_line.h"
+
+#include <catch2/catch.hpp>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+using namespace octant;
+using octant::tests::run_octant;
+
+namespace {
+
+std::filesystem::path folder() {
+    static const auto made = tests::empty_folder("flicker");
+    return made;
+}
+
+std::string made_field(const std::string& kind) {
+    const std::string file = (folder() / (kind + ".tif")).string();
+    const tests::ProgramRun run = run_octant(
+        {"terrain",
+         "make",
+         "--kind",
+         kind,
+         "--size",
+         "257",
+         "--spacing",
+         "40",
+         "--out",
+         file,
+         "--quiet"});
+    REQUIRE(run.exit_code == 0);
+    return file;
+}
+
+tests::ProgramRun study(const std::string& out) {
+    return run_octant(
+        {"study",
+         "flicker",
+         "--out",
+         (folder() / out).string(),
+         "--gentle",
+         made_field("hills"),
+         "--rugged",
+         made_field("canyon"),
+         "--frames",
+         "100",
+         "--json",
+         "--quiet"});
+}
+
+bool is_number_to_15(const nlohmann::json& cell) {
+    return cell.is_number() && cell.get<int>() <= 15;
+}
+
+} // namespace
+
+TEST_CASE("the flicker study writes its tables and figures, the same bytes each time") {
+    const tests::ProgramRun run = study("a");
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    CHECK(run.err.empty());
+    const nlohmann::json tables = nlohmann::json::parse(run.out);
+    REQUIRE(tables.size() == 5);
+    CHECK(tables[0]["rows"].size() == 24); // four c, six controls
+    CHECK(tables[2]["rows"].size() == 10); // two fields, five controls that hold a target
+    const nlohmann::json& by_error = tables[0]["rows"][5];
+    CHECK(by_error["control"] == "screen error (default)");
+    CHECK(by_error["mean abs dn, last 50"] == 0);
+    CHECK(is_number_to_15(by_error["dn = 0 for ever after, frames"]));
+    for (const nlohmann::json& row : tables[4]["rows"]) {
+        for (const char* first : {"C_0 = 2", "C_0 = 16", "C_0 = 64"}) {
+            INFO(row);
+            CHECK(is_number_to_15(row[first]));
+        }
+    }
+    CHECK(study("b").out == run.out);
+    for (const char* file :
+         {"fixed-rugged.csv",
+          "fixed-gentle.csv",
+          "path.csv",
+          "damping.csv",
+          "stability.csv",
+          "path-gentle.csv",
+          "path-rugged.csv",
+          "flicker.md"}) {
+        INFO(file);
+        const std::string text = read_file(folder() / "a" / file);
+        CHECK_FALSE(text.empty());
+        CHECK(read_file(folder() / "b" / file) == text);
+    }
+    CHECK(tests::lines_in(read_file(folder() / "a" / "path-rugged.csv")) == 100);
+    if (read_file(folder() / "a" / "flicker.md").find("figure-3.png") == std::string::npos) {
+        return; // gnuplot is not installed
+    }
+    for (const char* file :
+         {"figure-3.png",
+          "figure-5.png",
+          "figure-6.png",
+          "figure-8.png",
+          "figure-9.png",
+          "damping.png"}) {
+        const std::string png = read_file(folder() / "a" / file);
+        CHECK(png.substr(1, 3) == "PNG");
+        CHECK(read_file(folder() / "b" / file) == png);
+    }
+}
+
+TEST_CASE("the flicker study refuses ground that is not there") {
+    const tests::ProgramRun run =
+        run_octant({"study", "flicker", "--out", (folder() / "none").string(), "--rugged", "hols"});
+    CHECK(run.exit_code == 2);
+    CHECK(tests::lines_in(run.err) == 1);
+    CHECK(run.err.find("expected hills, canyon or a file, got 'hols'") != std::string::npos);
+}

@@ -1,0 +1,213 @@
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "tests/ui/commands/command_line.h"
+#include "ui/report/loaded_recording.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+using namespace octant;
+using octant::tests::run_octant;
+
+namespace {
+
+struct Hashes {
+    std::string state;
+    std::string picture;
+    bool operator==(const Hashes&) const = default;
+};
+
+Hashes fly(std::vector<std::string> arguments, const std::vector<std::string>& environment = {}) {
+    arguments.insert(arguments.begin(), "fly");
+    arguments.insert(
+        arguments.end(),
+        {"--size", "160x90", "--frames", "12", "--triangles", "3000", "--json", "--quiet"});
+    const tests::ProgramRun run = run_octant(arguments, environment);
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    const auto json = nlohmann::json::parse(run.out);
+    return {json["state_hash"], json["picture_hash"]};
+}
+
+} // namespace
+
+TEST_CASE("every path, aircraft, view and built-in ground flies") {
+    for (const std::string ground : {"hills", "canyon", "background60"}) {
+        for (const std::string path : {"straight", "jinking", "pop-up", "turn"}) {
+            for (const std::string view : {"chase", "cockpit", "tower", "orbit"}) {
+                const std::string aircraft =
+                    (ground.size() + path.size() + view.size()) % 2 == 0 ? "f15" : "500md";
+                INFO(ground << " " << path << " " << view << " " << aircraft);
+                const std::string rate = "0.3"; // a dozen frames from the whole path
+                CHECK(
+                    fly({path,
+                         "--aircraft",
+                         aircraft,
+                         "--view",
+                         view,
+                         "--terrain",
+                         ground,
+                         "--rate",
+                         rate})
+                        .state.size() == 16);
+            }
+        }
+    }
+}
+
+TEST_CASE("the same settings give the same hashes for any number of drawing threads") {
+    const std::vector<std::string> settings = {
+        "jinking", "--aircraft", "500md", "--terrain", "canyon"};
+    const Hashes first = fly(settings);
+    CHECK(fly(settings) == first);
+    for (const std::string threads : {"0", "1", "2"}) {
+        CHECK(fly(settings, {"LP_NUM_THREADS=" + threads}) == first);
+    }
+    CHECK_FALSE(fly({"jinking", "--aircraft", "500md", "--terrain", "hills"}) == first);
+}
+
+TEST_CASE("a run is repeated from its run.json") {
+    const auto folder = tests::empty_folder("repeat") / "first";
+    const Hashes first = fly(
+        {"turn",
+         "--terrain",
+         "hills",
+         "--view",
+         "orbit",
+         "--heading",
+         "40",
+         "--record",
+         folder.string()});
+    const tests::ProgramRun again =
+        run_octant({"fly", "--settings", (folder / "run.json").string(), "--json", "--quiet"});
+    REQUIRE(again.exit_code == 0);
+    CHECK(nlohmann::json::parse(again.out)["picture_hash"] == first.picture);
+    CHECK(nlohmann::json::parse(again.out)["state_hash"] == first.state);
+    for (const char* name :
+         {"frames.csv",
+          "mangohud.csv",
+          "trace.json",
+          "track.csv",
+          "track.acmi",
+          "report.html",
+          "picture-00000.png"}) {
+        CHECK(std::filesystem::exists(folder / name));
+    }
+}
+
+TEST_CASE("only the columns of time may differ between two runs") {
+    const auto folder = tests::empty_folder("columns");
+    std::vector<std::vector<std::string>> lines;
+    for (const std::string name : {"a", "b"}) {
+        fly({"straight", "--record", (folder / name).string()});
+        const std::string text = read_text_file(folder / name / "frames.csv");
+        const auto rows = split_lines(text);
+        const auto header = split_fields(rows.front(), ',');
+        for (const std::string_view row : rows) {
+            std::vector<std::string> kept;
+            const auto fields = split_fields(row, ',');
+            REQUIRE(fields.size() == header.size());
+            for (std::size_t i = 0; i < fields.size(); ++i) {
+                const bool timing = header[i] == "wall_s" || header[i].ends_with("_ms") ||
+                                    header[i] == "stress" || header[i] == "overrun";
+                if (!timing) {
+                    kept.emplace_back(fields[i]);
+                }
+            }
+            lines.push_back(kept);
+        }
+    }
+    REQUIRE(lines.size() == 2 * 13);
+    CHECK(std::equal(lines.begin(), lines.begin() + 13, lines.begin() + 13));
+}
+
+TEST_CASE("a recorded track can be flown and gives the flight it came from") {
+    const auto folder = tests::empty_folder("track");
+    fly(
+        {"pop-up",
+         "--terrain",
+         "hills",
+         "--heading",
+         "0",
+         "--frame-per-sample",
+         "--record",
+         (folder / "first").string()});
+    fly(
+        {(folder / "first" / "track.csv").string(),
+         "--terrain",
+         "hills",
+         "--heading",
+         "0",
+         "--place",
+         "0,0",
+         "--height-mode",
+         "datum",
+         "--frame-per-sample",
+         "--record",
+         (folder / "again").string()});
+    const auto first = ui::report::load_recording(folder / "first").records;
+    const auto again = ui::report::load_recording(folder / "again").records;
+    REQUIRE(first.size() == 12);
+    REQUIRE(again.size() == 12);
+    for (std::size_t i = 0; i < again.size(); ++i) {
+        CHECK(glm::length(first[i].aircraft_m - again[i].aircraft_m) < 2e-3);
+        CHECK(glm::length(first[i].eye_m - again[i].eye_m) < 0.05);
+    }
+}
+
+TEST_CASE("several aircraft fly together") {
+    CHECK(
+        fly({"straight", "--aircraft", "f15", "--aircraft", "f15", "--aircraft", "500md"})
+            .picture != fly({"straight", "--aircraft", "f15"}).picture);
+}
+
+TEST_CASE("a finished flight is skipped when asked, unless something has changed") {
+    const auto folder = tests::empty_folder("skip") / "out";
+    const std::vector<std::string> flight = {
+        "fly",
+        "straight",
+        "--size",
+        "160x90",
+        "--frames",
+        "5",
+        "--record",
+        folder.string(),
+        "--if-new"};
+    CHECK(run_octant(flight).out.find("picture hash") != std::string::npos);
+    const tests::ProgramRun second = run_octant(flight);
+    CHECK(second.exit_code == 0);
+    if (run_octant({"--version"}).out.find('+') == std::string::npos) {
+        CHECK(second.out.empty());
+        CHECK(second.err.find("is done already") != std::string::npos);
+    } else {
+        CHECK_FALSE(second.out.empty()); // built from a changed checkout: never the same program
+    }
+    std::vector<std::string> other = flight;
+    other.insert(other.end(), {"--fov", "50"});
+    CHECK_FALSE(run_octant(other).out.empty());
+}
+
+TEST_CASE("help names every command and each setting with its unit and default") {
+    const tests::ProgramRun help = run_octant({"--help"});
+    CHECK(help.exit_code == 0);
+    for (const char* command : {"fly", "report", "terrain", "study", "bench"}) {
+        CHECK(help.out.find(command) != std::string::npos);
+    }
+    const std::string fly_help = run_octant({"fly", "--help"}).out;
+    for (const char* option :
+         {"--place",
+          "--height-mode",
+          "--hidden-surface",
+          "--detail",
+          "--triangles",
+          "--record",
+          "METRES",
+          "Examples:"}) {
+        INFO(option);
+        CHECK(fly_help.find(option) != std::string::npos);
+    }
+}

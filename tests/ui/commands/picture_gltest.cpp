@@ -1,0 +1,168 @@
+#include "models/meshfile/mesh_file.h"
+#include "sim/base/output_file.h"
+#include "tests/scratch.h"
+#include "ui/report/png_file.h"
+#include "ui/flight/session.h"
+#include "ui/studies/hybrid_shading/shading_models.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+using namespace octant;
+using octant::visuals::scene::Settings;
+using octant::visuals::scene::View;
+
+namespace {
+
+// The rasterizer is the same everywhere but its code is made for the processor it runs on: a
+// rounding of a colour part or a pixel of an outline may differ, nothing else.
+constexpr int most_part_difference = 3;
+constexpr double most_outline_share = 0.002;
+
+ui::report::Picture drawn(const Settings& settings) {
+    ui::flight::Session session(settings);
+    for (int frame = 0; frame < session.frames(); ++frame) {
+        session.draw(frame);
+    }
+    const auto& picture = session.picture();
+    const auto bytes = std::as_bytes(std::span(picture.rgba));
+    return ui::report::picture_from_png(
+        "drawn", ui::report::png_bytes({picture.width, picture.height, 4, bytes}));
+}
+
+void check_against_golden(const std::string& name, const Settings& settings) {
+    INFO(name);
+    const auto golden = std::filesystem::path(OCTANT_SOURCE_DIR) / "tests/golden" / (name + ".png");
+    const ui::report::Picture actual = drawn(settings);
+    if (std::getenv("OCTANT_APPROVE") != nullptr) {
+        ui::report::write_png(golden, actual.view());
+        return;
+    }
+    const ui::report::Picture expected = ui::report::read_png(golden);
+    REQUIRE(expected.bytes.size() == actual.bytes.size());
+    ui::report::Picture difference = actual;
+    std::size_t wrong_pixels = 0;
+    for (std::size_t pixel = 0; pixel < actual.bytes.size() / 3; ++pixel) {
+        int worst = 0;
+        for (std::size_t part = 3 * pixel; part < 3 * pixel + 3; ++part) {
+            const int off = std::abs(
+                std::to_integer<int>(actual.bytes[part]) -
+                std::to_integer<int>(expected.bytes[part]));
+            difference.bytes[part] = static_cast<std::byte>(std::min(255, 16 * off));
+            worst = std::max(worst, off);
+        }
+        wrong_pixels += worst > most_part_difference ? 1 : 0;
+    }
+    const double share =
+        static_cast<double>(wrong_pixels) / (static_cast<double>(actual.bytes.size()) / 3.0);
+    CHECK(share <= most_outline_share);
+    if (share > most_outline_share) {
+        const std::filesystem::path folder = OCTANT_BUILD_DIR;
+        ui::report::write_png(folder / (name + "-actual.png"), actual.view());
+        ui::report::write_png(folder / (name + "-diff.png"), difference.view());
+    }
+}
+
+Settings
+small(const std::string& path, const std::string& aircraft, const std::string& terrain, View view) {
+    Settings settings;
+    settings.path = path;
+    settings.aircraft = {aircraft};
+    settings.terrain = terrain;
+    settings.view = view;
+    settings.size_px = {240, 135};
+    settings.triangles = 6000;
+    settings.rate_hz = 0.25;
+    settings.frames = 4;
+    return settings;
+}
+
+/// A checker of 8 x 8 fields with a red arrow that points north and a green corner in the
+/// north-east, as a file.
+std::filesystem::path made_drape() {
+    constexpr int side = 256;
+    const auto colour_at = [](int x, int y) -> std::array<int, 3> {
+        const bool head = y >= 32 && y < 128 && std::abs(x - 128) <= (y - 32) / 2;
+        const bool shaft = y >= 128 && y < 224 && std::abs(x - 128) <= 16;
+        if (head || shaft) {
+            return {210, 40, 30};
+        }
+        if (x >= 224 && y < 32) {
+            return {30, 180, 60};
+        }
+        return (x / 32 + y / 32) % 2 == 0 ? std::array{225, 225, 215} : std::array{70, 80, 110};
+    };
+    std::vector<std::byte> bytes;
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            for (const int part : colour_at(x, y)) {
+                bytes.push_back(static_cast<std::byte>(part));
+            }
+        }
+    }
+    const auto file = tests::scratch_folder() / "drape.png";
+    ui::report::write_png(file, {side, side, 3, bytes});
+    return file;
+}
+
+} // namespace
+
+// OCTANT_APPROVE=1 writes new golden pictures: look at them before they are committed.
+TEST_CASE("pictures are those that were approved") {
+    check_against_golden(
+        "f15-jinking-canyon-chase", small("jinking", "f15", "canyon", View::Chase));
+    check_against_golden(
+        "f15-pop-up-hills-cockpit", small("pop-up", "f15", "hills", View::Cockpit));
+    check_against_golden("500md-turn-canyon-orbit", small("turn", "500md", "canyon", View::Orbit));
+    check_against_golden(
+        "500md-straight-background60-chase",
+        small("straight", "500md", "background60", View::Chase));
+    check_against_golden(
+        "500md-jinking-hills-cockpit", small("jinking", "500md", "hills", View::Cockpit));
+    check_against_golden(
+        "f15-straight-canyon-tower", small("straight", "f15", "canyon", View::Tower));
+}
+
+TEST_CASE("pictures with a head-up display are those that were approved") {
+    Settings banked = small("pop-up", "f15", "canyon", View::Cockpit);
+    banked.size_px = {640, 360};
+    banked.rate_hz = 1.0 / 7.0;
+    check_against_golden("f15-pop-up-canyon-head-up", banked);
+}
+
+TEST_CASE("pictures of a refined mesh, three in ten smooth, are those that were approved") {
+    using visuals::scene::ModelLook;
+    const auto file = tests::scratch_folder() / "ball.ply";
+    models::meshfile::write_mesh(file, ui::studies::hybrid_shading::uneven_ball(24, 49));
+    Settings ball = small("turn", file.string(), "hills", View::Chase);
+    ball.smooth_share = 0.3;
+    ball.sun_azimuth_deg = 45.0; // on the side that is seen
+    ball.aircraft_error_px = 0.2;
+    check_against_golden("ball-turn-hills-hybrid", ball);
+    ball.show_model = ModelLook::Shading;
+    check_against_golden("ball-turn-hills-shading", ball);
+    ball.show_model = ModelLook::Levels;
+    check_against_golden("ball-turn-hills-levels", ball);
+}
+
+TEST_CASE("pictures of textured ground are those that were approved") {
+    Settings canyon = small("jinking", "f15", "canyon", View::Chase);
+    canyon.size_px = {320, 240};
+    canyon.ground_shading = visuals::scene::GroundShading::Texture;
+    check_against_golden("f15-jinking-canyon-textured", canyon);
+    Settings draped = small("straight", "f15", "hills", View::Free);
+    draped.size_px = {320, 240};
+    draped.drape = made_drape().string();
+    draped.visibility_m = 0.0;
+    draped.eye_m = glm::dvec3(0.0, -24000.0, 16000.0);
+    draped.look_m = glm::dvec3(0.0, -2000.0, 0.0);
+    check_against_golden("hills-draped-from-the-south", draped);
+    draped.hidden_surface = visuals::scene::HiddenSurface::DepthBuffer;
+    check_against_golden("hills-draped-from-the-south", draped);
+}

@@ -1,0 +1,284 @@
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "tests/ui/commands/command_checks.h"
+#include "tests/ui/commands/command_line.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace octant;
+using octant::tests::run_octant;
+
+namespace {
+
+using Faces = std::vector<std::array<int, 3>>;
+
+std::filesystem::path folder() {
+    static const auto made = tests::empty_folder("refine");
+    return made;
+}
+
+std::string file(const std::string& name) {
+    return (folder() / name).string();
+}
+
+/// A wavy sheet of 30 x 30 vertices as an OBJ file, with its faces from 0.
+Faces write_sheet(const std::string& path) {
+    constexpr int size = 30;
+    std::string text;
+    Faces faces;
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            text += fmt::format("v {} {} {:.4f}\n", x, y, std::sin(0.4 * x) * std::cos(0.3 * y));
+        }
+    }
+    for (int y = 0; y + 1 < size; ++y) {
+        for (int x = 0; x + 1 < size; ++x) {
+            const int at = y * size + x;
+            faces.push_back({at, at + 1, at + size + 1});
+            faces.push_back({at, at + size + 1, at + size});
+        }
+    }
+    for (const auto& [a, b, c] : faces) {
+        text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
+    }
+    write_file(path, text);
+    return faces;
+}
+
+std::array<int, 3> turned(std::array<int, 3> face) {
+    std::ranges::rotate(face, std::ranges::min_element(face));
+    return face;
+}
+
+Faces sorted(Faces faces) {
+    std::ranges::transform(faces, faces.begin(), turned);
+    std::ranges::sort(faces);
+    return faces;
+}
+
+Faces faces_of_obj(const std::string& path) {
+    const std::string text = read_file(path);
+    Faces faces;
+    for (const std::string_view line : split_lines(text)) {
+        const auto words = split_words(line);
+        if (!words.empty() && words[0] == "f") {
+            std::array<int, 3> face{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                face[k] = std::stoi(std::string(words[k + 1])) - 1;
+            }
+            faces.push_back(face);
+        }
+    }
+    return sorted(faces);
+}
+
+/// Original faces with three different active ancestors, by the list of active nodes alone.
+Faces expected_faces(const Faces& originals, const std::string& nodes_file) {
+    std::vector<int> vertex_of(900, -1);
+    const std::string text = read_file(nodes_file);
+    int vertex = 0;
+    for (const std::string_view line : split_lines(text)) {
+        if (line.empty() || line[0] == '#') {
+            continue;
+        }
+        const auto words = split_words(line);
+        for (std::size_t k = 1; k < words.size(); ++k) {
+            vertex_of[std::stoul(std::string(words[k]))] = vertex;
+        }
+        ++vertex;
+    }
+    Faces faces;
+    for (const auto& [a, b, c] : originals) {
+        const std::array<int, 3> face{
+            vertex_of[static_cast<std::size_t>(a)],
+            vertex_of[static_cast<std::size_t>(b)],
+            vertex_of[static_cast<std::size_t>(c)]};
+        if (face[0] != face[1] && face[1] != face[2] && face[2] != face[0]) {
+            faces.push_back(face);
+        }
+    }
+    return sorted(faces);
+}
+
+nlohmann::json refine(const std::vector<std::string>& arguments) {
+    return tests::figures_of("refine", arguments);
+}
+
+void check_refused(const std::vector<std::string>& arguments, const std::string& expected) {
+    tests::check_refused("refine", arguments, expected);
+}
+
+} // namespace
+
+TEST_CASE("a saved progressive mesh refined everywhere is the original, face for face") {
+    const Faces originals = write_sheet(file("sheet.obj"));
+    const auto made = refine({file("sheet.obj"), "--base", "50", "--save", file("sheet.pm")});
+    CHECK(made["original_vertices"] == 900);
+    CHECK(made["base_vertices"] == 50);
+    CHECK(made["vertices"] == 50);
+    const auto full = refine(
+        {file("sheet.pm"),
+         "--region",
+         "sphere",
+         "15",
+         "15",
+         "0",
+         "100",
+         "--out",
+         file("full.obj")});
+    CHECK(full["vertices"] == 900);
+    CHECK(full["requested_splits"] == 850);
+    CHECK(full["forced_by_rule"] == 0);
+    CHECK(faces_of_obj(file("full.obj")) == sorted(originals));
+    const auto coarse = refine({file("sheet.pm"), "--vertices", "300"});
+    CHECK(coarse["original_vertices"] == 300);
+}
+
+TEST_CASE("any active mesh is what the original file and the list of nodes say") {
+    const Faces originals = write_sheet(file("sheet.obj"));
+    std::vector<int> vertices;
+    for (const char* rule : {"selective", "hoppe", "xia"}) {
+        const auto figures = refine(
+            {file("sheet.obj"),
+             "--base",
+             "50",
+             "--rule",
+             rule,
+             "--region",
+             "sphere",
+             "5",
+             "5",
+             "0",
+             "4",
+             "--region",
+             "sphere",
+             "20",
+             "-1.5",
+             "0",
+             "6",
+             "--out",
+             file("part.obj"),
+             "--nodes",
+             file("part.txt")});
+        CHECK(figures["turned_faces"] == 0);
+        CHECK(faces_of_obj(file("part.obj")) == expected_faces(originals, file("part.txt")));
+        vertices.push_back(figures["vertices"]);
+    }
+    CHECK(vertices[0] < vertices[1]);
+    CHECK(vertices[1] < vertices[2]);
+    CHECK(vertices[2] <= 900);
+}
+
+TEST_CASE("a view refines what it sees, and the same input gives the same bytes") {
+    write_sheet(file("sheet.obj"));
+    const std::vector<std::string> arguments = {
+        file("sheet.obj"),
+        "--base",
+        "50",
+        "--error-px",
+        "2",
+        "--eye",
+        "-5,-5,6",
+        "--look",
+        "10,10,0"};
+    auto first = arguments;
+    first.insert(first.end(), {"--out", file("one.ply")});
+    auto second = arguments;
+    second.insert(second.end(), {"--out", file("two.ply")});
+    const auto figures = refine(first);
+    CHECK(figures["vertices"] > 60);
+    CHECK(figures["vertices"] < 900);
+    refine(second);
+    CHECK(read_file(file("one.ply")) == read_file(file("two.ply")));
+}
+
+TEST_CASE("the partition is the original mesh with as many colours as there are active vertices") {
+    const Faces originals = write_sheet(file("sheet.obj"));
+    refine(
+        {file("sheet.obj"),
+         "--base",
+         "20",
+         "--out-partition",
+         file("partition.obj"),
+         "--colour-by",
+         "region",
+         "--out",
+         file("base.obj")});
+    CHECK(faces_of_obj(file("partition.obj")) == sorted(originals));
+    const auto colours = [](const std::string& name) {
+        const std::string text = read_file(name);
+        std::set<std::string> found;
+        for (const std::string_view line : split_lines(text)) {
+            const auto words = split_words(line);
+            if (words.size() == 7 && words[0] == "v") {
+                found.insert(fmt::format("{} {} {}", words[4], words[5], words[6]));
+            }
+        }
+        return found;
+    };
+    CHECK(colours(file("base.obj")).size() == 20);
+    CHECK(colours(file("partition.obj")) == colours(file("base.obj")));
+}
+
+TEST_CASE("refine refuses wrong input in one line with exit code 2") {
+    write_sheet(file("sheet.obj"));
+    check_refused({"/nowhere/a.obj"}, "/nowhere/a.obj");
+    check_refused({"/nowhere/a.pm"}, "/nowhere/a.pm: expected a file, found none");
+    write_file(file("bad.pm"), "nothing");
+    check_refused({file("bad.pm")}, "bad.pm: expected a progressive mesh");
+    check_refused({file("sheet.obj"), "--rule", "magic"}, "--rule");
+    check_refused({file("sheet.obj"), "--region", "box", "0", "0", "0", "1"}, "expected sphere");
+    check_refused({file("sheet.obj"), "--region", "sphere", "nan", "0", "0", "1"}, "--region");
+    check_refused({file("sheet.obj"), "--error-px", "1"}, "--eye");
+    check_refused(
+        {file("sheet.obj"), "--error-px", "1", "--eye", "0,0", "--look", "0,0,0"},
+        "--eye: expected X,Y,Z, got '0,0'");
+    check_refused({file("sheet.obj"), "--save", file("x.obj")}, "ends in .pm");
+    check_refused({file("sheet.obj"), "--out", file("x.txt")}, "--out: expected a mesh file");
+    check_refused({file("sheet.obj"), "--save", "/nowhere/x.pm", "--quiet"}, "/nowhere/x.pm");
+}
+
+TEST_CASE("the study of refinement writes its tables") {
+    const auto run = run_octant(
+        {"study",
+         "refinement",
+         "--out",
+         file("study"),
+         "--frames",
+         "40",
+         "--base",
+         "2000",
+         "--json",
+         "--quiet"});
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    const auto tables = nlohmann::json::parse(run.out);
+    REQUIRE(tables.size() == 3);
+    CHECK(tables[0]["rows"].size() == 5);
+    for (const auto& row : tables[0]["rows"]) {
+        CHECK(row["after repair (faces)"] == 0);
+        CHECK(row["selective"] <= row["Hoppe 1997"]);
+    }
+    for (const char* name :
+         {"forced-splits.csv",
+          "refinement-path.csv",
+          "refinement-speed.csv",
+          "refinement.md",
+          "refinement-original.png",
+          "refinement-base.png",
+          "refinement-partition.png",
+          "refinement-region.png"}) {
+        CHECK(std::filesystem::exists(folder() / "study" / name));
+    }
+}

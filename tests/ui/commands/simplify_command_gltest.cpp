@@ -1,0 +1,188 @@
+#include "models/meshfile/mesh_file.h"
+#include "models/triangle_mesh.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "tests/ui/commands/command_checks.h"
+#include "tests/ui/commands/command_line.h"
+#include "ui/report/frame_csv.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+using namespace octant;
+using octant::tests::run_octant;
+
+namespace {
+
+std::filesystem::path folder() {
+    static const auto made = tests::empty_folder("simplify");
+    return made;
+}
+
+std::string file_named(const std::string& name) {
+    return (folder() / name).string();
+}
+
+/// A square of `side` x `side` fields of two triangles each, with gentle waves, as an OBJ file.
+std::string waves(int side) {
+    models::TriangleMesh mesh;
+    for (int y = 0; y <= side; ++y) {
+        for (int x = 0; x <= side; ++x) {
+            mesh.vertices_m.push_back({x, y, 0.6 * std::sin(0.5 * x) * std::cos(0.4 * y)});
+        }
+    }
+    const auto at = [side](int x, int y) { return static_cast<std::uint32_t>(y * (side + 1) + x); };
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            mesh.triangles.push_back({at(x, y), at(x + 1, y), at(x + 1, y + 1)});
+            mesh.triangles.push_back({at(x, y), at(x + 1, y + 1), at(x, y + 1)});
+        }
+    }
+    const std::string file = file_named("waves.obj");
+    models::meshfile::write_mesh(file, mesh);
+    return file;
+}
+
+nlohmann::json figures(const std::vector<std::string>& arguments) {
+    return tests::figures_of("simplify", arguments);
+}
+
+void check_refused(const std::vector<std::string>& arguments, const std::string& expected) {
+    tests::check_refused("simplify", arguments, expected);
+}
+
+/// Rows of a short flight's frames.csv.
+std::vector<ui::report::FrameRecord>
+flown_frames(const std::string& aircraft, const std::string& size, const std::string& error_px) {
+    const std::string recording = file_named("flown");
+    const tests::ProgramRun run = run_octant(
+        {"fly",
+         "straight",
+         "--aircraft",
+         aircraft,
+         "--terrain",
+         "hills",
+         "--size",
+         size,
+         "--frames",
+         "4",
+         "--warm-up",
+         "0",
+         "--aircraft-error-px",
+         error_px,
+         "--record",
+         recording,
+         "--quiet"});
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    return ui::report::read_frame_csv(recording + "/frames.csv").records;
+}
+
+} // namespace
+
+TEST_CASE("a mesh is simplified to the faces asked for, and its error is that of mesh-error") {
+    const std::string in = waves(24);
+    const std::string out = file_named("small.ply");
+    for (const char* method : {"surface", "fast"}) {
+        const nlohmann::json found = figures({in, out, "--faces", "200", "--method", method});
+        CHECK(found.at("faces") <= 200);
+        CHECK(found.at("faces") >= 190);
+        const models::TriangleMesh written = models::meshfile::read_mesh(out);
+        CHECK(written.triangles.size() == found.at("faces"));
+        const tests::ProgramRun run = run_octant({"mesh-error", in, out, "--json", "--quiet"});
+        REQUIRE(run.exit_code == 0);
+        const nlohmann::json measured = nlohmann::json::parse(run.out).at("both");
+        CHECK(
+            found.at("error").get<double>() >= measured.at("hausdorff_least_units").get<double>());
+        CHECK(
+            found.at("error").get<double>() <=
+            1.5 * measured.at("hausdorff_least_units").get<double>());
+    }
+}
+
+TEST_CASE("an error that is asked for is certified not to be exceeded") {
+    const std::string in = waves(24);
+    const std::string out = file_named("within.obj");
+    const nlohmann::json found = figures({in, out, "--error", "0.05"});
+    CHECK(found.at("error") <= 0.05);
+    CHECK(found.at("faces") < 1152);
+    const nlohmann::json share = figures({in, out, "--error", "0.1%"});
+    CHECK(share.at("error_of_diagonal") <= 0.001);
+}
+
+TEST_CASE("the same input gives the same file for any number of threads") {
+    const std::string in = waves(20);
+    const std::string one = file_named("one.obj");
+    const std::string two = file_named("two.obj");
+    figures({in, one, "--faces", "150", "--threads", "1"});
+    figures({in, two, "--faces", "150", "--threads", "2"});
+    CHECK(read_file(one) == read_file(two));
+}
+
+TEST_CASE("the paper's methods state how the paper was read and what it prints") {
+    const std::string in = waves(20);
+    const std::string out = file_named("printed.obj");
+    const nlohmann::json plane = figures({in, out, "--vertices", "100", "--method", "plane"});
+    const nlohmann::json both =
+        figures({in, out, "--vertices", "100", "--method", "bidirectional"});
+    CHECK(plane.at("counted_vertices") == 100);
+    CHECK(plane.at("feet") == 0);
+    CHECK(both.at("feet") > 1000);
+    CHECK(both.at("share_outside") > 0.5);
+    CHECK(both.at("error_sum_triangle") <= both.at("error_sum_bidirectional"));
+    CHECK(both.at("reading").get<std::string>().find("shortest edge first") == 0);
+}
+
+TEST_CASE("a chain of levels has rising certified errors and is flown") {
+    const std::string in = waves(30);
+    const std::string chain = file_named("waves.chain");
+    const nlohmann::json found = figures({in, chain, "--chain"});
+    const nlohmann::json& levels = found.at("levels");
+    REQUIRE(levels.size() >= 3);
+    for (std::size_t i = 1; i < levels.size(); ++i) {
+        CHECK(levels[i].at("error") > levels[i - 1].at("error"));
+        CHECK(levels[i].at("faces") < levels[i - 1].at("faces"));
+    }
+    const auto last_row = [&](const char* error_px) {
+        return flown_frames(chain, "160x90", error_px).back();
+    };
+    const auto near = last_row("0.01");
+    CHECK(near.aircraft_level == 0);
+    CHECK(near.aircraft_polygons == levels[0].at("faces"));
+    const auto far = last_row("100");
+    CHECK(far.aircraft_level > 0);
+    CHECK(far.aircraft_polygons < near.aircraft_polygons);
+}
+
+TEST_CASE("simplify refuses wrong input in one line with exit code 2") {
+    const std::string in = waves(4);
+    check_refused({in, in, "--faces", "10"}, "another file than the input");
+    check_refused({in, file_named("x.xyz"), "--faces", "10"}, "expected a name that ends in");
+    check_refused({in, file_named("x.obj")}, "expected one of --vertices, --faces and --error");
+    check_refused({in, file_named("x.obj"), "--error", "-1"}, "--error: expected a number above 0");
+    check_refused({in, file_named("none/x.obj"), "--faces", "10"}, "none/x.obj: cannot be written");
+    check_refused({in, file_named("x.obj"), "--chain"}, "ends in .chain");
+    check_refused(
+        {in, file_named("x.chain"), "--chain", "--method", "plane"}, "--method plane: expected");
+    check_refused({file_named("absent.obj"), file_named("x.obj"), "--faces", "3"}, "absent.obj");
+    write_file(folder() / "bad.obj", "v 0 0 0\nv 1 0 x\n");
+    check_refused({file_named("bad.obj"), file_named("x.obj"), "--faces", "3"}, "bad.obj:2:");
+    CHECK_FALSE(std::filesystem::exists(folder() / "x.obj"));
+    CHECK_FALSE(std::filesystem::exists(folder() / "x.chain"));
+}
+
+TEST_CASE("a plain mesh is refined in flight to the error asked for") {
+    const auto triangles = [&](const char* error_px) {
+        const auto rows = flown_frames(waves(60), "320x180", error_px);
+        CHECK(rows.back().aircraft_level == 0);
+        return rows.back().aircraft_polygons;
+    };
+    const int fine = triangles("0.1");
+    CHECK(fine > 250);
+    CHECK(triangles("0.3") < fine);
+}

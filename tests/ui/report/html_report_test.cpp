@@ -1,0 +1,191 @@
+#include "sim/base/output_file.h"
+#include "tests/ui/report/scratch.h"
+#include "ui/report/flight_plots.h"
+#include "ui/report/html_report.h"
+#include "ui/report/recording.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace octant;
+using namespace octant::ui::report;
+using Catch::Contains;
+
+namespace {
+
+LoadedRecording
+made_up_recording(const std::filesystem::path& folder, const std::string& title, double draw_ms) {
+    RunInfo info;
+    info.title = title;
+    info.settings_json = R"({"note":"<script>&","rate":60})";
+    info.machine.cores = 2;
+    Recording recording(folder, info);
+    for (int frame = 0; frame < 30; ++frame) {
+        recording.add(made_up_frame(frame, frame == 20 ? 30.0 : draw_ms));
+    }
+    for (int frame = 0; frame < 14; ++frame) {
+        recording.add_picture(frame, made_up_picture(8, 4, 3).view());
+    }
+    recording.finish({0xaaa, 0xbbb, {}});
+    return load_recording(folder);
+}
+
+std::size_t count_of(const std::string& text, const std::string& what) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size()) {
+        ++count;
+    }
+    return count;
+}
+
+} // namespace
+
+TEST_CASE("text is escaped for elements and attributes, and broken UTF-8 mended") {
+    CHECK(
+        escaped("<a href=\"x\">'&'</a>") ==
+        "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
+    CHECK(escaped("\xC3\xA9\n\x01\x7F.") == "\xC3\xA9\n.");
+    CHECK(escaped("\xC3") == "\xEF\xBF\xBD");
+    CHECK(escaped("\xC0\xAF") == "\xEF\xBF\xBD\xEF\xBF\xBD");
+    CHECK(escaped("\xED\xA0\x80x") == "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBDx");
+}
+
+TEST_CASE("base64 of every remainder is as RFC 4648 has it") {
+    CHECK(base64("") == "");
+    CHECK(base64("f") == "Zg==");
+    CHECK(base64("fo") == "Zm8=");
+    CHECK(base64("foo") == "Zm9v");
+    CHECK(base64("foobar") == "Zm9vYmFy");
+    CHECK(base64("\xFF\xFE") == "//4=");
+}
+
+TEST_CASE("a table sets numbers right and escapes the rest") {
+    CHECK(
+        html_of({"T<", {"a", "b"}, {{"x&y", "1.5"}, {"z"}}, "n>"}) ==
+        "<h3>T&lt;</h3>\n<div class=\"scroll\"><table>\n<thead><tr><th>a</th>"
+        "<th class=\"number\">b</th></tr></thead>\n<tbody>\n"
+        "<tr><td>x&amp;y</td><td class=\"number\">1.5</td></tr>\n"
+        "<tr><td>z</td><td></td></tr>\n</tbody></table></div>\n<p class=\"note\">n&gt;</p>\n");
+}
+
+TEST_CASE("a page shows a flight whole, fetches nothing and lets no text through as markup") {
+    const ScratchFolder scratch;
+    const std::vector recordings{made_up_recording(scratch / "one", "<b>flight</b>", 5.0)};
+    const std::vector<HtmlTable> further{{"Study", {"x"}, {{"<i>"}}, ""}};
+    const std::string page = html_report(recordings, further);
+    CHECK_THAT(page, Catch::StartsWith("<!DOCTYPE html>"));
+    CHECK_THAT(page, Contains("<h1>&lt;b&gt;flight&lt;/b&gt;</h1>"));
+    CHECK_THAT(page, Contains("&lt;script&gt;&amp;"));
+    CHECK_THAT(page, Contains("&lt;i&gt;"));
+    for (const char* unwanted :
+         {"<script", "<b>", "<i>", "<link", "src=\"http", "@import", "url("}) {
+        CHECK_THAT(page, !Contains(unwanted));
+    }
+    CHECK(count_of(page, "data:image/png;base64,") == 12);
+    CHECK_THAT(page, Contains("12 of 14 pictures"));
+    for (const Figure& figure : figures()) {
+        CHECK_THAT(page, Contains(escaped(figure.definition)));
+    }
+    CHECK_THAT(page, Contains("1 of 28 frames took longer than 16.67 ms. In 1 of them draw took"));
+    CHECK_THAT(page, Contains("draw by 25.00 ms"));
+    CHECK_THAT(page, Contains("0000000000000aaa"));
+    CHECK(html_report(recordings, further) == page);
+}
+
+TEST_CASE("several flights stand side by side and what differs is marked") {
+    const ScratchFolder scratch;
+    std::vector recordings{
+        made_up_recording(scratch / "one", "first", 5.0),
+        made_up_recording(scratch / "two", "second", 7.0)};
+    recordings[1].run.settings[1].second = "20";
+    const std::string page = html_report(recordings);
+    CHECK_THAT(page, Contains("2 flights compared"));
+    CHECK_THAT(page, Contains("--flights: 2"));
+    CHECK_THAT(page, Contains("<tr class=\"changed\"><td>rate</td>"));
+    CHECK_THAT(page, Contains("<tr><td>note</td>"));
+    CHECK_THAT(page, Contains("<small class=\"worse\">(+23.5 %)</small>")); // P50 8.5 -> 10.5
+    recordings[1].name = "one";
+    CHECK_THAT(html_report(recordings), Contains((scratch / "two").string()));
+}
+
+TEST_CASE("a killed and noisy flight, a flight without frames and a bad picture are said") {
+    const ScratchFolder scratch;
+    LoadedRecording recording = made_up_recording(scratch / "one", "t", 5.0);
+    recording.ended_early = true;
+    recording.run.noise = {"Other programs used 50.0 % of the processor time."};
+    write_file(recording.pictures[0], "broken");
+    std::string page = html_report(std::vector{recording});
+    CHECK_THAT(page, Contains("<span class=\"badge bad\">ended early</span>"));
+    CHECK_THAT(page, Contains("<span class=\"badge bad\">noisy</span>"));
+    CHECK_THAT(page, Contains("Other programs used 50.0 %"));
+    CHECK_THAT(page, Contains("picture-00000.png: expected a PNG picture"));
+    recording.records.clear();
+    recording.statistics = {};
+    page = html_report(std::vector{recording});
+    CHECK_THAT(page, Contains("no frames"));
+    CHECK_THAT(page, !Contains("nan"));
+    CHECK_THAT(html_report({}), Contains("</html>"));
+}
+
+TEST_CASE("without gnuplot the page has no plots and says so in one line") {
+    const ScratchFolder scratch;
+    const std::vector recordings{made_up_recording(scratch / "one", "t", 5.0)};
+    const SearchPath nothing(scratch.path().string());
+    const std::string page = html_report(recordings);
+    CHECK_THAT(page, Contains("There are no plots: gnuplot is not installed."));
+    CHECK_THAT(page, !Contains("<svg"));
+}
+
+TEST_CASE("a flight whose triangle target moved shows its course and its stress") {
+    const ScratchFolder scratch;
+    std::vector<FrameRecord> records;
+    for (int frame = 0; frame < 6; ++frame) {
+        records.push_back(made_up_frame(frame, 5.0));
+        records.back().triangle_target = frame < 2 ? 90 : 100 + 10 * frame; // the first two warm up
+        records.back().stress = frame < 2 ? std::nan("") : 0.8;
+    }
+    CHECK(triangle_targets_of(records).least == 120);
+    CHECK(triangle_targets_of(records).greatest == 150);
+    CHECK(triangle_targets_of(records).mean == 135.0);
+    const auto plots = flight_plots(records, plot_ceiling_ms(records));
+    REQUIRE(plots.size() == 7);
+    CHECK(plots[5].title == "Triangle target");
+    CHECK(plots[5].series[0].y == std::vector<double>{120.0, 130.0, 140.0, 150.0});
+    CHECK(plots[6].title == "Stress");
+    LoadedRecording recording = made_up_recording(scratch / "one", "t", 5.0);
+    CHECK_THAT(html_report(std::vector{recording}), !Contains("<dt>Triangle target</dt>"));
+    recording.records = records;
+    CHECK_THAT(
+        html_report(std::vector{recording}),
+        Contains("<dt>Triangle target</dt><dd>135 <small>mean of 120 to 150</small>"));
+}
+
+TEST_CASE("a long flight is thinned without losing its peak") {
+    std::vector<FrameRecord> records;
+    for (int frame = 0; frame < 50'000; ++frame) {
+        records.push_back(made_up_frame(frame, frame == 33'333 ? 20.0 : 5.0));
+    }
+    const auto plots = flight_plots(records, plot_ceiling_ms(records));
+    REQUIRE(plots.size() == 5);
+    const PlotSeries& times = plots[0].series[1];
+    CHECK(times.x.size() < 3000);
+    CHECK(*std::max_element(times.y.begin(), times.y.end()) == 23.5);
+    const PlotSeries& top_stage = plots[2].series[3];
+    CHECK(top_stage.x.size() < 3000);
+    CHECK(*std::max_element(top_stage.y.begin(), top_stage.y.end()) == 23.5);
+    double counted = 0.0;
+    for (const double count : plots[1].series[0].y) {
+        counted += count;
+    }
+    CHECK(counted == 49'998.0);
+}
+
+TEST_CASE("one stray frame does not flatten a flight's plots") {
+    std::vector<FrameRecord> records;
+    for (int frame = 0; frame < 1000; ++frame) {
+        records.push_back(made_up_frame(frame, frame == 500 ? 996.5 : 16.5));
+    }
+    CHECK(plot_ceiling_ms(records) == Approx(1.05 * 2.5 * 20.0));
+    CHECK(plot_ceiling_ms({}) == Approx(1.05 * 18.0));
+}

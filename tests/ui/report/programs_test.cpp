@@ -1,0 +1,187 @@
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "tests/ui/report/scratch.h"
+#include "ui/report/child_program.h"
+#include "ui/report/plots.h"
+#include "ui/report/video_pipe.h"
+
+#include <catch2/catch.hpp>
+
+#include <iostream>
+#include <limits>
+
+using namespace octant;
+using namespace octant::ui::report;
+
+namespace {
+
+/// A program of that name in `folder` which runs `script`.
+void make_program(
+    const std::filesystem::path& folder, const std::string& name, const std::string& script) {
+    make_folder(folder);
+    write_file(folder / name, "#!/bin/sh\n" + script + "\n");
+    std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
+}
+
+Plot small_plot() {
+    Plot plot{"Title", "x", "it's y", {}, {{"limit", 2.5}}, 0.0, {}};
+    PlotSeries line{"a < b", "#102030", PlotSeries::Style::Line, {1, 2, 3}, {4, 0, 6}, {}};
+    line.y[1] = std::numeric_limits<double>::quiet_NaN();
+    PlotSeries area{"", "#405060", PlotSeries::Style::Area, {1, 2}, {3, 4}, {1, 2}};
+    plot.series = {line, area};
+    return plot;
+}
+
+} // namespace
+
+TEST_CASE("a program is fed, and its output and its end are reported") {
+    auto cat = ChildProgram::start({"cat", "-"});
+    REQUIRE(cat);
+    const std::string much(3'000'000, 'x');
+    CHECK(cat->send(much));
+    const ProgramEnding ending = cat->finish();
+    CHECK(ending.succeeded);
+    CHECK(ending.output == much);
+    auto failing = ChildProgram::start({"sh", "-c", "echo one >&2; echo two >&2; exit 4"});
+    REQUIRE(failing);
+    const ProgramEnding failed = failing->finish();
+    CHECK_FALSE(failed.succeeded);
+    CHECK(failed.last_complaint == "two");
+    auto silent = ChildProgram::start({"sh", "-c", "exit 4"});
+    REQUIRE(silent);
+    CHECK(silent->finish().last_complaint == "ended with exit code 4");
+    auto killed = ChildProgram::start({"sh", "-c", "kill -9 $$"});
+    REQUIRE(killed);
+    CHECK(killed->finish().last_complaint == "ended by signal 9");
+}
+
+TEST_CASE("a program that is not there is nothing, and arguments meet no shell") {
+    CHECK_FALSE(ChildProgram::start({"octant-has-no-such-program"}));
+    auto echo = ChildProgram::start({"printf", "%s|", "a b", "$(id)", "'\";*"});
+    REQUIRE(echo);
+    CHECK(echo->finish().output == "a b|$(id)|'\";*|");
+}
+
+TEST_CASE("without ffmpeg a video is not made, and that is no error") {
+    const ScratchFolder scratch;
+    const SearchPath nothing(scratch.path().string());
+    const Picture picture = made_up_picture(4, 4, 3);
+    VideoPipe video(scratch / "a.mp4", {4, 4, 3, false, 60.0});
+    CHECK_FALSE(video.running());
+    video.add(picture.view());
+    const VideoResult result = video.finish();
+    CHECK(result.outcome == VideoResult::Outcome::NoFfmpeg);
+    CHECK(result.text == "not made: ffmpeg is not installed");
+}
+
+TEST_CASE("an ffmpeg that fails is reported with its last line and stops nobody") {
+    const ScratchFolder scratch;
+    make_program(scratch / "bin", "ffmpeg", "echo first >&2; echo 'no such codec' >&2; exit 1");
+    const SearchPath only((scratch / "bin").string());
+    const Picture picture = made_up_picture(640, 480, 3);
+    VideoPipe video(scratch / "a.mp4", {640, 480, 3, false, 60.0});
+    for (int i = 0; i < 20; ++i) {
+        video.add(picture.view()); // more than the channel holds: would be SIGPIPE
+    }
+    CHECK_FALSE(video.running());
+    const VideoResult result = video.finish();
+    CHECK(result.outcome == VideoResult::Outcome::Failed);
+    CHECK(result.text == "not made: ffmpeg: no such codec");
+}
+
+TEST_CASE("ffmpeg is asked for a file that plays after a kill, by a name nobody misreads") {
+    const ScratchFolder scratch;
+    make_program(scratch / "bin", "ffmpeg", "for word; do echo \"$word\"; done > \"$0.words\"");
+    const SearchPath only((scratch / "bin").string());
+    VideoPipe video("-a: b.mp4", {5, 4, 4, true, 20.0});
+    CHECK(video.finish().outcome == VideoResult::Outcome::Made);
+    const std::string words = read_file(scratch / "bin/ffmpeg.words");
+    CHECK_THAT(words, Catch::Contains("-video_size\n5x4\n-framerate\n20\n-i\npipe:0\n"));
+    CHECK_THAT(words, Catch::Contains("-pix_fmt\nrgba\n"));
+    CHECK_THAT(words, Catch::Contains("-c:v\nlibx264\n-crf\n20\n-pix_fmt\nyuv420p\n"));
+    CHECK_THAT(words, Catch::Contains("-g\n20\n"));
+    CHECK_THAT(words, Catch::Contains("-movflags\n+frag_keyframe+empty_moov+default_base_moof\n"));
+    CHECK_THAT(words, Catch::Contains("vflip,pad="));
+    CHECK_THAT(words, Catch::EndsWith("file:-a: b.mp4\n"));
+}
+
+TEST_CASE("ffmpeg makes a fragmented video of odd size and odd name") {
+    auto ffmpeg = ChildProgram::start({"ffmpeg", "-version"});
+    if (!ffmpeg) {
+        std::cout << "SKIPPED: ffmpeg is not installed\n";
+        return;
+    }
+    ffmpeg->finish();
+    const ScratchFolder scratch;
+    const auto path = scratch / "odd: 'name' %d.mp4";
+    const Picture picture = made_up_picture(63, 47, 4);
+    VideoPipe video(path, {63, 47, 4, true, 10.0});
+    PictureView view = picture.view();
+    view.bottom_row_first = true;
+    for (int i = 0; i < 25; ++i) {
+        video.add(view);
+    }
+    const VideoResult result = video.finish();
+    CHECK(result.text.empty());
+    REQUIRE(result.outcome == VideoResult::Outcome::Made);
+    const std::string bytes = read_file(path);
+    CHECK(bytes.substr(4, 4) == "ftyp");
+    std::size_t fragments = 0;
+    for (std::size_t at = 0; (at = bytes.find("moof", at)) != std::string::npos; ++at) {
+        ++fragments;
+    }
+    CHECK(fragments == 3); // 25 frames, one fragment every 10
+}
+
+TEST_CASE("a plot is told to gnuplot with its data, gaps and quotes") {
+    const std::string script = gnuplot_script(small_plot());
+    CHECK_THAT(script, Catch::Contains("set ylabel 'it''s y'\n"));
+    CHECK_THAT(script, Catch::Contains("set yrange [0:*]\n"));
+    CHECK_THAT(script, Catch::Contains("$series0 << EOD\n1 4\n\n3 6\nEOD\n"));
+    CHECK_THAT(script, Catch::Contains("$series1 << EOD\n1 1 3\n2 2 4\nEOD\n"));
+    CHECK_THAT(
+        script,
+        Catch::EndsWith("plot $series0 using 1:2 with lines lw 1.2 lc rgb '#102030' title 'a < b', "
+                        "$series1 using 1:2:3 with filledcurves lc rgb '#405060' notitle, "
+                        "2.5 with lines dt 2 lw 1 lc rgb '#ef4444' title 'limit'\n"));
+}
+
+TEST_CASE("without gnuplot or without points there is no plot") {
+    const ScratchFolder scratch;
+    CHECK_FALSE(plot_svg(Plot{}));
+    const SearchPath nothing(scratch.path().string());
+    CHECK_FALSE(gnuplot_installed());
+    CHECK_FALSE(plot_svg(small_plot()));
+}
+
+TEST_CASE("a gnuplot that fails is an error with its last line") {
+    const ScratchFolder scratch;
+    make_program(scratch / "bin", "gnuplot", "echo 'no terminal svg' >&2; exit 1");
+    const SearchPath only((scratch / "bin").string());
+    CHECK_THROWS_WITH(plot_svg(small_plot()), "gnuplot: no terminal svg");
+}
+
+TEST_CASE("gnuplot draws the same plot as the same bytes, fit to stand in a page") {
+    if (!gnuplot_installed()) {
+        std::cout << "SKIPPED: gnuplot is not installed\n";
+        return;
+    }
+    const auto svg = plot_svg(small_plot());
+    REQUIRE(svg);
+    CHECK(plot_svg(small_plot()) == svg);
+    CHECK_THAT(*svg, Catch::Contains("a &lt; b"));
+    const std::string inside = inline_svg(*svg);
+    CHECK_THAT(inside, Catch::StartsWith("<svg"));
+    CHECK_THAT(inside, Catch::Contains("</svg>"));
+    for (const char* unwanted : {"<?xml", "<defs", " id=", "gpPt", "\"black\""}) {
+        CHECK_THAT(inside, !Catch::Contains(unwanted));
+    }
+}
+
+TEST_CASE("a drawing loses what cannot stand in a page") {
+    CHECK(
+        inline_svg("<?xml?><svg><title>Gnuplot</title><desc>x</desc><defs>d</defs><g id=\"a\" "
+                   "fill=\"none\" color=\"black\">\n</g>\n<g fill=\"black\"><text>t</text></g>"
+                   "</svg>") == "<svg><g fill=\"currentColor\"><text>t</text></g></svg>");
+}

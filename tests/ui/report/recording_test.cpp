@@ -1,0 +1,286 @@
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "tests/ui/report/scratch.h"
+#include "ui/report/loaded_recording.h"
+#include "ui/report/recording.h"
+
+#include <catch2/catch.hpp>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+using namespace octant;
+using namespace octant::ui::report;
+
+namespace {
+
+RunInfo made_up_info() {
+    RunInfo info;
+    info.title = "a flight";
+    info.settings_json = R"({"path":"turn","aircraft":["f15","500md"],"rate":60,"nested":{"a":1}})";
+    info.version = "0.1.0";
+    info.commit = "abc1234";
+    info.gl_renderer = "some, renderer";
+    info.path_offset_m = {0, 0, 412.5};
+    info.machine.cpu = "cpu, fast";
+    info.machine.cores = 2;
+    info.machine.os = "system";
+    info.machine.kernel = "kernel 1";
+    info.machine.memory_kb = 1024;
+    info.machine.cpu_times = {1000, 500, 10, 100};
+    info.facts = {{"lowest height", "61 m"}};
+    return info;
+}
+
+std::size_t lines_in(const std::filesystem::path& path) {
+    return split_lines(read_file(path)).size();
+}
+
+/// Lets no file grow past `bytes`, as a full disk would.
+class FileSizeLimit {
+public:
+    explicit FileSizeLimit(rlim_t bytes) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        handler_ = std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+
+    ~FileSizeLimit() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+
+    FileSizeLimit(const FileSizeLimit&) = delete;
+    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+    FileSizeLimit(FileSizeLimit&&) = delete;
+    FileSizeLimit& operator=(FileSizeLimit&&) = delete;
+
+private:
+    rlimit before_{};
+    void (*handler_)(int) = nullptr;
+};
+
+} // namespace
+
+TEST_CASE("run.json says at once what is flown, and at the end how it went") {
+    const ScratchFolder scratch;
+    Recording recording(scratch / "rec", made_up_info());
+    const auto at_start = nlohmann::ordered_json::parse(read_file(scratch / "rec/run.json"));
+    CHECK(at_start["settings"]["aircraft"][1] == "500md");
+    CHECK(at_start["settings"].begin().key() == "path");
+    CHECK(at_start["program"]["commit"] == "abc1234");
+    CHECK(at_start["machine"]["cpu"] == "cpu, fast");
+    CHECK(at_start["machine"]["gl_renderer"] == "some, renderer");
+    CHECK(at_start["path_offset_m"] == nlohmann::json({0.0, 0.0, 412.5}));
+    CHECK_FALSE(at_start.contains("summary"));
+    for (int frame = 0; frame < 4; ++frame) {
+        recording.add(made_up_frame(frame, 10.0 * frame));
+    }
+    const Statistics statistics =
+        recording.finish({0xabc, 0xfedcba9876543210U, {2000, 900, 30, 500}});
+    CHECK(statistics.frames == 2);
+    const auto at_end = nlohmann::ordered_json::parse(read_file(scratch / "rec/run.json"));
+    CHECK(at_end["settings"] == at_start["settings"]);
+    const auto& summary = at_end["summary"];
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : summary.items()) {
+        keys.push_back(key);
+    }
+    CHECK(
+        keys == std::vector<std::string>{
+                    "frames",
+                    "mean_ms",
+                    "sd_ms",
+                    "p50_ms",
+                    "p90_ms",
+                    "p95_ms",
+                    "p99_ms",
+                    "p999_ms",
+                    "max_ms",
+                    "low_1pct_fps",
+                    "low_01pct_fps",
+                    "overruns_16ms",
+                    "overruns_33ms",
+                    "overruns_41ms",
+                    "jitter_ms",
+                    "state_hash",
+                    "picture_hash"});
+    CHECK(summary["frames"] == 2);
+    CHECK(summary["mean_ms"] == 28.5);
+    CHECK(summary["overruns_16ms"].dump() == "2");
+    CHECK(summary["state_hash"] == "0000000000000abc");
+    CHECK(summary["picture_hash"] == "fedcba9876543210");
+    CHECK(at_end["noise"]["noisy"] == true);
+    CHECK(at_end["noise"]["steal_share"] == 0.02);
+}
+
+TEST_CASE("frames reach the file every so many and every half second") {
+    const ScratchFolder scratch;
+    Recording recording(scratch / "rec", made_up_info(), 3);
+    const auto frames = scratch / "rec/frames.csv";
+    CHECK(lines_in(frames) == 1);
+    recording.add(made_up_frame(0, 1));
+    recording.add(made_up_frame(1, 1));
+    CHECK(lines_in(frames) == 1);
+    recording.add(made_up_frame(2, 1));
+    CHECK(lines_in(frames) == 4);
+    FrameRecord late = made_up_frame(3, 1);
+    late.wall_s = 0.54;
+    recording.add(late);
+    CHECK(lines_in(frames) == 5);
+}
+
+TEST_CASE("a folder with other things in it is refused and left alone") {
+    const ScratchFolder scratch;
+    make_folder(scratch / "home");
+    write_file(scratch / "home/letter.txt", "dear");
+    const std::string home = (scratch / "home").string();
+    CHECK_THROWS_WITH(
+        Recording(home, made_up_info()),
+        home + ": expected an empty folder or a recording to replace, got one with 'letter.txt'");
+    write_file(scratch / "home/run.json", "{\"summary\": {}}");
+    CHECK_THROWS_AS(Recording(home, made_up_info()), Error);
+    CHECK(read_file(scratch / "home/letter.txt") == "dear");
+    CHECK(read_file(scratch / "home/run.json") == "{\"summary\": {}}");
+    const std::string file = home + "/letter.txt";
+    CHECK_THROWS_AS(Recording(file, made_up_info()), Error);
+}
+
+TEST_CASE("an older recording gives way with all its files and nothing else") {
+    const ScratchFolder scratch;
+    {
+        Recording recording(scratch / "rec", made_up_info());
+        recording.add(made_up_frame(0, 1));
+        recording.add_picture(7, made_up_picture(2, 2, 3).view());
+        recording.finish({});
+    }
+    write_file(scratch / "rec/notes.txt", "mine");
+    write_file(scratch / "rec/track.acmi", "old");
+    const Recording recording(scratch / "rec", made_up_info());
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(scratch / "rec")) {
+        names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    CHECK(names == std::vector<std::string>{"frames.csv", "notes.txt", "run.json"});
+}
+
+TEST_CASE("a full disk gives one error and leaves a recording that loads") {
+    const ScratchFolder scratch;
+    {
+        Recording recording(scratch / "rec", made_up_info(), 1);
+        const FileSizeLimit limit(2000);
+        const auto fly = [&] {
+            for (int frame = 0; frame < 100; ++frame) {
+                recording.add(made_up_frame(frame, 1));
+            }
+        };
+        CHECK_THROWS_WITH(
+            fly(), (scratch / "rec/frames.csv").string() + ": cannot be written: File too large");
+    }
+    const LoadedRecording loaded = load_recording(scratch / "rec");
+    CHECK(loaded.ended_early);
+    CHECK(loaded.records.size() > 5);
+}
+
+TEST_CASE("a killed recording loads with the figures of what is left") {
+    const ScratchFolder scratch;
+    {
+        Recording recording(scratch / "rec", made_up_info(), 1);
+        for (int frame = 0; frame < 6; ++frame) {
+            recording.add(made_up_frame(frame, 10.0));
+        }
+        recording.add_picture(4, made_up_picture(2, 2, 3).view());
+        recording.add_picture(10, made_up_picture(2, 2, 3).view());
+    }
+    const auto frames = scratch / "rec/frames.csv";
+    write_file(frames, read_file(frames) + "6,0.3,0.");
+    const LoadedRecording loaded = load_recording(scratch / "rec/");
+    CHECK(loaded.name == "rec");
+    CHECK(loaded.ended_early);
+    CHECK(loaded.statistics.frames == 4);
+    CHECK(loaded.statistics.mean_ms == 13.5);
+    CHECK(loaded.run.title == "a flight");
+    CHECK(loaded.run.state_hash.empty());
+    REQUIRE(loaded.pictures.size() == 2);
+    CHECK(loaded.pictures[1].filename() == "picture-00010.png");
+    CHECK(loaded.run.settings[1] == std::pair<std::string, std::string>("aircraft", "f15, 500md"));
+    CHECK(loaded.run.settings[3] == std::pair<std::string, std::string>("nested.a", "1"));
+    complete_timing_files(loaded);
+    CHECK(lines_in(scratch / "rec/mangohud.csv") == 3 + 4);
+    CHECK(nlohmann::json::parse(read_file(scratch / "rec/trace.json")).contains("traceEvents"));
+}
+
+TEST_CASE("the figures read back are those of the summary bit for bit") {
+    const ScratchFolder scratch;
+    Recording recording(scratch / "rec", made_up_info());
+    for (int frame = 0; frame < 200; ++frame) {
+        recording.add(made_up_frame(frame, 3.0 + 1.0 / (1.0 + frame % 7)));
+    }
+    const Statistics at_end = recording.finish({1, 2, {}});
+    const LoadedRecording loaded = load_recording(scratch / "rec");
+    CHECK(loaded.statistics == at_end);
+    CHECK_FALSE(loaded.ended_early);
+    CHECK(loaded.run.picture_hash == "0000000000000002");
+}
+
+TEST_CASE("what is no recording is refused by name") {
+    const ScratchFolder scratch;
+    const std::string folder = scratch.path().string();
+    CHECK_THROWS_WITH(
+        load_recording(folder + "/none"),
+        folder + "/none: expected the folder of a recording, found none");
+    CHECK_THROWS_WITH(load_recording(folder), folder + "/run.json: expected a file, found none");
+    write_file(folder + "/run.json", "{\"a\":");
+    CHECK_THROWS_WITH(
+        load_recording(folder),
+        folder + "/run.json:1: expected JSON, got something else or a part of it");
+    write_file(folder + "/run.json", "[]");
+    CHECK_THROWS_WITH(
+        load_recording(folder),
+        folder + "/run.json: expected \"format\": \"octant recording\", got none");
+}
+
+TEST_CASE("the MangoHud log has its exact headers and leaves out the warm-up") {
+    const ScratchFolder scratch;
+    Recording recording(scratch / "rec", made_up_info());
+    for (int frame = 0; frame < 3; ++frame) {
+        recording.add(made_up_frame(frame, 4.5));
+    }
+    recording.finish({});
+    CHECK(
+        read_file(scratch / "rec/mangohud.csv") ==
+        "os,cpu,gpu,ram,kernel,driver,cpuscheduler\n"
+        "system,cpu  fast,some  renderer,1024,kernel 1,,\n"
+        "fps,frametime,cpu_load,cpu_power,gpu_load,cpu_temp,gpu_temp,gpu_core_clock,gpu_mem_clock,"
+        "gpu_vram_used,gpu_power,ram_used,swap_used,process_rss,cpu_mhz,elapsed\n"
+        "125.000,8.0000,0,0,0,0,0,0,0,0,0,0,0,0,0,48000000\n");
+}
+
+TEST_CASE("the trace holds every frame with its stages one after the other") {
+    const ScratchFolder scratch;
+    Recording recording(scratch / "rec", made_up_info());
+    for (int frame = 0; frame < 3; ++frame) {
+        recording.add(made_up_frame(frame, frame == 2 ? 14.5 : 4.5));
+    }
+    recording.finish({});
+    const auto trace = nlohmann::json::parse(read_file(scratch / "rec/trace.json"));
+    CHECK(trace["displayTimeUnit"] == "ms");
+    std::map<std::string, std::vector<nlohmann::json>> events;
+    for (const auto& event : trace["traceEvents"]) {
+        events[event["ph"].get<std::string>() + " " + event["name"].get<std::string>()].push_back(
+            event);
+    }
+    for (const char* name : {"X frame", "X sim", "X plan", "X draw", "X read"}) {
+        CHECK(events[name].size() == 3);
+    }
+    CHECK(events["X plan"][1]["ts"] == 21000.0);
+    CHECK(events["X draw"][1]["ts"] == 23000.0);
+    CHECK(events["X draw"][1]["dur"] == 4500.0);
+    CHECK(events["X frame"][1]["args"]["warm_up"] == true);
+    CHECK(events["C terrain triangles"][2]["args"]["value"] == 1002);
+    CHECK(events["C resolution C"].size() == 3);
+    CHECK(events["i overrun"].size() == 1);
+}

@@ -1,0 +1,20 @@
+#include "ui/settings/settings_change.h"
+
+#include <catch2/catch.hpp>
+
+using namespace octant;
+using ui::settings::change_between;
+using ui::settings::SettingsChange;
+using visuals::scene::Settings;
+
+TEST_CASE("a change of settings costs what has to be made anew for it") {
+    const Settings before;
+    CHECK(change_between(before, before) == SettingsChange::None);
+    Settings after = before;
+    after.azimuth_deg = 10.0;
+    CHECK(change_between(before, after) == SettingsChange::Look);
+    after.triangles = 5000;
+    CHECK(change_between(before, after) == SettingsChange::Picture);
+    after.aircraft.emplace_back("f15");
+    CHECK(change_between(before, after) == SettingsChange::World);
+}

@@ -1,0 +1,81 @@
+#include "sim/base/output_file.h"
+#include "tests/scratch.h"
+#include "ui/settings/settings_fields.h"
+#include "ui/settings/settings_file.h"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+using namespace octant;
+using octant::visuals::scene::Settings;
+
+namespace {
+
+std::filesystem::path settings_file(const std::string& text) {
+    const auto path = tests::scratch_folder() / "settings.json";
+    write_file(path, text);
+    return path;
+}
+
+} // namespace
+
+TEST_CASE("settings survive the way to a file and back") {
+    Settings settings;
+    settings.aircraft = {"500md", "f15"};
+    settings.heading_deg = 0.1 + 0.2;
+    settings.eye_m = glm::dvec3(1.5, -2.25, 1e-3);
+    settings.size_px = {320, 200};
+    settings.sky = false;
+    settings.adapt.terrain = true;
+    settings.height_mode = visuals::scene::HeightMode::Follow;
+    settings.background = {0.0F, 1.0F, 128.0F / 255.0F};
+    const auto json = ui::settings::settings_json(settings);
+    CHECK(ui::settings::settings_json(ui::settings::read_settings(settings_file(json.dump(2)))) == json);
+    CHECK(
+        ui::settings::settings_json(ui::settings::read_settings(
+            settings_file(nlohmann::ordered_json{{"settings", json}}.dump()))) == json);
+    CHECK(ui::settings::read_settings(settings_file(json.dump())).heading_deg == settings.heading_deg);
+    CHECK_FALSE(ui::settings::settings_json(Settings{}) == json);
+}
+
+TEST_CASE("every setting has a name of its own, a meaning and readable text") {
+    Settings settings;
+    std::set<std::string_view> names;
+    ui::settings::visit_settings(settings, [&](const ui::settings::FieldInfo& info, const auto&) {
+        CHECK(names.insert(info.name).second);
+        CHECK(info.meaning.size() > 5);
+    });
+    CHECK(names.size() == ui::settings::settings_json(settings).size());
+}
+
+TEST_CASE("a missing key keeps its default and a wrong one is refused with its line") {
+    CHECK(ui::settings::read_settings(settings_file("{}")).triangles == Settings{}.triangles);
+    const auto expect = [](const std::string& text, const std::string& message) {
+        const auto path = settings_file(text);
+        CHECK_THROWS_WITH(ui::settings::read_settings(path), path.string() + message);
+    };
+    expect("{\n\"viev\": \"chase\"\n}", ":2: expected the name of a setting, got 'viev'");
+    expect(
+        "{\n\n\"view\": \"roof\"}",
+        ":3: view: expected one of chase, cockpit, tower, orbit, free, got 'roof'");
+    expect("{\"fov\": 0}", ":1: fov: expected a number from 1 to 150, got '0'");
+    expect(
+        "{\"warm-up\": 1.5}", ":1: warm-up: expected a whole number from 0 to 1000000, got '1.5'");
+    expect("{\"aircraft\": []}", ":1: aircraft: expected a list of names, got []");
+    expect("{\n\"samples\": 2}", ":2: samples: expected 1 or 4, got 2");
+    CHECK(ui::settings::read_settings(settings_file("{\"adapt\": \"none\"}")).adapt == Settings{}.adapt);
+    expect(
+        "{\"adapt\": \"terrain,sound\"}",
+        ":1: adapt: expected none or a list of terrain, shading, got 'terrain,sound'");
+    expect("{\"sky\": 1}", ":1: sky: expected true or false, got '1'");
+    expect(
+        "{\"background\": \"red\"}",
+        ":1: background: expected six hexadecimal digits RRGGBB, got 'red'");
+    expect("{\"fov\": 1e400}", ": expected JSON with numbers that fit into 64 bits, got others");
+    expect(std::string(100000, '['), ": expected at most 64 levels of nesting, got more");
+    expect("[]", ":1: expected a JSON object of settings, got array");
+    expect("{\n\"fov\": ", ":2: expected JSON, got something else or a part of it");
+}

@@ -1,0 +1,55 @@
+#include "ui/studies/simplification/simplification_meshes.h"
+#include "ui/studies/simplification/simplification_runs.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+
+using namespace octant::ui::studies::simplification;
+
+namespace {
+
+std::optional<std::filesystem::path> real_bunny() {
+    const char* given = std::getenv("OCTANT_SHARED_DATA");
+    const std::filesystem::path folder =
+        given != nullptr ? std::filesystem::path(given)
+                         : std::filesystem::path(OCTANT_SOURCE_DIR) / "../shared/data";
+    const auto file = folder / "meshes" / "bun_zipper.ply";
+    if (std::filesystem::exists(file)) {
+        return file;
+    }
+    std::cout << "SKIPPED: no meshes/bun_zipper.ply in " << folder << '\n';
+    return std::nullopt;
+}
+
+} // namespace
+
+TEST_CASE("the bunny of 2000 counted vertices is as the 2005 paper has it") {
+    const auto file = real_bunny();
+    if (!file) {
+        return;
+    }
+    const auto runs =
+        paper_runs(bunny_from(*file), paper_bunny_vertices, ColourReading::None, [] {});
+    REQUIRE(runs.size() == 3);
+    for (const PaperRun& run : runs) {
+        CHECK(run.result.counted_vertices == 2000);
+        CHECK(run.result.contractions == 33947);
+        CHECK(run.result.mesh.vertices_m.size() >= 883);
+        CHECK(run.result.mesh.vertices_m.size() <= 887);
+        CHECK(run.result.mesh.triangles.size() >= 1723);
+        CHECK(run.result.mesh.triangles.size() <= 1734);
+    }
+    const auto& previous = runs[0].result.sums;
+    const auto& one_way = runs[1].result.sums;
+    const auto& both = runs[2].result;
+    CHECK(one_way.triangle_m2 <= 0.84 * previous.triangle_m2);
+    CHECK(both.sums.bidirectional_m2 <= 0.84 * previous.bidirectional_m2);
+    CHECK(both.sums.bidirectional_m2 == Approx(one_way.bidirectional_m2).epsilon(0.02));
+    // The paper: 2501472 of 2783088. Exact arithmetic takes every border for outside.
+    CHECK(both.feet == 2767338);
+    CHECK(both.feet_outside == 2603070);
+}

@@ -1,0 +1,177 @@
+#include "sim/base/axes.h"
+#include "tests/ui/window/driven_viewer.h"
+#include "ui/flight/session.h"
+#include "ui/settings/settings_file.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+using namespace octant;
+using visuals::scene::Settings;
+namespace fs = std::filesystem;
+
+namespace {
+
+nlohmann::json run_of(const fs::path& folder) {
+    std::ifstream file(folder / "run.json");
+    return nlohmann::json::parse(file);
+}
+
+/// State hash of what a recording's settings fly without a window.
+std::string flown_again(const fs::path& folder) {
+    Settings settings = ui::settings::read_settings(folder / "run.json");
+    settings.size_px = {64, 48};
+    settings.triangles = 500;
+    ui::flight::Session session(settings);
+    for (int frame = 0; frame < session.frames(); ++frame) {
+        session.draw(frame);
+    }
+    char text[17];
+    std::snprintf(
+        text, sizeof text, "%016llx", static_cast<unsigned long long>(session.state_hash()));
+    return text;
+}
+
+double heading_rad(ui::flight::Simulation& simulation) {
+    return euler_from_body_to_world(simulation.states().front().body_to_world).heading_rad;
+}
+
+} // namespace
+
+TEST_CASE("a path is scrubbed by its keys, faster and slower, and begins anew at its end") {
+    const auto driven = DrivenViewer::open(small_flight());
+    if (!driven) {
+        return;
+    }
+    driven->strike("space");
+    driven->strike("Home");
+    driven->strike("slash");
+    driven->strike("slash");
+    CHECK(driven->state().playback.time_s == Approx(4.0));
+    driven->strike("comma");
+    CHECK(driven->state().playback.time_s == Approx(2.0));
+    CHECK(driven->viewer().session().simulation().time_s() == Approx(2.0));
+    driven->strike("bracketright");
+    driven->strike("bracketright");
+    CHECK(driven->state().playback.speed == Approx(4.0));
+    driven->strike("bracketleft");
+    CHECK(driven->state().playback.speed == Approx(2.0));
+    driven->state().requests.go_to_s = driven->state().playback.end_s - 0.2;
+    driven->turns(2);
+    driven->strike("space");
+    CHECK(driven->until([&] { return driven->state().playback.time_s < 5.0; }));
+}
+
+TEST_CASE(
+    "a flight by hand leaves trim, turns where the stick goes, and its recording repeats it") {
+    Settings settings = small_flight();
+    const auto driven = DrivenViewer::open(settings);
+    if (!driven) {
+        return;
+    }
+    ui::flight::Simulation& simulation = driven->viewer().session().simulation();
+    driven->strike("h");
+    driven->strike("t");
+    REQUIRE(simulation.by_hand());
+    const double heading_before_rad = heading_rad(simulation);
+    const double height_before_m = simulation.states().front().position_m.z;
+    driven->strike("F9");
+    REQUIRE(driven->state().recording.has_value());
+    const fs::path folder = *driven->state().recording;
+    driven->hold("Right", 0.3);
+    driven->hold("Down", 3.0);
+    const double turned_rad =
+        std::remainder(heading_rad(simulation) - heading_before_rad, 2.0 * 3.14159265358979);
+    CHECK(turned_rad > 0.05);
+    CHECK(simulation.states().front().position_m.z > height_before_m - 200.0);
+    driven->strike("F9");
+    CHECK_FALSE(driven->state().recording.has_value());
+    CHECK(fs::exists(folder / "report.html"));
+    const nlohmann::json run = run_of(folder);
+    CHECK(run["summary"]["frames"].get<int>() > 10);
+    CHECK(run["settings"]["path"].get<std::string>().ends_with("flight.csv"));
+    CHECK(flown_again(folder) == run["summary"]["state_hash"].get<std::string>());
+}
+
+TEST_CASE("a recording along a path has the states of the same flight without a window") {
+    const auto driven = DrivenViewer::open(small_flight());
+    if (!driven) {
+        return;
+    }
+    driven->turns(10);
+    driven->strike("F9");
+    REQUIRE(driven->state().recording.has_value());
+    const fs::path folder = *driven->state().recording;
+    driven->turns(20);
+    driven->strike("bracketright");
+    driven->turns(20);
+    driven->strike("space");
+    driven->turns(5);
+    driven->strike("3");
+    driven->strike("space");
+    driven->turns(10);
+    driven->strike("F9");
+    const nlohmann::json run = run_of(folder);
+    CHECK(flown_again(folder) == run["summary"]["state_hash"].get<std::string>());
+    CHECK(fs::exists(folder / "report.html"));
+    CHECK(fs::exists(folder / "track.csv"));
+}
+
+TEST_CASE("changing path, aircraft and ground in the window loads them, and a wrong one says so") {
+    const auto driven = DrivenViewer::open(small_flight());
+    if (!driven) {
+        return;
+    }
+    driven->state().wanted.path = "turn";
+    driven->state().wanted.aircraft = {"500md"};
+    driven->state().wanted.terrain = "canyon";
+    driven->turns(3);
+    CHECK(driven->settings().terrain == "canyon");
+    CHECK(driven->viewer().session().world().flight.title == "500md turn over canyon");
+    driven->state().wanted.path = "no-such-path";
+    driven->turns(3);
+    CHECK(driven->settings().path == "turn");
+    CHECK(driven->state().message.text.find("no-such-path") != std::string::npos);
+}
+
+TEST_CASE("a flight by hand into the ground stops with a message, and its recording repeats it") {
+    const auto driven = DrivenViewer::open(small_flight());
+    if (!driven) {
+        return;
+    }
+    driven->strike("h");
+    driven->strike("F9");
+    REQUIRE(driven->state().recording.has_value());
+    const fs::path folder = *driven->state().recording;
+    driven->state().playback.speed = 4.0;
+    driven->display().press("Up");
+    ui::flight::Simulation& simulation = driven->viewer().session().simulation();
+    CHECK(driven->until([&] { return simulation.end_of_flight().has_value(); }));
+    driven->display().release("Up");
+    driven->turns(2);
+    CHECK(simulation.end_of_flight() == ui::flight::Simulation::End::OnTheGround);
+    CHECK_FALSE(driven->state().playback.playing);
+    CHECK(driven->state().message.text.find("ground") != std::string::npos);
+    driven->strike("F9");
+    CHECK(flown_again(folder) == run_of(folder)["summary"]["state_hash"].get<std::string>());
+}
+
+TEST_CASE("another way to remove hidden surfaces keeps the flight's time") {
+    const auto driven = DrivenViewer::open(small_flight());
+    if (!driven) {
+        return;
+    }
+    driven->strike("space");
+    driven->strike("Home");
+    driven->strike("slash");
+    driven->state().wanted.hidden_surface = visuals::scene::HiddenSurface::DepthBuffer;
+    driven->turns(3);
+    CHECK(driven->settings().hidden_surface == visuals::scene::HiddenSurface::DepthBuffer);
+    CHECK(driven->viewer().session().simulation().time_s() == Approx(2.0));
+}

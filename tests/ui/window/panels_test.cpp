@@ -1,0 +1,164 @@
+#include "ui/settings/settings_fields.h"
+#include "ui/window/panels.h"
+#include "ui/window/setting_widgets.h"
+#include "ui/window/status_marks.h"
+#include "ui/window/view_keys.h"
+
+#include <catch2/catch.hpp>
+
+#include <array>
+
+#include "headless_gui.h"
+
+using namespace octant;
+using namespace octant::tests;
+using ui::window::ViewState;
+
+namespace {
+
+bool contains(const std::string& text, std::string_view part) {
+    return text.find(part) != std::string::npos;
+}
+
+ui::report::FrameRecord record_of(int frame, double frame_ms) {
+    ui::report::FrameRecord record;
+    record.frame = frame;
+    record.wall_s = 0.02 * frame;
+    record.frame_ms = frame_ms;
+    record.overrun = frame_ms > ui::report::overrun_16_ms ? 1 : 0;
+    return record;
+}
+
+std::vector<std::string> texts_of(const std::vector<ui::window::StatusMark>& marks) {
+    std::vector<std::string> texts;
+    for (const ui::window::StatusMark& mark : marks) {
+        texts.push_back(mark.text);
+    }
+    return texts;
+}
+
+} // namespace
+
+TEST_CASE("a panel draws where it is open and nothing where it is closed") {
+    struct Case {
+        void (*panel)(ViewState&);
+        bool ui::window::OpenPanels::*open;
+    };
+
+    const std::array cases{
+        Case{ui::window::timing_panel, &ui::window::OpenPanels::timing},
+        Case{ui::window::settings_panel, &ui::window::OpenPanels::settings},
+        Case{ui::window::help_panel, &ui::window::OpenPanels::help},
+        Case{ui::window::first_steps_panel, &ui::window::OpenPanels::first_steps}};
+    for (const Case& each : cases) {
+        HeadlessGui gui;
+        ViewState state;
+        state.open.*each.open = false;
+        CHECK(gui.settled([&] { each.panel(state); }) == 0);
+        state.open.*each.open = true;
+        CHECK(gui.settled([&] { each.panel(state); }) > 100);
+        CHECK(state.open.*each.open);
+    }
+}
+
+TEST_CASE("every setting is to be found in one of the groups of the settings panel") {
+    HeadlessGui gui;
+    ViewState state;
+    const std::string texts = gui.texts([&] {
+        for (int group = 0; group < ui::window::setting_groups; ++group) {
+            ui::window::edit_group(state.wanted, static_cast<ui::window::SettingGroup>(group));
+        }
+    });
+    ui::settings::visit_settings(state.wanted, [&](const ui::settings::FieldInfo& info, const auto&) {
+        CAPTURE(info.name);
+        CHECK(contains(texts, info.name));
+    });
+    CHECK(state.wanted == visuals::scene::Settings{});
+    state.open.settings = true;
+    const std::string titles = gui.texts([&] { ui::window::settings_panel(state); });
+    for (int group = 0; group < ui::window::setting_groups; ++group) {
+        CHECK(contains(titles, ui::window::title_of(static_cast<ui::window::SettingGroup>(group))));
+    }
+}
+
+TEST_CASE("only the settings that are asked for are shown, in that order") {
+    HeadlessGui gui;
+    visuals::scene::Settings settings;
+    constexpr std::array<std::string_view, 2> names{"visibility", "sky"};
+    const std::string texts = gui.texts([&] { ui::window::edit_settings(settings, names); });
+    CHECK(texts.find("visibility") < texts.find("sky"));
+    CHECK(contains(texts, "sky"));
+    CHECK_FALSE(contains(texts, "triangles"));
+}
+
+TEST_CASE("a check mark changes its setting, and one beside a number sets and unsets it") {
+    HeadlessGui gui;
+    visuals::scene::Settings settings;
+    const auto widgets = [&](std::string_view name) {
+        return [&settings, name] {
+            const std::array names{name};
+            ImGui::Begin("window");
+            ui::window::edit_settings(settings, names);
+            ImGui::End();
+        };
+    };
+    CHECK(gui.click("window", "sky", "##value", widgets("sky")));
+    CHECK_FALSE(settings.sky);
+    CHECK(gui.click("window", "fov", "auto", widgets("fov")));
+    CHECK(settings.fov_deg == 45.0);
+    CHECK(gui.click("window", "fov", "auto", widgets("fov")));
+    CHECK_FALSE(settings.fov_deg.has_value());
+}
+
+TEST_CASE("the help names every key") {
+    HeadlessGui gui;
+    ViewState state;
+    state.open.help = true;
+    const std::string texts = gui.texts([&] { ui::window::help_panel(state); });
+    for (const ui::window::ViewKey& key : ui::window::view_keys()) {
+        CHECK(contains(texts, key.meaning));
+    }
+    for (const ui::window::HeldKey& key : ui::window::held_keys()) {
+        CHECK(contains(texts, key.meaning));
+    }
+}
+
+TEST_CASE("the first steps close by their button and the vsync box follows a click") {
+    HeadlessGui gui;
+    ViewState state;
+    state.open.first_steps = true;
+    CHECK(gui.click("First steps", "Begin", [&] { ui::window::first_steps_panel(state); }));
+    CHECK_FALSE(state.open.first_steps);
+    state.open.timing = true;
+    state.history.add(record_of(0, 10.0));
+    CHECK(
+        gui.click("Frame times", "wait for the display (vsync)", [&] { ui::window::timing_panel(state); }));
+    CHECK_FALSE(state.vsync);
+}
+
+TEST_CASE("the timing panel tells rate and overruns of the frames it holds") {
+    HeadlessGui gui;
+    ViewState state;
+    state.open.timing = true;
+    for (int frame = 0; frame < 100; ++frame) {
+        state.history.add(record_of(frame, frame % 10 == 0 ? 25.0 : 10.0));
+    }
+    const std::string texts = gui.texts([&] { ui::window::timing_panel(state); });
+    CHECK(contains(texts, "50.0 frames/s"));
+    CHECK(contains(texts, "overruns 10"));
+}
+
+TEST_CASE("what is always to be seen is said in a fixed order, and nothing in plain flight") {
+    ViewState state;
+    CHECK(ui::window::status_marks(state, std::nullopt).empty());
+    state.recording = "flight-1";
+    state.playback.playing = false;
+    state.playback.speed = 0.5;
+    ui::window::HandStatus hand;
+    hand.warnings.stalled = true;
+    CHECK(
+        texts_of(ui::window::status_marks(state, hand)) ==
+        std::vector<std::string>{"REC flight-1", "paused", "x0.5", "by hand", "STALL"});
+    hand.ended = true;
+    CHECK(texts_of(ui::window::status_marks(state, hand)).back() == "MET THE GROUND");
+}

@@ -1,0 +1,36 @@
+#include "ui/window/playback.h"
+
+#include <catch2/catch.hpp>
+
+using octant::ui::window::Playback;
+
+TEST_CASE("a path plays at its speed, begins anew at its end or stops there") {
+    Playback playback{.begin_s = 10.0, .end_s = 12.0, .time_s = 10.0, .speed = 2.0};
+    CHECK(playback.pass(0.5, false) == Playback::Moved::On);
+    CHECK(playback.time_s == Approx(11.0));
+    CHECK(playback.pass(1.0, false) == Playback::Moved::Restarts);
+    CHECK(playback.time_s == 10.0);
+    playback.loops = false;
+    CHECK(playback.pass(5.0, false) == Playback::Moved::On);
+    CHECK(playback.time_s == 12.0);
+    CHECK_FALSE(playback.playing);
+    CHECK(playback.pass(5.0, false) == Playback::Moved::On);
+    CHECK(playback.time_s == 12.0);
+}
+
+TEST_CASE("a flight by hand has no end, and a single frame pauses") {
+    Playback playback{.begin_s = 0.0, .end_s = 1.0, .time_s = 0.9};
+    CHECK(playback.pass(1.0, true) == Playback::Moved::On);
+    CHECK(playback.time_s == Approx(1.9));
+    playback.step_frame(0.1, true);
+    CHECK(playback.time_s == Approx(2.0));
+    CHECK_FALSE(playback.playing);
+}
+
+TEST_CASE("the speed doubles and halves within its limits") {
+    Playback playback;
+    playback.change_speed(20);
+    CHECK(playback.speed == Playback::fastest);
+    playback.change_speed(-40);
+    CHECK(playback.speed == Playback::slowest);
+}

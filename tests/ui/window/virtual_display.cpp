@@ -1,0 +1,157 @@
+#include "tests/ui/window/virtual_display.h"
+
+#include <X11/Xlib.h>
+#include <X11/extensions/XTest.h>
+#include <X11/keysym.h>
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <utility>
+
+namespace octant {
+
+struct VirtualDisplay::Connection {
+    ::Display* display = nullptr;
+
+    explicit Connection(const std::string& name)
+        : display(XOpenDisplay(name.c_str())) {
+        if (display == nullptr) {
+            throw std::runtime_error("cannot connect to the display " + name);
+        }
+    }
+
+    ~Connection() { XCloseDisplay(display); }
+
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
+    Connection(Connection&&) = delete;
+    Connection& operator=(Connection&&) = delete;
+
+    KeyCode code_of(const std::string& key) const {
+        const KeySym symbol = XStringToKeysym(key.c_str());
+        if (symbol == NoSymbol) {
+            throw std::invalid_argument("no such key: " + key);
+        }
+        return XKeysymToKeycode(display, symbol);
+    }
+};
+
+namespace {
+
+/// What the server says of itself on the pipe: its number and a line's end.
+std::string number_from(int pipe) {
+    std::string number;
+    char byte = 0;
+    while (read(pipe, &byte, 1) == 1 && byte != '\n') {
+        number += byte;
+    }
+    return number;
+}
+
+} // namespace
+
+std::unique_ptr<VirtualDisplay> VirtualDisplay::start() {
+    int pipe_ends[2];
+    if (pipe(pipe_ends) != 0) {
+        throw std::runtime_error("no pipe");
+    }
+    const pid_t process = fork();
+    if (process == 0) {
+        close(pipe_ends[0]);
+        const int nowhere = open("/dev/null", O_WRONLY);
+        dup2(nowhere, STDERR_FILENO);
+        const std::string told_on = std::to_string(pipe_ends[1]);
+        execlp(
+            "Xvfb",
+            "Xvfb",
+            "-displayfd",
+            told_on.c_str(),
+            "-screen",
+            "0",
+            "1400x900x24",
+            "-nolisten",
+            "tcp",
+            nullptr);
+        _exit(127);
+    }
+    close(pipe_ends[1]);
+    const std::string number = number_from(pipe_ends[0]);
+    close(pipe_ends[0]);
+    if (number.empty()) {
+        waitpid(process, nullptr, 0);
+        return nullptr;
+    }
+    const std::string name = ":" + number;
+    setenv("DISPLAY", name.c_str(), 1);
+    return std::unique_ptr<VirtualDisplay>(
+        new VirtualDisplay(process, std::make_unique<Connection>(name)));
+}
+
+VirtualDisplay::VirtualDisplay(int process, std::unique_ptr<Connection> connection)
+    : process_(process)
+    , connection_(std::move(connection)) {}
+
+VirtualDisplay::~VirtualDisplay() {
+    connection_.reset();
+    kill(process_, SIGTERM);
+    waitpid(process_, nullptr, 0);
+}
+
+void VirtualDisplay::focus() {
+    Window root = 0;
+    Window parent = 0;
+    Window* children = nullptr;
+    unsigned count = 0;
+    XQueryTree(
+        connection_->display,
+        DefaultRootWindow(connection_->display),
+        &root,
+        &parent,
+        &children,
+        &count);
+    for (unsigned i = 0; i < count; ++i) {
+        XWindowAttributes attributes;
+        XGetWindowAttributes(connection_->display, children[i], &attributes);
+        if (attributes.map_state == IsViewable) {
+            XSetInputFocus(connection_->display, children[i], RevertToPointerRoot, CurrentTime);
+        }
+    }
+    XFree(children);
+    XSync(connection_->display, False);
+}
+
+void VirtualDisplay::press(const std::string& key) {
+    XTestFakeKeyEvent(connection_->display, connection_->code_of(key), True, 0);
+    XSync(connection_->display, False);
+}
+
+void VirtualDisplay::release(const std::string& key) {
+    XTestFakeKeyEvent(connection_->display, connection_->code_of(key), False, 0);
+    XSync(connection_->display, False);
+}
+
+void VirtualDisplay::move_pointer(const glm::ivec2& to) {
+    XTestFakeMotionEvent(connection_->display, 0, to.x, to.y, 0);
+    XSync(connection_->display, False);
+}
+
+void VirtualDisplay::press_button(int button) {
+    XTestFakeButtonEvent(connection_->display, static_cast<unsigned>(button), True, 0);
+    XSync(connection_->display, False);
+}
+
+void VirtualDisplay::release_button(int button) {
+    XTestFakeButtonEvent(connection_->display, static_cast<unsigned>(button), False, 0);
+    XSync(connection_->display, False);
+}
+
+void VirtualDisplay::turn_wheel() {
+    constexpr int away = 4;
+    press_button(away);
+    release_button(away);
+}
+
+} // namespace octant

@@ -1,0 +1,271 @@
+#include "models/made/made_up.h"
+#include "models/polygons/obj_reader.h"
+#include "sim/base/units.h"
+#include "visuals/draworder/ordered_model.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string>
+
+#include "shapes.h"
+#include "wrong_rays.h"
+
+using namespace octant::visuals::draworder;
+using octant::Dice;
+using octant::models::polygons::PolygonModel;
+using octant::tests::count_wrong_rays;
+using octant::tests::EyeSamples;
+using octant::tests::paper_example;
+
+namespace {
+
+PolygonModel shipped(const std::string& name) {
+    return octant::models::polygons::read_obj(OCTANT_SOURCE_DIR "/models/" + name + ".obj");
+}
+
+OrderedModel by(Method method, PolygonModel model) {
+    return ordered(std::move(model), {.method = method, .paper = {}});
+}
+
+/// From inside the model outwards.
+EyeSamples all_eyes(int eyes) {
+    return {.eyes = eyes, .rays_per_eye = 30, .least_distance_radii = 0.05};
+}
+
+void check_tree(const PolygonModel& model, int eyes, int most_cells) {
+    INFO(model.name);
+    const OrderedModel found = by(Method::Tree, model);
+    const auto count = count_wrong_rays(found.model, found.order, all_eyes(eyes));
+    CHECK(count.hits > eyes);
+    CHECK(count.wrong == 0);
+    CHECK(found.order.cell_count() <= most_cells);
+    CHECK(found.cyclic_cells == 0);
+    CHECK(found.cells.size() == static_cast<std::size_t>(found.order.cell_count()));
+}
+
+/// The model with its turning parts turned, each about its own pivot.
+PolygonModel turned_by(const PolygonModel& model, double angle_rad) {
+    PolygonModel out = model;
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        const auto pivot = octant::models::polygons::pivot_of(model, i);
+        if (!pivot) {
+            continue;
+        }
+        const auto& polygon = model.polygons[i];
+        for (std::uint32_t corner = 0; corner < polygon.corner_count; ++corner) {
+            std::uint32_t& vertex = out.corner_vertices[polygon.first_corner + corner];
+            const glm::dvec3 place_m = model.vertices_m[vertex];
+            vertex = static_cast<std::uint32_t>(out.vertices_m.size());
+            out.vertices_m.push_back(
+                octant::models::polygons::turned(model.pivots[*pivot], place_m, angle_rad));
+        }
+    }
+    return out;
+}
+
+/// What table 4 of the paper needs in an octant: a polygon before three others, counted from 0.
+struct PrecedenceOfTable {
+    int octant = 0;
+    std::uint32_t first = 0;
+    std::array<std::uint32_t, 3> later{};
+};
+
+/// Octants as octant_signs() numbers them: +-+, +--, -++, -+-.
+constexpr std::array<PrecedenceOfTable, 4> precedences_of_table_4{
+    {{2, 1, {3, 5, 7}}, {6, 1, {3, 5, 9}}, {1, 2, {0, 4, 6}}, {5, 2, {0, 4, 8}}}};
+
+/// Two blades about the origin: one turns about z, the other about x.
+PolygonModel crossing_rotors() {
+    PolygonModel model;
+    model.name = "crossing_rotors";
+    model.materials.emplace_back();
+    model.parts = {"across", "along"};
+    model.vertices_m = {
+        {-2, -0.1, 0},
+        {2, -0.1, 0},
+        {2, 0.1, 0},
+        {-2, 0.1, 0},
+        {0, -0.1, -2},
+        {0, 0.1, -2},
+        {0, 0.1, 2},
+        {0, -0.1, 2}};
+    model.corner_vertices = {0, 1, 2, 3, 4, 5, 6, 7};
+    for (std::uint32_t part = 0; part < 2; ++part) {
+        octant::models::polygons::Polygon blade;
+        blade.first_corner = 4 * part;
+        blade.corner_count = 4;
+        blade.part = part;
+        model.polygons.push_back(blade);
+    }
+    model.pivots = {
+        {.part = 0, .point_m = {0, 0, 0}, .axis = {0, 0, 1}},
+        {.part = 1, .point_m = {0, 0, 0}, .axis = {1, 0, 0}}};
+    return model;
+}
+
+} // namespace
+
+TEST_CASE("the paper's method names its eight octants and keeps its lists") {
+    const OctantOrders orders = paper_orders(paper_example());
+    const OrderedModel model = by(Method::Paper, paper_example());
+    REQUIRE(model.cells.size() == 8);
+    for (int octant = 0; octant < 8; ++octant) {
+        const OrderCell& cell = model.cells[static_cast<std::size_t>(octant)];
+        CHECK(cell.path == octant_name(octant));
+        const auto list = model.order.polygons_of(octant);
+        const auto& expected = orders.lists[static_cast<std::size_t>(octant)];
+        CHECK(std::vector<std::uint32_t>(list.begin(), list.end()) == expected);
+        for (const octant::Plane& plane : cell.planes) {
+            CHECK(octant::distance_m(plane, octant_signs(octant)) == 1.0);
+        }
+    }
+    CHECK(model.splits == 0);
+    CHECK(model.cyclic_cells == 0);
+}
+
+TEST_CASE("one list is right for every eye of the paper's example") {
+    check_tree(paper_example(), 1500, 1);
+}
+
+TEST_CASE("lists by cells and by the tree keep the precedences that the paper's example needs") {
+    for (const Method method : {Method::Cells, Method::Tree}) {
+        const OrderedModel found = by(method, paper_example());
+        for (int i = 0; i < 4; ++i) {
+            const PrecedenceOfTable& row = precedences_of_table_4.at(static_cast<std::size_t>(i));
+            const glm::dvec3 eye_m = found.centre_m + octant_signs(row.octant) * 400.0;
+            const auto list = found.order.polygons_of(found.order.cell_of(eye_m));
+            const auto first = std::ranges::find(list, row.first);
+            REQUIRE(first != list.end());
+            for (const std::uint32_t later : row.later) {
+                CHECK(first < std::ranges::find(list, later));
+                CHECK(std::ranges::count(list, later) == 1);
+            }
+        }
+        const double beyond = method == Method::Cells ? 2.0 : 0.05;
+        const EyeSamples eyes{.eyes = 1000, .rays_per_eye = 30, .least_distance_radii = beyond};
+        CHECK(count_wrong_rays(found.model, found.order, eyes).wrong == 0);
+    }
+}
+
+TEST_CASE("turning parts that meet are left unsplit, and a note tells of them") {
+    const OrderedModel found = by(Method::Tree, crossing_rotors());
+    CHECK(found.splits == 0);
+    REQUIRE(found.notes.size() == 1);
+    CHECK(found.notes[0] == "across and along meet as they turn; no order is right for them");
+}
+
+TEST_CASE("the shipped aircraft have a right list for every eye, and few of them") {
+    check_tree(shipped("f15"), 1500, 6);
+    check_tree(shipped("500md"), 1500, 10);
+    CHECK(by(Method::Tree, shipped("f15")).splits == 0);
+    CHECK(by(Method::Tree, shipped("500md")).splits == 0);
+}
+
+TEST_CASE("concave, thin and round shapes have a right list for every eye") {
+    check_tree(octant::tests::u_channel(), 1500, 1);
+    check_tree(octant::tests::plate_between_boxes(), 1500, 2);
+    check_tree(octant::tests::torus(100), 600, 8);
+    check_tree(octant::tests::pile(7, 6), 1000, 40);
+}
+
+TEST_CASE("rings of bars and polygons that pass through one another are split") {
+    const OrderedModel bars = by(Method::Tree, octant::tests::three_bars());
+    CHECK(bars.splits >= 2);
+    CHECK(bars.splits <= 4);
+    CHECK(bars.model.polygons.size() == 6 + static_cast<std::size_t>(bars.splits));
+    CHECK(count_wrong_rays(bars.model, bars.order, all_eyes(2000)).wrong == 0);
+    const OrderedModel crossed = by(Method::Tree, octant::tests::fig_14(true));
+    CHECK(crossed.splits >= 2);
+    CHECK(count_wrong_rays(crossed.model, crossed.order, all_eyes(2000)).wrong == 0);
+}
+
+TEST_CASE("a pile whose bodies hide one another in rings is ordered with few splits") {
+    const OrderedModel pile = by(Method::Tree, octant::tests::pile(1989, 25));
+    CHECK(pile.splits >= 1);
+    CHECK(pile.splits <= 3);
+    CHECK(count_wrong_rays(pile.model, pile.order, all_eyes(300)).wrong == 0);
+}
+
+TEST_CASE("octant paths give right lists from twice the radius outwards") {
+    const std::vector<std::pair<PolygonModel, int>> models{
+        {paper_example(), 8},
+        {shipped("f15"), 32},
+        {shipped("500md"), 24},
+        {octant::tests::plate_between_boxes(), 40},
+        {octant::tests::three_bars(), 80}};
+    for (const auto& [model, most_cells] : models) {
+        INFO(model.name);
+        const OrderedModel found = by(Method::Cells, model);
+        CHECK(found.order.cell_count() <= most_cells);
+        REQUIRE(found.cells.size() == static_cast<std::size_t>(found.order.cell_count()));
+        const double most_radii =
+            (found.min_distance_m + glm::length(found.centre_m)) / octant::models::polygons::radius_m(model);
+        const auto count = count_wrong_rays(
+            found.model,
+            found.order,
+            {.eyes = 1500, .rays_per_eye = 30, .least_distance_radii = most_radii});
+        CHECK(count.hits > 1500);
+        CHECK(count.wrong == 0);
+    }
+}
+
+TEST_CASE("an eye lies in front of all planes of its cell, and its cell's path is its octant's") {
+    for (const Method method : {Method::Paper, Method::Cells, Method::Tree}) {
+        const OrderedModel found = by(method, shipped("f15"));
+        Dice dice(3);
+        for (int i = 0; i < 1000; ++i) {
+            const glm::dvec3 from_centre_m = dice.direction() * dice.between(25.0, 80.0);
+            const glm::dvec3 eye_m = found.centre_m + from_centre_m;
+            const OrderCell& cell =
+                found.cells[static_cast<std::size_t>(found.order.cell_of(eye_m))];
+            for (const octant::Plane& plane : cell.planes) {
+                CHECK(octant::distance_m(plane, eye_m) > -1e-6);
+            }
+            if (method != Method::Tree) {
+                CHECK(cell.path.substr(0, 3) == octant_name(octant_of(from_centre_m)));
+            }
+        }
+    }
+}
+
+TEST_CASE("the orders hold while the rotors turn") {
+    const PolygonModel still = shipped("500md");
+    const OrderedModel tree = by(Method::Tree, still);
+    const OrderedModel cells = by(Method::Cells, still);
+    REQUIRE(tree.splits + cells.splits == 0);
+    CHECK(tree.notes.empty());
+    for (int step = 0; step < 24; ++step) {
+        const PolygonModel turned = turned_by(still, octant::rad_from_deg(15.0 * step + 4.0));
+        CHECK(count_wrong_rays(turned, tree.order, all_eyes(100)).wrong == 0);
+        const EyeSamples far{.eyes = 100, .rays_per_eye = 30, .least_distance_radii = 4.0};
+        CHECK(count_wrong_rays(turned, cells.order, far).wrong == 0);
+    }
+}
+
+TEST_CASE("a list names a polygon that faces some eye of its cell once, and no other") {
+    const OrderedModel found = by(Method::Tree, shipped("f15"));
+    Dice dice(5);
+    for (int i = 0; i < 500; ++i) {
+        const glm::dvec3 eye_m = dice.direction() * dice.between(1.0, 40.0);
+        const auto list = found.order.polygons_of(found.order.cell_of(eye_m));
+        CHECK(std::set<std::uint32_t>(list.begin(), list.end()).size() == list.size());
+        for (std::size_t p = 0; p < found.model.polygons.size(); ++p) {
+            if (octant::distance_m(octant::models::polygons::plane_of(found.model, p), eye_m) > 1e-6) {
+                CHECK(std::ranges::count(list, p) == 1);
+            }
+        }
+    }
+}
+
+TEST_CASE("the same model gives the same cells and lists") {
+    const OrderedModel once = by(Method::Tree, shipped("f15"));
+    const OrderedModel twice = by(Method::Tree, shipped("f15"));
+    CHECK(std::ranges::equal(once.order.polygons(), twice.order.polygons()));
+    REQUIRE(once.cells.size() == twice.cells.size());
+    for (std::size_t i = 0; i < once.cells.size(); ++i) {
+        CHECK(once.cells[i].planes == twice.cells[i].planes);
+    }
+}

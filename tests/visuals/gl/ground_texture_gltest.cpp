@@ -1,0 +1,131 @@
+#include "tests/visuals/gl/small_scene.h"
+
+#include <catch2/catch.hpp>
+
+using namespace octant;
+using namespace octant::tests;
+using scene::HiddenSurface;
+
+namespace {
+
+/// Four texels over 20 x 20 m about the middle: red in the south-west, green in the south-east,
+/// blue in the north-west, grey in the north-east. `slope` is every texel's normal.
+scene::GroundTexture four_texels(std::uint8_t slope_x = 128) {
+    scene::GroundTexture texture;
+    texture.albedo = {
+        .width = 2,
+        .height = 2,
+        .texels = {255, 0, 0, 0, 255, 0, 0, 0, 255, 128, 128, 128},
+        .first_m = {-5.0, -5.0},
+        .step_m = {10.0, 10.0}};
+    texture.normal = texture.albedo;
+    texture.normal.texels = {slope_x, 128, slope_x, 128, slope_x, 128, slope_x, 128};
+    return texture;
+}
+
+/// Fills the picture: 10 m below an eye over the middle that looks straight down.
+scene::FramePlan plan_over(const Triangles& ground) {
+    scene::FramePlan plan = empty_plan();
+    plan.background = glm::vec3(0.0F);
+    plan.ground = ground.draw();
+    const scene::TexturePlace place{glm::vec2(0.5F), glm::vec2(0.05F)};
+    plan.ground_texture = scene::TexturePlaces{place, place};
+    return plan;
+}
+
+Triangles whole_ground() {
+    Triangles ground;
+    ground.add({}, 10.0F, glm::vec3(0.0F));
+    return ground;
+}
+
+} // namespace
+
+TEST_CASE("textured ground has south at the texture's first row and west at its first column") {
+    Studio studio;
+    studio.renderer().load_ground_texture(four_texels());
+    const Triangles ground = whole_ground();
+    for (const HiddenSurface way : all_ways) {
+        scene::FramePlan plan = plan_over(ground);
+        plan.hidden_surface = way;
+        const gl::Picture picture = studio.picture(plan);
+        CHECK(pixel(picture, 2, 61) == red_px);
+        CHECK(pixel(picture, 61, 61) == green_px);
+        CHECK(pixel(picture, 2, 2) == blue_px);
+        CHECK(pixel(picture, 61, 2) == grey_px);
+    }
+}
+
+TEST_CASE("ground without a texture in its plan keeps its vertices' colours") {
+    Studio studio;
+    studio.renderer().load_ground_texture(four_texels());
+    Triangles ground;
+    ground.add({}, 10.0F, red);
+    scene::FramePlan plan = plan_over(ground);
+    plan.ground_texture.reset();
+    CHECK(count_of(studio.picture(plan), red_px) == side_px * side_px);
+}
+
+TEST_CASE("textured ground is lit by the normals of its texture") {
+    Studio studio;
+    const Triangles ground = whole_ground();
+    scene::FramePlan plan = plan_over(ground);
+    plan.ambient = glm::vec3(0.0F);
+    plan.sunlight = glm::vec3(1.0F);
+    plan.to_sun = {1.0F, 0.0F, 0.0F};
+    const auto corner = [&](int slope_x) {
+        studio.renderer().load_ground_texture(four_texels(static_cast<std::uint8_t>(slope_x)));
+        return pixel(studio.picture(plan), 2, 61)[0];
+    };
+    CHECK(corner(255) == 255); // faces east, where the sun is
+    CHECK(corner(128) == 0);   // level
+    CHECK(corner(1) == 0);     // faces west
+    CHECK(corner(128 + 64) == Approx(255.0 * 64.0 / 127.0).margin(1.0));
+}
+
+TEST_CASE("a shadow on textured ground leaves its share of the texture's colour") {
+    Studio studio;
+    studio.renderer().load_ground_texture(four_texels());
+    const Triangles ground = whole_ground();
+    for (const HiddenSurface way : all_ways) {
+        scene::FramePlan plan = plan_over(ground);
+        plan.hidden_surface = way;
+        for (const models::ColourVertex& vertex : ground.vertices) {
+            plan.shadow_vertices.push_back({vertex.position_m, 0x80000000U});
+        }
+        if (way == HiddenSurface::DepthBuffer) {
+            plan.shadow_indices = {4, 5, 6};
+        } else {
+            plan.repaint_indices = {4, 5, 6};
+            plan.steps = {{scene::PaintStep::What::Ground, 0, 3, scene::PaintStep::whole}};
+        }
+        const gl::Picture picture = studio.picture(plan);
+        CHECK(pixel(picture, 61, 61) == Pixel{0, 128, 0, 255});
+        CHECK(pixel(picture, 2, 2) == blue_px); // not in the shadow
+    }
+}
+
+TEST_CASE("textured ground that is painted again is cut by its planes") {
+    Studio studio;
+    studio.renderer().load_ground_texture(four_texels());
+    const Triangles ground = whole_ground();
+    for (const HiddenSurface way : painting_ways) {
+        scene::FramePlan plan = plan_over(ground);
+        plan.hidden_surface = way;
+        plan.ground.indices = {};
+        plan.repaint_indices = ground.indices;
+        plan.clips.push_back({{glm::vec4(1.0F, 0.0F, 0.0F, 0.0F)}, 1});
+        plan.steps = {{scene::PaintStep::What::Ground, 0, 6, 0}};
+        const gl::Picture picture = studio.picture(plan);
+        CHECK(pixel(picture, 61, 61) == green_px);
+        CHECK(pixel(picture, 2, 61) == Pixel{0, 0, 0, 255});
+    }
+}
+
+TEST_CASE("renderers on a processor are told from GPUs by their names") {
+    CHECK(gl::is_processor("llvmpipe (LLVM 15.0.6, 256 bits)"));
+    CHECK(gl::is_processor("softpipe"));
+    CHECK_FALSE(gl::is_processor("NVIDIA H200/PCIe/SSE2"));
+    CHECK_FALSE(gl::is_processor("Mesa Intel(R) UHD Graphics 620"));
+    CHECK(gl::draws_on_processor(gl::make_osmesa_context()->functions()));
+}

@@ -1,0 +1,185 @@
+#include "tests/visuals/gl/small_scene.h"
+
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <vector>
+
+using namespace octant;
+using namespace octant::tests;
+
+namespace {
+
+constexpr std::uint32_t white = 0xffffffU;
+
+/// Rectangles in pixels from the upper left.
+struct Overlay {
+    std::vector<scene::OverlayVertex> vertices;
+    std::vector<std::uint32_t> indices;
+
+    Overlay& add(const glm::vec2& least, const glm::vec2& most, std::uint32_t colour, int alpha) {
+        const auto first = static_cast<std::uint32_t>(vertices.size());
+        const std::uint32_t packed = colour | static_cast<std::uint32_t>(alpha) << 24U;
+        for (const glm::vec2 corner :
+             {least, glm::vec2(most.x, least.y), most, glm::vec2(least.x, most.y)}) {
+            vertices.push_back({corner, packed});
+        }
+        for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 3U, 2U}) { // either way round
+            indices.push_back(first + corner);
+        }
+        return *this;
+    }
+
+    scene::OverlayDraw draw() const { return {vertices, indices}; }
+};
+
+int differing(const gl::Picture& a, const gl::Picture& b, int tolerance) {
+    int pixels = 0;
+    for (int row = 0; row < a.height; ++row) {
+        for (int column = 0; column < a.width; ++column) {
+            const Pixel one = pixel(a, column, row);
+            const Pixel other = pixel(b, column, row);
+            bool differs = false;
+            for (std::size_t part = 0; part < 4; ++part) {
+                differs = differs || std::abs(one[part] - other[part]) > tolerance;
+            }
+            pixels += differs ? 1 : 0;
+        }
+    }
+    return pixels;
+}
+
+gl::Picture part_of(const gl::Picture& picture, const gl::PixelRect& rect) {
+    gl::Picture part;
+    part.width = rect.width;
+    part.height = rect.height;
+    for (int row = 0; row < rect.height; ++row) {
+        for (int column = 0; column < rect.width; ++column) {
+            for (const int value : pixel(picture, rect.x + column, rect.y + row)) {
+                part.rgba.push_back(static_cast<std::uint8_t>(value));
+            }
+        }
+    }
+    return part;
+}
+
+} // namespace
+
+TEST_CASE("an overlay lies over everything at its pixels, by its alpha") {
+    Studio studio;
+    load_squares(studio);
+    Overlay overlay;
+    overlay.add({8.0F, 4.0F}, {16.0F, 60.0F}, white, 255)
+        .add({32.0F, 4.0F}, {40.0F, 60.0F}, 0, 128);
+    for (const scene::HiddenSurface way : all_ways) {
+        scene::FramePlan plan = empty_plan();
+        plan.hidden_surface = way;
+        add_square(plan, 0, ahead(0.6F)); // red over the whole picture, near
+        plan.overlay = overlay.draw();
+        const gl::Picture picture = studio.picture(plan);
+        CHECK(pixel(picture, 8, 4) == Pixel{255, 255, 255, 255});
+        CHECK(pixel(picture, 15, 59) == Pixel{255, 255, 255, 255});
+        CHECK(pixel(picture, 7, 4) == red_px);
+        CHECK(pixel(picture, 16, 4) == red_px);
+        CHECK(pixel(picture, 8, 3) == red_px);
+        CHECK(pixel(picture, 8, 60) == red_px);
+        const Pixel half = pixel(picture, 36, 30);
+        CHECK(half[0] == Approx(127).margin(1));
+        CHECK(half[3] == 255);
+        CHECK(studio.renderer().draw_calls() == 2);
+        plan.overlay = {};
+        CHECK(count_of(studio.picture(plan), red_px) == side_px * side_px);
+        CHECK(studio.renderer().draw_calls() == 1);
+    }
+}
+
+TEST_CASE("later parts of an overlay cover earlier ones") {
+    Studio studio;
+    Overlay overlay;
+    overlay.add({0.0F, 0.0F}, {64.0F, 64.0F}, 0x0000ffU, 255)
+        .add({0.0F, 0.0F}, {64.0F, 64.0F}, 0xff0000U, 255);
+    scene::FramePlan plan = empty_plan();
+    plan.overlay = overlay.draw();
+    CHECK(count_of(studio.picture(plan), blue_px) == side_px * side_px);
+}
+
+TEST_CASE("an inset shows what a renderer of its size shows, around it nothing changes") {
+    const gl::PixelRect rect{101, 37, 64, 48};
+    const FullScene full;
+    Overlay overlay;
+    overlay.add({3.0F, 5.0F}, {20.0F, 9.0F}, white, 200);
+    Studio large(gl::make_osmesa_context(), 1, 200, 120);
+    Studio small(gl::make_osmesa_context(), 1, rect.width, rect.height);
+    for (Studio* studio : {&large, &small}) {
+        studio->context().make_current();
+        studio->renderer().load_models(full.models());
+    }
+    for (const scene::HiddenSurface outer_way : all_ways) {
+        for (const scene::HiddenSurface way : all_ways) {
+            const scene::FramePlan plan = full.plan(outer_way);
+            scene::FramePlan inset = full.plan(way);
+            inset.overlay = overlay.draw();
+            const gl::Picture alone = small.picture(inset);
+            const gl::Picture without = large.picture(plan);
+            large.context().make_current();
+            gl::Picture with;
+            large.renderer().draw(plan);
+            large.renderer().draw_inset(inset, rect);
+            large.renderer().finish_and_read(with);
+            CHECK(differing(part_of(with, rect), alone, 2) <= 3);
+            const gl::PixelRect framed{rect.x - 1, rect.y - 1, rect.width + 2, rect.height + 2};
+            gl::Picture restored = with;
+            for (int row = framed.y; row < framed.y + framed.height; ++row) {
+                for (int i = 4 * framed.x; i < 4 * (framed.x + framed.width); ++i) {
+                    const auto at = static_cast<std::size_t>(4 * with.width * row + i);
+                    restored.rgba[at] = without.rgba[at];
+                }
+            }
+            CHECK(differing(restored, without, 0) == 0);
+            CHECK(differing(with, without, 0) > rect.width * rect.height / 4);
+        }
+    }
+}
+
+TEST_CASE("in an inset planes cut where they cut in a picture of its own") {
+    Studio studio;
+    load_squares(studio);
+    scene::FramePlan inset = empty_plan();
+    add_square(inset, 0, ahead(0.6F)); // red over the whole inset
+    inset.clips.push_back(
+        {{glm::vec4(1.0F, 0.0F, 0.0F, 0.0F), glm::vec4(0.0F, 1.0F, 0.0F, 0.0F)}, 2});
+    inset.steps = {{scene::PaintStep::What::Aircraft, 0, 1, 0}};
+    const gl::PixelRect rect{24, 40, 20, 20};
+    studio.context().make_current();
+    studio.renderer().draw(empty_plan());
+    studio.renderer().draw_inset(inset, rect);
+    gl::Picture picture;
+    studio.renderer().finish_and_read(picture);
+    const gl::Picture part = part_of(picture, rect);
+    CHECK(count_of(part, red_px) == 10 * 10); // the upper right quarter
+    CHECK(pixel(part, 10, 9) == red_px);
+    CHECK(pixel(part, 9, 9) == grey_px);
+    CHECK(pixel(part, 10, 10) == grey_px);
+}
+
+TEST_CASE("an inset may lie in a corner, and the next picture is whole again") {
+    Studio studio;
+    load_squares(studio);
+    scene::FramePlan green_plan = empty_plan();
+    green_plan.background = green;
+    for (const scene::HiddenSurface way : all_ways) {
+        scene::FramePlan plan = empty_plan();
+        plan.hidden_surface = way;
+        green_plan.hidden_surface = way;
+        studio.context().make_current();
+        studio.renderer().draw(plan);
+        studio.renderer().draw_inset(green_plan, {0, 44, 20, 20});
+        gl::Picture picture;
+        studio.renderer().finish_and_read(picture);
+        CHECK(count_of(picture, green_px) == 20 * 20);
+        CHECK(pixel(picture, 0, 63) == green_px);
+        CHECK(pixel(picture, 19, 44) == green_px);
+        CHECK(count_of(picture, grey_px) == side_px * side_px - 21 * 21); // a frame of one pixel
+        CHECK(count_of(studio.picture(green_plan), green_px) == side_px * side_px);
+    }
+}

@@ -1,0 +1,200 @@
+#include "tests/visuals/scene/small_world.h"
+#include "visuals/scene/load_controller.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace octant;
+using namespace octant::visuals::scene;
+
+namespace {
+
+/// A machine: a frame takes fixed_ms + ms_per_triangle * triangles, more or less.
+struct Machine {
+    double fixed_ms = 3.0;
+    double ms_per_triangle = 0.0005;
+    double noise = 0.0; ///< share of the frame time, either way
+    tests::PlaceDice dice{7};
+
+    double frame_ms(int triangles) {
+        const double exact_ms = fixed_ms + ms_per_triangle * triangles;
+        return exact_ms * (1.0 + dice.between(-noise, noise));
+    }
+};
+
+LoadSettings settings_at(double rate_hz, int budget = 20000) {
+    Settings settings;
+    settings.triangles = budget;
+    settings.adapt.terrain = true;
+    return load_settings(settings, rate_hz);
+}
+
+/// The targets of so many frames, each checked against the limits of the settings.
+std::vector<int> fly(LoadState& state, const LoadSettings& settings, Machine& machine, int frames) {
+    std::vector<int> targets;
+    for (int frame = 0; frame < frames; ++frame) {
+        targets.push_back(state.triangles());
+        const LoadState next =
+            next_state(state, settings, {machine.frame_ms(state.triangles()), state.triangles()});
+        REQUIRE(next.target >= settings.lowest);
+        REQUIRE(next.target <= settings.highest);
+        REQUIRE(next.target >= state.target * (1.0 - settings.largest_fall) * (1.0 - 1e-12));
+        REQUIRE(next.target <= state.target * (1.0 + settings.largest_rise) * (1.0 + 1e-12));
+        state = next;
+    }
+    return targets;
+}
+
+bool all_same(const std::vector<int>& targets, std::size_t from) {
+    return std::all_of(
+        targets.begin() + static_cast<std::ptrdiff_t>(from), targets.end(), [&](int target) {
+            return target == targets[from];
+        });
+}
+
+double stress_of(const Machine& machine, const LoadSettings& settings, const LoadState& state) {
+    return (machine.fixed_ms + machine.ms_per_triangle * state.target) / settings.share_ms;
+}
+
+} // namespace
+
+TEST_CASE("an overload takes the budget into the band within some seconds, and it stays there") {
+    for (const double rate_hz : {20.0, 60.0, 240.0}) {
+        for (const double fixed_share : {0.0, 0.2, 0.4, 0.6}) {
+            const LoadSettings settings = settings_at(rate_hz);
+            Machine machine;
+            machine.fixed_ms = fixed_share * settings.share_ms;
+            machine.ms_per_triangle = (1.6 - fixed_share) * settings.share_ms / 20000.0;
+            LoadState state = starting_at(20000.0, settings);
+            const auto settle_frames = static_cast<std::size_t>(std::max(4.5 * rate_hz, 200.0));
+            const auto targets = fly(state, settings, machine, static_cast<int>(settle_frames) * 5);
+            INFO(rate_hz << " Hz, fixed share " << fixed_share);
+            CHECK(std::is_sorted(targets.rbegin(), targets.rend())); // never turns back
+            CHECK(all_same(targets, settle_frames));
+            CHECK(stress_of(machine, settings, state) <= settings.most_stress);
+            CHECK(stress_of(machine, settings, state) >= settings.least_stress);
+        }
+    }
+}
+
+TEST_CASE("noise moves no budget that has settled") {
+    const LoadSettings settings = settings_at(60.0);
+    Machine machine{.fixed_ms = 5.0, .ms_per_triangle = 0.001, .noise = 0.15};
+    LoadState state = starting_at(20000.0, settings);
+    CHECK(all_same(fly(state, settings, machine, 20000), 600));
+    CHECK(stress_of(machine, settings, state) == Approx(0.825).margin(0.075));
+}
+
+TEST_CASE("violent noise makes a settled budget neither swing nor creep") {
+    const LoadSettings settings = settings_at(60.0);
+    Machine machine{.fixed_ms = 5.0, .ms_per_triangle = 0.001, .noise = 0.35};
+    LoadState state = starting_at(20000.0, settings);
+    fly(state, settings, machine, 600);
+    const auto targets = fly(state, settings, machine, 20000);
+    int changes = 0;
+    for (std::size_t i = 1; i < targets.size(); ++i) {
+        changes += targets[i] != targets[i - 1] ? 1 : 0;
+    }
+    CHECK(changes < 200);
+    CHECK(stress_of(machine, settings, state) == Approx(0.825).margin(0.075));
+}
+
+TEST_CASE("the budget rises slowly into free time and follows a load that comes and goes") {
+    const LoadSettings settings = settings_at(60.0);
+    Machine machine{.fixed_ms = 2.0, .ms_per_triangle = 0.0004, .noise = 0.05};
+    LoadState state = starting_at(20000.0, settings);
+    const auto rising = fly(state, settings, machine, 900);
+    CHECK(rising.back() > 25000);
+    CHECK(all_same(rising, 600));
+    const double before = state.target;
+    machine.ms_per_triangle *= 2.0;
+    const auto falling = fly(state, settings, machine, 900);
+    CHECK(falling.back() < 0.7 * before);
+    CHECK(falling[120] < 0.8 * before); // most of it within two seconds
+    CHECK(all_same(falling, 300));
+    machine.ms_per_triangle *= 0.5;
+    const auto again = fly(state, settings, machine, 1200);
+    CHECK(again.back() == Approx(before).epsilon(0.1));
+    CHECK(all_same(again, 900));
+}
+
+TEST_CASE("one slow frame moves a settled budget hardly or not at all") {
+    for (const double rate_hz : {20.0, 60.0, 240.0}) {
+        const LoadSettings settings = settings_at(rate_hz);
+        Machine machine;
+        machine.fixed_ms = 0.3 * settings.share_ms;
+        for (const double stress : {0.76, 0.82, 0.89}) {
+            machine.ms_per_triangle = (stress - 0.3) * settings.share_ms / 20000.0;
+            LoadState state = starting_at(20000.0, settings);
+            fly(state, settings, machine, 2000);
+            REQUIRE(state.triangles() == 20000);
+            state = next_state(state, settings, {20.0 * settings.share_ms, 20000});
+            fly(state, settings, machine, 2000);
+            INFO(rate_hz << " Hz, stress " << stress);
+            CHECK(state.triangles() <= 20000);
+            CHECK(state.triangles() >= (stress < 0.85 && rate_hz >= 60.0 ? 20000 : 16000));
+        }
+    }
+}
+
+TEST_CASE("a machine that is too slow for the least budget holds it, and recovers") {
+    const LoadSettings settings = settings_at(60.0);
+    Machine machine{.fixed_ms = 30.0, .ms_per_triangle = 0.001, .noise = 0.1};
+    LoadState state = starting_at(20000.0, settings);
+    const auto targets = fly(state, settings, machine, 1000);
+    CHECK(all_same(targets, 200));
+    CHECK(targets.back() == 2500);
+    machine.fixed_ms = 3.0;
+    const auto recovered = fly(state, settings, machine, 1500);
+    CHECK(recovered.back() > 8000);
+    CHECK(all_same(recovered, 1000));
+}
+
+TEST_CASE("an idle machine is given the greatest budget and no more") {
+    const LoadSettings settings = settings_at(60.0, 1000);
+    Machine machine{.fixed_ms = 0.5, .ms_per_triangle = 1e-6};
+    LoadState state = starting_at(1000.0, settings);
+    fly(state, settings, machine, 1000);
+    CHECK(state.triangles() == 4000);
+}
+
+TEST_CASE("a budget that the ground does not use is not raised") {
+    const LoadSettings settings = settings_at(60.0);
+    LoadState state = starting_at(20000.0, settings);
+    for (int frame = 0; frame < 500; ++frame) {
+        state = next_state(state, settings, {2.0, 6000});
+    }
+    CHECK(state.triangles() == 20000);
+    CHECK(state.course == LoadState::Course::Held);
+    CHECK(state.stress == Approx(2.0 / settings.share_ms));
+}
+
+TEST_CASE("the stress is none before a frame is measured and the filtered share afterwards") {
+    const LoadSettings settings = settings_at(60.0);
+    LoadState state = starting_at(20000.0, settings);
+    CHECK_FALSE(state.stress.has_value());
+    state = next_state(state, settings, {0.85 * settings.share_ms, 20000});
+    CHECK(state.stress == Approx(0.85));
+    state = next_state(state, settings, {3.85 * settings.share_ms, 20000});
+    CHECK(state.stress == Approx(0.85 + (1.0 - std::exp(-1.0 / 30.0)) * 3.0));
+    const LoadState other = with_target(state, 10000);
+    CHECK(other.triangles() == 10000);
+    CHECK(other.stress == state.stress);
+    CHECK(other.expected_stress == Approx(state.expected_stress * 10000.0 / state.target));
+}
+
+TEST_CASE("whatever frames take, the budget changes in small steps within its limits") {
+    tests::PlaceDice dice(11);
+    for (int run = 0; run < 50; ++run) {
+        const LoadSettings settings = settings_at(dice.between(1.0, 1000.0));
+        LoadState state = starting_at(dice.between(100.0, 1e6), settings);
+        Machine machine{
+            .fixed_ms = settings.share_ms * dice.between(0.0, 2.0),
+            .ms_per_triangle = settings.share_ms * dice.between(0.0, 1e-4),
+            .noise = 0.9};
+        fly(state, settings, machine, 500);
+    }
+}

@@ -1,0 +1,101 @@
+#include "models/made/made_up.h"
+#include "visuals/shading/vertex_normals.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+using namespace octant;
+using namespace octant::visuals::shading;
+
+namespace {
+
+/// Two unit squares that share the edge from (0, 0, 0) to (0, 1, 0): a level one, front upwards,
+/// and one that goes down at `fold_rad` from it, with vertices of its own.
+models::polygons::PolygonModel folded(double fold_rad) {
+    const double x = -std::cos(fold_rad);
+    const double z = -std::sin(fold_rad);
+    models::polygons::PolygonModel model;
+    model.vertices_m = {
+        {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}, {0, 1, 0}, {x, 1, z}, {x, 0, z}};
+    model.corner_vertices = {0, 1, 2, 3, 4, 5, 6, 7};
+    model.polygons = {
+        {.first_corner = 0, .corner_count = 4}, {.first_corner = 4, .corner_count = 4}};
+    model.materials.emplace_back();
+    model.parts = {"fixed"};
+    return model;
+}
+
+bool near(const glm::vec3& one, const glm::vec3& other) {
+    return glm::distance(one, other) < 1e-6F;
+}
+
+} // namespace
+
+TEST_CASE("across a soft edge corners in one place share the mean normal, others keep their own") {
+    const double fold_rad = rad_from_deg(30.0);
+    const auto normals = corner_normals(folded(fold_rad), rad_from_deg(40.0));
+    const glm::vec3 mean(
+        -static_cast<float>(std::sin(fold_rad / 2)),
+        0.0F,
+        static_cast<float>(std::cos(fold_rad / 2)));
+    REQUIRE(normals.size() == 8);
+    CHECK(near(normals[0], mean));
+    CHECK(near(normals[3], mean));
+    CHECK(normals[4] == normals[0]); // to the bit
+    CHECK(near(normals[1], {0.0F, 0.0F, 1.0F}));
+}
+
+TEST_CASE("an edge sharper than the crease angle stays") {
+    const auto normals = corner_normals(folded(rad_from_deg(50.0)), rad_from_deg(40.0));
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+        CHECK(near(normals[corner], {0.0F, 0.0F, 1.0F}));
+    }
+}
+
+TEST_CASE("a part that turns does not mix with a fixed one") {
+    models::polygons::PolygonModel model = folded(rad_from_deg(20.0));
+    model.parts.emplace_back("rotor");
+    model.polygons[1].part = 1;
+    CHECK_FALSE(near(corner_normals(model)[0], {0.0F, 0.0F, 1.0F}));
+    model.pivots.push_back({.part = 1});
+    CHECK(near(corner_normals(model)[0], {0.0F, 0.0F, 1.0F}));
+}
+
+TEST_CASE("a face counts by its angle, not by the pieces it is cut into") {
+    // Around (0, 0, 0): the level quarter in one piece or in two, then a slope.
+    models::TriangleMesh whole;
+    whole.vertices_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, -0.3}, {1, 1, 0}};
+    whole.triangles = {{0, 1, 2}, {0, 2, 3}};
+    models::TriangleMesh cut = whole;
+    cut.triangles = {{0, 1, 4}, {0, 4, 2}, {0, 2, 3}};
+    CHECK(near(corner_normals(whole)[0], corner_normals(cut)[0]));
+}
+
+TEST_CASE("faces that touch only at a vertex do not mix") {
+    models::TriangleMesh mesh;
+    mesh.vertices_m = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0.2}, {-1, -1, 0.2}};
+    mesh.triangles = {{0, 1, 2}, {0, 3, 4}};
+    CHECK(near(corner_normals(mesh)[0], {0.0F, 0.0F, 1.0F}));
+}
+
+TEST_CASE("a triangle without area changes nobody's normal") {
+    models::TriangleMesh mesh;
+    mesh.vertices_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 3, 1}};
+    const auto normals = corner_normals(mesh);
+    REQUIRE(normals.size() == 6);
+    CHECK(near(normals[0], {0.0F, 0.0F, 1.0F}));
+    CHECK(near(normals[3], {0.0F, 0.0F, 1.0F}));
+}
+
+TEST_CASE("normals of the torus point away from the middle of its tube") {
+    const models::polygons::PolygonModel torus = models::made::torus();
+    const auto normals = corner_normals(torus, rad_from_deg(60.0));
+    for (std::size_t corner = 0; corner < normals.size(); ++corner) {
+        const glm::dvec3& at_m = torus.vertices_m[torus.corner_vertices[corner]];
+        const glm::dvec3 tube_m = glm::normalize(glm::dvec3(at_m.x, at_m.y, 0.0));
+        CHECK(glm::dot(glm::dvec3(normals[corner]), glm::normalize(at_m - tube_m)) > 0.995);
+    }
+}

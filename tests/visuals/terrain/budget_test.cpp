@@ -1,0 +1,199 @@
+#include "models/heights/height_field_import.h"
+#include "tests/visuals/terrain/both_meshes.h"
+#include "tests/visuals/terrain/ground_check.h"
+#include "visuals/terrain/mesher.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+using namespace octant::visuals::terrain;
+using namespace octant::visuals::terrain::test;
+
+namespace {
+
+/// Ground as of a real map, flown over low; steps of N are small against 3000 triangles.
+Ground wide_ground() {
+    return Ground(rough_field(257, 257, 6));
+}
+
+constexpr TriangleBudget wide_budget{3000, 500.0};
+
+} // namespace
+
+TEST_CASE("a budget is kept by hand's count on four quadrants") {
+    // Children with an edge of 2 m, their centres 1.41 (once), 3.16 (twice) and 4.24 m from the
+    // corner: 0.5, 1.6 and 2.1 edges. C = 2 has 24 triangles in 4 fans, C above 2.12 has 32.
+    Ground ground(level_field(5, 5));
+    MeshView view;
+    view.eye_m = {-2.0, -2.0, 0.0};
+    const Detail detail{0.0, 5.0, FanKind::Partial};
+    CHECK(ground.mesher.mesh_within(view, detail, {24, 500.0}).counters.triangles == 24);
+    const GroundMesh short_of_32 = ground.mesher.mesh_within(view, detail, {31, 500.0});
+    CHECK(short_of_32.counters.triangles == 24);
+    CHECK(short_of_32.resolution == Approx(std::sqrt(4.5)));
+    const GroundMesh all = ground.mesher.mesh_within(view, detail, {32, 500.0});
+    CHECK(all.counters.triangles == 32);
+    CHECK(all.resolution == 500.0);
+    SECTION("nothing is coarser than the smallest C") {
+        const GroundMesh over = ground.mesher.mesh_within(view, detail, {10, 500.0});
+        CHECK(over.counters.triangles == 24);
+        CHECK(over.resolution == 2.0);
+    }
+    SECTION("nothing is finer than the largest C") {
+        const GroundMesh under = ground.mesher.mesh_within(view, detail, {1000, 2.1});
+        CHECK(under.counters.triangles == 24);
+        CHECK(under.resolution == Approx(2.1));
+    }
+    SECTION("full fans come all at once, within 4 m times C of the root's centre") {
+        const Detail full{0.0, 5.0, FanKind::Full};
+        view.eye_m = {-2.0, -2.0, 16.0};
+        CHECK(ground.mesher.mesh_within(view, full, {31, 500.0}).counters.triangles == 8);
+        CHECK(ground.mesher.mesh_within(view, full, {32, 500.0}).counters.triangles == 32);
+    }
+}
+
+TEST_CASE("the counted steps are those of the meshes, for all grounds, views and fans") {
+    int within = 0;
+    int spent = 0;
+    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+        Numbers numbers(seed);
+        const int columns = 20 + static_cast<int>(numbers.next() % 110);
+        const int rows = 20 + static_cast<int>(numbers.next() % 110);
+        Ground ground(
+            numbers.coin() ? rough_field(columns, rows, seed) : spiky_field(columns, rows, seed),
+            random_options(numbers));
+        Mesher plain(ground.tree, ground.colours);
+        for (int k = 0; k < 20; ++k) {
+            const MeshView view = random_view(numbers, ground.field);
+            Detail detail{
+                0.0, numbers.between(0.0, 10.0), numbers.coin() ? FanKind::Partial : FanKind::Full};
+            const TriangleBudget budget{
+                10 + static_cast<int>(numbers.next() % 1500), numbers.coin() ? 500.0 : 20.0};
+            const MeshCopy got(ground.mesher.mesh_within(view, detail, budget));
+            detail.resolution = got.resolution;
+            INFO("seed " << seed << ", case " << k);
+            REQUIRE(got == MeshCopy(plain.mesh(view, detail)));
+            const bool coarsest = got.resolution <= 1.000001 * ground.tree.options().min_resolution;
+            REQUIRE((got.triangles <= budget.triangles || coarsest));
+            within += coarsest ? 0 : 1;
+            if (got.resolution < 0.999 * budget.max_resolution &&
+                got.triangles <= budget.triangles) {
+                detail.resolution *= 1.0 + 2e-7; // beyond the next step, which is too high
+                REQUIRE(plain.mesh(view, detail).counters.triangles > budget.triangles);
+                ++spent;
+            }
+        }
+    }
+    CHECK(within > 1500);
+    CHECK(spent > 400);
+}
+
+TEST_CASE("a mesh within a budget does not depend on the meshes before") {
+    Ground ground = wide_ground();
+    Numbers numbers(5);
+    for (int frame = 0; frame < 150; ++frame) {
+        const MeshView view = random_view(numbers, ground.field);
+        const TriangleBudget budget{
+            200 + static_cast<int>(numbers.next() % 20000), numbers.coin() ? 500.0 : 30.0};
+        const Detail detail{
+            0.0, numbers.between(0.0, 20.0), numbers.coin() ? FanKind::Partial : FanKind::Full};
+        Mesher fresh(ground.tree, ground.colours);
+        const MeshCopy expected(fresh.mesh_within(view, detail, budget));
+        REQUIRE(MeshCopy(ground.mesher.mesh_within(view, detail, budget)) == expected);
+        REQUIRE(MeshCopy(ground.mesher.mesh_within(view, detail, budget)) == expected);
+    }
+}
+
+TEST_CASE("along a path every mesh spends its budget to a few triangles") {
+    Ground ground = wide_ground();
+    const Detail detail{0.0, 20.0, FanKind::Partial};
+    double missing = 0.0;
+    for (int frame = 0; frame < 300; ++frame) {
+        const GroundMesh mesh = ground.mesher.mesh_within(circling(frame), detail, wide_budget);
+        REQUIRE(mesh.counters.triangles <= wide_budget.triangles);
+        REQUIRE(mesh.counters.triangles >= wide_budget.triangles - 30);
+        missing += wide_budget.triangles - mesh.counters.triangles;
+    }
+    CHECK(missing / 300 < 0.002 * wide_budget.triangles);
+}
+
+TEST_CASE("a view that swings from ground to sky and back spends its budget at once") {
+    Ground ground = wide_ground();
+    const Detail detail{0.0, 20.0, FanKind::Partial};
+    for (int swing = 0; swing < 10; ++swing) {
+        for (int frame = 0; frame < 3; ++frame) {
+            const GroundMesh sky = ground.mesher.mesh_within(into_the_sky(), detail, wide_budget);
+            REQUIRE(sky.counters.triangles < 20);
+            REQUIRE(sky.resolution == 500.0);
+        }
+        const GroundMesh mesh = ground.mesher.mesh_within(circling(swing), detail, wide_budget);
+        REQUIRE(mesh.counters.triangles <= wide_budget.triangles);
+        REQUIRE(mesh.counters.triangles >= wide_budget.triangles - 30);
+        REQUIRE(mesh.counters.nodes_visited < 20 * wide_budget.triangles);
+    }
+}
+
+TEST_CASE("a larger budget never coarsens the mesh") {
+    Ground ground = wide_ground();
+    const Detail detail{0.0, 20.0, FanKind::Partial};
+    MeshCopy last(ground.mesher.mesh_within(circling(7), detail, {100, 500.0}));
+    for (int triangles = 150; triangles < 200000; triangles += triangles / 7) {
+        const MeshCopy mesh(ground.mesher.mesh_within(circling(7), detail, {triangles, 500.0}));
+        CHECK(mesh.resolution >= last.resolution);
+        CHECK(mesh.triangles >= last.triangles);
+        last = mesh;
+    }
+    CHECK(last.resolution == 500.0);
+}
+
+TEST_CASE("a lens that magnifies spends the same budget at a smaller C") {
+    Ground ground = wide_ground();
+    const Detail detail{0.0, 20.0, FanKind::Partial};
+    MeshView view = circling(3);
+    const MeshCopy plain(ground.mesher.mesh_within(view, detail, wide_budget));
+    view.magnification = 2.0;
+    const GroundMesh magnified = ground.mesher.mesh_within(view, detail, wide_budget);
+    CHECK(magnified.counters.triangles == plain.triangles);
+    CHECK(magnified.resolution == Approx(plain.resolution / 2.0));
+}
+
+TEST_CASE("over real maps every mesh spends its budget to a tenth of a percent") {
+    const char* const given = std::getenv("OCTANT_SHARED_DATA");
+    const std::filesystem::path data =
+        given != nullptr ? given : OCTANT_SOURCE_DIR "/../shared/data";
+    for (const char* const name : {"gcanyon_1025.tif", "pugetsound_1025.tif"}) {
+        const std::filesystem::path file = data / "terrain" / name;
+        if (!std::filesystem::exists(file)) {
+            std::cout << "SKIPPED: no " << file << '\n';
+            return;
+        }
+        Ground ground(octant::models::heights::read_height_field(file, {30.0, 1.0}));
+        for (const int triangles : {20000, 32000}) {
+            double missing = 0.0;
+            int least = triangles;
+            for (int frame = 0; frame < 100; ++frame) {
+                const double angle = frame * 0.01;
+                const glm::dvec2 at_m = 0.5 * ground.field.half_extent_m() *
+                                        glm::dvec2(std::cos(angle), std::sin(angle));
+                const double ground_m = ground.field.height_at(at_m.x, at_m.y).value_or(0.0);
+                const MeshView view =
+                    camera_view({at_m.x, at_m.y, ground_m + 200.0}, angle + 1.57, -0.1, 0.785);
+                const int got =
+                    ground.mesher
+                        .mesh_within(view, {0.0, 20.0, FanKind::Partial}, {triangles, 500.0})
+                        .counters.triangles;
+                REQUIRE(got <= triangles);
+                least = std::min(least, got);
+                missing += triangles - got;
+            }
+            INFO(name);
+            CHECK(missing / 100 < 0.0005 * triangles);
+            CHECK(least > 0.999 * triangles);
+        }
+    }
+}

@@ -1,0 +1,104 @@
+#include "tests/visuals/terrain/error_ground.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+using namespace octant::visuals::terrain;
+using namespace octant::visuals::terrain::test;
+
+namespace {
+
+/// What small moves of the eye do to the ground as drawn.
+struct Moves {
+    double largest_m = 0.0; ///< of the ground at any sample, in one move
+    int vertices = 0;       ///< that came or went
+};
+
+Moves moves_of(ErrorGround& ground, bool geomorphs, double earth_radius_m) {
+    constexpr double move_m = 0.01;
+    MeshView view;
+    view.earth_radius_m = earth_radius_m;
+    Moves moves;
+    std::vector<double> before_m;
+    std::size_t vertices = 0;
+    for (int frame = 0; frame < 150; ++frame) {
+        view.eye_m = {
+            -20.0 + move_m * frame, 13.0 - 0.5 * move_m * frame, 8.0 + 0.3 * move_m * frame};
+        const GroundMesh mesh = ground.mesher.mesh(view, {4.0, any_triangles, geomorphs});
+        const auto after_m = drawn_heights_m(mesh, ground.field, {0.0, 0.0, view.eye_m.z});
+        for (std::size_t k = 0; k < before_m.size(); ++k) {
+            moves.largest_m = std::max(moves.largest_m, std::abs(after_m[k] - before_m[k]));
+        }
+        moves.vertices += frame > 0 && mesh.vertices.size() != vertices ? 1 : 0;
+        vertices = mesh.vertices.size();
+        before_m = after_m;
+    }
+    return moves;
+}
+
+} // namespace
+
+TEST_CASE("with geomorphs the ground moves no faster than the eye lets it") {
+    for (const int size : {65, 129}) {
+        ErrorGround ground(rough_field(size, size, 4));
+        // Within a fraction of 4 px / 869.1 of the move, its sum over ancestors included.
+        const Moves smooth = moves_of(ground, true, 0.0);
+        CHECK(smooth.vertices > 30);
+        CHECK(smooth.largest_m < 10.0 * 0.01 * 4.0 / 869.1 + 2e-5);
+        const Moves jumping = moves_of(ground, false, 0.0);
+        CHECK(jumping.largest_m > 50.0 * smooth.largest_m);
+    }
+}
+
+TEST_CASE("vertices are between the middle of their ends and their samples by their weight") {
+    int between = 0;
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        Numbers numbers(seed);
+        ErrorGround ground(any_field(65, 65, numbers));
+        MeshView view = any_view(numbers, ground.field);
+        view.earth_radius_m = 0.0;
+        const GroundMesh mesh = ground.mesher.mesh(view, {any_error_px(numbers), 2000, true});
+        for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
+            const VertexOrigin& origin = mesh.origins[k];
+            REQUIRE((origin.weight >= 0.0F && origin.weight <= 1.0F));
+            if (origin.end_a == k) {
+                CHECK(origin.end_b == k);
+                CHECK(origin.weight == 1.0F);
+                continue;
+            }
+            REQUIRE((origin.end_a < k && origin.end_b < k));
+            const VertexOrigin& a = mesh.origins[origin.end_a];
+            const VertexOrigin& b = mesh.origins[origin.end_b];
+            REQUIRE(a.column + b.column == 2 * origin.column);
+            REQUIRE(a.row + b.row == 2 * origin.row);
+            const auto z_m = [&](std::size_t vertex) {
+                return static_cast<double>(mesh.vertices[vertex].position_m.z) + view.eye_m.z;
+            };
+            const double middle_m = 0.5 * (z_m(origin.end_a) + z_m(origin.end_b));
+            const double sample_m =
+                static_cast<double>(ground.field.height_m(origin.column, origin.row));
+            const double weight = static_cast<double>(origin.weight);
+            CHECK(z_m(k) == Approx(middle_m + weight * (sample_m - middle_m)).margin(1e-4));
+            between += origin.weight > 0.0F && origin.weight < 1.0F ? 1 : 0;
+        }
+    }
+    CHECK(between > 1000);
+}
+
+TEST_CASE("without geomorphs all vertices are at their samples, with them the mesh is the same") {
+    Numbers numbers(8);
+    ErrorGround ground(rough_field(100, 70, 3));
+    const MeshView view = any_view(numbers, ground.field);
+    const MeshCopy rigid(ground.mesher.mesh(view, {3.0, any_triangles, false}));
+    CHECK(std::all_of(rigid.origins.begin(), rigid.origins.end(), [](const VertexOrigin& origin) {
+        return origin.weight == 1.0F;
+    }));
+    MeshView whole = view;
+    whole.frustum_normals.fill(glm::dvec3(0.0));
+    const MeshCopy all_rigid(ground.mesher.mesh(whole, {3.0, any_triangles, false}));
+    const MeshCopy all_morphed(ground.mesher.mesh(whole, {3.0, any_triangles, true}));
+    CHECK(all_rigid.indices == all_morphed.indices);
+}

@@ -1,0 +1,109 @@
+#include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/ground_tiles.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "ground_fields.h"
+
+namespace octant::visuals::terrain {
+
+namespace {
+
+constexpr std::array<std::pair<int, int>, 10> sizes = {
+    {{2, 2}, {3, 3}, {5, 5}, {9, 9}, {17, 17}, {2, 40}, {6, 11}, {33, 7}, {100, 65}, {131, 200}}};
+
+} // namespace
+
+TEST_CASE("every sample of a ground of any size is read back exactly") {
+    for (const auto& [columns, rows] : sizes) {
+        const models::heights::HeightField field = rough_field(columns, rows);
+        const GroundTiles ground = ground_of(field);
+        int wrong = 0;
+        for (int row = 0; row < rows; ++row) {
+            for (int column = 0; column < columns; ++column) {
+                wrong += ground.height_m(column, row) == field.height_m(column, row) ? 0 : 1;
+                wrong += ground.sample_m(column, row) == field.sample_m(column, row) ? 0 : 1;
+            }
+        }
+        INFO(columns << " x " << rows);
+        CHECK(wrong == 0);
+        CHECK(ground.half_extent_m() == field.half_extent_m());
+    }
+}
+
+TEST_CASE("corners and nodes hold the samples of their places, padded ones those of the rim") {
+    for (const auto& [columns, rows] : sizes) {
+        const models::heights::HeightField field = rough_field(columns, rows);
+        const GroundTiles ground = ground_of(field);
+        const auto at = [&field](int column, int row) {
+            return field.height_m(
+                std::min(column, field.columns() - 1), std::min(row, field.rows() - 1));
+        };
+        INFO(columns << " x " << rows);
+        CHECK(ground.corner_m(0) == at(0, 0));
+        CHECK(ground.corner_m(1) == at(columns, 0));
+        CHECK(ground.corner_m(2) == at(0, rows));
+        CHECK(ground.corner_m(3) == at(columns, rows));
+        int wrong = 0;
+        for (int level = 0; level < ground.levels(); ++level) {
+            const GroundLayout::Level& layout = ground.layout().level(level);
+            const int edge = layout.edge;
+            const int half = edge / 2;
+            for (int row = 0; row <= layout.rows; ++row) {
+                for (int column = 0; column <= layout.columns; ++column) {
+                    const int x = column * edge;
+                    const int y = row * edge;
+                    if (column < layout.columns) {
+                        wrong +=
+                            ground.height_m(level, NodePart::South, column, row) != at(x + half, y);
+                    }
+                    if (row < layout.rows) {
+                        wrong +=
+                            ground.height_m(level, NodePart::West, column, row) != at(x, y + half);
+                    }
+                    if (column < layout.columns && row < layout.rows) {
+                        wrong += ground.height_m(level, NodePart::Centre, column, row) !=
+                                 at(x + half, y + half);
+                    }
+                }
+            }
+        }
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("between samples a ground is as high as its field, and nothing lies beside it") {
+    const models::heights::HeightField field = rough_field(20, 13);
+    const GroundTiles ground = ground_of(field);
+    for (double x_m = -300.0; x_m <= 300.0; x_m += 37.0) {
+        for (double y_m = -200.0; y_m <= 200.0; y_m += 31.0) {
+            CHECK(ground.height_at(x_m, y_m) == field.height_at(x_m, y_m));
+        }
+    }
+    CHECK(ground.height_at(285.0, 180.0) == field.height_at(285.0, 180.0));
+}
+
+TEST_CASE("an error's code is the smallest that is not below it") {
+    CHECK(GroundTiles::error_m_of(0) == 0.0F);
+    CHECK(GroundTiles::error_code_of(0.0F) == 0);
+    CHECK(GroundTiles::error_code_of(std::numeric_limits<float>::min()) == 1);
+    CHECK(GroundTiles::error_code_of(1e9F) == 255);
+    CHECK(GroundTiles::error_m_of(1) <= 0.0101F);
+    CHECK(GroundTiles::error_m_of(255) >= 12000.0F);
+    for (int code = 1; code < 256; ++code) {
+        const float error_m = GroundTiles::error_m_of(static_cast<std::uint8_t>(code));
+        const float below_m = GroundTiles::error_m_of(static_cast<std::uint8_t>(code - 1));
+        CHECK(below_m < error_m);
+        CHECK((code == 1 || error_m <= 1.06F * below_m));
+        CHECK(GroundTiles::error_code_of(error_m) == code);
+        CHECK(GroundTiles::error_code_of(0.5F * (error_m + below_m)) == code);
+    }
+}
+
+} // namespace octant::visuals::terrain

@@ -1,0 +1,194 @@
+#include "sim/base/error.h"
+#include "tests/scratch.h"
+#include "visuals/terrain/ground_file.h"
+#include "visuals/terrain/ground_header.h"
+#include "visuals/terrain/ground_import.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "ground_fields.h"
+
+namespace octant::visuals::terrain {
+
+namespace {
+
+using Catch::Matchers::Contains;
+using std::filesystem::path;
+
+const auto never_save = [](ImportStage, double) { return false; };
+
+path scratch(const std::string& name) {
+    return tests::scratch_folder() / name;
+}
+
+/// 40 x 30 whole metres, all 7 but the one in the middle.
+path write_plain(const std::string& name, std::int16_t middle_m = 7) {
+    std::vector<std::int16_t> numbers(40 * 30, 7);
+    numbers[40 * 15 + 20] = middle_m;
+    write_geotiff(scratch(name), 40, numbers, 30.0, {0.0, 0.0});
+    return scratch(name);
+}
+
+std::string content_of(const path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+GroundHeader sound_header() {
+    return header_of({40, 30, 30.0, 7.0, 0x1p-12}, {"plain", {}, {}, 0, 7.0F, 7.0F, 7.0F});
+}
+
+bool is_taken(const std::function<void(GroundHeader&)>& change) {
+    GroundHeader header = sound_header();
+    change(header);
+    try {
+        read_header("header", page_of(header));
+    } catch (const Error&) {
+        return false;
+    }
+    return true;
+}
+
+std::string name_read(const std::string& name) {
+    GroundFacts facts;
+    facts.name = name;
+    return facts_of(header_of({40, 30, 30.0, 7.0, 1.0}, facts)).name;
+}
+
+} // namespace
+
+TEST_CASE("an input in the place of the unfinished file is refused and stays whole") {
+    const path input = write_plain("same.ground.part");
+    const std::string before = content_of(input);
+    const path link = scratch("linked.ground.part");
+    std::filesystem::create_hard_link(input, link);
+    for (const char* out : {"same.ground", "linked.ground"}) {
+        CHECK_THROWS_WITH(
+            import_ground({input}, scratch(out), {}, never_save), Contains("one of the inputs"));
+    }
+    CHECK(content_of(input) == before);
+}
+
+TEST_CASE("a foreign file in the place of the unfinished one is refused and stays whole") {
+    const path input = write_plain("beside.tif");
+    const path part = scratch("foreign.ground.part");
+    std::ofstream(part) << "a letter";
+    CHECK_THROWS_WITH(
+        import_ground({input}, scratch("foreign.ground"), {}, never_save),
+        Contains("foreign.ground.part") && Contains("another kind of file"));
+    CHECK(content_of(part) == "a letter");
+    std::ofstream(part, std::ios::trunc).close();
+    CHECK_NOTHROW(import_ground({input}, scratch("foreign.ground"), {}, never_save));
+}
+
+TEST_CASE("a second import to the same file is refused while the first goes on unharmed") {
+    const path input = write_plain("first_of_two.tif");
+    const path other = write_plain("second_of_two.tif", 9);
+    const path out = scratch("both.ground");
+    int refused = 0;
+    import_ground({input}, out, {}, [&](ImportStage, double done) {
+        if (done < 1.0) {
+            CHECK_THROWS_WITH(
+                import_ground({other}, out, {}, never_save),
+                Contains("another import is writing it"));
+            ++refused;
+        }
+        return false;
+    });
+    CHECK(refused >= 3);
+    CHECK(open_ground(out).facts().highest_m == 7.0F);
+    CHECK_NOTHROW(verify_ground(out));
+}
+
+TEST_CASE("a header whose checksum is right but whose numbers are not believed is refused") {
+    constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+    constexpr float endless = std::numeric_limits<float>::infinity();
+    CHECK(is_taken([](GroundHeader&) {}));
+    CHECK(is_taken([](GroundHeader& h) { h.latitude_deg = no_number; }));
+    for (const double spacing_m : {0.0, 9e-4, 1.1e6, no_number}) {
+        CHECK_FALSE(is_taken([=](GroundHeader& h) { h.spacing_m = spacing_m; }));
+    }
+    for (const double unit_m : {0.0, 0x1p-13, 0.3, 2.0, -0.5, no_number}) {
+        CHECK_FALSE(is_taken([=](GroundHeader& h) { h.height_unit_m = unit_m; }));
+    }
+    for (const double base_m : {-1.1e5, 1.1e5, no_number}) {
+        CHECK_FALSE(is_taken([=](GroundHeader& h) { h.height_base_m = base_m; }));
+    }
+    for (const double latitude_deg : {-91.0, 91.0, no_number}) {
+        CHECK_FALSE(is_taken([=](GroundHeader& h) {
+            h.has_place = 1;
+            h.latitude_deg = latitude_deg;
+        }));
+    }
+    const auto with_unit = [](double unit_m) {
+        return [unit_m](GroundHeader& h) {
+            h.system.wkt_length = 1;
+            h.system.unit_m = unit_m;
+        };
+    };
+    CHECK(is_taken(with_unit(0.3048)));
+    CHECK_FALSE(is_taken(with_unit(0.0)));
+    CHECK_FALSE(is_taken(with_unit(no_number)));
+    CHECK_FALSE(is_taken([](GroundHeader& h) { h.system.centre_x = no_number; }));
+    CHECK_FALSE(is_taken([](GroundHeader& h) { h.system.wkt_length = 5000; }));
+    CHECK_FALSE(is_taken([](GroundHeader& h) { h.lowest_m = endless; }));
+    CHECK_FALSE(is_taken([](GroundHeader& h) { h.highest_m = endless; }));
+    CHECK_FALSE(is_taken([](GroundHeader& h) { h.mean_m = -endless; }));
+}
+
+TEST_CASE("a header keeps the coordinate system, and one of the first version has none") {
+    GroundFacts facts;
+    facts.system = models::heights::MapSystem{"LOCAL_CS[\"plan\"]", 12.5, -7.0, 0.3048};
+    const GroundHeader header = header_of({40, 30, 30.0, 7.0, 1.0}, facts);
+    const GroundFacts kept = facts_of(read_header("header", page_of(header)));
+    REQUIRE(kept.system);
+    CHECK(kept.system->wkt == facts.system->wkt);
+    CHECK(kept.system->centre_x == 12.5);
+    CHECK(kept.system->centre_y == -7.0);
+    CHECK(kept.system->unit_m == 0.3048);
+    auto spoilt = page_of(header);
+    spoilt[offsetof(GroundHeader, system)] ^= std::byte{1};
+    CHECK_THROWS_WITH(read_header("header", spoilt), Contains("damaged"));
+
+    GroundHeader first = header;
+    first.version = 1;
+    auto page = page_of(first);
+    std::fill(page.begin() + offsetof(GroundHeader, system), page.end(), std::byte{0});
+    CHECK_FALSE(facts_of(read_header("header", page)).system);
+    first.version = 3;
+    CHECK_THROWS_WITH(read_header("header", page_of(first)), Contains("got version 3"));
+
+    facts.system->wkt.assign(4000, 'x');
+    CHECK_FALSE(facts_of(header_of({40, 30, 30.0, 7.0, 1.0}, facts)).system);
+}
+
+TEST_CASE("a name is cut between characters and read as UTF-8 without control characters") {
+    const std::string umlaut = "\xC3\xBC";
+    CHECK(name_read("Z" + umlaut + "rich.tif") == "Z" + umlaut + "rich.tif");
+    CHECK(name_read(std::string(255, 'a') + umlaut) == std::string(255, 'a'));
+    CHECK(name_read(std::string(254, 'a') + umlaut) == std::string(254, 'a') + umlaut);
+    CHECK(name_read("a\xFF\x1B[b\xC3") == "a\xEF\xBF\xBD\xEF\xBF\xBD[b\xEF\xBF\xBD");
+}
+
+TEST_CASE("the hash of a ground tells one tile from another and grounds alike as alike") {
+    const auto hash_with = [](std::int16_t middle_m, const std::string& out) {
+        import_ground({write_plain("hashed.tif", middle_m)}, scratch(out), {}, never_save);
+        return hash_of_ground(scratch(out));
+    };
+    const std::uint64_t seven = hash_with(7, "seven.ground");
+    CHECK(hash_with(7, "again.ground") == seven);
+    CHECK(hash_with(8, "eight.ground") != seven);
+}
+
+} // namespace octant::visuals::terrain

@@ -1,0 +1,131 @@
+#include "tests/visuals/terrain/ground_check.h"
+#include "visuals/terrain/projected_error.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+using namespace octant::visuals::terrain;
+using namespace octant::visuals::terrain::test;
+using octant::models::ColourVertex;
+using octant::models::heights::HeightField;
+
+namespace {
+
+/// Looks straight down from the middle of the field.
+PictureView from_above(double height_m) {
+    PictureView view;
+    view.eye_m = {0.0, 0.0, height_m};
+    view.right = {1.0, 0.0, 0.0};
+    view.up = {0.0, 1.0, 0.0};
+    view.ahead = {0.0, 0.0, -1.0};
+    view.focal_px = 1000.0;
+    view.half_width_px = 1e6;
+    view.half_height_px = 1e6;
+    view.near_m = 0.1;
+    return view;
+}
+
+/// The field's four corners as two triangles, relative to an eye.
+struct FlatMesh {
+    FlatMesh(const HeightField& field, const glm::dvec3& eye_m) {
+        const int east = field.columns() - 1;
+        const int north = field.rows() - 1;
+        std::size_t k = 0;
+        for (const auto& [column, row] :
+             {std::pair{0, 0}, std::pair{east, 0}, std::pair{0, north}, std::pair{east, north}}) {
+            vertices[k++].position_m = glm::vec3(field.sample_m(column, row) - eye_m);
+        }
+        mesh.vertices = vertices;
+        mesh.indices = indices;
+    }
+
+    std::array<ColourVertex, 4> vertices;
+    std::array<std::uint32_t, 6> indices = {0, 1, 3, 0, 3, 2};
+    GroundMesh mesh;
+};
+
+} // namespace
+
+TEST_CASE("one sample above a flat mesh errs by its height as seen, all others by nothing") {
+    const HeightField field = bump_field(9, 6, 4, 1.0F); // 2 m east of the middle
+    const PictureView view = from_above(101.0);
+    const FlatMesh flat(field, view.eye_m);
+    const ProjectedError error = ErrorMeter(GroundSamples(field)).measure(flat.mesh, view);
+    const double expected_px = 1000.0 * 2.0 / 100.0 - 1000.0 * 2.0 / 101.0;
+    CHECK(error.samples == 81);
+    CHECK(error.uncovered == 0);
+    CHECK(error.maximum_px == Approx(expected_px));
+    CHECK(error.p999_px == Approx(expected_px));
+    CHECK(error.p99_px == Approx(expected_px)); // nearest rank of 81: the largest
+    CHECK(error.mean_px == Approx(expected_px / 81.0));
+    CHECK(error.rms_px == Approx(expected_px / 9.0));
+    CHECK(error.triangles_in_view == 2);
+}
+
+TEST_CASE("samples outside the frustum do not count, nor triangles wholly outside") {
+    const HeightField field = level_field(9, 9);
+    PictureView view = from_above(100.0);
+    const FlatMesh flat(field, view.eye_m);
+    view.half_width_px = 25.0; // 2.5 m to each side
+    CHECK(ErrorMeter(GroundSamples(field)).measure(flat.mesh, view).samples == 5 * 9);
+    view.near_m = 200.0;
+    const ProjectedError none = ErrorMeter(GroundSamples(field)).measure(flat.mesh, view);
+    CHECK(none.samples == 0);
+    CHECK(none.triangles_in_view == 0);
+}
+
+TEST_CASE("a hole in the mesh is counted") {
+    const HeightField field = level_field(9, 9);
+    const PictureView view = from_above(100.0);
+    const FlatMesh flat(field, view.eye_m);
+    GroundMesh half = flat.mesh;
+    half.indices = half.indices.first(3);
+    const ProjectedError error = ErrorMeter(GroundSamples(field)).measure(half, view);
+    CHECK(error.samples == 45);
+    CHECK(error.uncovered == 36);
+}
+
+TEST_CASE(
+    "a mesh of every sample has no error, every sample counts once, in any number of threads") {
+    Ground ground(rough_field(70, 131, 3));
+    MeshView everywhere;
+    everywhere.eye_m = {3.0, -7.0, 90.0};
+    const GroundMesh fine = ground.mesher.mesh(everywhere, {1000.0, 20.0, FanKind::Partial});
+    PictureView view = from_above(90.0);
+    view.eye_m = everywhere.eye_m;
+    const ProjectedError error = ErrorMeter(GroundSamples(ground.field)).measure(fine, view);
+    CHECK(error.samples == 70 * 131);
+    CHECK(error.maximum_px < 1e-3);
+    const GroundMesh coarse = ground.mesher.mesh(everywhere, {3.0, 1.0, FanKind::Partial});
+    const ProjectedError one = ErrorMeter(GroundSamples(ground.field), 1).measure(coarse, view);
+    const ProjectedError three = ErrorMeter(GroundSamples(ground.field), 3).measure(coarse, view);
+    CHECK(one.samples == 70 * 131);
+    CHECK(one.rms_px > 0.01);
+    CHECK(one.rms_px == three.rms_px);
+    CHECK(one.p999_px == three.p999_px);
+}
+
+TEST_CASE("on a curved earth samples sink as far as the mesh does") {
+    const HeightField field = level_field(9, 9);
+    const PictureView view = from_above(100.0);
+    constexpr double radius_m = 50.0;
+    FlatMesh flat(field, view.eye_m);
+    for (ColourVertex& vertex : flat.vertices) {
+        vertex.position_m.z -= 32.0F / (2.0F * 50.0F); // 4 m east and north
+    }
+    const ProjectedError error =
+        ErrorMeter(GroundSamples(field)).measure(flat.mesh, view, radius_m);
+    double most_px = 0.0;
+    for (int column = -4; column <= 4; ++column) {
+        for (int row = -4; row <= 4; ++row) {
+            const double off_m = std::hypot(column, row);
+            const double depth_m = 100.0 + off_m * off_m / (2.0 * radius_m);
+            most_px = std::max(most_px, 1000.0 * off_m * std::abs(1.0 / depth_m - 1.0 / 100.32));
+        }
+    }
+    CHECK(error.maximum_px == Approx(most_px).margin(1e-3));
+}

@@ -1,0 +1,60 @@
+#include "ui/base/progress.h"
+
+#include <cstdio>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <utility>
+
+namespace octant::ui::base {
+
+Progress::Progress(std::string what, int total, bool quiet, std::string steps)
+    : what_(std::move(what))
+    , steps_(std::move(steps))
+    , total_(total)
+    , quiet_(quiet)
+    , terminal_(isatty(STDERR_FILENO) == 1)
+    , start_(Clock::now())
+    , last_shown_(start_) {}
+
+void Progress::show(int done, const std::string& note) {
+    const auto now = Clock::now();
+    const double since_last_s = std::chrono::duration<double>(now - last_shown_).count();
+    if (quiet_ || since_last_s < (terminal_ ? 0.1 : 5.0)) {
+        return;
+    }
+    last_shown_ = now;
+    drawn_ = true;
+    const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+    const double per_s = done / elapsed_s;
+    const double left_s = done > 0 ? (total_ - done) / per_s : 0.0;
+    const std::string line = fmt::format(
+        "{}: {} of {}, {:.0f} {}/s, {:.0f} s left{}{}",
+        what_,
+        done,
+        total_,
+        per_s,
+        steps_,
+        left_s,
+        note.empty() ? "" : ", ",
+        note);
+    std::fputs(
+        terminal_ ? fmt::format("\r\x1b[K{}", line).c_str() : fmt::format("{}\n", line).c_str(),
+        stderr);
+    std::fflush(stderr);
+}
+
+void Progress::finish() {
+    if (terminal_ && drawn_) {
+        std::fputs("\r\x1b[K", stderr);
+        std::fflush(stderr);
+        drawn_ = false;
+    }
+}
+
+void say(bool quiet, const std::string& line) {
+    if (!quiet) {
+        std::fputs(fmt::format("{}\n", line).c_str(), stderr);
+    }
+}
+
+} // namespace octant::ui::base

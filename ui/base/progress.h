@@ -1,0 +1,43 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace octant::ui::base {
+
+/// Progress of long work on stderr: one line redrawn in place when stderr is a terminal, else a
+/// plain line every few seconds; nothing when quiet.
+class Progress {
+public:
+    /// `steps`: what is counted.
+    Progress(std::string what, int total, bool quiet, std::string steps = "frames");
+
+    ~Progress() { finish(); }
+
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    Progress(Progress&&) = delete;
+    Progress& operator=(Progress&&) = delete;
+
+    /// `done` of the total are finished; `note` is shown behind the numbers.
+    void show(int done, const std::string& note = "");
+
+    /// Ends the line.
+    void finish();
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::string what_;
+    std::string steps_;
+    int total_;
+    bool quiet_;
+    bool terminal_;
+    bool drawn_ = false;
+    Clock::time_point start_;
+    Clock::time_point last_shown_;
+};
+
+/// One line on stderr, unless quiet.
+void say(bool quiet, const std::string& line);
+
+} // namespace octant::ui::base

@@ -1,0 +1,165 @@
+#include "ui/commands/bench.h"
+
+#include "sim/base/hash.h"
+#include "ui/base/progress.h"
+#include "ui/report/statistics.h"
+#include "ui/flight/session.h"
+#include "visuals/gl/bare_grid.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <memory>
+#include <span>
+
+namespace octant::ui::commands {
+
+namespace gl = visuals::gl;
+namespace scene = visuals::scene;
+
+namespace {
+
+constexpr int floor_triangles = 20000;
+constexpr int warm_up_frames = 20;
+
+/// The platform's floor, drawn by the same renderer as everything else.
+class Floor {
+public:
+    explicit Floor(const scene::Settings& settings)
+        : context_(flight::make_context(settings.context))
+        , renderer_(std::make_unique<gl::Renderer>(
+              context_->functions(), settings.size_px.x, settings.size_px.y, settings.samples)) {
+        plan_.view_to_clip =
+            scene::view_to_clip({}, static_cast<double>(settings.size_px.x) / settings.size_px.y);
+        grid_ = gl::bare_grid(floor_triangles, plan_.view_to_clip);
+        plan_.ground = {grid_.vertices, grid_.indices};
+        renderer_->warm_up();
+    }
+
+    ~Floor() { context_->make_current(); }
+
+    Floor(const Floor&) = delete;
+    Floor& operator=(const Floor&) = delete;
+    Floor(Floor&&) = delete;
+    Floor& operator=(Floor&&) = delete;
+
+    report::FrameRecord draw() {
+        context_->make_current();
+        report::FrameRecord record;
+        const base::Stopwatch whole;
+        base::Stopwatch stage;
+        renderer_->draw(plan_);
+        renderer_->finish();
+        record.draw_ms = stage.lap_ms();
+        renderer_->finish_and_read(picture_);
+        record.read_ms = stage.lap_ms();
+        record.frame_ms = whole.ms();
+        record.terrain_triangles = static_cast<int>(grid_.indices.size() / 3);
+        return record;
+    }
+
+    const gl::Picture& picture() const { return picture_; }
+
+private:
+    std::unique_ptr<gl::Context> context_;
+    std::unique_ptr<gl::Renderer> renderer_; ///< goes before its context
+    gl::BareGrid grid_;
+    scene::FramePlan plan_;
+    gl::Picture picture_;
+};
+
+/// Frames of one scene and the hash of what they showed.
+struct Timed {
+    std::string name;
+    std::vector<report::FrameRecord> records;
+    Hash hash;
+
+    void add(const report::FrameRecord& record, const gl::Picture& picture) {
+        records.push_back(record);
+        hash.add(std::as_bytes(std::span(picture.rgba)));
+    }
+};
+
+template <class Value>
+double median_of(const Timed& timed, Value value) {
+    std::vector<double> values;
+    for (const report::FrameRecord& record : timed.records) {
+        values.push_back(static_cast<double>(value(record)));
+    }
+    std::sort(values.begin(), values.end());
+    return report::nearest_rank(values, 500);
+}
+
+BenchResult result_of(const Timed& timed, double floor_ms) {
+    using Record = report::FrameRecord;
+    std::vector<double> frame_ms;
+    for (const Record& record : timed.records) {
+        frame_ms.push_back(record.frame_ms);
+    }
+    const report::Statistics statistics = report::statistics_of_times(frame_ms);
+    return {
+        .name = timed.name,
+        .median_ms = statistics.p50_ms,
+        .p99_ms = statistics.p99_ms,
+        .ratio = statistics.p50_ms / floor_ms,
+        .sim_ms = median_of(timed, [](const Record& r) { return r.sim_ms; }),
+        .plan_ms = median_of(timed, [](const Record& r) { return r.plan_ms; }),
+        .draw_ms = median_of(timed, [](const Record& r) { return r.draw_ms; }),
+        .read_ms = median_of(timed, [](const Record& r) { return r.read_ms; }),
+        .triangles =
+            static_cast<int>(median_of(timed, [](const Record& r) { return r.terrain_triangles; })),
+        .hash = timed.hash.value()};
+}
+
+std::string name_of(const scene::Settings& settings) {
+    return fmt::format(
+        "{}, {}",
+        std::filesystem::path(settings.terrain).filename().string(),
+        fmt::join(settings.aircraft, "+"));
+}
+
+} // namespace
+
+std::vector<BenchResult> run_bench(const BenchOptions& options) {
+    Floor floor(options.settings);
+    std::vector<Timed> timed(options.terrains.size() + 1);
+    timed[0].name = fmt::format("floor: bare grid of {} triangles", floor_triangles);
+    std::vector<std::unique_ptr<flight::Session>> sessions;
+    for (std::size_t i = 0; i < options.terrains.size(); ++i) {
+        scene::Settings settings = options.settings;
+        settings.terrain = options.terrains[i];
+        settings.frames = options.frames + warm_up_frames;
+        base::say(options.quiet, fmt::format("loading {}", settings.terrain));
+        sessions.push_back(std::make_unique<flight::Session>(settings));
+        timed[i + 1].name = name_of(settings);
+    }
+    base::Progress progress("bench", options.frames + warm_up_frames, options.quiet);
+    for (int frame = 0; frame < options.frames + warm_up_frames; ++frame) {
+        const bool counts = frame >= warm_up_frames;
+        const report::FrameRecord bare = floor.draw();
+        if (counts) {
+            timed[0].add(bare, floor.picture());
+        }
+        for (std::size_t i = 0; i < sessions.size(); ++i) {
+            if (frame >= sessions[i]->frames()) {
+                continue;
+            }
+            sessions[i]->make_current();
+            const report::FrameRecord record = sessions[i]->draw(frame);
+            if (counts) {
+                timed[i + 1].add(record, sessions[i]->picture());
+            }
+        }
+        progress.show(frame + 1);
+    }
+    progress.finish();
+    std::vector<BenchResult> results;
+    const double floor_ms = result_of(timed[0], 1.0).median_ms;
+    for (const Timed& scene_frames : timed) {
+        results.push_back(result_of(scene_frames, floor_ms));
+    }
+    return results;
+}
+
+} // namespace octant::ui::commands

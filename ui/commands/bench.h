@@ -1,0 +1,36 @@
+#pragma once
+
+#include "visuals/scene/settings.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace octant::ui::commands {
+
+struct BenchOptions {
+    visuals::scene::Settings settings; ///< size, triangles, aircraft and context are used
+    std::vector<std::string> terrains; ///< one scene each
+    int frames = 300;                  ///< timed, of each scene
+    bool quiet = false;
+};
+
+/// Frame times of one scene, milliseconds.
+struct BenchResult {
+    std::string name;
+    double median_ms = 0.0;
+    double p99_ms = 0.0;
+    double ratio = 0.0;  ///< median of this scene over the floor's
+    double sim_ms = 0.0; ///< medians of the stages
+    double plan_ms = 0.0;
+    double draw_ms = 0.0;
+    double read_ms = 0.0;
+    int triangles = 0;      ///< of ground, median
+    std::uint64_t hash = 0; ///< over the pixels of the timed frames
+};
+
+/// Draws all scenes in turn, frame by frame, the platform's floor first: a lit grid of 20,000
+/// triangles over the whole picture, read back. The floor is the first result. Throws Error.
+std::vector<BenchResult> run_bench(const BenchOptions& options);
+
+} // namespace octant::ui::commands

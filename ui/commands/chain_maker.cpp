@@ -1,0 +1,87 @@
+#include "ui/commands/chain_maker.h"
+
+#include "models/measure/mesh_distance.h"
+#include "models/polygons/mesh_polygons.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace octant::ui::commands {
+
+namespace {
+
+using models::TriangleMesh;
+
+constexpr std::size_t most_polygons = 300; ///< that draw orders are found for quickly
+
+double certified_m(const TriangleMesh& original, const TriangleMesh& mesh, int threads) {
+    return models::measure::distance(
+               original,
+               mesh,
+               {.negligible_m = 1e-6 * models::diagonal_m(original),
+                .samples = 0,
+                .threads = threads})
+        .most_hausdorff_m();
+}
+
+std::vector<std::size_t> face_goals(std::size_t faces, std::size_t coarsest) {
+    std::vector<std::size_t> goals;
+    for (std::size_t goal = faces / 2; goal > coarsest; goal /= 2) {
+        goals.push_back(goal);
+    }
+    if (coarsest < faces) {
+        goals.push_back(coarsest);
+    }
+    return goals;
+}
+
+} // namespace
+
+models::meshfile::LevelChain level_chain(TriangleMesh mesh, const ChainOptions& options) {
+    constexpr double larger = 1.0 + 1e-9; // errors of a chain rise from level to level
+    models::simplify::SimplifyOptions simplify = options.simplify;
+    simplify.goal = {.vertices = {}, .faces = options.coarsest_faces, .error_m = {}};
+    const std::vector<std::size_t> goals =
+        face_goals(mesh.triangles.size(), options.coarsest_faces);
+    const models::simplify::Simplified coarsest =
+        models::simplify::simplified(std::move(mesh), simplify);
+    const models::CollapseSequence& sequence = coarsest.sequence;
+    const TriangleMesh& original = sequence.original;
+    models::meshfile::LevelChain chain;
+    chain.name = original.name;
+    chain.levels.push_back({original, 0.0});
+    for (const std::size_t goal : goals) {
+        const std::size_t collapses = models::collapses_to_faces(sequence, goal);
+        TriangleMesh level = models::mesh_after(sequence, collapses);
+        if (collapses == sequence.collapses.size()) {
+            level = coarsest.mesh;
+        } else if (simplify.quality == models::simplify::Quality::Surface) {
+            level = models::simplify::polished(std::move(level), original, simplify);
+        }
+        if (level.triangles.size() < chain.levels.back().mesh.triangles.size()) {
+            const double before_m = chain.levels.back().error_m;
+            const double error_m = certified_m(original, level, simplify.threads);
+            const double least_m =
+                std::max(before_m * larger, 1e-12 * models::diagonal_m(original));
+            chain.levels.push_back({std::move(level), std::max(error_m, least_m)});
+        }
+        if (options.show_level) {
+            options.show_level(chain.levels.size() - 1, goals.size());
+        }
+    }
+    const TriangleMesh& last = chain.levels.back().mesh;
+    chain.polygons = options.polygons;
+    if (!chain.polygons && last.triangles.size() <= most_polygons) {
+        chain.polygons = models::polygons::as_polygons(last);
+    }
+    if (chain.polygons) {
+        chain.polygons_error_m =
+            options.polygons
+                ? certified_m(original, models::polygons::as_triangles(*chain.polygons), simplify.threads)
+                : chain.levels.back().error_m;
+    }
+    return chain;
+}
+
+} // namespace octant::ui::commands

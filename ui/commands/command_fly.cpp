@@ -1,0 +1,248 @@
+#include "sim/base/error.h"
+#include "ui/commands/commands.h"
+#include "ui/base/figures_text.h"
+#include "ui/flight/flight_recorder.h"
+#include "ui/world/input_files.h"
+#include "ui/base/progress.h"
+#include "ui/flight/replay.h"
+#include "ui/report/statistics.h"
+#include "ui/flight/session.h"
+#include "ui/settings/settings_file.h"
+#include "ui/commands/settings_options.h"
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+namespace octant::ui::commands {
+
+namespace scene = visuals::scene;
+
+namespace {
+
+struct FlyOptions {
+    scene::Settings settings;
+    flight::RecordOptions record;
+    std::optional<flight::Replay> replay;
+    bool json = false;
+    bool quiet = false;
+    bool if_new = false;
+};
+
+/// Waits until the wall clock reaches the frame's simulated time.
+void wait_for(const base::Stopwatch& since_start, double time_s) {
+    const double left_s = time_s - since_start.s();
+    if (left_s > 0.0) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
+    }
+}
+
+void print_summary(const flight::FlightEnd& end, const std::optional<flight::ReplayVerdict>& verdict, bool json) {
+    if (json) {
+        nlohmann::ordered_json object;
+        for (const report::Figure& figure : report::figures()) {
+            const double value = figure.value(end.statistics);
+            if (figure.decimals == 0) {
+                object[std::string(figure.key)] = static_cast<int>(value);
+            } else {
+                object[std::string(figure.key)] = value;
+            }
+        }
+        object["state_hash"] = fmt::format("{:016x}", end.state_hash);
+        object["picture_hash"] = fmt::format("{:016x}", end.picture_hash);
+        if (verdict) {
+            object["replay"] = {
+                {"state_hash", verdict->state_hash}, {"picture_hash", verdict->picture_hash}};
+        }
+        base::print_figures(object, true);
+        return;
+    }
+    for (const report::Figure& figure : report::figures()) {
+        std::fputs(
+            fmt::format(
+                "{:<28} {:.{}f}\n", figure.name, figure.value(end.statistics), figure.decimals)
+                .c_str(),
+            stdout);
+    }
+    std::fputs(
+        fmt::format(
+            "{:<28} {:016x}\n{:<28} {:016x}\n",
+            "state hash",
+            end.state_hash,
+            "picture hash",
+            end.picture_hash)
+            .c_str(),
+        stdout);
+    if (verdict) {
+        std::fputs(fmt::format("{:<28} {}\n", "replay", verdict->line).c_str(), stdout);
+    }
+}
+
+/// Throws Error where options contradict each other.
+void check_options(const CLI::App& command, const FlyOptions& options) {
+    if (options.if_new && !options.record.folder) {
+        throw Error("--if-new: expected --record DIR beside it, got none");
+    }
+    if (!options.replay) {
+        return;
+    }
+    flight::refuse_settings_beside_replay(command);
+    if (options.if_new) {
+        throw Error("--if-new: expected no --replay beside it, got one");
+    }
+    std::error_code ignored;
+    if (options.record.folder &&
+        std::filesystem::equivalent(*options.record.folder, options.replay->folder, ignored)) {
+        throw Error(fmt::format(
+            "--record: expected another folder than that of --replay, got {}",
+            options.record.folder->string()));
+    }
+}
+
+/// Makes the session repeat the recording's rows. Throws Error when they do not fit it.
+void start_replay(const flight::Replay& replay, flight::Session& session, bool quiet) {
+    flight::check_frames(replay, session.frames());
+    if (static_cast<int>(replay.decisions.size()) < session.frames()) {
+        base::say(quiet,
+            fmt::format(
+                "note: {} has {} of {} frames; these are flown",
+                replay.folder.string(),
+                replay.decisions.size(),
+                session.frames()));
+    }
+    session.replay(replay.decisions);
+}
+
+/// Every frame of the session, recorded.
+void fly_frames(const FlyOptions& options, flight::Session& session, flight::FlightRecorder& recorder) {
+    base::Progress progress(session.world().flight.title, session.frames(), options.quiet);
+    const base::Stopwatch since_start;
+    for (int frame = 0; frame < session.frames(); ++frame) {
+        if (options.settings.realtime) {
+            wait_for(since_start, frame / session.rate_hz());
+        }
+        report::FrameRecord record = session.draw(frame);
+        if (options.settings.realtime) {
+            const double late_s = since_start.s() - frame / session.rate_hz();
+            record.latency_ms = 1000.0 * late_s;
+            record.missed = late_s > 1.0 / session.rate_hz() ? 1 : 0;
+        }
+        recorder.add(record, session);
+        progress.show(frame + 1, fmt::format("{:.1f} ms", record.frame_ms));
+    }
+    progress.finish();
+}
+
+/// What the automatic share of smooth polygons came to.
+std::string shading_note(const visuals::shading::ShadingState& shading) {
+    if (shading.no_gain) {
+        return "shading: flat polygons are not measurably faster here, so all are smooth";
+    }
+    return fmt::format(
+        "shading: {} of {} polygons smooth; frames take {:.2f} ms with all flat, {:.2f} ms more "
+        "with all smooth",
+        shading.smooth,
+        shading.polygons,
+        shading.fit.ms[0] + shading.fit.ms[1],
+        shading.fit.ms[2]);
+}
+
+void fly(const CLI::App& command, FlyOptions options) {
+    check_options(command, options);
+    options.settings = world::with_absolute_files(options.settings);
+    if (options.if_new && flight::is_recorded(options.record, options.settings)) {
+        base::say(options.quiet, fmt::format("{} is done already", options.record.folder->string()));
+        return;
+    }
+    flight::Session session(options.settings);
+    for (const std::string& note : session.world().notes) {
+        base::say(options.quiet, fmt::format("note: {}", note));
+    }
+    if (options.replay) {
+        start_replay(*options.replay, session, options.quiet);
+    }
+    flight::FlightRecorder recorder(options.record, options.settings, session);
+    fly_frames(options, session, recorder);
+    const flight::FlightEnd end = recorder.finish(session);
+    if (session.shading() && !options.replay) {
+        base::say(options.quiet, shading_note(*session.shading()));
+    }
+    for (const std::string& note : end.notes) {
+        base::say(options.quiet, note);
+    }
+    for (const std::string& missing : end.missing) {
+        base::say(false, missing);
+    }
+    if (end.statistics.frames == 0) {
+        base::say(options.quiet,
+            fmt::format(
+                "note: all {} frames are warm-up, so there are no figures; --warm-up 0 counts them",
+                session.frames()));
+    }
+    std::optional<flight::ReplayVerdict> verdict;
+    if (options.replay) {
+        verdict = flight::verdict_on(*options.replay, end.state_hash, end.picture_hash);
+    }
+    print_summary(end, verdict, options.json);
+    if (!end.fault.empty()) {
+        throw Error(end.fault);
+    }
+    if (verdict && verdict->differs) {
+        throw CheckSaidNo();
+    }
+}
+
+} // namespace
+
+void add_fly_command(CLI::App& program) {
+    auto options = std::make_shared<FlyOptions>();
+    CLI::App* command = program.add_subcommand(
+        "fly", "Flies a path without a window, as fast as it can, and records it");
+    command
+        ->add_option_function<std::string>(
+            "--record",
+            [options](const std::string& folder) { options->record.folder = folder; },
+            "write the recording and its report into this folder")
+        ->type_name("DIR");
+    command
+        ->add_option_function<std::string>(
+            "--video",
+            [options](const std::string& file) { options->record.video = file; },
+            "write a video (needs ffmpeg; frame times then include the encoder's load)")
+        ->type_name("FILE.mp4");
+    command
+        ->add_option_function<std::string>(
+            "--replay",
+            [options](const std::string& folder) {
+                options->replay = flight::read_replay(folder);
+                options->record.replay_of = folder;
+                options->settings = settings::read_settings(std::filesystem::path(folder) / "run.json");
+            },
+            "fly the recording in DIR again by its rows, as far as they go, and check that states "
+            "and pictures are the same (exit code 1 when not)")
+        ->type_name("DIR");
+    command->add_flag(
+        "--if-new", options->if_new, "do nothing when DIR holds this very run already");
+    command->add_flag("--json", options->json, "summary as JSON");
+    command->add_flag("--quiet", options->quiet, "no progress, no notes");
+    add_setting_options(*command, options->settings, true);
+    command->footer(
+        "Examples:\n"
+        "  octant fly straight\n"
+        "  octant fly pop-up --aircraft f15 --terrain canyon --view chase --record my-flight\n"
+        "  octant fly turn --aircraft 500md --terrain map.tif --height-mode follow --video "
+        "turn.mp4\n"
+        "  octant fly --settings my-flight/run.json --record the-same\n"
+        "  octant fly turn --adapt terrain --rate 120 --record fitted\n"
+        "  octant fly jinking --aircraft my-aircraft.ply --aircraft-error-px 0.5\n"
+        "  octant fly --replay fitted");
+    command->callback([command, options] { fly(*command, *options); });
+}
+
+} // namespace octant::ui::commands

@@ -1,0 +1,261 @@
+#include "models/measure/flipped_area.h"
+#include "models/measure/mesh_defects.h"
+#include "models/measure/mesh_distance.h"
+#include "sim/base/error.h"
+#include "ui/commands/commands.h"
+#include "ui/base/figures_text.h"
+#include "ui/world/mesh_input.h"
+#include "ui/base/progress.h"
+#include "ui/commands/settings_options.h"
+#include "ui/base/stopwatch.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+namespace octant::ui::commands {
+
+namespace measure = models::measure;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct MeshErrorOptions {
+    std::string a;
+    std::string b;
+    double tightness = 1.01;
+    int samples = 400'000;
+    int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    bool json = false;
+    bool quiet = false;
+};
+
+/// What was found; lengths in the units of the files.
+struct Findings {
+    measure::MeshDistance distance;
+    measure::MeshDefects defects; ///< of B
+    double flipped_area_share = 0.0;
+    double diagonal_m = 0.0; ///< of A
+    bool coloured = false;   ///< both are
+    double measure_ms = 0.0; ///< without reading
+};
+
+models::TriangleMesh read_surface(const std::string& path) {
+    models::TriangleMesh mesh = world::read_mesh_input(path);
+    if (mesh.triangles.empty()) {
+        error_in(path, "expected a mesh with triangles, got none");
+    }
+    return mesh;
+}
+
+Findings found_between(
+    const models::TriangleMesh& a, const models::TriangleMesh& b, const MeshErrorOptions& options) {
+    const base::Stopwatch watch;
+    measure::DistanceOptions wanted;
+    wanted.tightness = options.tightness;
+    wanted.samples = static_cast<std::size_t>(options.samples);
+    wanted.threads = options.threads;
+    base::Progress progress("measuring", 4, options.quiet, "steps");
+    wanted.progress = [&progress](int done, int) { progress.show(done); };
+    Findings found;
+    found.distance = measure::distance(a, b, wanted);
+    progress.finish();
+    found.defects = measure::defects(b);
+    measure::FlippedAreaOptions flipped;
+    flipped.reach_m = found.distance.rms_m();
+    flipped.threads = options.threads;
+    found.flipped_area_share = measure::flipped_area_share(b, a, flipped);
+    found.diagonal_m = models::diagonal_m(a);
+    found.coloured = !a.colours.empty() && !b.colours.empty();
+    found.measure_ms = watch.ms();
+    return found;
+}
+
+/// One way, or both: lengths as fractions of the diagonal, then in units.
+Json way_json(const measure::OneWayDistance& way, const Findings& found) {
+    const auto fraction = [&](double length_m) -> Json {
+        return found.diagonal_m > 0.0 ? Json(length_m / found.diagonal_m) : Json();
+    };
+    Json json;
+    json["hausdorff_least"] = fraction(way.least_hausdorff_m);
+    json["hausdorff_most"] = fraction(way.most_hausdorff_m);
+    json["rms"] = fraction(way.rms_m);
+    json["mean"] = fraction(way.mean_m);
+    json["hausdorff_least_units"] = way.least_hausdorff_m;
+    json["hausdorff_most_units"] = way.most_hausdorff_m;
+    json["rms_units"] = way.rms_m;
+    json["mean_units"] = way.mean_m;
+    if (found.coloured) {
+        json["colour_rms"] = way.colour_rms;
+    }
+    return json;
+}
+
+measure::OneWayDistance both_ways(const measure::MeshDistance& distance) {
+    return {
+        distance.least_hausdorff_m(),
+        distance.most_hausdorff_m(),
+        distance.rms_m(),
+        distance.mean_m(),
+        distance.colour_rms()};
+}
+
+Json defects_json(const measure::MeshDefects& defects) {
+    Json json;
+    json["boundary_edges"] = defects.boundary_edges;
+    json["boundary_loops"] = defects.boundary_loops;
+    json["non_manifold_edges"] = defects.non_manifold_edges;
+    json["non_manifold_vertices"] = defects.non_manifold_vertices;
+    json["turned_edges"] = defects.turned_edges;
+    json["duplicate_faces"] = defects.duplicate_faces;
+    json["degenerate_faces"] = defects.degenerate_faces;
+    json["unreferenced_vertices"] = defects.unreferenced_vertices;
+    json["shells"] = defects.shells;
+    json["euler_characteristic"] = defects.euler_characteristic;
+    json["genus"] = defects.genus ? Json(*defects.genus) : Json();
+    return json;
+}
+
+void print_row(
+    const std::string& name,
+    const measure::MeshDistance& distance,
+    double measure::OneWayDistance::*figure,
+    double unit) {
+    const auto both = both_ways(distance);
+    std::fputs(
+        fmt::format(
+            "{:<28} {:>12.5g} {:>12.5g} {:>12.5g}\n",
+            name,
+            distance.there.*figure / unit,
+            distance.back.*figure / unit,
+            both.*figure / unit)
+            .c_str(),
+        stdout);
+}
+
+void print_text(const Findings& found, const Json& figures) {
+    using Way = measure::OneWayDistance;
+    std::fputs(
+        fmt::format("{:<28} {:>12} {:>12} {:>12}\n", "", "A to B", "B to A", "larger").c_str(),
+        stdout);
+
+    struct Kind {
+        const char* name;
+        double unit;
+    };
+
+    for (const Kind& kind : {Kind{"of A's diagonal", found.diagonal_m}, Kind{"units", 1.0}}) {
+        if (!(kind.unit > 0.0)) {
+            continue;
+        }
+        const auto row = [&](const std::string& name, double Way::*figure) {
+            print_row(fmt::format("{}, {}", name, kind.name), found.distance, figure, kind.unit);
+        };
+        row("largest >=", &Way::least_hausdorff_m);
+        row("largest <=", &Way::most_hausdorff_m);
+        row("rms", &Way::rms_m);
+        row("mean", &Way::mean_m);
+    }
+    if (found.coloured) {
+        print_row("colour rms, of 0..1", found.distance, &Way::colour_rms, 1.0);
+    }
+    for (const auto& [name, value] : figures.at("defects_of_b").items()) {
+        std::fputs(fmt::format("B: {:<25} {:>12}\n", name, value.dump()).c_str(), stdout);
+    }
+    std::fputs(
+        fmt::format(
+            "B: {:<25} {:>12.3g}\n{:<28} {:>12.5g}\n{:<28} {:>12.4g}\n",
+            "flipped_area_share",
+            found.flipped_area_share,
+            "A's diagonal, units",
+            found.diagonal_m,
+            "time, ms",
+            found.measure_ms)
+            .c_str(),
+        stdout);
+}
+
+void mesh_error(const MeshErrorOptions& options) {
+    const base::Stopwatch watch;
+    const models::TriangleMesh a = read_surface(options.a);
+    const models::TriangleMesh b = read_surface(options.b);
+    const double read_ms = watch.ms();
+    const Findings found = found_between(a, b, options);
+    Json figures;
+    figures["a"] = options.a;
+    figures["b"] = options.b;
+    figures["a_triangles"] = a.triangles.size();
+    figures["b_triangles"] = b.triangles.size();
+    figures["diagonal_units"] = found.diagonal_m;
+    figures["both"] = way_json(both_ways(found.distance), found);
+    figures["a_to_b"] = way_json(found.distance.there, found);
+    figures["b_to_a"] = way_json(found.distance.back, found);
+    figures["defects_of_b"] = defects_json(found.defects);
+    figures["flipped_area_share"] = found.flipped_area_share;
+    figures["samples"] = options.samples;
+    figures["threads"] = options.threads;
+    figures["read_ms"] = read_ms;
+    figures["measure_ms"] = found.measure_ms;
+    if (options.json) {
+        base::print_figures(figures, true);
+    } else {
+        print_text(found, figures);
+    }
+}
+
+constexpr const char* footer =
+    "Distances go both ways, and the larger one counts. The largest distance (Hausdorff) is\n"
+    "certified to lie between its two figures; rms and mean are over the area, sampled. Fractions\n"
+    "are of the diagonal of A's bounding box, units those of the files. Area of B is flipped "
+    "where\n"
+    "it faces against the nearest part of A.\n"
+    "Keys of --json:\n"
+    "  a, b, a_triangles, b_triangles, diagonal_units;\n"
+    "  both, a_to_b, b_to_a, each with hausdorff_least, hausdorff_most, rms, mean as fractions\n"
+    "  (null where A has no size), the same with _units behind the name, and colour_rms (length "
+    "in\n"
+    "  RGB 0..1) where both files have colours;\n"
+    "  defects_of_b with boundary_edges, boundary_loops, non_manifold_edges,\n"
+    "  non_manifold_vertices, turned_edges, duplicate_faces, degenerate_faces,\n"
+    "  unreferenced_vertices, shells, euler_characteristic, genus (null unless closed);\n"
+    "  flipped_area_share, samples, threads, read_ms, measure_ms.\n"
+    "Example:\n"
+    "  octant mesh-error bunny.ply bunny-1000.ply --json";
+
+} // namespace
+
+void add_mesh_error_command(CLI::App& program) {
+    auto options = std::make_shared<MeshErrorOptions>();
+    CLI::App* command = program.add_subcommand(
+        "mesh-error", "Measures how far two triangle meshes are apart, and what is wrong with B");
+    command
+        ->add_option(
+            "A",
+            options->a,
+            "the original: globe, torus, machined-part, f15, 500md, concave or a file (.obj, .ply, "
+            ".stl, .gltf, "
+            ".glb, .ac, .wrl)")
+        ->type_name("MESH")
+        ->required();
+    command->add_option("B", options->b, "what was made of it")->type_name("MESH")->required();
+    add_number_option(
+        *command,
+        {"tightness", "RATIO", "most / least of the largest distance", 1.000001, 100},
+        options->tightness);
+    add_number_option(
+        *command, {"samples", "N", "points each way, for rms and mean", 1, 1e9}, options->samples);
+    add_number_option(
+        *command, {"threads", "N", "that measure [all processors]", 1, 256}, options->threads);
+    command->add_flag("--json", options->json, "results as JSON");
+    command->add_flag("--quiet", options->quiet, "no progress");
+    command->footer(footer);
+    command->callback([options] { mesh_error(*options); });
+}
+
+} // namespace octant::ui::commands

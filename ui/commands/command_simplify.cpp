@@ -1,0 +1,191 @@
+#include "models/meshfile/level_chain.h"
+#include "models/meshfile/mesh_file.h"
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+#include "ui/commands/commands.h"
+#include "ui/base/figures_text.h"
+#include "ui/commands/settings_options.h"
+#include "ui/commands/simplify_work.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace octant::ui::commands {
+
+namespace meshfile = models::meshfile;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void refuse_faults(const SimplifyCommand& command) {
+    const std::filesystem::path out = command.out;
+    std::error_code ignored;
+    for (const std::string& input : {command.in, command.polygons}) {
+        if (!input.empty() && (std::filesystem::weakly_canonical(input, ignored) ==
+                                   std::filesystem::weakly_canonical(out, ignored) ||
+                               std::filesystem::equivalent(input, out, ignored))) {
+            throw Error(fmt::format(
+                "OUT: expected another file than the input, got '{}'", printable(command.out)));
+        }
+    }
+    if (!command.error.empty()) {
+        error_m_from(command.error, 1.0);
+    }
+    if (command.chain != meshfile::is_chain_file(out)) {
+        throw Error(fmt::format(
+            "OUT: expected a name that ends in .chain with --chain, and another one without, got "
+            "'{}'",
+            printable(command.out)));
+    }
+    if (!command.chain && !meshfile::is_mesh_file(out)) {
+        throw Error(fmt::format(
+            "OUT: expected a name that ends in .obj, .ply, .stl, .gltf, .glb, .ac or .wrl, got "
+            "'{}'",
+            printable(command.out)));
+    }
+    const int goals = static_cast<int>(command.vertices > 0) + static_cast<int>(command.faces > 0) +
+                      static_cast<int>(!command.error.empty());
+    if (command.chain ? goals > 0 && command.faces == 0 : goals != 1) {
+        throw Error(fmt::format(
+            "expected {}, got {} goals",
+            command.chain ? "--chain alone or with --faces of its coarsest level"
+                          : "one of --vertices, --faces and --error",
+            goals));
+    }
+    if (paper_measure(command.method) && (command.chain || !command.error.empty())) {
+        throw Error(fmt::format(
+            "--method {}: expected --vertices or --faces alone, got {}",
+            command.method,
+            command.chain ? "--chain" : "--error"));
+    }
+    if (!command.polygons.empty() && !command.chain) {
+        throw Error("--polygons: expected --chain with it, got none");
+    }
+    check_can_write(out);
+}
+
+void print(Json figures, bool json) {
+    if (!json) {
+        figures.erase("repairs"); // said already
+        if (figures.contains("levels")) {
+            for (Json& level : figures["levels"]) {
+                level = fmt::format(
+                    "level of {} faces: error {:.4g}, {:.3g} of the diagonal",
+                    level["faces"].get<std::size_t>(),
+                    level["error"].get<double>(),
+                    level["error_of_diagonal"].get<double>());
+            }
+        }
+    }
+    base::print_figures(figures, json);
+}
+
+void run(const SimplifyCommand& command) {
+    refuse_faults(command);
+    Json figures;
+    figures["in"] = command.in;
+    figures["out"] = command.out;
+    if (command.chain) {
+        simplify_into_chain(command, figures);
+    } else if (const auto measure = paper_measure(command.method)) {
+        simplify_as_printed(command, *measure, figures);
+    } else {
+        simplify_mesh(command, figures);
+    }
+    print(figures, command.json);
+}
+
+void add_goal_options(CLI::App& cli, SimplifyCommand& command) {
+    cli.add_option(
+           "in",
+           command.in,
+           "mesh to simplify: globe, torus, machined-part, f15, 500md, concave or a file: .obj, "
+           ".ply, .stl, "
+           ".gltf, .glb, .ac, .wrl")
+        ->type_name("IN")
+        ->required();
+    cli.add_option("out", command.out, "file to write, its ending says how")
+        ->type_name("OUT")
+        ->required();
+    add_number_option(
+        cli, {"vertices", "N", "go down to so many vertices [no goal]", 1, 2e9}, command.vertices);
+    add_number_option(
+        cli,
+        {"faces",
+         "N",
+         "go down to so many triangles; with --chain of the coarsest level [no goal]",
+         1,
+         2e9},
+        command.faces);
+    cli.add_option("--error", command.error)
+        ->description("go as far as the certified two-sided distance stays below, in file units "
+                      "or, as 0.1%, of the diagonal of the bounding box")
+        ->type_name("E|P%");
+}
+
+void add_other_options(CLI::App& cli, SimplifyCommand& command) {
+    cli.add_option_function<std::string>(
+           "--method",
+           [&command](const std::string& text) {
+               const std::vector<std::string_view> names = {
+                   "surface", "fast", "plane", "triangle", "bidirectional"};
+               command.method = names[settings::read_choice({"--method", "", ""}, text, names)];
+           },
+           "surface (distance to the original surface, both ways) or fast (quadrics, a short "
+           "polish); as printed in the 2005 paper: plane, triangle or bidirectional")
+        ->type_name("KIND")
+        ->default_str("surface");
+    add_number_option(
+        cli,
+        {"colour-weight", "W", "what a colour difference of 1 counts, in diagonals", 0, 1000},
+        command.colour_weight);
+    add_number_option(
+        cli,
+        {"threads", "N", "that work; change no result [all processors]", 1, 1024},
+        command.threads);
+    cli.add_flag("--chain", command.chain, "write levels of detail, halving, into OUT.chain");
+    cli.add_option("--polygons", command.polygons)
+        ->description("with --chain: polygons for its far end, instead of the last level")
+        ->type_name("FILE.obj");
+    cli.add_flag("--json", command.json, "results as JSON");
+    cli.add_flag("--quiet", command.quiet, "no progress, no notes");
+}
+
+constexpr const char* footer =
+    "error: certified two-sided distance (Hausdorff), rms: root mean square, in file units and as\n"
+    "fractions of the diagonal.\n"
+    "Keys of --json: in, out, faces_in_file, repairs, faces_before, vertices_before, faces,\n"
+    "  vertices, method, error, error_of_diagonal, rms, rms_of_diagonal, colour_rms (length in "
+    "RGB\n"
+    "  0..1, where there are colours), time_s;\n"
+    "  with --chain instead levels (faces, error, error_of_diagonal each), polygons,\n"
+    "  polygons_error;\n"
+    "  as printed also reading, contractions, counted_vertices, feet, feet_outside, "
+    "share_outside,\n"
+    "  error_sum_plane, error_sum_triangle, error_sum_bidirectional, duplicate_faces,\n"
+    "  non_manifold_edges.\n"
+    "Examples:\n"
+    "  octant simplify bunny.ply small.obj --faces 1000\n"
+    "  octant simplify scan.stl part.glb --error 0.1%\n"
+    "  octant simplify scan.ply jet.chain --chain && octant fly turn --aircraft jet.chain";
+
+} // namespace
+
+void add_simplify_command(CLI::App& program) {
+    auto command = std::make_shared<SimplifyCommand>();
+    CLI::App* cli = program.add_subcommand(
+        "simplify", "Reduces triangles of a mesh and certifies how far the result is off");
+    add_goal_options(*cli, *command);
+    add_other_options(*cli, *command);
+    cli->footer(footer);
+    cli->callback([command] { run(*command); });
+}
+
+} // namespace octant::ui::commands

@@ -1,0 +1,92 @@
+#include "sim/base/error.h"
+#include "ui/commands/command_terrain_measure.h"
+#include "ui/terrain/error_tables.h"
+#include "ui/terrain/eye_points.h"
+#include "ui/world/loaded_ground.h"
+#include "ui/settings/read_option.h"
+#include "ui/report/table_text.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace octant::ui::commands {
+
+namespace {
+
+struct ErrorOptions {
+    ui::terrain::GroundViewOptions view;
+    ui::terrain::GroundMeshOptions mesh;
+    std::optional<double> solve_px;
+    std::string eye_points;
+    std::string map;
+    bool compare = false;
+    bool json = false;
+    bool quiet = false;
+};
+
+void show_error(const ErrorOptions& options) {
+    if (options.compare && !options.solve_px) {
+        throw Error("--compare: expected --solve PIXELS beside it, got none");
+    }
+    const world::LoadedGround ground = world::load_ground(options.view.terrain, options.view.spacing_m);
+    ui::terrain::ErrorRun run{options.view, options.mesh, {}, options.solve_px, options.quiet};
+    if (options.eye_points.empty()) {
+        run.cameras.push_back(ui::terrain::camera_of(options.view));
+    } else {
+        const std::string map = options.map.empty()
+                                    ? std::filesystem::path(options.view.terrain).stem().string()
+                                    : options.map;
+        const visuals::terrain::GroundSamples samples = ground.samples();
+        for (const ui::terrain::EyePoint& point : ui::terrain::read_eye_points(options.eye_points, map)) {
+            run.cameras.push_back(ui::terrain::camera_at(point, samples, options.view.fov_deg));
+        }
+    }
+    std::vector<report::HtmlTable> tables = {ui::terrain::error_table(ground, run)};
+    if (options.compare) {
+        tables.push_back(ui::terrain::comparison_table(ground, run));
+    }
+    std::string text;
+    for (const report::HtmlTable& table : tables) {
+        text += (text.empty() ? "" : "\n") + report::markdown_of(table);
+    }
+    std::fputs((options.json ? report::json_of(tables) : text).c_str(), stdout);
+}
+
+} // namespace
+
+void add_terrain_error(CLI::App& terrain) {
+    auto options = std::make_shared<ErrorOptions>();
+    CLI::App* error = terrain.add_subcommand(
+        "error", "Measures how far meshes miss the full-resolution ground on the screen");
+    ui::terrain::add_terrain_argument(*error, options->view);
+    ui::terrain::add_view_options(*error, options->view);
+    ui::terrain::add_mesh_options(*error, options->mesh, true);
+    settings::add_read_option(
+        *error,
+        {"solve", "PIXELS", "find the coarsest mesh whose 99.9th percentile is this", 0.001, 1e4},
+        options->solve_px);
+    error
+        ->add_option(
+            "--eye-points",
+            options->eye_points,
+            "many views: a table map,x_m,y_m,agl_m,heading_deg,pitch_deg")
+        ->type_name("FILE");
+    error->add_option("--map", options->map, "which rows of the table [the terrain file's stem]")
+        ->type_name("NAME");
+    error->add_flag(
+        "--compare",
+        options->compare,
+        "with --solve: beside it Roettger's rule, with full and with partial fans");
+    error->add_flag("--json", options->json, "as JSON");
+    error->add_flag("--quiet", options->quiet, "no progress");
+    error->footer("Example:\n  octant terrain error canyon --eye 0,0,900 --look 3000,2000,300 "
+                  "--triangles 20000\n  octant terrain error map.tif --eye-points points.csv "
+                  "--solve 1 --compare");
+    error->callback([options] { show_error(*options); });
+}
+
+} // namespace octant::ui::commands

@@ -1,0 +1,187 @@
+#include "ui/commands/command_terrain_import.h"
+
+#include "sim/base/error.h"
+#include "ui/base/figures_text.h"
+#include "ui/base/progress.h"
+#include "ui/commands/settings_options.h"
+#include "ui/base/stopwatch.h"
+#include "visuals/terrain/ground_file.h"
+#include "visuals/terrain/ground_import.h"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace octant::ui::commands {
+
+namespace {
+
+using visuals::terrain::GroundFacts;
+using visuals::terrain::GroundShape;
+using visuals::terrain::ImportStage;
+
+struct ImportCommand {
+    std::vector<std::string> inputs;
+    std::string out;
+    double spacing_m = 30.0;
+    double height_scale = 1.0;
+    int threads = 2;
+    bool json = false;
+    bool quiet = false;
+};
+
+constexpr std::size_t stage_count = 5;
+constexpr std::array<const char*, stage_count> stage_names = {
+    "scanning", "reading", "filling voids", "building", "writing"};
+constexpr std::array<const char*, stage_count> stage_keys = {
+    "scan_s", "read_s", "fill_s", "build_s", "fsync_s"};
+
+/// Times the stages, draws the progress line and says when work shall be made safe.
+class StageWatch {
+public:
+    explicit StageWatch(bool quiet)
+        : quiet_(quiet) {}
+
+    bool operator()(ImportStage stage, double done) {
+        const auto index = static_cast<std::size_t>(stage);
+        if (!stage_ || *stage_ != stage) {
+            stage_ = stage;
+            progress_.emplace(stage_names[index], 100, quiet_, "%");
+            lap_.lap_ms();
+        }
+        seconds_[index] += lap_.lap_ms() / 1000.0;
+        progress_->show(static_cast<int>(100.0 * done));
+        constexpr double between_saves_s = 8.0;
+        if (since_save_.s() < between_saves_s || stage == ImportStage::Writing) {
+            return false;
+        }
+        since_save_.lap_ms();
+        return true;
+    }
+
+    void finish() { progress_.reset(); }
+
+    double seconds(std::size_t stage) const { return seconds_[stage]; }
+
+private:
+    bool quiet_;
+    std::optional<ImportStage> stage_;
+    std::optional<base::Progress> progress_;
+    base::Stopwatch lap_;
+    base::Stopwatch since_save_;
+    std::array<double, stage_count> seconds_{};
+};
+
+nlohmann::ordered_json
+figures_of(const GroundShape& shape, const GroundFacts& facts, std::uintmax_t bytes) {
+    nlohmann::ordered_json figures;
+    figures["name"] = facts.name;
+    figures["columns"] = shape.columns;
+    figures["rows"] = shape.rows;
+    figures["spacing_m"] = shape.spacing_m;
+    figures["extent_east_m"] = (shape.columns - 1) * shape.spacing_m;
+    figures["extent_north_m"] = (shape.rows - 1) * shape.spacing_m;
+    figures["lowest_m"] = facts.lowest_m;
+    figures["highest_m"] = facts.highest_m;
+    figures["mean_m"] = facts.mean_m;
+    figures["height_unit_m"] = shape.height_unit_m;
+    figures["filled_voids"] = facts.filled_voids;
+    if (facts.place) {
+        figures["latitude_deg"] = facts.place->latitude_deg;
+        figures["longitude_deg"] = facts.place->longitude_deg;
+    }
+    const double samples = static_cast<double>(shape.columns) * shape.rows;
+    figures["samples"] = static_cast<std::int64_t>(samples);
+    figures["bytes"] = bytes;
+    figures["bytes_a_sample"] = static_cast<double>(bytes) / samples;
+    return figures;
+}
+
+void import(const ImportCommand& command) {
+    visuals::terrain::GroundImportOptions options;
+    options.picture = {command.spacing_m, command.height_scale};
+    options.threads = command.threads;
+    StageWatch watch(command.quiet);
+    const base::Stopwatch whole;
+    const auto summary = visuals::terrain::import_ground(
+        {command.inputs.begin(), command.inputs.end()}, command.out, options, std::ref(watch));
+    const double whole_s = whole.s();
+    watch.finish();
+    if (!summary.note.empty()) {
+        base::say(command.quiet, summary.note);
+    }
+    if (!command.json) {
+        base::say(command.quiet,
+            fmt::format(
+                "{}: {} x {} samples, {:.6g} m apart, {:.0f} to {:.0f} m, {} voids filled, {:.1f} "
+                "MB, {:.2f} s",
+                command.out,
+                summary.shape.columns,
+                summary.shape.rows,
+                summary.shape.spacing_m,
+                summary.facts.lowest_m,
+                summary.facts.highest_m,
+                summary.facts.filled_voids,
+                static_cast<double>(summary.bytes) / 1e6,
+                whole_s));
+        return;
+    }
+    auto figures = figures_of(summary.shape, summary.facts, summary.bytes);
+    figures["seconds"] = whole_s;
+    for (std::size_t stage = 0; stage < stage_count; ++stage) {
+        figures[stage_keys[stage]] = watch.seconds(stage);
+    }
+    figures["note"] = summary.note;
+    base::print_figures(figures, true);
+}
+
+} // namespace
+
+void show_ground_file(const std::string& file, bool verify, bool json) {
+    const base::Stopwatch opening;
+    const visuals::terrain::GroundTiles ground = visuals::terrain::open_ground(file);
+    const double open_ms = opening.ms();
+    if (verify) {
+        visuals::terrain::verify_ground(file);
+    }
+    auto figures = figures_of(ground.shape(), ground.facts(), std::filesystem::file_size(file));
+    figures["open_ms"] = open_ms;
+    figures["verified"] = verify;
+    base::print_figures(figures, json);
+}
+
+void add_terrain_import(CLI::App& terrain) {
+    auto command = std::make_shared<ImportCommand>();
+    CLI::App* app = terrain.add_subcommand(
+        "import", "Makes one file that is mapped, not read, of one or several height files");
+    app->add_option(
+           "files", command->inputs, "what GDAL reads; the first counts where they overlap")
+        ->type_name("FILE")
+        ->required();
+    app->add_option("--out", command->out, "the file to write")
+        ->type_name("FILE.ground")
+        ->required();
+    add_number_option(
+        *app,
+        {"terrain-spacing", "METRES", "sample spacing of files that do not say", 0.01, 1e5},
+        command->spacing_m);
+    add_number_option(
+        *app,
+        {"height-scale", "METRES", "a unit of heights of files that do not say", 1e-6, 1e4},
+        command->height_scale);
+    add_number_option(*app, {"threads", "N", "that build", 1, 256}, command->threads);
+    app->add_flag("--json", command->json, "figures as JSON on stdout");
+    app->add_flag("--quiet", command->quiet, "no notes");
+    app->footer("A stopped import goes on from FILE.ground.part when it is called again.\n"
+                "Example:\n  octant terrain import west.tif east.tif --out both.ground");
+    app->callback([command] { import(*command); });
+}
+
+} // namespace octant::ui::commands

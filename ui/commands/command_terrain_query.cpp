@@ -1,0 +1,116 @@
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "ui/commands/command_terrain_measure.h"
+#include "ui/world/loaded_ground.h"
+#include "ui/terrain/mesh_maker.h"
+#include "ui/settings/read_option.h"
+#include "ui/terrain/terrain_answers.h"
+#include "visuals/terrain/ground_query.h"
+#include "visuals/terrain/mesh_surface.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace octant::ui::commands {
+
+namespace {
+
+struct QueryOptions {
+    ui::terrain::GroundViewOptions view;
+    ui::terrain::GroundMeshOptions mesh;
+    std::vector<std::string> at;
+    std::string points;
+    std::optional<glm::dvec3> from_m;
+    std::optional<glm::dvec3> to_m;
+    bool flat = false;
+    bool as_drawn = false;
+    bool json = false;
+};
+
+std::vector<ui::terrain::AskedPoint> asked_points(const QueryOptions& options) {
+    std::vector<ui::terrain::AskedPoint> points;
+    for (const std::string& text : options.at) {
+        const auto point = ui::terrain::point_from_text(text);
+        if (!point) {
+            throw Error(fmt::format("--at: expected X,Y or X,Y,Z, got '{}'", printable(text)));
+        }
+        points.push_back(*point);
+    }
+    if (!options.points.empty()) {
+        const std::vector<ui::terrain::AskedPoint> more = ui::terrain::read_points(options.points);
+        points.insert(points.end(), more.begin(), more.end());
+    }
+    return points;
+}
+
+void query(const QueryOptions& options) {
+    if (options.from_m.has_value() != options.to_m.has_value()) {
+        throw Error("expected --from X,Y,Z and --to X,Y,Z, got only one of them");
+    }
+    const std::vector<ui::terrain::AskedPoint> points = asked_points(options);
+    if (points.empty() && !options.from_m) {
+        throw Error("expected --at, --points or --from and --to, got none");
+    }
+    const world::LoadedGround ground = world::load_ground(options.view.terrain, options.view.spacing_m);
+    const visuals::terrain::GroundSamples samples = ground.samples();
+    ui::terrain::Answers answers;
+    if (options.as_drawn) {
+        const visuals::scene::Camera camera = ui::terrain::camera_of(options.view);
+        const auto maker = ui::terrain::make_mesh_maker(ground, options.mesh);
+        const visuals::terrain::MeshView view = ui::terrain::mesh_view(camera, options.view);
+        ui::terrain::DrawnGround drawn{{}, camera.eye_m, view.earth_radius_m};
+        drawn.surface.take(ui::terrain::mesh_as_asked(*maker, view, options.mesh), camera.eye_m);
+        answers.points = ui::terrain::answers_as_drawn(drawn, points);
+        if (options.from_m) {
+            answers.sight = ui::terrain::sight_as_drawn(drawn, *options.from_m, *options.to_m);
+        }
+    } else {
+        answers.points = ui::terrain::answers_of(samples, points);
+        if (options.from_m) {
+            answers.sight = ui::terrain::sight_over(
+                samples,
+                *options.from_m,
+                *options.to_m,
+                options.flat ? 0.0 : visuals::terrain::earth_radius_m);
+        }
+    }
+    std::fputs(ui::terrain::text_of_answers(answers, options.json).c_str(), stdout);
+}
+
+} // namespace
+
+void add_terrain_query(CLI::App& terrain) {
+    auto options = std::make_shared<QueryOptions>();
+    CLI::App* command = terrain.add_subcommand(
+        "query", "Height of the ground, height above it and lines of sight, at full resolution");
+    ui::terrain::add_terrain_argument(*command, options->view);
+    command->add_option("--at", options->at, "ground height there; with Z also the height above it")
+        ->type_name("X,Y[,Z]");
+    command->add_option("--points", options->points, "the same for each line of a CSV file x,y[,z]")
+        ->type_name("FILE");
+    settings::add_read_option(
+        *command, {"from", "X,Y,Z", "where a line of sight begins", -1e7, 1e7}, options->from_m);
+    settings::add_read_option(*command, {"to", "X,Y,Z", "where it ends", -1e7, 1e7}, options->to_m);
+    command->add_flag(
+        "--flat", options->flat, "lines of sight over a flat earth; else it curves, R = 6371 km");
+    command->add_flag(
+        "--as-drawn",
+        options->as_drawn,
+        "ask the mesh that is drawn from --eye, not the full field");
+    ui::terrain::add_view_options(*command, options->view);
+    ui::terrain::add_mesh_options(*command, options->mesh, true);
+    command->add_flag("--json", options->json, "as JSON; else CSV");
+    command->footer(
+        "Metres, x east, y north of the map centre, z up from datum. The ground between four "
+        "samples "
+        "is bilinear; the mesh's is flat triangles.\n"
+        "Example:\n  octant terrain query canyon --at 1200,-800\n  octant terrain query canyon "
+        "--from 0,0,900 --to 5000,3000,250 --json");
+    command->callback([options] { query(*options); });
+}
+
+} // namespace octant::ui::commands

@@ -1,0 +1,46 @@
+#include "ui/commands/simplify_as_printed.h"
+
+#include "models/measure/mesh_defects.h"
+
+#include <fmt/format.h>
+#include <string>
+
+namespace octant::ui::commands {
+
+namespace {
+
+std::string reading_of(const models::simplify::PaperOptions& options) {
+    const std::string distances =
+        options.colour_weight > 0.0
+            ? fmt::format("squared, in position and {:.3g} x colour", options.colour_weight)
+            : "squared, in position";
+    return fmt::format(
+        "shortest edge first; the better of both ends and the middle; faces of either end once; "
+        "distances {}; a foot is inside for 0 < a, b, c < 1; vertices of no face are counted",
+        distances);
+}
+
+} // namespace
+
+void add_paper_figures(
+    nlohmann::ordered_json& figures,
+    const models::simplify::PaperOptions& options,
+    const models::simplify::PaperResult& result) {
+    figures["reading"] = reading_of(options);
+    figures["contractions"] = result.contractions;
+    figures["counted_vertices"] = result.counted_vertices;
+    figures["feet"] = result.feet;
+    figures["feet_outside"] = result.feet_outside;
+    if (result.feet > 0) { // the plane's measure has none
+        figures["share_outside"] =
+            static_cast<double>(result.feet_outside) / static_cast<double>(result.feet);
+    }
+    figures["error_sum_plane"] = result.sums.plane_m2;
+    figures["error_sum_triangle"] = result.sums.triangle_m2;
+    figures["error_sum_bidirectional"] = result.sums.bidirectional_m2;
+    const models::measure::MeshDefects defects = models::measure::defects(result.mesh);
+    figures["duplicate_faces"] = defects.duplicate_faces;
+    figures["non_manifold_edges"] = defects.non_manifold_edges;
+}
+
+} // namespace octant::ui::commands

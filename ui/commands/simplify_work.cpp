@@ -1,0 +1,216 @@
+#include "ui/commands/simplify_work.h"
+
+#include "models/measure/mesh_distance.h"
+#include "models/meshfile/level_chain.h"
+#include "models/meshfile/mesh_file.h"
+#include "models/meshfile/repair.h"
+#include "models/polygons/obj_reader.h"
+#include "models/simplify/paper_simplify.h"
+#include "models/simplify/simplify.h"
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "ui/commands/chain_maker.h"
+#include "ui/world/mesh_input.h"
+#include "ui/base/progress.h"
+#include "ui/commands/simplify_as_printed.h"
+#include "ui/base/stopwatch.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace octant::ui::commands {
+
+namespace simplify = models::simplify;
+namespace meshfile = models::meshfile;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diagonal_m) {
+    simplify::SimplifyOptions options;
+    options.quality =
+        command.method == "fast" ? simplify::Quality::Fast : simplify::Quality::Surface;
+    if (command.vertices > 0) {
+        options.goal.vertices = static_cast<std::size_t>(command.vertices);
+    }
+    if (command.faces > 0) {
+        options.goal.faces = static_cast<std::size_t>(command.faces);
+    }
+    if (!command.error.empty()) {
+        options.goal.error_m = error_m_from(command.error, diagonal_m);
+    }
+    options.colour_weight = command.colour_weight;
+    options.threads = command.threads;
+    return options;
+}
+
+models::TriangleMesh read_repaired(const SimplifyCommand& command, Json& figures) {
+    models::TriangleMesh mesh = world::read_mesh_input(command.in);
+    figures["faces_in_file"] = mesh.triangles.size();
+    meshfile::RepairedMesh repaired = meshfile::repaired(std::move(mesh));
+    auto repairs = Json::array();
+    for (const std::string& line : meshfile::in_words(repaired.counts)) {
+        base::say(command.quiet, "repaired: " + line);
+        repairs.push_back(line);
+    }
+    for (const std::string& note : repaired.mesh.notes) {
+        base::say(command.quiet, "note: " + note);
+    }
+    figures["repairs"] = repairs;
+    if (repaired.mesh.triangles.empty()) {
+        error_in(command.in, "expected at least one triangle with an area, got none");
+    }
+    return std::move(repaired.mesh);
+}
+
+void add_distance(
+    Json& figures,
+    const models::TriangleMesh& original,
+    const models::TriangleMesh& mesh,
+    int threads) {
+    const double diagonal_m = models::diagonal_m(original);
+    const models::measure::MeshDistance distance = models::measure::distance(
+        original, mesh, {.negligible_m = 1e-6 * diagonal_m, .threads = threads});
+    figures["error"] = distance.most_hausdorff_m();
+    figures["error_of_diagonal"] = distance.most_hausdorff_m() / diagonal_m;
+    figures["rms"] = distance.rms_m();
+    figures["rms_of_diagonal"] = distance.rms_m() / diagonal_m;
+    if (!original.colours.empty()) {
+        figures["colour_rms"] = distance.colour_rms();
+    }
+}
+
+/// As they stand in the file, which has the mesh's axes.
+models::polygons::PolygonModel polygons_in_file_axes(const std::filesystem::path& file) {
+    const models::polygons::FileAxes axes;
+    models::polygons::PolygonModel polygons = models::polygons::read_obj(file, axes);
+    for (glm::dvec3& vertex_m : polygons.vertices_m) {
+        vertex_m = axes.file_from_body(vertex_m);
+    }
+    return polygons;
+}
+
+} // namespace
+
+double error_m_from(const std::string& text, double diagonal_m) {
+    const bool share = text.ends_with('%');
+    const std::string number = share ? text.substr(0, text.size() - 1) : text;
+    const double value = finite_number(number).value_or(0.0);
+    if (!(value > 0.0)) {
+        throw Error(fmt::format(
+            "--error: expected a number above 0 in file units, or with % of the diagonal, got '{}'",
+            printable(text)));
+    }
+    return share ? value / 100.0 * diagonal_m : value;
+}
+
+std::optional<simplify::PaperMeasure> paper_measure(const std::string& method) {
+    using simplify::PaperMeasure;
+    constexpr std::array<std::pair<std::string_view, PaperMeasure>, 3> measures{
+        {{"plane", PaperMeasure::Plane},
+         {"triangle", PaperMeasure::Triangle},
+         {"bidirectional", PaperMeasure::Bidirectional}}};
+    const auto found = std::ranges::find(
+        measures, std::string_view(method), &std::pair<std::string_view, PaperMeasure>::first);
+    return found == measures.end() ? std::nullopt : std::optional(found->second);
+}
+
+void simplify_as_printed(
+    const SimplifyCommand& command, simplify::PaperMeasure measure, Json& figures) {
+    const models::TriangleMesh original = world::read_mesh_input(command.in);
+    const double diagonal_m = models::diagonal_m(original);
+    simplify::PaperOptions options;
+    options.measure = measure;
+    options.goal = options_of(command, diagonal_m).goal;
+    options.colour_weight = original.colours.empty() ? 0.0 : command.colour_weight * diagonal_m;
+    base::Progress progress("contracting edges", 100, command.quiet, "percent");
+    options.show_progress = [&](double share) { progress.show(static_cast<int>(100.0 * share)); };
+    figures["faces_before"] = original.triangles.size();
+    figures["vertices_before"] = original.vertices_m.size();
+    const base::Stopwatch watch;
+    const simplify::PaperResult result = simplify::paper_simplified(original, options);
+    const double time_s = watch.s();
+    progress.finish();
+    meshfile::write_mesh(command.out, result.mesh);
+    figures["faces"] = result.mesh.triangles.size();
+    figures["vertices"] = result.mesh.vertices_m.size();
+    figures["method"] = command.method;
+    add_paper_figures(figures, options, result);
+    if (!result.mesh.triangles.empty()) {
+        add_distance(figures, original, result.mesh, command.threads);
+    }
+    figures["time_s"] = time_s;
+}
+
+void simplify_mesh(const SimplifyCommand& command, Json& figures) {
+    models::TriangleMesh original = read_repaired(command, figures);
+    simplify::SimplifyOptions options = options_of(command, models::diagonal_m(original));
+    figures["faces_before"] = original.triangles.size();
+    figures["vertices_before"] = original.vertices_m.size();
+    base::Progress progress("simplifying", 100, command.quiet, "percent");
+    options.show_progress = [&](double share) { progress.show(static_cast<int>(100.0 * share)); };
+    const base::Stopwatch watch;
+    const simplify::Simplified result = simplify::simplified(std::move(original), options);
+    const double time_s = watch.s();
+    progress.finish();
+    meshfile::write_mesh(command.out, result.mesh);
+    figures["faces"] = result.mesh.triangles.size();
+    figures["vertices"] = result.mesh.vertices_m.size();
+    figures["method"] = command.method;
+    if (!result.mesh.triangles.empty()) {
+        add_distance(figures, result.sequence.original, result.mesh, command.threads);
+    }
+    figures["time_s"] = time_s;
+    const bool short_of_faces =
+        options.goal.faces && result.mesh.triangles.size() > *options.goal.faces;
+    const bool short_of_vertices =
+        options.goal.vertices && result.mesh.vertices_m.size() > *options.goal.vertices;
+    if (short_of_faces || short_of_vertices) {
+        base::say(command.quiet,
+            "note: no edge can collapse any more without changing the kind of surface");
+    }
+}
+
+void simplify_into_chain(const SimplifyCommand& command, Json& figures) {
+    models::TriangleMesh original = read_repaired(command, figures);
+    ChainOptions options;
+    options.simplify = options_of(command, models::diagonal_m(original));
+    if (command.faces > 0) {
+        options.coarsest_faces = static_cast<std::size_t>(command.faces);
+    }
+    if (!command.polygons.empty()) {
+        options.polygons = polygons_in_file_axes(command.polygons);
+    }
+    base::Progress progress("making levels", 100, command.quiet, "percent");
+    options.show_level = [&](std::size_t done, std::size_t of) {
+        progress.show(static_cast<int>(100 * done / std::max<std::size_t>(of, 1)));
+    };
+    const base::Stopwatch watch;
+    const meshfile::LevelChain chain = level_chain(std::move(original), options);
+    const double time_s = watch.s();
+    progress.finish();
+    meshfile::write_chain(command.out, chain);
+    const double diagonal_m = models::diagonal_m(chain.levels.front().mesh);
+    auto levels = Json::array();
+    for (const meshfile::ChainLevel& level : chain.levels) {
+        levels.push_back(
+            {{"faces", level.mesh.triangles.size()},
+             {"error", level.error_m},
+             {"error_of_diagonal", level.error_m / diagonal_m}});
+    }
+    figures["levels"] = levels;
+    figures["polygons"] = chain.polygons ? chain.polygons->polygons.size() : 0;
+    if (chain.polygons) {
+        figures["polygons_error"] = chain.polygons_error_m;
+    }
+    figures["time_s"] = time_s;
+}
+
+} // namespace octant::ui::commands

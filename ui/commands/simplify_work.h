@@ -1,0 +1,47 @@
+#pragma once
+
+#include "models/simplify/paper_simplify.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace octant::ui::commands {
+
+/// What `octant simplify` is asked for.
+struct SimplifyCommand {
+    std::string in;
+    std::string out;
+    int vertices = 0; ///< 0: no goal
+    int faces = 0;    ///< 0: no goal
+    std::string error;
+    std::string method = "surface";
+    double colour_weight = 0.1;
+    int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    bool chain = false;
+    std::string polygons;
+    bool json = false;
+    bool quiet = false;
+};
+
+/// A largest error of `octant simplify` from text: "0.5" in the file's units or "0.1%" of the
+/// diagonal. Throws Error for anything else.
+double error_m_from(const std::string& text, double diagonal_m);
+
+/// The paper's measure where the method is one of the paper's.
+std::optional<models::simplify::PaperMeasure> paper_measure(const std::string& method);
+
+/// Each does the work of `octant simplify` in one of its ways, writes the file and adds to the
+/// figures. Throws Error.
+void simplify_mesh(const SimplifyCommand& command, nlohmann::ordered_json& figures);
+void simplify_into_chain(const SimplifyCommand& command, nlohmann::ordered_json& figures);
+
+/// As printed: of the mesh as it is, nothing repaired.
+void simplify_as_printed(
+    const SimplifyCommand& command,
+    models::simplify::PaperMeasure measure,
+    nlohmann::ordered_json& figures);
+
+} // namespace octant::ui::commands

@@ -1,0 +1,34 @@
+#include "ui/flight/flight_cameras.h"
+
+#include "ui/world/frame_times.h"
+#include "ui/flight/simulation.h"
+#include "ui/world/world.h"
+#include "visuals/scene/camera_rig.h"
+
+namespace octant::ui::flight {
+
+namespace scene = visuals::scene;
+
+std::vector<FlightCamera> flight_cameras(const scene::Settings& settings) {
+    const world::World world = world::load_world(settings);
+    const world::FrameTimes times = world::frame_times_of(settings, world.flight);
+    const scene::GroundHeight ground = [&](double x_m, double y_m) {
+        return world.scene.ground->height_at(x_m, y_m);
+    };
+    Simulation simulation(world);
+    simulation.begin_at(times.at_s.front());
+    scene::Subject subject = world.scene.models[world.scene.aircraft.front()].subject;
+    subject.radius_m = simulation.formation().framed_radius_m(subject.radius_m);
+    std::vector<FlightCamera> cameras;
+    for (const double time_s : times.at_s) {
+        simulation.advance_to(time_s);
+        const sim::AircraftState& state = simulation.states().front();
+        cameras.push_back(
+            {scene::camera_of(settings, state, simulation.rig(), subject, world.points, ground),
+             state.position_m,
+             subject.radius_m});
+    }
+    return cameras;
+}
+
+} // namespace octant::ui::flight

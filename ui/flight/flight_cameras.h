@@ -1,0 +1,23 @@
+#pragma once
+
+#include "visuals/scene/camera.h"
+#include "visuals/scene/settings.h"
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace octant::ui::flight {
+
+/// From where one frame of a run is seen.
+struct FlightCamera {
+    visuals::scene::Camera camera;
+    glm::dvec3 aircraft_m{0.0};     ///< the first
+    double aircraft_radius_m = 0.0; ///< of a sphere around it
+};
+
+/// The cameras of all frames of a run, where a session with these settings has them. Loads the
+/// world. Throws Error.
+std::vector<FlightCamera> flight_cameras(const visuals::scene::Settings& settings);
+
+} // namespace octant::ui::flight

@@ -1,0 +1,174 @@
+#include "ui/flight/flight_recorder.h"
+
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "sim/base/units.h"
+#include "ui/world/input_files.h"
+#include "ui/report/html_report.h"
+#include "ui/report/json_text.h"
+#include "ui/report/loaded_recording.h"
+#include "ui/report/plots.h"
+#include "ui/settings/settings_file.h"
+#include "ui/base/stopwatch.h"
+#include "ui/flight/track_files.h"
+#include "ui/base/version.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace octant::ui::flight {
+
+namespace scene = visuals::scene;
+
+namespace {
+
+std::string adaptation_text(const scene::LoadSettings& load) {
+    return fmt::format(
+        "terrain: {} to {} triangles; left alone at a stress of {:.2f} to {:.2f}, else brought to "
+        "the middle by at most {:.1f} % down and {:.1f} % up a frame; stress filtered over "
+        "{:.1f} s, for the control with no frame above {:.1f} and carried over to each new target",
+        load.lowest,
+        load.highest,
+        load.least_stress,
+        load.most_stress,
+        100.0 * load.largest_fall,
+        100.0 * load.largest_rise,
+        load.filter_s,
+        load.most_counted_stress);
+}
+
+} // namespace
+
+report::PictureView view_of(const visuals::gl::Picture& picture) {
+    return {picture.width, picture.height, 4, std::as_bytes(std::span(picture.rgba)), false};
+}
+
+report::RunInfo run_info(const scene::Settings& settings, const Session& session) {
+    const world::Flight& flight = session.world().flight;
+    report::RunInfo info;
+    info.title = flight.title;
+    info.settings_json = settings::settings_json(settings).dump(2);
+    info.version = base::program_version();
+    info.commit = base::program_commit();
+    info.gl_renderer = session.context().renderer;
+    info.path_offset_m = {flight.place_m.x, flight.place_m.y, flight.offset_m};
+    info.machine = report::read_machine_info(std::chrono::system_clock::now());
+    info.facts = {
+        {"ground", session.world().ground_name},
+        {"path turned by", fmt::format("{:.1f} degrees", deg_from_rad(flight.heading_rad))},
+        {"path lifted by", fmt::format("{:.1f} m", flight.offset_m)},
+        {"lowest clearance",
+         fmt::format("{:.1f} m at {:.2f} s", flight.lowest_clearance_m, flight.lowest_clearance_s)},
+        {"drawn by",
+         fmt::format("{}, OpenGL {}", session.context().kind, session.context().version)}};
+    if (settings.adapt.terrain) {
+        info.facts.emplace_back(
+            "adaptation", adaptation_text(scene::load_settings(settings, session.rate_hz())));
+    }
+    info.notes = session.world().notes;
+    info.inputs = world::input_hashes(settings);
+    return info;
+}
+
+bool is_recorded(const RecordOptions& options, const scene::Settings& settings) {
+    const bool changed_checkout = base::program_commit().ends_with('+');
+    if (changed_checkout || !options.folder || !report::is_run_file(*options.folder / "run.json")) {
+        return false;
+    }
+    using Json = nlohmann::ordered_json;
+    const auto file = *options.folder / "run.json";
+    const Json run = report::parsed_json(file, read_text_file(file));
+    const Json program = {
+        {"name", "octant"}, {"version", base::program_version()}, {"commit", base::program_commit()}};
+    Json inputs = Json::object();
+    for (const auto& [input, hash] : world::input_hashes(settings)) {
+        inputs[input] = hash;
+    }
+    return run.contains("summary") && run.value("settings", Json()) == settings::settings_json(settings) &&
+           run.value("inputs", Json()) == inputs && run.value("program", Json()) == program;
+}
+
+std::string write_report(const std::filesystem::path& folder) {
+    const report::LoadedRecording loaded = report::load_recording(folder);
+    const auto file = folder / "report.html";
+    write_file(file, report::html_report(std::span(&loaded, 1)));
+    return fmt::format("report: {}", file.string());
+}
+
+FlightRecorder::FlightRecorder(
+    const RecordOptions& options, const scene::Settings& settings, const Session& session)
+    : options_(options)
+    , picture_every_(settings.pictures.value_or(
+          std::max(1, static_cast<int>(std::lround(session.rate_hz()))))) {
+    if (options.video) {
+        video_.emplace(
+            *options.video,
+            report::VideoFormat{
+                settings.size_px.x, settings.size_px.y, 4, false, session.rate_hz()});
+    }
+    if (options.folder) {
+        report::RunInfo info = run_info(settings, session);
+        if (options.replay_of) {
+            info.facts.emplace_back("replay of", options.replay_of->string());
+        }
+        recording_.emplace(*options.folder, std::move(info));
+        // Whole at first: a killed flight's tracks are cut by its report.
+        write_tracks(*options.folder, session.world(), session.world().flight.trajectory.end_s());
+    }
+}
+
+void FlightRecorder::add(report::FrameRecord record, Session& session) {
+    const base::Stopwatch writing;
+    flown_until_s_ = record.sim_time_s;
+    session.hash_picture();
+    if (recording_ && picture_every_ > 0 && record.frame % picture_every_ == 0) {
+        recording_->add_picture(record.frame, view_of(session.picture()));
+    }
+    if (video_) {
+        video_->add(view_of(session.picture()));
+    }
+    record.record_ms = writing.ms();
+    if (recording_) {
+        recording_->add(record);
+    } else {
+        records_.push_back(record);
+    }
+}
+
+FlightEnd FlightRecorder::finish(const Session& session) {
+    FlightEnd end;
+    end.state_hash = session.state_hash();
+    end.picture_hash = session.picture_hash();
+    if (video_) {
+        const report::VideoResult result = video_->finish();
+        switch (result.outcome) {
+        case report::VideoResult::Outcome::Made:
+            end.notes.push_back(fmt::format("video: {}", options_.video->string()));
+            break;
+        case report::VideoResult::Outcome::NoFfmpeg:
+            end.missing.push_back(fmt::format("video {}", result.text));
+            break;
+        case report::VideoResult::Outcome::Failed:
+            end.fault = fmt::format("{}: {}", options_.video->string(), result.text);
+            break;
+        }
+    }
+    if (recording_) {
+        end.statistics =
+            recording_->finish({end.state_hash, end.picture_hash, report::read_cpu_times()});
+        write_tracks(*options_.folder, session.world(), flown_until_s_);
+        end.notes.push_back(write_report(*options_.folder));
+        if (!report::gnuplot_installed()) {
+            end.missing.emplace_back("plots not made: gnuplot is not installed");
+        }
+    } else {
+        end.statistics = report::statistics_of(records_);
+    }
+    return end;
+}
+
+} // namespace octant::ui::flight

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "ui/report/recording.h"
+#include "ui/report/video_pipe.h"
+#include "ui/flight/session.h"
+#include "visuals/scene/settings.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace octant::ui::flight {
+
+/// What is kept of a flight.
+struct RecordOptions {
+    std::optional<std::filesystem::path> folder;
+    std::optional<std::filesystem::path> video;
+    std::optional<std::filesystem::path> replay_of; ///< recording whose rows are flown again
+};
+
+/// What came out of a flight.
+struct FlightEnd {
+    report::Statistics statistics;
+    std::uint64_t state_hash = 0;
+    std::uint64_t picture_hash = 0;
+    std::vector<std::string> notes;   ///< where results are
+    std::vector<std::string> missing; ///< what was asked for and needs a program that is not here
+    std::string fault;                ///< what went wrong beside the recording; empty = nothing
+};
+
+/// True when the folder holds a finished recording of these settings and input files by this
+/// program. Never true for a program built from a changed checkout: two of them may differ.
+bool is_recorded(const RecordOptions& options, const visuals::scene::Settings& settings);
+
+/// What run.json says of a flight.
+report::RunInfo run_info(const visuals::scene::Settings& settings, const Session& session);
+
+/// Makes a folder's report.html anew; gives a line that says where it is. Throws Error.
+std::string write_report(const std::filesystem::path& folder);
+
+/// A picture as the report's files take it; refers to it.
+report::PictureView view_of(const visuals::gl::Picture& picture);
+
+/// Writes a flight as it is flown: recording folder, pictures, video. Without a folder only the
+/// figures are kept.
+class FlightRecorder {
+public:
+    /// Makes the folder with run.json and the track files. Throws Error.
+    FlightRecorder(
+        const RecordOptions& options,
+        const visuals::scene::Settings& settings,
+        const Session& session);
+
+    /// Takes the frame that the session has just drawn. Throws Error (disk full).
+    void add(report::FrameRecord record, Session& session);
+
+    /// Ends the recording and writes its report. Throws Error.
+    FlightEnd finish(const Session& session);
+
+private:
+    RecordOptions options_;
+    int picture_every_ = 0;
+    std::optional<report::Recording> recording_;
+    std::optional<report::VideoPipe> video_;
+    std::vector<report::FrameRecord> records_; ///< without a folder
+    double flown_until_s_ = 0.0;
+};
+
+} // namespace octant::ui::flight

@@ -1,0 +1,108 @@
+#include "ui/flight/replay.h"
+
+#include "sim/base/error.h"
+#include "ui/report/frame_csv.h"
+#include "ui/report/run_file.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <string_view>
+
+namespace octant::ui::flight {
+
+namespace {
+
+constexpr int most_triangles = 100000000; ///< more than any control asks for
+
+std::string compared(const Replay& replay, const std::string& recorded, const std::string& now) {
+    if (!replay.ended) {
+        return "unknown";
+    }
+    return recorded == now ? "same" : "other";
+}
+
+} // namespace
+
+Replay read_replay(const std::filesystem::path& folder) {
+    constexpr std::array<std::string_view, 1> decisions{"triangle_target"};
+    const report::RunFile run = report::read_run_file(folder / "run.json");
+    const auto file = folder / "frames.csv";
+    const report::FrameFile rows = report::read_frame_csv(file, decisions);
+    if (rows.records.empty()) {
+        error_in(file, "expected the rows of a flight, got none");
+    }
+    const bool in_a_window = std::ranges::any_of(
+        run.facts, [](const auto& fact) { return fact.first == report::flown_fact; });
+    if (in_a_window) {
+        error_in(
+            folder / "run.json",
+            "expected a recording of octant fly, got one of a window, whose pictures follow the "
+            "clock; --settings with this file repeats its flight");
+    }
+    Replay replay{folder, {}, run.ended, run.state_hash, run.picture_hash};
+    for (const report::FrameRecord& row : rows.records) {
+        const auto frame = static_cast<int>(replay.decisions.size());
+        if (row.frame != frame) {
+            error_at(file, frame + 2, fmt::format("expected frame {}, got {}", frame, row.frame));
+        }
+        if (row.triangle_target < 1 || row.triangle_target > most_triangles) {
+            error_at(
+                file,
+                frame + 2,
+                fmt::format(
+                    "expected a triangle_target from 1 to {}, got {}",
+                    most_triangles,
+                    row.triangle_target));
+        }
+        replay.decisions.push_back({row.triangle_target, row.smooth_target});
+    }
+    return replay;
+}
+
+void check_frames(const Replay& replay, int frames) {
+    const auto rows = static_cast<int>(replay.decisions.size());
+    if (rows > frames) {
+        error_at(
+            replay.folder / "frames.csv",
+            frames + 2,
+            fmt::format("expected at most the {} frames of this flight, got {}", frames, rows));
+    }
+}
+
+void refuse_settings_beside_replay(const CLI::App& command) {
+    constexpr std::array<std::string_view, 3> harmless{"realtime", "pictures", "warm-up"};
+    for (const CLI::Option* option : command.get_options()) {
+        const bool sets = option->get_group() == "Settings" || option->check_name("--settings");
+        const bool allowed = std::any_of(harmless.begin(), harmless.end(), [&](const auto& name) {
+            return option->check_name("--" + std::string(name));
+        });
+        if (option->count() > 0 && sets && !allowed) {
+            throw Error(fmt::format(
+                "--replay: expected no option beside it that may change pictures, got {}",
+                option->get_name()));
+        }
+    }
+}
+
+ReplayVerdict
+verdict_on(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture_hash) {
+    ReplayVerdict verdict;
+    verdict.state_hash = compared(replay, replay.state_hash, fmt::format("{:016x}", state_hash));
+    verdict.picture_hash =
+        compared(replay, replay.picture_hash, fmt::format("{:016x}", picture_hash));
+    verdict.differs = verdict.state_hash == "other" || verdict.picture_hash == "other";
+    const std::string name = replay.folder.string();
+    verdict.line =
+        replay.ended
+            ? fmt::format(
+                  "{} states, {} pictures as {}", verdict.state_hash, verdict.picture_hash, name)
+            : fmt::format(
+                  "nothing to compare with: {} was cut short after {} frames and has no hashes",
+                  name,
+                  replay.decisions.size());
+    return verdict;
+}
+
+} // namespace octant::ui::flight

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace octant::ui::flight {
+
+/// What the clock decided for a frame, or the settings.
+struct Decision {
+    int triangle_target = 0;
+    int smooth_target = -1; ///< negative: by the settings' share
+};
+
+/// A recording that is to be flown again as its rows say.
+struct Replay {
+    std::filesystem::path folder;
+    std::vector<Decision> decisions; ///< by frame, at least one
+    bool ended = false;              ///< false: it was killed and has no hashes
+    std::string state_hash;          ///< 16 hex digits
+    std::string picture_hash;
+};
+
+/// Reads run.json and frames.csv of a recording, a killed one too; its settings are for
+/// read_settings(). Throws Error with file and line for rows that are damaged, missing among others
+/// or without a triangle target.
+Replay read_replay(const std::filesystem::path& folder);
+
+/// Throws Error when the recording has more rows than its settings make frames.
+void check_frames(const Replay& replay, int frames);
+
+/// Throws Error when the command line sets anything beside --replay that could change pictures.
+void refuse_settings_beside_replay(const CLI::App& command);
+
+/// How a replay compares with its recording.
+struct ReplayVerdict {
+    std::string state_hash;   ///< "same", "other" or "unknown" (the recording was killed)
+    std::string picture_hash; ///< likewise
+    bool differs = false;     ///< at least one of them is known to be another
+    std::string line;         ///< all of it for people
+};
+
+ReplayVerdict
+verdict_on(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture_hash);
+
+} // namespace octant::ui::flight

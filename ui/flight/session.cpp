@@ -1,0 +1,321 @@
+#include "ui/flight/session.h"
+
+#include "ui/report/statistics.h"
+#include "visuals/gl/platform_tuning.h"
+#include "visuals/gl/window_context.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <utility>
+
+namespace octant::ui::flight {
+
+namespace scene = visuals::scene;
+namespace gl = visuals::gl;
+
+std::unique_ptr<gl::Context> make_context(scene::ContextKind kind) {
+    switch (kind) {
+    case scene::ContextKind::Egl:
+        return gl::make_egl_context();
+    case scene::ContextKind::Window:
+        return gl::make_window_context({.visible = false});
+    case scene::ContextKind::OsMesa:
+        break;
+    }
+    return gl::make_osmesa_context();
+}
+
+namespace {
+
+std::unique_ptr<gl::Context> made(std::unique_ptr<gl::Context> context, scene::ContextKind kind) {
+    return context ? std::move(context) : make_context(kind);
+}
+
+} // namespace
+
+Session::Session(const scene::Settings& settings, Shows shows, std::unique_ptr<gl::Context> context)
+    : settings_(settings)
+    , context_(made(std::move(context), settings.context))
+    , world_(world::load_world(settings, drawn_by()))
+    , renderer_(std::make_unique<gl::Renderer>(
+          context_->functions(), settings.size_px.x, settings.size_px.y, settings.samples))
+    , times_(world::frame_times_of(settings_, world_.flight))
+    , ground_height_(
+          [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); }) {
+    load_into_renderer(shows);
+    renderer_->warm_up();
+    gl::spread_raster_threads();
+    if (settings_.inset) {
+        inset_ = std::make_unique<InsetView>(settings_, world_, drawn_by());
+    }
+    start_flight();
+}
+
+world::DrawnBy Session::drawn_by() const {
+    return gl::is_processor(context_->description().renderer) ? world::DrawnBy::Processor : world::DrawnBy::Gpu;
+}
+
+Session::~Session() {
+    context_->make_current();
+}
+
+void Session::load_into_renderer(Shows shows) {
+    if (shows == Shows::PolygonNumbers) {
+        ids_.emplace(world_.scene);
+        renderer_->load_models(ids_->models());
+        return;
+    }
+    std::vector<scene::ModelBuffers> buffers;
+    for (const scene::AircraftModel& model : world_.scene.models) {
+        buffers.push_back(model.buffers);
+    }
+    renderer_->load_models(buffers);
+    load_texture();
+}
+
+void Session::load_texture() {
+    if (world_.scene.ground_texture) {
+        renderer_->load_ground_texture(*world_.scene.ground_texture);
+        world_.scene.ground_texture->albedo.texels = {};
+        world_.scene.ground_texture->normal.texels = {};
+    }
+}
+
+void Session::start_flight() {
+    simulation_.emplace(world_);
+    planner_.emplace(world_.scene, settings_);
+    load_settings_ = scene::load_settings(settings_, rate_hz());
+    load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
+    shading_.reset();
+    begin_at(times_.at_s.front());
+    planner_->settle(camera_of(settings_));
+}
+
+void Session::begin_at(double time_s) {
+    simulation_->begin_at(time_s);
+    next_is_reached_ = false;
+}
+
+void Session::replay(std::vector<Decision> decisions) {
+    times_.cut_to(decisions.size());
+    replayed_ = std::move(decisions);
+}
+
+int Session::decide_triangles(int frame) {
+    if (!replayed_.empty()) {
+        const Decision& replayed = replayed_[static_cast<std::size_t>(frame)];
+        load_ = scene::with_target(load_, replayed.triangle_target);
+        return load_.triangles();
+    }
+    return settings_.adapt.terrain ? load_.triangles() : scene::triangle_target(settings_);
+}
+
+/// Nothing: as the settings' share says.
+std::optional<int> Session::decide_smooth(int frame) const {
+    if (!replayed_.empty()) {
+        const int replayed = replayed_[static_cast<std::size_t>(frame)].smooth_target;
+        return replayed < 0 ? std::nullopt : std::optional(replayed);
+    }
+    if (!settings_.adapt.shading) {
+        return std::nullopt;
+    }
+    return shading_ ? shading_->smooth : 0;
+}
+
+/// From what a frame took, how many polygons of the next one are smooth.
+void Session::adapt_shading(const scene::PlanCounts& counts, const report::FrameRecord& record) {
+    if (!settings_.adapt.shading || record.warm_up || counts.may_be_smooth == 0) {
+        return;
+    }
+    if (!shading_) {
+        shading_ = visuals::shading::starting_shading(counts.may_be_smooth);
+        return;
+    }
+    visuals::shading::ShadingControl control;
+    control.share_ms = 1000.0 / rate_hz();
+    shading_ = visuals::shading::next_shading(
+        *shading_,
+        control,
+        {record.frame_ms, counts.may_be_smooth - counts.smooth_polygons, counts.smooth_polygons},
+        counts.may_be_smooth);
+}
+
+/// What the frame's row says as its stress; decides the next frame's target where it adapts.
+double Session::stress_after(const report::FrameRecord& record) {
+    if (!settings_.adapt.terrain) {
+        return record.frame_ms * rate_hz() / 1000.0;
+    }
+    if (!record.warm_up) {
+        load_ =
+            scene::next_state(load_, load_settings_, {record.frame_ms, record.terrain_triangles});
+    }
+    return load_.stress.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+scene::Camera Session::camera_of(const scene::Settings& settings) const {
+    scene::Subject subject = world_.scene.models[world_.scene.aircraft.front()].subject;
+    subject.radius_m = simulation_->formation().framed_radius_m(subject.radius_m);
+    return scene::camera_of(
+        settings,
+        simulation_->states().front(),
+        simulation_->rig(),
+        subject,
+        world_.points,
+        ground_height_);
+}
+
+/// Chooses the cameras of the simulation's time.
+void Session::look(Moment& moment) const {
+    moment.camera = camera_of(settings_);
+    if (inset_) {
+        moment.inset_camera = camera_of(inset_->settings());
+    }
+}
+
+void Session::reach(double time_s, int frame, Moment& moment) {
+    simulation_->advance_to(time_s);
+    moment.time_s = time_s;
+    moment.states.assign(simulation_->states().begin(), simulation_->states().end());
+    moment.state_hash = simulation_->state_hash();
+    look(moment);
+    moment.triangle_target = decide_triangles(frame);
+}
+
+/// Begins on the ground of the moment to come.
+void Session::mesh_ahead() {
+    planner_->set_triangle_target(next_.triangle_target);
+    planner_->prepare(next_.camera);
+    if (inset_) {
+        inset_->prepare(next_.inset_camera);
+    }
+}
+
+report::FrameRecord Session::draw(int frame) {
+    const auto number = static_cast<std::size_t>(frame);
+    const bool last = number + 1 == times_.at_s.size();
+    const report::FrameRecord record = picture_of(
+        frame, times_.at_s[number], last ? std::optional<double>() : times_.at_s[number + 1]);
+    if (last) {
+        simulation_->advance_to(std::max(times_.until_s, record.sim_time_s));
+    }
+    return record;
+}
+
+report::FrameRecord Session::draw_at(double time_s, std::optional<double> next_s) {
+    return picture_of(drawn_++, time_s, next_s);
+}
+
+scene::PlanCounts Session::make_plans() {
+    planner_->set_triangle_target(now_.triangle_target);
+    planner_->set_smooth(smooth_target_);
+    scene::PlanCounts counts;
+    plan_ = &planner_->plan(now_.camera, now_.states, counts);
+    if (ids_) {
+        plan_ = &ids_->of(*plan_);
+    }
+    std::optional<double> share; // of the picture's polygons, and so of the inset's
+    if (smooth_target_ && counts.may_be_smooth > 0) {
+        share = std::min(static_cast<double>(*smooth_target_) / counts.may_be_smooth, 1.0);
+    }
+    inset_plan_ = inset_ ? &inset_->plan(now_.inset_camera, now_.states, share) : nullptr;
+    return counts;
+}
+
+void Session::draw_plans() {
+    renderer_->draw(*plan_);
+    if (inset_plan_ != nullptr) {
+        renderer_->draw_inset(*inset_plan_, inset_->rectangle());
+    }
+}
+
+report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<double> next_s) {
+    if (frame == 0) {
+        since_first_frame_ = base::Stopwatch();
+    }
+    report::FrameRecord record;
+    record.frame = frame;
+    record.warm_up = frame < settings_.warm_up;
+    record.sim_time_s = time_s;
+    record.wall_s = since_first_frame_.s();
+
+    const base::Stopwatch whole;
+    base::Stopwatch stage;
+    if (next_is_reached_ && next_.time_s == time_s) {
+        std::swap(now_, next_);
+    } else {
+        reach(time_s, frame, now_);
+    }
+    next_is_reached_ = false;
+    record.sim_ms = stage.lap_ms();
+
+    smooth_target_ = decide_smooth(frame);
+    planner_->refine(now_.camera, now_.states);
+    record.refine_ms = stage.lap_ms();
+    const scene::PlanCounts counts = make_plans();
+    record.plan_ms = record.refine_ms + stage.lap_ms();
+
+    if (next_s && settings_.mesh_ahead) {
+        reach(*next_s, frame + 1, next_);
+        next_is_reached_ = true;
+        record.sim_ms += stage.lap_ms();
+        mesh_ahead();
+    }
+    draw_plans();
+    renderer_->finish();
+    record.draw_ms = stage.lap_ms();
+    if (presenter_) {
+        presenter_(*renderer_);
+    } else {
+        renderer_->finish_and_read(picture_);
+    }
+    record.read_ms = stage.lap_ms();
+    record.frame_ms = whole.ms();
+    fill_in(counts, record);
+    return record;
+}
+
+void Session::fill_in(const scene::PlanCounts& counts, report::FrameRecord& record) {
+    record.triangle_target = now_.triangle_target;
+    record.smooth_target = smooth_target_.value_or(-1);
+    record.smooth_polygons = counts.smooth_polygons;
+    record.aircraft_level = counts.aircraft_level;
+    record.refine_splits = counts.refine_splits;
+    record.refine_collapses = counts.refine_collapses;
+    record.terrain_triangles = counts.ground.triangles;
+    record.terrain_fans = counts.ground.fans;
+    record.aircraft_polygons = counts.aircraft_polygons;
+    record.draw_cell = counts.draw_cell;
+    record.draw_calls = renderer_->draw_calls();
+    record.shadow_triangles = counts.shadow_triangles;
+    record.cuts = counts.cuts;
+    record.unordered = counts.unordered;
+    record.resolution_c = counts.ground.resolution;
+    record.error_px = counts.ground.error_px;
+    record.triangle_change = record.frame == 0 ? 0 : counts.ground.triangles - last_triangles_;
+    last_triangles_ = counts.ground.triangles;
+    record.stress = stress_after(record);
+    adapt_shading(counts, record);
+    record.overrun = record.frame_ms > report::overrun_16_ms ? 1 : 0;
+    record.eye_m = now_.camera.eye_m;
+    record.aircraft_m = now_.states.front().position_m;
+    record.aircraft_agl_m = record.aircraft_m.z -
+                            ground_height_(record.aircraft_m.x, record.aircraft_m.y).value_or(0.0);
+}
+
+void Session::read_picture() {
+    if (renderer_->is_in_window()) {
+        if (plan_ == nullptr) {
+            make_plans();
+        }
+        renderer_->aim_at_window(glm::ivec2(0));
+        draw_plans();
+    }
+    renderer_->finish_and_read(picture_);
+}
+
+void Session::hash_picture() {
+    picture_hash_.add(std::as_bytes(std::span(picture_.rgba)));
+}
+
+} // namespace octant::ui::flight

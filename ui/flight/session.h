@@ -1,0 +1,198 @@
+#pragma once
+
+#include "ui/world/frame_times.h"
+#include "ui/flight/inset_view.h"
+#include "ui/flight/replay.h"
+#include "ui/report/frame_record.h"
+#include "ui/flight/simulation.h"
+#include "ui/base/stopwatch.h"
+#include "ui/world/world.h"
+#include "visuals/gl/context.h"
+#include "visuals/gl/picture.h"
+#include "visuals/gl/renderer.h"
+#include "visuals/scene/id_plan.h"
+#include "visuals/scene/load_controller.h"
+#include "visuals/scene/planner.h"
+#include "visuals/scene/settings.h"
+#include "visuals/shading/shading_controller.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace octant::ui::flight {
+
+/// The context that the settings ask for, current in this thread. Throws Error.
+std::unique_ptr<visuals::gl::Context> make_context(visuals::scene::ContextKind kind);
+
+/// What the pictures of a session show.
+enum class Shows {
+    World,
+    PolygonNumbers ///< scene::IdPlan: which polygon or triangle of ground each pixel belongs to
+};
+
+/// The conductor of a run: takes each frame from simulation through plan and picture to its record.
+/// The only place that reads the clock during a flight.
+///
+/// A flight without a window is frames() pictures by draw(frame). A window asks for pictures of its
+/// own times by draw_at(), and changes settings and simulation between them.
+class Session {
+public:
+    /// Loads the world and draws once in every drawing state, in this context or in one that it
+    /// makes as the settings say. Throws Error. Stays in its place: parts of it point at others.
+    explicit Session(
+        const visuals::scene::Settings& settings,
+        Shows shows = Shows::World,
+        std::unique_ptr<visuals::gl::Context> context = nullptr);
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+    Session(Session&&) = delete;
+    Session& operator=(Session&&) = delete;
+
+    const world::World& world() const { return world_; }
+
+    const visuals::scene::Settings& settings() const { return settings_; }
+
+    const visuals::gl::ContextDescription& context() const { return context_->description(); }
+
+    /// Number of frames of the run.
+    int frames() const { return static_cast<int>(times_.at_s.size()); }
+
+    /// Frames a second of simulated time, for video and stress.
+    double rate_hz() const { return times_.rate_hz; }
+
+    /// Makes the session's context current: to be called before draw() when several sessions take
+    /// turns.
+    void make_current() { context_->make_current(); }
+
+    /// Flies as many frames as there are decisions, at most frames() (asserted), each as decided
+    /// whatever the clock says. Before the first draw().
+    void replay(std::vector<Decision> decisions);
+
+    /// Simulates up to the frame's time, plans, draws and reads the picture. Frames come in order.
+    report::FrameRecord draw(int frame);
+
+    /// The same for a time not before those of earlier frames, and the time of the next picture
+    /// where it is known: that one's ground is meshed while this one is drawn. Its camera is then
+    /// chosen now, so that what apply() or the simulation change later shows in the picture after
+    /// it.
+    report::FrameRecord draw_at(double time_s, std::optional<double> next_s);
+
+    /// Called in place of reading the picture: shows it.
+    using Presenter = std::function<void(visuals::gl::Renderer&)>;
+
+    void present_by(Presenter presenter) { presenter_ = std::move(presenter); }
+
+    /// The next pictures may be drawn straight into a window of that size.
+    void aim_at_window(const glm::ivec2& window_px) { renderer_->aim_at_window(window_px); }
+
+    /// Changes what the next frames show. Loads what has to be loaded anew; the flight then starts
+    /// again where its aircraft, path or ground are others. Throws Error and leaves everything as
+    /// it was.
+    void apply(const visuals::scene::Settings& settings);
+
+    /// To be changed between frames. Begin at another time by begin_at().
+    Simulation& simulation() { return *simulation_; }
+
+    /// Goes to a time of the path.
+    void begin_at(double time_s);
+
+    /// From the eye point that the last picture was seen from.
+    const visuals::scene::Camera& camera() const { return now_.camera; }
+
+    /// Simulation::state_hash when the last picture's time was reached.
+    std::uint64_t picture_state_hash() const { return now_.state_hash; }
+
+    /// States of all aircraft in the last picture.
+    std::span<const sim::AircraftState> states() const { return now_.states; }
+
+    /// For another plan of the same world.
+    visuals::scene::Scene& scene() { return world_.scene; }
+
+    /// Reads the last picture where a presenter showed it; draws it once more if it went straight
+    /// into a window.
+    void read_picture();
+
+    /// Picture of the last frame that was read, top row first.
+    const visuals::gl::Picture& picture() const { return picture_; }
+
+    /// What `--adapt shading` has found out.
+    const std::optional<visuals::shading::ShadingState>& shading() const { return shading_; }
+
+    /// Over the aircraft states at every fixed step so far, to the end of the run once its last
+    /// frame is drawn, and over the pixels of every frame.
+    std::uint64_t state_hash() const { return simulation_->state_hash(); }
+
+    std::uint64_t picture_hash() const { return picture_hash_.value(); }
+
+    /// Adds the last picture to the picture hash. Apart from draw(), because it is not the frame's
+    /// work.
+    void hash_picture();
+
+private:
+    /// A frame that is simulated, with its camera chosen.
+    struct Moment {
+        double time_s = 0.0;
+        std::vector<sim::AircraftState> states;
+        visuals::scene::Camera camera;
+        visuals::scene::Camera inset_camera;
+        int triangle_target = 0;
+        std::uint64_t state_hash = 0;
+    };
+
+    world::DrawnBy drawn_by() const;
+    void load_into_renderer(Shows shows);
+    void load_texture();
+    void start_flight();
+    report::FrameRecord picture_of(int frame, double time_s, std::optional<double> next_s);
+    void look(Moment& moment) const;
+    void reach(double time_s, int frame, Moment& moment);
+    int decide_triangles(int frame);
+    std::optional<int> decide_smooth(int frame) const;
+    void adapt_shading(const visuals::scene::PlanCounts& counts, const report::FrameRecord& record);
+    double stress_after(const report::FrameRecord& record);
+    visuals::scene::Camera camera_of(const visuals::scene::Settings& settings) const;
+    void mesh_ahead();
+    visuals::scene::PlanCounts make_plans();
+    void draw_plans();
+    void fill_in(const visuals::scene::PlanCounts& counts, report::FrameRecord& record);
+    void change_world(const visuals::scene::Settings& settings);
+    void change_picture(const visuals::scene::Settings& settings);
+    void take_ground(world::World* other);
+    void follow_inset(std::unique_ptr<InsetView> new_inset);
+
+    visuals::scene::Settings settings_;
+    std::unique_ptr<visuals::gl::Context> context_;
+    world::World world_;
+    std::unique_ptr<visuals::gl::Renderer> renderer_; ///< goes before its context
+    std::optional<visuals::scene::Planner> planner_;
+    std::unique_ptr<InsetView> inset_;
+    std::optional<visuals::scene::IdPlan> ids_;
+    std::optional<Simulation> simulation_;
+    world::FrameTimes times_;
+    visuals::scene::GroundHeight ground_height_;
+    Moment now_;
+    Moment next_;
+    bool next_is_reached_ = false;
+    const visuals::scene::FramePlan* plan_ = nullptr; ///< of the last picture; null = is no more
+    const visuals::scene::FramePlan* inset_plan_ = nullptr;
+    Presenter presenter_;
+    visuals::gl::Picture picture_;
+    int last_triangles_ = 0;
+    visuals::scene::LoadSettings load_settings_;
+    visuals::scene::LoadState load_;
+    std::optional<visuals::shading::ShadingState>
+        shading_;                      ///< nothing before the first frame counts
+    std::optional<int> smooth_target_; ///< of the last picture; nothing: by the settings' share
+    std::vector<Decision> replayed_;   ///< by frame; empty = nothing is replayed
+    int drawn_ = 0;                    ///< pictures by draw_at
+    Hash picture_hash_;
+    base::Stopwatch since_first_frame_;
+};
+
+} // namespace octant::ui::flight

@@ -1,0 +1,197 @@
+#include "ui/flight/simulation.h"
+
+#include "sim/base/axes.h"
+#include "sim/fixed_step.h"
+#include "visuals/scene/aircraft_model.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cassert>
+
+namespace octant::ui::flight {
+
+namespace scene = visuals::scene;
+
+namespace {
+
+/// How far an aircraft reaches below its reference point when it stands upright, metres.
+double reach_below_m(const scene::AircraftModel& model) {
+    float most_m = 0.0F;
+    for (const scene::ModelVertex& vertex : model.buffers.vertices) {
+        most_m = std::max(most_m, vertex.position_m.z);
+    }
+    return static_cast<double>(most_m);
+}
+
+void add_state(Hash& hash, const sim::AircraftState& state) {
+    hash.add(std::as_bytes(std::span(glm::value_ptr(state.position_m), 3)));
+    hash.add(std::as_bytes(std::span(glm::value_ptr(state.velocity_mps), 3)));
+    hash.add(std::as_bytes(std::span(glm::value_ptr(state.body_to_world), 4)));
+}
+
+sim::AircraftState between(const sim::AircraftState& a, const sim::AircraftState& b, double share) {
+    return {
+        .time_s = glm::mix(a.time_s, b.time_s, share),
+        .position_m = glm::mix(a.position_m, b.position_m, share),
+        .velocity_mps = glm::mix(a.velocity_mps, b.velocity_mps, share),
+        .body_to_world = glm::slerp(a.body_to_world, b.body_to_world, share),
+        .load_factor = glm::mix(a.load_factor, b.load_factor, share)};
+}
+
+} // namespace
+
+Simulation::Simulation(const world::World& world)
+    : world_(world)
+    , formation_(world::formation_of(world.scene))
+    , states_(world.scene.aircraft.size()) {
+    for (const std::uint32_t model : world.scene.aircraft) {
+        reach_down_m_.push_back(reach_below_m(world.scene.models[model]));
+    }
+    begin_at(world.flight.trajectory.start_s());
+}
+
+void Simulation::begin_at(double time_s) {
+    pilot_.reset();
+    end_.reset();
+    hash_ = {};
+    log_.clear();
+    time_s_ = time_s;
+    next_step_ = sim::step_at(time_s);
+    states_from(world_.flight.trajectory.state_at(time_s));
+    rig_ = scene::advanced({}, states_.front());
+}
+
+long Simulation::step() const {
+    return next_step_ - 1;
+}
+
+void Simulation::states_from(const sim::AircraftState& leader) {
+    states_.front() = leader;
+    for (std::size_t i = 1; i < states_.size(); ++i) {
+        states_[i] = formation_.wingman_of(leader, static_cast<int>(i));
+    }
+}
+
+void Simulation::add_to_hash() {
+    for (const sim::AircraftState& state : states_) {
+        add_state(hash_, state);
+    }
+}
+
+void Simulation::take_step() {
+    states_from(world_.flight.trajectory.state_at(sim::time_of_step(next_step_)));
+    step_done();
+}
+
+/// A step into the ground or off the map is not taken: the flight ends before it.
+void Simulation::take_step_by_hand() {
+    pilot_->step(controls_);
+    sim::AircraftState state = pilot_->state();
+    state.time_s = sim::time_of_step(next_step_);
+    states_from(state);
+    end_ = end_among(states_);
+    if (end_) {
+        states_from(last_two_.back());
+        return;
+    }
+    last_two_ = {last_two_.back(), state};
+    step_done();
+}
+
+void Simulation::step_done() {
+    rig_ = scene::advanced(rig_, states_.front());
+    add_to_hash();
+    if (logs_) {
+        log_.push_back(states_.front());
+    }
+    ++next_step_;
+}
+
+std::optional<Simulation::End>
+Simulation::end_among(std::span<const sim::AircraftState> states) const {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const glm::dvec3& at_m = states[i].position_m;
+        const auto ground_m = world_.scene.ground->height_at(at_m.x, at_m.y);
+        if (!ground_m) {
+            return End::OffTheMap;
+        }
+        if (at_m.z - *ground_m < reach_down_m_[i]) {
+            return End::OnTheGround;
+        }
+    }
+    return std::nullopt;
+}
+
+void Simulation::advance_to(double time_s) {
+    assert(time_s >= time_s_);
+    time_s_ = time_s;
+    while (next_step_ <= sim::step_at(time_s) && !end_) {
+        if (by_hand()) {
+            take_step_by_hand();
+        } else {
+            take_step();
+        }
+    }
+    if (!by_hand()) {
+        states_from(world_.flight.trajectory.state_at(time_s));
+        return;
+    }
+    const double since_step_s = time_s - sim::time_of_step(step());
+    states_from(between(
+        last_two_.front(), last_two_.back(), std::clamp(since_step_s / sim::step_s, 0.0, 1.0)));
+}
+
+void Simulation::start_log() {
+    assert(next_step_ > sim::step_at(time_s_));
+    const std::vector<sim::AircraftState> shown = states_;
+    const sim::AircraftState leader = at_last_step();
+    states_from(leader);
+    hash_ = {};
+    add_to_hash();
+    states_ = shown;
+    logs_ = true;
+    log_ = {leader};
+}
+
+void Simulation::take_over(std::string_view aircraft) {
+    sim::AircraftState start = at_last_step();
+    start.time_s = sim::time_of_step(step());
+    hand_to_pilot(aircraft, start);
+}
+
+void Simulation::level_off(std::string_view aircraft) {
+    assert(by_hand());
+    constexpr double off_the_ground_m = 200.0;
+    glm::dvec3 position_m = last_two_.back().position_m;
+    position_m.z += end_ == End::OnTheGround ? off_the_ground_m : 0.0;
+    const double slowest_mps = aircraft == "500md" ? 0.0 : 120.0; // well above the F-15's stall
+    sim::AircraftState start = sim::trimmed_state(
+        aircraft,
+        position_m,
+        euler_from_body_to_world(last_two_.back().body_to_world).heading_rad,
+        std::max(glm::length(last_two_.back().velocity_mps), slowest_mps));
+    start.time_s = sim::time_of_step(step());
+    hand_to_pilot(aircraft, start);
+}
+
+void Simulation::hand_to_pilot(std::string_view aircraft, const sim::AircraftState& start) {
+    pilot_ = sim::hand_flight(aircraft, start);
+    controls_ = {.throttle = pilot_->trim_throttle()};
+    last_two_ = {start, start};
+    end_.reset();
+}
+
+sim::AircraftState Simulation::at_last_step() const {
+    return by_hand() ? last_two_.back()
+                     : world_.flight.trajectory.state_at(sim::time_of_step(step()));
+}
+
+void Simulation::set_controls(const sim::PilotControls& controls) {
+    assert(by_hand());
+    controls_ = controls;
+}
+
+} // namespace octant::ui::flight

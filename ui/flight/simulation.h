@@ -1,0 +1,108 @@
+#pragma once
+
+#include "sim/aircraft_state.h"
+#include "sim/base/hash.h"
+#include "sim/hand_flight.h"
+#include "ui/world/formation.h"
+#include "ui/world/world.h"
+#include "visuals/scene/camera_rig.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace octant::ui::flight {
+
+/// The aircraft of a run in fixed simulation steps, along its path or, from a takeover on, by a
+/// pilot's hands. What it gives depends on the steps alone, not on the times it is asked for.
+class Simulation {
+public:
+    /// Begins at the path's start. The world must outlive the simulation.
+    explicit Simulation(const world::World& world);
+
+    /// Takes every step up to a time, not before the one it is at (asserted). Along a path states()
+    /// are those of the very time; by hand they lie between the last two steps and so one step
+    /// behind.
+    void advance_to(double time_s);
+
+    /// Begins anew at a time of the path, as if it started there. By hand no longer.
+    void begin_at(double time_s);
+
+    double time_s() const { return time_s_; }
+
+    const world::Formation& formation() const { return formation_; }
+
+    /// At time_s(), in the order of Scene::aircraft.
+    std::span<const sim::AircraftState> states() const { return states_; }
+
+    const visuals::scene::RigMemory& rig() const { return rig_; }
+
+    /// Over the states of all aircraft at every step since the simulation began or since
+    /// start_log(), the step that was the last one then among them.
+    std::uint64_t state_hash() const { return hash_.value(); }
+
+    /// Begins the hash anew and keeps the first aircraft's states from the last step on.
+    void start_log();
+
+    void stop_log() { logs_ = false; }
+
+    /// States of the first aircraft at every step since start_log().
+    std::span<const sim::AircraftState> log() const { return log_; }
+
+    /// The last step at or before time_s().
+    long step() const;
+
+    /// From the last step on the first aircraft is flown by hand as sim::hand_flight has it, from
+    /// the state it is in.
+    void take_over(std::string_view aircraft);
+
+    /// By hand only (asserted): on from where it is, level and in trim, on the same course and at
+    /// the same speed, unless that is too slow to fly; after its end on the ground 200 m above it.
+    void level_off(std::string_view aircraft);
+
+    bool by_hand() const { return pilot_ != nullptr; }
+
+    /// For the steps to come. By hand only (asserted).
+    void set_controls(const sim::PilotControls& controls);
+
+    const sim::PilotControls& controls() const { return controls_; }
+
+    /// By hand only (asserted).
+    const sim::HandFlight& pilot() const { return *pilot_; }
+
+    /// Why a flight by hand goes no further: the next step of one of its aircraft would do this.
+    enum class End { OnTheGround, OffTheMap };
+
+    std::optional<End> end_of_flight() const { return end_; }
+
+private:
+    void take_step();
+    void take_step_by_hand();
+    void step_done();
+    std::optional<End> end_among(std::span<const sim::AircraftState> states) const;
+    void states_from(const sim::AircraftState& leader);
+    void add_to_hash();
+    sim::AircraftState at_last_step() const;
+    void hand_to_pilot(std::string_view aircraft, const sim::AircraftState& start);
+
+    const world::World& world_;
+    world::Formation formation_;
+    std::vector<double> reach_down_m_; ///< of each aircraft, below its reference point
+    double time_s_ = 0.0;
+    long next_step_ = 0;
+    std::vector<sim::AircraftState> states_;
+    visuals::scene::RigMemory rig_;
+    Hash hash_;
+    bool logs_ = false;
+    std::vector<sim::AircraftState> log_;
+    std::unique_ptr<sim::HandFlight> pilot_;
+    sim::PilotControls controls_;
+    std::array<sim::AircraftState, 2> last_two_; ///< by hand: of the first aircraft, at steps
+    std::optional<End> end_;
+};
+
+} // namespace octant::ui::flight

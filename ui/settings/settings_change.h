@@ -1,0 +1,23 @@
+#pragma once
+
+#include "visuals/scene/settings.h"
+
+#include <string_view>
+
+namespace octant::ui::settings {
+
+/// What must be made anew when settings change while a flight goes on.
+enum class SettingsChange {
+    None,
+    Look,    ///< from where it is seen
+    Picture, ///< what is planned and drawn from now on
+    World    ///< aircraft, path or ground are loaded again
+};
+
+/// For a change of one setting, by its name.
+SettingsChange change_by(std::string_view setting);
+
+SettingsChange
+change_between(const visuals::scene::Settings& before, const visuals::scene::Settings& after);
+
+} // namespace octant::ui::settings

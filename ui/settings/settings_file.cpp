@@ -1,0 +1,134 @@
+#include "ui/settings/settings_file.h"
+
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "ui/report/json_text.h"
+#include "ui/settings/settings_fields.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace octant::ui::settings {
+
+using nlohmann::ordered_json;
+using visuals::scene::Settings;
+
+namespace {
+
+template <class Value>
+ordered_json json_of(const Value& value) {
+    return text_of(value);
+}
+
+ordered_json json_of(bool value) {
+    return value;
+}
+
+ordered_json json_of(int value) {
+    return value;
+}
+
+ordered_json json_of(double value) {
+    return value;
+}
+
+ordered_json json_of(const std::vector<std::string>& value) {
+    return value;
+}
+
+template <class Value>
+ordered_json json_of(const std::optional<Value>& value) {
+    return value ? json_of(*value) : ordered_json(nullptr);
+}
+
+/// Text of a JSON scalar as a person would have typed it.
+std::string scalar_text(const ordered_json& json) {
+    return json.is_string() ? json.get<std::string>() : json.dump();
+}
+
+template <class Value>
+void read_field(const FieldInfo& info, const ordered_json& json, Value& value) {
+    read_setting(info, scalar_text(json), value);
+}
+
+template <class Value>
+void read_field(const FieldInfo& info, const ordered_json& json, std::optional<Value>& value) {
+    if (json.is_null()) {
+        value.reset();
+    } else {
+        read_setting(info, scalar_text(json), value);
+    }
+}
+
+void read_field(const FieldInfo& info, const ordered_json& json, std::vector<std::string>& value) {
+    const bool names = json.is_array() && !json.empty() && json.size() <= 4096 &&
+                       std::all_of(json.begin(), json.end(), [](const ordered_json& item) {
+                           return item.is_string() && !item.get<std::string>().empty();
+                       });
+    if (!names) {
+        throw Error(
+            fmt::format("{}: expected a list of names, got {}", info.name, printable(json.dump())));
+    }
+    value = json.get<std::vector<std::string>>();
+}
+
+int line_of_key(const std::string& text, std::string_view key) {
+    const std::size_t at = text.find(fmt::format("\"{}\"", key));
+    return at == std::string::npos ? 1 : report::line_of_byte(text, at);
+}
+
+} // namespace
+
+ordered_json settings_json(const Settings& settings) {
+    ordered_json json = ordered_json::object();
+    visit_settings(settings, [&](const FieldInfo& info, const auto& value) {
+        json[std::string(info.name)] = json_of(value);
+    });
+    return json;
+}
+
+Settings read_settings(const std::filesystem::path& path) {
+    constexpr std::size_t largest_bytes = std::size_t{16} << 20;
+    const std::string text = read_text_file(path, largest_bytes);
+    ordered_json json = report::parsed_json(path, text);
+    if (json.is_object() && json.contains("settings")) {
+        json = ordered_json(json["settings"]);
+    }
+    if (!json.is_object()) {
+        error_at(
+            path, 1, fmt::format("expected a JSON object of settings, got {}", json.type_name()));
+    }
+    Settings settings;
+    std::set<std::string, std::less<>> known;
+    visit_settings(settings, [&](const FieldInfo& info, auto& value) {
+        known.insert(std::string(info.name));
+        const auto found = json.find(std::string(info.name));
+        if (found == json.end()) {
+            return;
+        }
+        try {
+            read_field(info, *found, value);
+        } catch (const Error& fault) {
+            error_at(path, line_of_key(text, info.name), fault.what());
+        }
+    });
+    for (const auto& [key, value] : json.items()) {
+        if (!known.contains(key)) {
+            error_at(
+                path,
+                line_of_key(text, key),
+                fmt::format("expected the name of a setting, got '{}'", printable(key)));
+        }
+    }
+    if (settings.samples != 1 && settings.samples != 4) {
+        error_at(
+            path,
+            line_of_key(text, "samples"),
+            fmt::format("samples: expected 1 or 4, got {}", settings.samples));
+    }
+    return settings;
+}
+
+} // namespace octant::ui::settings

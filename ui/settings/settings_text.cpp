@@ -1,0 +1,187 @@
+#include "ui/settings/settings_text.h"
+
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <limits>
+#include <utility>
+
+namespace octant::ui::settings {
+
+using visuals::scene::Adaptation;
+
+namespace {
+
+/// What can follow the clock, by name.
+constexpr std::array adaptations{
+    std::pair<std::string_view, bool Adaptation::*>{"terrain", &Adaptation::terrain},
+    std::pair<std::string_view, bool Adaptation::*>{"shading", &Adaptation::shading}};
+
+[[noreturn]] void refuse(const FieldInfo& info, const std::string& expected, std::string_view got) {
+    throw Error(
+        fmt::format("{}: expected {}, got '{}'", info.name, expected, printable(std::string(got))));
+}
+
+std::string range_of(const FieldInfo& info, std::string_view kind) {
+    return fmt::format("{} from {} to {}", kind, info.least, info.most);
+}
+
+/// Exactly `numbers.size()` finite numbers between separators.
+bool read_numbers(std::string_view text, char separator, std::span<double> numbers) {
+    const auto fields = split_fields(text, separator);
+    if (fields.size() != numbers.size()) {
+        return false;
+    }
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        const auto number = finite_number(fields[i]);
+        if (!number) {
+            return false;
+        }
+        numbers[i] = *number;
+    }
+    return true;
+}
+
+} // namespace
+
+std::string text_of(const std::string& value) {
+    return value;
+}
+
+std::string text_of(double value) {
+    return fmt::format("{}", value);
+}
+
+std::string text_of(int value) {
+    return fmt::format("{}", value);
+}
+
+std::string text_of(const glm::ivec2& value) {
+    return fmt::format("{}x{}", value.x, value.y);
+}
+
+std::string text_of(const glm::dvec3& value) {
+    return fmt::format("{},{},{}", value.x, value.y, value.z);
+}
+
+std::string text_of(const glm::vec3& colour) {
+    return fmt::format(
+        "{:02x}{:02x}{:02x}",
+        std::lround(colour.x * 255.0F),
+        std::lround(colour.y * 255.0F),
+        std::lround(colour.z * 255.0F));
+}
+
+std::string text_of(const Adaptation& adapt) {
+    std::string text;
+    for (const auto& [name, follows] : adaptations) {
+        if (adapt.*follows) {
+            text += text.empty() ? "" : ",";
+            text += name;
+        }
+    }
+    return text;
+}
+
+void read_setting(const FieldInfo& info, std::string_view text, std::string& value) {
+    if (text.empty()) {
+        refuse(info, "a name or a file", text);
+    }
+    value = text;
+}
+
+void read_setting(const FieldInfo& info, std::string_view text, double& value) {
+    const auto number = finite_number(text);
+    if (!number || *number < info.least || *number > info.most) {
+        refuse(info, range_of(info, "a number"), text);
+    }
+    value = *number;
+}
+
+void read_setting(const FieldInfo& info, std::string_view text, int& value) {
+    const auto number = whole_number(text);
+    if (!number || static_cast<double>(*number) < info.least ||
+        static_cast<double>(*number) > info.most) {
+        refuse(info, range_of(info, "a whole number"), text);
+    }
+    value = static_cast<int>(*number);
+}
+
+void read_setting(const FieldInfo& info, std::string_view text, bool& value) {
+    if (text != "true" && text != "false") {
+        refuse(info, "true or false", text);
+    }
+    value = text == "true";
+}
+
+void read_setting(const FieldInfo& info, std::string_view text, glm::ivec2& value) {
+    std::array<double, 2> numbers{};
+    const bool read = read_numbers(text, 'x', numbers);
+    for (const double number : numbers) {
+        if (!read || number != std::floor(number) || number < info.least || number > info.most) {
+            refuse(info, fmt::format("WIDTHxHEIGHT, each {} to {}", info.least, info.most), text);
+        }
+    }
+    value = {static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
+}
+
+void read_setting(const FieldInfo& info, std::string_view text, glm::dvec3& value) {
+    std::array<double, 3> numbers{};
+    if (!read_numbers(text, ',', numbers)) {
+        refuse(info, "X,Y,Z", text);
+    }
+    for (const double number : numbers) {
+        if (number < info.least || number > info.most) {
+            refuse(info, fmt::format("X,Y,Z, each {} to {}", info.least, info.most), text);
+        }
+    }
+    value = {numbers[0], numbers[1], numbers[2]};
+}
+
+void read_setting(const FieldInfo& info, std::string_view text, glm::vec3& colour) {
+    unsigned packed = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), packed, 16);
+    if (text.size() != 6 || code != std::errc() || end != text.data() + text.size()) {
+        refuse(info, "six hexadecimal digits RRGGBB", text);
+    }
+    const auto part = [packed](unsigned shift) {
+        return static_cast<float>((packed >> shift) & 0xffU) / 255.0F;
+    };
+    colour = {part(16U), part(8U), part(0U)};
+}
+
+void read_setting(const FieldInfo& info, std::string_view text, Adaptation& adapt) {
+    Adaptation read;
+    if (!text.empty() && text != "none") {
+        std::vector<std::string_view> names;
+        for (const auto& each : adaptations) {
+            names.push_back(each.first);
+        }
+        for (const std::string_view word : split_fields(text, ',')) {
+            const auto found = std::find(names.begin(), names.end(), word);
+            if (found == names.end()) {
+                refuse(info, fmt::format("none or a list of {}", fmt::join(names, ", ")), text);
+            }
+            read.*adaptations[static_cast<std::size_t>(found - names.begin())].second = true;
+        }
+    }
+    adapt = read;
+}
+
+std::size_t read_choice(
+    const FieldInfo& info, std::string_view text, const std::vector<std::string_view>& names) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (names[i] == text) {
+            return i;
+        }
+    }
+    refuse(info, fmt::format("one of {}", fmt::join(names, ", ")), text);
+}
+
+} // namespace octant::ui::settings

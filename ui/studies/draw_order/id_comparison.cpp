@@ -1,0 +1,170 @@
+#include "ui/studies/draw_order/id_comparison.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <memory>
+
+namespace octant::ui::studies::draw_order {
+
+namespace {
+
+namespace gl = visuals::gl;
+namespace scene = visuals::scene;
+
+std::uint32_t id_at(const gl::Picture& picture, int x, int y) {
+    std::uint32_t id = 0;
+    const std::size_t pixel =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+        static_cast<std::size_t>(x);
+    std::memcpy(&id, picture.rgba.data() + 4 * pixel, sizeof id);
+    return id;
+}
+
+/// Whether a number occurs in the picture within `reach` pixels of a place, in either direction.
+bool occurs_around(const gl::Picture& picture, const glm::ivec2& at, int reach, std::uint32_t id) {
+    for (int v = std::max(at.y - reach, 0); v <= std::min(at.y + reach, picture.height - 1); ++v) {
+        for (int u = std::max(at.x - reach, 0); u <= std::min(at.x + reach, picture.width - 1);
+             ++u) {
+            if (id_at(picture, u, v) == id) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// Draws a frame by depth, three times as large, when it is asked for.
+class LargeReference {
+public:
+    static constexpr int scale = 3; // odd: the middles of the pixels are middles here too
+
+    explicit LargeReference(const scene::Settings& settings)
+        : settings_(settings) {
+        settings_.size_px *= scale;
+    }
+
+    const gl::Picture& picture(int frame) {
+        if (!session_) {
+            session_ = std::make_unique<flight::Session>(settings_, flight::Shows::PolygonNumbers);
+        }
+        session_->make_current();
+        session_->draw(frame);
+        return session_->picture();
+    }
+
+private:
+    scene::Settings settings_;
+    std::unique_ptr<flight::Session> session_;
+};
+
+} // namespace
+
+IdDifference difference_of(const gl::Picture& picture, const gl::Picture& reference) {
+    assert(picture.width == reference.width && picture.height == reference.height);
+    IdDifference difference;
+    difference.pixels = static_cast<long>(picture.width) * picture.height;
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < picture.width; ++x) {
+            const std::uint32_t id = id_at(picture, x, y);
+            if (id == id_at(reference, x, y)) {
+                continue;
+            }
+            ++difference.differing;
+            if (!occurs_around(reference, {x, y}, 1, id)) {
+                difference.apart.emplace_back(x, y);
+            }
+        }
+    }
+    return difference;
+}
+
+long wrong_among(
+    std::span<const glm::ivec2> pixels,
+    const gl::Picture& picture,
+    const gl::Picture& large_reference,
+    int scale) {
+    return std::ranges::count_if(pixels, [&](const glm::ivec2& pixel) {
+        const glm::ivec2 middle = pixel * scale + scale / 2;
+        const int reach = scale + scale / 2;
+        return !occurs_around(large_reference, middle, reach, id_at(picture, pixel.x, pixel.y));
+    });
+}
+
+IdComparison compare_with_depth_buffer(
+    const scene::Settings& settings,
+    int every,
+    const std::function<void(int compared, int frames)>& seen) {
+    scene::Settings painted = settings;
+    painted.shadows = false;
+    painted.samples = 1;
+    scene::Settings tested = painted;
+    tested.hidden_surface = scene::HiddenSurface::DepthBuffer;
+    flight::Session painter(painted, flight::Shows::PolygonNumbers);
+    flight::Session reference(tested, flight::Shows::PolygonNumbers);
+    LargeReference large(tested);
+    IdComparison sum;
+    const int frames = (painter.frames() + every - 1) / every;
+    for (int frame = 0; frame < painter.frames(); frame += every) {
+        painter.make_current();
+        const report::FrameRecord record = painter.draw(frame);
+        reference.make_current();
+        reference.draw(frame);
+        const IdDifference difference = difference_of(painter.picture(), reference.picture());
+        sum.pixels += difference.pixels;
+        sum.differing += difference.differing;
+        if (!difference.apart.empty()) {
+            sum.apart += static_cast<long>(difference.apart.size());
+            sum.wrong += wrong_among(
+                difference.apart, painter.picture(), large.picture(frame), LargeReference::scale);
+        }
+        sum.cuts += record.cuts;
+        sum.unordered += record.unordered;
+        sum.frames_with_cuts += record.cuts > 0 ? 1 : 0;
+        seen(++sum.frames, frames);
+    }
+    return sum;
+}
+
+namespace {
+
+gl::Picture
+number_picture(flight::Session& session, const scene::Settings& settings, const gl::Functions& functions) {
+    scene::Planner planner(session.scene(), settings);
+    scene::IdPlan ids(session.scene());
+    gl::Renderer renderer(functions, settings.size_px.x, settings.size_px.y, 1);
+    renderer.load_models(ids.models());
+    scene::PlanCounts counts;
+    const scene::FramePlan& plan = planner.plan(session.camera(), session.states(), counts);
+    gl::Picture picture;
+    renderer.draw(ids.of(plan));
+    renderer.finish_and_read(picture);
+    return picture;
+}
+
+} // namespace
+
+PixelCheck check_pixels(flight::Session& session, const gl::Functions& functions) {
+    scene::Settings painted = session.settings();
+    painted.shadows = false;
+    painted.samples = 1;
+    painted.inset.reset();
+    scene::Settings tested = painted;
+    tested.hidden_surface = scene::HiddenSurface::DepthBuffer;
+    scene::Settings large = tested;
+    large.size_px *= LargeReference::scale;
+    const gl::Picture picture = number_picture(session, painted, functions);
+    const IdDifference difference =
+        difference_of(picture, number_picture(session, tested, functions));
+    PixelCheck check{.pixels = difference.pixels, .differing = difference.differing};
+    if (!difference.apart.empty()) {
+        check.wrong = wrong_among(
+            difference.apart,
+            picture,
+            number_picture(session, large, functions),
+            LargeReference::scale);
+    }
+    return check;
+}
+
+} // namespace octant::ui::studies::draw_order

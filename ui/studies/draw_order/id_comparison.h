@@ -1,0 +1,69 @@
+#pragma once
+
+#include "ui/flight/session.h"
+#include "visuals/gl/functions.h"
+#include "visuals/gl/picture.h"
+#include "visuals/scene/settings.h"
+
+#include <glm/vec2.hpp>
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace octant::ui::studies::draw_order {
+
+/// How a picture of polygon numbers differs from a reference.
+struct IdDifference {
+    long pixels = 0;
+    long differing = 0;            ///< other than the reference's pixel
+    std::vector<glm::ivec2> apart; ///< whose number is in none of the 3 x 3 pixels around it
+};
+
+/// Compares two pictures of the same size (asserted).
+IdDifference
+difference_of(const visuals::gl::Picture& picture, const visuals::gl::Picture& reference);
+
+/// How many of the pixels have a number that is in none of the 3 x 3 pixels around them in a
+/// reference that was drawn `scale` times as large.
+long wrong_among(
+    std::span<const glm::ivec2> pixels,
+    const visuals::gl::Picture& picture,
+    const visuals::gl::Picture& large_reference,
+    int scale);
+
+/// Sums over the frames of a run.
+struct IdComparison {
+    long pixels = 0;
+    long differing = 0;
+    long apart = 0; ///< whose number is in none of the reference's 3 x 3 pixels
+    long wrong =
+        0; ///< of these, where a reference three times as large has it nowhere there either
+    int frames = 0;
+    int frames_with_cuts = 0; ///< in which something stood in front of an aircraft
+    long cuts = 0;
+    long unordered = 0;
+};
+
+/// Draws every `every`th frame of a run as polygon numbers, with the settings' way of removing
+/// hidden surfaces and with the depth buffer, and compares. Renderers round corners to 1/256 pixel,
+/// so that along an edge either of two polygons may be seen, and a tip be lost: where a number is
+/// missing, the reference is drawn again three times as large. Shadows are left out. `seen` is
+/// told of each frame that was compared and of how many there are. Throws Error.
+IdComparison compare_with_depth_buffer(
+    const visuals::scene::Settings& settings,
+    int every,
+    const std::function<void(int compared, int frames)>& seen);
+
+/// What the last picture of a session's window got wrong against a depth buffer.
+struct PixelCheck {
+    long pixels = 0;
+    long differing = 0; ///< show another polygon
+    long wrong = 0;     ///< of these, where a picture three times as large does not show it nearby
+};
+
+/// Draws the session's last moment by order and by depth and compares. Its context must be current,
+/// with these functions. Throws Error (driver).
+PixelCheck check_pixels(flight::Session& session, const visuals::gl::Functions& gl);
+
+} // namespace octant::ui::studies::draw_order

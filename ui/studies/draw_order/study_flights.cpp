@@ -1,0 +1,268 @@
+#include "ui/studies/draw_order/study_flights.h"
+
+#include "sim/base/output_file.h"
+#include "ui/base/data_files.h"
+#include "ui/flight/flight_recorder.h"
+#include "ui/base/progress.h"
+#include "ui/report/html_report.h"
+#include "ui/report/loaded_recording.h"
+#include "ui/report/plots.h"
+#include "ui/flight/session.h"
+#include "ui/report/table_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace octant::ui::studies::draw_order {
+
+namespace scene = visuals::scene;
+
+namespace {
+
+constexpr int warm_up_frames = 10; ///< first frames that the figures leave out
+constexpr std::array methods = {
+    scene::HiddenSurface::Octant,
+    scene::HiddenSurface::DepthBuffer,
+    scene::HiddenSurface::BackFace};
+constexpr std::array method_names = {"octant order", "depth buffer", "back faces only"};
+
+/// Seconds that the paper printed; 0 where it printed frames a second or nothing.
+struct PaperRow {
+    const char* aircraft;
+    const char* path; ///< "alone" = table 5
+    int frames;
+    double octant_s;
+    double depth_buffer_fps;
+    double back_face_fps;
+};
+
+// E. K. Kim, J. A. Park, C. Song, J. H. Kim, "Hidden-Surface Removal in 3D Graphics for Real Time
+// Animation", 1989: section IV (frames a second by back-face removal and z-buffer), tables 5 and 6.
+constexpr std::array paper_rows = {
+    PaperRow{"f15", "alone", 100, 3.3, 5.0, 30.0},
+    PaperRow{"500md", "alone", 100, 3.5, 4.0, 29.0},
+    PaperRow{"f15", "straight", 800, 27.5, 0, 0},
+    PaperRow{"f15", "jinking", 700, 24.0, 0, 0},
+    PaperRow{"f15", "pop-up", 730, 25.0, 0, 0},
+    PaperRow{"f15", "turn", 580, 19.5, 0, 0},
+    PaperRow{"500md", "straight", 800, 29.0, 0, 0},
+    PaperRow{"500md", "jinking", 700, 25.5, 0, 0},
+    PaperRow{"500md", "pop-up", 730, 27.0, 0, 0},
+    PaperRow{"500md", "turn", 580, 20.5, 0, 0}};
+
+struct Measured {
+    std::size_t vertices = 0; ///< of the aircraft
+    std::size_t polygons = 0;
+    int frames = 0;
+    std::array<double, methods.size()> seconds{};
+    std::array<double, methods.size()> median_ms{};
+};
+
+scene::Settings
+settings_of(const PaperRow& row, const StudyOptions& options, scene::HiddenSurface method) {
+    scene::Settings settings;
+    settings.size_px = options.settings.size_px;
+    settings.samples = options.settings.samples;
+    settings.context = options.settings.context;
+    settings.aircraft = {row.aircraft};
+    settings.hidden_surface = method;
+    settings.warm_up = 0;
+    settings.frame_per_sample = true;
+    if (std::string(row.path) == "alone") {
+        settings.path = "straight";
+        settings.terrain = "none";
+        settings.view = scene::View::Orbit;
+        settings.sky = false;
+        settings.frames = row.frames;
+        settings.frame_per_sample = false;
+        settings.rate_hz = 2.5; // 40 s of the orbit, which pass through all octants
+    } else {
+        settings.path = row.path;
+        settings.terrain = "background60";
+    }
+    return settings;
+}
+
+Measured measure(const PaperRow& row, const StudyOptions& options) {
+    std::array<std::unique_ptr<flight::Session>, methods.size()> sessions;
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+        sessions[m] = std::make_unique<flight::Session>(settings_of(row, options, methods[m]));
+    }
+    flight::Session& octant = *sessions.front();
+    flight::RecordOptions record;
+    record.folder = options.out / fmt::format("{}-{}", row.aircraft, row.path);
+    octant.make_current();
+    flight::FlightRecorder recorder(record, settings_of(row, options, methods.front()), octant);
+    Measured measured;
+    const models::polygons::PolygonModel& model = octant.world().scene.models.front().polygons;
+    measured.vertices = model.vertices_m.size();
+    measured.polygons = model.polygons.size();
+    measured.frames = octant.frames();
+    std::array<std::vector<double>, methods.size()> frame_ms;
+    base::Progress progress(fmt::format("{} {}", row.aircraft, row.path), measured.frames, options.quiet);
+    for (int frame = 0; frame < measured.frames; ++frame) {
+        report::FrameRecord octant_record;
+        for (std::size_t turn = 0; turn < methods.size(); ++turn) {
+            const std::size_t m = (turn + static_cast<std::size_t>(frame)) % methods.size();
+            sessions[m]->make_current();
+            const report::FrameRecord drawn = sessions[m]->draw(frame);
+            frame_ms[m].push_back(drawn.frame_ms);
+            if (m == 0) {
+                octant_record = drawn;
+            }
+        }
+        // After all three, so that no method draws next to the work of recording.
+        octant.make_current();
+        recorder.add(octant_record, octant);
+        progress.show(frame + 1);
+    }
+    progress.finish();
+    octant.make_current();
+    recorder.finish(octant);
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+        frame_ms[m].erase(frame_ms[m].begin(), frame_ms[m].begin() + warm_up_frames);
+        const double mean_ms = std::accumulate(frame_ms[m].begin(), frame_ms[m].end(), 0.0) /
+                               static_cast<double>(frame_ms[m].size());
+        measured.seconds[m] = mean_ms * measured.frames / 1000.0;
+        measured.median_ms[m] = report::statistics_of_times(frame_ms[m]).p50_ms;
+    }
+    return measured;
+}
+
+constexpr std::size_t table_5_rows = 2;
+
+std::string seconds_text(double seconds) {
+    return fmt::format("{:.2f}", seconds);
+}
+
+std::string fps_text(int frames, double seconds) {
+    return fmt::format("{:.0f}", frames / seconds);
+}
+
+report::HtmlTable table_5(const std::vector<Measured>& measured) {
+    report::HtmlTable table;
+    table.title = "Table 5: the aircraft alone, 100 frames";
+    table.header = {"aircraft", "vertices", "polygons", "paper, s", "ours, s"};
+    for (const char* method : method_names) {
+        table.header.push_back(fmt::format("paper frames/s, {}", method));
+        table.header.push_back(fmt::format("ours frames/s, {}", method));
+    }
+    for (std::size_t i = 0; i < table_5_rows; ++i) {
+        const PaperRow& row = paper_rows[i];
+        const Measured& m = measured[i];
+        table.rows.push_back(
+            {row.aircraft,
+             fmt::format("{}", m.vertices),
+             fmt::format("{}", m.polygons),
+             fmt::format("{:.1f}", row.octant_s),
+             seconds_text(m.seconds[0]),
+             fmt::format("{:.0f}", row.frames / row.octant_s),
+             fps_text(m.frames, m.seconds[0]),
+             fmt::format("{:.0f}", row.depth_buffer_fps),
+             fps_text(m.frames, m.seconds[1]),
+             fmt::format("{:.0f}", row.back_face_fps),
+             fps_text(m.frames, m.seconds[2])});
+    }
+    table.note = "An orbit without background. The paper's machine was an IRIS workstation with 12 "
+                 "geometry engines.";
+    return table;
+}
+
+report::HtmlTable table_6(const std::vector<Measured>& measured, const StudyOptions& options) {
+    report::HtmlTable table;
+    table.title = "Table 6: four paths over a background of 60 polygons, one frame a path sample";
+    table.header = {"aircraft", "path", "frames", "paper, s", "paper, frames/s"};
+    for (const char* method : method_names) {
+        table.header.push_back(fmt::format("ours, s, {}", method));
+        table.header.push_back(fmt::format("frames/s, {}", method));
+    }
+    table.header.emplace_back("median: depth buffer / octant");
+    table.header.emplace_back("median: back faces / octant");
+    for (std::size_t i = table_5_rows; i < paper_rows.size(); ++i) {
+        const PaperRow& row = paper_rows[i];
+        const Measured& m = measured[i];
+        std::vector<std::string> cells = {
+            row.aircraft,
+            row.path,
+            fmt::format("{}", m.frames),
+            fmt::format("{:.1f}", row.octant_s),
+            fmt::format("{:.1f}", row.frames / row.octant_s)};
+        for (const double seconds : m.seconds) {
+            cells.push_back(seconds_text(seconds));
+            cells.push_back(fps_text(m.frames, seconds));
+        }
+        cells.push_back(fmt::format("{:.2f}", m.median_ms[1] / m.median_ms[0]));
+        cells.push_back(fmt::format("{:.2f}", m.median_ms[2] / m.median_ms[0]));
+        table.rows.push_back(cells);
+    }
+    table.note = fmt::format(
+        "Ours at {}x{}, mean frame times after a warm-up of 10 frames, times the frames; the three "
+        "methods draw every frame in turn, so that "
+        "they see the same machine.",
+        options.settings.size_px.x,
+        options.settings.size_px.y);
+    return table;
+}
+
+report::Plot plot_of(const std::vector<Measured>& measured) {
+    constexpr std::array colours = {"#1f77b4", "#d62728", "#7f7f7f"};
+    report::Plot plot;
+    plot.title = "Median frame time by flight: 1-2 aircraft alone, 3-6 F-15, 7-10 500MD";
+    plot.x_label = "row of the table";
+    plot.y_label = "ms";
+    plot.y_min = 0.0;
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+        report::PlotSeries series;
+        series.name = method_names[m];
+        series.colour = colours[m];
+        for (std::size_t i = 0; i < measured.size(); ++i) {
+            series.x.push_back(static_cast<double>(i + 1));
+            series.y.push_back(measured[i].median_ms[m]);
+        }
+        plot.series.push_back(series);
+    }
+    return plot;
+}
+
+void write_results(const std::vector<Measured>& measured, const StudyOptions& options) {
+    const std::array tables = {table_5(measured), table_6(measured, options)};
+    const std::string markdown = report::markdown_of(tables[0]) + "\n" + report::markdown_of(tables[1]);
+    write_file(options.out / "table-5.csv", report::csv_of(tables[0]));
+    write_file(options.out / "table-6.csv", report::csv_of(tables[1]));
+    write_file(options.out / "flights.md", markdown);
+    if (const auto svg = report::plot_svg(plot_of(measured))) {
+        write_file(options.out / "flights.svg", *svg);
+    } else {
+        base::say(options.quiet, "flights.svg not made: gnuplot is not installed");
+    }
+    std::vector<report::LoadedRecording> recordings;
+    for (const PaperRow& row : paper_rows) {
+        recordings.push_back(
+            report::load_recording(options.out / fmt::format("{}-{}", row.aircraft, row.path)));
+    }
+    write_file(options.out / "report.html", report::html_report(recordings, tables));
+    std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
+    base::say(options.quiet,
+        fmt::format(
+            "tables: {0}/flights.md, {0}/table-5.csv, {0}/table-6.csv; report: {0}/report.html",
+            options.out.string()));
+}
+
+} // namespace
+
+void study_flights(const StudyOptions& options) {
+    make_folder(options.out);
+    std::vector<Measured> measured;
+    for (const PaperRow& row : paper_rows) {
+        measured.push_back(measure(row, options));
+    }
+    write_results(measured, options);
+}
+
+} // namespace octant::ui::studies::draw_order

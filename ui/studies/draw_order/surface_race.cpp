@@ -1,0 +1,69 @@
+#include "ui/studies/draw_order/surface_race.h"
+
+#include "ui/base/progress.h"
+#include "ui/report/statistics.h"
+#include "ui/flight/session.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+
+namespace octant::ui::studies::draw_order {
+
+namespace {
+
+constexpr int warm_up_frames = 20;
+
+RacedWay figures_of(const std::vector<double>& frame_ms, std::vector<int> draw_calls) {
+    const report::Statistics times = report::statistics_of_times(frame_ms);
+    std::nth_element(
+        draw_calls.begin(),
+        draw_calls.begin() + static_cast<std::ptrdiff_t>(draw_calls.size() / 2),
+        draw_calls.end());
+    return {times.p50_ms, times.p99_ms, draw_calls[draw_calls.size() / 2]};
+}
+
+} // namespace
+
+Race race(const visuals::scene::Settings& settings, int frames, bool quiet) {
+    std::array<std::unique_ptr<flight::Session>, raced_ways.size()> sessions;
+    std::array<std::vector<double>, raced_ways.size()> frame_ms;
+    std::array<std::vector<int>, raced_ways.size()> draw_calls;
+    for (std::size_t way = 0; way < raced_ways.size(); ++way) {
+        visuals::scene::Settings own = settings;
+        own.hidden_surface = raced_ways[way];
+        own.frames = frames + warm_up_frames;
+        sessions[way] = std::make_unique<flight::Session>(own);
+    }
+    Race raced;
+    raced.scene = settings.terrain;
+    raced.aircraft = static_cast<int>(settings.aircraft.size());
+    raced.width_px = settings.size_px.x;
+    raced.height_px = settings.size_px.y;
+    base::Progress progress(
+        fmt::format(
+            "{}, {} aircraft, {}x{}", raced.scene, raced.aircraft, raced.width_px, raced.height_px),
+        sessions[0]->frames(),
+        quiet);
+    for (int frame = 0; frame < sessions[0]->frames(); ++frame) {
+        for (std::size_t turn = 0; turn < raced_ways.size(); ++turn) {
+            const std::size_t way = (turn + static_cast<std::size_t>(frame)) % raced_ways.size();
+            sessions[way]->make_current();
+            const report::FrameRecord record = sessions[way]->draw(frame);
+            if (frame >= warm_up_frames) {
+                frame_ms[way].push_back(record.frame_ms);
+                draw_calls[way].push_back(record.draw_calls);
+            }
+        }
+        progress.show(frame + 1);
+    }
+    progress.finish();
+    for (std::size_t way = 0; way < raced_ways.size(); ++way) {
+        raced.ways[way] = figures_of(frame_ms[way], draw_calls[way]);
+    }
+    raced.frames = static_cast<int>(frame_ms[0].size());
+    sessions[0]->make_current();
+    return raced;
+}
+
+} // namespace octant::ui::studies::draw_order

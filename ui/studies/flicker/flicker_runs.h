@@ -1,0 +1,86 @@
+#pragma once
+
+#include "models/heights/height_field.h"
+#include "visuals/terrain/error_mesher.h"
+#include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/mesher.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace octant::ui::studies::flicker {
+
+/// A height field under the paper's quadtree with literal roughness and crack-free propagation, K =
+/// 0.5 + 0.79 / C_min, and under the default mesh. Stays where it is.
+struct FlickerGround {
+    explicit FlickerGround(models::heights::HeightField made);
+
+    models::heights::HeightField field;
+    visuals::terrain::Quadtree tree;
+    std::vector<std::uint32_t> colours; ///< nothing is drawn: all the same
+    visuals::terrain::Mesher mesher;
+    visuals::terrain::GroundTiles tiles;
+    visuals::terrain::ErrorMesher error_mesher;
+};
+
+/// The paper's letters.
+struct FlickerSettings {
+    double roughness_weight = 5.0;            ///< c
+    int target_triangles = 32000;             ///< N_target
+    double first_resolution = 16.0;           ///< C_0
+    double triangles_per_resolution = 1000.0; ///< a
+    int remembered_frames = 4;                ///< r
+};
+
+/// What was counted in a frame.
+struct CountedFrame {
+    int triangles = 0;
+    int fans = 0;
+    double resolution = 0.0; ///< C; 0 for a way that has none
+};
+
+/// Makes the mesh of the next frame.
+using FrameMaker = std::function<CountedFrame(const visuals::terrain::MeshView& view)>;
+
+/// A way of holding the number of triangles.
+struct FlickerWay {
+    const char* name;
+    bool holds_target;
+    /// Begins a run. The ground must outlive it.
+    FrameMaker (*start)(FlickerGround& ground, const FlickerSettings& settings);
+};
+
+inline constexpr std::size_t previous_way = 0; ///< of flicker_ways
+inline constexpr std::size_t damped_way = 1;
+inline constexpr std::size_t settling_way = 2;
+inline constexpr std::size_t literal_way = 3;
+inline constexpr std::size_t exact_way = 4;
+inline constexpr std::size_t error_way = 5;
+
+/// Previous, damped as printed, damped with dead band, literal and exact, all with the paper's
+/// mesh, and the default mesh: the numbers above.
+std::span<const FlickerWay> flicker_ways();
+
+/// A run: each frame's count.
+struct FlickerRun {
+    std::vector<int> triangles;
+    std::vector<int> fans;
+    std::vector<double> resolution;
+};
+
+FlickerRun run_along(
+    const FlickerWay& way,
+    FlickerGround& ground,
+    const FlickerSettings& settings,
+    std::span<const visuals::terrain::MeshView> views);
+
+/// 300 m over the ground, level but for 6 degrees down: that view of 25 places and eight headings
+/// in which the paper's rule makes most triangles at c = 5 and C = 16. 16:9, 45 degrees.
+visuals::terrain::MeshView roughest_view(FlickerGround& ground);
+
+/// Once round an ellipse over the field, 300 m over the ground, looking ahead as above.
+std::vector<visuals::terrain::MeshView> ellipse_views(const FlickerGround& ground, int frames);
+
+} // namespace octant::ui::studies::flicker

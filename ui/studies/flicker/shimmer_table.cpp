@@ -1,0 +1,119 @@
+#include "ui/studies/flicker/shimmer_table.h"
+
+#include "ui/base/data_files.h"
+#include "ui/flight/flight_cameras.h"
+#include "ui/world/loaded_ground.h"
+#include "ui/base/progress.h"
+#include "ui/flight/session.h"
+#include "ui/studies/flicker/shimmer.h"
+#include "visuals/terrain/ground_query.h"
+
+#include <array>
+#include <cstddef>
+#include <fmt/format.h>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace octant::ui::studies::flicker {
+
+namespace scene = visuals::scene;
+namespace terrain = visuals::terrain;
+
+namespace {
+
+struct Way {
+    int samples;
+    bool geomorphs;
+};
+
+constexpr std::array ways = {Way{1, false}, Way{1, true}, Way{4, false}, Way{4, true}};
+
+/// Sums over pairs of frames.
+struct Change {
+    std::array<double, ways.size()> sum{};
+    std::size_t pairs = 0;
+    std::size_t pixels = 0;
+};
+
+void add_row(report::HtmlTable& table, const std::string& path, const Change& change) {
+    std::vector<std::string> row = {
+        path, fmt::format("{}", change.pairs), fmt::format("{}", change.pixels)};
+    for (const double sum : change.sum) {
+        row.push_back(fmt::format("{:.3f}", sum / static_cast<double>(change.pairs)));
+    }
+    table.rows.push_back(row);
+}
+
+Change shimmer_along(
+    const PoppingStudyOptions& options,
+    const scene::Settings& flown,
+    const terrain::GroundSamples& ground) {
+    const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(flown);
+    std::array<std::unique_ptr<flight::Session>, ways.size()> sessions;
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+        scene::Settings settings = flown;
+        settings.samples = ways[k].samples;
+        settings.geomorphs = ways[k].geomorphs;
+        sessions[k] = std::make_unique<flight::Session>(settings);
+    }
+    const double radius_m = flown.earth_curvature ? terrain::earth_radius_m : 0.0;
+    base::Progress progress(flown.path, static_cast<int>(cameras.size()), options.quiet);
+    Change change;
+    const auto step = static_cast<std::size_t>(options.every);
+    for (std::size_t frame = 0; frame + 1 < cameras.size(); frame += step) {
+        const std::vector<SamePlace> places =
+            same_places(ground, cameras[frame], cameras[frame + 1], flown.size_px, radius_m);
+        for (std::size_t k = 0; k < ways.size(); ++k) {
+            flight::Session& session = *sessions[k];
+            session.make_current();
+            session.draw(static_cast<int>(frame));
+            const visuals::gl::Picture earlier = session.picture();
+            session.draw(static_cast<int>(frame) + 1);
+            change.sum[k] += mean_change(earlier, session.picture(), places);
+        }
+        ++change.pairs;
+        change.pixels += places.size();
+        progress.show(static_cast<int>(frame));
+    }
+    return change;
+}
+
+} // namespace
+
+report::HtmlTable shimmer_table(const PoppingStudyOptions& options) {
+    const world::LoadedGround ground =
+        world::load_ground(options.settings.terrain, options.settings.terrain_spacing_m);
+    const terrain::GroundSamples samples = ground.samples();
+    report::HtmlTable table;
+    table.title = "Shimmer: mean change of luminance (0 to 255) after the motion is taken out";
+    table.header = {
+        "path",
+        "pairs of frames",
+        "pixels",
+        "1 sample, no geomorphs",
+        "1 sample, geomorphs",
+        "4 samples, no geomorphs",
+        "4 samples, geomorphs"};
+    Change all;
+    for (const std::string& path : base::built_in_paths()) {
+        scene::Settings settings = options.settings;
+        settings.path = path;
+        settings.shadows = false;
+        settings.mesh = scene::GroundMetric::ScreenError;
+        const Change change = shimmer_along(options, settings, samples);
+        add_row(table, path, change);
+        for (std::size_t k = 0; k < ways.size(); ++k) {
+            all.sum[k] += change.sum[k];
+        }
+        all.pairs += change.pairs;
+        all.pixels += change.pixels;
+    }
+    add_row(table, "all", all);
+    table.note = "Every fourth pixel, both ways, of the later frame that shows ground which the "
+                 "earlier one shows: rays to the full-resolution ground; the earlier picture is "
+                 "read between its pixels. Not near the aircraft; no shadows.";
+    return table;
+}
+
+} // namespace octant::ui::studies::flicker

@@ -1,0 +1,167 @@
+#include "ui/studies/flicker/study_popping.h"
+
+#include "sim/base/output_file.h"
+#include "ui/base/data_files.h"
+#include "ui/flight/flight_cameras.h"
+#include "ui/world/loaded_ground.h"
+#include "ui/terrain/mesh_maker.h"
+#include "ui/base/progress.h"
+#include "ui/report/html_text.h"
+#include "ui/report/statistics.h"
+#include "ui/studies/flicker/shimmer_table.h"
+#include "ui/report/table_text.h"
+#include "visuals/terrain/ground_query.h"
+#include "visuals/terrain/vertex_jump.h"
+#include "sim/base/worker_team.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace octant::ui::studies::flicker {
+
+namespace scene = visuals::scene;
+namespace terrain = visuals::terrain;
+
+namespace {
+
+struct Way {
+    const char* name;
+    scene::GroundMetric mesh;
+    bool geomorphs;
+};
+
+constexpr std::array ways = {
+    Way{"midpoint, exact budget", scene::GroundMetric::Midpoint, false},
+    Way{"screen-error, no geomorphs", scene::GroundMetric::ScreenError, false},
+    Way{"screen-error, geomorphs", scene::GroundMetric::ScreenError, true}};
+
+/// Jumps of a flight, one a frame after the first.
+struct Jumps {
+    std::vector<double> jumps_px;
+    double largest_px = 0.0;
+    std::size_t largest_frame = 0;
+};
+
+ui::terrain::GroundMeshOptions mesh_options(const scene::Settings& settings, const Way& way) {
+    constexpr double default_error_px = 0.25; // as Settings::error_px
+    ui::terrain::GroundMeshOptions options;
+    options.mesh = way.mesh;
+    options.fans = settings.fans;
+    options.geomorphs = way.geomorphs;
+    options.error_px = settings.error_px.value_or(default_error_px);
+    return options;
+}
+
+Jumps jumps_along(
+    ui::terrain::MeshMaker& maker, const scene::Settings& settings, const std::vector<flight::FlightCamera>& cameras) {
+    ui::terrain::GroundViewOptions seen;
+    seen.size_px = settings.size_px;
+    seen.earth_radius_m = settings.earth_curvature ? terrain::earth_radius_m : 0.0;
+    terrain::JumpMeter meter;
+    Jumps found;
+    for (std::size_t frame = 0; frame < cameras.size(); ++frame) {
+        const scene::Camera& camera = cameras[frame].camera;
+        const terrain::GroundMesh mesh =
+            maker.mesh_within(ui::terrain::mesh_view(camera, seen), scene::triangle_target(settings));
+        const auto jump = meter.next(mesh, ui::terrain::picture_view(camera, settings.size_px));
+        if (!jump) {
+            continue;
+        }
+        found.jumps_px.push_back(jump->jump_px);
+        if (jump->jump_px > found.largest_px) {
+            found.largest_px = jump->jump_px;
+            found.largest_frame = frame;
+        }
+    }
+    return found;
+}
+
+double percentile_px(std::vector<double> jumps_px, int permille) {
+    std::sort(jumps_px.begin(), jumps_px.end());
+    return report::nearest_rank(jumps_px, permille);
+}
+
+void add_row(
+    report::HtmlTable& table, const std::string& path, const Way& way, const Jumps& found) {
+    table.rows.push_back(
+        {path,
+         way.name,
+         fmt::format("{}", found.jumps_px.size()),
+         fmt::format("{:.3f}", found.largest_px),
+         fmt::format("{}", found.largest_frame),
+         fmt::format("{:.3f}", percentile_px(found.jumps_px, 999)),
+         fmt::format("{:.3f}", percentile_px(found.jumps_px, 500))});
+}
+
+report::HtmlTable popping_table(const PoppingStudyOptions& options) {
+    const world::LoadedGround ground =
+        world::load_ground(options.settings.terrain, options.settings.terrain_spacing_m);
+    std::vector<std::unique_ptr<ui::terrain::MeshMaker>> makers;
+    for (const Way& way : ways) {
+        makers.push_back(ui::terrain::make_mesh_maker(ground, mesh_options(options.settings, way)));
+    }
+    report::HtmlTable table;
+    table.title = "Largest jump of a vertex from frame to frame";
+    table.header = {"path", "mesh", "frames", "maximum px", "in frame", "99.9 % px", "median px"};
+    std::array<Jumps, ways.size()> all;
+    for (const std::string& path : base::built_in_paths()) {
+        scene::Settings settings = options.settings;
+        settings.path = path;
+        const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(settings);
+        base::say(options.quiet, fmt::format("{}: {} frames", path, cameras.size()));
+        std::array<Jumps, ways.size()> found;
+        share_out(
+            ways.size(), static_cast<int>(ways.size()), [&](std::size_t way, std::size_t /*w*/) {
+                found[way] = jumps_along(*makers[way], settings, cameras);
+            });
+        for (std::size_t k = 0; k < ways.size(); ++k) {
+            add_row(table, path, ways[k], found[k]);
+            const std::vector<double>& jumps_px = found[k].jumps_px;
+            all[k].jumps_px.insert(all[k].jumps_px.end(), jumps_px.begin(), jumps_px.end());
+            if (found[k].largest_px > all[k].largest_px) {
+                all[k].largest_px = found[k].largest_px;
+                all[k].largest_frame = found[k].largest_frame;
+            }
+        }
+    }
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+        add_row(table, "all", ways[k], all[k]);
+    }
+    table.note = fmt::format(
+        "Each frame: the two meshes' surfaces at every vertex of either that both frames show "
+        "(from 10 m on), apart on the screen as the later frame sees it. {}, {} triangles at most, "
+        "{}x{}, {:.4g} frames a second.",
+        options.settings.terrain,
+        scene::triangle_target(options.settings),
+        options.settings.size_px.x,
+        options.settings.size_px.y,
+        options.settings.rate_hz);
+    return table;
+}
+
+} // namespace
+
+void study_popping(const PoppingStudyOptions& options) {
+    make_folder(options.out);
+    std::vector<report::HtmlTable> tables = {popping_table(options)};
+    std::vector<std::string> files = {"popping"};
+    if (options.shimmer) {
+        tables.push_back(shimmer_table(options));
+        files.emplace_back("shimmer");
+    }
+    std::string markdown;
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+        write_file(options.out / (files[k] + ".csv"), report::csv_of(tables[k]));
+        markdown += (k == 0 ? "" : "\n") + report::markdown_of(tables[k]);
+    }
+    write_file(options.out / "popping.md", markdown);
+    std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
+}
+
+} // namespace octant::ui::studies::flicker

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "visuals/refine/progressive_mesh.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <cstdint>
+#include <ctime>
+
+namespace octant::ui::studies::refinement {
+
+/// The box around a hierarchy's leaves, file axes.
+struct Around {
+    glm::dvec3 centre_m{0.0};
+    double reach_m = 0.0; ///< to the farthest vertex
+};
+
+inline Around around(const visuals::refine::ProgressiveMesh& mesh) {
+    glm::dvec3 least_m(mesh.position_m(0));
+    glm::dvec3 most_m = least_m;
+    for (std::uint32_t leaf = 1; leaf < mesh.leaf_count(); ++leaf) {
+        least_m = glm::min(least_m, glm::dvec3(mesh.position_m(leaf)));
+        most_m = glm::max(most_m, glm::dvec3(mesh.position_m(leaf)));
+    }
+    return {0.5 * (least_m + most_m) + mesh.parts().origin_m, 0.5 * glm::distance(least_m, most_m)};
+}
+
+/// Processor time of this program so far.
+inline double cpu_s() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+} // namespace octant::ui::studies::refinement

@@ -1,0 +1,163 @@
+#include "ui/terrain/error_tables.h"
+
+#include "ui/terrain/mesh_maker.h"
+#include "ui/base/progress.h"
+#include "ui/settings/settings_text.h"
+#include "ui/terrain/solved_mesh.h"
+#include "visuals/terrain/projected_error.h"
+
+#include <array>
+#include <cstddef>
+#include <fmt/format.h>
+#include <string>
+
+namespace octant::ui::terrain {
+
+namespace scene = visuals::scene;
+namespace terrain = visuals::terrain;
+
+namespace {
+
+/// Meshes of all cameras, by one maker.
+std::vector<MeasuredMesh>
+measured_meshes(const world::LoadedGround& ground, const ErrorRun& run, const std::string& what) {
+    const auto maker = make_mesh_maker(ground, run.mesh);
+    terrain::ErrorMeter meter(maker->ground());
+    base::Progress progress(what, static_cast<int>(run.cameras.size()), run.quiet, "views");
+    std::vector<MeasuredMesh> found;
+    for (const scene::Camera& camera : run.cameras) {
+        const terrain::MeshView view = mesh_view(camera, run.view);
+        const terrain::PictureView picture = picture_view(camera, run.view.size_px);
+        if (run.solve_px) {
+            found.push_back(solved_mesh(*maker, meter, view, picture, *run.solve_px));
+        } else {
+            const terrain::GroundMesh mesh = mesh_as_asked(*maker, view, run.mesh);
+            MeasuredMesh one;
+            one.triangles = mesh.counters.triangles;
+            one.coarseness = mesh.error_px > 0.0 ? mesh.error_px : 1.0 / mesh.resolution;
+            one.error = meter.measure(mesh, picture, view.earth_radius_m);
+            one.triangles_in_view = one.error.triangles_in_view;
+            found.push_back(one);
+        }
+        progress.show(static_cast<int>(found.size()));
+    }
+    return found;
+}
+
+double mean_triangles_in_view(const std::vector<MeasuredMesh>& meshes) {
+    double sum = 0.0;
+    for (const MeasuredMesh& mesh : meshes) {
+        sum += mesh.triangles_in_view;
+    }
+    return sum / static_cast<double>(meshes.size());
+}
+
+constexpr std::size_t figure_count = 10;
+
+/// Columns of a table of errors, as numbers.
+std::array<double, figure_count> figures_of(const MeasuredMesh& mesh, bool by_error) {
+    return {
+        static_cast<double>(mesh.triangles),
+        static_cast<double>(mesh.triangles_in_view),
+        by_error ? mesh.coarseness : 1.0 / mesh.coarseness,
+        mesh.error.maximum_px,
+        mesh.error.p999_px,
+        mesh.error.p99_px,
+        mesh.error.rms_px,
+        mesh.error.mean_px,
+        static_cast<double>(mesh.error.samples),
+        static_cast<double>(mesh.error.uncovered)};
+}
+
+std::vector<std::string>
+row_of(const std::string& name, const std::array<double, figure_count>& figures) {
+    std::vector<std::string> row = {name};
+    for (std::size_t k = 0; k < figure_count; ++k) {
+        const bool counted = k < 2 || k > 7;
+        row.push_back(
+            counted ? fmt::format("{:.0f}", figures[k]) : fmt::format("{:.4g}", figures[k]));
+    }
+    return row;
+}
+
+/// Roettger's rule: the c with which it needs the fewest triangles.
+struct BestRoughness {
+    double roughness_c = 0.0;
+    double triangles = 0.0;
+};
+
+BestRoughness
+best_of_roettger(const world::LoadedGround& ground, const ErrorRun& run, scene::GroundFans fans) {
+    constexpr std::array<double, 5> weights = {10.0, 20.0, 40.0, 80.0, 160.0};
+    BestRoughness best;
+    for (const double weight : weights) {
+        ErrorRun other = run;
+        other.mesh = {};
+        other.mesh.mesh = scene::GroundMetric::Midpoint;
+        other.mesh.fans = fans;
+        other.mesh.roughness_c = weight;
+        const double triangles = mean_triangles_in_view(
+            measured_meshes(ground, other, fmt::format("{} fans, c = {}", settings::text_of(fans), weight)));
+        if (best.triangles == 0.0 || triangles < best.triangles) {
+            best = {weight, triangles};
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+report::HtmlTable error_table(const world::LoadedGround& ground, const ErrorRun& run) {
+    const bool by_error = run.mesh.mesh == scene::GroundMetric::ScreenError;
+    const std::vector<MeasuredMesh> meshes = measured_meshes(ground, run, settings::text_of(run.mesh.mesh));
+    report::HtmlTable table;
+    table.title = fmt::format("Projected error of {} meshes", settings::text_of(run.mesh.mesh));
+    table.header = {
+        "view",
+        "triangles",
+        "in view",
+        by_error ? "error px" : "C",
+        "maximum px",
+        "99.9 % px",
+        "99 % px",
+        "rms px",
+        "mean px",
+        "samples",
+        "uncovered"};
+    std::array<double, figure_count> mean{};
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        const auto figures = figures_of(meshes[k], by_error);
+        for (std::size_t i = 0; i < figure_count; ++i) {
+            mean[i] += figures[i] / static_cast<double>(meshes.size());
+        }
+        table.rows.push_back(row_of(fmt::format("{}", k + 1), figures));
+    }
+    if (meshes.size() > 1) {
+        table.rows.push_back(row_of("mean", mean));
+    }
+    table.note = "Every sample of the field inside the frustum (near 10 m) counts once: distance "
+                 "on the screen to the mesh's surface at the same place. In view: triangles not "
+                 "wholly outside the frustum, back faces included.";
+    return table;
+}
+
+report::HtmlTable comparison_table(const world::LoadedGround& ground, const ErrorRun& run) {
+    const double own = mean_triangles_in_view(measured_meshes(ground, run, settings::text_of(run.mesh.mesh)));
+    const BestRoughness full = best_of_roettger(ground, run, scene::GroundFans::Full);
+    const BestRoughness partial = best_of_roettger(ground, run, scene::GroundFans::Partial);
+    report::HtmlTable table;
+    table.title = fmt::format("Triangles in view at {:.4g} px", *run.solve_px);
+    table.header = {"mesh", "triangles", "c", "ratio"};
+    const auto row = [&](const std::string& name, double triangles, const std::string& c) {
+        table.rows.push_back(
+            {name, fmt::format("{:.0f}", triangles), c, fmt::format("{:.3f}", own / triangles)});
+    };
+    row(settings::text_of(run.mesh.mesh), own, "");
+    row("Roettger, full fans", full.triangles, fmt::format("{}", full.roughness_c));
+    row("Roettger, partial fans", partial.triangles, fmt::format("{}", partial.roughness_c));
+    table.note = "Mean over the views at equal 99.9th percentile of the error. Ratio: the first "
+                 "mesh's triangles over this one's.";
+    return table;
+}
+
+} // namespace octant::ui::terrain

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "visuals/gl/context.h"
+#include "visuals/gl/picture.h"
+#include "visuals/gl/renderer.h"
+#include "visuals/scene/camera.h"
+#include "visuals/terrain/ground_mesh.h"
+#include "visuals/terrain/mesh_surface.h"
+#include "visuals/terrain/picture_view.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace octant::ui::terrain {
+
+/// Draws meshes over a colour that nothing else has and looks for it inside the ground.
+class KeyPictures {
+public:
+    /// For meshes of a ground that reaches `half_extent_m` from its centre. Throws Error when there
+    /// is no context.
+    KeyPictures(const glm::ivec2& size_px, const glm::dvec2& half_extent_m);
+    ~KeyPictures();
+    KeyPictures(const KeyPictures&) = delete;
+    KeyPictures& operator=(const KeyPictures&) = delete;
+    KeyPictures(KeyPictures&&) = delete;
+    KeyPictures& operator=(KeyPictures&&) = delete;
+
+    /// Pixels through which the key colour is seen though their ray comes from above the mesh and
+    /// goes on below it: cracks and holes.
+    int cracks(const visuals::terrain::GroundMesh& mesh, const visuals::scene::Camera& camera);
+
+private:
+    void draw(const visuals::terrain::GroundMesh& mesh, const visuals::scene::Camera& camera);
+    bool is_key(int x, int y) const;
+    bool goes_below(const glm::dvec3& ray) const;
+
+    glm::ivec2 size_px_;
+    glm::dvec2 half_extent_m_;
+    std::unique_ptr<visuals::gl::Context> context_;
+    std::unique_ptr<visuals::gl::Renderer> renderer_; ///< goes before its context
+    visuals::gl::Picture picture_;
+    visuals::terrain::MeshSurface surface_;
+    visuals::terrain::PictureView view_;
+    double reach_m_ = 0.0;  ///< of the mesh from the eye
+    double lowest_m_ = 0.0; ///< of the mesh, world height
+    double highest_m_ = 0.0;
+    std::vector<models::ColourVertex> vertices_;
+    std::vector<std::uint32_t> facing_;
+};
+
+} // namespace octant::ui::terrain

@@ -1,0 +1,130 @@
+#include "ui/terrain/mesh_maker.h"
+
+#include "sim/base/error.h"
+#include "visuals/terrain/error_mesher.h"
+#include "visuals/terrain/mesher.h"
+#include "visuals/terrain/quadtree.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace octant::ui::terrain {
+
+namespace scene = visuals::scene;
+namespace terrain = visuals::terrain;
+
+namespace {
+
+std::vector<std::uint32_t> no_colours(int columns, int rows) {
+    return std::vector<std::uint32_t>(
+        static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0xffffffffU);
+}
+
+/// The paper's quadtree; coarseness is 1 / C.
+class QuadtreeMaker final : public MeshMaker {
+public:
+    QuadtreeMaker(const models::heights::HeightField& field, const GroundMeshOptions& options)
+        : tree_(
+              field,
+              {.roughness = options.mesh == scene::GroundMetric::Printed
+                                ? terrain::Roughness::Literal
+                                : terrain::Roughness::Midpoint})
+        , colours_(no_colours(field.columns(), field.rows()))
+        , mesher_(tree_, colours_) {
+        constexpr double midpoint_weight = 20.0;
+        constexpr double printed_weight = 5.0;
+        detail_.roughness_weight = options.roughness_c.value_or(
+            options.mesh == scene::GroundMetric::Printed ? printed_weight : midpoint_weight);
+        detail_.fans = options.fans == scene::GroundFans::Full ? terrain::FanKind::Full
+                                                               : terrain::FanKind::Partial;
+    }
+
+    terrain::GroundSamples ground() const override { return terrain::GroundSamples(tree_.field()); }
+
+    Range range() const override {
+        constexpr double largest_resolution = 5000.0;
+        return {1.0 / largest_resolution, 1.0 / tree_.options().min_resolution};
+    }
+
+    terrain::GroundMesh mesh(const terrain::MeshView& view, double coarseness) override {
+        detail_.resolution = 1.0 / coarseness;
+        return mesher_.mesh(view, detail_);
+    }
+
+    terrain::GroundMesh mesh_within(const terrain::MeshView& view, int triangles) override {
+        terrain::TriangleBudget budget;
+        budget.triangles = triangles;
+        return mesher_.mesh_within(view, detail_, budget);
+    }
+
+private:
+    terrain::Quadtree tree_;
+    std::vector<std::uint32_t> colours_;
+    terrain::Mesher mesher_;
+    terrain::Detail detail_;
+};
+
+/// The default; coarseness is pixels.
+class ErrorMaker final : public MeshMaker {
+public:
+    ErrorMaker(const world::LoadedGround& ground, const GroundMeshOptions& options)
+        : tiles_(ground.tiles())
+        , mesher_(tiles_)
+        , finest_px_(options.error_px.value_or(0.0))
+        , geomorphs_(options.geomorphs) {}
+
+    terrain::GroundSamples ground() const override { return terrain::GroundSamples(tiles_); }
+
+    Range range() const override {
+        constexpr double finest_px = 0.01;
+        constexpr double coarsest_px = 200.0;
+        return {finest_px, coarsest_px};
+    }
+
+    terrain::GroundMesh mesh(const terrain::MeshView& view, double coarseness) override {
+        return mesher_.mesh(view, {coarseness, terrain::any_triangles, geomorphs_});
+    }
+
+    terrain::GroundMesh mesh_within(const terrain::MeshView& view, int triangles) override {
+        return mesher_.mesh(view, {finest_px_, triangles, geomorphs_});
+    }
+
+private:
+    terrain::GroundTiles tiles_;
+    terrain::ErrorMesher mesher_;
+    double finest_px_;
+    bool geomorphs_;
+};
+
+} // namespace
+
+std::unique_ptr<MeshMaker>
+make_mesh_maker(const world::LoadedGround& ground, const GroundMeshOptions& options) {
+    if (options.mesh == scene::GroundMetric::ScreenError) {
+        return std::make_unique<ErrorMaker>(ground, options);
+    }
+    if (ground.field() == nullptr) {
+        throw Error("--mesh: expected screen-error for an imported ground, got another kind");
+    }
+    return std::make_unique<QuadtreeMaker>(*ground.field(), options);
+}
+
+terrain::GroundMesh
+mesh_as_asked(MeshMaker& maker, const terrain::MeshView& view, const GroundMeshOptions& options) {
+    const bool by_error = options.mesh == scene::GroundMetric::ScreenError;
+    if (options.triangles) {
+        return maker.mesh_within(view, *options.triangles);
+    }
+    if (by_error && options.error_px) {
+        return maker.mesh(view, *options.error_px);
+    }
+    if (!by_error && options.resolution_c) {
+        return maker.mesh(view, 1.0 / *options.resolution_c);
+    }
+    throw Error(
+        by_error ? "expected --triangles N or --error-px E, got neither"
+                 : "expected --triangles N or --resolution-c C for this mesh, got neither");
+}
+
+} // namespace octant::ui::terrain

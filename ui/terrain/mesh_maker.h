@@ -1,0 +1,53 @@
+#pragma once
+
+#include "ui/terrain/ground_view.h"
+#include "ui/world/loaded_ground.h"
+#include "visuals/terrain/ground_mesh.h"
+#include "visuals/terrain/ground_samples.h"
+
+#include <memory>
+
+namespace octant::ui::terrain {
+
+/// Any of the program's meshers over one ground, driven by one number.
+class MeshMaker {
+public:
+    virtual ~MeshMaker() = default;
+    MeshMaker(const MeshMaker&) = delete;
+    MeshMaker& operator=(const MeshMaker&) = delete;
+    MeshMaker(MeshMaker&&) = delete;
+    MeshMaker& operator=(MeshMaker&&) = delete;
+
+    /// The ground that its meshes are of, at full resolution.
+    virtual visuals::terrain::GroundSamples ground() const = 0;
+
+    /// How coarse meshes may get: the error in pixels, or 1 / C. Both ends make sense.
+    struct Range {
+        double finest;
+        double coarsest;
+    };
+
+    virtual Range range() const = 0;
+
+    virtual visuals::terrain::GroundMesh
+    mesh(const visuals::terrain::MeshView& view, double coarseness) = 0;
+
+    /// The mesh with as many triangles as steps allow, never more where that is possible.
+    virtual visuals::terrain::GroundMesh
+    mesh_within(const visuals::terrain::MeshView& view, int triangles) = 0;
+
+protected:
+    MeshMaker() = default;
+};
+
+/// The ground must outlive the maker and stay where it is. Throws Error for a kind of mesh that
+/// imported grounds have not.
+std::unique_ptr<MeshMaker>
+make_mesh_maker(const world::LoadedGround& ground, const GroundMeshOptions& options);
+
+/// The mesh that --error-px, --triangles or --resolution-c ask for. Throws Error when none of them
+/// is there, or one that does not go with the kind of mesh.
+visuals::terrain::GroundMesh mesh_as_asked(
+    MeshMaker& maker, const visuals::terrain::MeshView& view, const GroundMeshOptions& options);
+
+} // namespace octant::ui::terrain

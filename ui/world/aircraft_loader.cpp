@@ -1,0 +1,116 @@
+#include "ui/world/aircraft_loader.h"
+
+#include "models/polygons/file_axes.h"
+#include "models/polygons/obj_reader.h"
+#include "sim/base/text_file.h"
+#include "ui/base/data_files.h"
+#include "ui/world/mesh_aircraft.h"
+#include "visuals/draworder/ordered_model.h"
+#include "visuals/shading/piece_normals.h"
+#include "visuals/shading/vertex_normals.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+namespace octant::ui::world {
+
+namespace scene = visuals::scene;
+namespace draworder = visuals::draworder;
+namespace shading = visuals::shading;
+
+namespace {
+
+using Notes = std::vector<std::string>;
+
+/// More polygons could be put in order, but not in reasonable time: an OBJ file with more faces is
+/// flown as a mesh.
+constexpr std::size_t most_polygons_of_a_model = 2000;
+
+draworder::OrderedModel with_order(models::polygons::PolygonModel model, const scene::Settings& settings) {
+    if (settings.hidden_surface != scene::HiddenSurface::Octant ||
+        model.polygons.size() > most_polygons_of_a_model) {
+        draworder::DrawOrder order = draworder::file_order(model);
+        return {.model = std::move(model), .order = std::move(order), .cells = {}, .notes = {}};
+    }
+    draworder::OrderOptions options;
+    options.method = settings.order_method;
+    return draworder::ordered(std::move(model), options);
+}
+
+bool is_polygon_model(const std::filesystem::path& file) {
+    if (ending_of(file) != ".obj") {
+        return false;
+    }
+    const std::string text = read_text_file(file);
+    const auto faces = std::ranges::count_if(split_lines(text), [](std::string_view line) {
+        return line.starts_with("f ") || line.starts_with("f\t");
+    });
+    return static_cast<std::size_t>(faces) <= most_polygons_of_a_model;
+}
+
+scene::AircraftModel
+ready(models::polygons::PolygonModel model, const scene::Settings& settings, Notes& notes) {
+    const glm::dvec3 eye_m = scene::pilot_eye_m(model);
+    const models::polygons::PolygonModel whole = model;
+    draworder::OrderedModel ordered = with_order(std::move(model), settings);
+    notes.insert(notes.end(), ordered.notes.begin(), ordered.notes.end());
+    std::vector<glm::vec3> normals =
+        shading::normals_of_pieces(whole, shading::corner_normals(whole), ordered.model);
+    return scene::aircraft_model(
+        std::move(ordered.model), std::move(ordered.order), eye_m, std::move(normals));
+}
+
+scene::AircraftModel
+load_model(const std::string& name, const scene::Settings& settings, Notes& notes) {
+    const std::filesystem::path file = base::aircraft_file(name);
+    const bool built_in = file.parent_path() == base::data_folder() / "models";
+    const models::polygons::FileAxes axes =
+        built_in ? models::polygons::FileAxes() : models::polygons::FileAxes::from_text(settings.axes);
+    if (is_polygon_model(file)) {
+        models::polygons::PolygonModel model = models::polygons::read_obj(file, axes);
+        notes.insert(notes.end(), model.notes.begin(), model.notes.end());
+        return ready(std::move(model), settings, notes);
+    }
+    MeshAircraft mesh = read_mesh_aircraft(file, axes);
+    notes.insert(notes.end(), mesh.notes.begin(), mesh.notes.end());
+    const bool too_many = mesh.polygons.polygons.size() > most_polygons_of_a_model;
+    scene::AircraftModel model = ready(std::move(mesh.polygons), settings, notes);
+    if (too_many) { // without a painting order they only throw shadows
+        mesh.polygons_error_m = std::numeric_limits<double>::infinity();
+    }
+    add_meshes(model, mesh);
+    return model;
+}
+
+void load_cockpit(const std::string& aircraft, scene::Scene& scene) {
+    const std::filesystem::path cockpit = base::data_folder() / "models" / (aircraft + "-cockpit.obj");
+    if (!std::filesystem::exists(cockpit)) {
+        return;
+    }
+    models::polygons::PolygonModel model = models::polygons::read_obj(cockpit);
+    draworder::DrawOrder order = draworder::file_order(model);
+    scene.cockpit = static_cast<std::uint32_t>(scene.models.size());
+    scene.models.push_back(
+        scene::aircraft_model(std::move(model), std::move(order), glm::dvec3(0.0)));
+}
+
+} // namespace
+
+std::vector<std::string> load_aircraft(const scene::Settings& settings, scene::Scene& scene) {
+    Notes notes;
+    std::vector<std::string> loaded;
+    for (const std::string& name : settings.aircraft) {
+        const auto found = std::find(loaded.begin(), loaded.end(), name);
+        scene.aircraft.push_back(static_cast<std::uint32_t>(found - loaded.begin()));
+        if (found == loaded.end()) {
+            loaded.push_back(name);
+            scene.models.push_back(load_model(name, settings, notes));
+        }
+    }
+    load_cockpit(settings.aircraft.front(), scene);
+    return notes;
+}
+
+} // namespace octant::ui::world

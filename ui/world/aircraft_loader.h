@@ -1,0 +1,17 @@
+#pragma once
+
+#include "visuals/scene/planner.h"
+#include "visuals/scene/settings.h"
+
+#include <string>
+#include <vector>
+
+namespace octant::ui::world {
+
+/// Loads the aircraft of a run, and the cockpit of the first one where it has one: polygon models
+/// with their painting orders, chains of levels, and meshes, which get levels here. Returns what a
+/// person should be told. Throws Error.
+std::vector<std::string>
+load_aircraft(const visuals::scene::Settings& settings, visuals::scene::Scene& scene);
+
+} // namespace octant::ui::world

@@ -1,0 +1,60 @@
+#include "ui/world/frame_times.h"
+
+#include "sim/base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace octant::ui::world {
+
+using visuals::scene::Settings;
+
+namespace {
+
+double first_time_s(const Settings& settings, const sim::Trajectory& path) {
+    const double length_s = path.end_s() - path.start_s();
+    if (settings.start_s > 0.0 && settings.start_s >= length_s) {
+        throw Error(fmt::format(
+            "--start: expected less than the path's {} s, got {}", length_s, settings.start_s));
+    }
+    return path.start_s() + settings.start_s;
+}
+
+} // namespace
+
+void FrameTimes::cut_to(std::size_t frames) {
+    if (frames < at_s.size()) {
+        at_s.resize(frames);
+        until_s = at_s.back();
+    }
+}
+
+FrameTimes frame_times_of(const Settings& settings, const Flight& flight) {
+    const sim::Trajectory& path = flight.trajectory;
+    const double from_s = first_time_s(settings, path);
+    FrameTimes times;
+    times.rate_hz = settings.frame_per_sample ? flight.rate_hz : settings.rate_hz;
+    times.until_s =
+        settings.seconds ? std::min(path.end_s(), from_s + *settings.seconds) : path.end_s();
+    if (settings.frame_per_sample) {
+        const double half_frame_s = 0.5 / times.rate_hz;
+        for (const sim::AircraftState& sample : path.samples()) {
+            if (sample.time_s >= from_s && sample.time_s <= times.until_s + half_frame_s) {
+                times.at_s.push_back(sample.time_s);
+            }
+        }
+    } else {
+        const auto count =
+            static_cast<long>(std::floor((times.until_s - from_s) * times.rate_hz + 1e-6)) + 1;
+        for (long frame = 0; frame < count; ++frame) {
+            times.at_s.push_back(from_s + static_cast<double>(frame) / times.rate_hz);
+        }
+    }
+    if (settings.frames) {
+        times.cut_to(static_cast<std::size_t>(*settings.frames));
+    }
+    return times;
+}
+
+} // namespace octant::ui::world

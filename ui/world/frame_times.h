@@ -1,0 +1,24 @@
+#pragma once
+
+#include "ui/world/world.h"
+#include "visuals/scene/settings.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace octant::ui::world {
+
+/// When the pictures of a run are taken.
+struct FrameTimes {
+    std::vector<double> at_s; ///< at least one
+    double rate_hz = 0.0;
+    double until_s = 0.0; ///< the last simulation step of the run
+
+    /// Leaves the first so many, at least one; does nothing where there are no more.
+    void cut_to(std::size_t frames);
+};
+
+/// Throws Error when the run would start behind the path's end.
+FrameTimes frame_times_of(const visuals::scene::Settings& settings, const Flight& flight);
+
+} // namespace octant::ui::world

@@ -1,0 +1,91 @@
+#include "ui/world/input_files.h"
+
+#include "sim/base/error.h"
+#include "sim/base/hash.h"
+#include "ui/base/data_files.h"
+#include "ui/world/terrain_file.h"
+#include "visuals/terrain/ground_file.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <span>
+
+namespace octant::ui::world {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string absolute(const std::string& file) {
+    return fs::absolute(file).lexically_normal().string();
+}
+
+std::string hash_of_file(const fs::path& file) {
+    if (visuals::terrain::is_ground_file(file)) {
+        return fmt::format("{:016x}", visuals::terrain::hash_of_ground(file));
+    }
+    std::ifstream in(file, std::ios::binary);
+    if (!in || fs::is_directory(file)) {
+        error_in(file, "expected a file that can be read, got none");
+    }
+    Hash hash;
+    std::vector<char> piece(std::size_t{1} << 20);
+    while (in) {
+        in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+        hash.add(std::as_bytes(std::span(piece.data(), static_cast<std::size_t>(in.gcount()))));
+    }
+    return fmt::format("{:016x}", hash.value());
+}
+
+bool is_file(const std::string& name) {
+    std::error_code ignored;
+    return fs::is_regular_file(name, ignored);
+}
+
+} // namespace
+
+visuals::scene::Settings with_absolute_files(visuals::scene::Settings settings) {
+    // A name that is built in comes first everywhere, also where a file of that name lies about.
+    const std::string pilot = settings.aircraft.front();
+    if (base::path_file(settings.path, pilot) == settings.path) {
+        settings.path = absolute(settings.path);
+    }
+    for (std::string& name : settings.aircraft) {
+        if (base::aircraft_file(name) == name) {
+            name = absolute(name);
+        }
+    }
+    if (!is_built_in_ground(settings.terrain) && is_file(settings.terrain)) {
+        settings.terrain = absolute(settings.terrain);
+    }
+    if (settings.drape) {
+        settings.drape = absolute(*settings.drape);
+    }
+    return settings;
+}
+
+std::vector<std::pair<std::string, std::string>>
+input_hashes(const visuals::scene::Settings& settings) {
+    std::vector<fs::path> files = {base::path_file(settings.path, settings.aircraft.front())};
+    for (const std::string& name : settings.aircraft) {
+        files.push_back(base::aircraft_file(name));
+        const fs::path materials = fs::path(files.back()).replace_extension(".mtl");
+        if (is_file(materials.string())) {
+            files.push_back(materials);
+        }
+    }
+    if (is_file(settings.terrain)) {
+        files.emplace_back(settings.terrain);
+    }
+    if (settings.drape) {
+        files.emplace_back(*settings.drape);
+    }
+    std::vector<std::pair<std::string, std::string>> hashes;
+    for (const fs::path& file : files) {
+        hashes.emplace_back(file.string(), hash_of_file(file));
+    }
+    return hashes;
+}
+
+} // namespace octant::ui::world

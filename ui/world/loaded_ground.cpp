@@ -1,0 +1,27 @@
+#include "ui/world/loaded_ground.h"
+
+#include "ui/world/terrain_file.h"
+#include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/ground_file.h"
+
+namespace octant::ui::world {
+
+namespace terrain = visuals::terrain;
+
+terrain::GroundSamples LoadedGround::samples() const {
+    return std::visit([](const auto& ground) { return terrain::GroundSamples(ground); }, ground_);
+}
+
+terrain::GroundTiles LoadedGround::tiles() const {
+    const models::heights::HeightField* const read = field();
+    return read != nullptr ? terrain::ground_of(*read) : std::get<terrain::GroundTiles>(ground_);
+}
+
+LoadedGround load_ground(const std::string& name_or_file, double spacing_m) {
+    if (is_imported_ground(name_or_file)) {
+        return LoadedGround(terrain::open_ground(name_or_file));
+    }
+    return LoadedGround(load_height_field(name_or_file, spacing_m));
+}
+
+} // namespace octant::ui::world

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "models/heights/height_field.h"
+#include "visuals/terrain/ground_samples.h"
+#include "visuals/terrain/ground_tiles.h"
+
+#include <string>
+#include <variant>
+
+namespace octant::ui::world {
+
+/// A terrain as it was given: read whole, or imported and mapped.
+class LoadedGround {
+public:
+    explicit LoadedGround(models::heights::HeightField field)
+        : ground_(std::move(field)) {}
+
+    explicit LoadedGround(visuals::terrain::GroundTiles tiles)
+        : ground_(std::move(tiles)) {}
+
+    /// Refers to this.
+    visuals::terrain::GroundSamples samples() const;
+
+    /// Nothing for an imported ground.
+    const models::heights::HeightField* field() const { return std::get_if<models::heights::HeightField>(&ground_); }
+
+    /// What screen-error meshes are made of: built here from a field that was read.
+    visuals::terrain::GroundTiles tiles() const;
+
+private:
+    std::variant<models::heights::HeightField, visuals::terrain::GroundTiles> ground_;
+};
+
+/// By name (hills, canyon), imported or any file that GDAL reads. `spacing_m`: of files that do
+/// not say. Throws Error.
+LoadedGround load_ground(const std::string& name_or_file, double spacing_m);
+
+} // namespace octant::ui::world

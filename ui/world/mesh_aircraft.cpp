@@ -1,0 +1,133 @@
+#include "ui/world/mesh_aircraft.h"
+
+#include "models/measure/mesh_distance.h"
+#include "models/polygons/mesh_polygons.h"
+#include "ui/world/refine_input.h"
+#include "ui/base/stopwatch.h"
+#include "visuals/refine/active_mesh.h"
+#include "visuals/refine/selective_refiner.h"
+
+#include <fmt/format.h>
+#include <utility>
+
+namespace octant::ui::world {
+
+namespace meshfile = models::meshfile;
+namespace measure = models::measure;
+namespace refine = visuals::refine;
+namespace scene = visuals::scene;
+
+namespace {
+
+/// Few enough polygons for a painting order.
+constexpr std::size_t far_faces = 250;
+
+/// Into body axes: a rotation, so that no triangle turns over.
+void turn(models::TriangleMesh& mesh, const models::polygons::FileAxes& axes) {
+    for (glm::dvec3& vertex_m : mesh.vertices_m) {
+        vertex_m = axes.body_from_file(vertex_m);
+    }
+    for (glm::vec3& normal : mesh.normals) {
+        normal = glm::vec3(axes.body_from_file(glm::dvec3(normal)));
+    }
+}
+
+std::shared_ptr<const refine::ProgressiveMesh>
+turned(const refine::ProgressiveMesh& mesh, const models::polygons::FileAxes& axes) {
+    refine::ProgressiveParts parts = mesh.whole_parts();
+    parts.origin_m = axes.body_from_file(parts.origin_m);
+    for (glm::vec3& position_m : parts.positions_m) {
+        position_m = glm::vec3(axes.body_from_file(glm::dvec3(position_m)));
+    }
+    for (refine::PackedNormal& normal : parts.normals) {
+        normal = refine::packed(glm::vec3(axes.body_from_file(glm::dvec3(unpacked(normal)))));
+    }
+    return std::make_shared<const refine::ProgressiveMesh>(std::move(parts));
+}
+
+/// The hierarchy's mesh after as many of its coarsest splits as far polygons allow.
+models::TriangleMesh far_mesh(const std::shared_ptr<const refine::ProgressiveMesh>& hierarchy) {
+    refine::SelectiveRefiner front(hierarchy);
+    for (const std::uint32_t node : hierarchy->coarsest_first()) {
+        if (front.face_count() + 2 >= far_faces) {
+            break;
+        }
+        front.split(node);
+    }
+    return refine::active_mesh(front).mesh;
+}
+
+models::TriangleMesh finest_mesh(const refine::ProgressiveMesh& hierarchy) {
+    models::TriangleMesh mesh;
+    for (std::uint32_t leaf = 0; leaf < hierarchy.leaf_count(); ++leaf) {
+        mesh.vertices_m.push_back(
+            hierarchy.parts().origin_m + glm::dvec3(hierarchy.position_m(leaf)));
+    }
+    mesh.triangles.assign(hierarchy.faces().begin(), hierarchy.faces().end());
+    return mesh;
+}
+
+MeshAircraft from_hierarchy(const std::filesystem::path& file, const models::polygons::FileAxes& axes) {
+    const base::Stopwatch watch;
+    RefineMesh input = read_refine_mesh({.file = file.string(), .base = 0, .quiet = true});
+    MeshAircraft aircraft;
+    aircraft.notes = std::move(input.notes);
+    aircraft.hierarchy = turned(*input.mesh, axes);
+    const models::TriangleMesh far = far_mesh(aircraft.hierarchy);
+    measure::DistanceOptions loosely;
+    loosely.tightness = 1.4;
+    loosely.samples = 0;
+    aircraft.polygons_error_m =
+        measure::distance(finest_mesh(*aircraft.hierarchy), far, loosely).most_hausdorff_m();
+    aircraft.polygons = models::polygons::as_polygons(far);
+    aircraft.notes.push_back(fmt::format(
+        "{}: {} triangles made ready to be refined in {:.1f} s",
+        file.string(),
+        aircraft.hierarchy->face_count(),
+        watch.s()));
+    return aircraft;
+}
+
+/// Levels that are no better than the polygons are never drawn.
+MeshAircraft from_chain(meshfile::LevelChain chain, const models::polygons::FileAxes& axes) {
+    MeshAircraft aircraft;
+    aircraft.polygons =
+        chain.polygons ? std::move(*chain.polygons) : models::polygons::as_polygons(chain.levels.back().mesh);
+    aircraft.polygons_error_m =
+        chain.polygons ? chain.polygons_error_m : chain.levels.back().error_m;
+    for (glm::dvec3& vertex_m : aircraft.polygons.vertices_m) {
+        vertex_m = axes.body_from_file(vertex_m);
+    }
+    for (models::polygons::Pivot& pivot : aircraft.polygons.pivots) {
+        pivot.point_m = axes.body_from_file(pivot.point_m);
+        pivot.axis = axes.body_from_file(pivot.axis);
+    }
+    for (meshfile::ChainLevel& level : chain.levels) {
+        if (level.error_m < aircraft.polygons_error_m) {
+            turn(level.mesh, axes);
+            aircraft.levels.push_back(std::move(level));
+        }
+    }
+    return aircraft;
+}
+
+} // namespace
+
+MeshAircraft read_mesh_aircraft(const std::filesystem::path& file, const models::polygons::FileAxes& axes) {
+    return meshfile::is_chain_file(file) ? from_chain(meshfile::read_chain(file), axes)
+                                         : from_hierarchy(file, axes);
+}
+
+void add_meshes(scene::AircraftModel& model, const MeshAircraft& aircraft) {
+    if (aircraft.hierarchy) {
+        scene::add_progressive(model, aircraft.hierarchy, aircraft.polygons_error_m);
+        return;
+    }
+    std::vector<scene::MeshSource> sources;
+    for (const meshfile::ChainLevel& level : aircraft.levels) {
+        sources.push_back({&level.mesh, level.error_m});
+    }
+    scene::add_levels(model, sources, aircraft.polygons_error_m);
+}
+
+} // namespace octant::ui::world

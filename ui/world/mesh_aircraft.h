@@ -1,0 +1,33 @@
+#pragma once
+
+#include "models/polygons/file_axes.h"
+#include "models/meshfile/level_chain.h"
+#include "models/polygons/polygon_model.h"
+#include "visuals/refine/progressive_mesh.h"
+#include "visuals/scene/aircraft_model.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace octant::ui::world {
+
+/// An aircraft that comes as a mesh, in body axes: either levels of detail or a hierarchy, and
+/// polygons for far away.
+struct MeshAircraft {
+    std::vector<models::meshfile::ChainLevel> levels; ///< finest first; none with a hierarchy
+    std::shared_ptr<const visuals::refine::ProgressiveMesh> hierarchy; ///< null with levels
+    models::polygons::PolygonModel polygons;
+    double polygons_error_m = 0.0; ///< certified
+    std::vector<std::string> notes;
+};
+
+/// Reads a chain of levels (.chain), a progressive mesh (.pm) or any other mesh file, of which a
+/// hierarchy is made here. Throws Error.
+MeshAircraft read_mesh_aircraft(const std::filesystem::path& file, const models::polygons::FileAxes& axes);
+
+/// Gives the model that was made of its polygons the rest of a mesh aircraft.
+void add_meshes(visuals::scene::AircraftModel& model, const MeshAircraft& aircraft);
+
+} // namespace octant::ui::world

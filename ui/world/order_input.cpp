@@ -1,0 +1,122 @@
+#include "ui/world/order_input.h"
+
+#include "models/made/made_up.h"
+#include "models/polygons/obj_reader.h"
+#include "sim/base/dice.h"
+#include "sim/base/error.h"
+#include "ui/base/data_files.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <vector>
+
+namespace octant::ui::world {
+
+namespace draworder = visuals::draworder;
+
+namespace {
+
+constexpr std::size_t most_polygons = 20000;
+constexpr std::array built_in = {"f15", "500md", "concave"};
+constexpr double nearest_radii = 0.05;
+constexpr double farthest_radii = 20.0;
+constexpr int rays_per_eye = 20;
+
+bool is_file_name(const std::string& name) {
+    std::error_code ignored;
+    return name.find('/') != std::string::npos || name.find('.') != std::string::npos ||
+           std::filesystem::is_regular_file(name, ignored);
+}
+
+OrderInput read(const std::string& name, const std::string& axes) {
+    if (std::ranges::find(built_in, name) != built_in.end()) {
+        return {models::polygons::read_obj(base::aircraft_file(name)), {}};
+    }
+    if (name == "torus") {
+        return {models::made::torus(), {}};
+    }
+    if (!is_file_name(name)) {
+        throw Error(fmt::format(
+            "model: expected f15, 500md, concave, torus or an OBJ file, got '{}'",
+            printable(name)));
+    }
+    const auto file_axes = models::polygons::FileAxes::from_text(axes);
+    return {models::polygons::read_obj(name, file_axes), file_axes};
+}
+
+} // namespace
+
+OrderInput read_order_input(const std::string& name_or_file, const std::string& axes) {
+    OrderInput input = read(name_or_file, axes);
+    if (input.model.polygons.size() > most_polygons) {
+        throw Error(fmt::format(
+            "{}: expected at most {} polygons, got {}",
+            printable(name_or_file),
+            most_polygons,
+            input.model.polygons.size()));
+    }
+    return input;
+}
+
+PlaneTests plane_tests(const draworder::OrderedModel& ordered) {
+    constexpr int eyes = 10000;
+    const auto nodes = ordered.order.nodes();
+    std::vector<int> depth(nodes.size(), 1);
+    PlaneTests tests;
+    for (std::size_t i = 0; i < nodes.size(); ++i) { // children are later nodes
+        tests.most = std::max(tests.most, depth[i]);
+        for (const int child : {nodes[i].front, nodes[i].back}) {
+            if (child >= 0) {
+                depth[static_cast<std::size_t>(child)] = depth[i] + 1;
+            }
+        }
+    }
+    Dice dice(1989);
+    const double radius_m = models::polygons::radius_m(ordered.model);
+    long sum = 0;
+    for (int i = 0; i < eyes; ++i) {
+        const glm::dvec3 direction = dice.direction();
+        const double radii = nearest_radii * std::pow(farthest_radii / nearest_radii, dice.next());
+        int at = nodes.empty() ? ~0 : 0;
+        while (at >= 0) {
+            const auto& node = nodes[static_cast<std::size_t>(at)];
+            at = distance_m(node.plane, direction * (radii * radius_m)) >= 0.0 ? node.front
+                                                                               : node.back;
+            ++sum;
+        }
+    }
+    tests.mean = static_cast<double>(sum) / eyes;
+    return tests;
+}
+
+draworder::RayCount
+cast_rays(const models::polygons::PolygonModel& model, const draworder::CellOrders& orders, int rays) {
+    std::vector<double> angles_rad = {0.0};
+    if (!model.pivots.empty()) {
+        angles_rad = {0.0, 0.7, 2.1, 4.4};
+    }
+    double least_m = orders.cells.front().min_m;
+    for (const auto& cell : orders.cells) {
+        least_m = std::min(least_m, cell.min_m);
+    }
+    const double nearest_m = least_m / std::sqrt(3.0) - glm::length(orders.centre_m);
+    draworder::RayCount count;
+    for (std::size_t i = 0; i < angles_rad.size(); ++i) {
+        draworder::EyeSamples samples;
+        samples.eyes = std::max(1, rays / rays_per_eye / static_cast<int>(angles_rad.size()));
+        samples.rays_per_eye = rays_per_eye;
+        samples.least_distance_radii = std::max(nearest_radii, nearest_m / models::polygons::radius_m(model));
+        samples.most_distance_radii = std::max(farthest_radii, 10.0 * samples.least_distance_radii);
+        samples.seed = 1989 + i;
+        samples.turn_rad = angles_rad[i];
+        count += draworder::count_wrong_rays(model, orders, samples);
+    }
+    return count;
+}
+
+} // namespace octant::ui::world

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "models/heights/height_field.h"
+
+#include <glm/vec2.hpp>
+
+#include <optional>
+#include <string>
+
+namespace octant::ui::world {
+
+/// Where --place puts the path's origin, metres east and north of the map centre. Two numbers are
+/// degrees when they carry letters (49.3N,123.1W) or when the map has a place on the earth and they
+/// lie on it as latitude,longitude; otherwise metres. Throws Error for other text and for degrees
+/// on a map without a place.
+glm::dvec2 place_from_text(
+    const std::string& text,
+    const std::optional<models::heights::GeoPlace>& map_place,
+    const glm::dvec2& half_extent_m);
+
+} // namespace octant::ui::world

@@ -1,0 +1,107 @@
+#include "ui/world/refine_input.h"
+
+#include "models/meshfile/repair.h"
+#include "models/simplify/simplify.h"
+#include "sim/base/error.h"
+#include "ui/world/mesh_input.h"
+#include "ui/base/progress.h"
+#include "visuals/refine/progressive_file.h"
+
+#include <fmt/format.h>
+
+namespace octant::ui::world {
+
+namespace refine = visuals::refine;
+
+namespace {
+
+/// Colours are vertices' in a hierarchy: those of the materials around each, where it has none.
+void colour_by_materials(models::TriangleMesh& mesh) {
+    if (!mesh.colours.empty()) {
+        return;
+    }
+    std::vector<glm::vec3> sums(mesh.vertices_m.size(), glm::vec3(0.0F));
+    std::vector<int> counts(mesh.vertices_m.size(), 0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const glm::vec3 colour = models::material_colour(mesh, t);
+        for (const std::uint32_t vertex : mesh.triangles[t]) {
+            sums[vertex] += colour;
+            ++counts[vertex];
+        }
+    }
+    for (std::size_t v = 0; v < sums.size(); ++v) {
+        mesh.colours.push_back(
+            counts[v] > 0 ? sums[v] / static_cast<float>(counts[v]) : models::Material().colour);
+    }
+}
+
+void refuse_too_many(const std::string& file, const models::TriangleMesh& mesh) {
+    using refine::ProgressiveMesh;
+    if (mesh.triangles.size() > ProgressiveMesh::most_faces ||
+        mesh.vertices_m.size() > ProgressiveMesh::most_leaves) {
+        error_in(
+            file,
+            fmt::format(
+                "expected at most {} triangles and {} vertices to refine, got {} and {} "
+                "(octant simplify makes fewer of them)",
+                ProgressiveMesh::most_faces,
+                ProgressiveMesh::most_leaves,
+                mesh.triangles.size(),
+                mesh.vertices_m.size()));
+    }
+}
+
+refine::ProgressiveMesh made_hierarchy(const RefineInput& input, std::vector<std::string>& notes) {
+    models::meshfile::RepairedMesh repaired =
+        models::meshfile::repaired(read_mesh_input(input.file));
+    notes = repaired.mesh.notes;
+    for (const std::string& line : models::meshfile::in_words(repaired.counts)) {
+        notes.push_back(input.file + ": " + line);
+    }
+    if (repaired.mesh.triangles.empty()) {
+        error_in(input.file, "expected a mesh with triangles, got none");
+    }
+    refuse_too_many(input.file, repaired.mesh);
+    colour_by_materials(repaired.mesh);
+    constexpr int steps = 1000;
+    base::Progress progress("collapsing edges", steps, input.quiet, "thousandths");
+    models::simplify::SimplifyOptions options;
+    options.quality = models::simplify::Quality::Fast;
+    options.length_share = 0.03;
+    if (input.base > 0) {
+        options.goal.vertices = input.base;
+    }
+    options.show_progress = [&](double share) { progress.show(static_cast<int>(share * steps)); };
+    const models::CollapseSequence sequence =
+        models::simplify::fast_sequence(std::move(repaired.mesh), options);
+    progress.finish();
+    return refine::ProgressiveMesh(sequence);
+}
+
+} // namespace
+
+RefineMesh read_refine_mesh(const RefineInput& input) {
+    RefineMesh result;
+    if (refine::is_progressive_file(input.file)) {
+        result.mesh = std::make_shared<const refine::ProgressiveMesh>(
+            refine::read_progressive(input.file, input.most_vertices));
+        if (result.mesh->face_count() == 0) {
+            error_in(input.file, "expected a mesh with triangles, got none");
+        }
+        result.notes = result.mesh->parts().notes;
+    } else {
+        result.mesh =
+            std::make_shared<const refine::ProgressiveMesh>(made_hierarchy(input, result.notes));
+    }
+    return result;
+}
+
+std::shared_ptr<const refine::ProgressiveMesh> read_refine_input(const RefineInput& input) {
+    RefineMesh result = read_refine_mesh(input);
+    for (const std::string& note : result.notes) {
+        base::say(input.quiet, "note: " + note);
+    }
+    return result.mesh;
+}
+
+} // namespace octant::ui::world

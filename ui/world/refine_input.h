@@ -1,0 +1,32 @@
+#pragma once
+
+#include "visuals/refine/progressive_mesh.h"
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace octant::ui::world {
+
+struct RefineInput {
+    std::string file;     ///< a triangle mesh or a progressive mesh (.pm)
+    std::size_t base = 0; ///< meshes: vertices of the base mesh, at least; 0 = as few as can be
+    std::size_t most_vertices = std::numeric_limits<std::size_t>::max(); ///< read of a .pm file
+    bool quiet = false;
+};
+
+/// A hierarchy, and what a person should be told of its making.
+struct RefineMesh {
+    std::shared_ptr<const visuals::refine::ProgressiveMesh> mesh;
+    std::vector<std::string> notes;
+};
+
+/// Reads, or makes by repair and simplification, a hierarchy. Throws Error.
+RefineMesh read_refine_mesh(const RefineInput& input);
+
+/// The same; notes go to stderr.
+std::shared_ptr<const visuals::refine::ProgressiveMesh> read_refine_input(const RefineInput& input);
+
+} // namespace octant::ui::world

@@ -1,0 +1,119 @@
+#include "ui/world/scene_ground.h"
+
+#include "models/made/made_up.h"
+#include "sim/base/error.h"
+#include "ui/world/terrain_file.h"
+#include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/ground_file.h"
+
+#include <cstdint>
+#include <fmt/format.h>
+#include <optional>
+#include <utility>
+
+namespace octant::ui::world {
+
+namespace scene = visuals::scene;
+namespace terrain = visuals::terrain;
+
+namespace {
+
+template <class Field>
+void describe_ground(
+    const Field& field,
+    const std::string& name,
+    const std::optional<models::heights::GeoPlace>& place,
+    std::int64_t filled_voids,
+    World& world) {
+    world.ground_name = fmt::format(
+        "{}, {} x {} samples, {:.4g} m apart",
+        name,
+        field.columns(),
+        field.rows(),
+        field.spacing_m());
+    world.ground_place = place;
+    if (filled_voids > 0) {
+        world.notes.push_back(
+            fmt::format("{}: {} samples without data were filled in", name, filled_voids));
+    }
+}
+
+} // namespace
+
+void check_ground_settings(const scene::Settings& settings) {
+    scene::Settings unasked = settings;
+    unasked.mesh.reset();
+    if (settings.mesh == scene::GroundMetric::ScreenError &&
+        scene::ground_metric(unasked) != scene::GroundMetric::ScreenError) {
+        throw Error("--mesh screen-error: expected --detail exact without --roughness-c, --fans or "
+                    "--propagation, got one that only --mesh midpoint or printed has");
+    }
+    if (is_imported_ground(settings.terrain) &&
+        scene::ground_metric(settings) != scene::GroundMetric::ScreenError) {
+        throw Error(fmt::format(
+            "{}: expected --mesh screen-error for an imported ground, got a mesh that goes by "
+            "roughness",
+            printable(settings.terrain)));
+    }
+    if (settings.error_px && scene::ground_metric(settings) != scene::GroundMetric::ScreenError) {
+        throw Error("--error-px: expected --mesh screen-error, got a mesh that goes by roughness");
+    }
+}
+
+void texture_ground(
+    const terrain::GroundSamples& ground,
+    const models::heights::GroundArea& area,
+    const scene::Settings& settings,
+    DrawnBy drawn_by,
+    World& world) {
+    world.scene.ground_texture = load_ground_texture(ground, area, settings, drawn_by, world.notes);
+    if (world.scene.ground_texture) {
+        world.ground_name += settings.drape ? ", draped" : ", textured";
+    }
+}
+
+void load_imported(const scene::Settings& settings, DrawnBy drawn_by, World& world) {
+    terrain::GroundTiles ground = terrain::open_ground(settings.terrain);
+    const terrain::GroundFacts& facts = ground.facts();
+    describe_ground(ground, facts.name, facts.place, facts.filled_voids, world);
+    const models::heights::GroundArea area{
+        facts.name, ground.half_extent_m(), ground.spacing_m(), facts.system};
+    texture_ground(terrain::GroundSamples(ground), area, settings, drawn_by, world);
+    world.scene.ground = scene::ground_from_tiles(std::move(ground), settings);
+}
+
+bool is_drawn_whole(const std::string& terrain) {
+    return terrain == "background60" || terrain == "none";
+}
+
+scene::Settings ground_settings(const scene::Settings& settings) {
+    scene::Settings own = settings;
+    if (!settings.palette && settings.terrain == "canyon") {
+        own.palette = scene::Palette::Arid;
+    }
+    return own;
+}
+
+void load_scene_ground(const scene::Settings& settings, DrawnBy drawn_by, World& world) {
+    check_ground_settings(settings);
+    world.ground_name = settings.terrain;
+    if (is_drawn_whole(settings.terrain)) {
+        check_untextured_ground(settings);
+        world.scene.ground = scene::ground_from_polygons(
+            settings.terrain == "none" ? models::polygons::PolygonModel{} : models::made::background60(), settings);
+        return;
+    }
+    const scene::Settings colours = ground_settings(settings);
+    if (is_imported_ground(settings.terrain)) {
+        load_imported(settings, drawn_by, world);
+        return;
+    }
+    models::heights::HeightField field = load_height_field(settings.terrain, settings.terrain_spacing_m);
+    describe_ground(field, field.name, field.place, field.filled_voids, world);
+    texture_ground(terrain::GroundSamples(field), models::heights::area_of(field), colours, drawn_by, world);
+    world.scene.ground = scene::ground_metric(settings) == scene::GroundMetric::ScreenError
+                             ? scene::ground_from_tiles(terrain::ground_of(field), colours)
+                             : scene::ground_from_field(std::move(field), colours);
+}
+
+} // namespace octant::ui::world

@@ -1,0 +1,263 @@
+#include "ui/world/world.h"
+
+#include "flightpaths/path_script.h"
+#include "flightpaths/placement.h"
+#include "flightpaths/recorded_track.h"
+#include "sim/base/error.h"
+#include "sim/base/units.h"
+#include "ui/world/aircraft_loader.h"
+#include "ui/base/data_files.h"
+#include "ui/world/place_text.h"
+#include "ui/world/scene_ground.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <utility>
+
+namespace octant::ui::world {
+
+namespace scene = visuals::scene;
+
+namespace {
+
+/// Lowest clearance of a recorded track that is lifted over ground: it names none itself.
+constexpr double track_clearance_m = 50.0;
+
+/// A path before it is laid over ground.
+struct Script {
+    sim::Trajectory trajectory;
+    double rate_hz = 0.0;
+    double min_clearance_m = 0.0;
+    sim::AircraftLimits limits;
+    std::optional<flightpaths::GeoOrigin> origin; ///< of a track that knows where it was flown
+    std::vector<flightpaths::LegBegin> legs;
+};
+
+Script load_script(const scene::Settings& settings, World& world) {
+    const std::filesystem::path file = base::path_file(settings.path, settings.aircraft.front());
+    if (file.extension() == ".toml") {
+        const flightpaths::PathScript script = flightpaths::read_path_script(file);
+        const auto limits = sim::limits_of(script.aircraft);
+        if (!limits) {
+            error_in(
+                file,
+                fmt::format(
+                    "expected aircraft f15 or 500md, got '{}'", printable(script.aircraft)));
+        }
+        flightpaths::FlownPath flown = flightpaths::fly(script, *limits, settings.lenient);
+        world.notes.insert(world.notes.end(), flown.notes.begin(), flown.notes.end());
+        return {
+            std::move(flown.trajectory),
+            static_cast<double>(script.rate_hz),
+            script.min_clearance_m,
+            *limits,
+            {},
+            std::move(flown.legs)};
+    }
+    flightpaths::RecordedTrack track = flightpaths::read_recorded_track(file);
+    const auto samples = track.trajectory.samples();
+    const double mean_step_s =
+        (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
+    const auto limits = sim::limits_of(settings.aircraft.front());
+    return {
+        std::move(track.trajectory),
+        1.0 / mean_step_s,
+        track_clearance_m,
+        limits.value_or(*sim::limits_of("f15")),
+        track.origin,
+        {}};
+}
+
+flightpaths::HeightMode placement_mode(scene::HeightMode mode) {
+    switch (mode) {
+    case scene::HeightMode::Clear:
+        return flightpaths::HeightMode::Clear;
+    case scene::HeightMode::Follow:
+        return flightpaths::HeightMode::Follow;
+    case scene::HeightMode::Datum:
+        break;
+    }
+    return flightpaths::HeightMode::Datum;
+}
+
+flightpaths::Placement
+placement_of(const scene::Settings& settings, const Script& script, const World& world) {
+    flightpaths::Placement placement;
+    const glm::dvec2 half_extent_m = world.scene.ground->half_extent_m();
+    const bool at_its_own_place = script.origin && world.ground_place && !settings.place;
+    if (settings.place) {
+        placement.place_m = place_from_text(*settings.place, world.ground_place, half_extent_m);
+    } else if (at_its_own_place) {
+        placement.place_m = flightpaths::local_from_geo(
+            {world.ground_place->latitude_deg, world.ground_place->longitude_deg},
+            script.origin->latitude_deg,
+            script.origin->longitude_deg);
+        placement.heading_rad = 0.0;
+    }
+    if (settings.heading_deg) {
+        placement.heading_rad = rad_from_deg(*settings.heading_deg);
+    }
+    placement.mode = placement_mode(settings.height_mode.value_or(
+        at_its_own_place ? scene::HeightMode::Datum : scene::HeightMode::Clear));
+    return placement;
+}
+
+Flight place_flight(const scene::Settings& settings, Script script, World& world) {
+    const auto ground = [&](double x_m, double y_m) {
+        return world.scene.ground->height_at(x_m, y_m);
+    };
+    flightpaths::PlacedPath placed = flightpaths::place_over_ground(
+        script.trajectory,
+        placement_of(settings, script, world),
+        ground,
+        script.min_clearance_m,
+        script.limits);
+    world.notes.insert(world.notes.end(), placed.notes.begin(), placed.notes.end());
+    const auto stem = [](const std::string& name) {
+        return std::filesystem::path(name).stem().string();
+    };
+    return {
+        .trajectory = std::move(placed.trajectory),
+        .title = fmt::format(
+            "{} {} over {}",
+            stem(settings.aircraft.front()),
+            stem(settings.path),
+            stem(settings.terrain)),
+        .rate_hz = script.rate_hz,
+        .place_m = placed.origin_m,
+        .heading_rad = placed.heading_rad,
+        .offset_m = placed.offset_m,
+        .lowest_clearance_m = placed.lowest_clearance_m,
+        .lowest_clearance_s = placed.lowest_clearance_at_s,
+        .legs = std::move(script.legs)};
+}
+
+/// The leader's path has been laid over the ground; those beside him must clear it too.
+void check_wingmen(const World& world) {
+    const Formation formation = formation_of(world.scene);
+    for (std::size_t number = 1; number < world.scene.aircraft.size(); ++number) {
+        std::vector<sim::AircraftState> states;
+        for (const sim::AircraftState& leader : world.flight.trajectory.samples()) {
+            states.push_back(formation.wingman_of(leader, static_cast<int>(number)));
+        }
+        try {
+            flightpaths::check_over_ground(
+                sim::Trajectory(std::move(states)),
+                [&](double x_m, double y_m) { return world.scene.ground->height_at(x_m, y_m); });
+        } catch (const Error& fault) {
+            throw Error(fmt::format(
+                "wingman {}: {}; fewer --aircraft, another --place or another --heading may do",
+                number,
+                fault.what()));
+        }
+    }
+}
+
+void check_shading(const scene::Settings& settings) {
+    const bool hybrid = settings.shading == scene::AircraftShading::Hybrid;
+    const bool by_share = settings.adapt.shading || settings.device_ratio ||
+                          settings.smooth_share < 1.0 ||
+                          settings.shading_rule == scene::HybridRule::Paper;
+    if (by_share && !hybrid) {
+        throw Error("--shading: expected hybrid beside --adapt shading, --smooth-share, "
+                    "--device-ratio or --shading-rule paper, got another one");
+    }
+    if (settings.shading_far_m <= settings.shading_near_m) {
+        throw Error(fmt::format(
+            "--shading-far: expected more than --shading-near ({}), got {}",
+            settings.shading_near_m,
+            settings.shading_far_m));
+    }
+}
+
+void check_adaptation(const scene::Settings& settings) {
+    if (!settings.adapt.terrain) {
+        return;
+    }
+    if (settings.detail != scene::DetailControl::Exact) {
+        throw Error("--adapt terrain: expected --detail exact beside it, got another control");
+    }
+    if (is_drawn_whole(settings.terrain)) {
+        throw Error(fmt::format(
+            "--adapt terrain: expected ground with levels of detail, got {}", settings.terrain));
+    }
+}
+
+void check_eye_point(const scene::Settings& settings) {
+    const bool free = settings.view == scene::View::Free;
+    if (free && (!settings.eye_m || !settings.look_m)) {
+        throw Error("--view free: expected --eye X,Y,Z and --look X,Y,Z, got at most one of them");
+    }
+    if (free && *settings.eye_m == *settings.look_m) {
+        throw Error("--look: expected another point than --eye, got the same");
+    }
+    if (!free && settings.view != scene::View::Tower && settings.eye_m) {
+        throw Error("--eye: expected --view tower or free beside it, got another view");
+    }
+    if (!free && settings.look_m) {
+        throw Error("--look: expected --view free beside it, got another view");
+    }
+}
+
+} // namespace
+
+Formation formation_of(const scene::Scene& scene) {
+    double largest_m = 0.0;
+    for (const std::uint32_t model : scene.aircraft) {
+        largest_m = std::max(largest_m, scene.models[model].subject.radius_m);
+    }
+    return {static_cast<int>(scene.aircraft.size()), largest_m};
+}
+
+scene::FixedPoints fixed_points(const scene::Settings& settings, const World& world) {
+    check_eye_point(settings);
+    scene::FixedPoints points;
+    if (settings.view == scene::View::Free) {
+        points.free_eye_m = *settings.eye_m;
+        points.free_look_m = *settings.look_m;
+    }
+    if (settings.view != scene::View::Tower && settings.inset != scene::View::Tower) {
+        return points;
+    }
+    if (settings.view == scene::View::Tower && settings.eye_m) {
+        points.tower_m = *settings.eye_m;
+        return points;
+    }
+    constexpr std::size_t every = 10;
+    std::vector<glm::dvec3> flight_m;
+    for (std::size_t i = 0; i < world.flight.trajectory.samples().size(); i += every) {
+        flight_m.push_back(world.flight.trajectory.samples()[i].position_m);
+    }
+    points.tower_m =
+        scene::tower_place(flight_m, world.flight.place_m, [&](double x_m, double y_m) {
+            return world.scene.ground->height_at(x_m, y_m);
+        });
+    return points;
+}
+
+void check_settings(const scene::Settings& settings) {
+    if (settings.samples != 1 && settings.samples != 4) {
+        throw Error(fmt::format("--samples: expected 1 or 4, got {}", settings.samples));
+    }
+    if (settings.inset == scene::View::Free && settings.view != scene::View::Free) {
+        throw Error("--inset free: expected --view free beside it, got another view");
+    }
+    check_adaptation(settings);
+    check_shading(settings);
+    check_ground_settings(settings);
+}
+
+World load_world(const scene::Settings& settings, DrawnBy drawn_by) {
+    check_settings(settings);
+    World world;
+    world.notes = load_aircraft(settings, world.scene);
+    Script script = load_script(settings, world);
+    load_scene_ground(settings, drawn_by, world);
+    world.flight = place_flight(settings, std::move(script), world);
+    check_wingmen(world);
+    world.points = fixed_points(settings, world);
+    return world;
+}
+
+} // namespace octant::ui::world
