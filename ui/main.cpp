@@ -1,6 +1,6 @@
 #include "sim/base/error.h"
-#include "ui/commands/commands.h"
 #include "ui/base/version.h"
+#include "ui/commands/commands.h"
 #include "visuals/gl/platform_tuning.h"
 
 #include <CLI/CLI.hpp>
@@ -30,7 +30,10 @@ int run(int argc, char** argv) {
                      "terrain, and times it.");
     program.set_version_flag(
         "--version",
-        fmt::format("octant {} ({})", octant::ui::base::program_version(), octant::ui::base::program_commit()));
+        fmt::format(
+            "octant {} ({})",
+            octant::ui::base::program_version(),
+            octant::ui::base::program_commit()));
     program.require_subcommand(1);
     program.get_formatter()->column_width(34);
     program.footer(

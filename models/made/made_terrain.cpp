@@ -2,7 +2,8 @@
 
 namespace octant::models::made {
 
-std::optional<heights::HeightField> made_terrain(std::string_view name, const MadeOptions& options) {
+std::optional<heights::HeightField>
+made_terrain(std::string_view name, const MadeOptions& options) {
     if (name == "hills") {
         return made_hills(options);
     }

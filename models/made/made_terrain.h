@@ -26,6 +26,7 @@ heights::HeightField made_hills(const MadeOptions& options = {});
 heights::HeightField made_canyon(const MadeOptions& options = {});
 
 /// Ground by its built-in name, "hills" or "canyon"; nothing for another name.
-std::optional<heights::HeightField> made_terrain(std::string_view name, const MadeOptions& options = {});
+std::optional<heights::HeightField>
+made_terrain(std::string_view name, const MadeOptions& options = {});
 
 } // namespace octant::models::made

@@ -19,10 +19,10 @@
 // a convex function, so that over a piece it is at most its largest value at the corners; a single
 // triangle T of the target is convex, and the distance to the target is at most that to T. Asked
 // are the T nearest to the corners and to the middle; beside that, distances change no faster than
-// their points move. Pieces are cut in two, not in four: where they leave the part of space over one
-// T, so that what lies flat on many triangles ends as the overlay of both meshes instead of at the
-// size of the distance; else where the nearest triangle changes. They are cut in batches, so that
-// the result is the same on any number of threads.
+// their points move. Pieces are cut in two, not in four: where they leave the part of space over
+// one T, so that what lies flat on many triangles ends as the overlay of both meshes instead of at
+// the size of the distance; else where the nearest triangle changes. They are cut in batches, so
+// that the result is the same on any number of threads.
 
 namespace octant::models::measure {
 

@@ -320,7 +320,8 @@ polygons::PolygonModel take_model(ByteReader& reader) {
     taking.check(model.pivots.size() <= 1000, "at most 1000 pivots");
     taking.check(one_pivot_a_part(model), "one pivot a part at most");
     taking.check(
-        std::ranges::all_of(model.pivots, [](const polygons::Pivot& pivot) { return is_unit(pivot.axis); }),
+        std::ranges::all_of(
+            model.pivots, [](const polygons::Pivot& pivot) { return is_unit(pivot.axis); }),
         "axes of length 1");
     taking.check(all_convex(model), "convex planar polygons");
     return model;

@@ -22,9 +22,9 @@ struct ChainLevel {
 /// before; the first is the original at error 0. In the axes of the file it was made from.
 struct LevelChain {
     std::string name;
-    std::vector<ChainLevel> levels;       ///< at least one
+    std::vector<ChainLevel> levels;                 ///< at least one
     std::optional<polygons::PolygonModel> polygons; ///< of draw-order size, behind the last level
-    double polygons_error_m = 0.0;        ///< certified, of `polygons`
+    double polygons_error_m = 0.0;                  ///< certified, of `polygons`
 };
 
 /// Whether a file calls itself a chain by its ending, .chain.

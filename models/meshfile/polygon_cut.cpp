@@ -37,7 +37,8 @@ std::vector<glm::dvec2> seen_outline(std::span<const glm::dvec3> corners_m) {
 bool is_strictly_convex(std::span<const glm::dvec2> outline) {
     const std::size_t count = outline.size();
     for (std::size_t i = 0; i < count; ++i) {
-        if (polygons::turn_of(outline[i], outline[(i + 1) % count], outline[(i + 2) % count]) <= 0.0 ||
+        if (polygons::turn_of(outline[i], outline[(i + 1) % count], outline[(i + 2) % count]) <=
+                0.0 ||
             polygons::turn_of(outline[0], outline[i], outline[(i + 1) % count]) < 0.0) {
             return false;
         }

@@ -2,8 +2,8 @@
 
 #include "sim/base/hash.h"
 #include "ui/base/progress.h"
-#include "ui/report/statistics.h"
 #include "ui/flight/session.h"
+#include "ui/report/statistics.h"
 #include "visuals/gl/bare_grid.h"
 
 #include <algorithm>
@@ -26,12 +26,15 @@ constexpr int warm_up_frames = 20;
 /// The platform's floor, drawn by the same renderer as everything else.
 class Floor {
 public:
-    explicit Floor(const scene::Settings& settings)
-        : context_(flight::make_context(settings.context))
+    explicit Floor(const settings::Settings& settings)
+        : context_(flight::make_context(settings.drawing.context))
         , renderer_(std::make_unique<gl::Renderer>(
-              context_->functions(), settings.size_px.x, settings.size_px.y, settings.samples)) {
-        plan_.view_to_clip =
-            scene::view_to_clip({}, static_cast<double>(settings.size_px.x) / settings.size_px.y);
+              context_->functions(),
+              settings.view.size_px.x,
+              settings.view.size_px.y,
+              settings.view.samples)) {
+        plan_.view_to_clip = scene::view_to_clip(
+            {}, static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y);
         grid_ = gl::bare_grid(floor_triangles, plan_.view_to_clip);
         plan_.ground = {grid_.vertices, grid_.indices};
         renderer_->warm_up();
@@ -112,11 +115,11 @@ BenchResult result_of(const Timed& timed, double floor_ms) {
         .hash = timed.hash.value()};
 }
 
-std::string name_of(const scene::Settings& settings) {
+std::string name_of(const settings::Settings& settings) {
     return fmt::format(
         "{}, {}",
-        std::filesystem::path(settings.terrain).filename().string(),
-        fmt::join(settings.aircraft, "+"));
+        std::filesystem::path(settings.path.terrain).filename().string(),
+        fmt::join(settings.path.aircraft, "+"));
 }
 
 } // namespace
@@ -127,10 +130,10 @@ std::vector<BenchResult> run_bench(const BenchOptions& options) {
     timed[0].name = fmt::format("floor: bare grid of {} triangles", floor_triangles);
     std::vector<std::unique_ptr<flight::Session>> sessions;
     for (std::size_t i = 0; i < options.terrains.size(); ++i) {
-        scene::Settings settings = options.settings;
-        settings.terrain = options.terrains[i];
-        settings.frames = options.frames + warm_up_frames;
-        base::say(options.quiet, fmt::format("loading {}", settings.terrain));
+        settings::Settings settings = options.settings;
+        settings.path.terrain = options.terrains[i];
+        settings.time.frames = options.frames + warm_up_frames;
+        base::say(options.quiet, fmt::format("loading {}", settings.path.terrain));
         sessions.push_back(std::make_unique<flight::Session>(settings));
         timed[i + 1].name = name_of(settings);
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/scene/settings.h"
+#include "ui/settings/settings.h"
 
 #include <cstdint>
 #include <string>
@@ -9,7 +9,7 @@
 namespace octant::ui::commands {
 
 struct BenchOptions {
-    visuals::scene::Settings settings; ///< size, triangles, aircraft and context are used
+    settings::Settings settings;       ///< size, triangles, aircraft and context are used
     std::vector<std::string> terrains; ///< one scene each
     int frames = 300;                  ///< timed, of each scene
     bool quiet = false;

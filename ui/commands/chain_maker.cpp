@@ -78,7 +78,8 @@ models::meshfile::LevelChain level_chain(TriangleMesh mesh, const ChainOptions& 
     if (chain.polygons) {
         chain.polygons_error_m =
             options.polygons
-                ? certified_m(original, models::polygons::as_triangles(*chain.polygons), simplify.threads)
+                ? certified_m(
+                      original, models::polygons::as_triangles(*chain.polygons), simplify.threads)
                 : chain.levels.back().error_m;
     }
     return chain;

@@ -14,7 +14,8 @@ namespace octant::ui::commands {
 struct ChainOptions {
     models::simplify::SimplifyOptions simplify; ///< its goal is not looked at
     std::size_t coarsest_faces = 250;
-    std::optional<models::polygons::PolygonModel> polygons; ///< for the end of the chain, axes of the mesh
+    std::optional<models::polygons::PolygonModel>
+        polygons; ///< for the end of the chain, axes of the mesh
     /// Called after each level with how many there are and will be about.
     std::function<void(std::size_t done, std::size_t of)> show_level;
 };

@@ -1,6 +1,6 @@
+#include "ui/base/figures_text.h"
 #include "ui/commands/bench.h"
 #include "ui/commands/commands.h"
-#include "ui/base/figures_text.h"
 #include "ui/settings/settings_text.h"
 
 #include <CLI/CLI.hpp>
@@ -87,7 +87,9 @@ void add_bench_command(CLI::App& program) {
         ->allow_extra_args(false);
     command
         ->add_option(
-            "--aircraft", options.settings.aircraft, "aircraft of every scene; repeat for wingmen")
+            "--aircraft",
+            options.settings.path.aircraft,
+            "aircraft of every scene; repeat for wingmen")
         ->type_name("NAME|FILE")
         ->capture_default_str()
         ->allow_extra_args(false);
@@ -95,12 +97,13 @@ void add_bench_command(CLI::App& program) {
         ->add_option_function<std::string>(
             "--size",
             [bench](const std::string& text) {
-                settings::read_setting({"--size", "", "", 16, 8192}, text, bench->options.settings.size_px);
+                settings::read_setting(
+                    {"--size", "", "", 16, 8192}, text, bench->options.settings.view.size_px);
             },
             "picture size in pixels")
         ->type_name("WIDTHxHEIGHT")
-        ->default_str(settings::text_of(options.settings.size_px));
-    command->add_option("--triangles", options.settings.triangles, "triangles of ground")
+        ->default_str(settings::text_of(options.settings.view.size_px));
+    command->add_option("--triangles", options.settings.ground.triangles, "triangles of ground")
         ->type_name("N")
         ->default_str("20000")
         ->check(CLI::Range(100, 10000000));
@@ -108,11 +111,12 @@ void add_bench_command(CLI::App& program) {
         ->add_option_function<std::string>(
             "--context",
             [bench](const std::string& text) {
-                settings::read_setting({"--context", "", ""}, text, bench->options.settings.context);
+                settings::read_setting(
+                    {"--context", "", ""}, text, bench->options.settings.drawing.context);
             },
             "who draws: osmesa or egl")
         ->type_name("KIND")
-        ->default_str(settings::text_of(options.settings.context));
+        ->default_str(settings::text_of(options.settings.drawing.context));
     command->add_option("--frames", options.frames, "timed frames of each scene")
         ->type_name("N")
         ->capture_default_str()

@@ -1,14 +1,14 @@
 #include "sim/base/error.h"
-#include "ui/commands/commands.h"
 #include "ui/base/figures_text.h"
-#include "ui/flight/flight_recorder.h"
-#include "ui/world/input_files.h"
 #include "ui/base/progress.h"
-#include "ui/flight/replay.h"
-#include "ui/report/statistics.h"
-#include "ui/flight/session.h"
-#include "ui/settings/settings_file.h"
+#include "ui/commands/commands.h"
 #include "ui/commands/settings_options.h"
+#include "ui/flight/flight_recorder.h"
+#include "ui/flight/replay.h"
+#include "ui/flight/session.h"
+#include "ui/report/statistics.h"
+#include "ui/settings/settings_file.h"
+#include "ui/world/input_files.h"
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -27,7 +27,7 @@ namespace scene = visuals::scene;
 namespace {
 
 struct FlyOptions {
-    scene::Settings settings;
+    settings::Settings settings;
     flight::RecordOptions record;
     std::optional<flight::Replay> replay;
     bool json = false;
@@ -43,7 +43,8 @@ void wait_for(const base::Stopwatch& since_start, double time_s) {
     }
 }
 
-void print_summary(const flight::FlightEnd& end, const std::optional<flight::ReplayVerdict>& verdict, bool json) {
+void print_summary(
+    const flight::FlightEnd& end, const std::optional<flight::ReplayVerdict>& verdict, bool json) {
     if (json) {
         nlohmann::ordered_json object;
         for (const report::Figure& figure : report::figures()) {
@@ -109,7 +110,8 @@ void check_options(const CLI::App& command, const FlyOptions& options) {
 void start_replay(const flight::Replay& replay, flight::Session& session, bool quiet) {
     flight::check_frames(replay, session.frames());
     if (static_cast<int>(replay.decisions.size()) < session.frames()) {
-        base::say(quiet,
+        base::say(
+            quiet,
             fmt::format(
                 "note: {} has {} of {} frames; these are flown",
                 replay.folder.string(),
@@ -120,15 +122,16 @@ void start_replay(const flight::Replay& replay, flight::Session& session, bool q
 }
 
 /// Every frame of the session, recorded.
-void fly_frames(const FlyOptions& options, flight::Session& session, flight::FlightRecorder& recorder) {
+void fly_frames(
+    const FlyOptions& options, flight::Session& session, flight::FlightRecorder& recorder) {
     base::Progress progress(session.world().flight.title, session.frames(), options.quiet);
     const base::Stopwatch since_start;
     for (int frame = 0; frame < session.frames(); ++frame) {
-        if (options.settings.realtime) {
+        if (options.settings.time.realtime) {
             wait_for(since_start, frame / session.rate_hz());
         }
         report::FrameRecord record = session.draw(frame);
-        if (options.settings.realtime) {
+        if (options.settings.time.realtime) {
             const double late_s = since_start.s() - frame / session.rate_hz();
             record.latency_ms = 1000.0 * late_s;
             record.missed = late_s > 1.0 / session.rate_hz() ? 1 : 0;
@@ -157,7 +160,8 @@ void fly(const CLI::App& command, FlyOptions options) {
     check_options(command, options);
     options.settings = world::with_absolute_files(options.settings);
     if (options.if_new && flight::is_recorded(options.record, options.settings)) {
-        base::say(options.quiet, fmt::format("{} is done already", options.record.folder->string()));
+        base::say(
+            options.quiet, fmt::format("{} is done already", options.record.folder->string()));
         return;
     }
     flight::Session session(options.settings);
@@ -180,7 +184,8 @@ void fly(const CLI::App& command, FlyOptions options) {
         base::say(false, missing);
     }
     if (end.statistics.frames == 0) {
-        base::say(options.quiet,
+        base::say(
+            options.quiet,
             fmt::format(
                 "note: all {} frames are warm-up, so there are no figures; --warm-up 0 counts them",
                 session.frames()));
@@ -222,7 +227,8 @@ void add_fly_command(CLI::App& program) {
             [options](const std::string& folder) {
                 options->replay = flight::read_replay(folder);
                 options->record.replay_of = folder;
-                options->settings = settings::read_settings(std::filesystem::path(folder) / "run.json");
+                options->settings =
+                    settings::read_settings(std::filesystem::path(folder) / "run.json");
             },
             "fly the recording in DIR again by its rows, as far as they go, and check that states "
             "and pictures are the same (exit code 1 when not)")

@@ -2,12 +2,12 @@
 #include "models/measure/mesh_defects.h"
 #include "models/measure/mesh_distance.h"
 #include "sim/base/error.h"
-#include "ui/commands/commands.h"
 #include "ui/base/figures_text.h"
-#include "ui/world/mesh_input.h"
 #include "ui/base/progress.h"
-#include "ui/commands/settings_options.h"
 #include "ui/base/stopwatch.h"
+#include "ui/commands/commands.h"
+#include "ui/commands/settings_options.h"
+#include "ui/world/mesh_input.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

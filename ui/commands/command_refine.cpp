@@ -2,16 +2,16 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/units.h"
-#include "ui/commands/commands.h"
 #include "ui/base/figures_text.h"
-#include "visuals/refine/partition_mesh.h"
 #include "ui/base/progress.h"
-#include "ui/settings/read_option.h"
-#include "ui/world/refine_input.h"
-#include "ui/commands/settings_options.h"
-#include "ui/settings/settings_text.h"
 #include "ui/base/stopwatch.h"
+#include "ui/commands/commands.h"
+#include "ui/commands/settings_options.h"
+#include "ui/settings/read_option.h"
+#include "ui/settings/settings_text.h"
+#include "ui/world/refine_input.h"
 #include "visuals/refine/active_mesh.h"
+#include "visuals/refine/partition_mesh.h"
 #include "visuals/refine/progressive_file.h"
 #include "visuals/refine/refine_region.h"
 
@@ -118,7 +118,9 @@ void write_results(const refine::SelectiveRefiner& refiner, const RefineOptions&
         const bool by_level = options.colour_by == "level";
         models::meshfile::write_mesh(
             options.partition,
-            visuals::refine::partition_mesh(refiner, by_level ? visuals::refine::ColourBy::Level : visuals::refine::ColourBy::Region));
+            visuals::refine::partition_mesh(
+                refiner,
+                by_level ? visuals::refine::ColourBy::Level : visuals::refine::ColourBy::Region));
         base::say(options.input.quiet, "partition: " + options.partition);
     }
     if (options.out.empty() && options.nodes.empty()) {
@@ -126,7 +128,8 @@ void write_results(const refine::SelectiveRefiner& refiner, const RefineOptions&
     }
     const refine::ActiveMesh active = refine::active_mesh(refiner);
     if (!options.out.empty()) {
-        models::meshfile::write_mesh(options.out, visuals::refine::coloured_active(active, colour_by(options)));
+        models::meshfile::write_mesh(
+            options.out, visuals::refine::coloured_active(active, colour_by(options)));
         base::say(options.input.quiet, "active mesh: " + options.out);
     }
     if (!options.nodes.empty()) {
@@ -249,7 +252,8 @@ void add_what(CLI::App& command, RefineOptions& options) {
         options.error_px);
     settings::add_read_option(
         command, {"eye", "X,Y,Z", "where the view is from, file axes", -1e9, 1e9}, options.eye_m);
-    settings::add_read_option(command, {"look", "X,Y,Z", "what it looks at", -1e9, 1e9}, options.look_m);
+    settings::add_read_option(
+        command, {"look", "X,Y,Z", "what it looks at", -1e9, 1e9}, options.look_m);
     add_number_option(
         command, {"fov", "DEGREES", "height of the view", 1.0, 170.0}, options.fov_deg);
     settings::add_read_option(

@@ -1,9 +1,9 @@
 #include "sim/base/output_file.h"
-#include "ui/commands/commands.h"
 #include "ui/base/progress.h"
+#include "ui/commands/commands.h"
+#include "ui/flight/track_files.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
-#include "ui/flight/track_files.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -27,7 +27,8 @@ void make_report(const ReportOptions& options) {
     for (const std::string& folder : options.folders) {
         recordings.push_back(report::load_recording(folder));
         if (recordings.back().ended_early) {
-            base::say(options.quiet,
+            base::say(
+                options.quiet,
                 fmt::format(
                     "note: {} ended early, after {} frames",
                     folder,

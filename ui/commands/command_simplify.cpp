@@ -2,8 +2,8 @@
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
-#include "ui/commands/commands.h"
 #include "ui/base/figures_text.h"
+#include "ui/commands/commands.h"
 #include "ui/commands/settings_options.h"
 #include "ui/commands/simplify_work.h"
 

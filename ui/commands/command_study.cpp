@@ -1,14 +1,14 @@
 #include "ui/commands/commands.h"
-#include "ui/settings/read_option.h"
 #include "ui/commands/settings_options.h"
+#include "ui/settings/read_option.h"
 #include "ui/settings/settings_text.h"
 #include "ui/studies/draw_order/study_draw_order.h"
-#include "ui/studies/flicker/study_flicker.h"
 #include "ui/studies/draw_order/study_flights.h"
 #include "ui/studies/draw_order/study_hidden_surface.h"
+#include "ui/studies/flicker/study_flicker.h"
 #include "ui/studies/flicker/study_popping.h"
-#include "ui/studies/refinement/study_refinement.h"
 #include "ui/studies/hybrid_shading/study_shading.h"
+#include "ui/studies/refinement/study_refinement.h"
 #include "ui/studies/simplification/study_simplification.h"
 
 #include <CLI/CLI.hpp>
@@ -55,9 +55,17 @@ void add_flights(CLI::App& study) {
         "flights", "Tables 5 and 6 of the 1989 paper: four paths, two aircraft, three methods");
     add_out(*flights, options->out);
     add_setting(
-        *flights, "--size", options->settings.size_px, "WIDTHxHEIGHT", "picture size in pixels");
+        *flights,
+        "--size",
+        options->settings.view.size_px,
+        "WIDTHxHEIGHT",
+        "picture size in pixels");
     add_setting(
-        *flights, "--context", options->settings.context, "KIND", "who draws: osmesa or egl");
+        *flights,
+        "--context",
+        options->settings.drawing.context,
+        "KIND",
+        "who draws: osmesa or egl");
     flights->add_flag("--json", options->json, "print the tables as JSON");
     flights->add_flag("--quiet", options->quiet, "no progress, no notes");
     flights->footer("Example:\n  octant study flights --out tables");
@@ -108,7 +116,7 @@ void add_flicker(CLI::App& study) {
 
 void add_hidden_surface(CLI::App& study) {
     auto options = std::make_shared<studies::draw_order::HiddenSurfaceStudy>();
-    options->settings.terrain = "canyon";
+    options->settings.path.terrain = "canyon";
     CLI::App* command = study.add_subcommand(
         "hidden-surface",
         "Octant order, depth buffer and removal of back faces: frames a second, and every pixel's "
@@ -121,15 +129,19 @@ void add_hidden_surface(CLI::App& study) {
         ->check(CLI::IsMember({"race", "pictures", "both"}))
         ->capture_default_str();
     add_setting(
-        *command, "--terrain", options->settings.terrain, "NAME|FILE", "ground of both parts");
+        *command, "--terrain", options->settings.path.terrain, "NAME|FILE", "ground of both parts");
     add_setting(
         *command,
         "--size",
-        options->settings.size_px,
+        options->settings.view.size_px,
         "WIDTHxHEIGHT",
         "picture size of the comparison; the race has 640x480 and 1280x720");
     add_setting(
-        *command, "--context", options->settings.context, "KIND", "who draws: osmesa or egl");
+        *command,
+        "--context",
+        options->settings.drawing.context,
+        "KIND",
+        "who draws: osmesa or egl");
     command->add_option("--frames", options->race_frames, "timed frames of each race")
         ->type_name("N")
         ->capture_default_str()
@@ -154,20 +166,22 @@ void add_hidden_surface(CLI::App& study) {
 
 void add_popping(CLI::App& study) {
     auto options = std::make_shared<studies::flicker::PoppingStudyOptions>();
-    options->settings.terrain = "canyon";
+    options->settings.path.terrain = "canyon";
     CLI::App* command = study.add_subcommand(
         "popping", "Largest jump of a vertex in any frame of the four paths, and shimmer");
     add_out(*command, options->out);
-    visuals::scene::Settings& settings = options->settings;
-    add_setting(*command, "--terrain", settings.terrain, "NAME|FILE", "the ground");
-    add_setting(*command, "--size", settings.size_px, "WIDTHxHEIGHT", "picture size in pixels");
-    settings::add_read_option(*command, {"triangles", "N", "budget [20000]", 1, 1e8}, settings.triangles);
+    settings::Settings& settings = options->settings;
+    add_setting(*command, "--terrain", settings.path.terrain, "NAME|FILE", "the ground");
+    add_setting(
+        *command, "--size", settings.view.size_px, "WIDTHxHEIGHT", "picture size in pixels");
+    settings::add_read_option(
+        *command, {"triangles", "N", "budget [20000]", 1, 1e8}, settings.ground.triangles);
     settings::add_read_option(
         *command,
         {"error-px", "PIXELS", "screen-error: refined no further [0.25]", 0.001, 1e4},
-        settings.error_px);
+        settings.ground.error_px);
     settings::add_read_option(
-        *command, {"frames", "N", "only the first of each path", 2, 1e7}, settings.frames);
+        *command, {"frames", "N", "only the first of each path", 2, 1e7}, settings.time.frames);
     command->add_flag("--shimmer", options->shimmer, "draw, and measure shimmer too");
     command->add_option("--every", options->every, "shimmer: one pair of frames in N")
         ->type_name("N")

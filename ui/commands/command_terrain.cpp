@@ -3,11 +3,11 @@
 #include "models/made/made_terrain.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
+#include "ui/base/figures_text.h"
+#include "ui/base/progress.h"
 #include "ui/commands/command_terrain_import.h"
 #include "ui/commands/command_terrain_measure.h"
 #include "ui/commands/commands.h"
-#include "ui/base/figures_text.h"
-#include "ui/base/progress.h"
 #include "ui/commands/settings_options.h"
 #include "ui/world/terrain_file.h"
 #include "visuals/terrain/ground_file.h"
@@ -74,7 +74,8 @@ void show(const TerrainOptions& options) {
         show_ground_file(options.terrain, options.verify, options.json);
         return;
     }
-    base::print_figures(figures_of(world::load_height_field(options.terrain, options.spacing_m)), options.json);
+    base::print_figures(
+        figures_of(world::load_height_field(options.terrain, options.spacing_m)), options.json);
 }
 
 void make(TerrainOptions options) {
@@ -85,7 +86,8 @@ void make(TerrainOptions options) {
             fmt::format("--kind: expected hills or canyon, got '{}'", printable(options.kind)));
     }
     models::heights::write_height_field(options.out, *field);
-    base::say(options.quiet,
+    base::say(
+        options.quiet,
         fmt::format(
             "{}: {} x {} samples, {} m apart, {:.0f} to {:.0f} m",
             options.out,

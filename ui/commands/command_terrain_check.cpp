@@ -1,11 +1,11 @@
+#include "ui/base/figures_text.h"
+#include "ui/base/progress.h"
 #include "ui/commands/command_terrain_measure.h"
 #include "ui/commands/commands.h"
-#include "ui/base/figures_text.h"
-#include "ui/world/loaded_ground.h"
-#include "ui/terrain/mesh_maker.h"
-#include "ui/base/progress.h"
 #include "ui/commands/settings_options.h"
+#include "ui/terrain/mesh_maker.h"
 #include "ui/terrain/terrain_check.h"
+#include "ui/world/loaded_ground.h"
 #include "visuals/terrain/ground_query.h"
 
 #include <CLI/CLI.hpp>
@@ -26,7 +26,8 @@ struct CheckOptions {
 };
 
 void check(const CheckOptions& options) {
-    const world::LoadedGround ground = world::load_ground(options.view.terrain, options.view.spacing_m);
+    const world::LoadedGround ground =
+        world::load_ground(options.view.terrain, options.view.spacing_m);
     const auto maker = ui::terrain::make_mesh_maker(ground, options.mesh);
     ui::terrain::TerrainCheck asked = options.check;
     asked.by_error = options.mesh.mesh == visuals::scene::GroundMetric::ScreenError;

@@ -1,10 +1,10 @@
 #include "sim/base/error.h"
 #include "ui/commands/command_terrain_measure.h"
+#include "ui/report/table_text.h"
+#include "ui/settings/read_option.h"
 #include "ui/terrain/error_tables.h"
 #include "ui/terrain/eye_points.h"
 #include "ui/world/loaded_ground.h"
-#include "ui/settings/read_option.h"
-#include "ui/report/table_text.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -32,7 +32,8 @@ void show_error(const ErrorOptions& options) {
     if (options.compare && !options.solve_px) {
         throw Error("--compare: expected --solve PIXELS beside it, got none");
     }
-    const world::LoadedGround ground = world::load_ground(options.view.terrain, options.view.spacing_m);
+    const world::LoadedGround ground =
+        world::load_ground(options.view.terrain, options.view.spacing_m);
     ui::terrain::ErrorRun run{options.view, options.mesh, {}, options.solve_px, options.quiet};
     if (options.eye_points.empty()) {
         run.cameras.push_back(ui::terrain::camera_of(options.view));
@@ -41,7 +42,8 @@ void show_error(const ErrorOptions& options) {
                                     ? std::filesystem::path(options.view.terrain).stem().string()
                                     : options.map;
         const visuals::terrain::GroundSamples samples = ground.samples();
-        for (const ui::terrain::EyePoint& point : ui::terrain::read_eye_points(options.eye_points, map)) {
+        for (const ui::terrain::EyePoint& point :
+             ui::terrain::read_eye_points(options.eye_points, map)) {
             run.cameras.push_back(ui::terrain::camera_at(point, samples, options.view.fov_deg));
         }
     }

@@ -3,8 +3,8 @@
 #include "sim/base/error.h"
 #include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
-#include "ui/commands/settings_options.h"
 #include "ui/base/stopwatch.h"
+#include "ui/commands/settings_options.h"
 #include "visuals/terrain/ground_file.h"
 #include "visuals/terrain/ground_import.h"
 
@@ -118,7 +118,8 @@ void import(const ImportCommand& command) {
         base::say(command.quiet, summary.note);
     }
     if (!command.json) {
-        base::say(command.quiet,
+        base::say(
+            command.quiet,
             fmt::format(
                 "{}: {} x {} samples, {:.6g} m apart, {:.0f} to {:.0f} m, {} voids filled, {:.1f} "
                 "MB, {:.2f} s",

@@ -1,10 +1,10 @@
 #include "sim/base/output_file.h"
-#include "ui/commands/command_terrain_measure.h"
 #include "ui/base/figures_text.h"
-#include "ui/terrain/ground_ply.h"
-#include "ui/world/loaded_ground.h"
-#include "ui/terrain/mesh_maker.h"
 #include "ui/base/progress.h"
+#include "ui/commands/command_terrain_measure.h"
+#include "ui/terrain/ground_ply.h"
+#include "ui/terrain/mesh_maker.h"
+#include "ui/world/loaded_ground.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -28,10 +28,11 @@ struct MeshOptions {
 
 void write_mesh(const MeshOptions& options) {
     const visuals::scene::Camera camera = ui::terrain::camera_of(options.view);
-    const world::LoadedGround ground = world::load_ground(options.view.terrain, options.view.spacing_m);
+    const world::LoadedGround ground =
+        world::load_ground(options.view.terrain, options.view.spacing_m);
     const auto maker = ui::terrain::make_mesh_maker(ground, options.mesh);
-    const visuals::terrain::GroundMesh mesh =
-        ui::terrain::mesh_as_asked(*maker, ui::terrain::mesh_view(camera, options.view), options.mesh);
+    const visuals::terrain::GroundMesh mesh = ui::terrain::mesh_as_asked(
+        *maker, ui::terrain::mesh_view(camera, options.view), options.mesh);
     write_file(options.out, ui::terrain::ply_of(mesh, camera.eye_m, options.ascii));
     if (options.json) {
         nlohmann::ordered_json figures;
@@ -43,7 +44,8 @@ void write_mesh(const MeshOptions& options) {
         base::print_figures(figures, true);
         return;
     }
-    base::say(options.quiet,
+    base::say(
+        options.quiet,
         fmt::format(
             "{}: {} triangles, {} vertices, {}",
             options.out,

@@ -1,10 +1,10 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/commands/command_terrain_measure.h"
-#include "ui/world/loaded_ground.h"
-#include "ui/terrain/mesh_maker.h"
 #include "ui/settings/read_option.h"
+#include "ui/terrain/mesh_maker.h"
 #include "ui/terrain/terrain_answers.h"
+#include "ui/world/loaded_ground.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/mesh_surface.h"
 
@@ -55,7 +55,8 @@ void query(const QueryOptions& options) {
     if (points.empty() && !options.from_m) {
         throw Error("expected --at, --points or --from and --to, got none");
     }
-    const world::LoadedGround ground = world::load_ground(options.view.terrain, options.view.spacing_m);
+    const world::LoadedGround ground =
+        world::load_ground(options.view.terrain, options.view.spacing_m);
     const visuals::terrain::GroundSamples samples = ground.samples();
     ui::terrain::Answers answers;
     if (options.as_drawn) {

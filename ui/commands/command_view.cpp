@@ -1,9 +1,9 @@
-#include "ui/commands/commands.h"
-#include "ui/world/input_files.h"
 #include "ui/base/progress.h"
+#include "ui/commands/commands.h"
 #include "ui/commands/settings_options.h"
 #include "ui/window/viewer.h"
 #include "ui/window/window_bench.h"
+#include "ui/world/input_files.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -31,7 +31,9 @@ fs::path configuration_folder() {
 }
 
 void print_bench(const window::WindowBench& bench) {
-    const auto line = [](std::string_view name, const window::WindowTimes& times, const std::string& rest) {
+    const auto line = [](std::string_view name,
+                         const window::WindowTimes& times,
+                         const std::string& rest) {
         std::fputs(
             fmt::format("{:<28} {:>9.2f} {:>9.2f}  {}\n", name, times.median_ms, times.p99_ms, rest)
                 .c_str(),
@@ -56,7 +58,7 @@ void view(window::ViewOptions options, bool quiet) {
     }
     int frames = 0;
     while (viewer.turn()) {
-        if (options.settings.frames && ++frames >= *options.settings.frames) {
+        if (options.settings.time.frames && ++frames >= *options.settings.time.frames) {
             break;
         }
     }
@@ -75,7 +77,7 @@ void add_view_command(CLI::App& program) {
     };
 
     auto options = std::make_shared<Options>();
-    options->view.settings.terrain = "canyon";
+    options->view.settings.path.terrain = "canyon";
     options->view.records_into = ".";
     CLI::App* command = program.add_subcommand(
         "view", "Flies along a path or by hand in a window; F1 there lists its keys");

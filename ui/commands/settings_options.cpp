@@ -11,7 +11,7 @@
 
 namespace octant::ui::commands {
 
-using visuals::scene::Settings;
+using settings::Settings;
 
 namespace {
 
@@ -57,7 +57,8 @@ public:
 
 private:
     template <class Value>
-    static void read_option(const settings::FieldInfo& info, const std::string& text, Value& value) {
+    static void
+    read_option(const settings::FieldInfo& info, const std::string& text, Value& value) {
         try {
             settings::read_setting(info, text, value);
         } catch (const Error& fault) {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "ui/settings/settings.h"
 #include "ui/settings/settings_text.h"
-#include "visuals/scene/settings.h"
 
 namespace CLI {
 class App;
@@ -12,8 +12,7 @@ namespace octant::ui::commands {
 /// Adds one option for every setting, and --settings FILE, which is read before the others so that
 /// they override it. The first word without dashes is the path when `path_is_positional`. A wrong
 /// value throws Error while the command line is parsed.
-void add_setting_options(
-    CLI::App& command, visuals::scene::Settings& settings, bool path_is_positional);
+void add_setting_options(CLI::App& command, settings::Settings& settings, bool path_is_positional);
 
 /// Adds an option for one number within the bounds of `info`, read as settings are ("nan" is none),
 /// among the command's own. Its default is shown in words where `info.meaning` ends with [words].

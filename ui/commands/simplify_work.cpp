@@ -9,11 +9,11 @@
 #include "models/simplify/simplify.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "ui/commands/chain_maker.h"
-#include "ui/world/mesh_input.h"
 #include "ui/base/progress.h"
-#include "ui/commands/simplify_as_printed.h"
 #include "ui/base/stopwatch.h"
+#include "ui/commands/chain_maker.h"
+#include "ui/commands/simplify_as_printed.h"
+#include "ui/world/mesh_input.h"
 
 #include <algorithm>
 #include <array>
@@ -173,7 +173,8 @@ void simplify_mesh(const SimplifyCommand& command, Json& figures) {
     const bool short_of_vertices =
         options.goal.vertices && result.mesh.vertices_m.size() > *options.goal.vertices;
     if (short_of_faces || short_of_vertices) {
-        base::say(command.quiet,
+        base::say(
+            command.quiet,
             "note: no edge can collapse any more without changing the kind of surface");
     }
 }

@@ -1,7 +1,7 @@
 #include "ui/flight/flight_cameras.h"
 
-#include "ui/world/frame_times.h"
 #include "ui/flight/simulation.h"
+#include "ui/world/frame_times.h"
 #include "ui/world/world.h"
 #include "visuals/scene/camera_rig.h"
 
@@ -9,7 +9,7 @@ namespace octant::ui::flight {
 
 namespace scene = visuals::scene;
 
-std::vector<FlightCamera> flight_cameras(const scene::Settings& settings) {
+std::vector<FlightCamera> flight_cameras(const settings::Settings& settings) {
     const world::World world = world::load_world(settings);
     const world::FrameTimes times = world::frame_times_of(settings, world.flight);
     const scene::GroundHeight ground = [&](double x_m, double y_m) {
@@ -24,7 +24,8 @@ std::vector<FlightCamera> flight_cameras(const scene::Settings& settings) {
         simulation.advance_to(time_s);
         const sim::AircraftState& state = simulation.states().front();
         cameras.push_back(
-            {scene::camera_of(settings, state, simulation.rig(), subject, world.points, ground),
+            {scene::camera_of(
+                 settings.view, state, simulation.rig(), subject, world.points, ground),
              state.position_m,
              subject.radius_m});
     }

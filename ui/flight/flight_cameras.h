@@ -1,7 +1,7 @@
 #pragma once
 
+#include "ui/settings/settings.h"
 #include "visuals/scene/camera.h"
-#include "visuals/scene/settings.h"
 
 #include <glm/vec3.hpp>
 
@@ -18,6 +18,6 @@ struct FlightCamera {
 
 /// The cameras of all frames of a run, where a session with these settings has them. Loads the
 /// world. Throws Error.
-std::vector<FlightCamera> flight_cameras(const visuals::scene::Settings& settings);
+std::vector<FlightCamera> flight_cameras(const settings::Settings& settings);
 
 } // namespace octant::ui::flight

@@ -4,15 +4,15 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
-#include "ui/world/input_files.h"
+#include "ui/base/stopwatch.h"
+#include "ui/base/version.h"
+#include "ui/flight/track_files.h"
 #include "ui/report/html_report.h"
 #include "ui/report/json_text.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/plots.h"
 #include "ui/settings/settings_file.h"
-#include "ui/base/stopwatch.h"
-#include "ui/flight/track_files.h"
-#include "ui/base/version.h"
+#include "ui/world/input_files.h"
 
 #include <algorithm>
 #include <chrono>
@@ -47,7 +47,7 @@ report::PictureView view_of(const visuals::gl::Picture& picture) {
     return {picture.width, picture.height, 4, std::as_bytes(std::span(picture.rgba)), false};
 }
 
-report::RunInfo run_info(const scene::Settings& settings, const Session& session) {
+report::RunInfo run_info(const settings::Settings& settings, const Session& session) {
     const world::Flight& flight = session.world().flight;
     report::RunInfo info;
     info.title = flight.title;
@@ -74,7 +74,7 @@ report::RunInfo run_info(const scene::Settings& settings, const Session& session
     return info;
 }
 
-bool is_recorded(const RecordOptions& options, const scene::Settings& settings) {
+bool is_recorded(const RecordOptions& options, const settings::Settings& settings) {
     const bool changed_checkout = base::program_commit().ends_with('+');
     if (changed_checkout || !options.folder || !report::is_run_file(*options.folder / "run.json")) {
         return false;
@@ -83,12 +83,15 @@ bool is_recorded(const RecordOptions& options, const scene::Settings& settings) 
     const auto file = *options.folder / "run.json";
     const Json run = report::parsed_json(file, read_text_file(file));
     const Json program = {
-        {"name", "octant"}, {"version", base::program_version()}, {"commit", base::program_commit()}};
+        {"name", "octant"},
+        {"version", base::program_version()},
+        {"commit", base::program_commit()}};
     Json inputs = Json::object();
     for (const auto& [input, hash] : world::input_hashes(settings)) {
         inputs[input] = hash;
     }
-    return run.contains("summary") && run.value("settings", Json()) == settings::settings_json(settings) &&
+    return run.contains("summary") &&
+           run.value("settings", Json()) == settings::settings_json(settings) &&
            run.value("inputs", Json()) == inputs && run.value("program", Json()) == program;
 }
 
@@ -100,15 +103,15 @@ std::string write_report(const std::filesystem::path& folder) {
 }
 
 FlightRecorder::FlightRecorder(
-    const RecordOptions& options, const scene::Settings& settings, const Session& session)
+    const RecordOptions& options, const settings::Settings& settings, const Session& session)
     : options_(options)
-    , picture_every_(settings.pictures.value_or(
+    , picture_every_(settings.time.pictures.value_or(
           std::max(1, static_cast<int>(std::lround(session.rate_hz()))))) {
     if (options.video) {
         video_.emplace(
             *options.video,
             report::VideoFormat{
-                settings.size_px.x, settings.size_px.y, 4, false, session.rate_hz()});
+                settings.view.size_px.x, settings.view.size_px.y, 4, false, session.rate_hz()});
     }
     if (options.folder) {
         report::RunInfo info = run_info(settings, session);

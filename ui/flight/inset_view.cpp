@@ -17,23 +17,24 @@ constexpr int margin_share = 40; ///< of the picture's height
 constexpr int share_of_triangles = 4;
 constexpr int fewest_triangles = 1000;
 
-scene::Settings inset_settings(const scene::Settings& settings, const glm::ivec2& size_px) {
-    scene::Settings own = settings;
-    own.view = *settings.inset;
-    own.inset.reset();
-    own.size_px = size_px;
-    own.azimuth_deg = 0.0;
-    own.elevation_deg = 0.0;
-    own.zoom = 1.0;
-    own.triangles =
+settings::Settings inset_settings(const settings::Settings& settings, const glm::ivec2& size_px) {
+    settings::Settings own = settings;
+    own.view.kind = *settings.view.inset;
+    own.view.inset.reset();
+    own.view.size_px = size_px;
+    own.view.azimuth_deg = 0.0;
+    own.view.elevation_deg = 0.0;
+    own.view.zoom = 1.0;
+    own.ground.triangles =
         std::max(fewest_triangles, scene::triangle_target(settings) / share_of_triangles);
     return own;
 }
 
-std::unique_ptr<scene::Ground> load_ground_of(const scene::Settings& settings, world::DrawnBy drawn_by) {
-    scene::Settings bare = settings; // the texture is the world's
-    bare.drape.reset();
-    bare.ground_shading = scene::GroundShading::Vertex;
+std::unique_ptr<scene::Ground>
+load_ground_of(const settings::Settings& settings, world::DrawnBy drawn_by) {
+    settings::Settings bare = settings; // the texture is the world's
+    bare.air.drape.reset();
+    bare.air.ground_shading = scene::GroundShading::Vertex;
     world::World world;
     world::load_scene_ground(bare, drawn_by, world);
     return std::move(world.scene.ground);
@@ -41,7 +42,8 @@ std::unique_ptr<scene::Ground> load_ground_of(const scene::Settings& settings, w
 
 } // namespace
 
-InsetView::InsetView(const scene::Settings& settings, const world::World& world, world::DrawnBy drawn_by)
+InsetView::InsetView(
+    const settings::Settings& settings, const world::World& world, world::DrawnBy drawn_by)
     : drawn_by_(drawn_by) {
     place(settings);
     scene_.ground = load_ground_of(settings_, drawn_by);
@@ -52,19 +54,19 @@ InsetView::InsetView(const scene::Settings& settings, const world::World& world,
     planner_.emplace(scene_, settings_);
 }
 
-void InsetView::place(const scene::Settings& settings) {
-    assert(settings.inset);
-    const glm::ivec2 size_px = glm::max(settings.size_px / share_of_side, glm::ivec2(1));
-    const int margin_px = std::min(settings.size_px.x, settings.size_px.y) / margin_share;
+void InsetView::place(const settings::Settings& settings) {
+    assert(settings.view.inset);
+    const glm::ivec2 size_px = glm::max(settings.view.size_px / share_of_side, glm::ivec2(1));
+    const int margin_px = std::min(settings.view.size_px.x, settings.view.size_px.y) / margin_share;
     rectangle_ = {
-        settings.size_px.x - size_px.x - margin_px,
-        settings.size_px.y - size_px.y - margin_px,
+        settings.view.size_px.x - size_px.x - margin_px,
+        settings.view.size_px.y - size_px.y - margin_px,
         size_px.x,
         size_px.y};
     settings_ = inset_settings(settings, size_px);
 }
 
-void InsetView::follow(const scene::Settings& settings) {
+void InsetView::follow(const settings::Settings& settings) {
     planner_.reset();
     place(settings);
     if (scene_.ground->can_follow(world::ground_settings(settings_))) {

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "ui/settings/settings.h"
 #include "ui/world/world.h"
 #include "visuals/gl/renderer.h"
 #include "visuals/scene/planner.h"
-#include "visuals/scene/settings.h"
 
 #include <optional>
 #include <span>
@@ -15,7 +15,8 @@ namespace octant::ui::flight {
 class InsetView {
 public:
     /// For Settings::inset (asserted). Throws Error. Stays in its place.
-    InsetView(const visuals::scene::Settings& settings, const world::World& world, world::DrawnBy drawn_by);
+    InsetView(
+        const settings::Settings& settings, const world::World& world, world::DrawnBy drawn_by);
     ~InsetView() = default;
     InsetView(const InsetView&) = delete;
     InsetView& operator=(const InsetView&) = delete;
@@ -23,10 +24,10 @@ public:
     InsetView& operator=(InsetView&&) = delete;
 
     /// Takes other settings of the same world over. Throws Error.
-    void follow(const visuals::scene::Settings& settings);
+    void follow(const settings::Settings& settings);
 
     /// Settings of the view alone: its camera and its size.
-    const visuals::scene::Settings& settings() const { return settings_; }
+    const settings::Settings& settings() const { return settings_; }
 
     visuals::gl::PixelRect rectangle() const { return rectangle_; }
 
@@ -40,9 +41,9 @@ public:
         std::optional<double> smooth_share);
 
 private:
-    void place(const visuals::scene::Settings& settings);
+    void place(const settings::Settings& settings);
 
-    visuals::scene::Settings settings_;
+    settings::Settings settings_;
     world::DrawnBy drawn_by_;
     visuals::gl::PixelRect rectangle_;
     visuals::scene::Scene scene_;

@@ -14,13 +14,13 @@ namespace octant::ui::flight {
 namespace scene = visuals::scene;
 namespace gl = visuals::gl;
 
-std::unique_ptr<gl::Context> make_context(scene::ContextKind kind) {
+std::unique_ptr<gl::Context> make_context(settings::ContextKind kind) {
     switch (kind) {
-    case scene::ContextKind::Egl:
+    case settings::ContextKind::Egl:
         return gl::make_egl_context();
-    case scene::ContextKind::Window:
+    case settings::ContextKind::Window:
         return gl::make_window_context({.visible = false});
-    case scene::ContextKind::OsMesa:
+    case settings::ContextKind::OsMesa:
         break;
     }
     return gl::make_osmesa_context();
@@ -28,32 +28,38 @@ std::unique_ptr<gl::Context> make_context(scene::ContextKind kind) {
 
 namespace {
 
-std::unique_ptr<gl::Context> made(std::unique_ptr<gl::Context> context, scene::ContextKind kind) {
+std::unique_ptr<gl::Context>
+made(std::unique_ptr<gl::Context> context, settings::ContextKind kind) {
     return context ? std::move(context) : make_context(kind);
 }
 
 } // namespace
 
-Session::Session(const scene::Settings& settings, Shows shows, std::unique_ptr<gl::Context> context)
+Session::Session(
+    const settings::Settings& settings, Shows shows, std::unique_ptr<gl::Context> context)
     : settings_(settings)
-    , context_(made(std::move(context), settings.context))
+    , context_(made(std::move(context), settings.drawing.context))
     , world_(world::load_world(settings, drawn_by()))
     , renderer_(std::make_unique<gl::Renderer>(
-          context_->functions(), settings.size_px.x, settings.size_px.y, settings.samples))
+          context_->functions(),
+          settings.view.size_px.x,
+          settings.view.size_px.y,
+          settings.view.samples))
     , times_(world::frame_times_of(settings_, world_.flight))
     , ground_height_(
           [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); }) {
     load_into_renderer(shows);
     renderer_->warm_up();
     gl::spread_raster_threads();
-    if (settings_.inset) {
+    if (settings_.view.inset) {
         inset_ = std::make_unique<InsetView>(settings_, world_, drawn_by());
     }
     start_flight();
 }
 
 world::DrawnBy Session::drawn_by() const {
-    return gl::is_processor(context_->description().renderer) ? world::DrawnBy::Processor : world::DrawnBy::Gpu;
+    return gl::is_processor(context_->description().renderer) ? world::DrawnBy::Processor
+                                                              : world::DrawnBy::Gpu;
 }
 
 Session::~Session() {
@@ -153,11 +159,11 @@ double Session::stress_after(const report::FrameRecord& record) {
     return load_.stress.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-scene::Camera Session::camera_of(const scene::Settings& settings) const {
+scene::Camera Session::camera_of(const settings::Settings& settings) const {
     scene::Subject subject = world_.scene.models[world_.scene.aircraft.front()].subject;
     subject.radius_m = simulation_->formation().framed_radius_m(subject.radius_m);
     return scene::camera_of(
-        settings,
+        settings.view,
         simulation_->states().front(),
         simulation_->rig(),
         subject,
@@ -235,7 +241,7 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     }
     report::FrameRecord record;
     record.frame = frame;
-    record.warm_up = frame < settings_.warm_up;
+    record.warm_up = frame < settings_.time.warm_up;
     record.sim_time_s = time_s;
     record.wall_s = since_first_frame_.s();
 
@@ -255,7 +261,7 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     const scene::PlanCounts counts = make_plans();
     record.plan_ms = record.refine_ms + stage.lap_ms();
 
-    if (next_s && settings_.mesh_ahead) {
+    if (next_s && settings_.ground.mesh_ahead) {
         reach(*next_s, frame + 1, next_);
         next_is_reached_ = true;
         record.sim_ms += stage.lap_ms();

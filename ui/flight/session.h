@@ -1,11 +1,12 @@
 #pragma once
 
-#include "ui/world/frame_times.h"
+#include "ui/base/stopwatch.h"
 #include "ui/flight/inset_view.h"
 #include "ui/flight/replay.h"
-#include "ui/report/frame_record.h"
 #include "ui/flight/simulation.h"
-#include "ui/base/stopwatch.h"
+#include "ui/report/frame_record.h"
+#include "ui/settings/settings.h"
+#include "ui/world/frame_times.h"
 #include "ui/world/world.h"
 #include "visuals/gl/context.h"
 #include "visuals/gl/picture.h"
@@ -13,7 +14,6 @@
 #include "visuals/scene/id_plan.h"
 #include "visuals/scene/load_controller.h"
 #include "visuals/scene/planner.h"
-#include "visuals/scene/settings.h"
 #include "visuals/shading/shading_controller.h"
 
 #include <cstdint>
@@ -27,7 +27,7 @@
 namespace octant::ui::flight {
 
 /// The context that the settings ask for, current in this thread. Throws Error.
-std::unique_ptr<visuals::gl::Context> make_context(visuals::scene::ContextKind kind);
+std::unique_ptr<visuals::gl::Context> make_context(settings::ContextKind kind);
 
 /// What the pictures of a session show.
 enum class Shows {
@@ -45,7 +45,7 @@ public:
     /// Loads the world and draws once in every drawing state, in this context or in one that it
     /// makes as the settings say. Throws Error. Stays in its place: parts of it point at others.
     explicit Session(
-        const visuals::scene::Settings& settings,
+        const settings::Settings& settings,
         Shows shows = Shows::World,
         std::unique_ptr<visuals::gl::Context> context = nullptr);
     ~Session();
@@ -56,7 +56,7 @@ public:
 
     const world::World& world() const { return world_; }
 
-    const visuals::scene::Settings& settings() const { return settings_; }
+    const settings::Settings& settings() const { return settings_; }
 
     const visuals::gl::ContextDescription& context() const { return context_->description(); }
 
@@ -94,7 +94,7 @@ public:
     /// Changes what the next frames show. Loads what has to be loaded anew; the flight then starts
     /// again where its aircraft, path or ground are others. Throws Error and leaves everything as
     /// it was.
-    void apply(const visuals::scene::Settings& settings);
+    void apply(const settings::Settings& settings);
 
     /// To be changed between frames. Begin at another time by begin_at().
     Simulation& simulation() { return *simulation_; }
@@ -156,17 +156,17 @@ private:
     std::optional<int> decide_smooth(int frame) const;
     void adapt_shading(const visuals::scene::PlanCounts& counts, const report::FrameRecord& record);
     double stress_after(const report::FrameRecord& record);
-    visuals::scene::Camera camera_of(const visuals::scene::Settings& settings) const;
+    visuals::scene::Camera camera_of(const settings::Settings& settings) const;
     void mesh_ahead();
     visuals::scene::PlanCounts make_plans();
     void draw_plans();
     void fill_in(const visuals::scene::PlanCounts& counts, report::FrameRecord& record);
-    void change_world(const visuals::scene::Settings& settings);
-    void change_picture(const visuals::scene::Settings& settings);
+    void change_world(const settings::Settings& settings);
+    void change_picture(const settings::Settings& settings);
     void take_ground(world::World* other);
     void follow_inset(std::unique_ptr<InsetView> new_inset);
 
-    visuals::scene::Settings settings_;
+    settings::Settings settings_;
     std::unique_ptr<visuals::gl::Context> context_;
     world::World world_;
     std::unique_ptr<visuals::gl::Renderer> renderer_; ///< goes before its context

@@ -1,7 +1,7 @@
 #include "sim/base/error.h"
-#include "ui/world/scene_ground.h"
 #include "ui/flight/session.h"
 #include "ui/settings/settings_change.h"
+#include "ui/world/scene_ground.h"
 #include "visuals/scene/ground_palette.h"
 
 #include <algorithm>
@@ -17,21 +17,23 @@ namespace scene = visuals::scene;
 namespace {
 
 /// Whether both fly the same aircraft along the same path over the same ground.
-bool same_flight(const scene::Settings& a, const scene::Settings& b) {
-    return a.path == b.path && a.aircraft == b.aircraft && a.axes == b.axes &&
-           a.terrain == b.terrain && a.terrain_spacing_m == b.terrain_spacing_m &&
-           a.place == b.place && a.heading_deg == b.heading_deg && a.height_mode == b.height_mode &&
-           a.lenient == b.lenient && a.start_s == b.start_s;
+bool same_flight(const settings::Settings& a, const settings::Settings& b) {
+    return a.path.name == b.path.name && a.path.aircraft == b.path.aircraft &&
+           a.path.axes == b.path.axes && a.path.terrain == b.path.terrain &&
+           a.path.terrain_spacing_m == b.path.terrain_spacing_m && a.path.place == b.path.place &&
+           a.path.heading_deg == b.path.heading_deg && a.path.height_mode == b.path.height_mode &&
+           a.path.lenient == b.path.lenient && a.time.start_s == b.time.start_s;
 }
 
 } // namespace
 
-void Session::apply(const scene::Settings& settings) {
+void Session::apply(const settings::Settings& settings) {
     switch (settings::change_between(settings_, settings)) {
     case settings::SettingsChange::None:
         break;
     case settings::SettingsChange::Look:
-        if (settings.eye_m != settings_.eye_m || settings.look_m != settings_.look_m) {
+        if (settings.view.eye_m != settings_.view.eye_m ||
+            settings.view.look_m != settings_.view.look_m) {
             world_.points = world::fixed_points(settings, world_);
         }
         settings_ = settings;
@@ -46,14 +48,14 @@ void Session::apply(const scene::Settings& settings) {
 }
 
 /// Loading comes before what could not be taken back; a driver that then has no memory ends it all.
-void Session::change_world(const scene::Settings& settings) {
+void Session::change_world(const settings::Settings& settings) {
     world::World world = world::load_world(settings, drawn_by());
     world::FrameTimes times = world::frame_times_of(settings, world.flight);
     std::unique_ptr<InsetView> inset;
-    if (settings.inset) {
+    if (settings.view.inset) {
         inset = std::make_unique<InsetView>(settings, world, drawn_by());
     }
-    renderer_->resize(settings.size_px, settings.samples);
+    renderer_->resize(settings.view.size_px, settings.view.samples);
     const double time_s = simulation_->time_s();
     const bool goes_on = same_flight(settings, settings_) && !simulation_->by_hand();
     plan_ = nullptr;
@@ -74,25 +76,26 @@ void Session::change_world(const scene::Settings& settings) {
 }
 
 /// All that may fail comes before what could not be taken back.
-void Session::change_picture(const scene::Settings& settings) {
+void Session::change_picture(const settings::Settings& settings) {
     world::check_settings(settings);
     const scene::FixedPoints points = world::fixed_points(settings, world_);
     std::unique_ptr<InsetView> new_inset;
-    if (settings.inset && !inset_) {
+    if (settings.view.inset && !inset_) {
         new_inset = std::make_unique<InsetView>(settings, world_, drawn_by());
     }
     world::World other;
     const bool follows =
         world_.scene.ground->can_follow(world::ground_settings(settings)) &&
         !(world_.scene.ground_texture &&
-          !scene::same_colours(world::ground_settings(settings), world::ground_settings(settings_)));
+          !scene::same_colours(
+              world::ground_settings(settings).air, world::ground_settings(settings_).air));
     if (!follows) {
         world::load_scene_ground(settings, drawn_by(), other);
     }
-    renderer_->resize(settings.size_px, settings.samples);
+    renderer_->resize(settings.view.size_px, settings.view.samples);
 
-    const bool other_control =
-        settings.detail != settings_.detail || settings.resolution_c != settings_.resolution_c;
+    const bool other_control = settings.ground.detail != settings_.ground.detail ||
+                               settings.ground.resolution_c != settings_.ground.resolution_c;
     plan_ = nullptr;
     planner_.reset();
     settings_ = settings;
@@ -129,7 +132,7 @@ void Session::take_ground(world::World* other) {
 void Session::follow_inset(std::unique_ptr<InsetView> new_inset) {
     if (new_inset) {
         inset_ = std::move(new_inset);
-    } else if (!settings_.inset) {
+    } else if (!settings_.view.inset) {
         inset_.reset();
     } else {
         inset_->follow(settings_);

@@ -11,8 +11,6 @@
 
 namespace octant::ui::settings {
 
-using visuals::scene::Settings;
-
 namespace {
 
 /// Settings that decide what is loaded.

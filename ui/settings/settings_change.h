@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/scene/settings.h"
+#include "ui/settings/settings.h"
 
 #include <string_view>
 
@@ -17,7 +17,6 @@ enum class SettingsChange {
 /// For a change of one setting, by its name.
 SettingsChange change_by(std::string_view setting);
 
-SettingsChange
-change_between(const visuals::scene::Settings& before, const visuals::scene::Settings& after);
+SettingsChange change_between(const Settings& before, const Settings& after);
 
 } // namespace octant::ui::settings

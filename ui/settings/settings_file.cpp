@@ -13,7 +13,6 @@
 namespace octant::ui::settings {
 
 using nlohmann::ordered_json;
-using visuals::scene::Settings;
 
 namespace {
 
@@ -122,11 +121,11 @@ Settings read_settings(const std::filesystem::path& path) {
                 fmt::format("expected the name of a setting, got '{}'", printable(key)));
         }
     }
-    if (settings.samples != 1 && settings.samples != 4) {
+    if (settings.view.samples != 1 && settings.view.samples != 4) {
         error_at(
             path,
             line_of_key(text, "samples"),
-            fmt::format("samples: expected 1 or 4, got {}", settings.samples));
+            fmt::format("samples: expected 1 or 4, got {}", settings.view.samples));
     }
     return settings;
 }

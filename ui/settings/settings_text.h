@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/scene/settings.h"
+#include "ui/settings/settings.h"
 
 #include <optional>
 #include <string>
@@ -78,12 +78,12 @@ struct EnumNames<visuals::scene::View> {
 };
 
 template <>
-struct EnumNames<visuals::scene::HeightMode> {
+struct EnumNames<HeightMode> {
     static std::vector<std::string_view> names() { return {"clear", "follow", "datum"}; }
 };
 
 template <>
-struct EnumNames<visuals::scene::ContextKind> {
+struct EnumNames<ContextKind> {
     static std::vector<std::string_view> names() { return {"osmesa", "egl", "window"}; }
 };
 

@@ -1,8 +1,8 @@
 #include "ui/terrain/error_tables.h"
 
-#include "ui/terrain/mesh_maker.h"
 #include "ui/base/progress.h"
 #include "ui/settings/settings_text.h"
+#include "ui/terrain/mesh_maker.h"
 #include "ui/terrain/solved_mesh.h"
 #include "visuals/terrain/projected_error.h"
 
@@ -96,8 +96,8 @@ best_of_roettger(const world::LoadedGround& ground, const ErrorRun& run, scene::
         other.mesh.mesh = scene::GroundMetric::Midpoint;
         other.mesh.fans = fans;
         other.mesh.roughness_c = weight;
-        const double triangles = mean_triangles_in_view(
-            measured_meshes(ground, other, fmt::format("{} fans, c = {}", settings::text_of(fans), weight)));
+        const double triangles = mean_triangles_in_view(measured_meshes(
+            ground, other, fmt::format("{} fans, c = {}", settings::text_of(fans), weight)));
         if (best.triangles == 0.0 || triangles < best.triangles) {
             best = {weight, triangles};
         }
@@ -109,7 +109,8 @@ best_of_roettger(const world::LoadedGround& ground, const ErrorRun& run, scene::
 
 report::HtmlTable error_table(const world::LoadedGround& ground, const ErrorRun& run) {
     const bool by_error = run.mesh.mesh == scene::GroundMetric::ScreenError;
-    const std::vector<MeasuredMesh> meshes = measured_meshes(ground, run, settings::text_of(run.mesh.mesh));
+    const std::vector<MeasuredMesh> meshes =
+        measured_meshes(ground, run, settings::text_of(run.mesh.mesh));
     report::HtmlTable table;
     table.title = fmt::format("Projected error of {} meshes", settings::text_of(run.mesh.mesh));
     table.header = {
@@ -142,7 +143,8 @@ report::HtmlTable error_table(const world::LoadedGround& ground, const ErrorRun&
 }
 
 report::HtmlTable comparison_table(const world::LoadedGround& ground, const ErrorRun& run) {
-    const double own = mean_triangles_in_view(measured_meshes(ground, run, settings::text_of(run.mesh.mesh)));
+    const double own =
+        mean_triangles_in_view(measured_meshes(ground, run, settings::text_of(run.mesh.mesh)));
     const BestRoughness full = best_of_roettger(ground, run, scene::GroundFans::Full);
     const BestRoughness partial = best_of_roettger(ground, run, scene::GroundFans::Partial);
     report::HtmlTable table;

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "ui/report/html_text.h"
 #include "ui/terrain/ground_view.h"
 #include "ui/world/loaded_ground.h"
-#include "ui/report/html_text.h"
 #include "visuals/scene/camera.h"
 
 #include <optional>

@@ -1,7 +1,7 @@
 #include "ui/terrain/key_pictures.h"
 
-#include "ui/terrain/ground_view.h"
 #include "ui/flight/session.h"
+#include "ui/terrain/ground_view.h"
 #include "visuals/scene/facing.h"
 
 #include <glm/geometric.hpp>
@@ -30,7 +30,7 @@ constexpr double past_all = 1.2; ///< of the mesh's reach: below its lowest vert
 KeyPictures::KeyPictures(const glm::ivec2& size_px, const glm::dvec2& half_extent_m)
     : size_px_(size_px)
     , half_extent_m_(half_extent_m)
-    , context_(flight::make_context(scene::ContextKind::OsMesa))
+    , context_(flight::make_context(settings::ContextKind::OsMesa))
     , renderer_(std::make_unique<gl::Renderer>(context_->functions(), size_px.x, size_px.y, 1)) {
     renderer_->load_models({});
     renderer_->warm_up();

@@ -1,8 +1,8 @@
 #include "ui/terrain/terrain_check.h"
 
+#include "ui/base/progress.h"
 #include "ui/terrain/ground_view.h"
 #include "ui/terrain/key_pictures.h"
-#include "ui/base/progress.h"
 #include "ui/terrain/random_view.h"
 
 #include <cstdint>
@@ -60,7 +60,8 @@ TerrainFaults check_terrain(MeshMaker& maker, const TerrainCheck& check) {
         faults.key_pixels += key_pixels;
         if (!found.is_whole() || key_pixels > 0) {
             ++faults.cracked_views;
-            base::say(check.quiet,
+            base::say(
+                check.quiet,
                 fmt::format("view {}: {}, {} key pixels", number, found.text(), key_pixels));
         }
         progress.show(number + 1, fmt::format("{} with faults", faults.cracked_views));

@@ -87,7 +87,7 @@ void aircraft_panel(ViewState& state, const flight::Session& session) {
             last.refine_ms);
     }
     ImGui::BeginDisabled(state.recording.has_value());
-    count_slider(state.wanted.aircraft);
+    count_slider(state.wanted.path.aircraft);
     ImGui::EndDisabled();
     edit_settings(state.wanted, controls);
 }

@@ -28,11 +28,11 @@ void choose_flight(ViewState& state) {
     ImGui::BeginDisabled(state.recording.has_value());
     ImGui::BeginGroup();
     edit_settings(state.wanted, path);
-    std::string leader = state.wanted.aircraft.front();
+    std::string leader = state.wanted.path.aircraft.front();
     ImGui::PushID("leader");
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * value_share);
     if (choose_name(leader_info, leader, known_names("aircraft"))) {
-        state.wanted.aircraft = with_leader(state.wanted.aircraft, leader);
+        state.wanted.path.aircraft = with_leader(state.wanted.path.aircraft, leader);
     }
     ImGui::SameLine();
     ImGui::TextUnformatted("aircraft");
@@ -123,7 +123,7 @@ void choose_view(ViewState& state, const flight::Session& session) {
         }
         const std::string label =
             fmt::format("{} {}", key_of(choice.command), settings::text_of(choice.view));
-        const bool is_it = state.wanted.view == choice.view;
+        const bool is_it = state.wanted.view.kind == choice.view;
         if (ImGui::RadioButton(label.c_str(), is_it) && !is_it) {
             state.wanted = with_view(state.wanted, choice.view, session.camera());
         }
@@ -154,7 +154,7 @@ void show_hand_flight(const flight::Simulation& simulation) {
         ImGui::TextColored(
             warning,
             simulation.end_of_flight() == flight::Simulation::End::OffTheMap ? "left the map"
-                                                                     : "met the ground");
+                                                                             : "met the ground");
     } else if (pilot.warnings().stalled) {
         ImGui::SameLine();
         ImGui::TextColored(warning, "STALL");

@@ -11,8 +11,8 @@
 namespace octant::ui::window {
 
 namespace scene = visuals::scene;
-using scene::Settings;
 using scene::View;
+using settings::Settings;
 
 namespace {
 
@@ -32,10 +32,11 @@ bool goes_around(View view) {
 
 /// Ahead as the free camera looks: its look turned by azimuth and elevation.
 glm::dvec3 ahead_of(const Settings& settings) {
-    const glm::dvec3 straight = glm::normalize(*settings.look_m - *settings.eye_m);
-    const double heading = std::atan2(straight.x, straight.y) + rad_from_deg(settings.azimuth_deg);
+    const glm::dvec3 straight = glm::normalize(*settings.view.look_m - *settings.view.eye_m);
+    const double heading =
+        std::atan2(straight.x, straight.y) + rad_from_deg(settings.view.azimuth_deg);
     const double up = std::clamp(
-        std::asin(std::clamp(straight.z, -1.0, 1.0)) + rad_from_deg(settings.elevation_deg),
+        std::asin(std::clamp(straight.z, -1.0, 1.0)) + rad_from_deg(settings.view.elevation_deg),
         -rad_from_deg(steepest_deg),
         rad_from_deg(steepest_deg));
     return {std::cos(up) * std::sin(heading), std::cos(up) * std::cos(heading), std::sin(up)};
@@ -45,12 +46,14 @@ glm::dvec3 ahead_of(const Settings& settings) {
 
 Settings dragged(const Settings& settings, const glm::vec2& share_of_height) {
     Settings changed = settings;
-    const double slower = goes_around(settings.view) ? 1.0 : 1.0 / std::max(settings.zoom, 1.0);
-    const double sense = goes_around(settings.view) ? 1.0 : -1.0;
-    changed.azimuth_deg = wrapped_deg(
-        settings.azimuth_deg + sense * slower * drag_deg * static_cast<double>(share_of_height.x));
-    changed.elevation_deg = std::clamp(
-        settings.elevation_deg + slower * drag_deg * static_cast<double>(share_of_height.y),
+    const double slower =
+        goes_around(settings.view.kind) ? 1.0 : 1.0 / std::max(settings.view.zoom, 1.0);
+    const double sense = goes_around(settings.view.kind) ? 1.0 : -1.0;
+    changed.view.azimuth_deg = wrapped_deg(
+        settings.view.azimuth_deg +
+        sense * slower * drag_deg * static_cast<double>(share_of_height.x));
+    changed.view.elevation_deg = std::clamp(
+        settings.view.elevation_deg + slower * drag_deg * static_cast<double>(share_of_height.y),
         -steepest_deg,
         steepest_deg);
     return changed;
@@ -60,37 +63,39 @@ Settings zoomed(const Settings& settings, double clicks) {
     constexpr double least = 0.1;
     constexpr double most = 50.0;
     Settings changed = settings;
-    changed.zoom = std::clamp(settings.zoom * std::pow(zoom_a_click, clicks), least, most);
+    changed.view.zoom =
+        std::clamp(settings.view.zoom * std::pow(zoom_a_click, clicks), least, most);
     return changed;
 }
 
 Settings looking_straight(const Settings& settings) {
     Settings changed = settings;
-    changed.azimuth_deg = 0.0;
-    changed.elevation_deg = 0.0;
-    changed.zoom = 1.0;
+    changed.view.azimuth_deg = 0.0;
+    changed.view.elevation_deg = 0.0;
+    changed.view.zoom = 1.0;
     return changed;
 }
 
 Settings with_view(const Settings& settings, View view, const scene::Camera& camera) {
     constexpr double look_ahead_m = 1000.0;
     Settings changed = looking_straight(settings);
-    changed.view = view;
-    changed.eye_m.reset();
-    changed.look_m.reset();
-    if (view != View::Free && changed.inset == View::Free) {
-        changed.inset.reset();
+    changed.view.kind = view;
+    changed.view.eye_m.reset();
+    changed.view.look_m.reset();
+    if (view != View::Free && changed.view.inset == View::Free) {
+        changed.view.inset.reset();
     }
     if (view == View::Free) {
-        changed.eye_m = camera.eye_m;
-        changed.look_m = camera.eye_m + camera.view_to_world * glm::dvec3(0.0, 0.0, -look_ahead_m);
+        changed.view.eye_m = camera.eye_m;
+        changed.view.look_m =
+            camera.eye_m + camera.view_to_world * glm::dvec3(0.0, 0.0, -look_ahead_m);
     }
     return changed;
 }
 
 Settings moved(const Settings& settings, const FreeMove& move, double wall_s) {
     const bool stands = move.right == 0 && move.up == 0 && move.ahead == 0;
-    if (settings.view != View::Free || stands) {
+    if (settings.view.kind != View::Free || stands) {
         return settings;
     }
     const glm::dvec3 ahead = ahead_of(settings);
@@ -100,8 +105,8 @@ Settings moved(const Settings& settings, const FreeMove& move, double wall_s) {
         (static_cast<double>(move.ahead) * ahead + static_cast<double>(move.right) * right +
          static_cast<double>(move.up) * glm::dvec3(0.0, 0.0, 1.0));
     Settings changed = settings;
-    *changed.eye_m += way_m;
-    *changed.look_m += way_m;
+    *changed.view.eye_m += way_m;
+    *changed.view.look_m += way_m;
     return changed;
 }
 

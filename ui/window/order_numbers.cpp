@@ -96,7 +96,7 @@ void write_number(int number, const ImVec2& at) {
 
 void write_order_numbers(const flight::Session& session) {
     const world::World& world = session.world();
-    if (session.states().empty() || session.settings().view == scene::View::Cockpit) {
+    if (session.states().empty() || session.settings().view.kind == scene::View::Cockpit) {
         return;
     }
     const scene::AircraftModel& model = world.scene.models[world.scene.aircraft.front()];
@@ -111,7 +111,7 @@ void write_order_numbers(const flight::Session& session) {
     placed.model = &model;
     placed.parts = parts;
 
-    const ScreenPlaces places(camera, session.settings().size_px);
+    const ScreenPlaces places(camera, session.settings().view.size_px);
     const int cell = model.order.cell_of(
         visuals::draworder::eye_in_body(camera.eye_m, state.position_m, state.body_to_world));
     scene::SightPolygon polygon;

@@ -35,7 +35,7 @@ std::string clock_text(float hour) {
 }
 
 /// Time and day are kept with the panel: settings know only where the sun stands.
-void time_of_day(visuals::scene::Settings& settings, double latitude_deg) {
+void time_of_day(settings::Settings& settings, double latitude_deg) {
     ImGuiStorage& storage = *ImGui::GetStateStorage();
     float& hour = *storage.GetFloatRef(ImGui::GetID("hour"), noon);
     int& day = *storage.GetIntRef(ImGui::GetID("day of year"), spring_equinox);
@@ -49,8 +49,8 @@ void time_of_day(visuals::scene::Settings& settings, double latitude_deg) {
     if (changed) {
         const SunPosition sun =
             sun_position(latitude_deg, static_cast<double>(day), static_cast<double>(hour));
-        settings.sun_azimuth_deg = sun.azimuth_deg;
-        settings.sun_elevation_deg = std::clamp(sun.elevation_deg, 0.0, 90.0);
+        settings.air.sun_azimuth_deg = sun.azimuth_deg;
+        settings.air.sun_elevation_deg = std::clamp(sun.elevation_deg, 0.0, 90.0);
     }
 }
 
@@ -67,7 +67,7 @@ void scene_panel(ViewState& state, const flight::Session& session) {
     edit_settings(state.wanted, controls);
     ImGui::Separator();
     ImGui::BeginDisabled(state.recording.has_value());
-    count_slider(state.wanted.aircraft);
+    count_slider(state.wanted.path.aircraft);
     ImGui::EndDisabled();
 }
 

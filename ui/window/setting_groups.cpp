@@ -7,7 +7,7 @@
 
 namespace octant::ui::window {
 
-using visuals::scene::Settings;
+using settings::Settings;
 
 namespace {
 

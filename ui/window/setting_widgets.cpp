@@ -14,7 +14,7 @@
 
 namespace octant::ui::window {
 
-using visuals::scene::Settings;
+using settings::Settings;
 
 namespace {
 
@@ -194,7 +194,8 @@ template <class Enum>
 requires std::is_enum_v<Enum>
 
 bool edit(const settings::FieldInfo& /*info*/, Enum& value) {
-    const auto picked = choose(settings::text_of(value), settings::EnumNames<Enum>::names(), static_cast<int>(value));
+    const auto picked = choose(
+        settings::text_of(value), settings::EnumNames<Enum>::names(), static_cast<int>(value));
     if (picked) {
         value = static_cast<Enum>(*picked);
     }

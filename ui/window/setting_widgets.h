@@ -1,7 +1,7 @@
 #pragma once
 
+#include "ui/settings/settings.h"
 #include "ui/settings/settings_text.h"
-#include "visuals/scene/settings.h"
 
 #include <span>
 #include <string>
@@ -14,7 +14,7 @@ namespace octant::ui::window {
 // anew, on Enter. Values stay within their bounds.
 
 /// Settings by their names, in that order. A name that is no setting shows nothing.
-void edit_settings(visuals::scene::Settings& settings, std::span<const std::string_view> names);
+void edit_settings(settings::Settings& settings, std::span<const std::string_view> names);
 
 /// The parts of the list, in its order.
 enum class SettingGroup { Path, View, Time, Surface, Shading, Ground, Air };
@@ -24,9 +24,10 @@ inline constexpr int setting_groups = 7;
 const char* title_of(SettingGroup group);
 
 /// All settings of one part.
-void edit_group(visuals::scene::Settings& settings, SettingGroup group);
+void edit_group(settings::Settings& settings, SettingGroup group);
 
 /// A list of built-in names, and a field for any other such as a file. True when it was changed.
-bool choose_name(const settings::FieldInfo& info, std::string& name, std::span<const std::string_view> names);
+bool choose_name(
+    const settings::FieldInfo& info, std::string& name, std::span<const std::string_view> names);
 
 } // namespace octant::ui::window

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "ui/settings/settings.h"
 #include "ui/window/frame_history.h"
 #include "ui/window/playback.h"
-#include "visuals/scene/settings.h"
 
 #include <filesystem>
 #include <optional>
@@ -54,7 +54,7 @@ struct WrongPixels {
 
 /// What a window knows beside its session: everything that keys, mouse and panels change.
 struct ViewState {
-    visuals::scene::Settings wanted; ///< what the next frame shows
+    settings::Settings wanted; ///< what the next frame shows
     Playback playback;
     OpenPanels open;
     ViewRequests requests;

@@ -28,7 +28,7 @@ constexpr double longest_turn_s = 0.25; ///< a longer one does not make the flig
 constexpr double message_s = 5.0;
 
 std::unique_ptr<gl::WindowContext> open_window(const ViewOptions& options) {
-    return gl::make_window_context({.size = options.settings.size_px, .title = "Octant"});
+    return gl::make_window_context({.size = options.settings.view.size_px, .title = "Octant"});
 }
 
 double refresh_hz_of(GLFWmonitor* monitor) {
@@ -47,10 +47,11 @@ Viewer::Viewer(const ViewOptions& options)
     std::unique_ptr<gl::WindowContext> context = open_window(options);
     context_ = context.get();
     input_.emplace(context_->window());
-    scene::Settings settings = options.settings;
-    settings.context = scene::ContextKind::Window;
-    settings.size_px = input_->size_px();
-    session_ = std::make_unique<flight::Session>(settings, flight::Shows::World, std::move(context));
+    settings::Settings settings = options.settings;
+    settings.drawing.context = settings::ContextKind::Window;
+    settings.view.size_px = input_->size_px();
+    session_ =
+        std::make_unique<flight::Session>(settings, flight::Shows::World, std::move(context));
     session_->present_by([this](gl::Renderer& renderer) {
         if (!renderer.is_in_window()) {
             renderer.copy_to(0, input_->size_px());
@@ -67,7 +68,7 @@ Viewer::Viewer(const ViewOptions& options)
     restart_playback();
     if (options.by_hand) {
         toggle_hand();
-        session_->simulation().level_off(settings.aircraft.front());
+        session_->simulation().level_off(settings.path.aircraft.front());
     }
     if (options.full_screen) {
         toggle_full_screen();
@@ -152,7 +153,7 @@ void Viewer::fit_to_window() {
     const glm::ivec2 size_px = input_->size_px();
     if (size_px.x > 0 && size_px.y > 0) {
         constexpr glm::ivec2 least_px(16);
-        state_.wanted.size_px = glm::max(size_px, least_px);
+        state_.wanted.view.size_px = glm::max(size_px, least_px);
     }
 }
 
@@ -204,16 +205,16 @@ void Viewer::fly_by_hand(double wall_s, bool typing) {
 
 void Viewer::apply_wanted() {
     using scene::View;
-    scene::Settings& wanted = state_.wanted;
-    if (wanted.view != session_->settings().view &&
-        (wanted.view == View::Free) != (wanted.eye_m && wanted.look_m)) {
-        wanted = with_view(wanted, wanted.view, session_->camera());
+    settings::Settings& wanted = state_.wanted;
+    if (wanted.view.kind != session_->settings().view.kind &&
+        (wanted.view.kind == View::Free) != (wanted.view.eye_m && wanted.view.look_m)) {
+        wanted = with_view(wanted, wanted.view.kind, session_->camera());
     }
     if (wanted == session_->settings()) {
         return;
     }
-    const bool other_flight =
-        settings::change_between(session_->settings(), state_.wanted) == settings::SettingsChange::World;
+    const bool other_flight = settings::change_between(session_->settings(), state_.wanted) ==
+                              settings::SettingsChange::World;
     try {
         if (other_flight && recording_) {
             throw Error("a recording keeps what is loaded: stop it first (F9)");
@@ -221,9 +222,9 @@ void Viewer::apply_wanted() {
         session_->apply(state_.wanted);
     } catch (const Error& fault) {
         say(fault.what());
-        const glm::ivec2 size_px = state_.wanted.size_px;
+        const glm::ivec2 size_px = state_.wanted.view.size_px;
         state_.wanted = session_->settings();
-        state_.wanted.size_px = size_px;
+        state_.wanted.view.size_px = size_px;
         return;
     }
     if (other_flight) {
@@ -234,7 +235,7 @@ void Viewer::apply_wanted() {
 /// The picture shown is the one chosen a turn ago; with it the ground of the next is begun.
 void Viewer::draw() {
     const double next_s = state_.playback.time_s;
-    const bool ahead = session_->settings().mesh_ahead;
+    const bool ahead = session_->settings().ground.mesh_ahead;
     const double input_of_next_s = input_s_;
     const double time_s = ahead ? shown_s_ : next_s;
     session_->aim_at_window(input_->size_px());

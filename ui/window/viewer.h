@@ -1,7 +1,8 @@
 #pragma once
 
-#include "ui/flight/session.h"
 #include "ui/base/stopwatch.h"
+#include "ui/flight/session.h"
+#include "ui/settings/settings.h"
 #include "ui/window/gui.h"
 #include "ui/window/pilot_input.h"
 #include "ui/window/view_keys.h"
@@ -9,7 +10,6 @@
 #include "ui/window/window_input.h"
 #include "ui/window/window_recording.h"
 #include "visuals/gl/window_context.h"
-#include "visuals/scene/settings.h"
 
 #include <filesystem>
 #include <memory>
@@ -19,7 +19,7 @@
 namespace octant::ui::window {
 
 struct ViewOptions {
-    visuals::scene::Settings settings; ///< size_px: of the window, in the display's units
+    settings::Settings settings; ///< size_px: of the window, in the display's units
     bool full_screen = false;
     bool vsync = true; ///< false: as fast as it can
     bool panels = true;

@@ -1,13 +1,13 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "ui/flight/flight_recorder.h"
-#include "ui/studies/draw_order/id_comparison.h"
-#include "ui/world/input_files.h"
 #include "ui/report/png_file.h"
 #include "ui/settings/settings_file.h"
+#include "ui/studies/draw_order/id_comparison.h"
 #include "ui/window/look_control.h"
 #include "ui/window/view_keys.h"
 #include "ui/window/viewer.h"
+#include "ui/world/input_files.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -27,19 +27,19 @@ namespace {
 
 constexpr double jump_s = 2.0;
 
-void next_inset(scene::Settings& settings) {
+void next_inset(settings::Settings& settings) {
     using scene::View;
     constexpr std::array<std::optional<View>, 4> turns{
         std::nullopt, View::Chase, View::Cockpit, View::Tower};
-    const auto at = std::ranges::find(turns, settings.inset);
-    settings.inset = at == turns.end() || at + 1 == turns.end() ? turns.front() : *(at + 1);
+    const auto at = std::ranges::find(turns, settings.view.inset);
+    settings.view.inset = at == turns.end() || at + 1 == turns.end() ? turns.front() : *(at + 1);
 }
 
-void next_mesh_look(scene::Settings& settings) {
+void next_mesh_look(settings::Settings& settings) {
     using scene::MeshLook;
-    settings.show_mesh = settings.show_mesh == MeshLook::None    ? MeshLook::Edges
-                         : settings.show_mesh == MeshLook::Edges ? MeshLook::Levels
-                                                                 : MeshLook::None;
+    settings.ground.show_mesh = settings.ground.show_mesh == MeshLook::None    ? MeshLook::Edges
+                                : settings.ground.show_mesh == MeshLook::Edges ? MeshLook::Levels
+                                                                               : MeshLook::None;
 }
 
 } // namespace
@@ -180,14 +180,14 @@ void Viewer::take_requests() {
     }
     try {
         if (requests.save_settings) {
-            scene::Settings saved = world::with_absolute_files(session_->settings());
-            saved.context = scene::ContextKind::OsMesa;
+            settings::Settings saved = world::with_absolute_files(session_->settings());
+            saved.drawing.context = settings::ContextKind::OsMesa;
             write_file(*requests.save_settings, settings::settings_json(saved).dump(2) + "\n");
             say(fmt::format("settings: {}", requests.save_settings->string()));
         }
         if (requests.load_settings) {
             state_.wanted = settings::read_settings(*requests.load_settings);
-            state_.wanted.context = scene::ContextKind::Window;
+            state_.wanted.drawing.context = settings::ContextKind::Window;
             fit_to_window();
         }
     } catch (const Error& fault) {
@@ -201,7 +201,7 @@ void Viewer::take_flight_requests(const ViewRequests& requests) {
     }
     flight::Simulation& simulation = session_->simulation();
     if (requests.level_off && simulation.by_hand()) {
-        simulation.level_off(session_->settings().aircraft.front());
+        simulation.level_off(session_->settings().path.aircraft.front());
         state_.playback.playing = true;
     }
     if (requests.step_frame) {
@@ -231,7 +231,7 @@ void Viewer::toggle_hand() {
     flight::Simulation& simulation = session_->simulation();
     if (!simulation.by_hand()) {
         simulation.advance_to(simulation.time_s());
-        simulation.take_over(session_->settings().aircraft.front());
+        simulation.take_over(session_->settings().path.aircraft.front());
         state_.playback.playing = true;
         say("by hand: arrows fly, Page Up and Page Down are the throttle, H gives it back");
         return;
@@ -299,7 +299,8 @@ void Viewer::take_screenshot() {
 
 void Viewer::count_wrong_pixels() {
     try {
-        const studies::draw_order::PixelCheck check = studies::draw_order::check_pixels(*session_, context_->functions());
+        const studies::draw_order::PixelCheck check =
+            studies::draw_order::check_pixels(*session_, context_->functions());
         state_.wrong_pixels = {check.wrong, check.differing, check.pixels};
     } catch (const Error& fault) {
         say(fault.what());

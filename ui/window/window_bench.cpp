@@ -1,8 +1,8 @@
 #include "ui/window/window_bench.h"
 
 #include "ui/base/progress.h"
-#include "ui/report/statistics.h"
 #include "ui/base/stopwatch.h"
+#include "ui/report/statistics.h"
 
 #include <algorithm>
 #include <vector>
@@ -28,8 +28,8 @@ ViewOptions unhurried(ViewOptions options) {
 
 WindowBench bench_window(const ViewOptions& options, int frames, bool quiet) {
     Viewer viewer(unhurried(options));
-    visuals::scene::Settings settings = viewer.session().settings();
-    settings.context = visuals::scene::ContextKind::OsMesa;
+    settings::Settings settings = viewer.session().settings();
+    settings.drawing.context = settings::ContextKind::OsMesa;
     flight::Session session(settings);
     const int count = std::min(frames + warm_up_frames, session.frames());
     viewer.state().playback.speed = 0.5;

@@ -3,11 +3,11 @@
 #include "flightpaths/track_writer.h"
 #include "sim/base/error.h"
 #include "sim/fixed_step.h"
-#include "ui/flight/flight_recorder.h"
-#include "ui/world/input_files.h"
-#include "ui/settings/settings_file.h"
 #include "ui/base/stopwatch.h"
+#include "ui/flight/flight_recorder.h"
 #include "ui/flight/track_files.h"
+#include "ui/settings/settings_file.h"
+#include "ui/world/input_files.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -25,20 +25,20 @@ constexpr double flush_every_s = 0.5;
 constexpr const char* flight_name = "flight.csv";
 
 /// Settings that fly without a window what a window flies from this step on.
-scene::Settings
-from_step(const flight::Session& session, long step, const std::filesystem::path& folder, bool by_hand) {
-    scene::Settings settings = world::with_absolute_files(session.settings());
-    settings.context = scene::ContextKind::OsMesa;
-    settings.frames.reset();
-    settings.seconds.reset();
+settings::Settings from_step(
+    const flight::Session& session, long step, const std::filesystem::path& folder, bool by_hand) {
+    settings::Settings settings = world::with_absolute_files(session.settings());
+    settings.drawing.context = settings::ContextKind::OsMesa;
+    settings.time.frames.reset();
+    settings.time.seconds.reset();
     const sim::Trajectory& path = session.world().flight.trajectory;
-    settings.start_s = std::max(0.0, sim::time_of_step(step) - path.start_s());
+    settings.time.start_s = std::max(0.0, sim::time_of_step(step) - path.start_s());
     if (by_hand) {
-        settings.path = std::filesystem::absolute(folder / flight_name).string();
-        settings.place = "0,0";
-        settings.heading_deg = 0.0;
-        settings.height_mode = scene::HeightMode::Datum;
-        settings.start_s = 0.0;
+        settings.path.name = std::filesystem::absolute(folder / flight_name).string();
+        settings.path.place = "0,0";
+        settings.path.heading_deg = 0.0;
+        settings.path.height_mode = settings::HeightMode::Datum;
+        settings.time.start_s = 0.0;
     }
     return settings;
 }
@@ -54,8 +54,9 @@ long first_step_of(flight::Session& session) {
     return simulation.step();
 }
 
-report::RunInfo info_of(const flight::Session& session, const scene::Settings& to_repeat) {
-    report::RunInfo info = flight::run_info(world::with_absolute_files(session.settings()), session);
+report::RunInfo info_of(const flight::Session& session, const settings::Settings& to_repeat) {
+    report::RunInfo info =
+        flight::run_info(world::with_absolute_files(session.settings()), session);
     info.settings_json = settings::settings_json(to_repeat).dump(2);
     info.facts.emplace_back(report::flown_fact, "in a window, by the clock");
     return info;
@@ -129,13 +130,13 @@ std::size_t WindowRecording::states_to_the_end(flight::Session& session) const {
     return std::min(static_cast<std::size_t>(steps), session.simulation().log().size());
 }
 
-scene::Settings WindowRecording::settings_to_repeat(flight::Session& session) const {
-    scene::Settings settings = from_step(session, first_step_, recording_.folder(), by_hand_);
+settings::Settings WindowRecording::settings_to_repeat(flight::Session& session) const {
+    settings::Settings settings = from_step(session, first_step_, recording_.folder(), by_hand_);
     const long steps = sim::step_at(last_time_s_) - first_step_;
     if (!by_hand_ && steps > 0) {
-        settings.seconds = sim::time_of_step(steps);
+        settings.time.seconds = sim::time_of_step(steps);
     } else if (!by_hand_) {
-        settings.frames = 1;
+        settings.time.frames = 1;
     }
     return settings;
 }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "sim/base/output_file.h"
-#include "ui/report/recording.h"
 #include "ui/flight/session.h"
+#include "ui/report/recording.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -34,7 +34,7 @@ public:
 
 private:
     void append_states(flight::Session& session);
-    visuals::scene::Settings settings_to_repeat(flight::Session& session) const;
+    settings::Settings settings_to_repeat(flight::Session& session) const;
     std::size_t states_to_the_end(flight::Session& session) const;
 
     long first_step_;

@@ -28,14 +28,15 @@ using Notes = std::vector<std::string>;
 /// flown as a mesh.
 constexpr std::size_t most_polygons_of_a_model = 2000;
 
-draworder::OrderedModel with_order(models::polygons::PolygonModel model, const scene::Settings& settings) {
-    if (settings.hidden_surface != scene::HiddenSurface::Octant ||
+draworder::OrderedModel
+with_order(models::polygons::PolygonModel model, const settings::Settings& settings) {
+    if (settings.surface.hidden_surface != scene::HiddenSurface::Octant ||
         model.polygons.size() > most_polygons_of_a_model) {
         draworder::DrawOrder order = draworder::file_order(model);
         return {.model = std::move(model), .order = std::move(order), .cells = {}, .notes = {}};
     }
     draworder::OrderOptions options;
-    options.method = settings.order_method;
+    options.method = settings.surface.order_method;
     return draworder::ordered(std::move(model), options);
 }
 
@@ -51,7 +52,7 @@ bool is_polygon_model(const std::filesystem::path& file) {
 }
 
 scene::AircraftModel
-ready(models::polygons::PolygonModel model, const scene::Settings& settings, Notes& notes) {
+ready(models::polygons::PolygonModel model, const settings::Settings& settings, Notes& notes) {
     const glm::dvec3 eye_m = scene::pilot_eye_m(model);
     const models::polygons::PolygonModel whole = model;
     draworder::OrderedModel ordered = with_order(std::move(model), settings);
@@ -63,11 +64,12 @@ ready(models::polygons::PolygonModel model, const scene::Settings& settings, Not
 }
 
 scene::AircraftModel
-load_model(const std::string& name, const scene::Settings& settings, Notes& notes) {
+load_model(const std::string& name, const settings::Settings& settings, Notes& notes) {
     const std::filesystem::path file = base::aircraft_file(name);
     const bool built_in = file.parent_path() == base::data_folder() / "models";
     const models::polygons::FileAxes axes =
-        built_in ? models::polygons::FileAxes() : models::polygons::FileAxes::from_text(settings.axes);
+        built_in ? models::polygons::FileAxes()
+                 : models::polygons::FileAxes::from_text(settings.path.axes);
     if (is_polygon_model(file)) {
         models::polygons::PolygonModel model = models::polygons::read_obj(file, axes);
         notes.insert(notes.end(), model.notes.begin(), model.notes.end());
@@ -85,7 +87,8 @@ load_model(const std::string& name, const scene::Settings& settings, Notes& note
 }
 
 void load_cockpit(const std::string& aircraft, scene::Scene& scene) {
-    const std::filesystem::path cockpit = base::data_folder() / "models" / (aircraft + "-cockpit.obj");
+    const std::filesystem::path cockpit =
+        base::data_folder() / "models" / (aircraft + "-cockpit.obj");
     if (!std::filesystem::exists(cockpit)) {
         return;
     }
@@ -98,10 +101,10 @@ void load_cockpit(const std::string& aircraft, scene::Scene& scene) {
 
 } // namespace
 
-std::vector<std::string> load_aircraft(const scene::Settings& settings, scene::Scene& scene) {
+std::vector<std::string> load_aircraft(const settings::Settings& settings, scene::Scene& scene) {
     Notes notes;
     std::vector<std::string> loaded;
-    for (const std::string& name : settings.aircraft) {
+    for (const std::string& name : settings.path.aircraft) {
         const auto found = std::find(loaded.begin(), loaded.end(), name);
         scene.aircraft.push_back(static_cast<std::uint32_t>(found - loaded.begin()));
         if (found == loaded.end()) {
@@ -109,7 +112,7 @@ std::vector<std::string> load_aircraft(const scene::Settings& settings, scene::S
             scene.models.push_back(load_model(name, settings, notes));
         }
     }
-    load_cockpit(settings.aircraft.front(), scene);
+    load_cockpit(settings.path.aircraft.front(), scene);
     return notes;
 }
 

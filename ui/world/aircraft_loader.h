@@ -1,7 +1,7 @@
 #pragma once
 
+#include "ui/settings/settings.h"
 #include "visuals/scene/planner.h"
-#include "visuals/scene/settings.h"
 
 #include <string>
 #include <vector>
@@ -12,6 +12,6 @@ namespace octant::ui::world {
 /// with their painting orders, chains of levels, and meshes, which get levels here. Returns what a
 /// person should be told. Throws Error.
 std::vector<std::string>
-load_aircraft(const visuals::scene::Settings& settings, visuals::scene::Scene& scene);
+load_aircraft(const settings::Settings& settings, visuals::scene::Scene& scene);
 
 } // namespace octant::ui::world

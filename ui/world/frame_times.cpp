@@ -8,17 +8,19 @@
 
 namespace octant::ui::world {
 
-using visuals::scene::Settings;
+using settings::Settings;
 
 namespace {
 
 double first_time_s(const Settings& settings, const sim::Trajectory& path) {
     const double length_s = path.end_s() - path.start_s();
-    if (settings.start_s > 0.0 && settings.start_s >= length_s) {
+    if (settings.time.start_s > 0.0 && settings.time.start_s >= length_s) {
         throw Error(fmt::format(
-            "--start: expected less than the path's {} s, got {}", length_s, settings.start_s));
+            "--start: expected less than the path's {} s, got {}",
+            length_s,
+            settings.time.start_s));
     }
-    return path.start_s() + settings.start_s;
+    return path.start_s() + settings.time.start_s;
 }
 
 } // namespace
@@ -34,10 +36,10 @@ FrameTimes frame_times_of(const Settings& settings, const Flight& flight) {
     const sim::Trajectory& path = flight.trajectory;
     const double from_s = first_time_s(settings, path);
     FrameTimes times;
-    times.rate_hz = settings.frame_per_sample ? flight.rate_hz : settings.rate_hz;
-    times.until_s =
-        settings.seconds ? std::min(path.end_s(), from_s + *settings.seconds) : path.end_s();
-    if (settings.frame_per_sample) {
+    times.rate_hz = settings.time.frame_per_sample ? flight.rate_hz : settings.time.rate_hz;
+    times.until_s = settings.time.seconds ? std::min(path.end_s(), from_s + *settings.time.seconds)
+                                          : path.end_s();
+    if (settings.time.frame_per_sample) {
         const double half_frame_s = 0.5 / times.rate_hz;
         for (const sim::AircraftState& sample : path.samples()) {
             if (sample.time_s >= from_s && sample.time_s <= times.until_s + half_frame_s) {
@@ -51,8 +53,8 @@ FrameTimes frame_times_of(const Settings& settings, const Flight& flight) {
             times.at_s.push_back(from_s + static_cast<double>(frame) / times.rate_hz);
         }
     }
-    if (settings.frames) {
-        times.cut_to(static_cast<std::size_t>(*settings.frames));
+    if (settings.time.frames) {
+        times.cut_to(static_cast<std::size_t>(*settings.time.frames));
     }
     return times;
 }

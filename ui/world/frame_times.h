@@ -1,7 +1,7 @@
 #pragma once
 
+#include "ui/settings/settings.h"
 #include "ui/world/world.h"
-#include "visuals/scene/settings.h"
 
 #include <cstddef>
 #include <vector>
@@ -19,6 +19,6 @@ struct FrameTimes {
 };
 
 /// Throws Error when the run would start behind the path's end.
-FrameTimes frame_times_of(const visuals::scene::Settings& settings, const Flight& flight);
+FrameTimes frame_times_of(const settings::Settings& settings, const Flight& flight);
 
 } // namespace octant::ui::world

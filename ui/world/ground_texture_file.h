@@ -1,8 +1,8 @@
 #pragma once
 
 #include "models/heights/image_on_ground.h"
+#include "ui/settings/settings.h"
 #include "visuals/scene/ground_texture.h"
-#include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_samples.h"
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace octant::ui::world {
 enum class DrawnBy { Processor, Gpu };
 
 /// Throws Error where the settings ask for a texture and the ground has no heights to make one of.
-void check_untextured_ground(const visuals::scene::Settings& settings);
+void check_untextured_ground(const settings::Settings& settings);
 
 /// The texture of the ground; nothing where it is drawn by its vertices' colours. What a person
 /// should be told goes to `notes`. `area`: of the samples. Throws Error for a drape that cannot be
@@ -23,7 +23,7 @@ void check_untextured_ground(const visuals::scene::Settings& settings);
 std::optional<visuals::scene::GroundTexture> load_ground_texture(
     const visuals::terrain::GroundSamples& ground,
     const models::heights::GroundArea& area,
-    const visuals::scene::Settings& settings,
+    const settings::Settings& settings,
     DrawnBy drawn_by,
     std::vector<std::string>& notes);
 

@@ -45,41 +45,41 @@ bool is_file(const std::string& name) {
 
 } // namespace
 
-visuals::scene::Settings with_absolute_files(visuals::scene::Settings settings) {
+settings::Settings with_absolute_files(settings::Settings settings) {
     // A name that is built in comes first everywhere, also where a file of that name lies about.
-    const std::string pilot = settings.aircraft.front();
-    if (base::path_file(settings.path, pilot) == settings.path) {
-        settings.path = absolute(settings.path);
+    const std::string pilot = settings.path.aircraft.front();
+    if (base::path_file(settings.path.name, pilot) == settings.path.name) {
+        settings.path.name = absolute(settings.path.name);
     }
-    for (std::string& name : settings.aircraft) {
+    for (std::string& name : settings.path.aircraft) {
         if (base::aircraft_file(name) == name) {
             name = absolute(name);
         }
     }
-    if (!is_built_in_ground(settings.terrain) && is_file(settings.terrain)) {
-        settings.terrain = absolute(settings.terrain);
+    if (!is_built_in_ground(settings.path.terrain) && is_file(settings.path.terrain)) {
+        settings.path.terrain = absolute(settings.path.terrain);
     }
-    if (settings.drape) {
-        settings.drape = absolute(*settings.drape);
+    if (settings.air.drape) {
+        settings.air.drape = absolute(*settings.air.drape);
     }
     return settings;
 }
 
-std::vector<std::pair<std::string, std::string>>
-input_hashes(const visuals::scene::Settings& settings) {
-    std::vector<fs::path> files = {base::path_file(settings.path, settings.aircraft.front())};
-    for (const std::string& name : settings.aircraft) {
+std::vector<std::pair<std::string, std::string>> input_hashes(const settings::Settings& settings) {
+    std::vector<fs::path> files = {
+        base::path_file(settings.path.name, settings.path.aircraft.front())};
+    for (const std::string& name : settings.path.aircraft) {
         files.push_back(base::aircraft_file(name));
         const fs::path materials = fs::path(files.back()).replace_extension(".mtl");
         if (is_file(materials.string())) {
             files.push_back(materials);
         }
     }
-    if (is_file(settings.terrain)) {
-        files.emplace_back(settings.terrain);
+    if (is_file(settings.path.terrain)) {
+        files.emplace_back(settings.path.terrain);
     }
-    if (settings.drape) {
-        files.emplace_back(*settings.drape);
+    if (settings.air.drape) {
+        files.emplace_back(*settings.air.drape);
     }
     std::vector<std::pair<std::string, std::string>> hashes;
     for (const fs::path& file : files) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/scene/settings.h"
+#include "ui/settings/settings.h"
 
 #include <string>
 #include <utility>
@@ -10,12 +10,11 @@ namespace octant::ui::world {
 
 /// The settings with every file named by its absolute path, so that they mean the same from any
 /// folder. Built-in names stay.
-visuals::scene::Settings with_absolute_files(visuals::scene::Settings settings);
+settings::Settings with_absolute_files(settings::Settings settings);
 
 /// The files that a run reads for these settings, built-in ones too, and hashes of their bytes (16
 /// hex digits; of an imported ground all but its tiles, whose checksums count): two runs with the
 /// same settings and hashes show the same. Throws Error when one cannot be read.
-std::vector<std::pair<std::string, std::string>>
-input_hashes(const visuals::scene::Settings& settings);
+std::vector<std::pair<std::string, std::string>> input_hashes(const settings::Settings& settings);
 
 } // namespace octant::ui::world

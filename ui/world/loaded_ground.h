@@ -22,7 +22,9 @@ public:
     visuals::terrain::GroundSamples samples() const;
 
     /// Nothing for an imported ground.
-    const models::heights::HeightField* field() const { return std::get_if<models::heights::HeightField>(&ground_); }
+    const models::heights::HeightField* field() const {
+        return std::get_if<models::heights::HeightField>(&ground_);
+    }
 
     /// What screen-error meshes are made of: built here from a field that was read.
     visuals::terrain::GroundTiles tiles() const;

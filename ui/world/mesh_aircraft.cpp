@@ -2,8 +2,8 @@
 
 #include "models/measure/mesh_distance.h"
 #include "models/polygons/mesh_polygons.h"
-#include "ui/world/refine_input.h"
 #include "ui/base/stopwatch.h"
+#include "ui/world/refine_input.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/selective_refiner.h"
 
@@ -67,7 +67,8 @@ models::TriangleMesh finest_mesh(const refine::ProgressiveMesh& hierarchy) {
     return mesh;
 }
 
-MeshAircraft from_hierarchy(const std::filesystem::path& file, const models::polygons::FileAxes& axes) {
+MeshAircraft
+from_hierarchy(const std::filesystem::path& file, const models::polygons::FileAxes& axes) {
     const base::Stopwatch watch;
     RefineMesh input = read_refine_mesh({.file = file.string(), .base = 0, .quiet = true});
     MeshAircraft aircraft;
@@ -91,8 +92,8 @@ MeshAircraft from_hierarchy(const std::filesystem::path& file, const models::pol
 /// Levels that are no better than the polygons are never drawn.
 MeshAircraft from_chain(meshfile::LevelChain chain, const models::polygons::FileAxes& axes) {
     MeshAircraft aircraft;
-    aircraft.polygons =
-        chain.polygons ? std::move(*chain.polygons) : models::polygons::as_polygons(chain.levels.back().mesh);
+    aircraft.polygons = chain.polygons ? std::move(*chain.polygons)
+                                       : models::polygons::as_polygons(chain.levels.back().mesh);
     aircraft.polygons_error_m =
         chain.polygons ? chain.polygons_error_m : chain.levels.back().error_m;
     for (glm::dvec3& vertex_m : aircraft.polygons.vertices_m) {
@@ -113,7 +114,8 @@ MeshAircraft from_chain(meshfile::LevelChain chain, const models::polygons::File
 
 } // namespace
 
-MeshAircraft read_mesh_aircraft(const std::filesystem::path& file, const models::polygons::FileAxes& axes) {
+MeshAircraft
+read_mesh_aircraft(const std::filesystem::path& file, const models::polygons::FileAxes& axes) {
     return meshfile::is_chain_file(file) ? from_chain(meshfile::read_chain(file), axes)
                                          : from_hierarchy(file, axes);
 }

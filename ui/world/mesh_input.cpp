@@ -3,8 +3,8 @@
 #include "models/made/made_globe.h"
 #include "models/made/made_part.h"
 #include "models/made/made_up.h"
-#include "models/polygons/mesh_polygons.h"
 #include "models/meshfile/mesh_file.h"
+#include "models/polygons/mesh_polygons.h"
 #include "ui/base/data_files.h"
 
 #include <algorithm>

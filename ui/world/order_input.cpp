@@ -94,8 +94,8 @@ PlaneTests plane_tests(const draworder::OrderedModel& ordered) {
     return tests;
 }
 
-draworder::RayCount
-cast_rays(const models::polygons::PolygonModel& model, const draworder::CellOrders& orders, int rays) {
+draworder::RayCount cast_rays(
+    const models::polygons::PolygonModel& model, const draworder::CellOrders& orders, int rays) {
     std::vector<double> angles_rad = {0.0};
     if (!model.pivots.empty()) {
         angles_rad = {0.0, 0.7, 2.1, 4.4};
@@ -110,7 +110,8 @@ cast_rays(const models::polygons::PolygonModel& model, const draworder::CellOrde
         draworder::EyeSamples samples;
         samples.eyes = std::max(1, rays / rays_per_eye / static_cast<int>(angles_rad.size()));
         samples.rays_per_eye = rays_per_eye;
-        samples.least_distance_radii = std::max(nearest_radii, nearest_m / models::polygons::radius_m(model));
+        samples.least_distance_radii =
+            std::max(nearest_radii, nearest_m / models::polygons::radius_m(model));
         samples.most_distance_radii = std::max(farthest_radii, 10.0 * samples.least_distance_radii);
         samples.seed = 1989 + i;
         samples.turn_rad = angles_rad[i];

@@ -31,6 +31,8 @@ PlaneTests plane_tests(const visuals::draworder::OrderedModel& ordered);
 /// Tries orders with `rays` rays from random eyes within their range, 0.05 to 20 times the radius
 /// away, a quarter of them each at four angles of the turning parts where there are such.
 visuals::draworder::RayCount cast_rays(
-    const models::polygons::PolygonModel& model, const visuals::draworder::CellOrders& orders, int rays);
+    const models::polygons::PolygonModel& model,
+    const visuals::draworder::CellOrders& orders,
+    int rays);
 
 } // namespace octant::ui::world

@@ -3,8 +3,8 @@
 #include "models/meshfile/repair.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/error.h"
-#include "ui/world/mesh_input.h"
 #include "ui/base/progress.h"
+#include "ui/world/mesh_input.h"
 #include "visuals/refine/progressive_file.h"
 
 #include <fmt/format.h>

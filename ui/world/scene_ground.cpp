@@ -40,22 +40,23 @@ void describe_ground(
 
 } // namespace
 
-void check_ground_settings(const scene::Settings& settings) {
-    scene::Settings unasked = settings;
-    unasked.mesh.reset();
-    if (settings.mesh == scene::GroundMetric::ScreenError &&
-        scene::ground_metric(unasked) != scene::GroundMetric::ScreenError) {
+void check_ground_settings(const settings::Settings& settings) {
+    settings::Settings unasked = settings;
+    unasked.ground.mesh.reset();
+    if (settings.ground.mesh == scene::GroundMetric::ScreenError &&
+        scene::ground_metric(unasked.ground) != scene::GroundMetric::ScreenError) {
         throw Error("--mesh screen-error: expected --detail exact without --roughness-c, --fans or "
                     "--propagation, got one that only --mesh midpoint or printed has");
     }
-    if (is_imported_ground(settings.terrain) &&
-        scene::ground_metric(settings) != scene::GroundMetric::ScreenError) {
+    if (is_imported_ground(settings.path.terrain) &&
+        scene::ground_metric(settings.ground) != scene::GroundMetric::ScreenError) {
         throw Error(fmt::format(
             "{}: expected --mesh screen-error for an imported ground, got a mesh that goes by "
             "roughness",
-            printable(settings.terrain)));
+            printable(settings.path.terrain)));
     }
-    if (settings.error_px && scene::ground_metric(settings) != scene::GroundMetric::ScreenError) {
+    if (settings.ground.error_px &&
+        scene::ground_metric(settings.ground) != scene::GroundMetric::ScreenError) {
         throw Error("--error-px: expected --mesh screen-error, got a mesh that goes by roughness");
     }
 }
@@ -63,17 +64,17 @@ void check_ground_settings(const scene::Settings& settings) {
 void texture_ground(
     const terrain::GroundSamples& ground,
     const models::heights::GroundArea& area,
-    const scene::Settings& settings,
+    const settings::Settings& settings,
     DrawnBy drawn_by,
     World& world) {
     world.scene.ground_texture = load_ground_texture(ground, area, settings, drawn_by, world.notes);
     if (world.scene.ground_texture) {
-        world.ground_name += settings.drape ? ", draped" : ", textured";
+        world.ground_name += settings.air.drape ? ", draped" : ", textured";
     }
 }
 
-void load_imported(const scene::Settings& settings, DrawnBy drawn_by, World& world) {
-    terrain::GroundTiles ground = terrain::open_ground(settings.terrain);
+void load_imported(const settings::Settings& settings, DrawnBy drawn_by, World& world) {
+    terrain::GroundTiles ground = terrain::open_ground(settings.path.terrain);
     const terrain::GroundFacts& facts = ground.facts();
     describe_ground(ground, facts.name, facts.place, facts.filled_voids, world);
     const models::heights::GroundArea area{
@@ -86,32 +87,36 @@ bool is_drawn_whole(const std::string& terrain) {
     return terrain == "background60" || terrain == "none";
 }
 
-scene::Settings ground_settings(const scene::Settings& settings) {
-    scene::Settings own = settings;
-    if (!settings.palette && settings.terrain == "canyon") {
-        own.palette = scene::Palette::Arid;
+settings::Settings ground_settings(const settings::Settings& settings) {
+    settings::Settings own = settings;
+    if (!settings.air.palette && settings.path.terrain == "canyon") {
+        own.air.palette = scene::Palette::Arid;
     }
     return own;
 }
 
-void load_scene_ground(const scene::Settings& settings, DrawnBy drawn_by, World& world) {
+void load_scene_ground(const settings::Settings& settings, DrawnBy drawn_by, World& world) {
     check_ground_settings(settings);
-    world.ground_name = settings.terrain;
-    if (is_drawn_whole(settings.terrain)) {
+    world.ground_name = settings.path.terrain;
+    if (is_drawn_whole(settings.path.terrain)) {
         check_untextured_ground(settings);
         world.scene.ground = scene::ground_from_polygons(
-            settings.terrain == "none" ? models::polygons::PolygonModel{} : models::made::background60(), settings);
+            settings.path.terrain == "none" ? models::polygons::PolygonModel{}
+                                            : models::made::background60(),
+            settings);
         return;
     }
-    const scene::Settings colours = ground_settings(settings);
-    if (is_imported_ground(settings.terrain)) {
+    const settings::Settings colours = ground_settings(settings);
+    if (is_imported_ground(settings.path.terrain)) {
         load_imported(settings, drawn_by, world);
         return;
     }
-    models::heights::HeightField field = load_height_field(settings.terrain, settings.terrain_spacing_m);
+    models::heights::HeightField field =
+        load_height_field(settings.path.terrain, settings.path.terrain_spacing_m);
     describe_ground(field, field.name, field.place, field.filled_voids, world);
-    texture_ground(terrain::GroundSamples(field), models::heights::area_of(field), colours, drawn_by, world);
-    world.scene.ground = scene::ground_metric(settings) == scene::GroundMetric::ScreenError
+    texture_ground(
+        terrain::GroundSamples(field), models::heights::area_of(field), colours, drawn_by, world);
+    world.scene.ground = scene::ground_metric(settings.ground) == scene::GroundMetric::ScreenError
                              ? scene::ground_from_tiles(terrain::ground_of(field), colours)
                              : scene::ground_from_field(std::move(field), colours);
 }

@@ -5,8 +5,8 @@
 #include "flightpaths/recorded_track.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
-#include "ui/world/aircraft_loader.h"
 #include "ui/base/data_files.h"
+#include "ui/world/aircraft_loader.h"
 #include "ui/world/place_text.h"
 #include "ui/world/scene_ground.h"
 
@@ -34,8 +34,9 @@ struct Script {
     std::vector<flightpaths::LegBegin> legs;
 };
 
-Script load_script(const scene::Settings& settings, World& world) {
-    const std::filesystem::path file = base::path_file(settings.path, settings.aircraft.front());
+Script load_script(const settings::Settings& settings, World& world) {
+    const std::filesystem::path file =
+        base::path_file(settings.path.name, settings.path.aircraft.front());
     if (file.extension() == ".toml") {
         const flightpaths::PathScript script = flightpaths::read_path_script(file);
         const auto limits = sim::limits_of(script.aircraft);
@@ -45,7 +46,7 @@ Script load_script(const scene::Settings& settings, World& world) {
                 fmt::format(
                     "expected aircraft f15 or 500md, got '{}'", printable(script.aircraft)));
         }
-        flightpaths::FlownPath flown = flightpaths::fly(script, *limits, settings.lenient);
+        flightpaths::FlownPath flown = flightpaths::fly(script, *limits, settings.path.lenient);
         world.notes.insert(world.notes.end(), flown.notes.begin(), flown.notes.end());
         return {
             std::move(flown.trajectory),
@@ -59,7 +60,7 @@ Script load_script(const scene::Settings& settings, World& world) {
     const auto samples = track.trajectory.samples();
     const double mean_step_s =
         (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
-    const auto limits = sim::limits_of(settings.aircraft.front());
+    const auto limits = sim::limits_of(settings.path.aircraft.front());
     return {
         std::move(track.trajectory),
         1.0 / mean_step_s,
@@ -69,25 +70,26 @@ Script load_script(const scene::Settings& settings, World& world) {
         {}};
 }
 
-flightpaths::HeightMode placement_mode(scene::HeightMode mode) {
+flightpaths::HeightMode placement_mode(settings::HeightMode mode) {
     switch (mode) {
-    case scene::HeightMode::Clear:
+    case settings::HeightMode::Clear:
         return flightpaths::HeightMode::Clear;
-    case scene::HeightMode::Follow:
+    case settings::HeightMode::Follow:
         return flightpaths::HeightMode::Follow;
-    case scene::HeightMode::Datum:
+    case settings::HeightMode::Datum:
         break;
     }
     return flightpaths::HeightMode::Datum;
 }
 
 flightpaths::Placement
-placement_of(const scene::Settings& settings, const Script& script, const World& world) {
+placement_of(const settings::Settings& settings, const Script& script, const World& world) {
     flightpaths::Placement placement;
     const glm::dvec2 half_extent_m = world.scene.ground->half_extent_m();
-    const bool at_its_own_place = script.origin && world.ground_place && !settings.place;
-    if (settings.place) {
-        placement.place_m = place_from_text(*settings.place, world.ground_place, half_extent_m);
+    const bool at_its_own_place = script.origin && world.ground_place && !settings.path.place;
+    if (settings.path.place) {
+        placement.place_m =
+            place_from_text(*settings.path.place, world.ground_place, half_extent_m);
     } else if (at_its_own_place) {
         placement.place_m = flightpaths::local_from_geo(
             {world.ground_place->latitude_deg, world.ground_place->longitude_deg},
@@ -95,15 +97,15 @@ placement_of(const scene::Settings& settings, const Script& script, const World&
             script.origin->longitude_deg);
         placement.heading_rad = 0.0;
     }
-    if (settings.heading_deg) {
-        placement.heading_rad = rad_from_deg(*settings.heading_deg);
+    if (settings.path.heading_deg) {
+        placement.heading_rad = rad_from_deg(*settings.path.heading_deg);
     }
-    placement.mode = placement_mode(settings.height_mode.value_or(
-        at_its_own_place ? scene::HeightMode::Datum : scene::HeightMode::Clear));
+    placement.mode = placement_mode(settings.path.height_mode.value_or(
+        at_its_own_place ? settings::HeightMode::Datum : settings::HeightMode::Clear));
     return placement;
 }
 
-Flight place_flight(const scene::Settings& settings, Script script, World& world) {
+Flight place_flight(const settings::Settings& settings, Script script, World& world) {
     const auto ground = [&](double x_m, double y_m) {
         return world.scene.ground->height_at(x_m, y_m);
     };
@@ -121,9 +123,9 @@ Flight place_flight(const scene::Settings& settings, Script script, World& world
         .trajectory = std::move(placed.trajectory),
         .title = fmt::format(
             "{} {} over {}",
-            stem(settings.aircraft.front()),
-            stem(settings.path),
-            stem(settings.terrain)),
+            stem(settings.path.aircraft.front()),
+            stem(settings.path.name),
+            stem(settings.path.terrain)),
         .rate_hz = script.rate_hz,
         .place_m = placed.origin_m,
         .heading_rad = placed.heading_rad,
@@ -154,48 +156,49 @@ void check_wingmen(const World& world) {
     }
 }
 
-void check_shading(const scene::Settings& settings) {
-    const bool hybrid = settings.shading == scene::AircraftShading::Hybrid;
-    const bool by_share = settings.adapt.shading || settings.device_ratio ||
-                          settings.smooth_share < 1.0 ||
-                          settings.shading_rule == scene::HybridRule::Paper;
+void check_shading(const settings::Settings& settings) {
+    const bool hybrid = settings.shading.kind == scene::AircraftShading::Hybrid;
+    const bool by_share = settings.adapt.shading || settings.shading.device_ratio ||
+                          settings.shading.smooth_share < 1.0 ||
+                          settings.shading.rule == scene::HybridRule::Paper;
     if (by_share && !hybrid) {
         throw Error("--shading: expected hybrid beside --adapt shading, --smooth-share, "
                     "--device-ratio or --shading-rule paper, got another one");
     }
-    if (settings.shading_far_m <= settings.shading_near_m) {
+    if (settings.shading.far_m <= settings.shading.near_m) {
         throw Error(fmt::format(
             "--shading-far: expected more than --shading-near ({}), got {}",
-            settings.shading_near_m,
-            settings.shading_far_m));
+            settings.shading.near_m,
+            settings.shading.far_m));
     }
 }
 
-void check_adaptation(const scene::Settings& settings) {
+void check_adaptation(const settings::Settings& settings) {
     if (!settings.adapt.terrain) {
         return;
     }
-    if (settings.detail != scene::DetailControl::Exact) {
+    if (settings.ground.detail != scene::DetailControl::Exact) {
         throw Error("--adapt terrain: expected --detail exact beside it, got another control");
     }
-    if (is_drawn_whole(settings.terrain)) {
+    if (is_drawn_whole(settings.path.terrain)) {
         throw Error(fmt::format(
-            "--adapt terrain: expected ground with levels of detail, got {}", settings.terrain));
+            "--adapt terrain: expected ground with levels of detail, got {}",
+            settings.path.terrain));
     }
 }
 
-void check_eye_point(const scene::Settings& settings) {
-    const bool free = settings.view == scene::View::Free;
-    if (free && (!settings.eye_m || !settings.look_m)) {
+void check_eye_point(const settings::Settings& settings) {
+    const bool free = settings.view.kind == scene::View::Free;
+    if (free && (!settings.view.eye_m || !settings.view.look_m)) {
         throw Error("--view free: expected --eye X,Y,Z and --look X,Y,Z, got at most one of them");
     }
-    if (free && *settings.eye_m == *settings.look_m) {
+    if (free && *settings.view.eye_m == *settings.view.look_m) {
         throw Error("--look: expected another point than --eye, got the same");
     }
-    if (!free && settings.view != scene::View::Tower && settings.eye_m) {
+    if (!free && settings.view.kind != scene::View::Tower && settings.view.eye_m) {
         throw Error("--eye: expected --view tower or free beside it, got another view");
     }
-    if (!free && settings.look_m) {
+    if (!free && settings.view.look_m) {
         throw Error("--look: expected --view free beside it, got another view");
     }
 }
@@ -210,18 +213,18 @@ Formation formation_of(const scene::Scene& scene) {
     return {static_cast<int>(scene.aircraft.size()), largest_m};
 }
 
-scene::FixedPoints fixed_points(const scene::Settings& settings, const World& world) {
+scene::FixedPoints fixed_points(const settings::Settings& settings, const World& world) {
     check_eye_point(settings);
     scene::FixedPoints points;
-    if (settings.view == scene::View::Free) {
-        points.free_eye_m = *settings.eye_m;
-        points.free_look_m = *settings.look_m;
+    if (settings.view.kind == scene::View::Free) {
+        points.free_eye_m = *settings.view.eye_m;
+        points.free_look_m = *settings.view.look_m;
     }
-    if (settings.view != scene::View::Tower && settings.inset != scene::View::Tower) {
+    if (settings.view.kind != scene::View::Tower && settings.view.inset != scene::View::Tower) {
         return points;
     }
-    if (settings.view == scene::View::Tower && settings.eye_m) {
-        points.tower_m = *settings.eye_m;
+    if (settings.view.kind == scene::View::Tower && settings.view.eye_m) {
+        points.tower_m = *settings.view.eye_m;
         return points;
     }
     constexpr std::size_t every = 10;
@@ -236,11 +239,11 @@ scene::FixedPoints fixed_points(const scene::Settings& settings, const World& wo
     return points;
 }
 
-void check_settings(const scene::Settings& settings) {
-    if (settings.samples != 1 && settings.samples != 4) {
-        throw Error(fmt::format("--samples: expected 1 or 4, got {}", settings.samples));
+void check_settings(const settings::Settings& settings) {
+    if (settings.view.samples != 1 && settings.view.samples != 4) {
+        throw Error(fmt::format("--samples: expected 1 or 4, got {}", settings.view.samples));
     }
-    if (settings.inset == scene::View::Free && settings.view != scene::View::Free) {
+    if (settings.view.inset == scene::View::Free && settings.view.kind != scene::View::Free) {
         throw Error("--inset free: expected --view free beside it, got another view");
     }
     check_adaptation(settings);
@@ -248,7 +251,7 @@ void check_settings(const scene::Settings& settings) {
     check_ground_settings(settings);
 }
 
-World load_world(const scene::Settings& settings, DrawnBy drawn_by) {
+World load_world(const settings::Settings& settings, DrawnBy drawn_by) {
     check_settings(settings);
     World world;
     world.notes = load_aircraft(settings, world.scene);

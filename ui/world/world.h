@@ -2,11 +2,11 @@
 
 #include "flightpaths/fly_script.h"
 #include "sim/trajectory.h"
+#include "ui/settings/settings.h"
 #include "ui/world/formation.h"
 #include "ui/world/ground_texture_file.h"
 #include "visuals/scene/camera_rig.h"
 #include "visuals/scene/planner.h"
-#include "visuals/scene/settings.h"
 
 #include <glm/vec2.hpp>
 
@@ -45,14 +45,13 @@ struct World {
 Formation formation_of(const visuals::scene::Scene& scene);
 
 /// Throws Error where settings contradict each other.
-void check_settings(const visuals::scene::Settings& settings);
+void check_settings(const settings::Settings& settings);
 
 /// Where the views of these settings stand that do not follow the aircraft. Throws Error for eye
 /// points that the view does not take.
-visuals::scene::FixedPoints
-fixed_points(const visuals::scene::Settings& settings, const World& world);
+visuals::scene::FixedPoints fixed_points(const settings::Settings& settings, const World& world);
 
 /// Loads aircraft, ground and path of a run and lays the path over the ground. Throws Error.
-World load_world(const visuals::scene::Settings& settings, DrawnBy drawn_by = DrawnBy::Processor);
+World load_world(const settings::Settings& settings, DrawnBy drawn_by = DrawnBy::Processor);
 
 } // namespace octant::ui::world

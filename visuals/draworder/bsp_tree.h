@@ -26,12 +26,12 @@ struct BspTree {
         std::size_t count = 0;
     };
 
-    models::polygons::PolygonModel model;          ///< with the pieces; parents say of what
-    std::vector<Node> nodes;             ///< node 0 is the root; children are later nodes
-    std::vector<std::uint32_t> polygons; ///< each polygon of `model` once, node after node
-    std::vector<bool> along;             ///< whether polygons[i] faces where its node's normal does
-    int splits = 0;                      ///< polygons added by cutting
-    int depth = 0;                       ///< nodes on the longest way from the root
+    models::polygons::PolygonModel model; ///< with the pieces; parents say of what
+    std::vector<Node> nodes;              ///< node 0 is the root; children are later nodes
+    std::vector<std::uint32_t> polygons;  ///< each polygon of `model` once, node after node
+    std::vector<bool> along; ///< whether polygons[i] faces where its node's normal does
+    int splits = 0;          ///< polygons added by cutting
+    int depth = 0;           ///< nodes on the longest way from the root
 };
 
 /// Builds a tree. At each node the plane is taken that cuts the fewest polygons; all polygons there

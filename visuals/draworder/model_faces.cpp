@@ -37,7 +37,8 @@ Tolerances tolerances_of(const models::polygons::PolygonModel& model, double uni
     return tolerances;
 }
 
-Face outline_of(const models::polygons::PolygonModel& model, std::size_t polygon, const ModelFaces& faces) {
+Face outline_of(
+    const models::polygons::PolygonModel& model, std::size_t polygon, const ModelFaces& faces) {
     std::vector<glm::dvec3> corners;
     for (const std::uint32_t vertex : model.corners(polygon)) {
         corners.push_back((model.vertices_m[vertex] - faces.origin_m) / faces.unit_m);
@@ -48,7 +49,8 @@ Face outline_of(const models::polygons::PolygonModel& model, std::size_t polygon
 
 /// Pairs within one part, for eyes everywhere. Where they form cycles, the pairs that an order by
 /// number breaks are left out.
-void add_rigid_pairs(const models::polygons::PolygonModel& model, std::uint32_t pivot, ModelFaces& out) {
+void add_rigid_pairs(
+    const models::polygons::PolygonModel& model, std::uint32_t pivot, ModelFaces& out) {
     HidingTest test(out.tolerances);
     PolygonSet part(out.faces.size());
     std::vector<Face> still(out.faces.size());
@@ -92,7 +94,8 @@ void add_rigid_pairs(const models::polygons::PolygonModel& model, std::uint32_t 
 }
 
 /// Marks what a turning polygon runs into at some angle.
-void find_meetings(const models::polygons::PolygonModel& model, std::size_t polygon, ModelFaces& out) {
+void find_meetings(
+    const models::polygons::PolygonModel& model, std::size_t polygon, ModelFaces& out) {
     const HidingTest test(out.tolerances);
     const Face& face = out.faces[polygon];
     for (std::size_t other = 0; other < out.faces.size(); ++other) {

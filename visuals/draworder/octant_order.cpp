@@ -117,7 +117,8 @@ glm::dvec3 octant_signs(int octant) {
         octant % 2 == 0 ? 1.0 : -1.0, octant / 2 % 2 == 0 ? 1.0 : -1.0, octant < 4 ? 1.0 : -1.0};
 }
 
-OctantOrders paper_orders(const models::polygons::PolygonModel& model, const PaperOptions& options) {
+OctantOrders
+paper_orders(const models::polygons::PolygonModel& model, const PaperOptions& options) {
     assert(glm::all(glm::greaterThan(options.viewpoint_radii, glm::dvec3(0.0))));
     const double radius_m = models::polygons::radius_m(model);
     OctantOrders orders;

@@ -46,7 +46,8 @@ struct OctantOrders {
 
 /// Steps 1 to 6 of the paper: the 8 painting orders of a model. Where the paper leaves the order
 /// free the lower polygon number comes first. Time grows with the square of the polygons listed.
-OctantOrders paper_orders(const models::polygons::PolygonModel& model, const PaperOptions& options = {});
+OctantOrders
+paper_orders(const models::polygons::PolygonModel& model, const PaperOptions& options = {});
 
 /// The eye in body axes, metres: inverse(T R) * eye for an aircraft at `position_m` in the world
 /// with the attitude `body_to_world` (unit). Its octant is the run-time step of the paper,

@@ -38,8 +38,10 @@ std::string sum_in_words(const glm::dvec3& normal) {
     return text;
 }
 
-std::string
-in_words(const Plane& plane, const models::polygons::PolygonModel& model, const models::polygons::FileAxes& axes) {
+std::string in_words(
+    const Plane& plane,
+    const models::polygons::PolygonModel& model,
+    const models::polygons::FileAxes& axes) {
     const glm::dvec3 normal = axes.file_from_body(plane.normal);
     for (int axis = 0; axis < 3; ++axis) {
         if (std::abs(normal[axis]) > 1.0 - 1e-12) {
@@ -98,7 +100,9 @@ std::string region_in_words(
 }
 
 std::vector<OrderRow> order_table(
-    const models::polygons::PolygonModel& model, const CellOrders& orders, const models::polygons::FileAxes& axes) {
+    const models::polygons::PolygonModel& model,
+    const CellOrders& orders,
+    const models::polygons::FileAxes& axes) {
     std::vector<OrderRow> rows;
     bool only_octants = true;
     for (std::size_t i = 0; i < orders.cells.size(); ++i) {

@@ -24,10 +24,14 @@ std::string list_in_words(std::span<const std::uint32_t> list);
 /// The planes of a cell in words, in the axes of the model's file: a polygon's plane by the
 /// polygon, one across an axis as x > 2, others as 0.6 x - 0.8 y > 1. "everywhere" without planes.
 std::string region_in_words(
-    std::span<const Plane> planes, const models::polygons::PolygonModel& model, const models::polygons::FileAxes& axes);
+    std::span<const Plane> planes,
+    const models::polygons::PolygonModel& model,
+    const models::polygons::FileAxes& axes);
 
 /// The rows of all cells: octants in the paper's order (+++, ++-, +-+, ...), others as they are.
 std::vector<OrderRow> order_table(
-    const models::polygons::PolygonModel& model, const CellOrders& orders, const models::polygons::FileAxes& axes = {});
+    const models::polygons::PolygonModel& model,
+    const CellOrders& orders,
+    const models::polygons::FileAxes& axes = {});
 
 } // namespace octant::visuals::draworder

@@ -37,6 +37,8 @@ std::string path_in_body(const std::string& path, const models::polygons::FileAx
 /// numbers that are missing, too many, not finite or too large, indices out of range, a polygon
 /// twice in one cell, another count of faces, a keyword twice or after the cells, no cells.
 CellOrders read_order_file(
-    const std::filesystem::path& path, std::size_t faces, const models::polygons::FileAxes& axes = {});
+    const std::filesystem::path& path,
+    std::size_t faces,
+    const models::polygons::FileAxes& axes = {});
 
 } // namespace octant::visuals::draworder

@@ -21,7 +21,10 @@ constexpr std::size_t most_cells = 1'000'000;
 
 class OrderReading {
 public:
-    OrderReading(const std::filesystem::path& path, std::size_t faces, const models::polygons::FileAxes& axes)
+    OrderReading(
+        const std::filesystem::path& path,
+        std::size_t faces,
+        const models::polygons::FileAxes& axes)
         : path_(path)
         , axes_(axes)
         , used_(faces) {

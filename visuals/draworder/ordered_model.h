@@ -31,8 +31,9 @@ struct OrderCell {
 
 /// A model with its painting orders.
 struct OrderedModel {
-    models::polygons::PolygonModel model; ///< polygons split where no order exists; parents say of what
-    DrawOrder order;            ///< cell i is cells[i]
+    models::polygons::PolygonModel
+        model;       ///< polygons split where no order exists; parents say of what
+    DrawOrder order; ///< cell i is cells[i]
     std::vector<OrderCell> cells;
     glm::dvec3 centre_m{0.0};       ///< Paper, Cells: where the octants meet, body axes
     double min_distance_m = 0.0;    ///< Paper, Cells: made for |x|+|y|+|z| >= this, from centre_m

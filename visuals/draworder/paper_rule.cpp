@@ -126,8 +126,8 @@ glm::dvec3 ScreenView::screen_from_body(const glm::dvec3& point_m) const {
     return in_view * (distance_m_ / (distance_m_ - in_view.z) / scale_m_);
 }
 
-ScreenPolygon
-on_screen(const models::polygons::PolygonModel& model, std::size_t polygon, const ScreenView& view) {
+ScreenPolygon on_screen(
+    const models::polygons::PolygonModel& model, std::size_t polygon, const ScreenView& view) {
     ScreenPolygon seen;
     for (const std::uint32_t vertex : model.corners(polygon)) {
         seen.corners.push_back(view.screen_from_body(model.vertices_m[vertex]));

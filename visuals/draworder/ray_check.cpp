@@ -146,7 +146,9 @@ RayCount& RayCount::operator+=(const RayCount& other) {
 }
 
 RayCount count_wrong_rays(
-    const models::polygons::PolygonModel& model, const DrawOrder& order, const EyeSamples& samples) {
+    const models::polygons::PolygonModel& model,
+    const DrawOrder& order,
+    const EyeSamples& samples) {
     Sampling sampling(model, samples, {});
     RayCount count;
     for (int eye = 0; eye < samples.eyes; ++eye) {
@@ -158,7 +160,9 @@ RayCount count_wrong_rays(
 }
 
 RayCount count_wrong_rays(
-    const models::polygons::PolygonModel& model, const CellOrders& orders, const EyeSamples& samples) {
+    const models::polygons::PolygonModel& model,
+    const CellOrders& orders,
+    const EyeSamples& samples) {
     Sampling sampling(model, samples, orders.two_sided);
     RayCount count;
     for (int eye = 0; eye < samples.eyes; ++eye) {

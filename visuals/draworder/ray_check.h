@@ -42,7 +42,9 @@ RayCount count_wrong_rays(
 
 /// The same for orders by cells: eyes out of their range are passed over.
 RayCount count_wrong_rays(
-    const models::polygons::PolygonModel& model, const CellOrders& orders, const EyeSamples& samples);
+    const models::polygons::PolygonModel& model,
+    const CellOrders& orders,
+    const EyeSamples& samples);
 
 /// Rays from one eye for one list.
 RayCount count_wrong_rays_from(

@@ -206,7 +206,9 @@ public:
         , tolerance_m_(models::polygons::flatness_tolerance_m(model)) {
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
             faces_.push_back(face_of(
-                corners_of(model, i), models::polygons::plane_of(model, i), models::polygons::pivot_of(model, i)));
+                corners_of(model, i),
+                models::polygons::plane_of(model, i),
+                models::polygons::pivot_of(model, i)));
         }
         partners_.resize(faces_.size());
         cuts_.resize(faces_.size());

@@ -22,7 +22,8 @@ double split_tolerance_m(const models::polygons::PolygonModel& model);
 ///
 /// Corners lie more than split_tolerance_m away on both sides of the plane (asserted). Time grows
 /// with the corners of the whole model.
-std::uint32_t split_polygon(models::polygons::PolygonModel& model, std::size_t polygon, const Plane& plane);
+std::uint32_t
+split_polygon(models::polygons::PolygonModel& model, std::size_t polygon, const Plane& plane);
 
 /// Cuts polygons that pass through one another until none does, each along the plane of another;
 /// returns how many polygons were added. In each step the cut is made that leaves the fewest pairs,

@@ -21,7 +21,8 @@ void widen(HullExtent& extent, const glm::dvec3& least_m, const glm::dvec3& most
 }
 
 /// Corners of the circle that a point runs about the axis of a pivot.
-void widen_by_circle(HullExtent& extent, const models::polygons::Pivot& pivot, const glm::dvec3& point_m) {
+void widen_by_circle(
+    HullExtent& extent, const models::polygons::Pivot& pivot, const glm::dvec3& point_m) {
     const glm::dvec3 arm_m = point_m - pivot.point_m;
     const glm::dvec3 along_m = pivot.axis * glm::dot(arm_m, pivot.axis);
     const double radius_m = glm::length(arm_m - along_m);

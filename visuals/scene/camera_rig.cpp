@@ -50,7 +50,7 @@ struct Turn {
     double zoom = 1.0;
 };
 
-Turn turn_of(const Settings& settings) {
+Turn turn_of(const ViewSettings& settings) {
     return {
         rad_from_deg(settings.azimuth_deg), rad_from_deg(settings.elevation_deg), settings.zoom};
 }
@@ -216,7 +216,7 @@ RigMemory advanced(const RigMemory& memory, const sim::AircraftState& state) {
 }
 
 Camera camera_of(
-    const Settings& settings,
+    const ViewSettings& settings,
     const sim::AircraftState& state,
     const RigMemory& memory,
     const Subject& subject,
@@ -232,10 +232,10 @@ Camera camera_of(
         return eye_m;
     };
     const auto turned = [&](Camera camera) {
-        turn_look(camera, settings.view, turn);
+        turn_look(camera, settings.kind, turn);
         return camera;
     };
-    switch (settings.view) {
+    switch (settings.kind) {
     case View::Chase:
         return with_fov(chase(state, memory, subject, turn, ground));
     case View::Cockpit:

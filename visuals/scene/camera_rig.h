@@ -39,7 +39,7 @@ RigMemory advanced(const RigMemory& memory, const sim::AircraftState& state);
 /// is turned past straight up or down. The eye is lifted where it would be below the ground or
 /// within 2 m of it.
 Camera camera_of(
-    const Settings& settings,
+    const ViewSettings& settings,
     const sim::AircraftState& state,
     const RigMemory& memory,
     const Subject& subject,

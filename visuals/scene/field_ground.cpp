@@ -26,10 +26,10 @@ constexpr double reference_fov_rad = rad_from_deg(45.0); ///< of the lens for wh
 
 terrain::QuadtreeOptions quadtree_options(const Settings& settings) {
     return {
-        .roughness = ground_metric(settings) == GroundMetric::Printed
+        .roughness = ground_metric(settings.ground) == GroundMetric::Printed
                          ? terrain::Roughness::Literal
                          : terrain::Roughness::Midpoint,
-        .propagation = settings.propagation == Propagation::Printed
+        .propagation = settings.ground.propagation == Propagation::Printed
                            ? terrain::Propagation::Printed
                            : terrain::Propagation::CrackFree};
 }
@@ -37,9 +37,9 @@ terrain::QuadtreeOptions quadtree_options(const Settings& settings) {
 terrain::ControlSettings control_settings(const Settings& settings) {
     terrain::ControlSettings control;
     control.target_triangles = triangle_target(settings);
-    control.triangles_per_resolution = settings.control_a;
-    control.remembered_frames = settings.control_r;
-    switch (settings.detail) {
+    control.triangles_per_resolution = settings.ground.control_a;
+    control.remembered_frames = settings.ground.control_r;
+    switch (settings.ground.detail) {
     case DetailControl::Previous:
         control.method = terrain::ControlMethod::Previous;
         break;
@@ -66,7 +66,7 @@ public:
         : field_(std::move(field))
         , tree_(field_, quadtree_options(settings))
         , settings_(settings)
-        , colours_(ground_colours(field_, settings))
+        , colours_(ground_colours(field_, settings.air))
         , mesher_(tree_, colours_)
         , mean_colour_(scene::mean_colour(colours_)) {
         follow(settings);
@@ -82,26 +82,27 @@ public:
     bool can_follow(const Settings& settings) const override {
         const terrain::QuadtreeOptions wanted = quadtree_options(settings);
         const terrain::QuadtreeOptions built = quadtree_options(settings_);
-        return ground_metric(settings) != GroundMetric::ScreenError &&
+        return ground_metric(settings.ground) != GroundMetric::ScreenError &&
                wanted.roughness == built.roughness && wanted.propagation == built.propagation &&
-               same_colours(settings, settings_);
+               same_colours(settings.air, settings_.air);
     }
 
     void follow(const Settings& settings) override {
         settings_ = settings;
         control_ = control_settings(settings);
-        exact_ = settings.detail == DetailControl::Exact;
-        fixed_resolution_ = settings.detail == DetailControl::Fixed;
-        order_ = settings.hidden_surface == HiddenSurface::DepthBuffer
+        exact_ = settings.ground.detail == DetailControl::Exact;
+        fixed_resolution_ = settings.ground.detail == DetailControl::Fixed;
+        order_ = settings.surface.hidden_surface == HiddenSurface::DepthBuffer
                      ? terrain::PaintOrder::FrontToBack
                      : terrain::PaintOrder::BackToFront;
         budget_.triangles = triangle_target(settings);
-        detail_.roughness_weight = settings.roughness_c.value_or(
-            ground_metric(settings) == GroundMetric::Printed ? printed_weight : midpoint_weight);
-        detail_.fans =
-            settings.fans == GroundFans::Full ? terrain::FanKind::Full : terrain::FanKind::Partial;
-        if (fixed_resolution_ && settings.resolution_c > 0.0) {
-            state_ = terrain::starting_at(settings.resolution_c, control_);
+        detail_.roughness_weight = settings.ground.roughness_c.value_or(
+            ground_metric(settings.ground) == GroundMetric::Printed ? printed_weight
+                                                                    : midpoint_weight);
+        detail_.fans = settings.ground.fans == GroundFans::Full ? terrain::FanKind::Full
+                                                                : terrain::FanKind::Partial;
+        if (fixed_resolution_ && settings.ground.resolution_c > 0.0) {
+            state_ = terrain::starting_at(settings.ground.resolution_c, control_);
         }
     }
 
@@ -121,13 +122,14 @@ public:
         if (exact_) {
             return;
         }
-        const double resolution = settings_.resolution_c > 0.0 ? settings_.resolution_c
-                                                               : terrain::settled_resolution(
-                                                                     mesher_,
-                                                                     view_of(camera, aspect),
-                                                                     detail_,
-                                                                     control_.target_triangles,
-                                                                     control_.max_resolution);
+        const double resolution = settings_.ground.resolution_c > 0.0
+                                      ? settings_.ground.resolution_c
+                                      : terrain::settled_resolution(
+                                            mesher_,
+                                            view_of(camera, aspect),
+                                            detail_,
+                                            control_.target_triangles,
+                                            control_.max_resolution);
         state_ = terrain::starting_at(resolution, control_);
         last_view_.reset();
     }
@@ -187,7 +189,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<Ground> ground_from_field(models::heights::HeightField field, const Settings& settings) {
+std::unique_ptr<Ground>
+ground_from_field(models::heights::HeightField field, const Settings& settings) {
     return std::make_unique<FieldGround>(std::move(field), settings);
 }
 

@@ -89,7 +89,8 @@ protected:
 };
 
 /// A height field under a quadtree whose triangle count is held. Takes the field over.
-std::unique_ptr<Ground> ground_from_field(models::heights::HeightField field, const Settings& settings);
+std::unique_ptr<Ground>
+ground_from_field(models::heights::HeightField field, const Settings& settings);
 
 /// Ground under a mesh by screen-space error.
 std::unique_ptr<Ground> ground_from_tiles(terrain::GroundTiles ground, const Settings& settings);

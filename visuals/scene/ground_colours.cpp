@@ -30,7 +30,7 @@ GroundPoint ground_point(const terrain::GroundSamples& ground, int column, int r
 }
 
 std::vector<std::uint32_t>
-ground_colours(const models::heights::HeightField& field, const Settings& settings) {
+ground_colours(const models::heights::HeightField& field, const AirSettings& settings) {
     const GroundPalette palette(settings);
     const terrain::GroundSamples ground(field);
     const auto spacing_m = static_cast<float>(field.spacing_m());

@@ -20,7 +20,7 @@ GroundPoint ground_point(const terrain::GroundSamples& ground, int column, int r
 /// west), coloured by height, slope and water level and lit by the sun with the full-resolution
 /// normals, so that the level of detail never changes the light.
 std::vector<std::uint32_t>
-ground_colours(const models::heights::HeightField& field, const Settings& settings);
+ground_colours(const models::heights::HeightField& field, const AirSettings& settings);
 
 /// Mean of packed colours, linear parts 0..1.
 glm::vec3 mean_colour(const std::vector<std::uint32_t>& colours);

@@ -171,7 +171,7 @@ glm::vec3 arid(const Site& site) {
 
 } // namespace
 
-glm::vec3 direction_to_sun(const Settings& settings) {
+glm::vec3 direction_to_sun(const AirSettings& settings) {
     const double azimuth_rad = rad_from_deg(settings.sun_azimuth_deg);
     const double elevation_rad = rad_from_deg(settings.sun_elevation_deg);
     return glm::vec3(glm::dvec3(
@@ -184,12 +184,12 @@ float light_on(const glm::vec3& normal, const glm::vec3& to_sun) {
     return ambient_light + sun_light * std::max(glm::dot(normal, to_sun), 0.0F);
 }
 
-bool same_colours(const Settings& a, const Settings& b) {
+bool same_colours(const AirSettings& a, const AirSettings& b) {
     return a.sun_azimuth_deg == b.sun_azimuth_deg && a.sun_elevation_deg == b.sun_elevation_deg &&
            a.water_level_m == b.water_level_m && a.palette == b.palette;
 }
 
-GroundPalette::GroundPalette(const Settings& settings)
+GroundPalette::GroundPalette(const AirSettings& settings)
     : to_sun_(direction_to_sun(settings))
     , water_m_(static_cast<float>(settings.water_level_m))
     , arid_(settings.palette == Palette::Arid) {}

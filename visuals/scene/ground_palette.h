@@ -7,7 +7,7 @@
 namespace octant::visuals::scene {
 
 /// Unit vector towards the sun, world axes. Azimuth clockwise from north.
-glm::vec3 direction_to_sun(const Settings& settings);
+glm::vec3 direction_to_sun(const AirSettings& settings);
 
 /// Colour of bare light on a level surface would be 1: what reaches a surface from everywhere, and
 /// from the sun times the cosine to it.
@@ -18,7 +18,7 @@ inline constexpr float sun_light = 0.78F;
 float light_on(const glm::vec3& normal, const glm::vec3& to_sun);
 
 /// Whether ground has the same colours under both: its sun, water and palette.
-bool same_colours(const Settings& a, const Settings& b);
+bool same_colours(const AirSettings& a, const AirSettings& b);
 
 /// A place on the ground.
 struct GroundPoint {
@@ -31,7 +31,7 @@ struct GroundPoint {
 /// Which colour ground has by place, height and slope: the same everywhere and for every field.
 class GroundPalette {
 public:
-    explicit GroundPalette(const Settings& settings);
+    explicit GroundPalette(const AirSettings& settings);
 
     /// Own colour, linear parts 0..1. Features smaller than `footprint_m` are seen as their mean:
     /// the size of what one colour stands for, metres.

@@ -78,8 +78,10 @@ void mix(
 }
 
 /// Mixes the drape into the colours of the ground, both over all of it.
-GroundImage
-draped(const GroundImage& ground, const models::heights::Image& drape, const glm::dvec2& half_extent_m) {
+GroundImage draped(
+    const GroundImage& ground,
+    const models::heights::Image& drape,
+    const glm::dvec2& half_extent_m) {
     GroundImage image;
     image.width = drape.width;
     image.height = drape.height;
@@ -147,7 +149,9 @@ TexturePlace place_in(const GroundImage& image, const glm::dvec3& eye_m) {
 } // namespace
 
 GroundTexture ground_texture(
-    const terrain::GroundSamples& ground, const Settings& settings, const models::heights::Image* drape) {
+    const terrain::GroundSamples& ground,
+    const AirSettings& settings,
+    const models::heights::Image* drape) {
     assert(drape == nullptr || std::max(drape->width, drape->height) <= largest_texture);
     const int stride = stride_of(ground);
     GroundTexture texture;

@@ -42,7 +42,9 @@ inline constexpr int largest_from_samples = 4097;
 /// north up, and has at most largest_texture pixels a side (asserted). Uses all processors; same
 /// bytes for any number of them.
 GroundTexture ground_texture(
-    const terrain::GroundSamples& ground, const Settings& settings, const models::heights::Image* drape);
+    const terrain::GroundSamples& ground,
+    const AirSettings& settings,
+    const models::heights::Image* drape);
 
 /// Where an eye stands in the texture.
 TexturePlaces texture_places(const GroundTexture& texture, const glm::dvec3& eye_m);

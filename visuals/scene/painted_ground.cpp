@@ -19,7 +19,7 @@ class PaintedGround final : public Ground {
 public:
     PaintedGround(const models::polygons::PolygonModel& model, const Settings& settings)
         : settings_(settings) {
-        const glm::vec3 sun = direction_to_sun(settings);
+        const glm::vec3 sun = direction_to_sun(settings.air);
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
             const glm::vec3 normal(world_from_body(models::polygons::normal_of(model, i)));
             const float light = ambient_light + sun_light * std::max(glm::dot(normal, sun), 0.0F);
@@ -42,7 +42,7 @@ public:
     }
 
     bool can_follow(const Settings& settings) const override {
-        return same_colours(settings, settings_);
+        return same_colours(settings.air, settings_.air);
     }
 
     std::optional<double> height_at(double x_m, double y_m) const override {

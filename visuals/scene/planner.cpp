@@ -66,7 +66,7 @@ places_for(const Scene& scene, const Settings& settings, std::vector<glm::dmat4>
     for (const std::uint32_t model : scene.aircraft) {
         add(model);
     }
-    if (scene.cockpit && settings.view == View::Cockpit) {
+    if (scene.cockpit && settings.view.kind == View::Cockpit) {
         add(*scene.cockpit);
     }
     for (PlacedAircraft& aircraft : placed) {
@@ -81,16 +81,16 @@ places_for(const Scene& scene, const Settings& settings, std::vector<glm::dmat4>
 Planner::Planner(Scene& scene, const Settings& settings)
     : scene_(scene)
     , settings_(settings)
-    , aspect_(static_cast<double>(settings.size_px.x) / settings.size_px.y)
-    , to_sun_(direction_to_sun(settings))
+    , aspect_(static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y)
+    , to_sun_(direction_to_sun(settings.air))
     , shadows_(to_sun_)
     , placed_(places_for(scene, settings, parts_))
     , smooth_(settings, placed_)
     , steps_(plan_) {
-    plan_.background = settings.background;
-    plan_.haze = {settings.background, static_cast<float>(settings.visibility_m)};
-    plan_.hidden_surface = settings.hidden_surface;
-    plan_.mesh_look = settings.show_mesh;
+    plan_.background = settings.air.background;
+    plan_.haze = {settings.air.background, static_cast<float>(settings.air.visibility_m)};
+    plan_.hidden_surface = settings.surface.hidden_surface;
+    plan_.mesh_look = settings.ground.show_mesh;
     plan_.sample_spacing_m = std::max(static_cast<float>(scene.ground->spacing_m()), 1e-3F);
     plan_.to_sun = glm::vec3(to_sun_);
     plan_.ambient = glm::vec3(ambient_light);
@@ -119,7 +119,7 @@ void Planner::set_triangle_target(int triangles) {
 }
 
 void Planner::refine(const Camera& camera, std::span<const sim::AircraftState> states) {
-    pixel_rad_ = 2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings_.size_px.y;
+    pixel_rad_ = 2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings_.view.size_px.y;
     frustum_ = frustum_normals(camera, aspect_);
     place_aircraft(camera, states);
     refine_meshes(camera);
@@ -170,7 +170,7 @@ const FramePlan& Planner::plan(
     cast_shadows(camera);
     plan_ground();
     plan_sky(camera);
-    if (settings_.view == View::Cockpit && settings_.head_up_display) {
+    if (settings_.view.kind == View::Cockpit && settings_.view.head_up_display) {
         plan_head_up_display(camera, states.front());
     }
     const SmoothChoice::Count shaded = smooth_.choose(
@@ -179,7 +179,7 @@ const FramePlan& Planner::plan(
     counts.smooth_polygons = shaded.smooth;
     count_aircraft(counts);
     counts.shadow_triangles = static_cast<int>(ground_.shadow_indices.size() / 3);
-    if (settings_.hidden_surface == HiddenSurface::DepthBuffer) {
+    if (settings_.surface.hidden_surface == HiddenSurface::DepthBuffer) {
         paint_nearest_first();
     } else {
         paint_knots(camera, counts);
@@ -188,7 +188,7 @@ const FramePlan& Planner::plan(
 }
 
 void Planner::plan_sky(const Camera& camera) {
-    if (!settings_.sky) {
+    if (!settings_.air.sky) {
         return;
     }
     const Ground& ground = *scene_.ground;
@@ -230,14 +230,14 @@ void Planner::place(
         model.order.cell_of(draworder::eye_in_body(eye_m, state.position_m, state.body_to_world));
     aircraft.cell = cell;
     represent(aircraft);
-    aircraft.tints = tints_of(aircraft, settings_.show_model);
+    aircraft.tints = tints_of(aircraft, settings_.shading.show_model);
     if (is_solid(aircraft)) {
         aircraft.polygons = {};
         aircraft.range =
             is_refined(aircraft) ? IndexRange() : model.levels[aircraft.representation].range;
         return;
     }
-    const bool by_cell = settings_.hidden_surface == HiddenSurface::Octant;
+    const bool by_cell = settings_.surface.hidden_surface == HiddenSurface::Octant;
     aircraft.polygons = by_cell ? model.order.polygons_of(cell) : model.file_list;
     aircraft.range = by_cell ? model.cells[static_cast<std::size_t>(cell)] : model.file_order;
 }
@@ -258,7 +258,7 @@ void Planner::represent(PlacedAircraft& aircraft) {
     const double nearest_m = std::max(glm::length(place_m) - radius_m, 0.0);
     aircraft.representation = static_cast<std::size_t>(chosen_level(
         model.errors_m,
-        settings_.aircraft_error_px * pixel_rad_ * nearest_m,
+        settings_.surface.aircraft_error_px * pixel_rad_ * nearest_m,
         aircraft.is_represented ? static_cast<int>(aircraft.representation) : -1));
     aircraft.is_represented = true;
 }
@@ -271,7 +271,7 @@ void Planner::write_parts() {
 
 void Planner::cast_shadows(const Camera& camera) {
     shadows_.begin(ground_.all, plan_.shadow_vertices);
-    if (settings_.shadows) {
+    if (settings_.surface.shadows) {
         const ShadowView view{camera.eye_m, frustum_, pixel_rad_};
         for (std::size_t i = 0; i < hulls_.size(); ++i) {
             shadows_.cast(placed_[i], hulls_[i], *scene_.ground, view);
@@ -284,7 +284,7 @@ void Planner::cast_shadows(const Camera& camera) {
 
 void Planner::plan_ground() {
     plan_.shadow_indices.clear();
-    if (settings_.hidden_surface == HiddenSurface::DepthBuffer) {
+    if (settings_.surface.hidden_surface == HiddenSurface::DepthBuffer) {
         plan_.ground =
             facing_first(ground_.all, pixel_rad_, facing_indices_, plan_.edge_on_indices);
         plan_.shadow_indices.assign(ground_.shadow_indices.begin(), ground_.shadow_indices.end());
@@ -298,7 +298,7 @@ void Planner::plan_head_up_display(const Camera& camera, const sim::AircraftStat
     if (const auto ground_m = scene_.ground->height_at(state.position_m.x, state.position_m.y)) {
         inputs.height_above_ground_m = state.position_m.z - *ground_m;
     }
-    plan_.overlay = head_up_display_.draw(inputs, camera, settings_.size_px);
+    plan_.overlay = head_up_display_.draw(inputs, camera, settings_.view.size_px);
 }
 
 void Planner::count_aircraft(PlanCounts& counts) const {

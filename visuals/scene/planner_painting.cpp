@@ -109,7 +109,7 @@ void Planner::paint_members(const Knot& knot, PlanCounts& counts) {
 
 /// By a depth buffer that holds nothing else but the ground that meets them.
 void Planner::paint_solids(const Knot& knot) {
-    steps_.begin_solids(pixel_box(knot.box, plan_, settings_.size_px));
+    steps_.begin_solids(pixel_box(knot.box, plan_, settings_.view.size_px));
     if (!in_front_.meeting().empty()) {
         steps_.hide_by_ground(ground_, in_front_.meeting());
     }

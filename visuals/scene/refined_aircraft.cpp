@@ -17,14 +17,14 @@ constexpr std::uint32_t flat_polygon = 1; ///< RefinedDraw::first_smooth
 
 refine::ViewRefinerOptions options_of(const Settings& settings) {
     refine::ViewRefinerOptions options;
-    options.error_px = settings.aircraft_error_px;
-    options.geomorphs = settings.geomorphs;
+    options.error_px = settings.surface.aircraft_error_px;
+    options.geomorphs = settings.ground.geomorphs;
     return options;
 }
 
 shading::ShadingRuleSettings rule_of(const Settings& settings) {
     shading::ShadingRuleSettings rule;
-    rule.rule = settings.shading_rule == HybridRule::Paper ? shading::ShadingRule::Paper
+    rule.rule = settings.shading.rule == HybridRule::Paper ? shading::ShadingRule::Paper
                                                            : shading::ShadingRule::Error;
     return rule;
 }
@@ -53,7 +53,7 @@ RefinedAircraft::RefinedAircraft(
     std::shared_ptr<const refine::ProgressiveMesh> mesh, const Settings& settings)
     : refiner_(std::move(mesh), options_of(settings))
     , selector_(rule_of(settings))
-    , shows_levels_(settings.show_model == ModelLook::Levels) {}
+    , shows_levels_(settings.shading.show_model == ModelLook::Levels) {}
 
 refine::RefinedFrame
 RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const RefineLook& look, bool first) {

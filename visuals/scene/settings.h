@@ -9,13 +9,10 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace octant::visuals::scene {
 
 enum class View { Chase, Cockpit, Tower, Orbit, Free };
-enum class HeightMode { Clear, Follow, Datum };
-enum class ContextKind { OsMesa, Egl, Window };
 enum class GroundMetric { Printed, Midpoint, ScreenError };
 enum class Propagation { CrackFree, Printed };
 enum class GroundFans { Partial, Full };
@@ -33,89 +30,102 @@ struct Adaptation {
     bool operator==(const Adaptation&) const = default;
 };
 
-/// Everything that decides what a run shows. A run is repeated by repeating its Settings; each
-/// field is an option of the command line of the same name (ui/settings_fields.h says unit and
-/// meaning). Fields that only say where results go are not here.
-struct Settings {
-    std::string path = "straight";               ///< built-in path, path file or recorded track
-    std::vector<std::string> aircraft = {"f15"}; ///< the first flies the path, the others beside it
-    std::string axes = "right,up,back";          ///< of aircraft files
-    std::string terrain = "hills";
-    double terrain_spacing_m = 30.0;   ///< of files that do not say
-    std::optional<std::string> place;  ///< "X,Y" metres or "LAT,LON" degrees
-    std::optional<double> heading_deg; ///< turns the path; none = the heading of least relief
-    std::optional<HeightMode>
-        height_mode; ///< none = clear, or datum for a track that knows its place
-    bool lenient = false;
-
-    View view = View::Chase;
+/// From where a picture is seen, and how large it is.
+struct ViewSettings {
+    View kind = View::Chase;
     std::optional<glm::dvec3> eye_m;  ///< of the tower and free views
     std::optional<glm::dvec3> look_m; ///< of the free view
-    std::optional<double> fov_deg; ///< vertical; none = 45, and the tower zooms in on the aircraft
-    double azimuth_deg = 0.0;   ///< chase, orbit: the eye turned around the aircraft; else the look
-    double elevation_deg = 0.0; ///< the same, up
-    double zoom =
-        1.0; ///< chase, orbit: how many times nearer; else how many times larger it is seen
-    std::optional<View> inset;   ///< a second view, drawn small into a corner of the picture
+    /// Vertical. Nothing: 45, and the tower zooms in on the aircraft.
+    std::optional<double> fov_deg;
+    /// Chase and orbit: the eye turned around the aircraft, clockwise from above and upwards; else
+    /// the look turned right and up.
+    double azimuth_deg = 0.0;
+    double elevation_deg = 0.0;
+    double zoom = 1.0;         ///< chase, orbit: how many times nearer; else how many times larger
+    std::optional<View> inset; ///< a second view, drawn small into a corner of the picture
     bool head_up_display = true; ///< of the cockpit view
     glm::ivec2 size_px{1280, 720};
-    int samples = 1;
-    double rate_hz = 60.0;
-    bool frame_per_sample = false;
-    double start_s = 0.0; ///< where in the path the flight begins, after the path's own start
-    std::optional<int> frames;
-    std::optional<double> seconds;
-    int warm_up = 10;
-    bool realtime = false; ///< no faster than the clock
-    std::optional<int>
-        pictures;     ///< every Nth frame as PNG, 0 = none; none = one a simulated second
-    Adaptation adapt; ///< what follows the frame time
-    ContextKind context = ContextKind::OsMesa;
+    int samples = 1; ///< a pixel
 
+    bool operator==(const ViewSettings&) const = default;
+};
+
+/// How hidden surfaces of aircraft are removed, and with which detail.
+struct SurfaceSettings {
     HiddenSurface hidden_surface = HiddenSurface::Octant;
     draworder::Method order_method = draworder::Method::Tree;
     bool shadows = true;            ///< of aircraft on the ground
     double aircraft_error_px = 1.0; ///< of meshes: what a level of detail may be wrong by
-    AircraftShading shading = AircraftShading::Hybrid;
-    HybridRule shading_rule = HybridRule::Error; ///< which polygons are smooth
-    double smooth_share = 1.0;                   ///< of the polygons, hybrid only
+
+    bool operator==(const SurfaceSettings&) const = default;
+};
+
+/// Which polygons of aircraft are smooth.
+struct ShadingSettings {
+    AircraftShading kind = AircraftShading::Hybrid;
+    HybridRule rule = HybridRule::Error;
+    double smooth_share = 1.0;          ///< of the polygons, hybrid only
     std::optional<double> device_ratio; ///< the paper's device speed, in place of smooth_share
-    double shading_near_m = 0.0;        ///< paper: all smooth to here ...
-    double shading_far_m = 1000.0;      ///< ... and all flat from here
-    std::optional<GroundMetric> mesh;   ///< none = as ground_metric says
+    double near_m = 0.0;                ///< the paper's rule: all smooth to here ...
+    double far_m = 1000.0;              ///< ... and all flat from here
+    ModelLook show_model = ModelLook::None;
+
+    bool operator==(const ShadingSettings&) const = default;
+};
+
+/// How the ground is refined.
+struct GroundSettings {
+    std::optional<GroundMetric> mesh; ///< nothing: as ground_metric says
     Propagation propagation = Propagation::CrackFree;
     GroundFans fans = GroundFans::Partial;
     DetailControl detail = DetailControl::Exact;
-    std::optional<int> triangles;   ///< none = 20,000, or without end where error_px is given
-    std::optional<double> error_px; ///< screen-error: refined no further than this; none = 0.25
-    bool geomorphs = true;          ///< screen-error: vertices move into place instead of jumping
+    std::optional<int> triangles;   ///< nothing: 20,000, or without end where error_px is given
+    std::optional<double> error_px; ///< screen error: refined no further than this; nothing: 0.25
+    bool geomorphs = true;          ///< screen error: vertices move into place instead of jumping
     bool mesh_ahead = true;         ///< the next frame's ground is meshed while this one is drawn
-    bool earth_curvature = true;    ///< screen-error: distant ground and aircraft sink
+    bool earth_curvature = true;    ///< screen error: distant ground and aircraft sink
     double resolution_c = 0.0; ///< C of the first frame; 0 = the one that meets the triangle target
-    std::optional<double>
-        roughness_c;        ///< c, weight of roughness; none = 20 for midpoint, 5 for printed
+    /// c, the weight of roughness. Nothing: 20 for midpoint, 5 for printed.
+    std::optional<double> roughness_c;
     double control_a = 0.0; ///< a, triangles per unit of C; 0 = from the terrain's own gain
     int control_r = 4;      ///< r, earlier frames that the damping looks back at
-
     MeshLook show_mesh = MeshLook::None;
-    ModelLook show_model = ModelLook::None;
+
+    bool operator==(const GroundSettings&) const = default;
+};
+
+/// Sky, haze, sun and the colours of the ground.
+struct AirSettings {
     bool sky = true;
     double visibility_m = 30000.0; ///< 0 = no haze
     glm::vec3 background{158.0F / 255.0F, 184.0F / 255.0F, 214.0F / 255.0F};
-    double sun_azimuth_deg = 225.0;
+    double sun_azimuth_deg = 225.0; ///< clockwise from north
     double sun_elevation_deg = 35.0;
     double water_level_m = 0.0;     ///< ground at or below it is drawn as water
-    std::optional<Palette> palette; ///< none = arid for the canyon, else temperate
-    GroundShading ground_shading =
-        GroundShading::Auto;          ///< auto = texture under a drape or on a GPU, else vertex
+    std::optional<Palette> palette; ///< nothing: arid for the canyon, else temperate
+    /// Auto: texture under a drape or on a GPU, else vertex.
+    GroundShading ground_shading = GroundShading::Auto;
     std::optional<std::string> drape; ///< image file that is laid over the ground
+
+    bool operator==(const AirSettings&) const = default;
+};
+
+/// Everything that decides what a picture of a scene shows, in parts: whoever needs one is handed
+/// that one.
+struct Settings {
+    ViewSettings view;
+    SurfaceSettings surface;
+    ShadingSettings shading;
+    GroundSettings ground;
+    AirSettings air;
+    Adaptation adapt;
 
     bool operator==(const Settings&) const = default;
 };
 
 /// What refines the ground: unless told, the screen-space error; the paper's quadtree by mid-point
 /// roughness where something is asked for that only it has.
-inline GroundMetric ground_metric(const Settings& settings) {
+inline GroundMetric ground_metric(const GroundSettings& settings) {
     const bool of_the_paper = settings.detail != DetailControl::Exact || settings.roughness_c ||
                               settings.fans != GroundFans::Partial ||
                               settings.propagation != Propagation::CrackFree;
@@ -129,8 +139,8 @@ inline constexpr int unlimited_triangles = 1000000000;
 /// Triangles of ground that are held, in the first frame where that number follows the clock; a
 /// number beyond all meshes where the error alone decides.
 inline int triangle_target(const Settings& settings) {
-    const bool error_alone = settings.error_px && !settings.adapt.terrain;
-    return settings.triangles.value_or(error_alone ? unlimited_triangles : 20000);
+    const bool error_alone = settings.ground.error_px && !settings.adapt.terrain;
+    return settings.ground.triangles.value_or(error_alone ? unlimited_triangles : 20000);
 }
 
 } // namespace octant::visuals::scene

@@ -39,7 +39,7 @@ int polygons_of(const PlacedAircraft& aircraft) {
 
 shading::ShadingRuleSettings rule_of(const Settings& settings) {
     shading::ShadingRuleSettings rule;
-    rule.rule = settings.shading_rule == HybridRule::Paper ? shading::ShadingRule::Paper
+    rule.rule = settings.shading.rule == HybridRule::Paper ? shading::ShadingRule::Paper
                                                            : shading::ShadingRule::Error;
     return rule;
 }
@@ -105,15 +105,15 @@ SmoothChoice::SmoothChoice(const Settings& settings, std::span<PlacedAircraft> p
             choosers_[i].emplace_back(model.shaded_as(as), rule_of(settings));
         }
     }
-    bits_.assign(words, settings.shading == AircraftShading::Flat ? 0U : ~0U);
+    bits_.assign(words, settings.shading.kind == AircraftShading::Flat ? 0U : ~0U);
     bits_.push_back(1);
 }
 
 /// Whether some polygons may be smooth while others are not.
 bool SmoothChoice::chooses() const {
-    return settings_.shading == AircraftShading::Hybrid &&
-           (settings_.smooth_share < 1.0 || settings_.device_ratio || settings_.adapt.shading ||
-            settings_.shading_rule == HybridRule::Paper);
+    return settings_.shading.kind == AircraftShading::Hybrid &&
+           (settings_.shading.smooth_share < 1.0 || settings_.shading.device_ratio ||
+            settings_.adapt.shading || settings_.shading.rule == HybridRule::Paper);
 }
 
 /// Fills in given_; returns the sum of the polygons.
@@ -123,15 +123,15 @@ int SmoothChoice::wanted_of(std::span<const PlacedAircraft> placed) {
         shares_[i] = {polygons_of(placed[i]), weight_of(placed[i])};
         all += shares_[i].polygons;
     }
-    const double share = wanted_share_.value_or(settings_.smooth_share);
+    const double share = wanted_share_.value_or(settings_.shading.smooth_share);
     int wanted = static_cast<int>(std::lround(share * all));
-    if (settings_.device_ratio && !wanted_share_) {
-        wanted = shading::device_smooth_count(*settings_.device_ratio, all);
+    if (settings_.shading.device_ratio && !wanted_share_) {
+        wanted = shading::device_smooth_count(*settings_.shading.device_ratio, all);
     }
     wanted = std::min(wanted_.value_or(wanted), all);
     share_out_smooth(shares_, wanted, given_);
-    if (settings_.shading_rule == HybridRule::Paper) {
-        const shading::ShadingRange range{settings_.shading_near_m, settings_.shading_far_m};
+    if (settings_.shading.rule == HybridRule::Paper) {
+        const shading::ShadingRange range{settings_.shading.near_m, settings_.shading.far_m};
         for (std::size_t i = 0; i < placed.size(); ++i) {
             given_[i] = std::min(
                 given_[i],
@@ -149,7 +149,7 @@ SmoothChoice::Count SmoothChoice::choose(
     std::vector<std::uint32_t>& smooth) {
     Count count{wanted_of(placed), 0};
     for (std::size_t i = 0; i < placed.size(); ++i) {
-        int given = settings_.shading == AircraftShading::Flat ? 0 : shares_[i].polygons;
+        int given = settings_.shading.kind == AircraftShading::Flat ? 0 : shares_[i].polygons;
         const shading::ShadingLight sun = light_on(placed[i], to_sun, light);
         const glm::dvec3 eye_m =
             -glm::dvec3(placed[i].parts[0][3]) * glm::dmat3(placed[i].parts[0]);

@@ -26,31 +26,31 @@ public:
         : ground_(std::move(ground))
         , mesher_(ground_)
         , settings_(settings)
-        , colours_(std::in_place, ground_, settings)
+        , colours_(std::in_place, ground_, settings.air)
         , mean_colour_(colours_->mean())
         , prefetcher_(ground_) {
         follow(settings);
     }
 
     bool can_follow(const Settings& settings) const override {
-        return ground_metric(settings) == GroundMetric::ScreenError;
+        return ground_metric(settings.ground) == GroundMetric::ScreenError;
     }
 
     void follow(const Settings& settings) override {
         worker_.wait();
         prepared_.reset();
-        if (!same_colours(settings, settings_)) {
-            colours_.emplace(ground_, settings);
+        if (!same_colours(settings.air, settings_.air)) {
+            colours_.emplace(ground_, settings.air);
             mean_colour_ = colours_->mean();
             mesh_ = {};
         }
         settings_ = settings;
-        order_ = settings.hidden_surface == HiddenSurface::DepthBuffer
+        order_ = settings.surface.hidden_surface == HiddenSurface::DepthBuffer
                      ? terrain::PaintOrder::FrontToBack
                      : terrain::PaintOrder::BackToFront;
-        target_.error_px = settings.error_px.value_or(least_error_px);
-        target_.geomorphs = settings.geomorphs;
-        earth_radius_m_ = settings.earth_curvature ? terrain::earth_radius_m : 0.0;
+        target_.error_px = settings.ground.error_px.value_or(least_error_px);
+        target_.geomorphs = settings.ground.geomorphs;
+        earth_radius_m_ = settings.ground.earth_curvature ? terrain::earth_radius_m : 0.0;
         set_triangle_target(triangle_target(settings));
     }
 
@@ -117,7 +117,7 @@ private:
             .eye_m = camera.eye_m,
             .frustum_normals = frustum_normals(camera, aspect),
             .order = order_,
-            .focal_px = focal_px(camera, settings_.size_px.y),
+            .focal_px = focal_px(camera, settings_.view.size_px.y),
             .earth_radius_m = earth_radius_m_};
     }
 

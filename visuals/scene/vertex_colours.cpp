@@ -52,7 +52,7 @@ std::size_t hashed(std::uint32_t sample) {
 
 } // namespace
 
-VertexColours::VertexColours(const terrain::GroundTiles& ground, const Settings& settings)
+VertexColours::VertexColours(const terrain::GroundTiles& ground, const AirSettings& settings)
     : ground_(ground)
     , palette_(settings)
     , octaves_per_m_(static_cast<float>(footprint_share / ground.spacing_m()))

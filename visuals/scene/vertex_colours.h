@@ -22,7 +22,7 @@ namespace octant::visuals::scene {
 class VertexColours {
 public:
     /// The ground must outlive the colours.
-    VertexColours(const terrain::GroundTiles& ground, const Settings& settings);
+    VertexColours(const terrain::GroundTiles& ground, const AirSettings& settings);
 
     /// Fills in ColourVertex::colour; `origins` as GroundMesh::origins.
     void

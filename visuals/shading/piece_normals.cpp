@@ -26,8 +26,8 @@ struct Outline {
 };
 
 /// How far a point lies outside of a polygon, seen along its normal; 0 inside.
-double
-outside_m(const models::polygons::PolygonModel& model, std::size_t polygon, const glm::dvec3& point_m) {
+double outside_m(
+    const models::polygons::PolygonModel& model, std::size_t polygon, const glm::dvec3& point_m) {
     const glm::dvec3 normal = models::polygons::normal_of(model, polygon);
     const auto corners = model.corners(polygon);
     double most_m = std::abs(distance_m(models::polygons::plane_of(model, polygon), point_m));
@@ -91,7 +91,9 @@ glm::dvec3 normal_at(const Outline& outline, const glm::dvec3& point_m) {
 }
 
 Outline outline_of(
-    const models::polygons::PolygonModel& model, std::size_t polygon, std::span<const glm::vec3> normals) {
+    const models::polygons::PolygonModel& model,
+    std::size_t polygon,
+    std::span<const glm::vec3> normals) {
     Outline outline;
     for (const std::uint32_t vertex : model.corners(polygon)) {
         const std::size_t corner = model.polygons[polygon].first_corner + outline.places_m.size();
@@ -131,8 +133,8 @@ std::vector<glm::vec3> normals_of_pieces(
         for (const std::uint32_t vertex : pieces.corners(i)) {
             const glm::dvec3 normal = normal_at(outline, pieces.vertices_m[vertex]);
             const double length = glm::length(normal);
-            made[corner++] =
-                glm::vec3(length > 0.0 ? normal / length : models::polygons::normal_of(whole, polygon));
+            made[corner++] = glm::vec3(
+                length > 0.0 ? normal / length : models::polygons::normal_of(whole, polygon));
         }
     }
     return made;

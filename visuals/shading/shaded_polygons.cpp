@@ -117,8 +117,8 @@ float colour_sum(const models::TriangleMesh& mesh, std::size_t triangle, std::ui
 
 } // namespace
 
-ShadedPolygons
-shaded_polygons(const models::polygons::PolygonModel& model, std::span<const glm::vec3> corner_normals) {
+ShadedPolygons shaded_polygons(
+    const models::polygons::PolygonModel& model, std::span<const glm::vec3> corner_normals) {
     assert(corner_normals.size() == model.corner_vertices.size());
     ShadedPolygons shaded;
     std::vector<LitPoint> corners(model.corner_vertices.size());

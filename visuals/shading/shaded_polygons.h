@@ -48,8 +48,8 @@ struct ShadedPolygons {
 
 /// `corner_normals`: one a corner, as vertex_normals.h makes them. Colours are those of materials;
 /// of a mesh those of vertices where it has any, grey 0.7 where it has neither.
-ShadedPolygons
-shaded_polygons(const models::polygons::PolygonModel& model, std::span<const glm::vec3> corner_normals);
+ShadedPolygons shaded_polygons(
+    const models::polygons::PolygonModel& model, std::span<const glm::vec3> corner_normals);
 ShadedPolygons
 shaded_polygons(const models::TriangleMesh& mesh, std::span<const glm::vec3> corner_normals);
 

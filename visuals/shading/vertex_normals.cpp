@@ -195,7 +195,8 @@ std::vector<glm::vec3> normals_of(const Faces& faces, double crease_rad) {
 
 } // namespace
 
-std::vector<glm::vec3> corner_normals(const models::polygons::PolygonModel& model, double crease_rad) {
+std::vector<glm::vec3>
+corner_normals(const models::polygons::PolygonModel& model, double crease_rad) {
     const std::vector<std::uint32_t> places = places_of(model.vertices_m);
     Faces faces;
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {

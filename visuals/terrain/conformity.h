@@ -65,7 +65,7 @@ private:
     std::vector<Edge> open_;
     std::vector<glm::dvec2> places_; ///< of vertices: samples east, north
     std::vector<std::uint32_t> sorted_;
-    std::vector<std::uint8_t> used_; ///< by vertex: a triangle has it
+    std::vector<std::uint8_t> used_;   ///< by vertex: a triangle has it
     std::vector<std::uint32_t> slots_; ///< hash table over places
 };
 

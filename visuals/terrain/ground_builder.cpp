@@ -1,7 +1,7 @@
 #include "visuals/terrain/ground_builder.h"
 
-#include "visuals/terrain/ground_assembly.h"
 #include "sim/base/worker_team.h"
+#include "visuals/terrain/ground_assembly.h"
 
 #include <cstring>
 #include <memory>

@@ -2,9 +2,9 @@
 
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
+#include "sim/base/worker_team.h"
 #include "visuals/terrain/ground_header.h"
 #include "visuals/terrain/mapped_file.h"
-#include "sim/base/worker_team.h"
 
 #include <atomic>
 #include <cstring>

@@ -20,9 +20,9 @@ namespace octant::visuals::terrain {
 /// What is known of a ground besides its numbers.
 struct GroundFacts {
     std::string name;
-    std::optional<models::heights::GeoPlace> place; ///< nothing for made ground
+    std::optional<models::heights::GeoPlace> place;   ///< nothing for made ground
     std::optional<models::heights::MapSystem> system; ///< as HeightField::system
-    std::int64_t filled_voids = 0;         ///< samples without data that were filled in
+    std::int64_t filled_voids = 0;                    ///< samples without data that were filled in
     float lowest_m = 0.0F;
     float highest_m = 0.0F;
     float mean_m = 0.0F;

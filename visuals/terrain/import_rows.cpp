@@ -58,7 +58,8 @@ void read_fractions(
 
 } // namespace
 
-void scan_rows(models::heights::HeightSource& source, int first_row, int count, GroundProgress& progress) {
+void scan_rows(
+    models::heights::HeightSource& source, int first_row, int count, GroundProgress& progress) {
     std::vector<float> heights_m(
         static_cast<std::size_t>(count) * static_cast<std::size_t>(source.columns()));
     source.read(first_row, heights_m);

@@ -73,7 +73,8 @@ bool has_voids(const Field& field, const Piece& piece) {
     return false;
 }
 
-void put_filled(const Field& field, const Piece& piece, const models::heights::HeightGrid& grid, Piece of) {
+void put_filled(
+    const Field& field, const Piece& piece, const models::heights::HeightGrid& grid, Piece of) {
     for (int row = piece.south; row < piece.north; ++row) {
         for (int column = piece.west; column < piece.east; ++column) {
             std::int16_t& number = field.at(column, row);

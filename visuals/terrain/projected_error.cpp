@@ -6,8 +6,8 @@
 #include "visuals/terrain/projected_error.h"
 
 #include "sim/base/nearest_rank.h"
-#include "visuals/terrain/earth_drop.h"
 #include "sim/base/worker_team.h"
+#include "visuals/terrain/earth_drop.h"
 
 #include <glm/common.hpp>
 

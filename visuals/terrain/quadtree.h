@@ -33,7 +33,8 @@ class Quadtree {
 public:
     /// Computes all nodes. The field must outlive the tree and stay where it is. Options are as
     /// their comments demand (asserted).
-    explicit Quadtree(const models::heights::HeightField& field, const QuadtreeOptions& options = {});
+    explicit Quadtree(
+        const models::heights::HeightField& field, const QuadtreeOptions& options = {});
 
     const models::heights::HeightField& field() const { return *field_; }
 

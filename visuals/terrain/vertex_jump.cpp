@@ -14,8 +14,7 @@ std::optional<VertexJump> JumpMeter::next(const GroundMesh& mesh, const PictureV
     for (const std::uint32_t vertex : mesh.indices) {
         if (used_[vertex] == 0) {
             used_[vertex] = 1;
-            later.vertices_m.push_back(
-                view.eye_m + glm::dvec3(mesh.vertices[vertex].position_m));
+            later.vertices_m.push_back(view.eye_m + glm::dvec3(mesh.vertices[vertex].position_m));
         }
     }
     if (++taken_ == 1) {

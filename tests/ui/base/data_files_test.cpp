@@ -20,7 +20,8 @@ TEST_CASE("built-in names lead to files, files stay what they are, other names a
         ui::base::aircraft_file("f16"),
         "aircraft: expected f15, 500md, concave or an OBJ file, got 'f16'");
     CHECK_THROWS_WITH(
-        ui::base::path_file("loop", "f15"), Catch::Contains("expected straight, jinking, pop-up, turn"));
+        ui::base::path_file("loop", "f15"),
+        Catch::Contains("expected straight, jinking, pop-up, turn"));
 }
 
 TEST_CASE("OCTANT_DATA names the data folder when it holds data") {
@@ -41,7 +42,8 @@ TEST_CASE("the shipped aircraft have the paper's counts and the aircraft's sizes
 
     for (const Expected& expected :
          {Expected{"f15", 63, 43}, Expected{"500md", 111, 64}, Expected{"concave", 14, 10}}) {
-        const models::polygons::PolygonModel model = models::polygons::read_obj(ui::base::aircraft_file(expected.name));
+        const models::polygons::PolygonModel model =
+            models::polygons::read_obj(ui::base::aircraft_file(expected.name));
         CHECK(model.vertices_m.size() == expected.vertices);
         CHECK(model.polygons.size() == expected.polygons);
         CHECK(model.name == expected.name);
@@ -49,7 +51,8 @@ TEST_CASE("the shipped aircraft have the paper's counts and the aircraft's sizes
 }
 
 TEST_CASE("the F-15 is 19.43 m long, 13.05 m wide and 4.34 m high, and mirror-symmetric") {
-    const models::polygons::PolygonModel model = models::polygons::read_obj(ui::base::aircraft_file("f15"));
+    const models::polygons::PolygonModel model =
+        models::polygons::read_obj(ui::base::aircraft_file("f15"));
     glm::dvec3 least(1e9);
     glm::dvec3 most(-1e9);
     for (const glm::dvec3& v : model.vertices_m) {
@@ -67,14 +70,15 @@ TEST_CASE("the F-15 is 19.43 m long, 13.05 m wide and 4.34 m high, and mirror-sy
 }
 
 TEST_CASE("the 500MD's body is 7.1 m long, its hub 2.7 m over the skids, its rotor 8.05 m across") {
-    const models::polygons::PolygonModel model = models::polygons::read_obj(ui::base::aircraft_file("500md"));
+    const models::polygons::PolygonModel model =
+        models::polygons::read_obj(ui::base::aircraft_file("500md"));
     double nose = -1e9;
     double tail = 1e9;
     double skids = -1e9;
     double rotor = 0.0;
     REQUIRE(model.pivots.size() == 2);
-    const auto found =
-        std::find_if(model.pivots.begin(), model.pivots.end(), [&](const models::polygons::Pivot& pivot) {
+    const auto found = std::find_if(
+        model.pivots.begin(), model.pivots.end(), [&](const models::polygons::Pivot& pivot) {
             return model.parts[pivot.part] == "rotor";
         });
     REQUIRE(found != model.pivots.end());

@@ -20,19 +20,19 @@ visuals::gl::Picture picture_of(int width, int height, const std::vector<std::ui
     return picture;
 }
 
-visuals::scene::Settings
+ui::settings::Settings
 canyon_flight(const char* path, const char* aircraft, visuals::scene::View view) {
-    visuals::scene::Settings settings;
-    settings.path = path;
-    settings.aircraft = {aircraft};
-    settings.view = view;
-    settings.terrain = "canyon";
-    settings.size_px = {320, 240};
-    settings.triangles = 8000;
+    ui::settings::Settings settings;
+    settings.path.name = path;
+    settings.path.aircraft = {aircraft};
+    settings.view.kind = view;
+    settings.path.terrain = "canyon";
+    settings.view.size_px = {320, 240};
+    settings.ground.triangles = 8000;
     return settings;
 }
 
-ui::studies::draw_order::IdComparison compare(const visuals::scene::Settings& settings, int every) {
+ui::studies::draw_order::IdComparison compare(const ui::settings::Settings& settings, int every) {
     return ui::studies::draw_order::compare_with_depth_buffer(settings, every, [](int, int) {});
 }
 
@@ -45,7 +45,8 @@ TEST_CASE("a polygon number is apart only when no neighbour in the reference has
     CHECK(ui::studies::draw_order::difference_of(shifted, reference).differing == 1);
     CHECK(ui::studies::draw_order::difference_of(shifted, reference).apart.empty());
     const auto far_off = picture_of(4, 3, {1, 1, 2, 1, 1, 1, 2, 2, 3, 3, 3, 3});
-    const std::vector<glm::ivec2> apart = ui::studies::draw_order::difference_of(far_off, reference).apart;
+    const std::vector<glm::ivec2> apart =
+        ui::studies::draw_order::difference_of(far_off, reference).apart;
     REQUIRE(apart.size() == 1);
     CHECK(apart[0] == glm::ivec2(3, 0));
 }
@@ -65,7 +66,8 @@ TEST_CASE("painting in order shows the polygons that the depth buffer shows, ove
     for (const View view : {View::Chase, View::Tower, View::Orbit}) {
         for (const char* aircraft : {"f15", "500md"}) {
             INFO(aircraft << " view " << static_cast<int>(view));
-            const ui::studies::draw_order::IdComparison result = compare(canyon_flight("pop-up", aircraft, view), every);
+            const ui::studies::draw_order::IdComparison result =
+                compare(canyon_flight("pop-up", aircraft, view), every);
             CHECK(result.frames > 5);
             CHECK(result.unordered == 0);
             CHECK(result.wrong == 0);
@@ -74,9 +76,9 @@ TEST_CASE("painting in order shows the polygons that the depth buffer shows, ove
 }
 
 TEST_CASE("an aircraft that goes behind ridges is painted as the depth buffer shows it") {
-    visuals::scene::Settings settings =
+    ui::settings::Settings settings =
         canyon_flight("jinking", "500md", visuals::scene::View::Tower);
-    settings.eye_m = ui::studies::draw_order::ridge_tower(ui::world::load_world(settings));
+    settings.view.eye_m = ui::studies::draw_order::ridge_tower(ui::world::load_world(settings));
     constexpr int every = 30;
     const ui::studies::draw_order::IdComparison result = compare(settings, every);
     CHECK(result.frames_with_cuts > 0);

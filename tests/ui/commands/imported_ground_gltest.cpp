@@ -1,8 +1,8 @@
 #include "models/heights/height_field_export.h"
 #include "models/made/made_terrain.h"
 #include "tests/scratch.h"
-#include "ui/report/png_file.h"
 #include "ui/flight/session.h"
+#include "ui/report/png_file.h"
 #include "visuals/terrain/ground_import.h"
 
 #include <catch2/catch.hpp>
@@ -14,8 +14,8 @@
 
 using namespace octant;
 using octant::visuals::scene::GroundShading;
-using octant::visuals::scene::Settings;
 using octant::visuals::scene::View;
+using ui::settings::Settings;
 
 namespace {
 
@@ -52,14 +52,14 @@ std::filesystem::path made_drape() {
 }
 
 std::vector<std::uint8_t> drawn(Settings settings, const std::filesystem::path& terrain) {
-    settings.terrain = terrain.string();
-    settings.path = "straight";
-    settings.aircraft = {"f15"};
-    settings.view = View::Free;
-    settings.eye_m = glm::dvec3(0.0, -9000.0, 6000.0);
-    settings.look_m = glm::dvec3(0.0, 0.0, 0.0);
-    settings.size_px = {320, 180};
-    settings.frames = 1;
+    settings.path.terrain = terrain.string();
+    settings.path.name = "straight";
+    settings.path.aircraft = {"f15"};
+    settings.view.kind = View::Free;
+    settings.view.eye_m = glm::dvec3(0.0, -9000.0, 6000.0);
+    settings.view.look_m = glm::dvec3(0.0, 0.0, 0.0);
+    settings.view.size_px = {320, 180};
+    settings.time.frames = 1;
     ui::flight::Session session(settings);
     session.draw(0);
     const auto& rgba = session.picture().rgba;
@@ -79,12 +79,12 @@ void check_alike(const std::vector<std::uint8_t>& a, const std::vector<std::uint
 
 TEST_CASE("an imported ground is textured and draped as the map that it was imported from") {
     Settings textured;
-    textured.ground_shading = GroundShading::Texture;
+    textured.air.ground_shading = GroundShading::Texture;
     const auto bare = drawn(textured, map().ground);
     check_alike(bare, drawn(textured, map().file));
     CHECK(bare != drawn({}, map().ground));
     Settings draped;
-    draped.drape = made_drape().string();
+    draped.air.drape = made_drape().string();
     const auto with_drape = drawn(draped, map().ground);
     check_alike(with_drape, drawn(draped, map().file));
     CHECK(with_drape != bare);

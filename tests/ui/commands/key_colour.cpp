@@ -38,25 +38,25 @@ std::string speck_file() {
 
 } // namespace
 
-visuals::scene::Settings key_colour_settings(
+ui::settings::Settings key_colour_settings(
     const std::string& path,
     const std::string& aircraft,
     const std::string& terrain,
     double rate_hz) {
-    visuals::scene::Settings settings;
-    settings.path = ui::base::path_file(path, aircraft).string();
-    settings.aircraft = {speck_file()};
-    settings.terrain = terrain;
-    settings.rate_hz = rate_hz;
-    settings.size_px = {640, 360};
-    settings.sky = false;
-    settings.visibility_m = 0.0;
-    settings.background = {1.0F, 0.0F, 1.0F};
-    settings.view = visuals::scene::View::Chase;
+    ui::settings::Settings settings;
+    settings.path.name = ui::base::path_file(path, aircraft).string();
+    settings.path.aircraft = {speck_file()};
+    settings.path.terrain = terrain;
+    settings.time.rate_hz = rate_hz;
+    settings.view.size_px = {640, 360};
+    settings.air.sky = false;
+    settings.air.visibility_m = 0.0;
+    settings.air.background = {1.0F, 0.0F, 1.0F};
+    settings.view.kind = visuals::scene::View::Chase;
     return settings;
 }
 
-long cracks_in_flight(const visuals::scene::Settings& settings) {
+long cracks_in_flight(const ui::settings::Settings& settings) {
     ui::flight::Session session(settings);
     long cracks = 0;
     for (int frame = 0; frame < session.frames(); ++frame) {

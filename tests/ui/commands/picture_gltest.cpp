@@ -1,8 +1,8 @@
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
-#include "ui/report/png_file.h"
 #include "ui/flight/session.h"
+#include "ui/report/png_file.h"
 #include "ui/studies/hybrid_shading/shading_models.h"
 
 #include <catch2/catch.hpp>
@@ -15,8 +15,8 @@
 #include <vector>
 
 using namespace octant;
-using octant::visuals::scene::Settings;
 using octant::visuals::scene::View;
+using ui::settings::Settings;
 
 namespace {
 
@@ -72,14 +72,14 @@ void check_against_golden(const std::string& name, const Settings& settings) {
 Settings
 small(const std::string& path, const std::string& aircraft, const std::string& terrain, View view) {
     Settings settings;
-    settings.path = path;
-    settings.aircraft = {aircraft};
-    settings.terrain = terrain;
-    settings.view = view;
-    settings.size_px = {240, 135};
-    settings.triangles = 6000;
-    settings.rate_hz = 0.25;
-    settings.frames = 4;
+    settings.path.name = path;
+    settings.path.aircraft = {aircraft};
+    settings.path.terrain = terrain;
+    settings.view.kind = view;
+    settings.view.size_px = {240, 135};
+    settings.ground.triangles = 6000;
+    settings.time.rate_hz = 0.25;
+    settings.time.frames = 4;
     return settings;
 }
 
@@ -131,8 +131,8 @@ TEST_CASE("pictures are those that were approved") {
 
 TEST_CASE("pictures with a head-up display are those that were approved") {
     Settings banked = small("pop-up", "f15", "canyon", View::Cockpit);
-    banked.size_px = {640, 360};
-    banked.rate_hz = 1.0 / 7.0;
+    banked.view.size_px = {640, 360};
+    banked.time.rate_hz = 1.0 / 7.0;
     check_against_golden("f15-pop-up-canyon-head-up", banked);
 }
 
@@ -141,28 +141,28 @@ TEST_CASE("pictures of a refined mesh, three in ten smooth, are those that were 
     const auto file = tests::scratch_folder() / "ball.ply";
     models::meshfile::write_mesh(file, ui::studies::hybrid_shading::uneven_ball(24, 49));
     Settings ball = small("turn", file.string(), "hills", View::Chase);
-    ball.smooth_share = 0.3;
-    ball.sun_azimuth_deg = 45.0; // on the side that is seen
-    ball.aircraft_error_px = 0.2;
+    ball.shading.smooth_share = 0.3;
+    ball.air.sun_azimuth_deg = 45.0; // on the side that is seen
+    ball.surface.aircraft_error_px = 0.2;
     check_against_golden("ball-turn-hills-hybrid", ball);
-    ball.show_model = ModelLook::Shading;
+    ball.shading.show_model = ModelLook::Shading;
     check_against_golden("ball-turn-hills-shading", ball);
-    ball.show_model = ModelLook::Levels;
+    ball.shading.show_model = ModelLook::Levels;
     check_against_golden("ball-turn-hills-levels", ball);
 }
 
 TEST_CASE("pictures of textured ground are those that were approved") {
     Settings canyon = small("jinking", "f15", "canyon", View::Chase);
-    canyon.size_px = {320, 240};
-    canyon.ground_shading = visuals::scene::GroundShading::Texture;
+    canyon.view.size_px = {320, 240};
+    canyon.air.ground_shading = visuals::scene::GroundShading::Texture;
     check_against_golden("f15-jinking-canyon-textured", canyon);
     Settings draped = small("straight", "f15", "hills", View::Free);
-    draped.size_px = {320, 240};
-    draped.drape = made_drape().string();
-    draped.visibility_m = 0.0;
-    draped.eye_m = glm::dvec3(0.0, -24000.0, 16000.0);
-    draped.look_m = glm::dvec3(0.0, -2000.0, 0.0);
+    draped.view.size_px = {320, 240};
+    draped.air.drape = made_drape().string();
+    draped.air.visibility_m = 0.0;
+    draped.view.eye_m = glm::dvec3(0.0, -24000.0, 16000.0);
+    draped.view.look_m = glm::dvec3(0.0, -2000.0, 0.0);
     check_against_golden("hills-draped-from-the-south", draped);
-    draped.hidden_surface = visuals::scene::HiddenSurface::DepthBuffer;
+    draped.surface.hidden_surface = visuals::scene::HiddenSurface::DepthBuffer;
     check_against_golden("hills-draped-from-the-south", draped);
 }

@@ -4,17 +4,17 @@
 
 using namespace octant;
 using ui::settings::change_between;
+using ui::settings::Settings;
 using ui::settings::SettingsChange;
-using visuals::scene::Settings;
 
 TEST_CASE("a change of settings costs what has to be made anew for it") {
     const Settings before;
     CHECK(change_between(before, before) == SettingsChange::None);
     Settings after = before;
-    after.azimuth_deg = 10.0;
+    after.view.azimuth_deg = 10.0;
     CHECK(change_between(before, after) == SettingsChange::Look);
-    after.triangles = 5000;
+    after.ground.triangles = 5000;
     CHECK(change_between(before, after) == SettingsChange::Picture);
-    after.aircraft.emplace_back("f15");
+    after.path.aircraft.emplace_back("f15");
     CHECK(change_between(before, after) == SettingsChange::World);
 }

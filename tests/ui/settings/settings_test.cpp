@@ -10,7 +10,7 @@
 #include <set>
 
 using namespace octant;
-using octant::visuals::scene::Settings;
+using ui::settings::Settings;
 
 namespace {
 
@@ -24,20 +24,24 @@ std::filesystem::path settings_file(const std::string& text) {
 
 TEST_CASE("settings survive the way to a file and back") {
     Settings settings;
-    settings.aircraft = {"500md", "f15"};
-    settings.heading_deg = 0.1 + 0.2;
-    settings.eye_m = glm::dvec3(1.5, -2.25, 1e-3);
-    settings.size_px = {320, 200};
-    settings.sky = false;
+    settings.path.aircraft = {"500md", "f15"};
+    settings.path.heading_deg = 0.1 + 0.2;
+    settings.view.eye_m = glm::dvec3(1.5, -2.25, 1e-3);
+    settings.view.size_px = {320, 200};
+    settings.air.sky = false;
     settings.adapt.terrain = true;
-    settings.height_mode = visuals::scene::HeightMode::Follow;
-    settings.background = {0.0F, 1.0F, 128.0F / 255.0F};
+    settings.path.height_mode = ui::settings::HeightMode::Follow;
+    settings.air.background = {0.0F, 1.0F, 128.0F / 255.0F};
     const auto json = ui::settings::settings_json(settings);
-    CHECK(ui::settings::settings_json(ui::settings::read_settings(settings_file(json.dump(2)))) == json);
+    CHECK(
+        ui::settings::settings_json(ui::settings::read_settings(settings_file(json.dump(2)))) ==
+        json);
     CHECK(
         ui::settings::settings_json(ui::settings::read_settings(
             settings_file(nlohmann::ordered_json{{"settings", json}}.dump()))) == json);
-    CHECK(ui::settings::read_settings(settings_file(json.dump())).heading_deg == settings.heading_deg);
+    CHECK(
+        ui::settings::read_settings(settings_file(json.dump())).path.heading_deg ==
+        settings.path.heading_deg);
     CHECK_FALSE(ui::settings::settings_json(Settings{}) == json);
 }
 
@@ -52,7 +56,9 @@ TEST_CASE("every setting has a name of its own, a meaning and readable text") {
 }
 
 TEST_CASE("a missing key keeps its default and a wrong one is refused with its line") {
-    CHECK(ui::settings::read_settings(settings_file("{}")).triangles == Settings{}.triangles);
+    CHECK(
+        ui::settings::read_settings(settings_file("{}")).ground.triangles ==
+        Settings{}.ground.triangles);
     const auto expect = [](const std::string& text, const std::string& message) {
         const auto path = settings_file(text);
         CHECK_THROWS_WITH(ui::settings::read_settings(path), path.string() + message);
@@ -66,7 +72,9 @@ TEST_CASE("a missing key keeps its default and a wrong one is refused with its l
         "{\"warm-up\": 1.5}", ":1: warm-up: expected a whole number from 0 to 1000000, got '1.5'");
     expect("{\"aircraft\": []}", ":1: aircraft: expected a list of names, got []");
     expect("{\n\"samples\": 2}", ":2: samples: expected 1 or 4, got 2");
-    CHECK(ui::settings::read_settings(settings_file("{\"adapt\": \"none\"}")).adapt == Settings{}.adapt);
+    CHECK(
+        ui::settings::read_settings(settings_file("{\"adapt\": \"none\"}")).adapt ==
+        Settings{}.adapt);
     expect(
         "{\"adapt\": \"terrain,sound\"}",
         ":1: adapt: expected none or a list of terrain, shading, got 'terrain,sound'");

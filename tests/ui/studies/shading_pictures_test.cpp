@@ -1,7 +1,7 @@
 #include "models/triangle_mesh.h"
+#include "ui/studies/hybrid_shading/shading_runs.h"
 #include "ui/studies/picture_quality.h"
 #include "ui/studies/shading_pictures.h"
-#include "ui/studies/hybrid_shading/shading_runs.h"
 #include "visuals/shading/vertex_normals.h"
 
 #include <catch2/catch.hpp>

@@ -7,15 +7,15 @@ namespace octant {
 
 namespace fs = std::filesystem;
 
-visuals::scene::Settings small_flight() {
-    visuals::scene::Settings settings;
-    settings.size_px = {480, 360};
-    settings.triangles = 2000;
-    settings.terrain = "hills";
+ui::settings::Settings small_flight() {
+    ui::settings::Settings settings;
+    settings.view.size_px = {480, 360};
+    settings.ground.triangles = 2000;
+    settings.path.terrain = "hills";
     return settings;
 }
 
-std::unique_ptr<DrivenViewer> DrivenViewer::open(const visuals::scene::Settings& settings) {
+std::unique_ptr<DrivenViewer> DrivenViewer::open(const ui::settings::Settings& settings) {
     std::unique_ptr<VirtualDisplay> display = VirtualDisplay::start();
     if (!display) {
         std::puts("SKIPPED: Xvfb is not installed");
@@ -25,7 +25,7 @@ std::unique_ptr<DrivenViewer> DrivenViewer::open(const visuals::scene::Settings&
 }
 
 DrivenViewer::DrivenViewer(
-    std::unique_ptr<VirtualDisplay> display, const visuals::scene::Settings& settings)
+    std::unique_ptr<VirtualDisplay> display, const ui::settings::Settings& settings)
     : display_(std::move(display))
     , folder_(fs::temp_directory_path() / ("octant-window-" + std::to_string(getpid()))) {
     fs::create_directories(folder_);

@@ -14,13 +14,13 @@ namespace octant {
 class DrivenViewer {
 public:
     /// Nothing, and a line that says so, where no display can be started.
-    static std::unique_ptr<DrivenViewer> open(const visuals::scene::Settings& settings);
+    static std::unique_ptr<DrivenViewer> open(const ui::settings::Settings& settings);
 
     ui::window::Viewer& viewer() { return *viewer_; }
 
     ui::window::ViewState& state() { return viewer_->state(); }
 
-    const visuals::scene::Settings& settings() { return viewer_->session().settings(); }
+    const ui::settings::Settings& settings() { return viewer_->session().settings(); }
 
     VirtualDisplay& display() { return *display_; }
 
@@ -51,7 +51,7 @@ public:
     DrivenViewer& operator=(DrivenViewer&&) = delete;
 
 private:
-    DrivenViewer(std::unique_ptr<VirtualDisplay> display, const visuals::scene::Settings& settings);
+    DrivenViewer(std::unique_ptr<VirtualDisplay> display, const ui::settings::Settings& settings);
 
     std::unique_ptr<VirtualDisplay> display_;
     std::filesystem::path folder_;
@@ -59,6 +59,6 @@ private:
 };
 
 /// A small, quick flight over hills.
-visuals::scene::Settings small_flight();
+ui::settings::Settings small_flight();
 
 } // namespace octant

@@ -13,7 +13,7 @@
 #include <string>
 
 using namespace octant;
-using visuals::scene::Settings;
+using ui::settings::Settings;
 namespace fs = std::filesystem;
 
 namespace {
@@ -26,8 +26,8 @@ nlohmann::json run_of(const fs::path& folder) {
 /// State hash of what a recording's settings fly without a window.
 std::string flown_again(const fs::path& folder) {
     Settings settings = ui::settings::read_settings(folder / "run.json");
-    settings.size_px = {64, 48};
-    settings.triangles = 500;
+    settings.view.size_px = {64, 48};
+    settings.ground.triangles = 500;
     ui::flight::Session session(settings);
     for (int frame = 0; frame < session.frames(); ++frame) {
         session.draw(frame);
@@ -128,15 +128,15 @@ TEST_CASE("changing path, aircraft and ground in the window loads them, and a wr
     if (!driven) {
         return;
     }
-    driven->state().wanted.path = "turn";
-    driven->state().wanted.aircraft = {"500md"};
-    driven->state().wanted.terrain = "canyon";
+    driven->state().wanted.path.name = "turn";
+    driven->state().wanted.path.aircraft = {"500md"};
+    driven->state().wanted.path.terrain = "canyon";
     driven->turns(3);
-    CHECK(driven->settings().terrain == "canyon");
+    CHECK(driven->settings().path.terrain == "canyon");
     CHECK(driven->viewer().session().world().flight.title == "500md turn over canyon");
-    driven->state().wanted.path = "no-such-path";
+    driven->state().wanted.path.name = "no-such-path";
     driven->turns(3);
-    CHECK(driven->settings().path == "turn");
+    CHECK(driven->settings().path.name == "turn");
     CHECK(driven->state().message.text.find("no-such-path") != std::string::npos);
 }
 
@@ -170,8 +170,8 @@ TEST_CASE("another way to remove hidden surfaces keeps the flight's time") {
     driven->strike("space");
     driven->strike("Home");
     driven->strike("slash");
-    driven->state().wanted.hidden_surface = visuals::scene::HiddenSurface::DepthBuffer;
+    driven->state().wanted.surface.hidden_surface = visuals::scene::HiddenSurface::DepthBuffer;
     driven->turns(3);
-    CHECK(driven->settings().hidden_surface == visuals::scene::HiddenSurface::DepthBuffer);
+    CHECK(driven->settings().surface.hidden_surface == visuals::scene::HiddenSurface::DepthBuffer);
     CHECK(driven->viewer().session().simulation().time_s() == Approx(2.0));
 }

@@ -69,11 +69,12 @@ TEST_CASE("every setting is to be found in one of the groups of the settings pan
             ui::window::edit_group(state.wanted, static_cast<ui::window::SettingGroup>(group));
         }
     });
-    ui::settings::visit_settings(state.wanted, [&](const ui::settings::FieldInfo& info, const auto&) {
-        CAPTURE(info.name);
-        CHECK(contains(texts, info.name));
-    });
-    CHECK(state.wanted == visuals::scene::Settings{});
+    ui::settings::visit_settings(
+        state.wanted, [&](const ui::settings::FieldInfo& info, const auto&) {
+            CAPTURE(info.name);
+            CHECK(contains(texts, info.name));
+        });
+    CHECK(state.wanted == ui::settings::Settings{});
     state.open.settings = true;
     const std::string titles = gui.texts([&] { ui::window::settings_panel(state); });
     for (int group = 0; group < ui::window::setting_groups; ++group) {
@@ -83,7 +84,7 @@ TEST_CASE("every setting is to be found in one of the groups of the settings pan
 
 TEST_CASE("only the settings that are asked for are shown, in that order") {
     HeadlessGui gui;
-    visuals::scene::Settings settings;
+    ui::settings::Settings settings;
     constexpr std::array<std::string_view, 2> names{"visibility", "sky"};
     const std::string texts = gui.texts([&] { ui::window::edit_settings(settings, names); });
     CHECK(texts.find("visibility") < texts.find("sky"));
@@ -93,7 +94,7 @@ TEST_CASE("only the settings that are asked for are shown, in that order") {
 
 TEST_CASE("a check mark changes its setting, and one beside a number sets and unsets it") {
     HeadlessGui gui;
-    visuals::scene::Settings settings;
+    ui::settings::Settings settings;
     const auto widgets = [&](std::string_view name) {
         return [&settings, name] {
             const std::array names{name};
@@ -103,11 +104,11 @@ TEST_CASE("a check mark changes its setting, and one beside a number sets and un
         };
     };
     CHECK(gui.click("window", "sky", "##value", widgets("sky")));
-    CHECK_FALSE(settings.sky);
+    CHECK_FALSE(settings.air.sky);
     CHECK(gui.click("window", "fov", "auto", widgets("fov")));
-    CHECK(settings.fov_deg == 45.0);
+    CHECK(settings.view.fov_deg == 45.0);
     CHECK(gui.click("window", "fov", "auto", widgets("fov")));
-    CHECK_FALSE(settings.fov_deg.has_value());
+    CHECK_FALSE(settings.view.fov_deg.has_value());
 }
 
 TEST_CASE("the help names every key") {
@@ -131,8 +132,8 @@ TEST_CASE("the first steps close by their button and the vsync box follows a cli
     CHECK_FALSE(state.open.first_steps);
     state.open.timing = true;
     state.history.add(record_of(0, 10.0));
-    CHECK(
-        gui.click("Frame times", "wait for the display (vsync)", [&] { ui::window::timing_panel(state); }));
+    CHECK(gui.click(
+        "Frame times", "wait for the display (vsync)", [&] { ui::window::timing_panel(state); }));
     CHECK_FALSE(state.vsync);
 }
 

@@ -14,11 +14,11 @@ using ui::window::ViewState;
 
 namespace {
 
-visuals::scene::Settings small_settings() {
-    visuals::scene::Settings settings;
-    settings.terrain = "none";
-    settings.size_px = {64, 64};
-    settings.heading_deg = 0.0;
+ui::settings::Settings small_settings() {
+    ui::settings::Settings settings;
+    settings.path.terrain = "none";
+    settings.view.size_px = {64, 64};
+    settings.path.heading_deg = 0.0;
     return settings;
 }
 
@@ -76,8 +76,8 @@ TEST_CASE("the flight panel pauses, changes the view and asks for the rest") {
     CHECK(gui.click("Flight", "One frame", widgets));
     CHECK(state.requests.step_frame);
     CHECK(gui.click("Flight", "5 free", widgets));
-    CHECK(state.wanted.view == visuals::scene::View::Free);
-    CHECK(state.wanted.eye_m == shown.session.camera().eye_m);
+    CHECK(state.wanted.view.kind == visuals::scene::View::Free);
+    CHECK(state.wanted.view.eye_m == shown.session.camera().eye_m);
     state.playback.time_s = 5.0;
     CHECK(gui.click("Flight", "time", widgets));
     REQUIRE(state.requests.go_to_s.has_value());
@@ -95,8 +95,10 @@ TEST_CASE("by hand the flight panel shows what the aircraft does and the status 
     ui::flight::Simulation& simulation = shown.session.simulation();
     simulation.advance_to(simulation.time_s());
     simulation.take_over("f15");
-    const std::string texts = gui.texts([&] { ui::window::flight_panel(shown.state, shown.session); });
-    const std::string marks = gui.texts([&] { ui::window::status_line(shown.state, shown.session, 0.0); });
+    const std::string texts =
+        gui.texts([&] { ui::window::flight_panel(shown.state, shown.session); });
+    const std::string marks =
+        gui.texts([&] { ui::window::status_line(shown.state, shown.session, 0.0); });
     CHECK(marks.find("by hand") != std::string::npos);
     for (const char* const part : {"throttle", " kt ", " ft ", "Level off"}) {
         CAPTURE(part);
@@ -109,7 +111,8 @@ TEST_CASE("a message is shown for its time") {
     HeadlessGui gui;
     shown.state.message = {"hello", 2.0};
     const auto at = [&](double now_s) {
-        return gui.texts([&, now_s] { ui::window::status_line(shown.state, shown.session, now_s); });
+        return gui.texts(
+            [&, now_s] { ui::window::status_line(shown.state, shown.session, now_s); });
     };
     CHECK(at(1.0).find("hello") != std::string::npos);
     CHECK(at(2.0).find("hello") == std::string::npos);

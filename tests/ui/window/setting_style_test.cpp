@@ -8,8 +8,8 @@
 
 using namespace octant;
 using ui::settings::FieldInfo;
+using ui::settings::Settings;
 using ui::window::NumberStyle;
-using visuals::scene::Settings;
 
 namespace {
 
@@ -77,7 +77,8 @@ TEST_CASE("a tooltip says meaning, option, the paper's letter and bounds") {
     CHECK(
         ui::window::tooltip_of(info_of("control-r")) ==
         "earlier frames in the damping's mean\n--control-r r, 0 to 64");
-    CHECK(ui::window::tooltip_of(info_of("sky")) == "sky and the plain beyond the map's edge\n--sky");
+    CHECK(
+        ui::window::tooltip_of(info_of("sky")) == "sky and the plain beyond the map's edge\n--sky");
 }
 
 TEST_CASE("names go into one line of text and come back") {

@@ -23,7 +23,8 @@ TEST_CASE("at the equinox the sun rises in the east at six and is highest in the
 
 TEST_CASE("at midsummer the noon sun stands the obliquity higher, and in the south lower") {
     CHECK(
-        ui::window::sun_position(45.0, midsummer, 12.0).elevation_deg == Approx(45.0 + 23.45).margin(0.01));
+        ui::window::sun_position(45.0, midsummer, 12.0).elevation_deg ==
+        Approx(45.0 + 23.45).margin(0.01));
     const ui::window::SunPosition south = ui::window::sun_position(-45.0, midsummer, 12.0);
     CHECK(south.elevation_deg == Approx(45.0 - 23.45).margin(0.01));
     const bool in_the_north = south.azimuth_deg < 1e-6 || south.azimuth_deg > 360.0 - 1e-6;

@@ -15,7 +15,7 @@
 #include <vector>
 
 using namespace octant;
-using visuals::scene::Settings;
+using ui::settings::Settings;
 using visuals::scene::View;
 
 namespace {
@@ -75,7 +75,7 @@ TEST_CASE("keys 1 to 5 show the five views, each another picture of the paused f
     std::vector<visuals::gl::Picture> pictures;
     for (const auto& [key, view] : views) {
         driven->strike(key);
-        CHECK(driven->settings().view == view);
+        CHECK(driven->settings().view.kind == view);
         pictures.push_back(driven->picture());
     }
     for (std::size_t i = 0; i + 1 < 4; ++i) {
@@ -109,7 +109,7 @@ TEST_CASE("the window's picture is that of a flight without a window") {
     driven->strike("Home");
     driven->turns(3);
     Settings settings = driven->settings();
-    settings.context = visuals::scene::ContextKind::OsMesa;
+    settings.drawing.context = ui::settings::ContextKind::OsMesa;
     const visuals::gl::Picture shown = driven->picture();
     ui::flight::Session session(settings);
     session.draw(0);
@@ -124,14 +124,14 @@ TEST_CASE("dragging turns the eye around the aircraft, the wheel comes nearer, V
     driven->strike("space");
     const visuals::gl::Picture straight = driven->picture();
     driven->drag({240, 180}, {320, 200});
-    CHECK(std::abs(driven->settings().azimuth_deg) > 20.0);
-    CHECK(driven->settings().elevation_deg > 5.0);
+    CHECK(std::abs(driven->settings().view.azimuth_deg) > 20.0);
+    CHECK(driven->settings().view.elevation_deg > 5.0);
     CHECK(difference(driven->picture(), straight) > 0.02);
     driven->display().turn_wheel();
     driven->turns(3);
-    CHECK(driven->settings().zoom > 1.1);
+    CHECK(driven->settings().view.zoom > 1.1);
     driven->strike("v");
-    CHECK(driven->settings().zoom == 1.0);
+    CHECK(driven->settings().view.zoom == 1.0);
     CHECK(difference(driven->picture(), straight) < 0.001);
 }
 
@@ -143,15 +143,15 @@ TEST_CASE("I opens a second view in a corner and leaves the rest of the picture"
     driven->strike("space");
     const visuals::gl::Picture alone = driven->picture();
     driven->strike("i");
-    REQUIRE(driven->settings().inset == View::Chase);
+    REQUIRE(driven->settings().view.inset == View::Chase);
     driven->strike("i");
-    REQUIRE(driven->settings().inset == View::Cockpit);
+    REQUIRE(driven->settings().view.inset == View::Cockpit);
     const double changed = difference(driven->picture(), alone);
     CHECK(changed > 0.02);
     CHECK(changed < 0.13);
     driven->strike("i");
     driven->strike("i");
-    CHECK_FALSE(driven->settings().inset.has_value());
+    CHECK_FALSE(driven->settings().view.inset.has_value());
     CHECK(difference(driven->picture(), alone) < 0.001);
 }
 
@@ -183,7 +183,7 @@ TEST_CASE("each panel opens by its key and is seen in the window") {
 
 TEST_CASE("a click on the flight panel's button pauses the flight") {
     Settings settings = small_flight();
-    settings.size_px = {1000, 700};
+    settings.view.size_px = {1000, 700};
     const auto driven = DrivenViewer::open(settings);
     if (!driven) {
         return;
@@ -202,10 +202,10 @@ TEST_CASE("settings that do not go together are refused in the window as on the 
     if (!driven) {
         return;
     }
-    driven->state().wanted.mesh = visuals::scene::GroundMetric::ScreenError;
-    driven->state().wanted.detail = visuals::scene::DetailControl::Damped;
+    driven->state().wanted.ground.mesh = visuals::scene::GroundMetric::ScreenError;
+    driven->state().wanted.ground.detail = visuals::scene::DetailControl::Damped;
     driven->turns(3);
-    CHECK(driven->settings().detail == visuals::scene::DetailControl::Exact);
+    CHECK(driven->settings().ground.detail == visuals::scene::DetailControl::Exact);
     CHECK(driven->state().message.text.find("--mesh screen-error") != std::string::npos);
 }
 
@@ -231,11 +231,11 @@ TEST_CASE("the window's picture follows the window's size") {
         return;
     }
     glfwSetWindowSize(driven->viewer().window(), 700, 300);
-    CHECK(driven->until([&] { return driven->settings().size_px == glm::ivec2(700, 300); }));
+    CHECK(driven->until([&] { return driven->settings().view.size_px == glm::ivec2(700, 300); }));
     driven->turns(2);
     CHECK(driven->picture().width == 700);
     glfwSetWindowSize(driven->viewer().window(), 200, 500);
-    CHECK(driven->until([&] { return driven->settings().size_px == glm::ivec2(200, 500); }));
+    CHECK(driven->until([&] { return driven->settings().view.size_px == glm::ivec2(200, 500); }));
     driven->strike("i");
     driven->turns(2);
     CHECK(driven->picture().height == 500);

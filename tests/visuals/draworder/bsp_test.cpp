@@ -25,7 +25,8 @@ RayCount rays_of(const BspTree& tree) {
     RayCount count;
     for (int i = 0; i < 150; ++i) {
         const double radii = dice.between(0.1, 4.0);
-        const glm::dvec3 eye_m = dice.direction() * (models::polygons::radius_m(tree.model) * radii);
+        const glm::dvec3 eye_m =
+            dice.direction() * (models::polygons::radius_m(tree.model) * radii);
         count += count_wrong_rays_from(tree.model, painted(tree, eye_m), eye_m, 100);
     }
     return count;

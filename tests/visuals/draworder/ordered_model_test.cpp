@@ -201,8 +201,8 @@ TEST_CASE("octant paths give right lists from twice the radius outwards") {
         const OrderedModel found = by(Method::Cells, model);
         CHECK(found.order.cell_count() <= most_cells);
         REQUIRE(found.cells.size() == static_cast<std::size_t>(found.order.cell_count()));
-        const double most_radii =
-            (found.min_distance_m + glm::length(found.centre_m)) / octant::models::polygons::radius_m(model);
+        const double most_radii = (found.min_distance_m + glm::length(found.centre_m)) /
+                                  octant::models::polygons::radius_m(model);
         const auto count = count_wrong_rays(
             found.model,
             found.order,
@@ -253,7 +253,8 @@ TEST_CASE("a list names a polygon that faces some eye of its cell once, and no o
         const auto list = found.order.polygons_of(found.order.cell_of(eye_m));
         CHECK(std::set<std::uint32_t>(list.begin(), list.end()).size() == list.size());
         for (std::size_t p = 0; p < found.model.polygons.size(); ++p) {
-            if (octant::distance_m(octant::models::polygons::plane_of(found.model, p), eye_m) > 1e-6) {
+            if (octant::distance_m(octant::models::polygons::plane_of(found.model, p), eye_m) >
+                1e-6) {
                 CHECK(std::ranges::count(list, p) == 1);
             }
         }

@@ -1,9 +1,9 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "tests/scratch.h"
 #include "tests/visuals/refine/front_check.h"
 #include "tests/visuals/refine/made_sequence.h"
-#include "tests/scratch.h"
 #include "visuals/refine/progressive_file.h"
 #include "visuals/refine/selective_refiner.h"
 

@@ -22,8 +22,8 @@ sim::AircraftState level_flight(double heading_rad) {
 }
 
 Camera seen(View view, const sim::AircraftState& state, const GroundHeight& ground = flat_ground) {
-    Settings settings;
-    settings.view = view;
+    ViewSettings settings;
+    settings.kind = view;
     return camera_of(
         settings, state, advanced({}, state), fighter, {{100.0, 0.0, 20.0}, {}, {}}, ground);
 }
@@ -35,8 +35,8 @@ Camera turned(
     double zoom,
     const sim::AircraftState& state = level_flight(0.0),
     const GroundHeight& ground = flat_ground) {
-    Settings settings;
-    settings.view = view;
+    ViewSettings settings;
+    settings.kind = view;
     settings.azimuth_deg = azimuth_deg;
     settings.elevation_deg = elevation_deg;
     settings.zoom = zoom;

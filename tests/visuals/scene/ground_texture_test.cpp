@@ -37,9 +37,10 @@ glm::dvec2 texel_below(const GroundImage& image, const TexturePlace& place) {
 TEST_CASE("the texture under its light shows each sample as the lit vertex does, at its place") {
     const models::heights::HeightField field = rugged();
     const Settings settings;
-    const GroundTexture texture = ground_texture(terrain::GroundSamples(field), settings, nullptr);
-    const std::vector<std::uint32_t> lit = ground_colours(field, settings);
-    const glm::vec3 to_sun = direction_to_sun(settings);
+    const GroundTexture texture =
+        ground_texture(terrain::GroundSamples(field), settings.air, nullptr);
+    const std::vector<std::uint32_t> lit = ground_colours(field, settings.air);
+    const glm::vec3 to_sun = direction_to_sun(settings.air);
     REQUIRE(texture.normal.width == 9);
     REQUIRE(texture.normal.height == 7);
     for (int row = 0; row < 7; ++row) {

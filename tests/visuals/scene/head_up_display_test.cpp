@@ -40,11 +40,11 @@ const HeadUpInputs level = flying({1.0, 0.0, 0.0}, 100.0, 0.0);
 Camera
 cockpit_camera(const HeadUpInputs& inputs, double azimuth_deg = 0, double elevation_deg = 0) {
     Settings settings;
-    settings.view = View::Cockpit;
-    settings.azimuth_deg = azimuth_deg;
-    settings.elevation_deg = elevation_deg;
+    settings.view.kind = View::Cockpit;
+    settings.view.azimuth_deg = azimuth_deg;
+    settings.view.elevation_deg = elevation_deg;
     const GroundHeight no_ground = [](double, double) { return std::optional<double>(); };
-    return camera_of(settings, inputs.state, {}, {}, {}, no_ground);
+    return camera_of(settings.view, inputs.state, {}, {}, {}, no_ground);
 }
 
 /// Where the renderer shows a direction of the world.
@@ -229,8 +229,8 @@ TEST_CASE("plans of the cockpit view have a head-up display unless it is off, ot
     Planner planner(scene, settings);
     PlanCounts counts;
     const auto drawn = [&](View view, bool wanted) {
-        settings.view = view;
-        settings.head_up_display = wanted;
+        settings.view.kind = view;
+        settings.view.head_up_display = wanted;
         HeadUpInputs inputs;
         inputs.state = states.front();
         return planner.plan(cockpit_camera(inputs), states, counts).overlay.indices.size();

@@ -27,7 +27,7 @@ struct Machine {
 
 LoadSettings settings_at(double rate_hz, int budget = 20000) {
     Settings settings;
-    settings.triangles = budget;
+    settings.ground.triangles = budget;
     settings.adapt.terrain = true;
     return load_settings(settings, rate_hz);
 }

@@ -58,7 +58,7 @@ TEST_CASE("with a depth buffer one step paints the aircraft from the nearest") {
     scene.models.push_back(convex_aircraft(box_model({1, 1, 1})));
     scene.aircraft = {0, 0, 0};
     Settings settings = plain_settings();
-    settings.hidden_surface = HiddenSurface::DepthBuffer;
+    settings.surface.hidden_surface = HiddenSurface::DepthBuffer;
     Planner planner(scene, settings);
     PlanCounts counts;
     const FramePlan& plan = planner.plan(

@@ -243,7 +243,7 @@ TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {
         }
     }
     Settings settings = plain_settings();
-    settings.triangles = 600;
+    settings.ground.triangles = 600;
     const Total total = paint_scenes(
         60,
         5,

@@ -77,7 +77,7 @@ scene::RefineLook looking_down() {
 
 scene::Settings refining() {
     scene::Settings settings = plain_settings();
-    settings.aircraft_error_px = 1.0;
+    settings.surface.aircraft_error_px = 1.0;
     return settings;
 }
 
@@ -196,7 +196,7 @@ TEST_CASE("shading follows a mesh that is refined further, and turns all smooth 
 
 TEST_CASE("a refined mesh shows its levels: white where it is as its file, else by its error") {
     scene::Settings settings = refining();
-    settings.show_model = scene::ModelLook::Levels;
+    settings.shading.show_model = scene::ModelLook::Levels;
     scene::RefinedAircraft fine(hierarchy(), settings);
     fine.update(below(5.0), looking_down(), true);
     for (const scene::ModelVertex& vertex : fine.draw().vertices) {

@@ -26,7 +26,7 @@ struct Shadowed {
     PlanCounts counts;
 
     Shadowed() {
-        settings.shadows = true;
+        settings.surface.shadows = true;
         scene.ground = cell_ground(40, 10.0, rolling);
         scene.models.push_back(convex_aircraft(box_model({8.0, 2.0, 1.0})));
         scene.aircraft = {0, 0};
@@ -124,7 +124,7 @@ TEST_CASE("ground is in shadow where the sun's ray meets an aircraft and nowhere
     Shadowed world;
     Planner planner(world.scene, world.settings);
     const FramePlan& plan = planner.plan(world.camera, world.states, world.counts);
-    const glm::dvec3 to_sun(direction_to_sun(world.settings));
+    const glm::dvec3 to_sun(direction_to_sun(world.settings.air));
     PlaceDice dice(11);
     int dark = 0;
     for (std::size_t i = 0; i < plan.ground.indices.size(); i += 3) {
@@ -167,7 +167,7 @@ TEST_CASE("all of a shadow has one darkness and says for textures what light is 
 
 TEST_CASE("with a depth buffer shadows come apart from the ground") {
     Shadowed world;
-    world.settings.hidden_surface = HiddenSurface::DepthBuffer;
+    world.settings.surface.hidden_surface = HiddenSurface::DepthBuffer;
     Planner planner(world.scene, world.settings);
     const FramePlan& plan = planner.plan(world.camera, world.states, world.counts);
     CHECK(
@@ -186,8 +186,8 @@ TEST_CASE("a low sun, a shadow out of view or too small and a switch give no sha
         return world.counts.shadow_triangles;
     };
     CHECK(shadow_triangles([](Shadowed&) {}) > 0);
-    CHECK(shadow_triangles([](Shadowed& w) { w.settings.sun_elevation_deg = 2.0; }) == 0);
-    CHECK(shadow_triangles([](Shadowed& w) { w.settings.shadows = false; }) == 0);
+    CHECK(shadow_triangles([](Shadowed& w) { w.settings.air.sun_elevation_deg = 2.0; }) == 0);
+    CHECK(shadow_triangles([](Shadowed& w) { w.settings.surface.shadows = false; }) == 0);
     CHECK(shadow_triangles([](Shadowed& w) {
               w.camera = camera_looking_at({-60, -80, 90}, {-200, -300, 0});
           }) == 0);

@@ -200,8 +200,8 @@ scene::AircraftModel convex_aircraft(models::polygons::PolygonModel model) {
 }
 
 scene::AircraftModel concave_aircraft(double scale) {
-    models::polygons::PolygonModel model =
-        models::polygons::read_obj(std::filesystem::path(OCTANT_SOURCE_DIR) / "models" / "concave.obj");
+    models::polygons::PolygonModel model = models::polygons::read_obj(
+        std::filesystem::path(OCTANT_SOURCE_DIR) / "models" / "concave.obj");
     for (glm::dvec3& vertex_m : model.vertices_m) {
         vertex_m *= scale;
     }
@@ -218,9 +218,9 @@ sim::AircraftState state_at(const glm::dvec3& position_m, const glm::dquat& atti
 
 scene::Settings plain_settings() {
     scene::Settings settings;
-    settings.size_px = {640, 480};
-    settings.sky = false;
-    settings.shadows = false;
+    settings.view.size_px = {640, 480};
+    settings.air.sky = false;
+    settings.surface.shadows = false;
     return settings;
 }
 

@@ -81,14 +81,14 @@ TEST_CASE("what is shared out is what was asked for, or all there is") {
 
 TEST_CASE("shading flat, gouraud and hybrid by a share are bits of the plan") {
     Box box;
-    box.settings.shading = scene::AircraftShading::Flat;
+    box.settings.shading.kind = scene::AircraftShading::Flat;
     CHECK(box.shown().bits == 0);
-    box.settings.shading = scene::AircraftShading::Gouraud;
+    box.settings.shading.kind = scene::AircraftShading::Gouraud;
     CHECK(box.shown().bits == 6);
     CHECK(box.shown().counted == 6);
-    box.settings.shading = scene::AircraftShading::Hybrid;
+    box.settings.shading.kind = scene::AircraftShading::Hybrid;
     CHECK(box.shown().bits == 6);
-    box.settings.smooth_share = 0.5;
+    box.settings.shading.smooth_share = 0.5;
     CHECK(box.shown().bits == 3);
     CHECK(box.shown().counted == 3);
     CHECK(box.shown(2).bits == 2);
@@ -97,7 +97,7 @@ TEST_CASE("shading flat, gouraud and hybrid by a share are bits of the plan") {
 
 TEST_CASE("a share that is set goes before the settings' own, until a number is set or neither") {
     Box box;
-    box.settings.smooth_share = 0.5;
+    box.settings.shading.smooth_share = 0.5;
     scene::Planner planner(box.scene, box.settings);
     scene::PlanCounts counts;
     const std::array there{state_at({20, 0, 50})};
@@ -117,7 +117,7 @@ TEST_CASE(
     "models show their shading and their levels by tints, but for refined ones their levels") {
     Box box;
     const auto tints = [&](scene::ModelLook look) {
-        box.settings.show_model = look;
+        box.settings.shading.show_model = look;
         scene::Planner planner(box.scene, box.settings);
         scene::PlanCounts counts;
         const std::array there{state_at({20, 0, 50})};
@@ -132,12 +132,12 @@ TEST_CASE(
 
 TEST_CASE("the paper's rule shades less smoothly the farther away") {
     Box box;
-    box.settings.shading_rule = scene::HybridRule::Paper;
-    box.settings.shading_far_m = 40.0;
+    box.settings.shading.rule = scene::HybridRule::Paper;
+    box.settings.shading.far_m = 40.0;
     CHECK(box.shown().bits == 3); // half way
-    box.settings.shading_far_m = 10.0;
+    box.settings.shading.far_m = 10.0;
     CHECK(box.shown().bits == 0);
-    box.settings.shading_near_m = 30.0;
-    box.settings.shading_far_m = 40.0;
+    box.settings.shading.near_m = 30.0;
+    box.settings.shading.far_m = 40.0;
     CHECK(box.shown().bits == 6);
 }

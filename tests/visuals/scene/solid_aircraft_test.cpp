@@ -87,7 +87,7 @@ TEST_CASE("an eye inside the box of a mesh gets depth in the whole picture") {
     const scene::FramePlan& plan = planner.plan(flight.camera, around, counts);
     REQUIRE(plan.depth_boxes.size() == 1);
     CHECK(plan.depth_boxes[0].least == glm::ivec2(0));
-    CHECK(plan.depth_boxes[0].most == flight.settings.size_px);
+    CHECK(plan.depth_boxes[0].most == flight.settings.view.size_px);
 }
 
 TEST_CASE("ground that a mesh sticks in hides it by depth, and meshes that meet share one depth") {

@@ -87,19 +87,19 @@ TEST_CASE("below the horizon the plain fades into the haze with distance") {
 
 TEST_CASE("ground that faces the sun is brighter than ground that faces away") {
     Settings settings;
-    settings.sun_azimuth_deg = 270.0;
-    const auto to_the_sun = ground_colours(ramp(1.0F), settings);
-    const auto away = ground_colours(ramp(-1.0F), settings);
+    settings.air.sun_azimuth_deg = 270.0;
+    const auto to_the_sun = ground_colours(ramp(1.0F), settings.air);
+    const auto away = ground_colours(ramp(-1.0F), settings.air);
     CHECK(brightness(to_the_sun[820]) > brightness(away[820]) + 20);
 }
 
 TEST_CASE("level ground at the water level is water and one above it is not") {
     Settings settings;
-    settings.water_level_m = 100.0;
-    const glm::ivec3 water = parts(ground_colours(ramp(0.0F), settings)[820]);
+    settings.air.water_level_m = 100.0;
+    const glm::ivec3 water = parts(ground_colours(ramp(0.0F), settings.air)[820]);
     CHECK(water.z > water.x + 20);
-    settings.water_level_m = 90.0;
-    const glm::ivec3 land = parts(ground_colours(ramp(0.0F), settings)[820]);
+    settings.air.water_level_m = 90.0;
+    const glm::ivec3 land = parts(ground_colours(ramp(0.0F), settings.air)[820]);
     CHECK(land.z < land.y);
 }
 

@@ -53,14 +53,16 @@ TEST_CASE("the halves of a cut square keep its normals and have the middle one a
 
 TEST_CASE("a quarter of the way along a side the normal is a quarter of the way too") {
     const models::polygons::PolygonModel whole = model_of(square_m, {{0, 1, 2, 3}});
-    models::polygons::PolygonModel pieces = model_of({{0.5, 0, 0}, {2, 0, 0}, {2, 2, 0}}, {{0, 1, 2}});
+    models::polygons::PolygonModel pieces =
+        model_of({{0.5, 0, 0}, {2, 0, 0}, {2, 2, 0}}, {{0, 1, 2}});
     const auto made = normals_of_pieces(whole, std::vector{left, right, right, left}, pieces);
     CHECK(near(made[0], glm::normalize(0.75F * left + 0.25F * right)));
 }
 
 TEST_CASE("in the middle of a square all corners count the same") {
     const models::polygons::PolygonModel whole = model_of(square_m, {{0, 1, 2, 3}});
-    const models::polygons::PolygonModel piece = model_of({{1, 1, 0}, {2, 0, 0}, {2, 2, 0}}, {{0, 1, 2}});
+    const models::polygons::PolygonModel piece =
+        model_of({{1, 1, 0}, {2, 0, 0}, {2, 2, 0}}, {{0, 1, 2}});
     const auto made = normals_of_pieces(whole, std::vector{left, right, right, left}, piece);
     CHECK(near(made[0], {0.0F, 0.0F, 1.0F}));
     CHECK(near(made[1], right));

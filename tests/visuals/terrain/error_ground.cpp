@@ -75,8 +75,8 @@ std::vector<SampleTriangle> origin_triangles(
     return triangles;
 }
 
-std::vector<double>
-drawn_heights_m(const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m) {
+std::vector<double> drawn_heights_m(
+    const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m) {
     std::vector<double> heights_m(
         static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()),
         std::numeric_limits<double>::quiet_NaN());

@@ -38,12 +38,12 @@ double any_error_px(Numbers& numbers);
 
 /// The mesh in whole samples by its origins, in drawing order. Fails the test where vertices are
 /// not in plan where their samples are, or two at the same one.
-std::vector<SampleTriangle>
-origin_triangles(const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m);
+std::vector<SampleTriangle> origin_triangles(
+    const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m);
 
 /// Height of the mesh as drawn above datum at every sample of the field, row after row; not a
 /// number where there is no triangle.
-std::vector<double>
-drawn_heights_m(const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m);
+std::vector<double> drawn_heights_m(
+    const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m);
 
 } // namespace octant::visuals::terrain::test

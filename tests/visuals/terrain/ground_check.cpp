@@ -178,8 +178,8 @@ std::vector<SampleTriangle> sample_triangles(
     return triangles;
 }
 
-GroundCheck
-checked_ground(const std::vector<SampleTriangle>& triangles, const models::heights::HeightField& field) {
+GroundCheck checked_ground(
+    const std::vector<SampleTriangle>& triangles, const models::heights::HeightField& field) {
     GroundCheck check;
     std::vector<std::uint64_t> edges; // smaller sample, larger sample, direction
     edges.reserve(3 * triangles.size());

@@ -71,8 +71,8 @@ SampleTriangle smallest_first(std::uint32_t a, std::uint32_t b, std::uint32_t c)
 
 /// The mesh in whole samples, in drawing order. Finds the sample of a vertex by its position and
 /// fails the test where there is none.
-std::vector<SampleTriangle>
-sample_triangles(const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m);
+std::vector<SampleTriangle> sample_triangles(
+    const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m);
 
 struct GroundCheck {
     bool counter_clockwise = true; ///< every triangle, seen from above, with an area
@@ -80,8 +80,8 @@ struct GroundCheck {
     long unmatched_edges = 0;      ///< inside the field, not between exactly two triangles
 };
 
-GroundCheck
-checked_ground(const std::vector<SampleTriangle>& triangles, const models::heights::HeightField& field);
+GroundCheck checked_ground(
+    const std::vector<SampleTriangle>& triangles, const models::heights::HeightField& field);
 
 /// The triangles cover the whole field once, without a corner on another's edge.
 bool ground_triangles_conform(

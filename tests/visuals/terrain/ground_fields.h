@@ -11,7 +11,8 @@
 namespace octant::visuals::terrain {
 
 /// Rough ground of whole metres, the same for the same seed.
-models::heights::HeightField rough_field(int columns, int rows, unsigned seed = 1, int range_m = 900);
+models::heights::HeightField
+rough_field(int columns, int rows, unsigned seed = 1, int range_m = 900);
 
 /// Writes whole metres, row after row from the north, as an uncompressed GeoTIFF without coordinate
 /// system; `corner_m`: its north-western corner.

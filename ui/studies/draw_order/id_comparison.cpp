@@ -39,9 +39,9 @@ class LargeReference {
 public:
     static constexpr int scale = 3; // odd: the middles of the pixels are middles here too
 
-    explicit LargeReference(const scene::Settings& settings)
+    explicit LargeReference(const settings::Settings& settings)
         : settings_(settings) {
-        settings_.size_px *= scale;
+        settings_.view.size_px *= scale;
     }
 
     const gl::Picture& picture(int frame) {
@@ -54,7 +54,7 @@ public:
     }
 
 private:
-    scene::Settings settings_;
+    settings::Settings settings_;
     std::unique_ptr<flight::Session> session_;
 };
 
@@ -92,14 +92,14 @@ long wrong_among(
 }
 
 IdComparison compare_with_depth_buffer(
-    const scene::Settings& settings,
+    const settings::Settings& settings,
     int every,
     const std::function<void(int compared, int frames)>& seen) {
-    scene::Settings painted = settings;
-    painted.shadows = false;
-    painted.samples = 1;
-    scene::Settings tested = painted;
-    tested.hidden_surface = scene::HiddenSurface::DepthBuffer;
+    settings::Settings painted = settings;
+    painted.surface.shadows = false;
+    painted.view.samples = 1;
+    settings::Settings tested = painted;
+    tested.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
     flight::Session painter(painted, flight::Shows::PolygonNumbers);
     flight::Session reference(tested, flight::Shows::PolygonNumbers);
     LargeReference large(tested);
@@ -128,11 +128,11 @@ IdComparison compare_with_depth_buffer(
 
 namespace {
 
-gl::Picture
-number_picture(flight::Session& session, const scene::Settings& settings, const gl::Functions& functions) {
+gl::Picture number_picture(
+    flight::Session& session, const settings::Settings& settings, const gl::Functions& functions) {
     scene::Planner planner(session.scene(), settings);
     scene::IdPlan ids(session.scene());
-    gl::Renderer renderer(functions, settings.size_px.x, settings.size_px.y, 1);
+    gl::Renderer renderer(functions, settings.view.size_px.x, settings.view.size_px.y, 1);
     renderer.load_models(ids.models());
     scene::PlanCounts counts;
     const scene::FramePlan& plan = planner.plan(session.camera(), session.states(), counts);
@@ -145,14 +145,14 @@ number_picture(flight::Session& session, const scene::Settings& settings, const 
 } // namespace
 
 PixelCheck check_pixels(flight::Session& session, const gl::Functions& functions) {
-    scene::Settings painted = session.settings();
-    painted.shadows = false;
-    painted.samples = 1;
-    painted.inset.reset();
-    scene::Settings tested = painted;
-    tested.hidden_surface = scene::HiddenSurface::DepthBuffer;
-    scene::Settings large = tested;
-    large.size_px *= LargeReference::scale;
+    settings::Settings painted = session.settings();
+    painted.surface.shadows = false;
+    painted.view.samples = 1;
+    painted.view.inset.reset();
+    settings::Settings tested = painted;
+    tested.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
+    settings::Settings large = tested;
+    large.view.size_px *= LargeReference::scale;
     const gl::Picture picture = number_picture(session, painted, functions);
     const IdDifference difference =
         difference_of(picture, number_picture(session, tested, functions));

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "ui/flight/session.h"
+#include "ui/settings/settings.h"
 #include "visuals/gl/functions.h"
 #include "visuals/gl/picture.h"
-#include "visuals/scene/settings.h"
 
 #include <glm/vec2.hpp>
 
@@ -51,7 +51,7 @@ struct IdComparison {
 /// missing, the reference is drawn again three times as large. Shadows are left out. `seen` is
 /// told of each frame that was compared and of how many there are. Throws Error.
 IdComparison compare_with_depth_buffer(
-    const visuals::scene::Settings& settings,
+    const settings::Settings& settings,
     int every,
     const std::function<void(int compared, int frames)>& seen);
 

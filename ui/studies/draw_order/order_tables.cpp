@@ -1,8 +1,8 @@
 #include "ui/studies/draw_order/order_tables.h"
 
 #include "sim/base/dice.h"
-#include "ui/world/order_input.h"
 #include "ui/base/stopwatch.h"
+#include "ui/world/order_input.h"
 #include "visuals/draworder/bsp_tree.h"
 #include "visuals/draworder/order_check.h"
 #include "visuals/draworder/order_table.h"
@@ -89,7 +89,9 @@ constexpr std::array distances = {
 
 /// Rays from these distances, shared out over angles of the turning parts.
 draworder::RayCount rays_of(
-    const models::polygons::PolygonModel& model, const draworder::DrawOrder& order, const Distances& range) {
+    const models::polygons::PolygonModel& model,
+    const draworder::DrawOrder& order,
+    const Distances& range) {
     constexpr std::array angles_rad = {0.0, 0.7, 2.1, 4.4};
     draworder::RayCount count;
     for (const double angle_rad : angles_rad) {

@@ -1,10 +1,10 @@
 #include "ui/studies/draw_order/study_draw_order.h"
 
 #include "sim/base/output_file.h"
-#include "ui/studies/draw_order/order_tables.h"
 #include "ui/base/progress.h"
-#include "ui/studies/draw_order/surface_race.h"
 #include "ui/report/table_text.h"
+#include "ui/studies/draw_order/order_tables.h"
+#include "ui/studies/draw_order/surface_race.h"
 
 #include <array>
 #include <cstdio>
@@ -34,12 +34,12 @@ constexpr std::array paper_rows = {
 /// An aircraft on an orbit around it, without sky and ground.
 Race race_alone(const char* aircraft, bool quiet) {
     constexpr int frames = 200;
-    scene::Settings settings;
-    settings.aircraft = {aircraft};
-    settings.terrain = "none";
-    settings.view = scene::View::Orbit;
-    settings.sky = false;
-    settings.rate_hz = 5.0;
+    settings::Settings settings;
+    settings.path.aircraft = {aircraft};
+    settings.path.terrain = "none";
+    settings.view.kind = scene::View::Orbit;
+    settings.air.sky = false;
+    settings.time.rate_hz = 5.0;
     return race(settings, frames, quiet);
 }
 
@@ -105,7 +105,8 @@ void study_draw_order(const DrawOrderStudyOptions& options) {
     }
     write_file(options.out / "draw-order.md", markdown);
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
-    base::say(options.quiet,
+    base::say(
+        options.quiet,
         fmt::format("tables: {0}/draw-order.md and one .csv each", options.out.string()));
 }
 

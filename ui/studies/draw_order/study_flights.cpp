@@ -2,12 +2,12 @@
 
 #include "sim/base/output_file.h"
 #include "ui/base/data_files.h"
-#include "ui/flight/flight_recorder.h"
 #include "ui/base/progress.h"
+#include "ui/flight/flight_recorder.h"
+#include "ui/flight/session.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/plots.h"
-#include "ui/flight/session.h"
 #include "ui/report/table_text.h"
 
 #include <algorithm>
@@ -64,27 +64,27 @@ struct Measured {
     std::array<double, methods.size()> median_ms{};
 };
 
-scene::Settings
+settings::Settings
 settings_of(const PaperRow& row, const StudyOptions& options, scene::HiddenSurface method) {
-    scene::Settings settings;
-    settings.size_px = options.settings.size_px;
-    settings.samples = options.settings.samples;
-    settings.context = options.settings.context;
-    settings.aircraft = {row.aircraft};
-    settings.hidden_surface = method;
-    settings.warm_up = 0;
-    settings.frame_per_sample = true;
+    settings::Settings settings;
+    settings.view.size_px = options.settings.view.size_px;
+    settings.view.samples = options.settings.view.samples;
+    settings.drawing.context = options.settings.drawing.context;
+    settings.path.aircraft = {row.aircraft};
+    settings.surface.hidden_surface = method;
+    settings.time.warm_up = 0;
+    settings.time.frame_per_sample = true;
     if (std::string(row.path) == "alone") {
-        settings.path = "straight";
-        settings.terrain = "none";
-        settings.view = scene::View::Orbit;
-        settings.sky = false;
-        settings.frames = row.frames;
-        settings.frame_per_sample = false;
-        settings.rate_hz = 2.5; // 40 s of the orbit, which pass through all octants
+        settings.path.name = "straight";
+        settings.path.terrain = "none";
+        settings.view.kind = scene::View::Orbit;
+        settings.air.sky = false;
+        settings.time.frames = row.frames;
+        settings.time.frame_per_sample = false;
+        settings.time.rate_hz = 2.5; // 40 s of the orbit, which pass through all octants
     } else {
-        settings.path = row.path;
-        settings.terrain = "background60";
+        settings.path.name = row.path;
+        settings.path.terrain = "background60";
     }
     return settings;
 }
@@ -105,7 +105,8 @@ Measured measure(const PaperRow& row, const StudyOptions& options) {
     measured.polygons = model.polygons.size();
     measured.frames = octant.frames();
     std::array<std::vector<double>, methods.size()> frame_ms;
-    base::Progress progress(fmt::format("{} {}", row.aircraft, row.path), measured.frames, options.quiet);
+    base::Progress progress(
+        fmt::format("{} {}", row.aircraft, row.path), measured.frames, options.quiet);
     for (int frame = 0; frame < measured.frames; ++frame) {
         report::FrameRecord octant_record;
         for (std::size_t turn = 0; turn < methods.size(); ++turn) {
@@ -205,8 +206,8 @@ report::HtmlTable table_6(const std::vector<Measured>& measured, const StudyOpti
         "Ours at {}x{}, mean frame times after a warm-up of 10 frames, times the frames; the three "
         "methods draw every frame in turn, so that "
         "they see the same machine.",
-        options.settings.size_px.x,
-        options.settings.size_px.y);
+        options.settings.view.size_px.x,
+        options.settings.view.size_px.y);
     return table;
 }
 
@@ -232,7 +233,8 @@ report::Plot plot_of(const std::vector<Measured>& measured) {
 
 void write_results(const std::vector<Measured>& measured, const StudyOptions& options) {
     const std::array tables = {table_5(measured), table_6(measured, options)};
-    const std::string markdown = report::markdown_of(tables[0]) + "\n" + report::markdown_of(tables[1]);
+    const std::string markdown =
+        report::markdown_of(tables[0]) + "\n" + report::markdown_of(tables[1]);
     write_file(options.out / "table-5.csv", report::csv_of(tables[0]));
     write_file(options.out / "table-6.csv", report::csv_of(tables[1]));
     write_file(options.out / "flights.md", markdown);
@@ -248,7 +250,8 @@ void write_results(const std::vector<Measured>& measured, const StudyOptions& op
     }
     write_file(options.out / "report.html", report::html_report(recordings, tables));
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
-    base::say(options.quiet,
+    base::say(
+        options.quiet,
         fmt::format(
             "tables: {0}/flights.md, {0}/table-5.csv, {0}/table-6.csv; report: {0}/report.html",
             options.out.string()));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/scene/settings.h"
+#include "ui/settings/settings.h"
 
 #include <filesystem>
 
@@ -8,8 +8,8 @@ namespace octant::ui::studies::draw_order {
 
 struct StudyOptions {
     std::filesystem::path out;
-    visuals::scene::Settings settings; ///< size, samples and context are taken from it
-    bool json = false;                 ///< print the tables as JSON instead of Markdown
+    settings::Settings settings; ///< size, samples and context are taken from it
+    bool json = false;           ///< print the tables as JSON instead of Markdown
     bool quiet = false;
 };
 

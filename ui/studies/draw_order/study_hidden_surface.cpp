@@ -1,11 +1,11 @@
 #include "ui/studies/draw_order/study_hidden_surface.h"
 
 #include "sim/base/output_file.h"
-#include "ui/studies/draw_order/id_comparison.h"
 #include "ui/base/progress.h"
+#include "ui/report/table_text.h"
+#include "ui/studies/draw_order/id_comparison.h"
 #include "ui/studies/draw_order/ridge_tower.h"
 #include "ui/studies/draw_order/surface_race.h"
-#include "ui/report/table_text.h"
 #include "ui/world/world.h"
 
 #include <array>
@@ -37,13 +37,14 @@ std::string short_name(const std::string& terrain) {
 std::vector<Race> run_races(const HiddenSurfaceStudy& study) {
     std::vector<Race> races;
     for (const glm::ivec2 size_px : {glm::ivec2(640, 480), glm::ivec2(1280, 720)}) {
-        for (const std::string& terrain : {std::string("background60"), study.settings.terrain}) {
+        for (const std::string& terrain :
+             {std::string("background60"), study.settings.path.terrain}) {
             for (const std::size_t aircraft : {1U, 16U, 100U, 1000U}) {
-                scene::Settings settings = study.settings;
-                settings.path = "straight";
-                settings.terrain = terrain;
-                settings.aircraft.assign(aircraft, "f15");
-                settings.size_px = size_px;
+                settings::Settings settings = study.settings;
+                settings.path.name = "straight";
+                settings.path.terrain = terrain;
+                settings.path.aircraft.assign(aircraft, "f15");
+                settings.view.size_px = size_px;
                 races.push_back(race(settings, study.race_frames, study.quiet));
             }
         }
@@ -102,12 +103,12 @@ std::vector<Compared> run_comparisons(const HiddenSurfaceStudy& study) {
     for (const char* path : paths) {
         for (const char* aircraft : aircraft_names) {
             for (std::size_t v = 0; v < views.size(); ++v) {
-                scene::Settings settings = study.settings;
-                settings.path = path;
-                settings.aircraft = {aircraft};
-                settings.view = views[v];
+                settings::Settings settings = study.settings;
+                settings.path.name = path;
+                settings.path.aircraft = {aircraft};
+                settings.view.kind = views[v];
                 if (v == behind_ridges) {
-                    settings.eye_m = ridge_tower(world::load_world(settings));
+                    settings.view.eye_m = ridge_tower(world::load_world(settings));
                 }
                 Compared run{{path, aircraft, view_names[v]}, {}};
                 std::optional<base::Progress> progress;
@@ -176,9 +177,9 @@ picture_table(const std::vector<Compared>& compared, const HiddenSurfaceStudy& s
         "lost in the first. Cuts: ground triangles and aircraft polygons painted once more in "
         "front of an aircraft, cut to its outline.",
         study.every,
-        short_name(study.settings.terrain),
-        study.settings.size_px.x,
-        study.settings.size_px.y);
+        short_name(study.settings.path.terrain),
+        study.settings.view.size_px.x,
+        study.settings.view.size_px.y);
     return table;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/scene/settings.h"
+#include "ui/settings/settings.h"
 
 #include <filesystem>
 
@@ -8,9 +8,9 @@ namespace octant::ui::studies::draw_order {
 
 struct HiddenSurfaceStudy {
     std::filesystem::path out;
-    visuals::scene::Settings settings; ///< terrain, triangles and context are taken from it
-    bool race = true;                  ///< frames a second of the three ways
-    bool pictures = true;              ///< polygon numbers against the depth buffer
+    settings::Settings settings; ///< terrain, triangles and context are taken from it
+    bool race = true;            ///< frames a second of the three ways
+    bool pictures = true;        ///< polygon numbers against the depth buffer
     int race_frames = 200;
     int every = 10; ///< every Nth frame is compared
     bool json = false;

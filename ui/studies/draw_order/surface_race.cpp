@@ -1,8 +1,8 @@
 #include "ui/studies/draw_order/surface_race.h"
 
 #include "ui/base/progress.h"
-#include "ui/report/statistics.h"
 #include "ui/flight/session.h"
+#include "ui/report/statistics.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -25,21 +25,21 @@ RacedWay figures_of(const std::vector<double>& frame_ms, std::vector<int> draw_c
 
 } // namespace
 
-Race race(const visuals::scene::Settings& settings, int frames, bool quiet) {
+Race race(const settings::Settings& settings, int frames, bool quiet) {
     std::array<std::unique_ptr<flight::Session>, raced_ways.size()> sessions;
     std::array<std::vector<double>, raced_ways.size()> frame_ms;
     std::array<std::vector<int>, raced_ways.size()> draw_calls;
     for (std::size_t way = 0; way < raced_ways.size(); ++way) {
-        visuals::scene::Settings own = settings;
-        own.hidden_surface = raced_ways[way];
-        own.frames = frames + warm_up_frames;
+        settings::Settings own = settings;
+        own.surface.hidden_surface = raced_ways[way];
+        own.time.frames = frames + warm_up_frames;
         sessions[way] = std::make_unique<flight::Session>(own);
     }
     Race raced;
-    raced.scene = settings.terrain;
-    raced.aircraft = static_cast<int>(settings.aircraft.size());
-    raced.width_px = settings.size_px.x;
-    raced.height_px = settings.size_px.y;
+    raced.scene = settings.path.terrain;
+    raced.aircraft = static_cast<int>(settings.path.aircraft.size());
+    raced.width_px = settings.view.size_px.x;
+    raced.height_px = settings.view.size_px.y;
     base::Progress progress(
         fmt::format(
             "{}, {} aircraft, {}x{}", raced.scene, raced.aircraft, raced.width_px, raced.height_px),

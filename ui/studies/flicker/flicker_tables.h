@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ui/studies/flicker/flicker_figures.h"
 #include "ui/report/html_text.h"
+#include "ui/studies/flicker/flicker_figures.h"
 
 #include <string>
 #include <vector>

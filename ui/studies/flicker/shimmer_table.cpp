@@ -1,11 +1,11 @@
 #include "ui/studies/flicker/shimmer_table.h"
 
 #include "ui/base/data_files.h"
-#include "ui/flight/flight_cameras.h"
-#include "ui/world/loaded_ground.h"
 #include "ui/base/progress.h"
+#include "ui/flight/flight_cameras.h"
 #include "ui/flight/session.h"
 #include "ui/studies/flicker/shimmer.h"
+#include "ui/world/loaded_ground.h"
 #include "visuals/terrain/ground_query.h"
 
 #include <array>
@@ -47,23 +47,23 @@ void add_row(report::HtmlTable& table, const std::string& path, const Change& ch
 
 Change shimmer_along(
     const PoppingStudyOptions& options,
-    const scene::Settings& flown,
+    const settings::Settings& flown,
     const terrain::GroundSamples& ground) {
     const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(flown);
     std::array<std::unique_ptr<flight::Session>, ways.size()> sessions;
     for (std::size_t k = 0; k < ways.size(); ++k) {
-        scene::Settings settings = flown;
-        settings.samples = ways[k].samples;
-        settings.geomorphs = ways[k].geomorphs;
+        settings::Settings settings = flown;
+        settings.view.samples = ways[k].samples;
+        settings.ground.geomorphs = ways[k].geomorphs;
         sessions[k] = std::make_unique<flight::Session>(settings);
     }
-    const double radius_m = flown.earth_curvature ? terrain::earth_radius_m : 0.0;
-    base::Progress progress(flown.path, static_cast<int>(cameras.size()), options.quiet);
+    const double radius_m = flown.ground.earth_curvature ? terrain::earth_radius_m : 0.0;
+    base::Progress progress(flown.path.name, static_cast<int>(cameras.size()), options.quiet);
     Change change;
     const auto step = static_cast<std::size_t>(options.every);
     for (std::size_t frame = 0; frame + 1 < cameras.size(); frame += step) {
         const std::vector<SamePlace> places =
-            same_places(ground, cameras[frame], cameras[frame + 1], flown.size_px, radius_m);
+            same_places(ground, cameras[frame], cameras[frame + 1], flown.view.size_px, radius_m);
         for (std::size_t k = 0; k < ways.size(); ++k) {
             flight::Session& session = *sessions[k];
             session.make_current();
@@ -83,7 +83,7 @@ Change shimmer_along(
 
 report::HtmlTable shimmer_table(const PoppingStudyOptions& options) {
     const world::LoadedGround ground =
-        world::load_ground(options.settings.terrain, options.settings.terrain_spacing_m);
+        world::load_ground(options.settings.path.terrain, options.settings.path.terrain_spacing_m);
     const terrain::GroundSamples samples = ground.samples();
     report::HtmlTable table;
     table.title = "Shimmer: mean change of luminance (0 to 255) after the motion is taken out";
@@ -97,10 +97,10 @@ report::HtmlTable shimmer_table(const PoppingStudyOptions& options) {
         "4 samples, geomorphs"};
     Change all;
     for (const std::string& path : base::built_in_paths()) {
-        scene::Settings settings = options.settings;
-        settings.path = path;
-        settings.shadows = false;
-        settings.mesh = scene::GroundMetric::ScreenError;
+        settings::Settings settings = options.settings;
+        settings.path.name = path;
+        settings.surface.shadows = false;
+        settings.ground.mesh = scene::GroundMetric::ScreenError;
         const Change change = shimmer_along(options, settings, samples);
         add_row(table, path, change);
         for (std::size_t k = 0; k < ways.size(); ++k) {

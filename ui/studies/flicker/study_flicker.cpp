@@ -1,11 +1,11 @@
 #include "ui/studies/flicker/study_flicker.h"
 
 #include "sim/base/output_file.h"
+#include "ui/base/progress.h"
+#include "ui/report/table_text.h"
 #include "ui/studies/flicker/flicker_figures.h"
 #include "ui/studies/flicker/flicker_runs.h"
 #include "ui/studies/flicker/flicker_tables.h"
-#include "ui/base/progress.h"
-#include "ui/report/table_text.h"
 #include "ui/world/terrain_file.h"
 #include "visuals/terrain/count_series.h"
 #include "visuals/terrain/loop_gain.h"
@@ -196,7 +196,8 @@ void study_flicker(const FlickerStudyOptions& options) {
     }
     write_file(options.out / "flicker.md", with_figures);
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
-    base::say(options.quiet,
+    base::say(
+        options.quiet,
         fmt::format(
             "tables and figures: {0}/flicker.md; each table and dn of the paths as .csv, each "
             "figure as .png",

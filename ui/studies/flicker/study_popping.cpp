@@ -1,18 +1,18 @@
 #include "ui/studies/flicker/study_popping.h"
 
 #include "sim/base/output_file.h"
+#include "sim/base/worker_team.h"
 #include "ui/base/data_files.h"
-#include "ui/flight/flight_cameras.h"
-#include "ui/world/loaded_ground.h"
-#include "ui/terrain/mesh_maker.h"
 #include "ui/base/progress.h"
+#include "ui/flight/flight_cameras.h"
 #include "ui/report/html_text.h"
 #include "ui/report/statistics.h"
-#include "ui/studies/flicker/shimmer_table.h"
 #include "ui/report/table_text.h"
+#include "ui/studies/flicker/shimmer_table.h"
+#include "ui/terrain/mesh_maker.h"
+#include "ui/world/loaded_ground.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/vertex_jump.h"
-#include "sim/base/worker_team.h"
 
 #include <algorithm>
 #include <array>
@@ -48,28 +48,31 @@ struct Jumps {
     std::size_t largest_frame = 0;
 };
 
-ui::terrain::GroundMeshOptions mesh_options(const scene::Settings& settings, const Way& way) {
+ui::terrain::GroundMeshOptions mesh_options(const settings::Settings& settings, const Way& way) {
     constexpr double default_error_px = 0.25; // as Settings::error_px
     ui::terrain::GroundMeshOptions options;
     options.mesh = way.mesh;
-    options.fans = settings.fans;
+    options.fans = settings.ground.fans;
     options.geomorphs = way.geomorphs;
-    options.error_px = settings.error_px.value_or(default_error_px);
+    options.error_px = settings.ground.error_px.value_or(default_error_px);
     return options;
 }
 
 Jumps jumps_along(
-    ui::terrain::MeshMaker& maker, const scene::Settings& settings, const std::vector<flight::FlightCamera>& cameras) {
+    ui::terrain::MeshMaker& maker,
+    const settings::Settings& settings,
+    const std::vector<flight::FlightCamera>& cameras) {
     ui::terrain::GroundViewOptions seen;
-    seen.size_px = settings.size_px;
-    seen.earth_radius_m = settings.earth_curvature ? terrain::earth_radius_m : 0.0;
+    seen.size_px = settings.view.size_px;
+    seen.earth_radius_m = settings.ground.earth_curvature ? terrain::earth_radius_m : 0.0;
     terrain::JumpMeter meter;
     Jumps found;
     for (std::size_t frame = 0; frame < cameras.size(); ++frame) {
         const scene::Camera& camera = cameras[frame].camera;
-        const terrain::GroundMesh mesh =
-            maker.mesh_within(ui::terrain::mesh_view(camera, seen), scene::triangle_target(settings));
-        const auto jump = meter.next(mesh, ui::terrain::picture_view(camera, settings.size_px));
+        const terrain::GroundMesh mesh = maker.mesh_within(
+            ui::terrain::mesh_view(camera, seen), scene::triangle_target(settings));
+        const auto jump =
+            meter.next(mesh, ui::terrain::picture_view(camera, settings.view.size_px));
         if (!jump) {
             continue;
         }
@@ -101,7 +104,7 @@ void add_row(
 
 report::HtmlTable popping_table(const PoppingStudyOptions& options) {
     const world::LoadedGround ground =
-        world::load_ground(options.settings.terrain, options.settings.terrain_spacing_m);
+        world::load_ground(options.settings.path.terrain, options.settings.path.terrain_spacing_m);
     std::vector<std::unique_ptr<ui::terrain::MeshMaker>> makers;
     for (const Way& way : ways) {
         makers.push_back(ui::terrain::make_mesh_maker(ground, mesh_options(options.settings, way)));
@@ -111,8 +114,8 @@ report::HtmlTable popping_table(const PoppingStudyOptions& options) {
     table.header = {"path", "mesh", "frames", "maximum px", "in frame", "99.9 % px", "median px"};
     std::array<Jumps, ways.size()> all;
     for (const std::string& path : base::built_in_paths()) {
-        scene::Settings settings = options.settings;
-        settings.path = path;
+        settings::Settings settings = options.settings;
+        settings.path.name = path;
         const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(settings);
         base::say(options.quiet, fmt::format("{}: {} frames", path, cameras.size()));
         std::array<Jumps, ways.size()> found;
@@ -137,11 +140,11 @@ report::HtmlTable popping_table(const PoppingStudyOptions& options) {
         "Each frame: the two meshes' surfaces at every vertex of either that both frames show "
         "(from 10 m on), apart on the screen as the later frame sees it. {}, {} triangles at most, "
         "{}x{}, {:.4g} frames a second.",
-        options.settings.terrain,
+        options.settings.path.terrain,
         scene::triangle_target(options.settings),
-        options.settings.size_px.x,
-        options.settings.size_px.y,
-        options.settings.rate_hz);
+        options.settings.view.size_px.x,
+        options.settings.view.size_px.y,
+        options.settings.time.rate_hz);
     return table;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/scene/settings.h"
+#include "ui/settings/settings.h"
 
 #include <filesystem>
 
@@ -8,7 +8,7 @@ namespace octant::ui::studies::flicker {
 
 struct PoppingStudyOptions {
     std::filesystem::path out;
-    visuals::scene::Settings settings; ///< terrain, size, triangles, error_px, rate, frames, ...
+    settings::Settings settings; ///< terrain, size, triangles, error_px, rate, frames, ...
     bool shimmer = false;
     int every = 60; ///< shimmer: a pair of frames in so many
     bool json = false;

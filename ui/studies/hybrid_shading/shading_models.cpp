@@ -107,8 +107,8 @@ models::TriangleMesh uneven_ball(int rings, int slices) {
 
 std::vector<ShadedModel> shading_models(const std::vector<std::filesystem::path>& more) {
     std::vector<ShadedModel> all;
-    all.push_back(
-        shaded("torus of 416 triangles", triangles_of(models::made::torus(26, 8)), round_crease_rad));
+    all.push_back(shaded(
+        "torus of 416 triangles", triangles_of(models::made::torus(26, 8)), round_crease_rad));
     all.push_back(shaded("torus of 416 quads", models::made::torus(), round_crease_rad));
     for (const char* aircraft : {"f15", "500md"}) {
         all.push_back(shaded(aircraft, models::polygons::read_obj(base::aircraft_file(aircraft))));

@@ -1,8 +1,8 @@
 #include "ui/studies/hybrid_shading/shading_times.h"
 
 #include "ui/base/progress.h"
-#include "ui/report/statistics.h"
 #include "ui/flight/session.h"
+#include "ui/report/statistics.h"
 
 #include <array>
 #include <fmt/format.h>
@@ -34,18 +34,18 @@ constexpr std::array ways{
     Way{"hybrid, 50 %", scene::AircraftShading::Hybrid, 0.5},
     Way{"Gouraud", scene::AircraftShading::Gouraud}};
 
-scene::Settings settings_of(const std::string& aircraft, const Way& way) {
-    scene::Settings settings;
-    settings.path = "turn";
-    settings.view = scene::View::Orbit; // so that the choice changes
-    settings.terrain = "none";
-    settings.aircraft = {aircraft};
-    settings.frames = frames;
-    settings.warm_up = 0;
-    settings.shading = way.shading;
-    settings.shading_rule = way.rule;
-    settings.shading_far_m = 1e6; // by the share alone
-    settings.smooth_share = way.share;
+settings::Settings settings_of(const std::string& aircraft, const Way& way) {
+    settings::Settings settings;
+    settings.path.name = "turn";
+    settings.view.kind = scene::View::Orbit; // so that the choice changes
+    settings.path.terrain = "none";
+    settings.path.aircraft = {aircraft};
+    settings.time.frames = frames;
+    settings.time.warm_up = 0;
+    settings.shading.kind = way.shading;
+    settings.shading.rule = way.rule;
+    settings.shading.far_m = 1e6; // by the share alone
+    settings.shading.smooth_share = way.share;
     return settings;
 }
 

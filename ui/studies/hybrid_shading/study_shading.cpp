@@ -4,12 +4,12 @@
 #include "ui/base/progress.h"
 #include "ui/report/plots.h"
 #include "ui/report/png_file.h"
+#include "ui/report/table_text.h"
 #include "ui/studies/hybrid_shading/shading_models.h"
-#include "ui/studies/shading_pictures.h"
 #include "ui/studies/hybrid_shading/shading_runs.h"
 #include "ui/studies/hybrid_shading/shading_tables.h"
 #include "ui/studies/hybrid_shading/shading_times.h"
-#include "ui/report/table_text.h"
+#include "ui/studies/shading_pictures.h"
 
 #include <algorithm>
 #include <array>
@@ -174,7 +174,8 @@ void study_shading(const ShadingStudyOptions& options) {
     }
     write_file(options.out / "shading.md", markdown + write_figures(options, models, runs));
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
-    base::say(options.quiet,
+    base::say(
+        options.quiet,
         fmt::format(
             "tables and figures: {0}/shading.md; each table as .csv, each figure as .png",
             options.out.string()));

@@ -1,8 +1,8 @@
 #include "ui/studies/refinement/refinement_pictures.h"
 
-#include "visuals/refine/partition_mesh.h"
 #include "ui/report/png_file.h"
 #include "ui/studies/shading_pictures.h"
+#include "visuals/refine/partition_mesh.h"
 #include "visuals/refine/refine_region.h"
 #include "visuals/shading/vertex_normals.h"
 
@@ -97,7 +97,8 @@ std::string write_refinement_pictures(
         report::write_png(folder / file, picture_of(mesh, y_up).view());
         return fmt::format("![{}]({}) ", name, file);
     };
-    const models::TriangleMesh original = visuals::refine::partition_mesh(front, visuals::refine::ColourBy::Nothing);
+    const models::TriangleMesh original =
+        visuals::refine::partition_mesh(front, visuals::refine::ColourBy::Nothing);
     std::string markdown = add("original", original);
     models::TriangleMesh base = refine::active_mesh(front).mesh;
     base.colours.clear();
@@ -106,7 +107,10 @@ std::string write_refinement_pictures(
     const refine::Sphere chest = chest_of(original, y_up);
     refine::refine_regions(front, std::span(&chest, 1));
     front.repair();
-    markdown += add("region", visuals::refine::coloured_active(refine::active_mesh(front), visuals::refine::ColourBy::Level));
+    markdown +=
+        add("region",
+            visuals::refine::coloured_active(
+                refine::active_mesh(front), visuals::refine::ColourBy::Level));
     return fmt::format(
         "{}: {} vertices; its base mesh of {}; the parts that these stand for; one part refined, "
         "{} vertices (blue: original ones)\n\n{}\n",

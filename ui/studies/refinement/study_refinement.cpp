@@ -4,10 +4,10 @@
 #include "models/simplify/simplify.h"
 #include "sim/base/output_file.h"
 #include "ui/base/progress.h"
-#include "ui/world/refine_input.h"
+#include "ui/report/table_text.h"
 #include "ui/studies/refinement/refinement_pictures.h"
 #include "ui/studies/refinement/refinement_tables.h"
-#include "ui/report/table_text.h"
+#include "ui/world/refine_input.h"
 
 #include <cstdio>
 #include <fmt/format.h>

@@ -1,11 +1,11 @@
 #include "ui/studies/simplification/study_simplification.h"
 
 #include "sim/base/output_file.h"
-#include "ui/studies/simplification/peer_program.h"
 #include "ui/base/progress.h"
+#include "ui/report/table_text.h"
+#include "ui/studies/simplification/peer_program.h"
 #include "ui/studies/simplification/simplification_runs.h"
 #include "ui/studies/simplification/simplification_tables.h"
-#include "ui/report/table_text.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -152,7 +152,8 @@ void write_and_print(
                     "faces.\n";
     }
     write_file(options.out / "simplification.md", markdown);
-    base::say(options.quiet,
+    base::say(
+        options.quiet,
         fmt::format("tables: {0}/simplification.md and one .csv each", options.out.string()));
 }
 
@@ -172,7 +173,8 @@ void study_simplification(const SimplificationStudyOptions& options) {
         tables.emplace_back("quality", quality_table(runs, !quality.peers.empty()));
         figure = quality_figure(runs);
         if (figure.empty()) {
-            base::say(options.quiet,
+            base::say(
+                options.quiet,
                 "rms.png not made: it takes gnuplot and more than one number of faces");
         }
     }

@@ -1,6 +1,6 @@
 #include "models/made/made_terrain.h"
-#include "ui/terrain/random_view.h"
 #include "ui/studies/flicker/shimmer.h"
+#include "ui/terrain/random_view.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
