@@ -63,15 +63,16 @@ std::uint64_t own_ticks() {
 
 std::string compiler_text() {
 #if defined(__clang__)
-    const std::string name = "clang ";
+    constexpr std::string_view name = "clang";
 #else
-    const std::string name = "g++ ";
+    constexpr std::string_view name = "g++";
 #endif
 #if defined(__OPTIMIZE__)
-    return name + __VERSION__ + ", optimised";
+    constexpr std::string_view how = "optimised";
 #else
-    return name + __VERSION__ + ", not optimised";
+    constexpr std::string_view how = "not optimised";
 #endif
+    return fmt::format("{} {}, {}", name, __VERSION__, how);
 }
 
 } // namespace
