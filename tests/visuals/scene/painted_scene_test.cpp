@@ -30,10 +30,10 @@ Total paint_scenes(
     int aircraft,
     std::shared_ptr<const Ground> ground,
     const std::function<glm::dvec3(PlaceDice&)>& place,
-    const std::function<glm::dvec3(PlaceDice&)>& eye) {
+    const std::function<glm::dvec3(PlaceDice&)>& eye,
+    const Settings& settings = plain_settings()) {
     Total total;
     PlaceDice dice(1989);
-    const Settings settings = plain_settings();
     Scene scene;
     scene.ground = std::move(ground);
     scene.add_model(convex_aircraft(box_model({10.0, 3.0, 2.0})));
@@ -241,6 +241,7 @@ TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {
     }
     Settings settings = plain_settings();
     settings.ground.triangles = 600;
+    settings.ground.mesh = GroundMetric::Midpoint;
     const Total total = paint_scenes(
         60,
         5,
@@ -252,7 +253,8 @@ TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {
         [](PlaceDice& dice) {
             const glm::dvec3 at = dice.in_box({380, 380, 0});
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 60.0));
-        });
+        },
+        settings);
     CHECK(total.seen > 5000);
     CHECK(total.wrong == 0);
     CHECK(total.cuts > 100);
