@@ -17,7 +17,7 @@ std::vector<FlightCamera> flight_cameras(const settings::Settings& settings) {
     };
     Simulation simulation(world);
     simulation.begin_at(times.at_s.front());
-    scene::Subject subject = world.scene.models[world.scene.aircraft.front()].subject;
+    scene::Subject subject = world.scene.model_of(0).subject;
     subject.radius_m = simulation.formation().framed_radius_m(subject.radius_m);
     std::vector<FlightCamera> cameras;
     for (const double time_s : times.at_s) {

@@ -1,9 +1,10 @@
 #include "ui/flight/inset_view.h"
 
-#include "ui/world/scene_ground.h"
+#include "visuals/scene/ground_mesher.h"
 
 #include <algorithm>
 #include <cassert>
+#include <memory>
 #include <utility>
 
 namespace octant::ui::flight {
@@ -30,27 +31,11 @@ settings::Settings inset_settings(const settings::Settings& settings, const glm:
     return own;
 }
 
-std::unique_ptr<scene::Ground>
-load_ground_of(const settings::Settings& settings, world::DrawnBy drawn_by) {
-    settings::Settings bare = settings; // the texture is the world's
-    bare.air.drape.reset();
-    bare.air.ground_shading = scene::GroundShading::Vertex;
-    world::World world;
-    world::load_scene_ground(bare, drawn_by, world);
-    return std::move(world.scene.ground);
-}
-
 } // namespace
 
-InsetView::InsetView(
-    const settings::Settings& settings, const world::World& world, world::DrawnBy drawn_by)
-    : drawn_by_(drawn_by) {
+InsetView::InsetView(const settings::Settings& settings, const scene::Scene& scene)
+    : scene_(scene) {
     place(settings);
-    scene_.ground = load_ground_of(settings_, drawn_by);
-    scene_.ground_texture = world.scene.ground_texture;
-    scene_.models = world.scene.models;
-    scene_.aircraft = world.scene.aircraft;
-    scene_.cockpit = world.scene.cockpit;
     planner_.emplace(scene_, settings_);
 }
 
@@ -67,15 +52,12 @@ void InsetView::place(const settings::Settings& settings) {
 }
 
 void InsetView::follow(const settings::Settings& settings) {
+    std::unique_ptr<scene::GroundMesher> mesher = planner_->take_mesher();
+    settles_ = settles_ || &mesher->ground() != scene_.ground.get();
     planner_.reset();
     place(settings);
-    if (scene_.ground->can_follow(world::ground_settings(settings_))) {
-        scene_.ground->follow(world::ground_settings(settings_));
-    } else {
-        scene_.ground = load_ground_of(settings_, drawn_by_);
-        settles_ = true;
-    }
-    planner_.emplace(scene_, settings_);
+    planner_.emplace(
+        scene_, settings_, scene::mesher_after(std::move(mesher), *scene_.ground, settings_));
 }
 
 const scene::FramePlan& InsetView::plan(
@@ -85,9 +67,9 @@ const scene::FramePlan& InsetView::plan(
     if (std::exchange(settles_, false)) {
         planner_->settle(camera);
     }
-    planner_->set_smooth_share(smooth_share);
-    scene::PlanCounts counts;
-    return planner_->plan(camera, states, counts);
+    scene::PlanRequest request{camera, states};
+    request.smooth.share = smooth_share;
+    return planner_->plan(request).plan;
 }
 
 } // namespace octant::ui::flight

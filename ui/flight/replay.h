@@ -1,5 +1,7 @@
 #pragma once
 
+#include "ui/flight/decision.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -10,12 +12,6 @@ class App;
 }
 
 namespace octant::ui::flight {
-
-/// What the clock decided for a frame, or the settings.
-struct Decision {
-    int triangle_target = 0;
-    int smooth_target = -1; ///< negative: by the settings' share
-};
 
 /// A recording that is to be flown again as its rows say.
 struct Replay {

@@ -5,7 +5,6 @@
 #include "visuals/gl/window_context.h"
 
 #include <algorithm>
-#include <limits>
 #include <span>
 #include <utility>
 
@@ -52,7 +51,7 @@ Session::Session(
     renderer_->warm_up();
     gl::spread_raster_threads();
     if (settings_.view.inset) {
-        inset_ = std::make_unique<InsetView>(settings_, world_, drawn_by());
+        inset_ = std::make_unique<InsetView>(settings_, world_.scene);
     }
     start_flight();
 }
@@ -73,27 +72,25 @@ void Session::load_into_renderer(Shows shows) {
         return;
     }
     std::vector<scene::ModelBuffers> buffers;
-    for (const scene::AircraftModel& model : world_.scene.models) {
-        buffers.push_back(model.buffers);
+    for (const auto& model : world_.scene.models) {
+        buffers.push_back(model->buffers);
     }
     renderer_->load_models(buffers);
     load_texture();
 }
 
 void Session::load_texture() {
-    if (world_.scene.ground_texture) {
-        renderer_->load_ground_texture(*world_.scene.ground_texture);
-        world_.scene.ground_texture->albedo.texels = {};
-        world_.scene.ground_texture->normal.texels = {};
+    std::shared_ptr<const scene::GroundTexture>& texture = world_.scene.ground_texture;
+    if (texture) {
+        renderer_->load_ground_texture(*texture);
+        texture = std::make_shared<const scene::GroundTexture>(scene::without_texels(*texture));
     }
 }
 
 void Session::start_flight() {
     simulation_.emplace(world_);
     planner_.emplace(world_.scene, settings_);
-    load_settings_ = scene::load_settings(settings_, rate_hz());
-    load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
-    shading_.reset();
+    decider_.begin(settings_, rate_hz());
     begin_at(times_.at_s.front());
     planner_->settle(camera_of(settings_));
 }
@@ -105,62 +102,11 @@ void Session::begin_at(double time_s) {
 
 void Session::replay(std::vector<Decision> decisions) {
     times_.cut_to(decisions.size());
-    replayed_ = std::move(decisions);
-}
-
-int Session::decide_triangles(int frame) {
-    if (!replayed_.empty()) {
-        const Decision& replayed = replayed_[static_cast<std::size_t>(frame)];
-        load_ = scene::with_target(load_, replayed.triangle_target);
-        return load_.triangles();
-    }
-    return settings_.adapt.terrain ? load_.triangles() : scene::triangle_target(settings_);
-}
-
-/// Nothing: as the settings' share says.
-std::optional<int> Session::decide_smooth(int frame) const {
-    if (!replayed_.empty()) {
-        const int replayed = replayed_[static_cast<std::size_t>(frame)].smooth_target;
-        return replayed < 0 ? std::nullopt : std::optional(replayed);
-    }
-    if (!settings_.adapt.shading) {
-        return std::nullopt;
-    }
-    return shading_ ? shading_->smooth : 0;
-}
-
-/// From what a frame took, how many polygons of the next one are smooth.
-void Session::adapt_shading(const scene::PlanCounts& counts, const report::FrameRecord& record) {
-    if (!settings_.adapt.shading || record.warm_up || counts.may_be_smooth == 0) {
-        return;
-    }
-    if (!shading_) {
-        shading_ = visuals::shading::starting_shading(counts.may_be_smooth);
-        return;
-    }
-    visuals::shading::ShadingControl control;
-    control.share_ms = 1000.0 / rate_hz();
-    shading_ = visuals::shading::next_shading(
-        *shading_,
-        control,
-        {record.frame_ms, counts.may_be_smooth - counts.smooth_polygons, counts.smooth_polygons},
-        counts.may_be_smooth);
-}
-
-/// What the frame's row says as its stress; decides the next frame's target where it adapts.
-double Session::stress_after(const report::FrameRecord& record) {
-    if (!settings_.adapt.terrain) {
-        return record.frame_ms * rate_hz() / 1000.0;
-    }
-    if (!record.warm_up) {
-        load_ =
-            scene::next_state(load_, load_settings_, {record.frame_ms, record.terrain_triangles});
-    }
-    return load_.stress.value_or(std::numeric_limits<double>::quiet_NaN());
+    decider_.replay(std::move(decisions));
 }
 
 scene::Camera Session::camera_of(const settings::Settings& settings) const {
-    scene::Subject subject = world_.scene.models[world_.scene.aircraft.front()].subject;
+    scene::Subject subject = world_.scene.model_of(0).subject;
     subject.radius_m = simulation_->formation().framed_radius_m(subject.radius_m);
     return scene::camera_of(
         settings.view,
@@ -185,13 +131,12 @@ void Session::reach(double time_s, int frame, Moment& moment) {
     moment.states.assign(simulation_->states().begin(), simulation_->states().end());
     moment.state_hash = simulation_->state_hash();
     look(moment);
-    moment.triangle_target = decide_triangles(frame);
+    moment.triangle_target = decider_.triangle_target(frame);
 }
 
 /// Begins on the ground of the moment to come.
 void Session::mesh_ahead() {
-    planner_->set_triangle_target(next_.triangle_target);
-    planner_->prepare(next_.camera);
+    planner_->prepare(next_.camera, next_.triangle_target);
     if (inset_) {
         inset_->prepare(next_.inset_camera);
     }
@@ -212,20 +157,20 @@ report::FrameRecord Session::draw_at(double time_s, std::optional<double> next_s
     return picture_of(drawn_++, time_s, next_s);
 }
 
-scene::PlanCounts Session::make_plans() {
-    planner_->set_triangle_target(now_.triangle_target);
-    planner_->set_smooth(smooth_target_);
-    scene::PlanCounts counts;
-    plan_ = &planner_->plan(now_.camera, now_.states, counts);
-    if (ids_) {
-        plan_ = &ids_->of(*plan_);
-    }
+scene::PlanCounts Session::make_plans(std::function<void()> when_refined) {
+    const scene::PlannedFrame frame = planner_->plan(
+        {.camera = now_.camera,
+         .states = now_.states,
+         .triangle_target = now_.triangle_target,
+         .smooth = {.polygons = smooth_target_, .share = std::nullopt},
+         .when_refined = std::move(when_refined)});
+    plan_ = ids_ ? &ids_->of(frame.plan) : &frame.plan;
     std::optional<double> share; // of the picture's polygons, and so of the inset's
-    if (smooth_target_ && counts.may_be_smooth > 0) {
-        share = std::min(static_cast<double>(*smooth_target_) / counts.may_be_smooth, 1.0);
+    if (smooth_target_ && frame.counts.may_be_smooth > 0) {
+        share = std::min(static_cast<double>(*smooth_target_) / frame.counts.may_be_smooth, 1.0);
     }
     inset_plan_ = inset_ ? &inset_->plan(now_.inset_camera, now_.states, share) : nullptr;
-    return counts;
+    return frame.counts;
 }
 
 void Session::draw_plans() {
@@ -255,10 +200,8 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     next_is_reached_ = false;
     record.sim_ms = stage.lap_ms();
 
-    smooth_target_ = decide_smooth(frame);
-    planner_->refine(now_.camera, now_.states);
-    record.refine_ms = stage.lap_ms();
-    const scene::PlanCounts counts = make_plans();
+    smooth_target_ = decider_.smooth_target(frame);
+    const scene::PlanCounts counts = make_plans([&] { record.refine_ms = stage.lap_ms(); });
     record.plan_ms = record.refine_ms + stage.lap_ms();
 
     if (next_s && settings_.ground.mesh_ahead) {
@@ -300,8 +243,12 @@ void Session::fill_in(const scene::PlanCounts& counts, report::FrameRecord& reco
     record.error_px = counts.ground.error_px;
     record.triangle_change = record.frame == 0 ? 0 : counts.ground.triangles - last_triangles_;
     last_triangles_ = counts.ground.triangles;
-    record.stress = stress_after(record);
-    adapt_shading(counts, record);
+    record.stress = decider_.learn(
+        {record.frame_ms,
+         record.terrain_triangles,
+         counts.may_be_smooth,
+         counts.smooth_polygons,
+         record.warm_up});
     record.overrun = record.frame_ms > report::overrun_16_ms ? 1 : 0;
     record.eye_m = now_.camera.eye_m;
     record.aircraft_m = now_.states.front().position_m;
@@ -312,7 +259,7 @@ void Session::fill_in(const scene::PlanCounts& counts, report::FrameRecord& reco
 void Session::read_picture() {
     if (renderer_->is_in_window()) {
         if (plan_ == nullptr) {
-            make_plans();
+            make_plans(nullptr);
         }
         renderer_->aim_at_window(glm::ivec2(0));
         draw_plans();

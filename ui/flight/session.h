@@ -1,18 +1,18 @@
 #pragma once
 
 #include "ui/base/stopwatch.h"
+#include "ui/flight/decider.h"
 #include "ui/flight/inset_view.h"
-#include "ui/flight/replay.h"
 #include "ui/flight/simulation.h"
 #include "ui/report/frame_record.h"
 #include "ui/settings/settings.h"
 #include "ui/world/frame_times.h"
+#include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
 #include "visuals/gl/context.h"
 #include "visuals/gl/picture.h"
 #include "visuals/gl/renderer.h"
 #include "visuals/scene/id_plan.h"
-#include "visuals/scene/load_controller.h"
 #include "visuals/scene/planner.h"
 #include "visuals/shading/shading_controller.h"
 
@@ -111,8 +111,8 @@ public:
     /// States of all aircraft in the last picture.
     std::span<const sim::AircraftState> states() const { return now_.states; }
 
-    /// For another plan of the same world.
-    visuals::scene::Scene& scene() { return world_.scene; }
+    /// Triangles of ground that the last picture aimed at.
+    int triangle_target() const { return now_.triangle_target; }
 
     /// Reads the last picture where a presenter showed it; draws it once more if it went straight
     /// into a window.
@@ -122,7 +122,9 @@ public:
     const visuals::gl::Picture& picture() const { return picture_; }
 
     /// What `--adapt shading` has found out.
-    const std::optional<visuals::shading::ShadingState>& shading() const { return shading_; }
+    const std::optional<visuals::shading::ShadingState>& shading() const {
+        return decider_.shading();
+    }
 
     /// Over the aircraft states at every fixed step so far, to the end of the run once its last
     /// frame is drawn, and over the pixels of every frame.
@@ -152,26 +154,23 @@ private:
     report::FrameRecord picture_of(int frame, double time_s, std::optional<double> next_s);
     void look(Moment& moment) const;
     void reach(double time_s, int frame, Moment& moment);
-    int decide_triangles(int frame);
-    std::optional<int> decide_smooth(int frame) const;
-    void adapt_shading(const visuals::scene::PlanCounts& counts, const report::FrameRecord& record);
-    double stress_after(const report::FrameRecord& record);
     visuals::scene::Camera camera_of(const settings::Settings& settings) const;
     void mesh_ahead();
-    visuals::scene::PlanCounts make_plans();
+    visuals::scene::PlanCounts make_plans(std::function<void()> when_refined);
     void draw_plans();
     void fill_in(const visuals::scene::PlanCounts& counts, report::FrameRecord& record);
     void change_world(const settings::Settings& settings);
     void change_picture(const settings::Settings& settings);
-    void take_ground(world::World* other);
-    void follow_inset(std::unique_ptr<InsetView> new_inset);
+    void take_ground(world::SceneGround ground);
+    void follow_ground(bool other_control);
+    void follow_inset();
 
     settings::Settings settings_;
     std::unique_ptr<visuals::gl::Context> context_;
     world::World world_;
     std::unique_ptr<visuals::gl::Renderer> renderer_; ///< goes before its context
     std::optional<visuals::scene::Planner> planner_;
-    std::unique_ptr<InsetView> inset_;
+    std::unique_ptr<InsetView> inset_; ///< of the same scene
     std::optional<visuals::scene::IdPlan> ids_;
     std::optional<Simulation> simulation_;
     world::FrameTimes times_;
@@ -184,12 +183,8 @@ private:
     Presenter presenter_;
     visuals::gl::Picture picture_;
     int last_triangles_ = 0;
-    visuals::scene::LoadSettings load_settings_;
-    visuals::scene::LoadState load_;
-    std::optional<visuals::shading::ShadingState>
-        shading_;                      ///< nothing before the first frame counts
+    Decider decider_;
     std::optional<int> smooth_target_; ///< of the last picture; nothing: by the settings' share
-    std::vector<Decision> replayed_;   ///< by frame; empty = nothing is replayed
     int drawn_ = 0;                    ///< pictures by draw_at
     Hash picture_hash_;
     base::Stopwatch since_first_frame_;

@@ -2,9 +2,10 @@
 #include "ui/flight/session.h"
 #include "ui/settings/settings_change.h"
 #include "ui/world/scene_ground.h"
-#include "visuals/scene/ground_palette.h"
+#include "visuals/scene/ground_mesher.h"
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -51,77 +52,74 @@ void Session::apply(const settings::Settings& settings) {
 void Session::change_world(const settings::Settings& settings) {
     world::World world = world::load_world(settings, drawn_by());
     world::FrameTimes times = world::frame_times_of(settings, world.flight);
-    std::unique_ptr<InsetView> inset;
-    if (settings.view.inset) {
-        inset = std::make_unique<InsetView>(settings, world, drawn_by());
-    }
     renderer_->resize(settings.view.size_px, settings.view.samples);
     const double time_s = simulation_->time_s();
     const bool goes_on = same_flight(settings, settings_) && !simulation_->by_hand();
     plan_ = nullptr;
     planner_.reset();
+    inset_.reset();
     settings_ = settings;
     world_ = std::move(world);
-    inset_ = std::move(inset);
     times_ = std::move(times);
     try {
         load_into_renderer(Shows::World);
     } catch (const Error& fault) {
         throw std::runtime_error(fault.what());
     }
+    follow_inset();
     start_flight();
     if (goes_on) {
         begin_at(std::min(time_s, world_.flight.trajectory.end_s()));
     }
 }
 
+namespace {
+
+/// The ground of a scene under other settings: itself, or made of the same heights; nothing where
+/// it, or the texture over it, must be loaded.
+std::shared_ptr<const scene::Ground>
+kept_ground(const scene::Scene& scene, const settings::Settings& settings) {
+    const bool same = scene.ground->suits(settings);
+    if (same || scene.ground_texture) {
+        return same ? scene.ground : nullptr;
+    }
+    return scene.ground->remade(settings);
+}
+
+} // namespace
+
 /// All that may fail comes before what could not be taken back.
 void Session::change_picture(const settings::Settings& settings) {
     world::check_settings(settings);
     const scene::FixedPoints points = world::fixed_points(settings, world_);
-    std::unique_ptr<InsetView> new_inset;
-    if (settings.view.inset && !inset_) {
-        new_inset = std::make_unique<InsetView>(settings, world_, drawn_by());
-    }
-    world::World other;
-    const bool follows =
-        world_.scene.ground->can_follow(world::ground_settings(settings)) &&
-        !(world_.scene.ground_texture &&
-          !scene::same_colours(
-              world::ground_settings(settings).air, world::ground_settings(settings_).air));
-    if (!follows) {
-        world::load_scene_ground(settings, drawn_by(), other);
+    world::SceneGround ground;
+    ground.ground = kept_ground(world_.scene, world::ground_settings(settings));
+    if (!ground.ground) {
+        ground = world::load_scene_ground(settings, drawn_by());
     }
     renderer_->resize(settings.view.size_px, settings.view.samples);
 
     const bool other_control = settings.ground.detail != settings_.ground.detail ||
                                settings.ground.resolution_c != settings_.ground.resolution_c;
     plan_ = nullptr;
-    planner_.reset();
     settings_ = settings;
     world_.points = points;
-    take_ground(follows ? nullptr : &other);
-    planner_.emplace(world_.scene, settings_);
-    if (other_control || !follows) {
-        planner_->settle(now_.camera);
-    }
-    follow_inset(std::move(new_inset));
+    take_ground(std::move(ground));
+    follow_ground(other_control);
+    follow_inset();
     if (next_is_reached_) {
         look(next_);
     }
-    load_settings_ = scene::load_settings(settings_, rate_hz());
-    load_ = scene::starting_at(scene::triangle_target(settings_), load_settings_);
-    shading_.reset();
+    decider_.begin(settings_, rate_hz());
 }
 
-/// The ground of another world, or the same by other settings.
-void Session::take_ground(world::World* other) {
-    if (other == nullptr) {
-        world_.scene.ground->follow(world::ground_settings(settings_));
+/// The texture stays where the ground has come without one.
+void Session::take_ground(world::SceneGround ground) {
+    world_.scene.ground = std::move(ground.ground);
+    if (!ground.texture) {
         return;
     }
-    world_.scene.ground = std::move(other->scene.ground);
-    world_.scene.ground_texture = std::move(other->scene.ground_texture);
+    world_.scene.ground_texture = std::move(ground.texture);
     try {
         load_texture();
     } catch (const Error& fault) {
@@ -129,13 +127,27 @@ void Session::take_ground(world::World* other) {
     }
 }
 
-void Session::follow_inset(std::unique_ptr<InsetView> new_inset) {
-    if (new_inset) {
-        inset_ = std::move(new_inset);
-    } else if (!settings_.view.inset) {
+/// Plans by the settings and over the ground that the session has now. The detail of the ground
+/// goes on where both it and its control are the same.
+void Session::follow_ground(bool other_control) {
+    std::unique_ptr<scene::GroundMesher> mesher = planner_->take_mesher();
+    const scene::Ground& ground = *world_.scene.ground;
+    const bool settles = other_control || &mesher->ground() != &ground;
+    planner_.reset();
+    planner_.emplace(
+        world_.scene, settings_, scene::mesher_after(std::move(mesher), ground, settings_));
+    if (settles) {
+        planner_->settle(now_.camera);
+    }
+}
+
+void Session::follow_inset() {
+    if (!settings_.view.inset) {
         inset_.reset();
-    } else {
+    } else if (inset_) {
         inset_->follow(settings_);
+    } else {
+        inset_ = std::make_unique<InsetView>(settings_, world_.scene);
     }
 }
 

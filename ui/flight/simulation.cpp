@@ -47,8 +47,8 @@ Simulation::Simulation(const world::World& world)
     : world_(world)
     , formation_(world::formation_of(world.scene))
     , states_(world.scene.aircraft.size()) {
-    for (const std::uint32_t model : world.scene.aircraft) {
-        reach_down_m_.push_back(reach_below_m(world.scene.models[model]));
+    for (std::size_t i = 0; i < world.scene.aircraft.size(); ++i) {
+        reach_down_m_.push_back(reach_below_m(world.scene.model_of(i)));
     }
     begin_at(world.flight.trajectory.start_s());
 }

@@ -42,7 +42,7 @@ void show_models(const visuals::scene::Scene& scene) {
         if (flying == 0) {
             continue;
         }
-        const visuals::scene::AircraftModel& each = scene.models[model];
+        const visuals::scene::AircraftModel& each = *scene.models[model];
         ImGui::BulletText(
             "%ld x %s: %zu polygons",
             static_cast<long>(flying),

@@ -57,7 +57,7 @@ void draw_order_panel(ViewState& state, const flight::Session& session) {
         "polygons, painted one over the other, hides what is hidden.");
     const auto& scene = session.world().scene;
     if (!state.history.empty()) {
-        show_last_frame(state.history.last(), scene.models[scene.aircraft.front()].order);
+        show_last_frame(state.history.last(), scene.model_of(0).order);
     }
     edit_settings(state.wanted, controls);
     ImGui::Checkbox("painting order on the polygons", &state.order_numbers);

@@ -99,7 +99,7 @@ void write_order_numbers(const flight::Session& session) {
     if (session.states().empty() || session.settings().view.kind == scene::View::Cockpit) {
         return;
     }
-    const scene::AircraftModel& model = world.scene.models[world.scene.aircraft.front()];
+    const scene::AircraftModel& model = world.scene.model_of(0);
     const sim::AircraftState& state = session.states().front();
     const scene::Camera& camera = session.camera();
 

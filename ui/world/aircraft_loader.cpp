@@ -12,7 +12,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace octant::ui::world {
 
@@ -86,34 +90,39 @@ load_model(const std::string& name, const settings::Settings& settings, Notes& n
     return model;
 }
 
-void load_cockpit(const std::string& aircraft, scene::Scene& scene) {
+/// Nothing where the aircraft has none.
+std::optional<scene::AircraftModel> load_cockpit(const std::string& aircraft) {
     const std::filesystem::path cockpit =
         base::data_folder() / "models" / (aircraft + "-cockpit.obj");
     if (!std::filesystem::exists(cockpit)) {
-        return;
+        return std::nullopt;
     }
     models::polygons::PolygonModel model = models::polygons::read_obj(cockpit);
     draworder::DrawOrder order = draworder::file_order(model);
-    scene.cockpit = static_cast<std::uint32_t>(scene.models.size());
-    scene.models.push_back(
-        scene::aircraft_model(std::move(model), std::move(order), glm::dvec3(0.0)));
+    return scene::aircraft_model(std::move(model), std::move(order), glm::dvec3(0.0));
 }
 
 } // namespace
 
-std::vector<std::string> load_aircraft(const settings::Settings& settings, scene::Scene& scene) {
-    Notes notes;
-    std::vector<std::string> loaded;
+LoadedAircraft load_aircraft(const settings::Settings& settings) {
+    LoadedAircraft loaded;
+    const auto add = [&](scene::AircraftModel model) {
+        loaded.models.push_back(std::make_shared<const scene::AircraftModel>(std::move(model)));
+    };
+    std::vector<std::string> names;
     for (const std::string& name : settings.path.aircraft) {
-        const auto found = std::find(loaded.begin(), loaded.end(), name);
-        scene.aircraft.push_back(static_cast<std::uint32_t>(found - loaded.begin()));
-        if (found == loaded.end()) {
-            loaded.push_back(name);
-            scene.models.push_back(load_model(name, settings, notes));
+        const auto found = std::find(names.begin(), names.end(), name);
+        loaded.aircraft.push_back(static_cast<std::uint32_t>(found - names.begin()));
+        if (found == names.end()) {
+            names.push_back(name);
+            add(load_model(name, settings, loaded.notes));
         }
     }
-    load_cockpit(settings.path.aircraft.front(), scene);
-    return notes;
+    if (auto cockpit = load_cockpit(settings.path.aircraft.front())) {
+        loaded.cockpit = static_cast<std::uint32_t>(loaded.models.size());
+        add(std::move(*cockpit));
+    }
+    return loaded;
 }
 
 } // namespace octant::ui::world

@@ -1,17 +1,26 @@
 #pragma once
 
 #include "ui/settings/settings.h"
-#include "visuals/scene/planner.h"
+#include "visuals/scene/aircraft_model.h"
 
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace octant::ui::world {
 
+/// The aircraft of a run, as Scene has them.
+struct LoadedAircraft {
+    std::vector<std::shared_ptr<const visuals::scene::AircraftModel>> models;
+    std::vector<std::uint32_t> aircraft;
+    std::optional<std::uint32_t> cockpit;
+    std::vector<std::string> notes; ///< what a person should be told
+};
+
 /// Loads the aircraft of a run, and the cockpit of the first one where it has one: polygon models
-/// with their painting orders, chains of levels, and meshes, which get levels here. Returns what a
-/// person should be told. Throws Error.
-std::vector<std::string>
-load_aircraft(const settings::Settings& settings, visuals::scene::Scene& scene);
+/// with their painting orders, chains of levels, and meshes, which get levels here. Throws Error.
+LoadedAircraft load_aircraft(const settings::Settings& settings);
 
 } // namespace octant::ui::world

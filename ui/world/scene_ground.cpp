@@ -8,7 +8,9 @@
 
 #include <cstdint>
 #include <fmt/format.h>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace octant::ui::world {
@@ -18,24 +20,75 @@ namespace terrain = visuals::terrain;
 
 namespace {
 
+/// All but the ground itself and its texture.
 template <class Field>
-void describe_ground(
+SceneGround described(
     const Field& field,
     const std::string& name,
     const std::optional<models::heights::GeoPlace>& place,
-    std::int64_t filled_voids,
-    World& world) {
-    world.ground_name = fmt::format(
+    std::int64_t filled_voids) {
+    SceneGround loaded;
+    loaded.name = fmt::format(
         "{}, {} x {} samples, {:.4g} m apart",
         name,
         field.columns(),
         field.rows(),
         field.spacing_m());
-    world.ground_place = place;
+    loaded.place = place;
     if (filled_voids > 0) {
-        world.notes.push_back(
+        loaded.notes.push_back(
             fmt::format("{}: {} samples without data were filled in", name, filled_voids));
     }
+    return loaded;
+}
+
+void add_texture(
+    const terrain::GroundSamples& samples,
+    const models::heights::GroundArea& area,
+    const settings::Settings& settings,
+    DrawnBy drawn_by,
+    SceneGround& loaded) {
+    std::optional<scene::GroundTexture> texture =
+        load_ground_texture(samples, area, settings, drawn_by, loaded.notes);
+    if (texture) {
+        loaded.texture = std::make_shared<const scene::GroundTexture>(std::move(*texture));
+        loaded.name += settings.air.drape ? ", draped" : ", textured";
+    }
+}
+
+SceneGround load_imported(const settings::Settings& settings, DrawnBy drawn_by) {
+    terrain::GroundTiles ground = terrain::open_ground(settings.path.terrain);
+    const terrain::GroundFacts& facts = ground.facts();
+    SceneGround loaded = described(ground, facts.name, facts.place, facts.filled_voids);
+    const models::heights::GroundArea area{
+        facts.name, ground.half_extent_m(), ground.spacing_m(), facts.system};
+    add_texture(terrain::GroundSamples(ground), area, settings, drawn_by, loaded);
+    loaded.ground = scene::ground_from_tiles(std::move(ground), settings);
+    return loaded;
+}
+
+SceneGround load_field(const settings::Settings& settings, DrawnBy drawn_by) {
+    models::heights::HeightField field =
+        load_height_field(settings.path.terrain, settings.path.terrain_spacing_m);
+    SceneGround loaded = described(field, field.name, field.place, field.filled_voids);
+    const settings::Settings own = ground_settings(settings);
+    add_texture(
+        terrain::GroundSamples(field), models::heights::area_of(field), own, drawn_by, loaded);
+    loaded.ground = scene::ground_metric(settings.ground) == scene::GroundMetric::ScreenError
+                        ? scene::ground_from_tiles(terrain::ground_of(field), own)
+                        : scene::ground_from_field(std::move(field), own);
+    return loaded;
+}
+
+SceneGround load_polygons(const settings::Settings& settings) {
+    check_untextured_ground(settings);
+    SceneGround loaded;
+    loaded.name = settings.path.terrain;
+    loaded.ground = scene::ground_from_polygons(
+        settings.path.terrain == "none" ? models::polygons::PolygonModel{}
+                                        : models::made::background60(),
+        settings);
+    return loaded;
 }
 
 } // namespace
@@ -61,28 +114,6 @@ void check_ground_settings(const settings::Settings& settings) {
     }
 }
 
-void texture_ground(
-    const terrain::GroundSamples& ground,
-    const models::heights::GroundArea& area,
-    const settings::Settings& settings,
-    DrawnBy drawn_by,
-    World& world) {
-    world.scene.ground_texture = load_ground_texture(ground, area, settings, drawn_by, world.notes);
-    if (world.scene.ground_texture) {
-        world.ground_name += settings.air.drape ? ", draped" : ", textured";
-    }
-}
-
-void load_imported(const settings::Settings& settings, DrawnBy drawn_by, World& world) {
-    terrain::GroundTiles ground = terrain::open_ground(settings.path.terrain);
-    const terrain::GroundFacts& facts = ground.facts();
-    describe_ground(ground, facts.name, facts.place, facts.filled_voids, world);
-    const models::heights::GroundArea area{
-        facts.name, ground.half_extent_m(), ground.spacing_m(), facts.system};
-    texture_ground(terrain::GroundSamples(ground), area, settings, drawn_by, world);
-    world.scene.ground = scene::ground_from_tiles(std::move(ground), settings);
-}
-
 bool is_drawn_whole(const std::string& terrain) {
     return terrain == "background60" || terrain == "none";
 }
@@ -95,30 +126,13 @@ settings::Settings ground_settings(const settings::Settings& settings) {
     return own;
 }
 
-void load_scene_ground(const settings::Settings& settings, DrawnBy drawn_by, World& world) {
+SceneGround load_scene_ground(const settings::Settings& settings, DrawnBy drawn_by) {
     check_ground_settings(settings);
-    world.ground_name = settings.path.terrain;
     if (is_drawn_whole(settings.path.terrain)) {
-        check_untextured_ground(settings);
-        world.scene.ground = scene::ground_from_polygons(
-            settings.path.terrain == "none" ? models::polygons::PolygonModel{}
-                                            : models::made::background60(),
-            settings);
-        return;
+        return load_polygons(settings);
     }
-    const settings::Settings colours = ground_settings(settings);
-    if (is_imported_ground(settings.path.terrain)) {
-        load_imported(settings, drawn_by, world);
-        return;
-    }
-    models::heights::HeightField field =
-        load_height_field(settings.path.terrain, settings.path.terrain_spacing_m);
-    describe_ground(field, field.name, field.place, field.filled_voids, world);
-    texture_ground(
-        terrain::GroundSamples(field), models::heights::area_of(field), colours, drawn_by, world);
-    world.scene.ground = scene::ground_metric(settings.ground) == scene::GroundMetric::ScreenError
-                             ? scene::ground_from_tiles(terrain::ground_of(field), colours)
-                             : scene::ground_from_field(std::move(field), colours);
+    return is_imported_ground(settings.path.terrain) ? load_imported(settings, drawn_by)
+                                                     : load_field(settings, drawn_by);
 }
 
 } // namespace octant::ui::world

@@ -32,9 +32,10 @@ struct Script {
     sim::AircraftLimits limits;
     std::optional<flightpaths::GeoOrigin> origin; ///< of a track that knows where it was flown
     std::vector<flightpaths::LegBegin> legs;
+    std::vector<std::string> notes;
 };
 
-Script load_script(const settings::Settings& settings, World& world) {
+Script load_script(const settings::Settings& settings) {
     const std::filesystem::path file =
         base::path_file(settings.path.name, settings.path.aircraft.front());
     if (file.extension() == ".toml") {
@@ -47,14 +48,14 @@ Script load_script(const settings::Settings& settings, World& world) {
                     "expected aircraft f15 or 500md, got '{}'", printable(script.aircraft)));
         }
         flightpaths::FlownPath flown = flightpaths::fly(script, *limits, settings.path.lenient);
-        world.notes.insert(world.notes.end(), flown.notes.begin(), flown.notes.end());
         return {
             std::move(flown.trajectory),
             static_cast<double>(script.rate_hz),
             script.min_clearance_m,
             *limits,
             {},
-            std::move(flown.legs)};
+            std::move(flown.legs),
+            std::move(flown.notes)};
     }
     flightpaths::RecordedTrack track = flightpaths::read_recorded_track(file);
     const auto samples = track.trajectory.samples();
@@ -67,6 +68,7 @@ Script load_script(const settings::Settings& settings, World& world) {
         track_clearance_m,
         limits.value_or(*sim::limits_of("f15")),
         track.origin,
+        {},
         {}};
 }
 
@@ -83,16 +85,15 @@ flightpaths::HeightMode placement_mode(settings::HeightMode mode) {
 }
 
 flightpaths::Placement
-placement_of(const settings::Settings& settings, const Script& script, const World& world) {
+placement_of(const settings::Settings& settings, const Script& script, const SceneGround& ground) {
     flightpaths::Placement placement;
-    const glm::dvec2 half_extent_m = world.scene.ground->half_extent_m();
-    const bool at_its_own_place = script.origin && world.ground_place && !settings.path.place;
+    const glm::dvec2 half_extent_m = ground.ground->half_extent_m();
+    const bool at_its_own_place = script.origin && ground.place && !settings.path.place;
     if (settings.path.place) {
-        placement.place_m =
-            place_from_text(*settings.path.place, world.ground_place, half_extent_m);
+        placement.place_m = place_from_text(*settings.path.place, ground.place, half_extent_m);
     } else if (at_its_own_place) {
         placement.place_m = flightpaths::local_from_geo(
-            {world.ground_place->latitude_deg, world.ground_place->longitude_deg},
+            {ground.place->latitude_deg, ground.place->longitude_deg},
             script.origin->latitude_deg,
             script.origin->longitude_deg);
         placement.heading_rad = 0.0;
@@ -105,17 +106,22 @@ placement_of(const settings::Settings& settings, const Script& script, const Wor
     return placement;
 }
 
-Flight place_flight(const settings::Settings& settings, Script script, World& world) {
-    const auto ground = [&](double x_m, double y_m) {
-        return world.scene.ground->height_at(x_m, y_m);
-    };
+void add(std::vector<std::string>& notes, const std::vector<std::string>& more) {
+    notes.insert(notes.end(), more.begin(), more.end());
+}
+
+Flight place_flight(
+    const settings::Settings& settings,
+    Script script,
+    const SceneGround& ground,
+    std::vector<std::string>& notes) {
     flightpaths::PlacedPath placed = flightpaths::place_over_ground(
         script.trajectory,
-        placement_of(settings, script, world),
-        ground,
+        placement_of(settings, script, ground),
+        [&](double x_m, double y_m) { return ground.ground->height_at(x_m, y_m); },
         script.min_clearance_m,
         script.limits);
-    world.notes.insert(world.notes.end(), placed.notes.begin(), placed.notes.end());
+    add(notes, placed.notes);
     const auto stem = [](const std::string& name) {
         return std::filesystem::path(name).stem().string();
     };
@@ -208,7 +214,7 @@ void check_eye_point(const settings::Settings& settings) {
 Formation formation_of(const scene::Scene& scene) {
     double largest_m = 0.0;
     for (const std::uint32_t model : scene.aircraft) {
-        largest_m = std::max(largest_m, scene.models[model].subject.radius_m);
+        largest_m = std::max(largest_m, scene.models[model]->subject.radius_m);
     }
     return {static_cast<int>(scene.aircraft.size()), largest_m};
 }
@@ -253,11 +259,22 @@ void check_settings(const settings::Settings& settings) {
 
 World load_world(const settings::Settings& settings, DrawnBy drawn_by) {
     check_settings(settings);
+    LoadedAircraft aircraft = load_aircraft(settings);
+    Script script = load_script(settings);
+    SceneGround ground = load_scene_ground(settings, drawn_by);
     World world;
-    world.notes = load_aircraft(settings, world.scene);
-    Script script = load_script(settings, world);
-    load_scene_ground(settings, drawn_by, world);
-    world.flight = place_flight(settings, std::move(script), world);
+    world.notes = std::move(aircraft.notes);
+    add(world.notes, script.notes);
+    add(world.notes, ground.notes);
+    world.flight = place_flight(settings, std::move(script), ground, world.notes);
+    world.scene = {
+        std::move(ground.ground),
+        std::move(ground.texture),
+        std::move(aircraft.models),
+        std::move(aircraft.aircraft),
+        aircraft.cockpit};
+    world.ground_name = std::move(ground.name);
+    world.ground_place = ground.place;
     check_wingmen(world);
     world.points = fixed_points(settings, world);
     return world;

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "flightpaths/fly_script.h"
+#include "models/heights/height_field.h"
 #include "sim/trajectory.h"
 #include "ui/settings/settings.h"
 #include "ui/world/formation.h"
 #include "ui/world/ground_texture_file.h"
 #include "visuals/scene/camera_rig.h"
-#include "visuals/scene/planner.h"
+#include "visuals/scene/scene.h"
 
 #include <glm/vec2.hpp>
 
@@ -37,8 +38,8 @@ struct World {
     visuals::scene::FixedPoints points;
     std::string ground_name;
     std::optional<models::heights::GeoPlace> ground_place;
-    std::vector<std::string>
-        notes; ///< what a person should be told: voids filled, legs clipped, ...
+    /// What a person should be told: voids filled, legs clipped, ...
+    std::vector<std::string> notes;
 };
 
 /// The formation in which the scene's aircraft fly.

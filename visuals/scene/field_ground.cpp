@@ -1,16 +1,21 @@
 #include "sim/base/units.h"
 #include "visuals/scene/ground.h"
 #include "visuals/scene/ground_colours.h"
+#include "visuals/scene/ground_mesher.h"
+#include "visuals/scene/ground_palette.h"
 #include "visuals/terrain/detail_controller.h"
+#include "visuals/terrain/ground_builder.h"
 #include "visuals/terrain/mesher.h"
 #include "visuals/terrain/quadtree.h"
 #include "visuals/terrain/settled_resolution.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -60,87 +65,115 @@ bool is_same(const terrain::MeshView& a, const terrain::MeshView& b) {
            a.magnification == b.magnification;
 }
 
+/// Heights, their quadtree and their colours.
 class FieldGround final : public Ground {
 public:
-    FieldGround(models::heights::HeightField field, const Settings& settings)
+    FieldGround(std::shared_ptr<const models::heights::HeightField> field, const Settings& settings)
         : field_(std::move(field))
-        , tree_(field_, quadtree_options(settings))
-        , settings_(settings)
-        , colours_(ground_colours(field_, settings.air))
-        , mesher_(tree_, colours_)
+        , tree_(*field_, quadtree_options(settings))
+        , air_(settings.air)
+        , colours_(ground_colours(*field_, settings.air))
         , mean_colour_(scene::mean_colour(colours_)) {
-        follow(settings);
-        for (int row = 0; row < field_.rows(); ++row) {
+        for (int row = 0; row < field_->rows(); ++row) {
             double sum_m = 0.0;
-            for (int column = 0; column < field_.columns(); ++column) {
-                sum_m += static_cast<double>(field_.height_m(column, row));
+            for (int column = 0; column < field_->columns(); ++column) {
+                sum_m += static_cast<double>(field_->height_m(column, row));
             }
-            mean_height_m_ += sum_m / field_.columns() / field_.rows();
+            mean_height_m_ += sum_m / field_->columns() / field_->rows();
         }
     }
 
-    bool can_follow(const Settings& settings) const override {
-        const terrain::QuadtreeOptions wanted = quadtree_options(settings);
-        const terrain::QuadtreeOptions built = quadtree_options(settings_);
-        return ground_metric(settings.ground) != GroundMetric::ScreenError &&
-               wanted.roughness == built.roughness && wanted.propagation == built.propagation &&
-               same_colours(settings.air, settings_.air);
-    }
+    const terrain::Quadtree& tree() const { return tree_; }
 
-    void follow(const Settings& settings) override {
-        settings_ = settings;
-        control_ = control_settings(settings);
-        exact_ = settings.ground.detail == DetailControl::Exact;
-        fixed_resolution_ = settings.ground.detail == DetailControl::Fixed;
-        order_ = settings.surface.hidden_surface == HiddenSurface::DepthBuffer
-                     ? terrain::PaintOrder::FrontToBack
-                     : terrain::PaintOrder::BackToFront;
-        budget_.triangles = triangle_target(settings);
-        detail_.roughness_weight = settings.ground.roughness_c.value_or(
-            ground_metric(settings.ground) == GroundMetric::Printed ? printed_weight
-                                                                    : midpoint_weight);
-        detail_.fans = settings.ground.fans == GroundFans::Full ? terrain::FanKind::Full
-                                                                : terrain::FanKind::Partial;
-        if (fixed_resolution_ && settings.ground.resolution_c > 0.0) {
-            state_ = terrain::starting_at(settings.ground.resolution_c, control_);
-        }
-    }
+    std::span<const std::uint32_t> colours() const { return colours_; }
 
     std::optional<double> height_at(double x_m, double y_m) const override {
-        return field_.height_at(x_m, y_m);
+        return field_->height_at(x_m, y_m);
     }
 
-    double spacing_m() const override { return field_.spacing_m(); }
+    double spacing_m() const override { return field_->spacing_m(); }
 
-    glm::dvec2 half_extent_m() const override { return field_.half_extent_m(); }
+    glm::dvec2 half_extent_m() const override { return field_->half_extent_m(); }
 
     double mean_height_m() const override { return mean_height_m_; }
 
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
-    void settle(const Camera& camera, double aspect) override {
+    bool suits(const Settings& settings) const override {
+        const terrain::QuadtreeOptions wanted = quadtree_options(settings);
+        return ground_metric(settings.ground) != GroundMetric::ScreenError &&
+               wanted.roughness == tree_.options().roughness &&
+               wanted.propagation == tree_.options().propagation &&
+               same_colours(settings.air, air_);
+    }
+
+    std::shared_ptr<const Ground> remade(const Settings& settings) const override {
+        if (ground_metric(settings.ground) == GroundMetric::ScreenError) {
+            return ground_from_tiles(terrain::ground_of(*field_), settings);
+        }
+        return std::make_shared<FieldGround>(field_, settings);
+    }
+
+    std::unique_ptr<GroundMesher> mesher(const Settings& settings) const override;
+
+private:
+    std::shared_ptr<const models::heights::HeightField> field_;
+    terrain::Quadtree tree_;
+    AirSettings air_;
+    std::vector<std::uint32_t> colours_; ///< one a sample
+    glm::vec3 mean_colour_;
+    double mean_height_m_ = 0.0;
+};
+
+/// Meshes of the quadtree at a resolution C that holds the triangle count.
+class FieldMesher final : public GroundMesher {
+public:
+    FieldMesher(std::shared_ptr<const FieldGround> ground, const Settings& settings)
+        : ground_(std::move(ground))
+        , mesher_(ground_->tree(), ground_->colours()) {
+        follow(settings);
+    }
+
+    const Ground& ground() const override { return *ground_; }
+
+    void follow(const Settings& settings) override {
+        control_ = control_settings(settings);
+        exact_ = settings.ground.detail == DetailControl::Exact;
+        fixed_resolution_ = settings.ground.detail == DetailControl::Fixed;
+        first_resolution_ = settings.ground.resolution_c;
+        order_ = settings.surface.hidden_surface == HiddenSurface::DepthBuffer
+                     ? terrain::PaintOrder::FrontToBack
+                     : terrain::PaintOrder::BackToFront;
+        detail_.roughness_weight = settings.ground.roughness_c.value_or(
+            ground_metric(settings.ground) == GroundMetric::Printed ? printed_weight
+                                                                    : midpoint_weight);
+        detail_.fans = settings.ground.fans == GroundFans::Full ? terrain::FanKind::Full
+                                                                : terrain::FanKind::Partial;
+        if (fixed_resolution_ && first_resolution_ > 0.0) {
+            state_ = terrain::starting_at(first_resolution_, control_);
+        }
+    }
+
+    void settle(const GroundRequest& request) override {
         if (exact_) {
             return;
         }
-        const double resolution = settings_.ground.resolution_c > 0.0
-                                      ? settings_.ground.resolution_c
-                                      : terrain::settled_resolution(
-                                            mesher_,
-                                            view_of(camera, aspect),
-                                            detail_,
-                                            control_.target_triangles,
-                                            control_.max_resolution);
+        control_.target_triangles = request.triangle_target;
+        const double resolution = first_resolution_ > 0.0 ? first_resolution_
+                                                          : terrain::settled_resolution(
+                                                                mesher_,
+                                                                view_of(request),
+                                                                detail_,
+                                                                control_.target_triangles,
+                                                                control_.max_resolution);
         state_ = terrain::starting_at(resolution, control_);
         last_view_.reset();
     }
 
-    void set_triangle_target(int triangles) override {
-        budget_.triangles = triangles;
-        control_.target_triangles = triangles;
-    }
-
-    TriangleDraw triangles(const Camera& camera, double aspect, GroundCounts& counts) override {
-        const terrain::GroundMesh mesh = next_mesh(view_of(camera, aspect));
+    TriangleDraw triangles(const GroundRequest& request, GroundCounts& counts) override {
+        budget_.triangles = request.triangle_target;
+        control_.target_triangles = request.triangle_target;
+        const terrain::GroundMesh mesh = next_mesh(view_of(request));
         counts = {mesh.counters.triangles, mesh.counters.fans, mesh.resolution, mesh.error_px};
         return {mesh.vertices, mesh.indices};
     }
@@ -164,16 +197,14 @@ private:
         return mesh;
     }
 
-    terrain::MeshView view_of(const Camera& camera, double aspect) const {
+    terrain::MeshView view_of(const GroundRequest& request) const {
+        const Camera& camera = request.camera;
         const double zoom =
             std::tan(reference_fov_rad / 2.0) / std::tan(camera.vertical_fov_rad / 2.0);
-        return {camera.eye_m, frustum_normals(camera, aspect), std::max(zoom, 1.0), order_};
+        return {camera.eye_m, frustum_normals(camera, request.aspect), std::max(zoom, 1.0), order_};
     }
 
-    models::heights::HeightField field_;
-    terrain::Quadtree tree_;
-    Settings settings_;
-    std::vector<std::uint32_t> colours_;
+    std::shared_ptr<const FieldGround> ground_;
     terrain::Mesher mesher_;
     terrain::ControlSettings control_;
     terrain::TriangleBudget budget_;
@@ -181,17 +212,23 @@ private:
     terrain::DetailState state_;
     std::optional<terrain::MeshView> last_view_; ///< that `state_` has seen
     terrain::PaintOrder order_ = terrain::PaintOrder::BackToFront;
-    glm::vec3 mean_colour_;
-    double mean_height_m_ = 0.0;
+    double first_resolution_ = 0.0; ///< C of the first frame; 0 = the one that meets the target
     bool exact_ = true;
     bool fixed_resolution_ = false;
 };
 
+std::unique_ptr<GroundMesher> FieldGround::mesher(const Settings& settings) const {
+    assert(ground_metric(settings.ground) != GroundMetric::ScreenError);
+    return std::make_unique<FieldMesher>(
+        std::static_pointer_cast<const FieldGround>(shared_from_this()), settings);
+}
+
 } // namespace
 
-std::unique_ptr<Ground>
+std::shared_ptr<const Ground>
 ground_from_field(models::heights::HeightField field, const Settings& settings) {
-    return std::make_unique<FieldGround>(std::move(field), settings);
+    return std::make_shared<FieldGround>(
+        std::make_shared<const models::heights::HeightField>(std::move(field)), settings);
 }
 
 } // namespace octant::visuals::scene

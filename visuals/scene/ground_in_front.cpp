@@ -75,7 +75,7 @@ ConvexRoom sight_lines_to(const HullBox& box) {
 
 void GroundInFront::find(
     const HullBox& box,
-    const Ground& ground,
+    const GroundMesher& ground,
     const TriangleDraw& triangles,
     const glm::dvec3& eye_m) {
     candidates_.clear();

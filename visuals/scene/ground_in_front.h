@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visuals/scene/aircraft_hull.h"
-#include "visuals/scene/ground.h"
+#include "visuals/scene/ground_mesher.h"
 #include "visuals/scene/sight.h"
 
 #include <glm/vec3.hpp>
@@ -31,7 +31,7 @@ ConvexRoom sight_lines_to(const HullBox& box);
 
 /// A triangle of the ground that hides part of a box or meets it.
 struct NearTriangle {
-    std::uint32_t triangle = 0; ///< number in Ground::triangles
+    std::uint32_t triangle = 0; ///< number in GroundMesher::triangles
     bool meets = false;         ///< it may lie before, inside and behind the box
 };
 
@@ -41,10 +41,10 @@ struct NearTriangle {
 /// it: wherever the eye sees both, the same one is nearer. So one sight line through both decides.
 class GroundInFront {
 public:
-    /// Looks at the triangles of the ground's last triangles() that face the eye. `eye_m`: world.
+    /// Looks at those of the mesher's last triangles() that face the eye. `eye_m`: world.
     void find(
         const HullBox& box,
-        const Ground& ground,
+        const GroundMesher& ground,
         const TriangleDraw& triangles,
         const glm::dvec3& eye_m);
 

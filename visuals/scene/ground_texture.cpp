@@ -178,6 +178,13 @@ GroundTexture ground_texture(
     return texture;
 }
 
+GroundTexture without_texels(const GroundTexture& texture) {
+    const auto bare = [](const GroundImage& image) {
+        return GroundImage{image.width, image.height, {}, image.first_m, image.step_m};
+    };
+    return {bare(texture.albedo), bare(texture.normal), texture.mean_colour};
+}
+
 TexturePlaces texture_places(const GroundTexture& texture, const glm::dvec3& eye_m) {
     return {place_in(texture.albedo, eye_m), place_in(texture.normal, eye_m)};
 }

@@ -46,6 +46,9 @@ GroundTexture ground_texture(
     const AirSettings& settings,
     const models::heights::Image* drape);
 
+/// The same without its texels, which a renderer has: all that plans need.
+GroundTexture without_texels(const GroundTexture& texture);
+
 /// Where an eye stands in the texture.
 TexturePlaces texture_places(const GroundTexture& texture, const glm::dvec3& eye_m);
 

@@ -93,10 +93,10 @@ IdPlan::IdPlan(const Scene& scene) {
             model.levels.empty() ? 0 : static_cast<std::uint32_t>(model.buffers.vertices.size());
     };
     for (const std::uint32_t model : scene.aircraft) {
-        add(scene.models[model]);
+        add(*scene.models[model]);
     }
     if (scene.cockpit) {
-        add(scene.models[*scene.cockpit]);
+        add(*scene.models[*scene.cockpit]);
     }
 }
 

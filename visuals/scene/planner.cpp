@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace octant::visuals::scene {
 
@@ -58,7 +59,7 @@ places_for(const Scene& scene, const Settings& settings, std::vector<glm::dmat4>
     std::vector<PlacedAircraft> placed;
     const auto add = [&](std::uint32_t model) {
         PlacedAircraft& aircraft = placed.emplace_back();
-        aircraft.model = &scene.models[model];
+        aircraft.model = scene.models[model].get();
         aircraft.model_index = model;
         aircraft.first_part = static_cast<std::uint32_t>(parts.size());
         parts.resize(parts.size() + aircraft.model->polygons.pivots.size() + 1);
@@ -78,9 +79,10 @@ places_for(const Scene& scene, const Settings& settings, std::vector<glm::dmat4>
 
 } // namespace
 
-Planner::Planner(Scene& scene, const Settings& settings)
+Planner::Planner(const Scene& scene, const Settings& settings, std::unique_ptr<GroundMesher> mesher)
     : scene_(scene)
     , settings_(settings)
+    , mesher_(mesher ? std::move(mesher) : scene.ground->mesher(settings))
     , aspect_(static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y)
     , to_sun_(direction_to_sun(settings.air))
     , shadows_(to_sun_)
@@ -106,24 +108,28 @@ Planner::Planner(Scene& scene, const Settings& settings)
     near_to_far_.resize(scene.aircraft.size());
 }
 
+GroundRequest
+Planner::ground_request(const Camera& camera, std::optional<int> triangle_target) const {
+    return {camera, aspect_, triangle_target.value_or(scene::triangle_target(settings_))};
+}
+
 void Planner::settle(const Camera& camera) {
-    scene_.ground->settle(camera, aspect_);
+    mesher_->settle(ground_request(camera, std::nullopt));
 }
 
-void Planner::prepare(const Camera& camera) {
-    scene_.ground->prepare(camera, aspect_);
+void Planner::prepare(const Camera& camera, std::optional<int> triangle_target) {
+    mesher_->prepare(ground_request(camera, triangle_target));
 }
 
-void Planner::set_triangle_target(int triangles) {
-    scene_.ground->set_triangle_target(triangles);
-}
-
-void Planner::refine(const Camera& camera, std::span<const sim::AircraftState> states) {
+void Planner::place_and_refine(const PlanRequest& request) {
+    const Camera& camera = request.camera;
     pixel_rad_ = 2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings_.view.size_px.y;
     frustum_ = frustum_normals(camera, aspect_);
-    place_aircraft(camera, states);
+    place_aircraft(camera, request.states);
     refine_meshes(camera);
-    is_placed_ = true;
+    if (request.when_refined) {
+        request.when_refined();
+    }
 }
 
 /// Those that are drawn as polygons rest.
@@ -144,12 +150,10 @@ void Planner::refine_meshes(const Camera& camera) {
     }
 }
 
-const FramePlan& Planner::plan(
-    const Camera& camera, std::span<const sim::AircraftState> states, PlanCounts& counts) {
-    if (!is_placed_) {
-        refine(camera, states);
-    }
-    is_placed_ = false;
+PlannedFrame Planner::plan(const PlanRequest& request) {
+    const Camera& camera = request.camera;
+    PlanCounts counts;
+    place_and_refine(request);
     plan_.world_to_view = world_to_view(camera);
     plan_.view_to_clip = view_to_clip(camera, aspect_);
     if (scene_.ground_texture) {
@@ -162,19 +166,22 @@ const FramePlan& Planner::plan(
     plan_.repaint_indices.clear();
     plan_.depth_boxes.clear();
     plan_.overlay = {};
-    GroundCounts ground_counts;
-    ground_ = {scene_.ground->triangles(camera, aspect_, ground_counts), {}, {}};
-    counts = {};
-    counts.ground = ground_counts;
+    ground_ = {
+        mesher_->triangles(ground_request(camera, request.triangle_target), counts.ground), {}, {}};
     write_parts();
     cast_shadows(camera);
     plan_ground();
     plan_sky(camera);
     if (settings_.view.kind == View::Cockpit && settings_.view.head_up_display) {
-        plan_head_up_display(camera, states.front());
+        plan_head_up_display(camera, request.states.front());
     }
     const SmoothChoice::Count shaded = smooth_.choose(
-        placed_, refined_, to_sun_, glm::vec2(plan_.ambient.x, plan_.sunlight.x), plan_.smooth);
+        placed_,
+        refined_,
+        request.smooth,
+        to_sun_,
+        glm::vec2(plan_.ambient.x, plan_.sunlight.x),
+        plan_.smooth);
     counts.may_be_smooth = shaded.polygons;
     counts.smooth_polygons = shaded.smooth;
     count_aircraft(counts);
@@ -184,7 +191,7 @@ const FramePlan& Planner::plan(
     } else {
         paint_knots(camera, counts);
     }
-    return plan_;
+    return {plan_, counts};
 }
 
 void Planner::plan_sky(const Camera& camera) {
@@ -196,15 +203,14 @@ void Planner::plan_sky(const Camera& camera) {
         {camera.eye_m.z - ground.mean_height_m(),
          distance_to_edge_m(ground, camera.eye_m),
          scene_.ground_texture ? scene_.ground_texture->mean_colour : ground.mean_colour(),
-         ground.earth_radius_m()},
+         mesher_->earth_radius_m()},
         plan_.haze);
 }
 
 /// Where each aircraft is, which list it is painted by and the box that stands in for it.
 void Planner::place_aircraft(const Camera& camera, std::span<const sim::AircraftState> states) {
     for (std::size_t i = 0; i < states.size(); ++i) {
-        const sim::AircraftState state =
-            sunk(states[i], camera.eye_m, scene_.ground->earth_radius_m());
+        const sim::AircraftState state = sunk(states[i], camera.eye_m, mesher_->earth_radius_m());
         place(placed_[i], state, camera.eye_m);
         const glm::dvec3 position_m = state.position_m - camera.eye_m;
         const double margin_m =
@@ -274,7 +280,7 @@ void Planner::cast_shadows(const Camera& camera) {
     if (settings_.surface.shadows) {
         const ShadowView view{camera.eye_m, frustum_, pixel_rad_};
         for (std::size_t i = 0; i < hulls_.size(); ++i) {
-            shadows_.cast(placed_[i], hulls_[i], *scene_.ground, view);
+            shadows_.cast(placed_[i], hulls_[i], *mesher_, view);
         }
         shadows_.sort_pieces();
     }

@@ -1,16 +1,17 @@
 #pragma once
 
 #include "sim/aircraft_state.h"
-#include "visuals/scene/aircraft_model.h"
+#include "visuals/scene/aircraft_hull.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/frame_plan.h"
-#include "visuals/scene/ground.h"
+#include "visuals/scene/ground_frame.h"
 #include "visuals/scene/ground_in_front.h"
-#include "visuals/scene/ground_texture.h"
+#include "visuals/scene/ground_mesher.h"
 #include "visuals/scene/head_up_display.h"
 #include "visuals/scene/placed_aircraft.h"
 #include "visuals/scene/polygon_repaint.h"
 #include "visuals/scene/refined_aircraft.h"
+#include "visuals/scene/scene.h"
 #include "visuals/scene/scene_order.h"
 #include "visuals/scene/settings.h"
 #include "visuals/scene/shadow.h"
@@ -20,21 +21,14 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace octant::visuals::scene {
-
-/// Everything that is loaded once and looked at in every frame.
-struct Scene {
-    std::unique_ptr<Ground> ground;
-    std::optional<GroundTexture> ground_texture; ///< nothing = ground shows its vertices' colours
-    std::vector<AircraftModel> models;           ///< each once, however many aircraft fly it
-    std::vector<std::uint32_t> aircraft;         ///< model of each aircraft
-    std::optional<std::uint32_t> cockpit; ///< model of what the first pilot sees around the eye
-};
 
 /// What one frame drew.
 struct PlanCounts {
@@ -52,44 +46,59 @@ struct PlanCounts {
     int refine_collapses = 0;
 };
 
-/// Decides what is drawn in each frame. Keeps memory that the plans point into, and the ground's
-/// detail control from frame to frame.
+/// What a frame is to show, and how finely.
+struct PlanRequest {
+    Camera camera;
+    std::span<const sim::AircraftState> states; ///< those of Scene::aircraft
+    /// Triangles of ground that are aimed at, at least 1; nothing = as the settings say.
+    std::optional<int> triangle_target = std::nullopt;
+    SmoothWish smooth = {};
+    /// Called in the midst of the work, when the aircraft are placed and their meshes refined: for
+    /// whoever measures. May be empty.
+    std::function<void()> when_refined = nullptr;
+};
+
+/// A frame that is planned.
+struct PlannedFrame {
+    const FramePlan& plan; ///< of the planner, until it plans again
+    PlanCounts counts;
+};
+
+/// Decides what is drawn in each frame of one view. Keeps memory that the plans point into, and the
+/// ground's detail control from frame to frame. Several views have a planner each over one scene.
 class Planner {
 public:
-    /// The scene and the settings must outlive the planner.
-    Planner(Scene& scene, const Settings& settings);
+    /// The scene and the settings must outlive the planner. `mesher` is one of the scene's ground,
+    /// from which the view's detail goes on; null = a new one by these settings.
+    Planner(
+        const Scene& scene,
+        const Settings& settings,
+        std::unique_ptr<GroundMesher> mesher = nullptr);
     Planner(const Planner&) = delete;
     Planner& operator=(const Planner&) = delete;
     Planner(Planner&&) = delete;
     Planner& operator=(Planner&&) = delete;
     ~Planner() = default;
 
-    /// Prepares the ground for the camera of the first frame. Loading work.
+    /// Sets the detail of the ground for the camera of the first frame. Loading work.
     void settle(const Camera& camera);
 
-    /// Begins the work on the ground of the next plan() beside the caller, for the camera that it
-    /// will be given; the last plan stays valid. May be left out: changes no plan.
-    void prepare(const Camera& camera);
+    /// Begins the work on the ground of the next plan() beside the caller, for the camera and the
+    /// triangle target that it will be given; the last plan stays valid. May be left out: changes
+    /// no plan.
+    void prepare(const Camera& camera, std::optional<int> triangle_target = std::nullopt);
 
-    /// Ground::set_triangle_target.
-    void set_triangle_target(int triangles);
+    /// The plan of the next frame, and what it holds. No allocation once the first frames have been
+    /// planned.
+    PlannedFrame plan(const PlanRequest& request);
 
-    /// May be called before plan() with the same camera and states: places the aircraft and refines
-    /// their meshes, a part of its work, apart.
-    void refine(const Camera& camera, std::span<const sim::AircraftState> states);
-
-    /// SmoothChoice::set_smooth.
-    void set_smooth(std::optional<int> polygons) { smooth_.set_smooth(polygons); }
-
-    /// SmoothChoice::set_smooth_share.
-    void set_smooth_share(std::optional<double> share) { smooth_.set_smooth_share(share); }
-
-    /// The plan of the next frame; `states` are those of Scene::aircraft. Valid until the next
-    /// call. No allocation once the first frames have been planned.
-    const FramePlan&
-    plan(const Camera& camera, std::span<const sim::AircraftState> states, PlanCounts& counts);
+    /// The mesher of the ground, for the planner that follows this one in the same view. Nothing
+    /// may be planned after it.
+    std::unique_ptr<GroundMesher> take_mesher() { return std::move(mesher_); }
 
 private:
+    GroundRequest ground_request(const Camera& camera, std::optional<int> triangle_target) const;
+    void place_and_refine(const PlanRequest& request);
     void plan_sky(const Camera& camera);
     void place_aircraft(const Camera& camera, std::span<const sim::AircraftState> states);
     void place(PlacedAircraft& aircraft, const sim::AircraftState& state, const glm::dvec3& eye_m);
@@ -107,8 +116,9 @@ private:
     void plan_head_up_display(const Camera& camera, const sim::AircraftState& state);
     void count_aircraft(PlanCounts& counts) const;
 
-    Scene& scene_;
+    const Scene& scene_;
     const Settings& settings_;
+    std::unique_ptr<GroundMesher> mesher_;
     double aspect_;
     glm::dvec3 to_sun_;
     Sky sky_;
@@ -126,7 +136,6 @@ private:
     std::vector<std::uint8_t> was_refined_;                 ///< in the last frame
     int refine_splits_ = 0;
     int refine_collapses_ = 0;
-    bool is_placed_ = false;     ///< by refine(), for the next plan()
     std::vector<HullBox> hulls_; ///< of Scene::aircraft
     std::vector<const PlacedAircraft*> members_;
     std::vector<std::uint32_t> near_to_far_;

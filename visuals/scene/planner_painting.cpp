@@ -77,7 +77,7 @@ void Planner::paint_knot(const Knot& knot, const Camera& camera, PlanCounts& cou
         }
         return;
     }
-    in_front_.find(knot.box, *scene_.ground, ground_.all, camera.eye_m);
+    in_front_.find(knot.box, *mesher_, ground_.all, camera.eye_m);
     paint_members(knot, counts);
     if (in_front_.found().empty() || holds_eye(knot.box)) {
         return;

@@ -69,12 +69,12 @@ void ShadowCaster::begin(
 void ShadowCaster::cast(
     const PlacedAircraft& aircraft,
     const HullBox& hull,
-    const Ground& ground,
+    const GroundMesher& ground,
     const ShadowView& view) {
     if (!high_enough_ || ground_.indices.empty()) {
         return;
     }
-    const double path_m = light_path_m(hull, ground, view.eye_m);
+    const double path_m = light_path_m(hull, ground.ground(), view.eye_m);
     if (path_m < 0.0) {
         return;
     }

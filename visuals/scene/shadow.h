@@ -4,6 +4,7 @@
 #include "visuals/scene/camera.h"
 #include "visuals/scene/ground.h"
 #include "visuals/scene/ground_frame.h"
+#include "visuals/scene/ground_mesher.h"
 #include "visuals/scene/placed_aircraft.h"
 #include "visuals/scene/sight.h"
 
@@ -38,15 +39,15 @@ public:
     /// `to_sun`: unit vector, world axes.
     explicit ShadowCaster(const glm::dvec3& to_sun);
 
-    /// Forgets the last frame. `triangles` are Ground::triangles before facing; the pieces' corners
-    /// go to `vertices` and are numbered on after the ground's.
+    /// Forgets the last frame. `triangles` are GroundMesher::triangles before facing; the pieces'
+    /// corners go to `vertices` and are numbered on after the ground's.
     void begin(const TriangleDraw& triangles, std::vector<models::ColourVertex>& vertices);
 
     /// Adds the shadow of an aircraft inside `hull`, unless it is under 2 pixels or out of view.
     void cast(
         const PlacedAircraft& aircraft,
         const HullBox& hull,
-        const Ground& ground,
+        const GroundMesher& ground,
         const ShadowView& view);
 
     /// To be called after the last cast().

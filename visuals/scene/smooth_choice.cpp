@@ -117,18 +117,18 @@ bool SmoothChoice::chooses() const {
 }
 
 /// Fills in given_; returns the sum of the polygons.
-int SmoothChoice::wanted_of(std::span<const PlacedAircraft> placed) {
+int SmoothChoice::wanted_of(std::span<const PlacedAircraft> placed, const SmoothWish& wish) {
     int all = 0;
     for (std::size_t i = 0; i < placed.size(); ++i) {
         shares_[i] = {polygons_of(placed[i]), weight_of(placed[i])};
         all += shares_[i].polygons;
     }
-    const double share = wanted_share_.value_or(settings_.shading.smooth_share);
+    const double share = wish.share.value_or(settings_.shading.smooth_share);
     int wanted = static_cast<int>(std::lround(share * all));
-    if (settings_.shading.device_ratio && !wanted_share_) {
+    if (settings_.shading.device_ratio && !wish.share) {
         wanted = shading::device_smooth_count(*settings_.shading.device_ratio, all);
     }
-    wanted = std::min(wanted_.value_or(wanted), all);
+    wanted = std::min(wish.polygons.value_or(wanted), all);
     share_out_smooth(shares_, wanted, given_);
     if (settings_.shading.rule == HybridRule::Paper) {
         const shading::ShadingRange range{settings_.shading.near_m, settings_.shading.far_m};
@@ -144,10 +144,11 @@ int SmoothChoice::wanted_of(std::span<const PlacedAircraft> placed) {
 SmoothChoice::Count SmoothChoice::choose(
     std::span<const PlacedAircraft> placed,
     std::span<const std::unique_ptr<RefinedAircraft>> refined,
+    const SmoothWish& wish,
     const glm::dvec3& to_sun,
     const glm::vec2& light,
     std::vector<std::uint32_t>& smooth) {
-    Count count{wanted_of(placed), 0};
+    Count count{wanted_of(placed, wish), 0};
     for (std::size_t i = 0; i < placed.size(); ++i) {
         int given = settings_.shading.kind == AircraftShading::Flat ? 0 : shares_[i].polygons;
         const shading::ShadingLight sun = light_on(placed[i], to_sun, light);

@@ -27,24 +27,19 @@ struct SmoothShare {
 /// in all as many as asked for, or all. `given`: one an aircraft.
 void share_out_smooth(std::span<const SmoothShare> aircraft, int smooth, std::span<int> given);
 
+/// How many polygons are smooth in a frame: a number, else a share from 0 to 1; neither = as the
+/// settings say.
+struct SmoothWish {
+    std::optional<int> polygons;
+    std::optional<double> share;
+};
+
 /// Chooses in each frame which polygons of which aircraft are lit smoothly, triangles of meshes
 /// that are refined included. Keeps the choice, so that shading does not flicker, and its memory.
 class SmoothChoice {
 public:
     /// Gives each aircraft its place in FramePlan::smooth. Loading work.
     SmoothChoice(const Settings& settings, std::span<PlacedAircraft> placed);
-
-    /// From now on so many polygons are smooth in each frame; nothing: as the settings say.
-    void set_smooth(std::optional<int> polygons) {
-        wanted_ = polygons;
-        wanted_share_.reset();
-    }
-
-    /// The same by their share, from 0 to 1.
-    void set_smooth_share(std::optional<double> share) {
-        wanted_.reset();
-        wanted_share_ = share;
-    }
 
     /// RefinedDraw::first_smooth of all that is refined.
     std::uint32_t refined_word() const { return static_cast<std::uint32_t>(bits_.size() - 1); }
@@ -62,6 +57,7 @@ public:
     Count choose(
         std::span<const PlacedAircraft> placed,
         std::span<const std::unique_ptr<RefinedAircraft>> refined,
+        const SmoothWish& wish,
         const glm::dvec3& to_sun,
         const glm::vec2& light,
         std::vector<std::uint32_t>& smooth);
@@ -71,7 +67,7 @@ private:
     using Choosers = std::vector<shading::ShadingSelector>;
 
     bool chooses() const;
-    int wanted_of(std::span<const PlacedAircraft> placed);
+    int wanted_of(std::span<const PlacedAircraft> placed, const SmoothWish& wish);
     shading::ShadingSelector& chooser_of(std::size_t aircraft, const PlacedAircraft& placed);
     void write_bits(const PlacedAircraft& aircraft, const shading::ShadingChoice& choice);
 
@@ -80,8 +76,6 @@ private:
     std::vector<std::uint32_t> bits_;
     std::vector<SmoothShare> shares_;
     std::vector<int> given_;
-    std::optional<int> wanted_;
-    std::optional<double> wanted_share_;
 };
 
 } // namespace octant::visuals::scene

@@ -1,5 +1,7 @@
 #include "sim/base/units.h"
 #include "visuals/scene/ground.h"
+#include "visuals/scene/ground_mesher.h"
+#include "visuals/scene/ground_palette.h"
 #include "visuals/scene/vertex_colours.h"
 #include "visuals/scene/worker.h"
 #include "visuals/terrain/error_mesher.h"
@@ -7,6 +9,7 @@
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/ground_tiles.h"
 
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -20,80 +23,94 @@ namespace {
 constexpr double frames_ahead = 120.0;  ///< how far along the eye's way pages are asked for
 constexpr double least_error_px = 0.25; ///< what is finer than this nobody sees
 
+/// Tiles, in memory or mapped from a file, and the palette of their colours.
 class TileGround final : public Ground {
 public:
-    TileGround(terrain::GroundTiles ground, const Settings& settings)
+    TileGround(std::shared_ptr<const terrain::GroundTiles> tiles, const Settings& settings)
+        : tiles_(std::move(tiles))
+        , air_(settings.air)
+        , mean_colour_(VertexColours(*tiles_, settings.air).mean()) {}
+
+    const terrain::GroundTiles& tiles() const { return *tiles_; }
+
+    const AirSettings& air() const { return air_; }
+
+    std::optional<double> height_at(double x_m, double y_m) const override {
+        return tiles_->height_at(x_m, y_m);
+    }
+
+    double spacing_m() const override { return tiles_->spacing_m(); }
+
+    glm::dvec2 half_extent_m() const override { return tiles_->half_extent_m(); }
+
+    double mean_height_m() const override { return static_cast<double>(tiles_->facts().mean_m); }
+
+    glm::vec3 mean_colour() const override { return mean_colour_; }
+
+    bool suits(const Settings& settings) const override {
+        return ground_metric(settings.ground) == GroundMetric::ScreenError &&
+               same_colours(settings.air, air_);
+    }
+
+    std::shared_ptr<const Ground> remade(const Settings& settings) const override {
+        return ground_metric(settings.ground) == GroundMetric::ScreenError
+                   ? std::make_shared<TileGround>(tiles_, settings)
+                   : nullptr;
+    }
+
+    std::unique_ptr<GroundMesher> mesher(const Settings& settings) const override;
+
+private:
+    std::shared_ptr<const terrain::GroundTiles> tiles_;
+    AirSettings air_;
+    glm::vec3 mean_colour_;
+};
+
+/// Meshes by screen-space error with geomorphs, made ahead on a thread where that is asked for.
+class TileMesher final : public GroundMesher {
+public:
+    TileMesher(std::shared_ptr<const TileGround> ground, const Settings& settings)
         : ground_(std::move(ground))
-        , mesher_(ground_)
-        , settings_(settings)
-        , colours_(std::in_place, ground_, settings.air)
-        , mean_colour_(colours_->mean())
-        , prefetcher_(ground_) {
+        , mesher_(ground_->tiles())
+        , colours_(ground_->tiles(), ground_->air())
+        , prefetcher_(ground_->tiles()) {
         follow(settings);
     }
 
-    bool can_follow(const Settings& settings) const override {
-        return ground_metric(settings.ground) == GroundMetric::ScreenError;
-    }
+    const Ground& ground() const override { return *ground_; }
 
     void follow(const Settings& settings) override {
         worker_.wait();
         prepared_.reset();
-        if (!same_colours(settings.air, settings_.air)) {
-            colours_.emplace(ground_, settings.air);
-            mean_colour_ = colours_->mean();
-            mesh_ = {};
-        }
-        settings_ = settings;
         order_ = settings.surface.hidden_surface == HiddenSurface::DepthBuffer
                      ? terrain::PaintOrder::FrontToBack
                      : terrain::PaintOrder::BackToFront;
+        picture_height_px_ = settings.view.size_px.y;
         target_.error_px = settings.ground.error_px.value_or(least_error_px);
         target_.geomorphs = settings.ground.geomorphs;
         earth_radius_m_ = settings.ground.earth_curvature ? terrain::earth_radius_m : 0.0;
-        set_triangle_target(triangle_target(settings));
-    }
-
-    std::optional<double> height_at(double x_m, double y_m) const override {
-        return ground_.height_at(x_m, y_m);
-    }
-
-    double spacing_m() const override { return ground_.spacing_m(); }
-
-    glm::dvec2 half_extent_m() const override { return ground_.half_extent_m(); }
-
-    double mean_height_m() const override { return static_cast<double>(ground_.facts().mean_m); }
-
-    glm::vec3 mean_colour() const override { return mean_colour_; }
-
-    void settle(const Camera& /*camera*/, double /*aspect*/) override {}
-
-    void set_triangle_target(int triangles) override {
-        const int most = triangles >= unlimited_triangles ? terrain::any_triangles : triangles;
-        if (most != target_.most_triangles) {
-            worker_.wait();
-            prepared_.reset();
-            target_.most_triangles = most;
-        }
     }
 
     double earth_radius_m() const override { return earth_radius_m_; }
 
-    void prepare(const Camera& camera, double aspect) override {
-        prepared_ = view_of(camera, aspect);
+    void prepare(const GroundRequest& request) override {
+        aim_at(request.triangle_target);
+        prepared_ = view_of(request);
         worker_.begin([this] { make(*prepared_); });
     }
 
-    TriangleDraw triangles(const Camera& camera, double aspect, GroundCounts& counts) override {
+    TriangleDraw triangles(const GroundRequest& request, GroundCounts& counts) override {
+        aim_at(request.triangle_target);
         worker_.wait();
-        const terrain::MeshView view = view_of(camera, aspect);
+        const terrain::MeshView view = view_of(request);
         if (prepared_ != view) {
             make(view);
         }
         prepared_.reset();
-        const glm::dvec3 way_m = camera.eye_m - last_eye_m_.value_or(camera.eye_m);
-        prefetcher_.go_to(glm::dvec2(camera.eye_m + frames_ahead * way_m));
-        last_eye_m_ = camera.eye_m;
+        const glm::dvec3& eye_m = request.camera.eye_m;
+        const glm::dvec3 way_m = eye_m - last_eye_m_.value_or(eye_m);
+        prefetcher_.go_to(glm::dvec2(eye_m + frames_ahead * way_m));
+        last_eye_m_ = eye_m;
         counts = {mesh_.counters.triangles, mesh_.counters.fans, 0.0, mesh_.error_px};
         return {mesh_.vertices, mesh_.indices};
     }
@@ -103,30 +120,39 @@ public:
     }
 
 private:
+    /// What has been prepared for another target is made anew.
+    void aim_at(int triangles) {
+        const int most = triangles >= unlimited_triangles ? terrain::any_triangles : triangles;
+        if (most != target_.most_triangles) {
+            worker_.wait();
+            prepared_.reset();
+            target_.most_triangles = most;
+        }
+    }
+
     void make(const terrain::MeshView& view) {
         const terrain::GroundMesh mesh = mesher_.mesh(view, target_);
         if (mesh.vertices.data() != mesh_.vertices.data()) {
-            colours_->fill(mesher_.vertices(), mesh.origins);
+            colours_.fill(mesher_.vertices(), mesh.origins);
             mesher_.measure_boxes();
         }
         mesh_ = mesh;
     }
 
-    terrain::MeshView view_of(const Camera& camera, double aspect) const {
+    terrain::MeshView view_of(const GroundRequest& request) const {
         return {
-            .eye_m = camera.eye_m,
-            .frustum_normals = frustum_normals(camera, aspect),
+            .eye_m = request.camera.eye_m,
+            .frustum_normals = frustum_normals(request.camera, request.aspect),
             .order = order_,
-            .focal_px = focal_px(camera, settings_.view.size_px.y),
+            .focal_px = focal_px(request.camera, picture_height_px_),
             .earth_radius_m = earth_radius_m_};
     }
 
-    terrain::GroundTiles ground_;
+    std::shared_ptr<const TileGround> ground_;
     terrain::ErrorMesher mesher_;
-    Settings settings_;
-    std::optional<VertexColours> colours_;
-    glm::vec3 mean_colour_;
+    VertexColours colours_;
     terrain::PaintOrder order_ = terrain::PaintOrder::BackToFront;
+    int picture_height_px_ = 0;
     terrain::ErrorTarget target_;
     double earth_radius_m_ = 0.0;
     terrain::GroundMesh mesh_;
@@ -136,10 +162,18 @@ private:
     Worker worker_; ///< goes first: it uses the others
 };
 
+std::unique_ptr<GroundMesher> TileGround::mesher(const Settings& settings) const {
+    assert(ground_metric(settings.ground) == GroundMetric::ScreenError);
+    return std::make_unique<TileMesher>(
+        std::static_pointer_cast<const TileGround>(shared_from_this()), settings);
+}
+
 } // namespace
 
-std::unique_ptr<Ground> ground_from_tiles(terrain::GroundTiles ground, const Settings& settings) {
-    return std::make_unique<TileGround>(std::move(ground), settings);
+std::shared_ptr<const Ground>
+ground_from_tiles(terrain::GroundTiles ground, const Settings& settings) {
+    return std::make_shared<TileGround>(
+        std::make_shared<const terrain::GroundTiles>(std::move(ground)), settings);
 }
 
 } // namespace octant::visuals::scene

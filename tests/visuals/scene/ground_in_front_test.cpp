@@ -33,11 +33,11 @@ struct Found {
 };
 
 Found before(const HullBox& box, std::vector<GroundTriangle> triangles) {
-    const auto ground = triangle_ground(std::move(triangles));
+    const auto mesher = triangle_ground(std::move(triangles))->mesher({});
     GroundCounts counts;
-    const TriangleDraw draw = ground->triangles(Camera(), 1.0, counts);
+    const TriangleDraw draw = mesher->triangles({}, counts);
     GroundInFront in_front;
-    in_front.find(box, *ground, draw, glm::dvec3(0.0));
+    in_front.find(box, *mesher, draw, glm::dvec3(0.0));
     Found found{{}, {in_front.meeting().begin(), in_front.meeting().end()}};
     for (const NearTriangle& near : in_front.found()) {
         found.triangles.push_back(near.triangle);

@@ -222,18 +222,17 @@ TEST_CASE("straight up and straight down something is drawn, all of it finite") 
 TEST_CASE("plans of the cockpit view have a head-up display unless it is off, others none") {
     Scene scene;
     scene.ground = cell_ground(4, 100.0, [](double, double) { return 50.0; });
-    scene.models.push_back(convex_aircraft(box_model({10.0, 3.0, 2.0})));
+    scene.add_model(convex_aircraft(box_model({10.0, 3.0, 2.0})));
     scene.aircraft = {0};
     const std::vector<sim::AircraftState> states{state_at({0.0, 0.0, 300.0})};
     Settings settings = plain_settings();
     Planner planner(scene, settings);
-    PlanCounts counts;
     const auto drawn = [&](View view, bool wanted) {
         settings.view.kind = view;
         settings.view.head_up_display = wanted;
         HeadUpInputs inputs;
         inputs.state = states.front();
-        return planner.plan(cockpit_camera(inputs), states, counts).overlay.indices.size();
+        return planner.plan({cockpit_camera(inputs), states}).plan.overlay.indices.size();
     };
     CHECK(drawn(View::Chase, true) == 0);
     CHECK(drawn(View::Cockpit, false) == 0);
@@ -241,5 +240,5 @@ TEST_CASE("plans of the cockpit view have a head-up display unless it is off, ot
     HeadUpInputs inputs;
     inputs.state = states.front();
     IdPlan ids(scene);
-    CHECK(ids.of(planner.plan(cockpit_camera(inputs), states, counts)).overlay.indices.empty());
+    CHECK(ids.of(planner.plan({cockpit_camera(inputs), states}).plan).overlay.indices.empty());
 }

@@ -27,7 +27,7 @@ models::TriangleMesh tetrahedron() {
 scene::Scene scene_of(scene::AircraftModel model) {
     scene::Scene world;
     world.ground = cell_ground(4, 100.0, [](double, double) { return 0.0; });
-    world.models.push_back(std::move(model));
+    world.add_model(std::move(model));
     world.aircraft = {0, 0};
     return world;
 }
@@ -55,8 +55,8 @@ TEST_CASE("every polygon and every triangle of a level has a number, of each air
     REQUIRE(ids.models().size() == 2);
     std::set<std::uint32_t> numbers;
     for (const scene::ModelBuffers& buffers : ids.models()) {
-        add_numbers(buffers, world.models[0].file_order, numbers);
-        for (const scene::MeshLevel& level : world.models[0].levels) {
+        add_numbers(buffers, world.models[0]->file_order, numbers);
+        for (const scene::MeshLevel& level : world.models[0]->levels) {
             add_numbers(buffers, level.range, numbers);
         }
     }

@@ -16,10 +16,10 @@ TEST_CASE("a turning part's matrix puts its points where the pivot has turned th
     model.pivots.push_back({1, {0.5, 0.0, -1.0}, {0.0, 0.0, 1.0}, 0.3});
     Scene scene;
     scene.ground = triangle_ground({});
-    scene.models.push_back(convex_aircraft(box_model({1, 1, 1})));
-    scene.models.push_back(convex_aircraft(model));
+    scene.add_model(convex_aircraft(box_model({1, 1, 1})));
+    scene.add_model(convex_aircraft(model));
     scene.aircraft = {0, 1, 1};
-    const AircraftModel& aircraft = scene.models[1];
+    const AircraftModel& aircraft = *scene.models[1];
     for (std::size_t i = 0; i < aircraft.buffers.vertices.size(); ++i) {
         CHECK(aircraft.buffers.vertices[i].part == (i / 4 == 5 ? 1U : 0U));
     }
@@ -31,8 +31,7 @@ TEST_CASE("a turning part's matrix puts its points where the pivot has turned th
         state_at({0, 90, 0}), state_at({5, 30, 2}, attitude), state_at({-20, 60, 0})};
     states[1].time_s = 12.5;
     const Camera camera = camera_looking_at({1, 2, 3}, {0, 50, 0});
-    PlanCounts counts;
-    const FramePlan& plan = planner.plan(camera, states, counts);
+    const FramePlan& plan = planner.plan({camera, states}).plan;
     REQUIRE(plan.parts.size() == 5);
     REQUIRE(plan.aircraft.size() == 3);
     const AircraftDraw& nearest = plan.aircraft.back();
@@ -55,16 +54,13 @@ TEST_CASE("a turning part's matrix puts its points where the pivot has turned th
 TEST_CASE("with a depth buffer one step paints the aircraft from the nearest") {
     Scene scene;
     scene.ground = triangle_ground({});
-    scene.models.push_back(convex_aircraft(box_model({1, 1, 1})));
+    scene.add_model(convex_aircraft(box_model({1, 1, 1})));
     scene.aircraft = {0, 0, 0};
     Settings settings = plain_settings();
     settings.surface.hidden_surface = HiddenSurface::DepthBuffer;
     Planner planner(scene, settings);
-    PlanCounts counts;
-    const FramePlan& plan = planner.plan(
-        Camera(),
-        std::vector{state_at({0, 30, 0}), state_at({0, 90, 0}), state_at({0, 60, 0})},
-        counts);
+    const std::vector states{state_at({0, 30, 0}), state_at({0, 90, 0}), state_at({0, 60, 0})};
+    const FramePlan& plan = planner.plan({Camera(), states}).plan;
     REQUIRE(plan.steps.size() == 1);
     REQUIRE(plan.aircraft.size() == 3);
     CHECK(plan.aircraft[0].first_part == 0);

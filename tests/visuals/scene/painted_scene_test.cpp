@@ -28,16 +28,16 @@ struct Total {
 Total paint_scenes(
     int scenes,
     int aircraft,
-    std::unique_ptr<Ground> ground,
+    std::shared_ptr<const Ground> ground,
     const std::function<glm::dvec3(PlaceDice&)>& place,
-    const std::function<glm::dvec3(PlaceDice&)>& eye) {
+    const std::function<glm::dvec3(PlaceDice&)>& eye,
+    const Settings& settings = plain_settings()) {
     Total total;
     PlaceDice dice(1989);
-    const Settings settings = plain_settings();
     Scene scene;
     scene.ground = std::move(ground);
-    scene.models.push_back(convex_aircraft(box_model({10.0, 3.0, 2.0})));
-    scene.models.push_back(concave_aircraft(0.1));
+    scene.add_model(convex_aircraft(box_model({10.0, 3.0, 2.0})));
+    scene.add_model(concave_aircraft(0.1));
     for (int i = 0; i < aircraft; ++i) {
         scene.aircraft.push_back(static_cast<std::uint32_t>(i % 2));
     }
@@ -49,8 +49,7 @@ Total paint_scenes(
         }
         Camera camera = camera_looking_at(eye(dice), states.front().position_m);
         camera.near_m = 1e-3;
-        PlanCounts counts;
-        const FramePlan& plan = planner.plan(camera, states, counts);
+        const auto [plan, counts] = planner.plan({camera, states});
         const SightCount count = count_wrong_sights(plan, scene, states, camera, dice);
         if (count.wrong > 0) {
             INFO("scene " << i);
@@ -65,7 +64,7 @@ Total paint_scenes(
     return total;
 }
 
-std::unique_ptr<Ground> cells(const Height& height) {
+std::shared_ptr<const Ground> cells(const Height& height) {
     return cell_ground(16, 50.0, height);
 }
 
@@ -170,8 +169,8 @@ TEST_CASE("27 aircraft in any attitudes 20 m apart are painted right") {
 TEST_CASE("125 aircraft in any attitudes 20 m apart are planned without giving up") {
     Scene scene;
     scene.ground = cells(level);
-    scene.models.push_back(convex_aircraft(box_model({9.7, 6.5, 2.2})));
-    scene.models.push_back(concave_aircraft(0.1));
+    scene.add_model(convex_aircraft(box_model({9.7, 6.5, 2.2})));
+    scene.add_model(concave_aircraft(0.1));
     PlaceDice dice(1989);
     std::vector<sim::AircraftState> states;
     for (int i = 0; i < 125; ++i) {
@@ -182,8 +181,7 @@ TEST_CASE("125 aircraft in any attitudes 20 m apart are planned without giving u
     const Settings settings = plain_settings();
     Planner planner(scene, settings);
     const Camera camera = camera_looking_at({-120, -90, 140}, {40, 40, 120});
-    PlanCounts counts;
-    planner.plan(camera, states, counts);
+    const PlanCounts counts = planner.plan({camera, states}).counts;
     CHECK(counts.unordered == 0);
     CHECK(counts.knots > 1);
     CHECK(counts.cuts < 500);
@@ -194,17 +192,16 @@ TEST_CASE("ground before a knot stays behind what is seen between the members") 
     // that is painted first, as its sphere is farther than theirs.
     Scene scene;
     scene.ground = triangle_ground({{{{20, 7, 20}, {100, 7, 20}, {20, 7, 100}}}});
-    scene.models.push_back(convex_aircraft(box_model({50, 1, 1})));
-    scene.models.push_back(convex_aircraft(box_model({1, 1, 50})));
-    scene.models.push_back(convex_aircraft(box_model({1, 1, 1})));
+    scene.add_model(convex_aircraft(box_model({50, 1, 1})));
+    scene.add_model(convex_aircraft(box_model({1, 1, 50})));
+    scene.add_model(convex_aircraft(box_model({1, 1, 1})));
     scene.aircraft = {0, 1, 2};
     const std::vector states = {
         state_at({50, 11, 0}), state_at({0, 11, 50}), state_at({40, 5, 40})};
     const Settings settings = plain_settings();
     Planner planner(scene, settings);
     const Camera camera = camera_looking_at({0, 0, 0}, states[2].position_m);
-    PlanCounts counts;
-    const FramePlan& plan = planner.plan(camera, states, counts);
+    const auto [plan, counts] = planner.plan({camera, states});
     REQUIRE(counts.knots == 1);
     CHECK(plan.aircraft.front().model == 2);
     PlaceDice dice(1);
@@ -244,6 +241,7 @@ TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {
     }
     Settings settings = plain_settings();
     settings.ground.triangles = 600;
+    settings.ground.mesh = GroundMetric::Midpoint;
     const Total total = paint_scenes(
         60,
         5,
@@ -255,7 +253,8 @@ TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {
         [](PlaceDice& dice) {
             const glm::dvec3 at = dice.in_box({380, 380, 0});
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 60.0));
-        });
+        },
+        settings);
     CHECK(total.seen > 5000);
     CHECK(total.wrong == 0);
     CHECK(total.cuts > 100);

@@ -60,7 +60,7 @@ void PlanPainter::add_aircraft(
     const scene::FramePlan& plan, const scene::Scene& scene, const scene::PaintStep& step) {
     for (std::size_t d = step.first; d < step.first + step.count; ++d) {
         const scene::AircraftDraw& draw = plan.aircraft[d];
-        const scene::ModelBuffers& buffers = scene.models[draw.model].buffers;
+        const scene::ModelBuffers& buffers = scene.models[draw.model]->buffers;
         for (std::size_t i = draw.first_index; i < draw.first_index + draw.index_count; i += 3) {
             const auto corner = [&](std::size_t k) {
                 const scene::ModelVertex& vertex = buffers.vertices[buffers.indices[i + k]];
@@ -119,7 +119,7 @@ SightCount count_wrong_sights(
     const auto frustum = scene::frustum_normals(camera, 4.0 / 3.0);
     SightCount count;
     for (std::size_t i = 0; i < states.size(); ++i) {
-        const double radius_m = scene.models[scene.aircraft[i]].subject.radius_m;
+        const double radius_m = scene.model_of(i).subject.radius_m;
         for (int k = 0; k < 150; ++k) {
             const glm::dvec3 target_m =
                 states[i].position_m - camera.eye_m + dice.in_box(glm::dvec3(radius_m));

@@ -23,12 +23,11 @@ struct Shadowed {
     Settings settings = plain_settings();
     Camera camera = camera_looking_at({-60, -80, 90}, {0, 0, 0});
     std::vector<sim::AircraftState> states;
-    PlanCounts counts;
 
     Shadowed() {
         settings.surface.shadows = true;
         scene.ground = cell_ground(40, 10.0, rolling);
-        scene.models.push_back(convex_aircraft(box_model({8.0, 2.0, 1.0})));
+        scene.add_model(convex_aircraft(box_model({8.0, 2.0, 1.0})));
         scene.aircraft = {0, 0};
         states = {
             state_at({20, 10, 30}, glm::angleAxis(0.4, glm::normalize(glm::dvec3(1, 2, 3)))),
@@ -99,8 +98,9 @@ int in_the_way(
 TEST_CASE("shadow pieces lie on the triangle before them, inside it, and face up") {
     Shadowed world;
     Planner planner(world.scene, world.settings);
-    const FramePlan& plan = planner.plan(world.camera, world.states, world.counts);
-    REQUIRE(world.counts.shadow_triangles > 10);
+    const PlannedFrame frame = planner.plan({world.camera, world.states});
+    const FramePlan& plan = frame.plan;
+    REQUIRE(frame.counts.shadow_triangles > 10);
     CHECK(plan.shadow_indices.empty());
     Corners under;
     int pieces = 0;
@@ -117,13 +117,13 @@ TEST_CASE("shadow pieces lie on the triangle before them, inside it, and face up
         }
         CHECK(plan_side(corners.at[0], corners.at[1], corners.at[2]) > -1e-3);
     }
-    CHECK(pieces == world.counts.shadow_triangles);
+    CHECK(pieces == frame.counts.shadow_triangles);
 }
 
 TEST_CASE("ground is in shadow where the sun's ray meets an aircraft and nowhere else") {
     Shadowed world;
     Planner planner(world.scene, world.settings);
-    const FramePlan& plan = planner.plan(world.camera, world.states, world.counts);
+    const FramePlan& plan = planner.plan({world.camera, world.states}).plan;
     const glm::dvec3 to_sun(direction_to_sun(world.settings.air));
     PlaceDice dice(11);
     int dark = 0;
@@ -159,7 +159,7 @@ TEST_CASE("ground is in shadow where the sun's ray meets an aircraft and nowhere
 TEST_CASE("all of a shadow has one darkness and says for textures what light is left") {
     Shadowed world;
     Planner planner(world.scene, world.settings);
-    const FramePlan& plan = planner.plan(world.camera, world.states, world.counts);
+    const FramePlan& plan = planner.plan({world.camera, world.states}).plan;
     for (const models::ColourVertex& vertex : plan.shadow_vertices) {
         CHECK(vertex.colour == 0x8c464646U);
     }
@@ -169,10 +169,10 @@ TEST_CASE("with a depth buffer shadows come apart from the ground") {
     Shadowed world;
     world.settings.surface.hidden_surface = HiddenSurface::DepthBuffer;
     Planner planner(world.scene, world.settings);
-    const FramePlan& plan = planner.plan(world.camera, world.states, world.counts);
-    CHECK(
-        plan.shadow_indices.size() / 3 == static_cast<std::size_t>(world.counts.shadow_triangles));
-    CHECK(world.counts.shadow_triangles > 10);
+    const PlannedFrame frame = planner.plan({world.camera, world.states});
+    const FramePlan& plan = frame.plan;
+    CHECK(plan.shadow_indices.size() / 3 == static_cast<std::size_t>(frame.counts.shadow_triangles));
+    CHECK(frame.counts.shadow_triangles > 10);
     CHECK(std::ranges::none_of(
         plan.ground.indices, [&](std::uint32_t index) { return is_shadow(plan, index); }));
 }
@@ -182,8 +182,7 @@ TEST_CASE("a low sun, a shadow out of view or too small and a switch give no sha
         Shadowed world;
         change(world);
         Planner planner(world.scene, world.settings);
-        planner.plan(world.camera, world.states, world.counts);
-        return world.counts.shadow_triangles;
+        return planner.plan({world.camera, world.states}).counts.shadow_triangles;
     };
     CHECK(shadow_triangles([](Shadowed&) {}) > 0);
     CHECK(shadow_triangles([](Shadowed& w) { w.settings.air.sun_elevation_deg = 2.0; }) == 0);

@@ -23,6 +23,10 @@ public:
         , cell_m_(cell_m)
         , height_(std::move(height)) {}
 
+    int cells() const { return cells_; }
+
+    double cell_m() const { return cell_m_; }
+
     std::optional<double> height_at(double x_m, double y_m) const override {
         const double half_m = half_extent_m().x;
         if (std::abs(x_m) >= half_m || std::abs(y_m) >= half_m) {
@@ -31,24 +35,43 @@ public:
         return height_(x_m, y_m);
     }
 
+    /// World place of a corner of the cells.
+    glm::dvec3 corner_m(int column, int row) const {
+        const glm::dvec2 at_m = glm::dvec2(column, row) * cell_m_ - half_extent_m();
+        return glm::dvec3(at_m, height_(at_m.x, at_m.y));
+    }
+
     glm::dvec2 half_extent_m() const override { return glm::dvec2(0.5 * cells_ * cell_m_); }
 
     double mean_height_m() const override { return 0.0; }
 
     glm::vec3 mean_colour() const override { return glm::vec3(0.5F); }
 
-    void settle(const scene::Camera& /*camera*/, double /*aspect*/) override {}
+    std::unique_ptr<scene::GroundMesher> mesher(const scene::Settings& settings) const override;
 
-    scene::TriangleDraw triangles(
-        const scene::Camera& camera, double /*aspect*/, scene::GroundCounts& counts) override {
-        eye_m_ = camera.eye_m;
+private:
+    int cells_;
+    double cell_m_;
+    Height height_;
+};
+
+class CellMesher final : public scene::GroundMesher {
+public:
+    explicit CellMesher(std::shared_ptr<const CellGround> ground)
+        : ground_(std::move(ground))
+        , cells_(ground_->cells()) {}
+
+    const scene::Ground& ground() const override { return *ground_; }
+
+    scene::TriangleDraw
+    triangles(const scene::GroundRequest& request, scene::GroundCounts& counts) override {
+        eye_m_ = request.camera.eye_m;
         vertices_.clear();
         indices_.clear();
         for (int row = 0; row <= cells_; ++row) {
             for (int column = 0; column <= cells_; ++column) {
-                const glm::dvec2 at_m = glm::dvec2(column, row) * cell_m_ - half_extent_m();
                 vertices_.push_back(
-                    {glm::vec3(glm::dvec3(at_m, height_(at_m.x, at_m.y)) - eye_m_), 0xff808080U});
+                    {glm::vec3(ground_->corner_m(column, row) - eye_m_), 0xff808080U});
             }
         }
         for (const int row : far_to_near(eye_m_.y)) {
@@ -75,7 +98,8 @@ public:
 
 private:
     std::vector<int> far_to_near(double eye_m) const {
-        const auto eye_cell = static_cast<int>(std::floor(eye_m / cell_m_ + 0.5 * cells_));
+        const auto eye_cell =
+            static_cast<int>(std::floor(eye_m / ground_->cell_m() + 0.5 * cells_));
         std::vector<int> order;
         for (int i = 0; i < cells_; ++i) {
             order.push_back(i);
@@ -104,18 +128,24 @@ private:
         }
     }
 
+    std::shared_ptr<const CellGround> ground_;
     int cells_;
-    double cell_m_;
-    Height height_;
     glm::dvec3 eye_m_{0.0};
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;
 };
 
+std::unique_ptr<scene::GroundMesher> CellGround::mesher(const scene::Settings& /*settings*/) const {
+    return std::make_unique<CellMesher>(
+        std::static_pointer_cast<const CellGround>(shared_from_this()));
+}
+
 class TriangleGround final : public scene::Ground {
 public:
     explicit TriangleGround(std::vector<GroundTriangle> triangles)
         : triangles_(std::move(triangles)) {}
+
+    const std::vector<GroundTriangle>& triangles() const { return triangles_; }
 
     std::optional<double> height_at(double /*x_m*/, double /*y_m*/) const override { return 0.0; }
 
@@ -125,39 +155,56 @@ public:
 
     glm::vec3 mean_colour() const override { return glm::vec3(0.5F); }
 
-    void settle(const scene::Camera& /*camera*/, double /*aspect*/) override {}
+    std::unique_ptr<scene::GroundMesher> mesher(const scene::Settings& settings) const override;
 
-    scene::TriangleDraw triangles(
-        const scene::Camera& camera, double /*aspect*/, scene::GroundCounts& counts) override {
+private:
+    std::vector<GroundTriangle> triangles_;
+};
+
+class TriangleMesher final : public scene::GroundMesher {
+public:
+    explicit TriangleMesher(std::shared_ptr<const TriangleGround> ground)
+        : ground_(std::move(ground)) {}
+
+    const scene::Ground& ground() const override { return *ground_; }
+
+    scene::TriangleDraw
+    triangles(const scene::GroundRequest& request, scene::GroundCounts& counts) override {
         vertices_.clear();
         indices_.clear();
-        for (const GroundTriangle& triangle : triangles_) {
+        for (const GroundTriangle& triangle : ground_->triangles()) {
             for (const glm::dvec3& corner_m : triangle) {
                 indices_.push_back(static_cast<std::uint32_t>(vertices_.size()));
-                vertices_.push_back({glm::vec3(corner_m - camera.eye_m), 0xff808080U});
+                vertices_.push_back({glm::vec3(corner_m - request.camera.eye_m), 0xff808080U});
             }
         }
-        counts = {static_cast<int>(triangles_.size()), 0, 0.0};
+        counts = {static_cast<int>(ground_->triangles().size()), 0, 0.0};
         return {vertices_, indices_};
     }
 
     void
     triangles_in(const BoxTest& /*wanted*/, std::vector<std::uint32_t>& triangles) const override {
-        for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+        for (std::uint32_t i = 0; i < ground_->triangles().size(); ++i) {
             triangles.push_back(i);
         }
     }
 
 private:
-    std::vector<GroundTriangle> triangles_;
+    std::shared_ptr<const TriangleGround> ground_;
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;
 };
 
+std::unique_ptr<scene::GroundMesher>
+TriangleGround::mesher(const scene::Settings& /*settings*/) const {
+    return std::make_unique<TriangleMesher>(
+        std::static_pointer_cast<const TriangleGround>(shared_from_this()));
+}
+
 } // namespace
 
-std::unique_ptr<scene::Ground> triangle_ground(std::vector<GroundTriangle> triangles) {
-    return std::make_unique<TriangleGround>(std::move(triangles));
+std::shared_ptr<const scene::Ground> triangle_ground(std::vector<GroundTriangle> triangles) {
+    return std::make_shared<TriangleGround>(std::move(triangles));
 }
 
 glm::dquat PlaceDice::attitude() {
@@ -166,8 +213,8 @@ glm::dquat PlaceDice::attitude() {
     return glm::normalize(glm::dquat(q.x, q.y, q.z, q.w + 1e-3));
 }
 
-std::unique_ptr<scene::Ground> cell_ground(int cells, double cell_m, const Height& height) {
-    return std::make_unique<CellGround>(cells, cell_m, height);
+std::shared_ptr<const scene::Ground> cell_ground(int cells, double cell_m, const Height& height) {
+    return std::make_shared<CellGround>(cells, cell_m, height);
 }
 
 models::polygons::PolygonModel box_model(const glm::dvec3& half_m) {

@@ -28,12 +28,14 @@ using Height = std::function<double(double x_m, double y_m)>;
 
 /// Square cells of two triangles over a square map, in painting order for every eye: the rows and
 /// in them the cells from the farthest to the eye's own.
-std::unique_ptr<visuals::scene::Ground> cell_ground(int cells, double cell_m, const Height& height);
+std::shared_ptr<const visuals::scene::Ground>
+cell_ground(int cells, double cell_m, const Height& height);
 
 using GroundTriangle = std::array<glm::dvec3, 3>;
 
 /// Triangles painted in the order given, above a level of nothing.
-std::unique_ptr<visuals::scene::Ground> triangle_ground(std::vector<GroundTriangle> triangles);
+std::shared_ptr<const visuals::scene::Ground>
+triangle_ground(std::vector<GroundTriangle> triangles);
 
 /// A box around the origin as a model of six polygons.
 models::polygons::PolygonModel box_model(const glm::dvec3& half_m);

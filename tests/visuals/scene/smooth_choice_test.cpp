@@ -28,7 +28,7 @@ struct Box {
 
     Box() {
         scene.ground = cell_ground(4, 100.0, [](double, double) { return 0.0; });
-        scene.models.push_back(convex_aircraft(box_model({1, 1, 1})));
+        scene.add_model(convex_aircraft(box_model({1, 1, 1})));
         scene.aircraft = {0};
     }
 
@@ -37,14 +37,11 @@ struct Box {
         int bits = 0;
     };
 
-    Shown shown(int set_smooth = -1) {
+    Shown shown(const scene::SmoothWish& wish = {}) {
         scene::Planner planner(scene, settings);
-        if (set_smooth >= 0) {
-            planner.set_smooth(set_smooth);
-        }
-        scene::PlanCounts counts;
         const std::array there{state_at({20, 0, 50})};
-        const scene::FramePlan& plan = planner.plan(camera, there, counts);
+        const auto [plan, counts] =
+            planner.plan({.camera = camera, .states = there, .smooth = wish});
         return {counts.smooth_polygons, std::popcount(plan.smooth.at(0) & 0x3fU)};
     }
 };
@@ -91,26 +88,16 @@ TEST_CASE("shading flat, gouraud and hybrid by a share are bits of the plan") {
     box.settings.shading.smooth_share = 0.5;
     CHECK(box.shown().bits == 3);
     CHECK(box.shown().counted == 3);
-    CHECK(box.shown(2).bits == 2);
-    CHECK(box.shown(5).bits == 5);
+    CHECK(box.shown({.polygons = 2, .share = {}}).bits == 2);
+    CHECK(box.shown({.polygons = 5, .share = {}}).bits == 5);
 }
 
-TEST_CASE("a share that is set goes before the settings' own, until a number is set or neither") {
+TEST_CASE("a frame's share goes before the settings' own, a number before both") {
     Box box;
     box.settings.shading.smooth_share = 0.5;
-    scene::Planner planner(box.scene, box.settings);
-    scene::PlanCounts counts;
-    const std::array there{state_at({20, 0, 50})};
-    const auto smooth = [&] {
-        planner.plan(box.camera, there, counts);
-        return counts.smooth_polygons;
-    };
-    planner.set_smooth_share(1.0 / 3.0);
-    CHECK(smooth() == 2);
-    planner.set_smooth(5);
-    CHECK(smooth() == 5);
-    planner.set_smooth_share(std::nullopt);
-    CHECK(smooth() == 3);
+    CHECK(box.shown({.polygons = {}, .share = 1.0 / 3.0}).counted == 2);
+    CHECK(box.shown({.polygons = 5, .share = 1.0 / 3.0}).counted == 5);
+    CHECK(box.shown().counted == 3);
 }
 
 TEST_CASE(
@@ -119,9 +106,8 @@ TEST_CASE(
     const auto tints = [&](scene::ModelLook look) {
         box.settings.shading.show_model = look;
         scene::Planner planner(box.scene, box.settings);
-        scene::PlanCounts counts;
         const std::array there{state_at({20, 0, 50})};
-        return planner.plan(box.camera, there, counts).aircraft.at(0).tints;
+        return planner.plan({box.camera, there}).plan.aircraft.at(0).tints;
     };
     CHECK(tints(scene::ModelLook::None).smooth == 0);
     CHECK(tints(scene::ModelLook::None).flat == 0);

@@ -4,6 +4,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "small_world.h"
 
@@ -30,10 +32,11 @@ struct Flight {
 
     Flight() {
         scene.ground = cell_ground(4, 100.0, [](double, double) { return 0.0; });
-        scene.models.push_back(convex_aircraft(box_model({1, 1, 1})));
+        scene::AircraftModel model = convex_aircraft(box_model({1, 1, 1}));
         const models::TriangleMesh mesh = tetrahedron();
         const std::array<scene::MeshSource, 1> sources{{{&mesh, 0.0}}};
-        scene::add_levels(scene.models[0], sources, 0.2);
+        scene::add_levels(model, sources, 0.2);
+        scene.add_model(std::move(model));
         scene.aircraft = {0};
     }
 };
@@ -48,27 +51,25 @@ TEST_CASE("an aircraft is a mesh near the eye and polygons far from it, and no d
           "there") {
     Flight flight;
     scene::Planner planner(flight.scene, flight.settings);
-    scene::PlanCounts counts;
     const std::array near{state_at({30, 0, 50})};
-    const scene::FramePlan& solid = planner.plan(flight.camera, near, counts);
-    CHECK(count(solid, What::Solid) == 1);
-    CHECK(count(solid, What::ClearDepth) == 1);
-    CHECK(counts.aircraft_level == 0);
-    CHECK(counts.aircraft_polygons == 4);
+    const scene::PlannedFrame solid = planner.plan({flight.camera, near});
+    CHECK(count(solid.plan, What::Solid) == 1);
+    CHECK(count(solid.plan, What::ClearDepth) == 1);
+    CHECK(solid.counts.aircraft_level == 0);
+    CHECK(solid.counts.aircraft_polygons == 4);
     const std::array far{state_at({190, 0, 50})};
-    const scene::FramePlan& painted = planner.plan(flight.camera, far, counts);
-    CHECK(count(painted, What::Solid) == 0);
-    CHECK(painted.depth_boxes.empty());
-    CHECK(counts.aircraft_level == 1);
-    CHECK(counts.aircraft_polygons == 6);
+    const scene::PlannedFrame painted = planner.plan({flight.camera, far});
+    CHECK(count(painted.plan, What::Solid) == 0);
+    CHECK(painted.plan.depth_boxes.empty());
+    CHECK(painted.counts.aircraft_level == 1);
+    CHECK(painted.counts.aircraft_polygons == 6);
 }
 
 TEST_CASE("depth is cleared where the mesh is seen and nowhere else") {
     Flight flight;
     scene::Planner planner(flight.scene, flight.settings);
-    scene::PlanCounts counts;
     const std::array near{state_at({30, 0, 50})};
-    const scene::FramePlan& plan = planner.plan(flight.camera, near, counts);
+    const scene::FramePlan& plan = planner.plan({flight.camera, near}).plan;
     REQUIRE(plan.depth_boxes.size() == 1);
     const scene::PixelBox& box = plan.depth_boxes[0];
     CHECK(box.least.x > 280);
@@ -82,9 +83,8 @@ TEST_CASE("depth is cleared where the mesh is seen and nowhere else") {
 TEST_CASE("an eye inside the box of a mesh gets depth in the whole picture") {
     Flight flight;
     scene::Planner planner(flight.scene, flight.settings);
-    scene::PlanCounts counts;
     const std::array around{state_at({0.2, 0, 50})};
-    const scene::FramePlan& plan = planner.plan(flight.camera, around, counts);
+    const scene::FramePlan& plan = planner.plan({flight.camera, around}).plan;
     REQUIRE(plan.depth_boxes.size() == 1);
     CHECK(plan.depth_boxes[0].least == glm::ivec2(0));
     CHECK(plan.depth_boxes[0].most == flight.settings.view.size_px);
@@ -95,13 +95,13 @@ TEST_CASE("ground that a mesh sticks in hides it by depth, and meshes that meet 
     flight.scene.aircraft = {0, 0};
     flight.camera = scene::camera_looking_at({0, 0, 10}, {30, 0, 0});
     scene::Planner planner(flight.scene, flight.settings);
-    scene::PlanCounts counts;
     const std::array both{state_at({30, 0, 0.3}), state_at({31, 0, 0.3})};
-    const scene::FramePlan& plan = planner.plan(flight.camera, both, counts);
+    const scene::PlannedFrame frame = planner.plan({flight.camera, both});
+    const scene::FramePlan& plan = frame.plan;
     CHECK(count(plan, What::ClearDepth) == 1);
     CHECK(count(plan, What::GroundDepth) == 1);
     CHECK(count(plan, What::Solid) == 2);
-    CHECK(counts.knots == 1);
+    CHECK(frame.counts.knots == 1);
     const auto at = [&](What what) {
         return std::ranges::find(plan.steps, what, &scene::PaintStep::what) - plan.steps.begin();
     };
@@ -112,8 +112,6 @@ TEST_CASE("ground that a mesh sticks in hides it by depth, and meshes that meet 
 TEST_CASE("a mesh out of view costs as little as its polygons") {
     Flight flight;
     scene::Planner planner(flight.scene, flight.settings);
-    scene::PlanCounts counts;
     const std::array behind{state_at({-20, 0, 50})};
-    planner.plan(flight.camera, behind, counts);
-    CHECK(counts.aircraft_level == 1);
+    CHECK(planner.plan({flight.camera, behind}).counts.aircraft_level == 1);
 }

@@ -130,14 +130,17 @@ namespace {
 
 gl::Picture number_picture(
     flight::Session& session, const settings::Settings& settings, const gl::Functions& functions) {
-    scene::Planner planner(session.scene(), settings);
-    scene::IdPlan ids(session.scene());
+    // Meshed by the session's settings, so that all pictures show the same triangles.
+    const scene::Scene& scene = session.world().scene;
+    scene::Planner planner(scene, settings, scene.ground->mesher(session.settings()));
+    planner.settle(session.camera());
+    scene::IdPlan ids(scene);
     gl::Renderer renderer(functions, settings.view.size_px.x, settings.view.size_px.y, 1);
     renderer.load_models(ids.models());
-    scene::PlanCounts counts;
-    const scene::FramePlan& plan = planner.plan(session.camera(), session.states(), counts);
+    const scene::PlannedFrame frame =
+        planner.plan({session.camera(), session.states(), session.triangle_target()});
     gl::Picture picture;
-    renderer.draw(ids.of(plan));
+    renderer.draw(ids.of(frame.plan));
     renderer.finish_and_read(picture);
     return picture;
 }

@@ -100,7 +100,7 @@ Measured measure(const PaperRow& row, const StudyOptions& options) {
     octant.make_current();
     flight::FlightRecorder recorder(record, settings_of(row, options, methods.front()), octant);
     Measured measured;
-    const models::polygons::PolygonModel& model = octant.world().scene.models.front().polygons;
+    const models::polygons::PolygonModel& model = octant.world().scene.models.front()->polygons;
     measured.vertices = model.vertices_m.size();
     measured.polygons = model.polygons.size();
     measured.frames = octant.frames();

@@ -1,0 +1,62 @@
+#include "small_flight.h"
+
+#include "models/heights/height_field.h"
+#include "models/polygons/mesh_polygons.h"
+#include "models/triangle_mesh.h"
+#include "sim/base/axes.h"
+#include "visuals/draworder/draw_order.h"
+#include "visuals/scene/aircraft_model.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace octant::tests {
+
+namespace scene = visuals::scene;
+
+namespace {
+
+scene::AircraftModel tetrahedron() {
+    models::TriangleMesh mesh;
+    mesh.vertices_m = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+    models::polygons::PolygonModel polygons = models::polygons::as_polygons(mesh);
+    visuals::draworder::DrawOrder order = visuals::draworder::file_order(polygons);
+    return scene::aircraft_model(std::move(polygons), std::move(order), glm::dvec3(0.0));
+}
+
+} // namespace
+
+sim::Trajectory
+straight_flight(const glm::dvec3& from_m, const glm::dvec3& velocity_mps, double length_s) {
+    constexpr double rate_hz = 20.0;
+    const double heading_rad = std::atan2(velocity_mps.x, velocity_mps.y);
+    std::vector<sim::AircraftState> samples;
+    for (int i = 0; i <= static_cast<int>(std::lround(length_s * rate_hz)); ++i) {
+        sim::AircraftState& state = samples.emplace_back();
+        state.time_s = i / rate_hz;
+        state.position_m = from_m + state.time_s * velocity_mps;
+        state.velocity_mps = velocity_mps;
+        state.body_to_world = body_to_world_from_euler({heading_rad, 0.0, 0.0});
+    }
+    return sim::Trajectory(std::move(samples));
+}
+
+ui::world::World small_world(int aircraft) {
+    constexpr int side = 41;
+    constexpr double spacing_m = 100.0;
+    scene::Settings by_quadtree;
+    by_quadtree.ground.mesh = scene::GroundMetric::Midpoint;
+    ui::world::World world;
+    world.scene.ground = scene::ground_from_field(
+        {side, side, spacing_m, std::vector<float>(side * side, 0.0F)}, by_quadtree);
+    world.scene.add_model(tetrahedron());
+    world.scene.aircraft.assign(static_cast<std::size_t>(aircraft), 0);
+    world.flight.trajectory = straight_flight({0, -500, 300}, {0, 100, 0}, 10.0);
+    return world;
+}
+
+} // namespace octant::tests

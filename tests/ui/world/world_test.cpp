@@ -1,0 +1,119 @@
+#include "models/heights/height_field_export.h"
+#include "sim/base/error.h"
+#include "tests/scratch.h"
+#include "ui/world/frame_times.h"
+#include "ui/world/scene_ground.h"
+#include "ui/world/world.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+using namespace octant;
+using ui::settings::Settings;
+using ui::world::DrawnBy;
+
+namespace {
+
+/// Rolling ground of 26 by 26 km as a file.
+std::string rolling_ground() {
+    constexpr int side = 257;
+    std::vector<float> heights_m;
+    for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column) {
+            heights_m.push_back(static_cast<float>(
+                std::lround(60.0 * std::sin(column / 9.0) + 40.0 * std::cos(row / 13.0))));
+        }
+    }
+    const std::filesystem::path file = tests::scratch_folder() / "rolling.tif";
+    models::heights::write_height_field(file, {side, side, 101.5625, heights_m});
+    return file.string();
+}
+
+Settings over(const std::string& terrain) {
+    Settings settings;
+    settings.path.terrain = terrain;
+    return settings;
+}
+
+} // namespace
+
+TEST_CASE(
+    "a world has each model once, however many aircraft fly it, and the first one's cockpit") {
+    Settings settings = over("none");
+    settings.path.aircraft = {"500md", "f15", "500md"};
+    const ui::world::World world = ui::world::load_world(settings);
+    CHECK(world.scene.aircraft == std::vector<std::uint32_t>{0, 1, 0});
+    CHECK(world.scene.model_of(0).polygons.name == "500md");
+    CHECK(world.scene.model_of(1).polygons.name == "f15");
+    CHECK(world.scene.models.size() == 2U + (world.scene.cockpit ? 1U : 0U));
+    CHECK(world.flight.title == "500md straight over none");
+    CHECK(ui::world::formation_of(world.scene).framed_radius_m(1.0) > 1.0);
+}
+
+TEST_CASE("a path is laid over ground from a file with the clearance that it asks for") {
+    const ui::world::World world = ui::world::load_world(over(rolling_ground()));
+    CHECK(world.flight.lowest_clearance_m >= 150.0 - 1e-6);
+    CHECK(world.flight.trajectory.end_s() == Approx(39.95).margin(0.06));
+    CHECK(world.flight.rate_hz == 20.0);
+    CHECK(world.ground_name == "rolling.tif, 257 x 257 samples, 101.6 m apart");
+    CHECK_FALSE(world.scene.ground_texture);
+    for (const sim::AircraftState& sample : world.flight.trajectory.samples()) {
+        const auto ground_m =
+            world.scene.ground->height_at(sample.position_m.x, sample.position_m.y);
+        REQUIRE(ground_m);
+        CHECK(sample.position_m.z - *ground_m > 140.0);
+    }
+}
+
+TEST_CASE("what cannot be loaded is said before anything is flown") {
+    CHECK_THROWS_AS(ui::world::load_world(over("no-such-ground.tif")), Error);
+    Settings settings = over("none");
+    settings.path.aircraft = {"no-such-aircraft"};
+    CHECK_THROWS_AS(ui::world::load_world(settings), Error);
+    Settings off_the_map = over(rolling_ground());
+    off_the_map.path.place = "12000,12000";
+    CHECK_THROWS_AS(ui::world::load_world(off_the_map), Error);
+}
+
+TEST_CASE("a ground is loaded with what is to be said of it, and textured where that is asked") {
+    Settings settings = over(rolling_ground());
+    const ui::world::SceneGround bare = ui::world::load_scene_ground(settings, DrawnBy::Processor);
+    CHECK(bare.texture == nullptr);
+    CHECK(bare.notes.empty());
+    CHECK_FALSE(bare.place);
+    settings.air.ground_shading = visuals::scene::GroundShading::Texture;
+    const ui::world::SceneGround textured =
+        ui::world::load_scene_ground(settings, DrawnBy::Processor);
+    REQUIRE(textured.texture);
+    CHECK(textured.texture->albedo.width == 257);
+    CHECK(textured.name == bare.name + ", textured");
+    CHECK(textured.ground->height_at(100.0, -300.0) == bare.ground->height_at(100.0, -300.0));
+    CHECK_THROWS_AS(
+        ui::world::load_scene_ground(
+            [] {
+                Settings none = over("none");
+                none.air.ground_shading = visuals::scene::GroundShading::Texture;
+                return none;
+            }(),
+            DrawnBy::Processor),
+        Error);
+}
+
+TEST_CASE("pictures are taken at the path's samples or at a rate, as long as is asked for") {
+    Settings settings = over("none");
+    const ui::world::Flight flight = ui::world::load_world(settings).flight;
+    settings.time.seconds = 2.0;
+    CHECK(ui::world::frame_times_of(settings, flight).at_s.size() == 121);
+    settings.time.frame_per_sample = true;
+    const ui::world::FrameTimes by_sample = ui::world::frame_times_of(settings, flight);
+    CHECK(by_sample.at_s.size() == 41);
+    CHECK(by_sample.rate_hz == 20.0);
+    settings.time.frames = 7;
+    CHECK(ui::world::frame_times_of(settings, flight).at_s.size() == 7);
+    settings.time.start_s = 1000.0;
+    CHECK_THROWS_AS(ui::world::frame_times_of(settings, flight), Error);
+}

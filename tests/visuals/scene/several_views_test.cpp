@@ -1,0 +1,161 @@
+#include "visuals/terrain/ground_builder.h"
+
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "small_world.h"
+
+using namespace octant;
+using namespace octant::tests;
+namespace scene = octant::visuals::scene;
+namespace terrain = octant::visuals::terrain;
+
+namespace {
+
+models::heights::HeightField rough_field() {
+    constexpr int side = 65;
+    std::vector<float> heights_m;
+    for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column) {
+            heights_m.push_back(static_cast<float>(
+                40.0 * std::sin(column / 3.0) * std::cos(row / 4.0) + 10.0 * std::sin(row * 1.7)));
+        }
+    }
+    return {side, side, 25.0, heights_m};
+}
+
+/// By the paper's quadtree, with a control that remembers earlier frames.
+scene::Settings damped() {
+    scene::Settings settings = plain_settings();
+    settings.ground.detail = scene::DetailControl::Damped;
+    settings.ground.triangles = 600;
+    return settings;
+}
+
+scene::Scene scene_over(std::shared_ptr<const scene::Ground> ground) {
+    scene::Scene scene;
+    scene.ground = std::move(ground);
+    scene.add_model(convex_aircraft(box_model({1, 1, 1})));
+    scene.aircraft = {0};
+    return scene;
+}
+
+scene::Camera camera_at(int frame) {
+    return scene::camera_looking_at({-600.0 + 20.0 * frame, -500, 200}, {0, 0, 0});
+}
+
+/// Triangles of ground in each of the first frames of a flight.
+std::vector<int> flown(scene::Planner& planner, const std::function<void()>& between) {
+    std::vector<int> triangles;
+    const std::array there{state_at({0, 0, 100})};
+    planner.settle(camera_at(0));
+    for (int frame = 0; frame < 12; ++frame) {
+        triangles.push_back(planner.plan({camera_at(frame), there}).counts.ground.triangles);
+        between();
+    }
+    return triangles;
+}
+
+} // namespace
+
+TEST_CASE("a second view of the same ground does not disturb the detail control of the first") {
+    const scene::Settings settings = damped();
+    const scene::Scene scene = scene_over(scene::ground_from_field(rough_field(), settings));
+    scene::Planner alone(scene, settings);
+    const std::vector<int> expected = flown(alone, [] {});
+
+    scene::Settings coarse = settings;
+    coarse.ground.triangles = 100;
+    scene::Planner first(scene, settings);
+    scene::Planner second(scene, coarse);
+    second.settle(scene::camera_looking_at({500, 500, 900}, {0, 0, 0}));
+    const std::array there{state_at({0, 0, 100})};
+    int of_second = 0;
+    const std::vector<int> triangles = flown(first, [&] {
+        const scene::Camera above = scene::camera_looking_at({500, 500, 900}, {0, 0, 0});
+        of_second = second.plan({above, there}).counts.ground.triangles;
+    });
+    CHECK(triangles == expected);
+    CHECK(of_second > 0);
+    CHECK(of_second < 500);
+}
+
+TEST_CASE("a planner that is given the last one's mesher goes on with its detail") {
+    const scene::Settings settings = damped();
+    const scene::Scene scene = scene_over(scene::ground_from_field(rough_field(), settings));
+    scene::Planner alone(scene, settings);
+    const std::vector<int> expected = flown(alone, [] {});
+
+    const std::array there{state_at({0, 0, 100})};
+    auto planner = std::make_unique<scene::Planner>(scene, settings);
+    planner->settle(camera_at(0));
+    std::vector<int> triangles;
+    for (int frame = 0; frame < 12; ++frame) {
+        triangles.push_back(planner->plan({camera_at(frame), there}).counts.ground.triangles);
+        planner = std::make_unique<scene::Planner>(
+            scene, settings, scene::mesher_after(planner->take_mesher(), *scene.ground, settings));
+    }
+    CHECK(triangles == expected);
+}
+
+TEST_CASE("meshes made ahead and meshes made when they are asked for are the same") {
+    const scene::Settings settings = plain_settings();
+    const scene::Scene scene =
+        scene_over(scene::ground_from_tiles(terrain::ground_of(rough_field()), settings));
+    const std::array there{state_at({0, 0, 100})};
+    scene::Planner ahead(scene, settings);
+    scene::Planner at_once(scene, settings);
+    for (int frame = 0; frame < 6; ++frame) {
+        const int target = 300 + 50 * frame;
+        ahead.prepare(camera_at(frame), target);
+        const auto [a, counts_a] = ahead.plan({camera_at(frame), there, target});
+        const auto [b, counts_b] = at_once.plan({camera_at(frame), there, target});
+        CHECK(counts_a.ground.triangles == counts_b.ground.triangles);
+        CHECK(counts_a.ground.triangles <= target);
+        CHECK(a.ground.indices.size() == b.ground.indices.size());
+    }
+}
+
+TEST_CASE("ground says which settings it suits and is made anew of its heights for others") {
+    scene::Settings settings = damped();
+    const auto field = scene::ground_from_field(rough_field(), settings);
+    CHECK(field->suits(settings));
+    settings.ground.triangles = 50;
+    settings.view.size_px = {320, 200};
+    CHECK(field->suits(settings));
+
+    scene::Settings other_sun = settings;
+    other_sun.air.sun_elevation_deg = 70.0;
+    CHECK_FALSE(field->suits(other_sun));
+    const auto lit = field->remade(other_sun);
+    REQUIRE(lit);
+    CHECK(lit->suits(other_sun));
+    CHECK(lit->height_at(33.0, -210.0) == field->height_at(33.0, -210.0));
+    CHECK(lit->mean_colour() != field->mean_colour());
+
+    const scene::Settings by_error = plain_settings();
+    const auto tiles = field->remade(by_error);
+    REQUIRE(tiles);
+    CHECK(tiles->suits(by_error));
+    CHECK(*tiles->height_at(33.0, -210.0) == Approx(*field->height_at(33.0, -210.0)).margin(0.01));
+    CHECK(tiles->remade(settings) == nullptr);
+}
+
+TEST_CASE("whoever measures is called once a frame, before the ground is meshed") {
+    const scene::Settings settings = plain_settings();
+    const scene::Scene scene =
+        scene_over(cell_ground(4, 100.0, [](double, double) { return 0.0; }));
+    scene::Planner planner(scene, settings);
+    const std::array there{state_at({0, 0, 100})};
+    int calls = 0;
+    planner.plan({.camera = camera_at(0), .states = there, .when_refined = [&] { ++calls; }});
+    CHECK(calls == 1);
+    planner.plan({camera_at(1), there});
+    CHECK(calls == 1);
+}

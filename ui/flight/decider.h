@@ -1,0 +1,62 @@
+#pragma once
+
+#include "ui/flight/decision.h"
+#include "visuals/scene/load_controller.h"
+#include "visuals/scene/settings.h"
+#include "visuals/shading/shading_controller.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace octant::ui::flight {
+
+/// What a frame took and drew, as far as the next ones' decisions go by it.
+struct FrameOutcome {
+    double frame_ms = 0.0;
+    int terrain_triangles = 0;
+    int may_be_smooth = 0;   ///< polygons of aircraft, at least 0
+    int smooth_polygons = 0; ///< of them: were
+    bool warm_up = false;    ///< teaches nothing
+};
+
+/// Decides for each frame how many triangles of ground it aims at and how many polygons are smooth:
+/// as the settings say, by what earlier frames took where the settings let that follow the clock,
+/// or as a recording has it. Reads no clock itself, so that same outcomes give same decisions.
+class Decider {
+public:
+    /// Forgets all outcomes and decides by these settings from now on; what is replayed stays.
+    /// `rate_hz`: frames a second that there is time for.
+    void begin(const visuals::scene::Settings& settings, double rate_hz);
+
+    /// From now on each frame is decided as it stands here, by its number, whatever the clock says.
+    void replay(std::vector<Decision> decisions) { replayed_ = std::move(decisions); }
+
+    /// Triangles of ground that a frame aims at; below the number of replayed ones, if any
+    /// (asserted).
+    int triangle_target(int frame);
+
+    /// Smooth polygons of a frame; nothing: as the settings' share says. Likewise.
+    std::optional<int> smooth_target(int frame) const;
+
+    /// Learns from a frame. Returns its stress, the share of its time that it used: of this frame
+    /// alone, or filtered over several where the triangle target follows it. Not a number before
+    /// the first frame that counts.
+    double learn(const FrameOutcome& outcome);
+
+    /// What `--adapt shading` has found out; nothing before the first frame that counts.
+    const std::optional<visuals::shading::ShadingState>& shading() const { return shading_; }
+
+private:
+    void learn_shading(const FrameOutcome& outcome);
+
+    visuals::scene::Adaptation adapt_;
+    double rate_hz_ = 60.0;
+    int settled_triangles_ = 0; ///< of the settings
+    visuals::scene::LoadSettings load_settings_;
+    visuals::scene::LoadState load_;
+    std::optional<visuals::shading::ShadingState> shading_;
+    std::vector<Decision> replayed_; ///< by frame; empty = nothing is replayed
+};
+
+} // namespace octant::ui::flight
