@@ -2,6 +2,7 @@
 
 #include "models/polygons/file_axes.h"
 #include "models/polygons/obj_reader.h"
+#include "sim/aircraft_kind.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
 #include "ui/world/mesh_aircraft.h"
@@ -87,12 +88,12 @@ load_model(const std::string& name, const settings::Settings& settings, Notes& n
 }
 
 void load_cockpit(const std::string& aircraft, scene::Scene& scene) {
-    const std::filesystem::path cockpit =
-        base::data_folder() / "models" / (aircraft + "-cockpit.obj");
-    if (!std::filesystem::exists(cockpit)) {
+    const sim::AircraftKind* kind = sim::find_aircraft_kind(aircraft);
+    if (kind == nullptr) {
         return;
     }
-    models::polygons::PolygonModel model = models::polygons::read_obj(cockpit);
+    models::polygons::PolygonModel model =
+        models::polygons::read_obj(base::data_folder() / "models" / kind->cockpit_file);
     draworder::DrawOrder order = draworder::file_order(model);
     scene.cockpit = static_cast<std::uint32_t>(scene.models.size());
     scene.models.push_back(
