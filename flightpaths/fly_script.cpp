@@ -25,11 +25,11 @@ constexpr double climb_slack_mps = 0.05;
 
 class Flight {
 public:
-    Flight(const PathScript& script, const sim::AircraftLimits& limits, bool lenient)
+    Flight(const PathScript& script, const sim::AircraftKind& kind, bool lenient)
         : script_(script)
-        , limits_(limits)
+        , limits_(kind.limits)
         , lenient_(lenient)
-        , check_(script, limits, lenient, notes_)
+        , check_(script, kind, lenient, notes_)
         , mass_(start()) {
         for (const Leg& leg : script.legs) {
             legs_.push_back(check_.checked(leg));
@@ -214,8 +214,8 @@ private:
 
 } // namespace
 
-FlownPath fly(const PathScript& script, const sim::AircraftLimits& limits, bool lenient) {
-    return Flight(script, limits, lenient).flown();
+FlownPath fly(const PathScript& script, const sim::AircraftKind& kind, bool lenient) {
+    return Flight(script, kind, lenient).flown();
 }
 
 } // namespace octant::flightpaths

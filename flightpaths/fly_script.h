@@ -1,7 +1,7 @@
 #pragma once
 
 #include "flightpaths/path_script.h"
-#include "sim/aircraft_limits.h"
+#include "sim/aircraft_kind.h"
 #include "sim/trajectory.h"
 
 #include <filesystem>
@@ -32,6 +32,6 @@ struct FlownPath {
 ///
 /// Legs that end up to 1 s before the last sample: the last leg goes on. Legs that end earlier:
 /// Error. Legs that last longer are cut, and a leg that is never begun gives a note.
-FlownPath fly(const PathScript& script, const sim::AircraftLimits& limits, bool lenient);
+FlownPath fly(const PathScript& script, const sim::AircraftKind& kind, bool lenient);
 
 } // namespace octant::flightpaths

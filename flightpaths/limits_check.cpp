@@ -49,11 +49,12 @@ Peaks peaks_of(const Leg& weave) {
 
 LimitsCheck::LimitsCheck(
     const PathScript& script,
-    const sim::AircraftLimits& limits,
+    const sim::AircraftKind& kind,
     bool lenient,
     std::vector<std::string>& notes)
     : script_(script)
-    , limits_(limits)
+    , kind_(kind)
+    , limits_(kind.limits)
     , lenient_(lenient)
     , notes_(notes) {}
 
@@ -79,7 +80,7 @@ LimitsCheck::clipped(double value, double limit, const char* which, const Subjec
                 which,
                 short_number(limit),
                 subject.unit,
-                limits_.name,
+                kind_.name,
                 short_number(value)));
     }
     notes_.push_back(fmt::format(
@@ -91,7 +92,7 @@ LimitsCheck::clipped(double value, double limit, const char* which, const Subjec
         subject.unit,
         short_number(limit),
         which,
-        limits_.name));
+        kind_.name));
     return limit;
 }
 
@@ -161,7 +162,7 @@ std::string LimitsCheck::weave_fault(const Leg& leg) const {
             what,
             side,
             short_number(limit),
-            limits_.name,
+            kind_.name,
             short_number(got));
     };
     constexpr double most = 1.0 + slack;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "flightpaths/path_script.h"
+#include "sim/aircraft_kind.h"
 #include "sim/aircraft_limits.h"
 
 #include <string>
@@ -15,7 +16,7 @@ class LimitsCheck {
 public:
     LimitsCheck(
         const PathScript& script,
-        const sim::AircraftLimits& limits,
+        const sim::AircraftKind& kind,
         bool lenient,
         std::vector<std::string>& notes);
 
@@ -41,6 +42,7 @@ private:
     std::string weave_fault(const Leg& leg) const;
 
     const PathScript& script_;
+    const sim::AircraftKind& kind_;
     const sim::AircraftLimits& limits_;
     bool lenient_;
     std::vector<std::string>& notes_;

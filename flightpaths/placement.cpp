@@ -251,7 +251,7 @@ PlacedPath place_over_ground(
     const Placement& placement,
     const GroundHeight& ground,
     double min_clearance_m,
-    const sim::AircraftLimits& limits) {
+    const std::optional<sim::AircraftLimits>& limits) {
     const std::vector<double> times_s = step_times(path);
     const Choice choice = chosen(places_along(path, times_s), times_s, placement, ground);
     // A turn by 0 rounds attitudes once more and drops the signs of zeros.
@@ -263,7 +263,7 @@ PlacedPath place_over_ground(
     sim::Trajectory placed = over;
     bool follows = true;
     if (placement.mode == HeightMode::Follow) {
-        LiftedPath lifted = following(over, places_m, ground_m, min_clearance_m, limits);
+        LiftedPath lifted = following(over, places_m, ground_m, min_clearance_m, *limits);
         follows = lifted.follows;
         placed = std::move(lifted.trajectory);
         places_m = places_along(placed, times_s);

@@ -49,7 +49,8 @@ struct PlacedPath {
 /// Puts a path over ground. A clearance is the height of the aircraft's reference point (the origin
 /// of its body axes) over the ground right below it; lower parts of the aircraft are not looked at.
 /// Clearances are looked at every 1/120 s along the trajectory's curve.
-/// `limits` matter for HeightMode::Follow only, which guarantees `min_clearance_m` as Clear does.
+/// HeightMode::Follow guarantees `min_clearance_m` as Clear does; it alone needs the limits of what
+/// flies (asserted).
 /// Throws Error with time and place when the path leaves the map or, in any mode, meets the ground:
 /// at datum heights, or where `min_clearance_m` is not above zero.
 PlacedPath place_over_ground(
@@ -57,7 +58,7 @@ PlacedPath place_over_ground(
     const Placement& placement,
     const GroundHeight& ground,
     double min_clearance_m,
-    const sim::AircraftLimits& limits);
+    const std::optional<sim::AircraftLimits>& limits);
 
 /// Looks at a path in world axes, every 1/120 s along the trajectory's curve as place_over_ground
 /// does. Throws its Error with time and place when the path leaves the map or meets the ground.

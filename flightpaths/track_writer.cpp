@@ -4,6 +4,7 @@
 
 #include "flightpaths/track_writer.h"
 
+#include "sim/aircraft_kind.h"
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
 
@@ -48,11 +49,8 @@ std::string acmi_text(std::string_view text) {
 }
 
 std::string properties_of(const std::string& aircraft) {
-    if (aircraft == "f15") {
-        return "Type=Air+FixedWing,Name=F-15C";
-    }
-    if (aircraft == "500md") {
-        return "Type=Air+Rotorcraft,Name=500MD";
+    if (const sim::AircraftKind* kind = sim::find_aircraft_kind(aircraft)) {
+        return fmt::format("Type={},Name={}", kind->tacview_type, kind->tacview_name);
     }
     return "Type=Air+FixedWing,Name=" + acmi_text(aircraft);
 }

@@ -23,8 +23,9 @@ std::string exact_track_csv(const sim::Trajectory& trajectory);
 /// What a Tacview file says beside the motion.
 struct AcmiHeader {
     std::string title;
-    std::string aircraft; ///< "f15" and "500md" get their type's name and class; others go as told
-    GeoOrigin origin;     ///< where x = y = 0 lies
+    /// A known one (sim/aircraft_kind.h) gets what Tacview calls it, another one its own name.
+    std::string aircraft;
+    GeoOrigin origin; ///< where x = y = 0 lies
     std::vector<LegBegin> bookmarks;
 };
 

@@ -1,13 +1,9 @@
 #pragma once
 
-#include <optional>
-#include <string_view>
-
 namespace octant::sim {
 
 /// What an aircraft can fly. A path that asks for more is refused (or clipped when asked to).
 struct AircraftLimits {
-    std::string_view name;
     double least_load_factor = 0.0;    ///< g
     double most_load_factor = 0.0;     ///< g
     double load_factor_rate_gps = 0.0; ///< g/s, fastest change of the load factor
@@ -18,8 +14,5 @@ struct AircraftLimits {
     double climb_rate_mps = 0.0;    ///< sustained, up
     double acceleration_mps2 = 0.0; ///< along the path, speeding up or slowing down
 };
-
-/// Limits of a built-in aircraft, "f15" or "500md"; nothing for any other name.
-std::optional<AircraftLimits> limits_of(std::string_view aircraft);
 
 } // namespace octant::sim

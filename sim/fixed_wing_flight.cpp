@@ -1,6 +1,6 @@
 // A point mass under lift, drag, side force, thrust and gravity, with an attitude that a control
 // augmentation system turns: any text on flight mechanics, e.g. Stengel, Flight Dynamics (2004).
-// Steps by the midpoint rule. Load-factor and roll-rate limits: sim/aircraft_limits.h; sources
+// Steps by the midpoint rule. Load-factor and roll-rate limits: sim/aircraft_kind.cpp; sources
 // of the forces: sim/fixed_wing_aero.cpp.
 // Deviations: no moments of inertia. The attitude turns with the velocity, and about it with the
 // lags below, chosen for a fighter that handles well.
@@ -88,8 +88,8 @@ trimmed_fixed_wing(const glm::dvec3& position_m, double heading_rad, double spee
     return level_state(position_m, heading_rad, trim.alpha_rad, speed_mps);
 }
 
-FixedWingFlight::FixedWingFlight(const AircraftState& start)
-    : limits_(*limits_of("f15"))
+FixedWingFlight::FixedWingFlight(const AircraftLimits& limits, const AircraftState& start)
+    : limits_(limits)
     , state_(start)
     , clock_(start.time_s)
     , air_(standard_air(start.position_m.z)) {

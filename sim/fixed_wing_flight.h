@@ -12,7 +12,7 @@ namespace octant::sim {
 /// The rudder asks for sideslip.
 class FixedWingFlight final : public HandFlight {
 public:
-    explicit FixedWingFlight(const AircraftState& start);
+    FixedWingFlight(const AircraftLimits& limits, const AircraftState& start);
 
     void step(const PilotControls& controls) override;
 
@@ -66,7 +66,7 @@ private:
     double incidence_rad_ = 0.0;
 };
 
-/// See trimmed_state in hand_flight.h.
+/// See trimmed_state in flight_models.h.
 AircraftState
 trimmed_fixed_wing(const glm::dvec3& position_m, double heading_rad, double speed_mps);
 

@@ -2,9 +2,6 @@
 
 #include "sim/aircraft_state.h"
 
-#include <memory>
-#include <string_view>
-
 namespace octant::sim {
 
 /// What a pilot asks of the aircraft. F-15: stick, rudder, throttle. 500MD: cyclic, pedals,
@@ -43,14 +40,5 @@ public:
     /// Throttle that holds speed and height from the start on with centred stick.
     virtual double trim_throttle() const = 0;
 };
-
-/// Takes an aircraft ("f15" or "500md"; any other name flies as an f15) over in this state, as it
-/// is: position, velocity, attitude and load factor go on from there.
-std::unique_ptr<HandFlight> hand_flight(std::string_view aircraft, const AircraftState& start);
-
-/// Level, wings level, unaccelerated: where a flight from trim begins. `speed_mps` true airspeed;
-/// heading clockwise from north.
-AircraftState trimmed_state(
-    std::string_view aircraft, const glm::dvec3& position_m, double heading_rad, double speed_mps);
 
 } // namespace octant::sim

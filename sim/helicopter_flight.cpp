@@ -1,6 +1,6 @@
 // A point mass under rotor thrust, drag and gravity, with the attitude command and the turn
 // coordination in forward flight that ADS-33E-PRF describes. Steps by the midpoint rule. Limits:
-// sim/aircraft_limits.h; sources of the thrust: sim/rotor.cpp. Drag areas are chosen: 0.45 m2 (5
+// sim/aircraft_kind.cpp; sources of the thrust: sim/rotor.cpp. Drag areas are chosen: 0.45 m2 (5
 // ft2) ahead, as is usual for a clean light helicopter, aside and below from the size of the body.
 // Deviations: the thrust stands along the mast, so that disc and body tilt alike; no moments of
 // inertia; no ground effect.
@@ -88,8 +88,8 @@ trimmed_helicopter(const glm::dvec3& position_m, double heading_rad, double spee
     return level_state(position_m, heading_rad, trim.pitch_rad, speed_mps);
 }
 
-HelicopterFlight::HelicopterFlight(const AircraftState& start)
-    : limits_(*limits_of("500md"))
+HelicopterFlight::HelicopterFlight(const AircraftLimits& limits, const AircraftState& start)
+    : limits_(limits)
     , state_(start)
     , clock_(start.time_s)
     , air_(standard_air(start.position_m.z)) {

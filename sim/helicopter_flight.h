@@ -14,7 +14,7 @@ namespace octant::sim {
 /// pedals turn on the spot when slow and ask for sideslip in forward flight.
 class HelicopterFlight final : public HandFlight {
 public:
-    explicit HelicopterFlight(const AircraftState& start);
+    HelicopterFlight(const AircraftLimits& limits, const AircraftState& start);
 
     void step(const PilotControls& controls) override;
 
@@ -52,7 +52,7 @@ private:
     Flow now_;
 };
 
-/// See trimmed_state in hand_flight.h.
+/// See trimmed_state in flight_models.h.
 AircraftState
 trimmed_helicopter(const glm::dvec3& position_m, double heading_rad, double speed_mps);
 

@@ -1,24 +1,11 @@
 #pragma once
 
 #include "models/heights/height_field.h"
+#include "models/heights/import_options.h"
 
 #include <filesystem>
 
 namespace octant::models::heights {
-
-/// What a picture of heights (PNG, PGM and the like without a place on the earth) does not say
-/// itself. Both above zero and finite (asserted).
-struct ImportOptions {
-    double spacing_m = 30.0;   ///< between samples
-    double height_scale = 1.0; ///< metres a unit of the picture
-};
-
-/// Largest width and height that is read, samples.
-inline constexpr int largest_import_samples = 20000;
-
-/// Heights that are believed, metres. A file with others is refused.
-inline constexpr double lowest_import_m = -12000.0;
-inline constexpr double highest_import_m = 9000.0;
 
 /// Reads a height field: GeoTIFF, SRTM .hgt, USGS DEM, PNG (8 and 16 bit), PGM (binary and plain)
 /// or ASCII grid. Nothing else is opened, no network is used and nothing is written.
@@ -39,8 +26,8 @@ inline constexpr double highest_import_m = 9000.0;
 /// PGM also the file.
 ///
 /// Throws Error "file: expected ..., got ..." for everything else: no readable file, a damaged one,
-/// a colour picture, a rotated grid, only voids, heights outside the bounds above, fewer than 2 x 2
-/// or more than 20,000 x 20,000 samples, ground wider than 1,000 km.
+/// a colour picture, a rotated grid, only voids, heights outside the bounds of import_options.h,
+/// fewer than 2 x 2 or more than 20,000 x 20,000 samples, ground wider than 1,000 km.
 HeightField read_height_field(const std::filesystem::path& file, const ImportOptions& options = {});
 
 } // namespace octant::models::heights

@@ -1,6 +1,6 @@
 #include "models/heights/height_raster.h"
 
-#include "models/heights/height_field_import.h"
+#include "models/heights/import_options.h"
 #include "sim/base/error.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #include "models/heights/height_source.h"
 
+#include "models/heights/height_field_import.h"
 #include "models/heights/height_raster.h"
 #include "models/heights/plain_pgm.h"
 #include "sim/base/error.h"

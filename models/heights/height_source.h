@@ -1,6 +1,7 @@
 #pragma once
 
-#include "models/heights/height_field_import.h"
+#include "models/heights/height_field.h"
+#include "models/heights/import_options.h"
 
 #include <cstdint>
 #include <filesystem>

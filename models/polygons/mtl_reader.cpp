@@ -4,9 +4,10 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <set>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace octant::models::polygons {
@@ -14,7 +15,6 @@ namespace octant::models::polygons {
 namespace {
 
 constexpr std::size_t largest_file_bytes = std::size_t{16} << 20U;
-constexpr std::string_view blanks = " \t\r";
 
 class MtlReading {
 public:
@@ -80,13 +80,6 @@ private:
 
 std::vector<Material> read_mtl(const std::filesystem::path& path) {
     return MtlReading(path).read();
-}
-
-std::string_view after_first_word(std::string_view line) {
-    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-    line.remove_prefix(std::min(line.find_first_of(blanks), line.size()));
-    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-    return line.substr(0, line.find_last_not_of(blanks) + 1);
 }
 
 } // namespace octant::models::polygons

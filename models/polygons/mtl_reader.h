@@ -3,7 +3,6 @@
 #include "models/polygons/polygon_model.h"
 
 #include <filesystem>
-#include <string_view>
 #include <vector>
 
 namespace octant::models::polygons {
@@ -13,9 +12,5 @@ namespace octant::models::polygons {
 /// "file:line: expected ..., got ..." for a Kd that is not three numbers 0..1 or that comes before
 /// any newmtl, for a name that is missing or comes twice, and for a file that is not text.
 std::vector<Material> read_mtl(const std::filesystem::path& path);
-
-/// What follows the first word of a line, without blanks at either end: names in OBJ and MTL files
-/// may have blanks inside. A view into `line`.
-std::string_view after_first_word(std::string_view line);
 
 } // namespace octant::models::polygons

@@ -1,9 +1,10 @@
 #include "models/polygons/obj_lines.h"
 
-#include "models/polygons/obj_reader.h"
+#include "models/polygons/obj_limits.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -56,6 +57,14 @@ bool ObjLines::next() {
     }
     text_ = joined_;
     return true;
+}
+
+std::string_view after_first_word(std::string_view line) {
+    constexpr std::string_view blanks = " \t\r";
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    line.remove_prefix(std::min(line.find_first_of(blanks), line.size()));
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    return line.substr(0, line.find_last_not_of(blanks) + 1);
 }
 
 double obj_number(std::string_view word, const std::filesystem::path& path, int line) {

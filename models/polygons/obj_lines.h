@@ -36,7 +36,11 @@ private:
     int number_ = 0;
 };
 
-/// A finite number within most_obj_coordinate_m (obj_reader.h). Throws Error "file:line: ...".
+/// What follows the first word of a line, without blanks at either end: names in OBJ and MTL files
+/// may have blanks inside. A view into `line`.
+std::string_view after_first_word(std::string_view line);
+
+/// A finite number within most_obj_coordinate_m (obj_limits.h). Throws Error "file:line: ...".
 double obj_number(std::string_view word, const std::filesystem::path& path, int line);
 
 } // namespace octant::models::polygons

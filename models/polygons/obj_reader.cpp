@@ -1,6 +1,7 @@
 #include "models/polygons/obj_reader.h"
 
 #include "models/polygons/mtl_reader.h"
+#include "models/polygons/obj_limits.h"
 #include "models/polygons/obj_lines.h"
 #include "models/polygons/obj_pivots.h"
 #include "models/polygons/obj_polygons.h"
@@ -176,8 +177,9 @@ private:
         if (count < 3) {
             refuse(fmt::format("expected at least three corners, got {}", count));
         }
-        if (count > most_obj_corners) {
-            refuse(fmt::format("expected at most {} corners, got {}", most_obj_corners, count));
+        if (count > most_obj_corners_of_polygon) {
+            refuse(fmt::format(
+                "expected at most {} corners, got {}", most_obj_corners_of_polygon, count));
         }
         if (model_.polygons.size() == most_obj_polygons) {
             refuse(fmt::format("expected at most {} polygons, got more", most_obj_polygons));

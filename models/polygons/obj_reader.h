@@ -3,15 +3,9 @@
 #include "models/polygons/file_axes.h"
 #include "models/polygons/polygon_model.h"
 
-#include <cstddef>
 #include <filesystem>
 
 namespace octant::models::polygons {
-
-inline constexpr std::size_t most_obj_vertices = 1'000'000;
-inline constexpr std::size_t most_obj_polygons = 1'000'000;
-inline constexpr std::size_t most_obj_corners = 1'000; ///< of one polygon
-inline constexpr double most_obj_coordinate_m = 1e7;
 
 /// Reads a Wavefront OBJ file of polygons, coordinates in metres in the file's `axes`. Dented and
 /// bent polygons are cut into convex planar ones (obj_polygons.h), which PolygonModel::parents and
@@ -37,8 +31,8 @@ inline constexpr double most_obj_coordinate_m = 1e7;
 /// Throws Error "file:line: expected ..., got ..." for anything else: other keywords, numbers that
 /// cannot be read, NaN and infinity, indices out of range, polygons without an area, with two
 /// corners in one place or with sides that cross, a material that none of the material files knows
-/// although all are there, a pivot of a part without polygons or without an axis, more than the
-/// bounds above; "file: ..." for binary data and a file without polygons.
+/// although all are there, a pivot of a part without polygons or without an axis, more than
+/// obj_limits.h allows; "file: ..." for binary data and a file without polygons.
 PolygonModel read_obj(const std::filesystem::path& path, const FileAxes& axes = {});
 
 } // namespace octant::models::polygons

@@ -3,7 +3,7 @@
 #include "models/collapse_sequence.h"
 #include "models/simplify/collapse_guard.h"
 #include "models/simplify/edge_heap.h"
-#include "models/simplify/simplify.h"
+#include "models/simplify/simplify_options.h"
 #include "models/simplify/surface_cost.h"
 #include "models/simplify/tracked_points.h"
 #include "models/simplify/vertex_quadrics.h"

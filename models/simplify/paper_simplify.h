@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/simplify/simplify.h"
+#include "models/simplify/simplify_options.h"
 #include "models/triangle_mesh.h"
 
 #include <cstddef>

@@ -1,11 +1,10 @@
 #include "flightpaths/placement.h"
 #include "flightpaths/recorded_track.h"
 #include "flightpaths/track_writer.h"
-#include "sim/aircraft_limits.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/fixed_step.h"
-#include "sim/hand_flight.h"
+#include "sim/flight_models.h"
 #include "tests/flightpaths/track_fault.h"
 
 #include <catch2/catch.hpp>
@@ -26,10 +25,10 @@ bool same_bits(const sim::AircraftState& a, const sim::AircraftState& b) {
 }
 
 /// A flight by hand with every control in use: pulls, rolls, slips and a stall.
-std::vector<sim::AircraftState> flown(const char* aircraft, long steps) {
-    const bool jet = std::string_view(aircraft) == "f15";
+std::vector<sim::AircraftState> flown(const sim::AircraftKind& kind, long steps) {
+    const bool jet = kind.flight_model == sim::FlightModel::FixedWing;
     const auto flight =
-        sim::hand_flight(aircraft, sim::trimmed_state(aircraft, {0, 0, 2500}, 1.1, jet ? 210 : 25));
+        sim::hand_flight(kind, sim::trimmed_state(kind, {0, 0, 2500}, 1.1, jet ? 210 : 25));
     std::vector<sim::AircraftState> states{flight->state()};
     for (long step = 0; step < steps; ++step) {
         const double t = sim::time_of_step(step);
@@ -48,8 +47,8 @@ const std::string head = "t_s,north_m,east_m,alt_m,q_w,q_x,q_y,q_z\n";
 } // namespace
 
 TEST_CASE("a flight by hand comes back from its file to the last bit, over the ground, too") {
-    for (const char* aircraft : {"f15", "500md"}) {
-        const auto states = flown(aircraft, 3000);
+    for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
+        const auto states = flown(kind, 3000);
         const auto file = written("exact.csv", exact_track_csv(sim::Trajectory(states)));
         const RecordedTrack track = read_recorded_track(file);
         const PlacedPath placed = place_over_ground(
@@ -57,7 +56,7 @@ TEST_CASE("a flight by hand comes back from its file to the last bit, over the g
             {{0, 0}, 0.0, HeightMode::Datum},
             [](double, double) { return -20000.0; },
             30,
-            *sim::limits_of(aircraft));
+            std::nullopt);
         REQUIRE(track.trajectory.samples().size() == states.size());
         bool read = true;
         bool looked_up = true;
@@ -91,7 +90,7 @@ TEST_CASE("an exact track keeps minus zeros, tiny and long numbers") {
         {{0, 0}, 0.0, HeightMode::Datum},
         [](double, double) { return -100.0; },
         30,
-        *sim::limits_of("f15"));
+        std::nullopt);
     CHECK(same_bits(placed.trajectory.samples()[0], states[0]));
     CHECK(same_bits(placed.trajectory.samples()[1], states[1]));
 }

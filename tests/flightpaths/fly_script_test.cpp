@@ -36,7 +36,7 @@ PathScript script_of(const std::string& legs, const std::string& speed_mps = "50
 
 FlownPath
 flown(const std::string& legs, const std::string& aircraft = "500md", bool lenient = false) {
-    return fly(script_of(legs), *sim::limits_of(aircraft), lenient);
+    return fly(script_of(legs), sim::aircraft_kind(aircraft), lenient);
 }
 
 std::string fault_of(
@@ -45,7 +45,7 @@ std::string fault_of(
     const std::string& speed_mps = "50") {
     const PathScript script = script_of(legs, speed_mps);
     try {
-        fly(script, *sim::limits_of(aircraft), false);
+        fly(script, sim::aircraft_kind(aircraft), false);
     } catch (const Error& error) {
         return std::string(error.what()).substr(script.file.string().size() + 1);
     }
@@ -56,7 +56,7 @@ std::string fault_of(
 std::vector<std::string> notes_of(const std::string& legs) {
     const PathScript script = script_of(legs);
     std::vector<std::string> notes;
-    for (const std::string& note : fly(script, *sim::limits_of("500md"), true).notes) {
+    for (const std::string& note : fly(script, sim::aircraft_kind("500md"), true).notes) {
         notes.push_back(note.substr(script.file.string().size() + 1));
     }
     return notes;
@@ -95,7 +95,7 @@ TEST_CASE("legs end where they say") {
         "[[leg]]\nfly = \"hold\"\nduration_s = 1.2\n",
         "250");
     pull.samples = 121;
-    const FlownPath climb = fly(pull, *sim::limits_of("f15"), false);
+    const FlownPath climb = fly(pull, sim::aircraft_kind("f15"), false);
     CHECK(climb_deg(last(climb)) == Approx(30).margin(1));
     // 2.5 g at first and, as the path steepens, up to 2.63 g bend the path.
     REQUIRE(climb.legs.size() == 2);
@@ -135,7 +135,7 @@ TEST_CASE("a weave stays centred on its line") {
         "fly = \"jink\"\nlateral_g = 0.7\nperiod_s = 9\nvertical_g = 0.2\nvertical_period_s = "
         "6\nduration_s = 45\n");
     script.samples = 901;
-    const FlownPath path = fly(script, *sim::limits_of("500md"), false);
+    const FlownPath path = fly(script, sim::aircraft_kind("500md"), false);
     double most = 0.0;
     double least = 0.0;
     for (const auto& state : path.trajectory.samples()) {
@@ -240,6 +240,6 @@ TEST_CASE("a leg that cannot reach its end is refused") {
         script_of("fly = \"pull\"\nload_factor_g = 1.05\nto_climb_deg = 40\nbank_deg = 50\n");
     script.samples = 1600;
     CHECK_THROWS_WITH(
-        fly(script, *sim::limits_of("f15"), true),
+        fly(script, sim::aircraft_kind("f15"), true),
         Catch::Contains("expected a pull that reaches 40.0 deg within 60 s, got "));
 }

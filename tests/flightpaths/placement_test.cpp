@@ -20,7 +20,7 @@ using octant::tests::shipped;
 namespace {
 
 sim::AircraftLimits f15() {
-    return *sim::limits_of("f15");
+    return sim::aircraft_kind("f15").limits;
 }
 
 GroundHeight flat(double height_m) {
@@ -53,7 +53,7 @@ sim::Trajectory northward(double speed_mps = 100, int duration_s = 20) {
 
 FlownPath flown(const std::string& name) {
     const PathScript script = read_path_script(shipped(name));
-    return fly(script, *sim::limits_of(script.aircraft), false);
+    return fly(script, sim::aircraft_kind(script.aircraft), false);
 }
 
 double lowest_clearance_m(const sim::Trajectory& path, const GroundHeight& ground) {
@@ -242,11 +242,15 @@ TEST_CASE("following keeps clearance, climb and load factor and stays closer tha
           "500md-turn"}) {
         INFO(name);
         const PathScript script = read_path_script(shipped(name));
-        const auto limits = *sim::limits_of(script.aircraft);
-        const sim::Trajectory path = fly(script, limits, false).trajectory;
+        const auto& kind = sim::aircraft_kind(script.aircraft);
+        const sim::Trajectory path = fly(script, kind, false).trajectory;
         const GroundHeight ground = hills(script.aircraft == "f15" ? 200 : 15, 3000);
         const PlacedPath placed = place_over_ground(
-            path, {{300, 200}, 0.5, HeightMode::Follow}, ground, script.min_clearance_m, limits);
+            path,
+            {{300, 200}, 0.5, HeightMode::Follow},
+            ground,
+            script.min_clearance_m,
+            kind.limits);
         double highest_ground_m = 0.0;
         for (const auto& state : placed.trajectory.samples()) {
             highest_ground_m =
@@ -261,8 +265,10 @@ TEST_CASE("following keeps clearance, climb and load factor and stays closer tha
             const sim::AircraftState& now = placed.trajectory.samples()[i];
             sum_follow += now.position_m.z;
             sum_level += own.position_m.z + highest_ground_m;
-            CHECK(now.load_factor <= std::max(own.load_factor, limits.most_load_factor) + 1e-6);
-            CHECK(now.load_factor >= std::min(own.load_factor, limits.least_load_factor) - 1e-6);
+            CHECK(
+                now.load_factor <= std::max(own.load_factor, kind.limits.most_load_factor) + 1e-6);
+            CHECK(
+                now.load_factor >= std::min(own.load_factor, kind.limits.least_load_factor) - 1e-6);
             const double added_mps = now.velocity_mps.z - own.velocity_mps.z;
             CHECK(std::abs(added_mps) <= 0.2501 * glm::length(own.velocity_mps));
             CHECK(added_mps <= limits.climb_rate_mps + 1e-6);
@@ -295,7 +301,11 @@ TEST_CASE("a followed path's velocity is the slope of its heights") {
 TEST_CASE("steep ground is cleared even where it cannot be followed") {
     const GroundHeight wall = [](double, double y) { return y > 1000 && y < 1100 ? 600.0 : 0.0; };
     const PlacedPath placed = place_over_ground(
-        northward(), {{0, 0}, 0.0, HeightMode::Follow}, wall, 30, *sim::limits_of("500md"));
+        northward(),
+        {{0, 0}, 0.0, HeightMode::Follow},
+        wall,
+        30,
+        sim::aircraft_kind("500md").limits);
     CHECK(placed.lowest_clearance_m >= 30 - 1e-9);
     CHECK(lowest_clearance_m(placed.trajectory, wall) >= 30 - 1e-6);
     CHECK(placed.notes.empty());

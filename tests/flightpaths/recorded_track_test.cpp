@@ -196,7 +196,7 @@ TEST_CASE("every cut of a good track is read or refused, never worse") {
 TEST_CASE("a written track reads back as the same states") {
     for (const char* name : {"f15-pop-up", "500md-jinking"}) {
         const PathScript script = read_path_script(shipped(name));
-        const FlownPath path = fly(script, *sim::limits_of(script.aircraft), false);
+        const FlownPath path = fly(script, sim::aircraft_kind(script.aircraft), false);
         const RecordedTrack back = track_of(track_csv(path.trajectory));
         REQUIRE(back.trajectory.samples().size() == path.trajectory.samples().size());
         for (std::size_t i = 0; i < path.trajectory.samples().size(); ++i) {

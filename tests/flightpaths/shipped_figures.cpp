@@ -25,9 +25,7 @@ double climb_deg(const sim::AircraftState& state) {
 
 FlownPath flown(const std::string& name) {
     const PathScript script = read_path_script(shipped(name));
-    const auto limits = sim::limits_of(script.aircraft);
-    REQUIRE(limits);
-    FlownPath path = fly(script, *limits, false);
+    FlownPath path = fly(script, sim::aircraft_kind(script.aircraft), false);
     CHECK(path.notes.empty());
     CHECK(path.trajectory.samples().size() == static_cast<std::size_t>(script.samples));
     return path;

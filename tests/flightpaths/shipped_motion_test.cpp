@@ -37,7 +37,8 @@ TEST_CASE("attitude, velocity and load factor never jump") {
     for (const std::string& name : path_names) {
         INFO(name);
         const FlownPath path = flown(name);
-        const auto limits = *sim::limits_of(name.substr(0, name.find('-')));
+        const sim::AircraftLimits& limits =
+            sim::aircraft_kind(name.substr(0, name.find('-'))).limits;
         const auto samples = path.trajectory.samples();
         for (std::size_t i = 1; i < samples.size(); ++i) {
             const sim::AircraftState& a = samples[i - 1];

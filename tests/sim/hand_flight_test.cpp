@@ -1,6 +1,6 @@
 // What holds for every aircraft flown by hand.
 
-#include "sim/hand_flight.h"
+#include "sim/flight_models.h"
 #include "tests/sim/hand_flights.h"
 
 #include <catch2/catch.hpp>
@@ -13,19 +13,21 @@ using sim::PilotControls;
 
 namespace {
 
-const char* const aircraft[] = {"f15", "500md"};
+bool is_helicopter(const sim::AircraftKind& kind) {
+    return kind.flight_model == sim::FlightModel::Helicopter;
+}
 
-double speed_of(const char* name) {
-    return std::string_view(name) == "f15" ? 200.0 : 30.0;
+double speed_of(const sim::AircraftKind& kind) {
+    return is_helicopter(kind) ? 30.0 : 200.0;
 }
 
 } // namespace
 
 TEST_CASE("ten minutes of wild controls leave finite states with unit attitudes") {
-    for (const char* name : aircraft) {
+    for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
         for (const std::uint32_t seed : {1U, 2U}) {
             const auto flight =
-                sim::hand_flight(name, sim::trimmed_state(name, {0, 0, 3000}, 1.0, speed_of(name)));
+                sim::hand_flight(kind, sim::trimmed_state(kind, {0, 0, 3000}, 1.0, speed_of(kind)));
             bool good = true;
             double fastest = 0.0;
             fly(*flight, 600, WildPilot(seed), [&](const sim::HandFlight& f) {
@@ -33,16 +35,16 @@ TEST_CASE("ten minutes of wild controls leave finite states with unit attitudes"
                 fastest = std::max(fastest, speed_mps(f));
             });
             CHECK(good);
-            CHECK(fastest < (std::string_view(name) == "f15" ? 800.0 : 100.0));
+            CHECK(fastest < (is_helicopter(kind) ? 100.0 : 800.0));
         }
     }
 }
 
 TEST_CASE("the same start and controls give the same bits") {
-    for (const char* name : aircraft) {
-        const auto start = sim::trimmed_state(name, {5, 6, 1000}, 2.0, speed_of(name));
-        const auto a = sim::hand_flight(name, start);
-        const auto b = sim::hand_flight(name, start);
+    for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
+        const auto start = sim::trimmed_state(kind, {5, 6, 1000}, 2.0, speed_of(kind));
+        const auto a = sim::hand_flight(kind, start);
+        const auto b = sim::hand_flight(kind, start);
         WildPilot pilot_a(9);
         WildPilot pilot_b(9);
         bool same = true;
@@ -58,10 +60,10 @@ TEST_CASE("the same start and controls give the same bits") {
 TEST_CASE("controls that are not numbers count as 0, those out of range as the end of it") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double inf = std::numeric_limits<double>::infinity();
-    for (const char* name : aircraft) {
-        const auto start = sim::trimmed_state(name, {0, 0, 1000}, 0.0, speed_of(name));
-        const auto odd = sim::hand_flight(name, start);
-        const auto even = sim::hand_flight(name, start);
+    for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
+        const auto start = sim::trimmed_state(kind, {0, 0, 1000}, 0.0, speed_of(kind));
+        const auto odd = sim::hand_flight(kind, start);
+        const auto even = sim::hand_flight(kind, start);
         hold(*odd, 0.5, {nan, nan, nan, nan});
         hold(*even, 0.5, {0, 0, 0, 0});
         hold(*odd, 0.5, {inf, -5, -inf, 7});
@@ -71,9 +73,9 @@ TEST_CASE("controls that are not numbers count as 0, those out of range as the e
 }
 
 TEST_CASE("times are those of the steps, exactly") {
-    for (const char* name : aircraft) {
+    for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
         const auto flight =
-            sim::hand_flight(name, sim::trimmed_state(name, {0, 0, 1000}, 0.0, speed_of(name)));
+            sim::hand_flight(kind, sim::trimmed_state(kind, {0, 0, 1000}, 0.0, speed_of(kind)));
         for (long step = 1; step < 5000; ++step) {
             flight->step({});
             REQUIRE(flight->state().time_s == sim::time_of_step(step));
@@ -82,9 +84,9 @@ TEST_CASE("times are those of the steps, exactly") {
 }
 
 TEST_CASE("positions go as the velocities say") {
-    for (const char* name : aircraft) {
+    for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
         const auto flight =
-            sim::hand_flight(name, sim::trimmed_state(name, {0, 0, 3000}, 0.3, speed_of(name)));
+            sim::hand_flight(kind, sim::trimmed_state(kind, {0, 0, 3000}, 0.3, speed_of(kind)));
         sim::AircraftState before = flight->state();
         double worst = 0.0;
         fly(*flight, 60, WildPilot(4), [&](const sim::HandFlight& f) {
@@ -99,7 +101,7 @@ TEST_CASE("positions go as the velocities say") {
 }
 
 TEST_CASE("any start flies: standing still, backwards, upside down, without a load factor") {
-    for (const char* name : aircraft) {
+    for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
         for (const double speed : {-60.0, 0.0, 5.0, 90.0}) {
             for (const double roll : {0.0, 3.0}) {
                 for (const double pitch : {-1.5, 0.0, pi / 2}) {
@@ -108,7 +110,7 @@ TEST_CASE("any start flies: standing still, backwards, upside down, without a lo
                     start.velocity_mps = speed * direction_from_heading(1.0);
                     start.body_to_world = body_to_world_from_euler({1.0, pitch, roll});
                     start.load_factor = 0.0;
-                    const auto flight = sim::hand_flight(name, start);
+                    const auto flight = sim::hand_flight(kind, start);
                     CHECK(flight->trim_throttle() >= 0.0);
                     CHECK(flight->trim_throttle() <= 1.0);
                     bool good = true;

@@ -1,5 +1,5 @@
-#include "sim/aircraft_limits.h"
-#include "sim/hand_flight.h"
+#include "sim/aircraft_kind.h"
+#include "sim/flight_models.h"
 #include "tests/sim/hand_flights.h"
 
 #include <catch2/catch.hpp>
@@ -18,7 +18,8 @@ constexpr double heading = 0.8;
 
 std::unique_ptr<HandFlight> trimmed(double speed_mps, double height_m = 300.0) {
     return sim::hand_flight(
-        "500md", sim::trimmed_state("500md", {0, 0, height_m}, heading, speed_mps));
+        sim::aircraft_kind("500md"),
+        sim::trimmed_state(sim::aircraft_kind("500md"), {0, 0, height_m}, heading, speed_mps));
 }
 
 double ahead_mps(const HandFlight& flight) {
@@ -199,7 +200,7 @@ TEST_CASE("a flight by hand takes a 500MD over as it is") {
     start.velocity_mps = {0, 40, 0};
     start.body_to_world = body_to_world_from_euler({0, 0, rad_from_deg(45)});
     start.load_factor = 1.41;
-    const auto flight = sim::hand_flight("500md", start);
+    const auto flight = sim::hand_flight(sim::aircraft_kind("500md"), start);
     CHECK(same_bits(flight->state(), start));
     flight->step({0, 0.75, 0, flight->trim_throttle()});
     CHECK(flight->state().time_s == 0.123 + sim::time_of_step(1));

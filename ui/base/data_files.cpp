@@ -1,5 +1,6 @@
 #include "ui/base/data_files.h"
 
+#include "sim/aircraft_kind.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
@@ -25,8 +26,18 @@ bool looks_like_file(const std::string& name) {
            fs::is_regular_file(name, ignored);
 }
 
+/// A shape without a type of its own: the example object of the 1989 paper.
+constexpr const char* concave = "concave";
+
 bool among(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+[[noreturn]] void refuse_aircraft(const std::string& name) {
+    throw Error(fmt::format(
+        "aircraft: expected {} or an OBJ file, got '{}'",
+        fmt::join(built_in_models(), ", "),
+        printable(name)));
 }
 
 } // namespace
@@ -55,17 +66,36 @@ fs::path data_folder() {
 }
 
 fs::path aircraft_file(const std::string& name_or_file) {
-    static const std::vector<std::string> names = {"f15", "500md", "concave"};
-    if (among(names, name_or_file)) {
-        return data_folder() / "models" / (name_or_file + ".obj");
+    const fs::path models = "models";
+    if (const sim::AircraftKind* kind = sim::find_aircraft_kind(name_or_file)) {
+        return data_folder() / models / kind->model_file;
+    }
+    if (name_or_file == concave) {
+        return data_folder() / models / "concave.obj";
     }
     if (looks_like_file(name_or_file)) {
         return name_or_file;
     }
-    throw Error(fmt::format(
-        "aircraft: expected {} or an OBJ file, got '{}'",
-        fmt::join(names, ", "),
-        printable(name_or_file)));
+    refuse_aircraft(name_or_file);
+}
+
+std::vector<std::string> built_in_models() {
+    std::vector<std::string> names;
+    for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
+        names.emplace_back(kind.name);
+    }
+    names.emplace_back(concave);
+    return names;
+}
+
+const sim::AircraftKind& flown_as(const std::string& name_or_file) {
+    if (const sim::AircraftKind* kind = sim::find_aircraft_kind(name_or_file)) {
+        return *kind;
+    }
+    if (name_or_file != concave && !looks_like_file(name_or_file)) {
+        refuse_aircraft(name_or_file);
+    }
+    return sim::aircraft_kind("f15");
 }
 
 std::vector<std::string> built_in_paths() {
@@ -74,8 +104,8 @@ std::vector<std::string> built_in_paths() {
 
 fs::path path_file(const std::string& name_or_file, const std::string& aircraft) {
     if (among(built_in_paths(), name_or_file)) {
-        const std::string flown_by = aircraft == "500md" ? "500md" : "f15";
-        return data_folder() / "flightpaths" / fmt::format("{}-{}.toml", flown_by, name_or_file);
+        return data_folder() / "flightpaths" /
+               fmt::format("{}-{}.toml", flown_as(aircraft).name, name_or_file);
     }
     if (looks_like_file(name_or_file)) {
         return name_or_file;

@@ -2,6 +2,7 @@
 
 #include "sim/base/axes.h"
 #include "sim/fixed_step.h"
+#include "sim/flight_models.h"
 #include "visuals/scene/aircraft_model.h"
 
 #include <glm/common.hpp>
@@ -156,29 +157,28 @@ void Simulation::start_log() {
     log_ = {leader};
 }
 
-void Simulation::take_over(std::string_view aircraft) {
+void Simulation::take_over(const sim::AircraftKind& kind) {
     sim::AircraftState start = at_last_step();
     start.time_s = sim::time_of_step(step());
-    hand_to_pilot(aircraft, start);
+    hand_to_pilot(kind, start);
 }
 
-void Simulation::level_off(std::string_view aircraft) {
+void Simulation::level_off(const sim::AircraftKind& kind) {
     assert(by_hand());
     constexpr double off_the_ground_m = 200.0;
     glm::dvec3 position_m = last_two_.back().position_m;
     position_m.z += end_ == End::OnTheGround ? off_the_ground_m : 0.0;
-    const double slowest_mps = aircraft == "500md" ? 0.0 : 120.0; // well above the F-15's stall
     sim::AircraftState start = sim::trimmed_state(
-        aircraft,
+        kind,
         position_m,
         euler_from_body_to_world(last_two_.back().body_to_world).heading_rad,
-        std::max(glm::length(last_two_.back().velocity_mps), slowest_mps));
+        std::max(glm::length(last_two_.back().velocity_mps), kind.slowest_handed_over_mps));
     start.time_s = sim::time_of_step(step());
-    hand_to_pilot(aircraft, start);
+    hand_to_pilot(kind, start);
 }
 
-void Simulation::hand_to_pilot(std::string_view aircraft, const sim::AircraftState& start) {
-    pilot_ = sim::hand_flight(aircraft, start);
+void Simulation::hand_to_pilot(const sim::AircraftKind& kind, const sim::AircraftState& start) {
+    pilot_ = sim::hand_flight(kind, start);
     controls_ = {.throttle = pilot_->trim_throttle()};
     last_two_ = {start, start};
     end_.reset();

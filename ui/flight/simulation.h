@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/hash.h"
 #include "sim/hand_flight.h"
@@ -12,7 +13,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 namespace octant::ui::flight {
@@ -58,11 +58,11 @@ public:
 
     /// From the last step on the first aircraft is flown by hand as sim::hand_flight has it, from
     /// the state it is in.
-    void take_over(std::string_view aircraft);
+    void take_over(const sim::AircraftKind& kind);
 
     /// By hand only (asserted): on from where it is, level and in trim, on the same course and at
     /// the same speed, unless that is too slow to fly; after its end on the ground 200 m above it.
-    void level_off(std::string_view aircraft);
+    void level_off(const sim::AircraftKind& kind);
 
     bool by_hand() const { return pilot_ != nullptr; }
 
@@ -87,7 +87,7 @@ private:
     void states_from(const sim::AircraftState& leader);
     void add_to_hash();
     sim::AircraftState at_last_step() const;
-    void hand_to_pilot(std::string_view aircraft, const sim::AircraftState& start);
+    void hand_to_pilot(const sim::AircraftKind& kind, const sim::AircraftState& start);
 
     const world::World& world_;
     world::Formation formation_;

@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "ui/base/data_files.h"
 #include "ui/settings/settings_change.h"
 #include "ui/window/look_control.h"
 #include "ui/window/panels.h"
@@ -68,7 +69,7 @@ Viewer::Viewer(const ViewOptions& options)
     restart_playback();
     if (options.by_hand) {
         toggle_hand();
-        session_->simulation().level_off(settings.path.aircraft.front());
+        session_->simulation().level_off(base::flown_as(settings.path.aircraft.front()));
     }
     if (options.full_screen) {
         toggle_full_screen();

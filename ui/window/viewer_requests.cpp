@@ -1,5 +1,6 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "ui/base/data_files.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/report/png_file.h"
 #include "ui/settings/settings_file.h"
@@ -201,7 +202,7 @@ void Viewer::take_flight_requests(const ViewRequests& requests) {
     }
     flight::Simulation& simulation = session_->simulation();
     if (requests.level_off && simulation.by_hand()) {
-        simulation.level_off(session_->settings().path.aircraft.front());
+        simulation.level_off(base::flown_as(session_->settings().path.aircraft.front()));
         state_.playback.playing = true;
     }
     if (requests.step_frame) {
@@ -231,9 +232,13 @@ void Viewer::toggle_hand() {
     flight::Simulation& simulation = session_->simulation();
     if (!simulation.by_hand()) {
         simulation.advance_to(simulation.time_s());
-        simulation.take_over(session_->settings().path.aircraft.front());
+        const std::string& aircraft = session_->settings().path.aircraft.front();
+        const sim::AircraftKind& kind = base::flown_as(aircraft);
+        simulation.take_over(kind);
         state_.playback.playing = true;
-        say("by hand: arrows fly, Page Up and Page Down are the throttle, H gives it back");
+        say(fmt::format(
+            "by hand{}: arrows fly, Page Up and Page Down are the throttle, H gives it back",
+            aircraft == kind.name ? "" : fmt::format(" as an {}", kind.name)));
         return;
     }
     go_to(state_.playback.time_s);

@@ -2,6 +2,7 @@
 
 #include "models/polygons/file_axes.h"
 #include "models/polygons/obj_reader.h"
+#include "sim/aircraft_kind.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
 #include "ui/world/mesh_aircraft.h"
@@ -92,12 +93,12 @@ load_model(const std::string& name, const settings::Settings& settings, Notes& n
 
 /// Nothing where the aircraft has none.
 std::optional<scene::AircraftModel> load_cockpit(const std::string& aircraft) {
-    const std::filesystem::path cockpit =
-        base::data_folder() / "models" / (aircraft + "-cockpit.obj");
-    if (!std::filesystem::exists(cockpit)) {
+    const sim::AircraftKind* kind = sim::find_aircraft_kind(aircraft);
+    if (kind == nullptr) {
         return std::nullopt;
     }
-    models::polygons::PolygonModel model = models::polygons::read_obj(cockpit);
+    models::polygons::PolygonModel model =
+        models::polygons::read_obj(base::data_folder() / "models" / kind->cockpit_file);
     draworder::DrawOrder order = draworder::file_order(model);
     return scene::aircraft_model(std::move(model), std::move(order), glm::dvec3(0.0));
 }

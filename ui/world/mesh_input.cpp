@@ -8,14 +8,13 @@
 #include "ui/base/data_files.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <string_view>
+#include <string>
+#include <vector>
 
 namespace octant::ui::world {
 
 models::TriangleMesh read_mesh_input(const std::string& name_or_file) {
-    constexpr std::array<std::string_view, 3> shipped{"f15", "500md", "concave"};
     if (!std::filesystem::exists(name_or_file)) {
         if (name_or_file == "globe") {
             return models::made::globe();
@@ -26,6 +25,7 @@ models::TriangleMesh read_mesh_input(const std::string& name_or_file) {
         if (name_or_file == "torus") {
             return models::polygons::as_triangles(models::made::torus());
         }
+        const std::vector<std::string> shipped = base::built_in_models();
         if (std::ranges::find(shipped, name_or_file) != shipped.end()) {
             return models::meshfile::read_mesh(base::aircraft_file(name_or_file));
         }

@@ -13,6 +13,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <string>
 #include <vector>
 
 namespace octant::ui::world {
@@ -22,7 +24,6 @@ namespace draworder = visuals::draworder;
 namespace {
 
 constexpr std::size_t most_polygons = 20000;
-constexpr std::array built_in = {"f15", "500md", "concave"};
 constexpr double nearest_radii = 0.05;
 constexpr double farthest_radii = 20.0;
 constexpr int rays_per_eye = 20;
@@ -34,6 +35,7 @@ bool is_file_name(const std::string& name) {
 }
 
 OrderInput read(const std::string& name, const std::string& axes) {
+    const std::vector<std::string> built_in = base::built_in_models();
     if (std::ranges::find(built_in, name) != built_in.end()) {
         return {models::polygons::read_obj(base::aircraft_file(name)), {}};
     }
@@ -42,7 +44,8 @@ OrderInput read(const std::string& name, const std::string& axes) {
     }
     if (!is_file_name(name)) {
         throw Error(fmt::format(
-            "model: expected f15, 500md, concave, torus or an OBJ file, got '{}'",
+            "model: expected {}, torus or an OBJ file, got '{}'",
+            fmt::join(built_in, ", "),
             printable(name)));
     }
     const auto file_axes = models::polygons::FileAxes::from_text(axes);

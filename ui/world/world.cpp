@@ -3,6 +3,7 @@
 #include "flightpaths/path_script.h"
 #include "flightpaths/placement.h"
 #include "flightpaths/recorded_track.h"
+#include "sim/aircraft_kind.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
 #include "ui/base/data_files.h"
@@ -29,30 +30,32 @@ struct Script {
     sim::Trajectory trajectory;
     double rate_hz = 0.0;
     double min_clearance_m = 0.0;
-    sim::AircraftLimits limits;
+    std::optional<sim::AircraftLimits> limits;    ///< of what flies, where they are known
     std::optional<flightpaths::GeoOrigin> origin; ///< of a track that knows where it was flown
     std::vector<flightpaths::LegBegin> legs;
     std::vector<std::string> notes;
 };
+
+const sim::AircraftKind& flown_kind(const flightpaths::PathScript& script) {
+    try {
+        return sim::aircraft_kind(script.aircraft);
+    } catch (const Error& fault) {
+        error_in(script.file, fault.what());
+    }
+}
 
 Script load_script(const settings::Settings& settings) {
     const std::filesystem::path file =
         base::path_file(settings.path.name, settings.path.aircraft.front());
     if (file.extension() == ".toml") {
         const flightpaths::PathScript script = flightpaths::read_path_script(file);
-        const auto limits = sim::limits_of(script.aircraft);
-        if (!limits) {
-            error_in(
-                file,
-                fmt::format(
-                    "expected aircraft f15 or 500md, got '{}'", printable(script.aircraft)));
-        }
-        flightpaths::FlownPath flown = flightpaths::fly(script, *limits, settings.path.lenient);
+        const sim::AircraftKind& kind = flown_kind(script);
+        flightpaths::FlownPath flown = flightpaths::fly(script, kind, settings.path.lenient);
         return {
             std::move(flown.trajectory),
             static_cast<double>(script.rate_hz),
             script.min_clearance_m,
-            *limits,
+            kind.limits,
             {},
             std::move(flown.legs),
             std::move(flown.notes)};
@@ -61,12 +64,12 @@ Script load_script(const settings::Settings& settings) {
     const auto samples = track.trajectory.samples();
     const double mean_step_s =
         (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
-    const auto limits = sim::limits_of(settings.path.aircraft.front());
+    const sim::AircraftKind* kind = sim::find_aircraft_kind(settings.path.aircraft.front());
     return {
         std::move(track.trajectory),
         1.0 / mean_step_s,
         track_clearance_m,
-        limits.value_or(*sim::limits_of("f15")),
+        kind == nullptr ? std::nullopt : std::optional(kind->limits),
         track.origin,
         {},
         {}};
@@ -103,6 +106,12 @@ placement_of(const settings::Settings& settings, const Script& script, const Sce
     }
     placement.mode = placement_mode(settings.path.height_mode.value_or(
         at_its_own_place ? settings::HeightMode::Datum : settings::HeightMode::Clear));
+    if (placement.mode == flightpaths::HeightMode::Follow && !script.limits) {
+        throw Error(fmt::format(
+            "--height-mode follow: expected an aircraft with known limits beside a recorded track, "
+            "got '{}'",
+            printable(settings.path.aircraft.front())));
+    }
     return placement;
 }
 

@@ -1,9 +1,11 @@
 #include "visuals/draworder/linear_programme.h"
 
+#include <Clp_C_Interface.h>
+#include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <glpk.h>
+#include <limits>
 #include <memory>
+#include <vector>
 
 namespace octant::visuals::draworder {
 
@@ -11,72 +13,92 @@ namespace {
 
 constexpr double tolerance = 1e-9;
 constexpr int most_iterations = 10000;
+constexpr int optimal = 0;
+constexpr int no_perturbation = 100;
+/// CLP's own scaling suits programmes of unequal factors. With factors of about 1 it ends in
+/// solutions that are no optimum once they are scaled back.
+constexpr int no_scaling = 0;
+constexpr double maximise = -1.0;
 
-int kind_of(double least, double most) {
-    if (std::isfinite(least) && std::isfinite(most)) {
-        return least == most ? GLP_FX : GLP_DB;
-    }
-    if (std::isfinite(least)) {
-        return GLP_LO;
-    }
-    return std::isfinite(most) ? GLP_UP : GLP_FR;
+using Solver = std::unique_ptr<Clp_Simplex, decltype(&Clp_deleteModel)>;
+
+/// The bound as CLP takes it: the largest finite number and its negative stand for none.
+double clp_bound(double bound) {
+    constexpr double none = std::numeric_limits<double>::max();
+    return std::clamp(bound, -none, none);
 }
 
-using Problem = std::unique_ptr<glp_prob, decltype(&glp_delete_prob)>;
+/// A linear programme as CLP reads it: the matrix by columns without its zeros, and all bounds.
+struct Columns {
+    std::vector<CoinBigIndex> starts{0};
+    std::vector<int> rows;
+    std::vector<double> factors;
+    std::vector<double> weights;
+    std::vector<double> least;
+    std::vector<double> most;
+    std::vector<double> row_least;
+    std::vector<double> row_most;
+};
 
-void add_variables(glp_prob* problem, const LinearProgramme& programme) {
-    glp_add_cols(problem, static_cast<int>(programme.variables.size()));
+Columns columns_of(const LinearProgramme& programme) {
+    Columns columns;
     for (std::size_t i = 0; i < programme.variables.size(); ++i) {
         const auto& [weight, least, most] = programme.variables[i];
-        const int column = static_cast<int>(i) + 1;
-        glp_set_obj_coef(problem, column, weight);
-        glp_set_col_bnds(problem, column, kind_of(least, most), least, most);
+        columns.weights.push_back(weight);
+        columns.least.push_back(clp_bound(least));
+        columns.most.push_back(clp_bound(most));
+        for (std::size_t row = 0; row < programme.rows.size(); ++row) {
+            if (const double factor = programme.rows[row].factors[i]; factor != 0.0) {
+                columns.rows.push_back(static_cast<int>(row));
+                columns.factors.push_back(factor);
+            }
+        }
+        columns.starts.push_back(static_cast<CoinBigIndex>(columns.rows.size()));
     }
+    for (const LinearProgramme::Row& row : programme.rows) {
+        assert(row.factors.size() == programme.variables.size());
+        columns.row_least.push_back(clp_bound(row.least));
+        columns.row_most.push_back(clp_bound(row.most));
+    }
+    return columns;
 }
 
-void add_rows(glp_prob* problem, const LinearProgramme& programme) {
-    std::vector<int> columns{0}; // GLPK counts from 1
-    for (std::size_t i = 1; i <= programme.variables.size(); ++i) {
-        columns.push_back(static_cast<int>(i));
-    }
-    std::vector<double> factors;
-    glp_add_rows(problem, static_cast<int>(programme.rows.size()));
-    for (std::size_t i = 0; i < programme.rows.size(); ++i) {
-        const auto& row = programme.rows[i];
-        assert(row.factors.size() == programme.variables.size());
-        factors.assign(1, 0.0);
-        factors.insert(factors.end(), row.factors.begin(), row.factors.end());
-        const int number = static_cast<int>(i) + 1;
-        glp_set_row_bnds(problem, number, kind_of(row.least, row.most), row.least, row.most);
-        glp_set_mat_row(
-            problem, number, static_cast<int>(row.factors.size()), columns.data(), factors.data());
-    }
+void load(Clp_Simplex* solver, const Columns& columns) {
+    Clp_loadProblem(
+        solver,
+        static_cast<int>(columns.weights.size()),
+        static_cast<int>(columns.row_least.size()),
+        columns.starts.data(),
+        columns.rows.data(),
+        columns.factors.data(),
+        columns.least.data(),
+        columns.most.data(),
+        columns.weights.data(),
+        columns.row_least.data(),
+        columns.row_most.data());
 }
 
 } // namespace
 
+// Clp_primal works on its own model alone: unlike CLP's drivers it sets no signal handlers, and
+// without perturbation it draws no random numbers. So threads may solve side by side, and the same
+// programme always gives the same values.
 std::optional<std::vector<double>> optimum(const LinearProgramme& programme) {
-    glp_term_out(GLP_OFF);
-    const Problem problem(glp_create_prob(), &glp_delete_prob);
-    glp_set_obj_dir(problem.get(), GLP_MAX);
-    add_variables(problem.get(), programme);
-    if (!programme.rows.empty()) { // none at all is an error to GLPK
-        add_rows(problem.get(), programme);
-    }
-    glp_smcp settings{};
-    glp_init_smcp(&settings);
-    settings.msg_lev = GLP_MSG_OFF;
-    settings.tol_bnd = tolerance;
-    settings.tol_dj = tolerance;
-    settings.it_lim = most_iterations;
-    if (glp_simplex(problem.get(), &settings) != 0 || glp_get_status(problem.get()) != GLP_OPT) {
+    const Solver solver(Clp_newModel(), &Clp_deleteModel);
+    Clp_setLogLevel(solver.get(), 0);
+    load(solver.get(), columns_of(programme));
+    Clp_setOptimizationDirection(solver.get(), maximise);
+    Clp_setPrimalTolerance(solver.get(), tolerance);
+    Clp_setDualTolerance(solver.get(), tolerance);
+    Clp_setMaximumIterations(solver.get(), most_iterations);
+    Clp_scaling(solver.get(), no_scaling);
+    Clp_setPerturbation(solver.get(), no_perturbation);
+    Clp_primal(solver.get(), 0);
+    if (Clp_status(solver.get()) != optimal) {
         return std::nullopt;
     }
-    std::vector<double> values;
-    for (std::size_t i = 1; i <= programme.variables.size(); ++i) {
-        values.push_back(glp_get_col_prim(problem.get(), static_cast<int>(i)));
-    }
-    return values;
+    const double* values = Clp_getColSolution(solver.get());
+    return std::vector<double>(values, values + programme.variables.size());
 }
 
 } // namespace octant::visuals::draworder

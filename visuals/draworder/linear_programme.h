@@ -29,7 +29,7 @@ struct LinearProgramme {
 };
 
 /// The variables of an optimum, bounds kept within 1e-9; nothing when there is no optimum or none
-/// was found. By the simplex method (GLPK).
+/// was found. By the primal simplex method (CLP). Threads may call it side by side.
 std::optional<std::vector<double>> optimum(const LinearProgramme& programme);
 
 } // namespace octant::visuals::draworder

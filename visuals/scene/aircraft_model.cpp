@@ -1,6 +1,7 @@
 #include "visuals/scene/aircraft_model.h"
 
 #include "models/colour_vertex.h"
+#include "sim/aircraft_kind.h"
 #include "visuals/shading/vertex_normals.h"
 
 #include <glm/common.hpp>
@@ -156,15 +157,8 @@ void add_progressive(
 }
 
 glm::dvec3 pilot_eye_m(const models::polygons::PolygonModel& model) {
-    // F-15: eye 5.0 m behind the nose tip (Zaretto F-15vsp.xml) and 0.94 m above the reference line
-    // (JSBSim f15.xml); the origin is 10.4 m behind the nose. 500MD: front seat on the left,
-    // eye 1.2 m behind the nose and 1.5 m above the skids; the origin is on the mast axis, 1.2 m
-    // above the skids.
-    if (model.name == "f15") {
-        return {5.4, 0.0, -0.94};
-    }
-    if (model.name == "500md") {
-        return {0.75, -0.33, -0.3};
+    if (const sim::AircraftKind* kind = sim::find_aircraft_kind(model.name)) {
+        return kind->pilot_eye_m;
     }
     glm::dvec3 least(std::numeric_limits<double>::max());
     glm::dvec3 most(std::numeric_limits<double>::lowest());

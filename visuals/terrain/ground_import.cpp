@@ -100,7 +100,7 @@ Import::Import(
     , source_(inputs, options.picture)
     , layout_(source_.columns(), source_.rows())
     , plan_(layout_)
-    , inputs_(hash_of_inputs(inputs, options)) {
+    , inputs_(hash_of_inputs(inputs, options.picture)) {
     part_ += ".part";
     check_out(inputs, out_, part_);
     if (!may_be_stored(shape_of(2, 2, source_.spacing_m(), 0.0, 0.0))) {

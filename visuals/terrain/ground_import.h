@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/heights/height_field_import.h"
+#include "models/heights/import_options.h"
 #include "visuals/terrain/ground_tiles.h"
 
 #include <cstddef>

@@ -16,11 +16,12 @@ namespace octant::visuals::terrain {
 
 using std::filesystem::path;
 
-std::uint64_t hash_of_inputs(const std::vector<path>& inputs, const GroundImportOptions& options) {
+std::uint64_t
+hash_of_inputs(const std::vector<path>& inputs, const models::heights::ImportOptions& options) {
     Hash hash;
     hash.add_word(GroundHeader::right_version);
-    hash.add_word(std::bit_cast<std::uint64_t>(options.picture.spacing_m));
-    hash.add_word(std::bit_cast<std::uint64_t>(options.picture.height_scale));
+    hash.add_word(std::bit_cast<std::uint64_t>(options.spacing_m));
+    hash.add_word(std::bit_cast<std::uint64_t>(options.height_scale));
     for (const path& input : inputs) {
         std::error_code code;
         const std::string name = std::filesystem::absolute(input, code).string();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/terrain/ground_import.h"
+#include "models/heights/import_options.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -10,7 +10,8 @@ namespace octant::visuals::terrain {
 
 /// Tells the inputs (names, sizes, times) and options of one import from those of another.
 std::uint64_t hash_of_inputs(
-    const std::vector<std::filesystem::path>& inputs, const GroundImportOptions& options);
+    const std::vector<std::filesystem::path>& inputs,
+    const models::heights::ImportOptions& options);
 
 /// Throws Error when writing `out` and, on the way, `part` would harm an input or what is no
 /// regular file.

@@ -1,3 +1,4 @@
+#include "models/polygons/obj_limits.h"
 #include "models/polygons/obj_reader.h"
 #include "sim/base/output_file.h"
 

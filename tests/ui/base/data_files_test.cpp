@@ -1,4 +1,5 @@
 #include "models/polygons/obj_reader.h"
+#include "sim/base/error.h"
 #include "ui/base/data_files.h"
 
 #include <catch2/catch.hpp>
@@ -22,6 +23,26 @@ TEST_CASE("built-in names lead to files, files stay what they are, other names a
     CHECK_THROWS_WITH(
         ui::base::path_file("loop", "f15"),
         Catch::Contains("expected straight, jinking, pop-up, turn"));
+}
+
+TEST_CASE("every known aircraft has its model, its cockpit and its four paths") {
+    const auto models = ui::base::data_folder() / "models";
+    for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
+        CHECK(std::filesystem::is_regular_file(models / kind.model_file));
+        CHECK(std::filesystem::is_regular_file(models / kind.cockpit_file));
+        for (const std::string& path : ui::base::built_in_paths()) {
+            CHECK(std::filesystem::is_regular_file(
+                ui::base::path_file(path, std::string(kind.name))));
+        }
+    }
+}
+
+TEST_CASE("what is only a shape flies as an F-15, and a name that nothing has not at all") {
+    CHECK(ui::base::flown_as("500md").name == "500md");
+    CHECK(ui::base::flown_as("concave").name == "f15");
+    CHECK(ui::base::flown_as("./mine.obj").name == "f15");
+    CHECK_THROWS_AS(ui::base::flown_as("f16"), Error);
+    CHECK_THROWS_AS(ui::base::path_file("turn", "f16"), Error);
 }
 
 TEST_CASE("OCTANT_DATA names the data folder when it holds data") {

@@ -94,7 +94,7 @@ TEST_CASE("by hand the flight panel shows what the aircraft does and the status 
     HeadlessGui gui;
     ui::flight::Simulation& simulation = shown.session.simulation();
     simulation.advance_to(simulation.time_s());
-    simulation.take_over("f15");
+    simulation.take_over(sim::aircraft_kind("f15"));
     const std::string texts =
         gui.texts([&] { ui::window::flight_panel(shown.state, shown.session); });
     const std::string marks =

@@ -1,6 +1,5 @@
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
-#include "visuals/draworder/linear_programme.h"
 #include "visuals/draworder/order_check.h"
 #include "visuals/draworder/order_text.h"
 #include "visuals/draworder/separation.h"
@@ -62,21 +61,6 @@ std::vector<glm::dvec3> moved(std::vector<glm::dvec3> corners, const glm::dvec3&
 const Plane above{{0, 0, 1}, 0};
 
 } // namespace
-
-TEST_CASE("a linear programme is solved, or said to have no solution") {
-    // x + y as large as can be with x + 2 y <= 4, x <= 3.
-    LinearProgramme programme;
-    programme.variables = {{.weight = 1.0, .most = 3.0}, {.weight = 1.0}};
-    programme.rows = {{.factors = {1.0, 2.0}, .most = 4.0}};
-    const auto values = optimum(programme);
-    REQUIRE(values);
-    CHECK((*values)[0] == Approx(3.0));
-    CHECK((*values)[1] == Approx(0.5));
-    programme.rows.push_back({.factors = {1.0, 1.0}, .least = 10.0});
-    CHECK_FALSE(optimum(programme));
-    programme.rows = {};
-    CHECK_FALSE(optimum(programme));
-}
 
 TEST_CASE("of two plates one above the other only the lower may be painted first") {
     const auto plates = model_of({low_plate, moved(low_plate, {0, 0, 1})});
