@@ -1,4 +1,3 @@
-
 // The distance from a point to a triangle by the foot of the perpendicular: Y. Kim, B. U. Lee,
 // "Error measure for vertex simplification", 2005, section II.2, equations (3) to (6) and cases 1
 // to 3. Case 1: the foot is inside, and the distance is that to the plane. Case 2: the point lies

@@ -1,4 +1,3 @@
-
 // The paper's own mode, for comparison: Y. Kim, B. U. Lee, "Error measure for vertex
 // simplification", 2005, section II. The shortest edge (v1, v2) is contracted to that one of v1, v2
 // and (v1 + v2) / 2 which costs least, until the wanted number of vertices is left.

@@ -1,4 +1,3 @@
-
 // The quadrics of the previous measure: Y. Kim, B. U. Lee, "Error measure for vertex
 // simplification", 2005, equations (1) and (2), after M. Garland, P. S. Heckbert, "Surface
 // simplification using quadric error metrics", 1997, and "Simplifying surfaces with color and
