@@ -1,3 +1,7 @@
+// Measures how much of a simplified surface is folded over, which distances do not show: in a thin
+// part, such as a wing, a triangle of the upper side that faces downwards is near the lower side.
+// Points are sampled evenly over the area, and each looks for a triangle of the original nearby
+// that faces its way.
 #include "models/measure/flipped_area.h"
 
 #include "models/measure/surface_samples.h"
@@ -16,6 +20,8 @@ namespace octant::models::measure {
 
 namespace {
 
+/// Whether no triangle of the original near a point faces as `normal` does. `nearest` is the
+/// nearest point of the original.
 bool is_flipped(
     const TargetSurface& original,
     const glm::dvec3& point_m,

@@ -1,3 +1,20 @@
+// The one-sided Hausdorff distance with certified bounds, by branch and bound over the triangles of
+// one mesh: M. Guthe, P. Borodin, R. Klein, "Fast and accurate Hausdorff distance calculation
+// between meshes", 2005. Every sampled point gives a lower bound; each piece of a triangle has an
+// upper bound; the piece with the largest is cut in two until the bounds are close.
+//
+// The upper bound of a piece: the distance to a convex set is a convex function, so that over a
+// triangular piece it is at most its largest value at the corners. A single triangle T of the
+// target is convex, and the distance to the target is at most that to T. Asked are the T nearest to
+// the corners and to the centre of the piece. Beside that, the distance changes no faster than a
+// point moves.
+//
+// Deviations:
+// - The bound of a piece is the one above, not one from a voxel grid.
+// - Pieces are cut in two, not in four, and where they leave the part of space over one T. So a
+//   piece that lies flat on many triangles ends as the overlay of both meshes and not in pieces of
+//   the size of the distance. Elsewhere the cut is where the nearest triangle changes.
+// - Pieces are cut in batches, so that the result is the same on any number of threads.
 #include "models/measure/hausdorff.h"
 
 #include "models/measure/surface_piece.h"
@@ -13,32 +30,24 @@
 #include <utility>
 #include <vector>
 
-// M. Guthe, P. Borodin, R. Klein, "Fast and accurate Hausdorff distance calculation between
-// meshes", 2005: branch and bound over the triangles of one mesh.
-// Deviations: the bound of a piece is not taken from a voxel grid. The distance to a convex set is
-// a convex function, so that over a piece it is at most its largest value at the corners; a single
-// triangle T of the target is convex, and the distance to the target is at most that to T. Asked
-// are the T nearest to the corners and to the middle; beside that, distances change no faster than
-// their points move. Pieces are cut in two, not in four: where they leave the part of space over
-// one T, so that what lies flat on many triangles ends as the overlay of both meshes instead of at
-// the size of the distance; else where the nearest triangle changes. They are cut in batches, so
-// that the result is the same on any number of threads.
-
 namespace octant::models::measure {
 
 namespace {
 
-/// A triangle between three samples.
+/// A triangular piece of the surface, its corners given as indices of samples.
 struct Piece {
     std::array<std::uint32_t, 3> corners{};
-    double most_m = 0.0;                        ///< no point of it is farther from the target
-    std::uint32_t middle = NearestOnMesh::none; ///< triangle nearest to its middle, where known
+    double most_m = 0.0; ///< No point of the piece is farther from the target than this.
+    /// The target's triangle nearest to the centre of the piece, where known.
+    std::uint32_t middle = NearestOnMesh::none;
 };
 
+/// The order of the heap of open pieces: the one with the largest bound is on top.
 bool nearer(const Piece& one, const Piece& other) {
     return one.most_m < other.most_m;
 }
 
+/// One branch-and-bound search.
 class Search {
 public:
     Search(const TriangleMesh& mesh, const TargetSurface& target, const HausdorffLimits& limits)
@@ -49,10 +58,10 @@ public:
     HausdorffBounds run();
 
 private:
-    /// A piece's two parts, and the sample between them.
+    /// The two parts of a piece that was cut, and the sample where it was cut.
     struct Halves {
         Sample between;
-        std::array<Piece, 2> pieces; ///< a corner `fresh` is the sample between
+        std::array<Piece, 2> pieces; ///< A corner numbered `fresh` is the sample `between`.
         double least_m = 0.0;
     };
 
@@ -60,17 +69,24 @@ private:
     static constexpr std::size_t chunk = 64;
     static constexpr std::size_t batch = 1024;
 
-    /// Pieces whose points are nearer are left out.
+    /// Pieces whose bound is below this need not be cut any further.
     double enough_m() const { return std::max(limits_.negligible_m, limits_.tightness * least_m_); }
 
+    /// The samples at the corners of a piece; `between` stands for a fresh corner.
     Corners corners_of(const Piece& piece, const Sample* between = nullptr) const;
+    /// Measures the distances of all vertices that triangles use.
     void measure_vertices();
+    /// Bounds all triangles and keeps those that may hold the largest distance.
     void take_triangles();
+    /// Cuts a piece in two and bounds both parts. Changes nothing, so that threads may share the
+    /// work.
     Halves cut(const Piece& piece, double enough_m) const;
+    /// Cuts the open pieces with the largest bounds, a whole batch against the same lower bound.
     void cut_batch();
+    /// Puts a piece onto the heap unless its bound is low enough.
     void keep(const Piece& piece);
 
-    /// Calls `work(first, last)` for chunks of 0..count.
+    /// Calls `work(first, last)` for chunks of 0 to `count`, on several threads.
     template <typename Work>
     void in_chunks(std::size_t count, const Work& work) const {
         share_out((count + chunk - 1) / chunk, limits_.threads, [&](std::size_t i, std::size_t) {
@@ -81,10 +97,10 @@ private:
     const TriangleMesh& mesh_;
     const TargetSurface& target_;
     const HausdorffLimits& limits_;
-    std::vector<Sample> samples_; ///< the mesh's vertices first
-    std::vector<Piece> open_;     ///< a heap, the one with the largest bound first
+    std::vector<Sample> samples_; ///< The mesh's vertices first, then one for each cut.
+    std::vector<Piece> open_;     ///< A heap; the piece with the largest bound is on top.
     double least_m_ = 0.0;
-    double left_out_m_ = 0.0; ///< largest bound of the pieces left out
+    double left_out_m_ = 0.0; ///< The largest bound of the pieces that were left out.
     std::size_t cuts_ = 0;
 };
 

@@ -7,23 +7,27 @@
 
 namespace octant::models::measure {
 
-/// How far a search for the largest distance goes.
+/// When the search for the largest distance may end. Whenever it ends, its bounds are certified.
 struct HausdorffLimits {
-    double tightness = 1.01;                  ///< ends when most <= tightness * least ...
-    double negligible_m = 0.0;                ///< ... or most <= this ...
-    std::size_t cuts = std::size_t{1} << 22U; ///< ... or after so many cuts, bounds still certified
-    int threads = 1;                          ///< changes nothing of the result
+    /// The search ends when the upper bound is at most this many times the lower one.
+    double tightness = 1.01;
+    /// It also ends when the upper bound is at most this.
+    double negligible_m = 0.0;
+    /// It ends after so many cuts, too.
+    std::size_t cuts = std::size_t{1} << 22U;
+    int threads = 1; ///< The number of threads; it does not change the result.
 };
 
-/// The largest distance of a point of a surface to another surface lies between these.
+/// The largest distance from a point of one surface to another surface lies between these two.
 struct HausdorffBounds {
     double least_m = 0.0;
     double most_m = 0.0;
-    std::size_t cuts = 0; ///< how many it took
+    std::size_t cuts = 0; ///< How many cuts the search took.
 };
 
-/// Bounds of the largest distance from the points of `mesh`'s triangles to `target`, rounding
-/// allowed for.
+/// Bounds of the one-sided Hausdorff distance: the largest distance from any point of `mesh`'s
+/// triangles to `target`. Rounding is allowed for in both bounds. Both meshes need triangles
+/// (asserted).
 HausdorffBounds one_way_hausdorff(
     const TriangleMesh& mesh, const TargetSurface& target, const HausdorffLimits& limits);
 

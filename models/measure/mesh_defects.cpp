@@ -1,3 +1,8 @@
+// Finds defects by sorting. All sides of all triangles are sorted by their vertices, so that the
+// sides of one edge are neighbours in the list. Two union-find structures follow: one joins corners
+// at the same vertex across edges (a vertex with more than one set of corners is not a manifold),
+// the other joins triangles (each set is a shell). The genus of a closed oriented manifold follows
+// from Euler's formula V - E + F = 2 (shells - genus).
 #include "models/measure/mesh_defects.h"
 
 #include <glm/geometric.hpp>
@@ -13,7 +18,7 @@ namespace octant::models::measure {
 
 namespace {
 
-/// Sets that are joined; each has one root.
+/// Disjoint sets with union and find (path halving).
 class JoinedSets {
 public:
     explicit JoinedSets(std::size_t count)
@@ -35,13 +40,13 @@ private:
     std::vector<std::size_t> parents_;
 };
 
-/// One triangle's side, ends in ascending order.
+/// One side of one triangle, its two vertices in ascending order.
 struct Side {
     std::uint32_t low = 0;
     std::uint32_t high = 0;
-    bool upward = false;        ///< the triangle runs from low to high
-    std::size_t low_corner = 0; ///< 3 * triangle + corner
-    std::size_t high_corner = 0;
+    bool upward = false;         ///< The triangle runs from `low` to `high`.
+    std::size_t low_corner = 0;  ///< Its corner at `low`, numbered 3 * triangle + corner.
+    std::size_t high_corner = 0; ///< Its corner at `high`.
 
     bool same_edge(const Side& other) const { return low == other.low && high == other.high; }
 };
@@ -60,6 +65,7 @@ bool is_flat(const TriangleMesh& mesh, const Triangle& triangle) {
     return !(glm::length(glm::cross(ab, ac)) > 1e-14 * longest2);
 }
 
+/// The sides of all triangles without repeated vertices, those of the same edge next to each other.
 std::vector<Side> sorted_sides(const TriangleMesh& mesh) {
     std::vector<Side> sides;
     sides.reserve(mesh.triangles.size() * 3);
@@ -96,7 +102,7 @@ std::size_t count_duplicates(const TriangleMesh& mesh) {
     return static_cast<std::size_t>(faces.end() - std::unique(faces.begin(), faces.end()));
 }
 
-/// Counts along edges, corners joined to fans and triangles to shells.
+/// Counts defects along edges, and joins corners to fans and triangles to shells on the way.
 class Joints {
 public:
     explicit Joints(const TriangleMesh& mesh)
@@ -104,6 +110,7 @@ public:
         , fans_(mesh.triangles.size() * 3)
         , shells_(mesh.triangles.size()) {}
 
+    /// Takes all sides of one edge.
     void take_edge(std::span<const Side> sides, MeshDefects& found) {
         ++edges_;
         for (const Side& side : sides.subspan(1)) {
@@ -119,7 +126,7 @@ public:
         found.turned_edges += sides.size() == 2 && sides[0].upward == sides[1].upward ? 1U : 0U;
     }
 
-    /// Once all edges were taken.
+    /// Counts what is known once all edges have been taken.
     void finish(MeshDefects& found) {
         std::vector<std::size_t> fans(mesh_.vertices_m.size(), 0);
         long faces = 0;
@@ -142,7 +149,8 @@ public:
     }
 
 private:
-    /// Boundary edges follow one another where they belong to one fan.
+    /// The number of boundary loops. Two boundary edges belong to the same loop where they end in
+    /// the same fan of corners.
     std::size_t loops() {
         JoinedSets rims(mesh_.triangles.size() * 3);
         std::vector<std::size_t> ends;

@@ -1,3 +1,6 @@
+// Puts the two measurements of a distance together, in each direction: the certified Hausdorff
+// distance (hausdorff.cpp) and sampled mean values (sampled_distance.cpp). Both use one tree over
+// the triangles of the other mesh.
 #include "models/measure/mesh_distance.h"
 
 #include "models/measure/hausdorff.h"
@@ -30,7 +33,7 @@ double MeshDistance::colour_rms() const {
 
 namespace {
 
-/// Says how far the work is.
+/// Tells the caller's progress function how many of the four steps are done.
 class Steps {
 public:
     explicit Steps(const DistanceOptions& options)

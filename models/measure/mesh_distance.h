@@ -7,20 +7,24 @@
 
 namespace octant::models::measure {
 
-/// Distances of the points of one surface to another one, metres.
+/// Distances from the points of one surface to another surface, metres.
 struct OneWayDistance {
-    double least_hausdorff_m = 0.0; ///< the largest distance is at least this ...
-    double most_hausdorff_m = 0.0;  ///< ... and at most this
-    double rms_m = 0.0;             ///< over the surface's area, sampled
-    double mean_m = 0.0;            ///< the same
-    double colour_rms = 0.0; ///< of the difference in colour to the nearest point, length in RGB
-                             ///< 0..1; 0 without colours
+    /// The one-sided Hausdorff distance is at least this ...
+    double least_hausdorff_m = 0.0;
+    /// ... and at most this.
+    double most_hausdorff_m = 0.0;
+    double rms_m = 0.0;  ///< The root mean square over the surface's area, sampled.
+    double mean_m = 0.0; ///< The mean over the surface's area, sampled.
+    /// The root mean square of the difference in colour to the nearest point, as a length in RGB
+    /// with parts 0 to 1; 0 without colours.
+    double colour_rms = 0.0;
 };
 
-/// Both ways; the two-sided figure is the larger one of both.
+/// The distances both ways between surfaces a and b. Each two-sided figure is the larger one of the
+/// two.
 struct MeshDistance {
-    OneWayDistance there; ///< from a to b
-    OneWayDistance back;  ///< from b to a
+    OneWayDistance there; ///< From the points of a to b.
+    OneWayDistance back;  ///< From the points of b to a.
 
     double least_hausdorff_m() const;
     double most_hausdorff_m() const;
@@ -29,21 +33,24 @@ struct MeshDistance {
     double colour_rms() const;
 };
 
+/// How accurately distances are measured.
 struct DistanceOptions {
-    double tightness = 1.01;   ///< most / least Hausdorff distance asked for, > 1
-    double negligible_m = 0.0; ///< bounds below this need not be tight; 0 = 1e-9 of the diagonal
-    /// For each way, for rms and mean; 0 = neither. The relative error of the rms is about
-    /// (spread / rms) / sqrt(samples), less because samples are even: some 0.1 % by default.
+    /// The wanted ratio of the Hausdorff distance's upper to its lower bound, above 1.
+    double tightness = 1.01;
+    double negligible_m = 0.0; ///< Bounds below this need not be tight; 0 = 1e-9 of the diagonal.
+    /// Sample points for each way, for RMS and mean; 0 = neither is measured. The relative error of
+    /// the RMS is about (spread / RMS) / sqrt(samples), less because the samples are evenly spread:
+    /// some 0.1 % by default.
     std::size_t samples = 400'000;
-    int threads = 1; ///< changes no figure
-    /// Called between the steps of the work with how many of `steps` are done; may be empty.
+    int threads = 1; ///< The number of threads; it does not change the result.
+    /// Called between the steps of the work with how many of them are done; may be empty.
     std::function<void(int done, int steps)> progress{};
 };
 
-/// Distance between two surfaces, both ways. The Hausdorff bounds are certified: by branch and
-/// bound over the triangles, with rounding allowed for; they are as tight as was asked for unless
-/// that takes more than four million cuts (surfaces at nearly the same distance everywhere). Both
-/// meshes need triangles (asserted).
+/// The distance between two surfaces, both ways. The Hausdorff bounds are certified: branch and
+/// bound over the triangles, with rounding allowed for. They are as tight as was asked for unless
+/// that takes more than four million cuts, as for surfaces at nearly the same distance everywhere.
+/// Both meshes need triangles (asserted).
 MeshDistance
 distance(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options = {});
 

@@ -8,17 +8,17 @@
 
 namespace octant::models::measure {
 
-/// The point of a triangle nearest to a given one.
+/// The point of a triangle that is nearest to a given one.
 struct NearestOnTriangle {
     glm::dvec3 point{0.0};
-    glm::dvec3 weights{0.0}; ///< of the corners: none negative, 1 together
-    double distance2 = 0.0;  ///< square of the distance
+    glm::dvec3 weights{0.0}; ///< Barycentric: those of the corners, none negative, with the sum 1.
+    double distance2 = 0.0;  ///< The square of the distance.
 };
 
 namespace detail {
 
-/// Takes the point of the segment from corner i to corner j that is nearest to the origin, where
-/// it is nearer than what was found before. A segment of no length is its first point.
+/// Replaces `found` by the nearest point of the segment from corner i to corner j if that is nearer
+/// to the origin. The nearest point of a segment without length is its first end.
 inline void
 take_from_edge(const std::array<glm::dvec3, 3>& corners, int i, int j, NearestOnTriangle& found) {
     const glm::dvec3& start = corners[static_cast<std::size_t>(i)];
@@ -36,20 +36,22 @@ take_from_edge(const std::array<glm::dvec3, 3>& corners, int i, int j, NearestOn
     }
 }
 
-/// Whether a corner is nearest to the origin: both edges lead away from there.
+/// Whether a corner is the point of its triangle nearest to the origin: both edges at it lead away
+/// from the origin.
 inline bool
 is_at_corner(const glm::dvec3& corner, const glm::dvec3& to_one, const glm::dvec3& to_other) {
     return glm::dot(corner, to_one) >= 0.0 && glm::dot(corner, to_other) >= 0.0;
 }
 
-/// The point of a triangle's plane nearest to the origin, as weights of the corners.
+/// The point of a triangle's plane that is nearest to the origin, as barycentric weights.
 struct NearestInPlane {
     glm::dvec3 weights{-1.0};
-    bool uncertain = true; ///< the triangle is nearly a line: weights may be wrong
+    bool uncertain = true; ///< The triangle is nearly a line, and the weights may be wrong.
 };
 
-/// For a triangle whose longest edge runs from corner 0 to corner 1: along that edge and the height
-/// over it, which keeps its accuracy for thin triangles. Weights in the order of the corners.
+/// The nearest point in the plane of a triangle whose longest edge `base` runs from corner 0 to
+/// corner 1. It is found along that edge and along the height over it, which keeps its accuracy for
+/// thin triangles. The weights are in the order of the corners.
 inline NearestInPlane nearest_over_base(
     const glm::dvec3& from, const glm::dvec3& base, const glm::dvec3& side, double base2) {
     const double foot = glm::dot(side, base) / base2;
@@ -64,6 +66,8 @@ inline NearestInPlane nearest_over_base(
     return {{1.0 - up - end, end, up}, height2 < 1e-12 * base2};
 }
 
+/// The nearest point in a triangle's plane: calls nearest_over_base with the longest edge as the
+/// base.
 inline NearestInPlane nearest_in_plane(
     const std::array<glm::dvec3, 3>& corners,
     const glm::dvec3& ab,
@@ -123,10 +127,10 @@ inline NearestOnTriangle nearest_to_origin(const std::array<glm::dvec3, 3>& corn
 
 } // namespace detail
 
-/// The point of the triangle a, b, c (its inside, edges and corners) nearest to `point`. By edge
-/// vectors from `point`, so that neither the place of the origin nor triangles without area or
-/// length matter. The distance is never below the true one by more than rounding: what is found
-/// lies on the triangle.
+/// The point of the triangle a, b, c, which includes its edges and corners, that is nearest to
+/// `point`. Computed with edge vectors and relative to `point`, so that neither a far origin nor
+/// triangles without area or length spoil it. The found point lies on the triangle, so that the
+/// distance is never below the true one by more than rounding.
 inline NearestOnTriangle nearest_on_triangle(
     const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     NearestOnTriangle found = detail::nearest_to_origin({a - point, b - point, c - point});

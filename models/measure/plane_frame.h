@@ -6,8 +6,9 @@
 
 namespace octant::models::measure {
 
-/// A triangle in a plane of its own: corner a at the origin, b on the x axis. Rounded to single
-/// precision; Number: float, or several side by side.
+/// A triangle in the coordinates of its own plane: corner a is the origin and corner b lies on the
+/// x axis. In single precision; `Number` is float, or a vector of floats for several triangles side
+/// by side.
 template <typename Number>
 struct PlaneFrame {
     std::array<Number, 3> origin;
@@ -15,11 +16,12 @@ struct PlaneFrame {
     std::array<Number, 3> y_axis;
     std::array<Number, 3> normal;
     Number bx, cx, cy;
-    Number per_ab2, per_bc2, per_ca2; ///< 1 / length^2; 0 for an edge without length
+    Number per_ab2, per_bc2, per_ca2; ///< 1 / length^2 of each edge; 0 for an edge without length.
 };
 
-/// The frame of a triangle; one of no height has any plane through its longest edges, one of no
-/// length any plane. Places are displaced by their rounding and at most 1e-8 of an edge.
+/// The frame of a triangle. One without height gets any plane through its longest edges, and one
+/// without length any plane at all. Corners are displaced by the rounding to float and by at most
+/// 1e-8 of an edge.
 PlaneFrame<float> plane_frame(const std::array<glm::dvec3, 3>& corners);
 
 inline std::array<float, 3> narrow(const glm::dvec3& v) {
@@ -29,24 +31,28 @@ inline std::array<float, 3> narrow(const glm::dvec3& v) {
 // Results go out by reference: vectors as return values would depend on the processor's ABI.
 #define OCTANT_INLINE [[gnu::always_inline]] inline
 
+/// Sets `value` to the smaller one, lane by lane.
 template <typename F>
 OCTANT_INLINE void make_least(F& value, const F& other) {
     value = other < value ? other : value;
 }
 
+/// Clamps to 0..1, lane by lane.
 template <typename F>
 OCTANT_INLINE void clamp_share(F& value) {
     value = value > 0.0F ? value : F{};
     value = value < 1.0F ? value : F{} + 1.0F;
 }
 
-/// How points in triangles' planes lie to the nearest place of their edges.
+/// The vectors from the nearest point of the triangle's edges to a point, both in the plane of the
+/// triangle.
 template <typename F>
 struct EdgeFeet {
     F away_x, away_y, away2;
 };
 
-/// `with_place`: away_x and away_y are filled.
+/// Finds the nearest point on the edges for a point (x, y) of the plane. away_x and away_y are
+/// filled only `with_place`.
 template <bool with_place, typename F, typename Number>
 OCTANT_INLINE void
 nearest_on_edges(EdgeFeet<F>& feet, const F& x, const F& y, const PlaneFrame<Number>& t) {
@@ -79,13 +85,16 @@ nearest_on_edges(EdgeFeet<F>& feet, const F& x, const F& y, const PlaneFrame<Num
     make_least(feet.away2, ca2);
 }
 
-/// Points in the coordinates of triangles' planes, and how far away they are.
+/// A point in the coordinates of a triangle's plane, and its distance from the triangle.
 template <typename F>
 struct FramePoints {
     F x, y, distance2;
-    EdgeFeet<F> feet; ///< away from the foot of the perpendicular where that is in the triangle: 0
+    /// Where the foot of the perpendicular lies inside the triangle, away_x and away_y are 0.
+    EdgeFeet<F> feet;
 };
 
+/// Transforms a point into the frame of a triangle and finds its squared distance from the
+/// triangle.
 template <bool with_place, typename F, typename Number>
 OCTANT_INLINE void
 find_in_frame(FramePoints<F>& found, const std::array<F, 3>& place, const PlaneFrame<Number>& t) {

@@ -1,3 +1,6 @@
+// RMS and mean of distance and colour difference, from points spread evenly over a surface
+// (surface_samples.cpp). Sums are kept for each chunk of points and added in order, so that the
+// number of threads does not change the result.
 #include "models/measure/sampled_distance.h"
 
 #include "models/measure/surface_samples.h"
@@ -12,12 +15,14 @@ namespace octant::models::measure {
 
 namespace {
 
+/// The sums over one chunk of samples.
 struct Sums {
     double distances = 0.0;
     double squares = 0.0;
     double colour_squares = 0.0;
 };
 
+/// The squared difference between the colours of a point and of its nearest point.
 double colour_difference2(
     const TriangleMesh& mesh,
     const SurfacePoint& here,

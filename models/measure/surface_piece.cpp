@@ -1,3 +1,6 @@
+// The bound of a piece and the choice of its cut, for the branch and bound of hausdorff.cpp, where
+// both are explained (after M. Guthe, P. Borodin, R. Klein, 2005, with the deviations stated
+// there).
 #include "models/measure/surface_piece.h"
 
 #include <glm/common.hpp>
@@ -7,13 +10,11 @@
 #include <cmath>
 #include <numbers>
 
-// The bound of a piece and the place of a cut are described in hausdorff.cpp.
-
 namespace octant::models::measure {
 
 namespace {
 
-/// The largest distance of a corner to one triangle of the target.
+/// The largest distance from a piece's corners to one triangle of the target.
 double most_to(const TargetSurface& target, std::uint32_t triangle, const Corners& corners) {
     double most2 = 0.0;
     for (const Sample* corner : corners) {
@@ -33,9 +34,11 @@ bool share_vertex(const Triangle& one, const Triangle& other) {
         one, [&](std::uint32_t vertex) { return std::ranges::find(other, vertex) != other.end(); });
 }
 
-/// Where along the way from one sample to another their nearest triangles are equally far, 0..1.
+/// The place between two samples, 0 to 1, where their nearest triangles are equally far: a root of
+/// the difference of the distances, by regula falsi (Illinois algorithm).
 double crossing(const TargetSurface& target, const Sample& start, const Sample& end) {
-    // The root makes it straight over an edge between two triangles of one plane.
+    // Of the difference of squares the signed root is taken: that is linear across an edge between
+    // two triangles of one plane.
     const auto difference = [&](double along) {
         const glm::dvec3 point = glm::mix(start.point, end.point, along);
         const double squares =
@@ -57,7 +60,7 @@ double crossing(const TargetSurface& target, const Sample& start, const Sample& 
         if (here < 0.0) {
             low = along;
             below = here;
-            above *= 0.5; // Illinois
+            above *= 0.5; // The Illinois step: halves the value that stays, so that both ends move.
         } else {
             high = along;
             above = here;
@@ -67,8 +70,8 @@ double crossing(const TargetSurface& target, const Sample& start, const Sample& 
     return along;
 }
 
-/// Where the nearest triangle changes between neighbours, along the longest edge where it does;
-/// else the middle of the longest edge.
+/// The cut where the nearest triangle changes between neighbouring triangles of the target, on the
+/// longest edge on which it does; otherwise the midpoint of the longest edge.
 Cut change_cut(const TargetSurface& target, const Corners& corners) {
     Cut longest;
     Cut changing;
@@ -99,14 +102,15 @@ Cut change_cut(const TargetSurface& target, const Corners& corners) {
     return changing;
 }
 
-/// A cut by a plane, and how deep the piece goes to either side of it.
+/// A cut along a plane, and how deep the piece reaches to both sides of it.
 struct PlaneCut {
     Cut cut;
     double depth_m = 0.0;
 };
 
-/// The longest edge whose ends lie so far off a plane, on either side; by the distances of the
-/// corners from it. Of thin pieces other edges would leave a part as long as the piece.
+/// The cut along a plane, given the corners' signed distances from it. Chosen is the longest edge
+/// whose ends both lie more than `least_depth_m` off the plane, on opposite sides: for thin pieces
+/// another edge would leave a part as long as the piece.
 PlaneCut
 plane_cut(const Corners& corners, const std::array<double, 3>& inside_m, double least_depth_m) {
     PlaneCut found;
@@ -128,7 +132,8 @@ plane_cut(const Corners& corners, const std::array<double, 3>& inside_m, double 
     return found;
 }
 
-/// Takes the cut by the deepest of the three planes upright on a triangle through its edges.
+/// Replaces `best` if the piece reaches deeper across one of the three planes through the edges of
+/// a triangle that are perpendicular to it.
 void take_edge_cut(
     const TargetSurface& target,
     std::uint32_t triangle,
@@ -154,7 +159,8 @@ void take_edge_cut(
     }
 }
 
-/// Of triangles that are not small beside the piece.
+/// The deepest such cut over the triangles nearest to the corners and the centre. Triangles that
+/// are small beside the piece do not count.
 PlaneCut edge_cut(
     const TargetSurface& target,
     const Corners& corners,
@@ -190,7 +196,8 @@ PieceBounds bounds_of(const TargetSurface& target, const Corners& corners, doubl
         std::max({length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)});
     PieceBounds bounds;
     bounds.least_m = std::max({a->distance_m, b->distance_m, c->distance_m});
-    bounds.most_m = bounds.least_m + longest_m / std::numbers::sqrt3; // to the nearest corner
+    // No point of a triangle is farther from its nearest corner than longest edge / sqrt(3).
+    bounds.most_m = bounds.least_m + longest_m / std::numbers::sqrt3;
     for (std::size_t i = 0; i < 3 && bounds.most_m > enough_m; ++i) {
         bounds.most_m = std::min(bounds.most_m, most_to(target, corners[i]->nearest, corners));
     }
@@ -212,7 +219,9 @@ PieceBounds bounds_of(const TargetSurface& target, const Corners& corners, doubl
 
 Cut cut_of(
     const TargetSurface& target, const Corners& corners, std::uint32_t middle, double enough_m) {
-    constexpr double ignored = 0.01; // so far beside a triangle: 5e-5 of enough_m nearer
+    // A point this far beside a triangle is nearer to it than the plane suggests by 5e-5 of
+    // enough_m.
+    constexpr double ignored = 0.01;
     const PlaneCut over_edge = edge_cut(target, corners, middle, ignored * enough_m);
     return over_edge.depth_m > 0.0 ? over_edge.cut : change_cut(target, corners);
 }

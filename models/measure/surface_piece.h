@@ -10,39 +10,43 @@
 
 namespace octant::models::measure {
 
-/// A point of a surface and how far it is from the target.
+/// A point of a surface and its distance from the target.
 struct Sample {
     glm::dvec3 point{0.0};
     double distance_m = 0.0;
-    std::uint32_t nearest = NearestOnMesh::none; ///< triangle of the target
+    std::uint32_t nearest = NearestOnMesh::none; ///< The triangle of the target that is nearest.
 };
 
-/// `guess`: a triangle of the target that may be near.
+/// Measures a point. `guess` is a triangle of the target that may be near, or none; it changes the
+/// time only.
 Sample measured(const TargetSurface& target, const glm::dvec3& point, std::uint32_t guess);
 
-/// A triangular piece of a surface.
+/// The three corners of a triangular piece of a surface.
 using Corners = std::array<const Sample*, 3>;
 
-/// Bounds of the largest distance of a piece's points to the target.
+/// Bounds of the largest distance from a piece's points to the target.
 struct PieceBounds {
     double least_m = 0.0;
     double most_m = 0.0;
-    std::uint32_t middle = NearestOnMesh::none; ///< triangle nearest to its middle, where asked
+    /// The triangle nearest to the piece's centre, if that was looked for.
+    std::uint32_t middle = NearestOnMesh::none;
 };
 
-/// As tight as can be had at little cost; not tightened further once `most_m` <= `enough_m`.
+/// Bounds a piece as tightly as is cheap. The bounds are not tightened any further once the upper
+/// one is at most `enough_m`.
 PieceBounds bounds_of(const TargetSurface& target, const Corners& corners, double enough_m);
 
-/// Where a piece is cut in two.
+/// Where a piece is cut in two: by a line from a point on one edge to the opposite corner.
 struct Cut {
-    std::size_t edge = 0; ///< from this corner to the next one
-    double along = 0.5;   ///< of the edge, 0..1
+    std::size_t edge = 0; ///< The edge from this corner to the next one.
+    double along = 0.5;   ///< Where on that edge, 0 to 1.
 };
 
-/// Where the piece leaves the part of space over one of the triangles nearest to its corners or its
-/// `middle`, so that distances to one triangle bound a part well; farther out than a part of
-/// `enough_m` only. Else where the nearest triangle changes from one corner to the next, or the
-/// middle of the longest edge.
+/// Chooses the cut of a piece. The first choice is where it leaves the part of space over one of
+/// the triangles nearest to its corners or its centre (`middle`), because the distance to a single
+/// triangle then bounds a part well; leaving it by a small part of `enough_m` does not count. The
+/// second is where the nearest triangle changes from one corner to the next, and the last the
+/// midpoint of the longest edge.
 Cut cut_of(
     const TargetSurface& target, const Corners& corners, std::uint32_t middle, double enough_m);
 

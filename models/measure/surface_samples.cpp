@@ -1,13 +1,13 @@
+// Even samples of a surface. Point k = 0, 1, ... lies at (k + 1/2) / samples of the accumulated
+// area, so that each triangle gets its share (stratified sampling). Within the triangles the points
+// follow the R2 sequence of M. Roberts, "The unreasonable effectiveness of quasirandom sequences",
+// 2018: a Kronecker sequence in the unit square, folded at its diagonal.
 #include "models/measure/surface_samples.h"
 
 #include <glm/geometric.hpp>
 
 #include <cassert>
 #include <cmath>
-
-// Points k = 0, 1, ... lie at (k + 1/2) / samples of the area, counted triangle by triangle, so
-// that each triangle gets its share; within the triangles they follow M. Roberts's R2 sequence,
-// "The unreasonable effectiveness of quasirandom sequences", 2018, folded at the diagonal.
 
 namespace octant::models::measure {
 
@@ -33,7 +33,8 @@ std::size_t SurfaceSamples::triangle_of(std::size_t k) const {
 }
 
 glm::dvec3 SurfaceSamples::weights_of(std::size_t k) {
-    constexpr double plastic = 1.32471795724474602596; // x^3 = x + 1
+    // The plastic number, the real root of x^3 = x + 1.
+    constexpr double plastic = 1.32471795724474602596;
     const double n = static_cast<double>(k) + 1.0;
     double unused = 0.0;
     double u = std::modf(0.5 + n / plastic, &unused);

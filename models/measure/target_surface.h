@@ -13,7 +13,8 @@
 
 namespace octant::models::measure {
 
-/// A mesh that distances are measured to. The mesh must stay.
+/// A mesh to which distances are measured, with a tree over its triangles. The mesh must outlive
+/// this.
 class TargetSurface {
 public:
     explicit TargetSurface(const TriangleMesh& mesh)
@@ -24,7 +25,7 @@ public:
 
     const TriangleBvh& bvh() const { return bvh_; }
 
-    /// Square of the distance to one triangle.
+    /// The square of the distance from a point to one triangle.
     double distance2_to(std::uint32_t triangle, const glm::dvec3& point) const {
         const auto& [a, b, c] = mesh_->triangles[triangle];
         const auto& at = mesh_->vertices_m;
@@ -40,12 +41,13 @@ public:
              glm::distance(at[c], at[a])});
     }
 
-    /// bvh().nearest, faster when `guess` is near: the guess changes nothing of what is found.
+    /// The nearest point of the mesh. `guess` is a triangle that may be near, or none; a good guess
+    /// makes the search faster but never changes what is found.
     NearestOnMesh nearest(const glm::dvec3& point, std::uint32_t guess) const {
         if (guess == NearestOnMesh::none) {
             return bvh_.nearest(point);
         }
-        constexpr double margin = 1.0 + 1e-12; // for the rounding of the root
+        constexpr double margin = 1.0 + 1e-12; // Makes up for the rounding of the square root.
         return bvh_.nearest(point, std::sqrt(distance2_to(guess, point)) * margin);
     }
 

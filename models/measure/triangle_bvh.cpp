@@ -1,3 +1,10 @@
+// A bounding volume hierarchy with four boxes a node, after I. Wald, C. Benthin, S. Boulos,
+// "Getting rid of packets", 2008. A node's four parts come from splitting twice in two
+// (triangle_split.cpp), and the four boxes are tested with one instruction each.
+//
+// Why results are exact although boxes are in float: a box or triangle is skipped only when its
+// distance in float, less the largest possible rounding (Probe::slack), exceeds the best distance
+// found so far. So what is skipped cannot hold a nearer point.
 #include "models/measure/triangle_bvh.h"
 
 #include "models/measure/nearest_point.h"
@@ -9,18 +16,15 @@
 #include <cassert>
 #include <cmath>
 
-// I. Wald, C. Benthin, S. Boulos, "Getting rid of packets", 2008: nodes of four boxes; here by
-// splitting twice.
-
 namespace octant::models::measure {
 
 namespace {
 
-/// Of a distance in single precision, against the largest number in it.
+/// The relative error of a distance in single precision, against the largest number that enters it.
 constexpr double rounding = 4e-6;
-/// In units of the mesh's size: farther away places are as good as that one for finding everything.
+/// In the tree's units. A point farther away than this is moved to it: every box is then in reach.
 constexpr double farthest_place = 1e9;
-/// A smaller mesh is taken for that large.
+/// A smaller mesh is treated as being this large.
 constexpr double least_size_m = 1e-150;
 
 double largest(const glm::dvec3& v) {
@@ -49,12 +53,14 @@ struct TriangleBvh::Builder {
     TriangleBvh& tree;
     std::span<const glm::dvec3> vertices_m;
     std::span<const Triangle> triangles;
-    std::vector<Item> items; ///< in units of the mesh's size
+    std::vector<Item> items; ///< In the tree's units.
 
+    /// A point in the tree's units.
     glm::dvec3 scaled(const glm::dvec3& point_m) const {
         return (point_m - tree.centre_m_) * tree.per_size_;
     }
 
+    /// Sets one of a node's boxes to the bounds of some items.
     void set_box(Node& node, std::size_t lane, std::span<const Item> part) const {
         Extent extent;
         for (const Item& item : part) {
@@ -67,6 +73,7 @@ struct TriangleBvh::Builder {
         }
     }
 
+    /// Makes a leaf of up to four items and returns its number with leaf_bit.
     std::uint32_t leaf(std::size_t first, std::size_t count) const {
         Leaf made;
         made.first = static_cast<std::uint32_t>(first);
@@ -83,11 +90,12 @@ struct TriangleBvh::Builder {
         return static_cast<std::uint32_t>(tree.leaves_.size() - 1) | leaf_bit;
     }
 
+    /// Makes a leaf or a subtree of some items, whichever they need.
     std::uint32_t below(std::size_t first, std::size_t count, int depth) {
         return count <= lanes ? leaf(first, count) : build(first, count, depth);
     }
 
-    /// Four parts by splitting twice.
+    /// Makes a node of up to four parts by splitting the items twice, and returns its number.
     std::uint32_t build(std::size_t first, std::size_t count, int depth) {
         const auto number = static_cast<std::uint32_t>(tree.nodes_.size());
         tree.nodes_.push_back(empty_node());
@@ -166,8 +174,8 @@ TriangleBvh::TriangleBvh(
     }
 }
 
-/// Rounding of places and of what is computed of them takes less than `slack`, in single precision
-/// and the rounding of double precision included: up to fifty roundings, each of 2^-24.
+/// A probe at a point. Its slack covers the rounding of the point and of all that is computed from
+/// it: up to fifty roundings of 2^-24 each, and those of the double precision before.
 TriangleBvh::Probe TriangleBvh::probe(const glm::dvec3& point_m) const {
     const glm::dvec3 local = (point_m - centre_m_) * per_size_;
     Probe made;
@@ -180,6 +188,7 @@ TriangleBvh::Probe TriangleBvh::probe(const glm::dvec3& point_m) const {
     return made;
 }
 
+/// Sets how far to look, rounded up; everything is looked at where the slack is too large.
 void TriangleBvh::Probe::set_reach(double distance) {
     const double reach = distance + slack;
     const bool all = slack > 1.0 || !(reach < farthest_place);
@@ -187,9 +196,11 @@ void TriangleBvh::Probe::set_reach(double distance) {
                  : static_cast<float>((1.0 + rounding) * reach * reach);
 }
 
+/// The state of one search for the nearest point.
 struct TriangleBvh::Search {
     NearestOnMesh found;
-    double reach2_m2 = 0.0; ///< nothing farther is looked at
+    /// The square of the best distance so far; nothing farther is looked at.
+    double reach2_m2 = 0.0;
     Probe probe;
 };
 
@@ -227,7 +238,7 @@ NearestOnMesh TriangleBvh::nearest(const glm::dvec3& point, double within_m) con
     search.probe = probe(point);
     search.probe.set_reach(within_m * per_size_);
 
-    std::array<float, most_waiting> away2; // of what is waiting
+    std::array<float, most_waiting> away2; // The squared distances of the boxes that wait.
     std::array<std::uint32_t, most_waiting> waiting;
     std::size_t count = 0;
     away2[count] = 0.0F;
@@ -251,7 +262,8 @@ NearestOnMesh TriangleBvh::nearest(const glm::dvec3& point, double within_m) con
             if (!(here2 <= search.probe.reach2)) {
                 continue;
             }
-            std::size_t place = count++; // the nearest last
+            // Sorted so that the nearest box comes last and is looked at first.
+            std::size_t place = count++;
             for (; place > first && away2[place - 1] < here2; --place) {
                 away2[place] = away2[place - 1];
                 waiting[place] = waiting[place - 1];

@@ -13,62 +13,69 @@
 
 namespace octant::models::measure {
 
-/// The point of a mesh nearest to a given one.
+/// The point of a mesh that is nearest to a given one.
 struct NearestOnMesh {
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-    std::uint32_t triangle = none; ///< none: nothing is as near as was asked for
+    /// The index of its triangle; none = nothing is as near as was asked for.
+    std::uint32_t triangle = none;
     glm::dvec3 point{0.0};
-    glm::dvec3 weights{0.0}; ///< of the triangle's corners, in its own order
-    double distance2 = std::numeric_limits<double>::infinity(); ///< square of the distance
+    /// The barycentric weights of the triangle's corners, in its own order.
+    glm::dvec3 weights{0.0};
+    double distance2 = std::numeric_limits<double>::infinity(); ///< The square of the distance.
 };
 
-/// A tree of boxes over the triangles of a mesh, for exact nearest points. Keeps copies of the
-/// corners: the mesh may change or go. Constant once built: many threads may ask at once.
-/// Boxes and triangles are passed over in single precision, four at once, by distances less what
-/// rounding can make of them; what is left is measured in double precision. Takes some 220 bytes a
-/// triangle.
+/// A bounding volume hierarchy over the triangles of a mesh, for exact nearest points. It copies
+/// the corners, so that the mesh may change or go. It is constant once built, and many threads may
+/// ask at the same time.
+///
+/// Boxes and triangles are first compared in single precision, four at a time, by lower bounds of
+/// their distances: what the rounding can be at most is subtracted. Only what passes is measured in
+/// double precision. It takes some 220 bytes a triangle.
 class TriangleBvh {
 public:
     explicit TriangleBvh(const TriangleMesh& mesh);
     TriangleBvh(std::span<const glm::dvec3> vertices_m, std::span<const Triangle> triangles);
 
-    /// The nearest point of all triangles, degenerate ones too, that is at most `within_m` away;
-    /// of several at the same distance the triangle of the lowest index.
+    /// The nearest point of all triangles, degenerate ones included, that is at most `within_m`
+    /// away. Of several triangles at the same distance it is the one with the lowest index.
     NearestOnMesh nearest(
         const glm::dvec3& point, double within_m = std::numeric_limits<double>::infinity()) const;
 
-    /// Calls `take(triangle)` for every triangle that may be at most `within_m` from the point: all
-    /// that are, and some that are a little farther, in an order of the tree's.
+    /// Calls `take(triangle)` for every triangle that may be at most `within_m` away from the
+    /// point: for all that are, and for some that are a little farther, in the order of the tree.
     template <typename Take>
     void for_each_near(const glm::dvec3& point, double within_m, const Take& take) const;
 
-    /// Distances from points among the mesh are wrong by less than this, metres: rounding.
+    /// Distances from points within the mesh's bounding box are wrong by less than this, metres,
+    /// because of rounding.
     double rounding_m() const { return rounding_m_; }
 
 private:
     static constexpr std::size_t lanes = 4;
     using Floats = float __attribute__((vector_size(4 * lanes)));
 
-    /// Four boxes, in units of the mesh's size around its centre.
+    /// Four bounding boxes in the tree's units: the mesh's centre is the origin and half of its
+    /// longest side is 1.
     struct Node {
         std::array<Floats, 3> least;
         std::array<Floats, 3> most;
-        std::array<std::uint32_t, lanes> below; ///< a node, or a leaf's number with leaf_bit
+        /// For each box the number of a node, or with leaf_bit that of a leaf.
+        std::array<std::uint32_t, lanes> below;
     };
 
-    /// Up to four triangles; the last one again where there are fewer.
+    /// Up to four triangles; where there are fewer, the last one is repeated.
     struct Leaf {
         PlaneFrame<Floats> frames;
-        std::uint32_t first = 0; ///< of corners_m_ and triangles_
+        std::uint32_t first = 0; ///< The index of the first triangle in corners_m_ and triangles_.
         std::uint32_t count = 0;
     };
 
-    /// A point, and how far to look, in units of the mesh's size.
+    /// A point to search from, and how far to look, in the tree's units.
     struct Probe {
-        std::array<Floats, 3> place; ///< four times the same
-        double slack = 0.0;          ///< distances in single precision are wrong by less
-        float reach2 = 0.0F;         ///< nothing farther is looked at
+        std::array<Floats, 3> place; ///< Its coordinates, each four times.
+        double slack = 0.0;          ///< Distances in single precision are wrong by less than this.
+        float reach2 = 0.0F; ///< The square of the distance beyond which nothing is looked at.
 
         void set_reach(double distance);
     };
@@ -77,24 +84,29 @@ private:
     struct Search;
 
     Probe probe(const glm::dvec3& point_m) const;
-    /// Squares of distances, in units of the mesh's size.
+    /// The squared distances of four boxes from the probe, in the tree's units.
     static void box_distances2(Floats& distances2, const Node& node, const Probe& probe);
+    /// The squared distances of a leaf's triangles from the probe, in the tree's units.
     static void triangle_distances2(Floats& distances2, const Leaf& leaf, const Probe& probe);
+    /// Measures those triangles of a leaf in double precision that may be nearer than what was
+    /// found.
     void search_leaf(const Leaf& leaf, const glm::dvec3& point_m, Search& search) const;
 
     static constexpr std::uint32_t leaf_bit = 1U << 31U;
-    /// More than any tree that Builder makes lets wait.
+    /// No tree that Builder makes needs a deeper stack of waiting nodes.
     static constexpr int most_waiting = 256;
 
-    std::vector<Node> nodes_; ///< the first is the root; none: no triangles
+    std::vector<Node> nodes_; ///< The first one is the root; there are none without triangles.
     std::vector<Leaf> leaves_;
     std::vector<std::array<glm::dvec3, 3>> corners_m_;
-    std::vector<std::uint32_t> triangles_; ///< which triangle has these corners
+    /// For each entry of corners_m_ the triangle's index in the mesh.
+    std::vector<std::uint32_t> triangles_;
     glm::dvec3 centre_m_{0.0};
-    double per_size_ = 1.0; ///< 1 / half of the longest side of the mesh's box
+    double per_size_ = 1.0; ///< 1 / half of the longest side of the mesh's bounding box.
     double rounding_m_ = 0.0;
 };
 
+/// Depth first with a stack; a node's order does not matter, because all that is near is taken.
 template <typename Take>
 void TriangleBvh::for_each_near(const glm::dvec3& point, double within_m, const Take& take) const {
     if (nodes_.empty()) {

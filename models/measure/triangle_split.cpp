@@ -1,12 +1,13 @@
+// Splits between bins by the surface area heuristic: I. Wald, "On fast construction of SAH-based
+// bounding volume hierarchies", 2007. The cost of a split is the sum over both parts of surface
+// area times number of triangles, which stands for the expected work of a search.
+//
+// Deviations: from depth 64 on, and where no bin separates the triangles, they are split at the
+// median, so that the depth is bounded.
 #include "models/measure/triangle_split.h"
 
 #include <algorithm>
 #include <array>
-
-// I. Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007: splits between
-// bins of the longest axis of the triangles' middles, by the surface area heuristic.
-// Deviations: below depth 64, and where no bin splits, triangles are split at their median, so that
-// the depth is bounded.
 
 namespace octant::models::measure {
 
@@ -19,8 +20,11 @@ int longest_axis(const Extent& extent) {
 }
 
 constexpr std::size_t bin_count = 16;
-constexpr int median_depth = 64; ///< 64 + 32 levels of halving let at most 3 of 4 wait at 48
+/// 64 levels and then 32 of halving, two to a node: at most 48 nodes deep, and each lets at most 3
+/// of its 4 boxes wait. That is below TriangleBvh's stack.
+constexpr int median_depth = 64;
 
+/// A division of the longest axis into bins of equal width.
 struct Bins {
     double start = 0.0;
     double scale = 0.0;
@@ -32,7 +36,7 @@ struct Bins {
     }
 };
 
-/// The first bin behind the cheapest split; 0 when there is none.
+/// The first bin of the second part at the cheapest split; 0 when all items lie in one bin.
 std::size_t cheapest_split(std::span<const Item> items, const Bins& bins) {
     std::array<Extent, bin_count> extents;
     std::array<std::size_t, bin_count> counts{};

@@ -10,6 +10,7 @@
 
 namespace octant::models::measure {
 
+/// An axis-aligned bounding box; at first it holds nothing.
 struct Extent {
     glm::dvec3 least{std::numeric_limits<double>::infinity()};
     glm::dvec3 most{-std::numeric_limits<double>::infinity()};
@@ -24,22 +25,24 @@ struct Extent {
         most = glm::max(most, other.most);
     }
 
+    /// Half the surface area; 0 for an empty box.
     double half_area() const {
         const glm::dvec3 size = most - least;
         return size.x >= 0.0 ? size.x * size.y + size.y * size.z + size.z * size.x : 0.0;
     }
 };
 
-/// A triangle while a tree is built.
+/// A triangle while the tree is being built, with its bounding box and the centre of that.
 struct Item {
     Extent extent;
     glm::dvec3 middle{0.0};
     std::uint32_t triangle = 0;
 };
 
-/// Orders the items into two parts, neither of them empty, and gives the size of the first: between
-/// bins of the longest axis of their middles, by the surface area heuristic; below depth 64, and
-/// where no bin splits, at their median. There must be two items.
+/// Reorders the items into two parts, neither of them empty, and returns the size of the first. The
+/// split is between bins on the longest axis of the centres, by the surface area heuristic; from
+/// depth 64 on, and where no bin separates them, it is at the median. There must be at least two
+/// items.
 std::size_t split(std::span<Item> items, int depth);
 
 } // namespace octant::models::measure

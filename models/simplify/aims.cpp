@@ -1,3 +1,6 @@
+// The half of the polish that looks from the simplified surface to the original (polish.cpp has the
+// other half): iterated closest points with the distance to the tangent plane, where a sample must
+// not be drawn to the wrong side of a thin part.
 #include "models/simplify/aims.h"
 
 #include <glm/geometric.hpp>
@@ -8,9 +11,11 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// Of its distance, and of the usual one: how far it looks for one that faces its way.
+/// How far a turned sample looks for a point that faces its way, in multiples of its own distance
+/// and of the usual distance.
 constexpr double turned_reach = 4.0;
 
+/// The position of a sample on a triangle.
 glm::dvec3 place_of(const std::array<glm::dvec3, 3>& corners, const TriangleSample& sample) {
     return sample.weights.x * corners[0] + sample.weights.y * corners[1] +
            sample.weights.z * corners[2];
@@ -48,6 +53,7 @@ void SampleAims::take(const WorkingSurface& surface, const PolishTarget& target,
     usual_off_ = std::sqrt(mean_square(surface));
 }
 
+/// The mean over the area of the squared distances from samples to aims.
 double SampleAims::mean_square(const WorkingSurface& surface) const {
     double squares = 0.0;
     double area = 0.0;

@@ -1,3 +1,6 @@
+// Transfers normals from the original to a simplified mesh. At a crease the nearest point may lie
+// on the wrong side, so a corner whose nearest triangle faces another way tries again a little
+// further inside its own triangle.
 #include "models/simplify/attributes.h"
 
 #include <glm/geometric.hpp>
@@ -10,15 +13,18 @@ namespace octant::models::simplify {
 
 namespace {
 
+/// Normals agree when the cosine between them is at least this.
 constexpr double agreeing_cosine = 0.7;
-/// How far from the corner to the middle of its triangle the original is asked, one after another.
+/// Where the original is asked, one after the other: at the corner itself and at these shares of
+/// the way to the triangle's centroid.
 constexpr std::array<double, 4> pulls = {0.0, 0.1, 0.4, 1.0};
 
 glm::dvec3 unit_normal(const TriangleMesh& mesh, std::size_t triangle) {
     return normal_of(mesh, mesh.triangles[triangle]);
 }
 
-/// The original's normal near a place, of a triangle that faces as `facing` does.
+/// The original's interpolated normal at the point nearest to `place_m`; nothing if the triangle
+/// there does not face as `facing` does.
 std::optional<glm::vec3> normal_near(
     const TriangleMesh& original,
     const measure::TriangleBvh& bvh,

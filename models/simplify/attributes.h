@@ -5,9 +5,9 @@
 
 namespace octant::models::simplify {
 
-/// Gives the mesh corner normals where the original has any: those of the original surface near
-/// each corner, of a triangle that faces as the corner's does, so that sharp edges stay sharp.
-/// `bvh` is the original's.
+/// Gives a simplified mesh corner normals if the original has any. Each corner takes the original's
+/// normal near its position, from a triangle that faces as its own does, so that sharp edges stay
+/// sharp. `bvh` is the tree over the original.
 void take_normals(
     TriangleMesh& mesh, const TriangleMesh& original, const measure::TriangleBvh& bvh);
 

@@ -1,3 +1,7 @@
+// Keeps edge collapses and vertex moves from folding the surface over or making slivers: the test
+// of the angle between old and new normal of M. Garland and P. Heckbert (1997), and a lower bound
+// of each triangle's compactness. The topology has a test of its own,
+// CollapsibleMesh::may_collapse.
 #include "models/simplify/collapse_guard.h"
 
 #include <glm/geometric.hpp>
@@ -9,12 +13,14 @@ namespace octant::models::simplify {
 
 namespace {
 
+/// Between a triangle's normal before and after; 0.2 is 78 degrees.
 constexpr double least_cosine = 0.2;
-/// Twice the area over the sum of the squared sides: 0.58 for equal sides.
+/// The least roundness: twice the area over the sum of the squared sides, which is 0.58 for an
+/// equilateral triangle.
 constexpr double least_roundness = 0.02;
-/// Of a triangle that keeps its normal, where Strips is given.
+/// With Strips, the least roundness of a triangle that keeps its normal.
 constexpr double least_strip_roundness = 0.002;
-constexpr double kept_cosine = 0.9999;
+constexpr double kept_cosine = 0.9999; ///< A normal counts as kept from this cosine on.
 
 double roundness(const std::array<glm::dvec3, 3>& corners, double area2) {
     double sides = 0.0;
@@ -88,7 +94,7 @@ bool may_move(
 
 Strictness strictness_for(const WorkingSurface& surface) {
     constexpr double flat_cosine = 1.0 - 1e-9;
-    if (surface.coloured()) { // strips may be flat in place and not in colour
+    if (surface.coloured()) { // A strip may be flat in space and yet not in colour.
         return Strictness::Normal;
     }
     const CollapsibleMesh& mesh = surface.mesh;

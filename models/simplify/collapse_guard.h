@@ -9,38 +9,39 @@
 
 namespace octant::models::simplify {
 
-/// How much a triangle may change when a corner of it moves.
+/// How much a triangle may change when one of its corners moves.
 enum class Strictness {
-    Strips, ///< as Normal, but may become one where it keeps its normal
-    Normal, ///< may turn by less than 78 degrees and not become a sliver
-    Loose,  ///< may turn by less than 90 degrees
-    None
+    Strips, ///< As Normal, but it may also become a sliver if it keeps its normal.
+    Normal, ///< It may turn by less than 78 degrees and may not become a sliver.
+    Loose,  ///< It may turn by less than 90 degrees.
+    None    ///< Anything is allowed.
 };
 
-/// Whether the triangle may get these corners.
+/// Whether a triangle with corners `before` may get the corners `after`.
 bool may_become(
     const std::array<glm::dvec3, 3>& before,
     const std::array<glm::dvec3, 3>& after,
     Strictness strictness);
 
-/// Whether two triangles on either side of an edge may become these when it is flipped: whichever
-/// is taken for which.
+/// Whether the two triangles at an edge may become the two given ones when the edge is flipped,
+/// whichever new one is compared with whichever old one.
 bool may_flip_to(
     const std::array<std::array<glm::dvec3, 3>, 2>& before,
     const std::array<std::array<glm::dvec3, 3>, 2>& after);
 
-/// Whether all triangles of a ring may have their moving corner at `place`.
+/// Whether every triangle of a ring may have its moving corner at `place`.
 bool may_move(
     const WorkingSurface& surface,
     std::span<const RingFace> ring,
     const glm::dvec3& place,
     Strictness strictness);
 
-/// Strips for an uncoloured surface of which every fourth edge is flat: machined, with long strips
-/// along its cylinders. Else Normal.
+/// Strips for an uncoloured surface on which at least every fourth edge is flat, as on machined
+/// parts with long strips along their cylinders; else Normal.
 Strictness strictness_for(const WorkingSurface& surface);
 
-/// A ring's triangle with its moving corner elsewhere; that corner comes first.
+/// The corners of a triangle of a ring when its moving corner is at `place`; that corner comes
+/// first.
 std::array<glm::dvec3, 3>
 moved_corners(const WorkingSurface& surface, const RingFace& face, const glm::dvec3& place);
 

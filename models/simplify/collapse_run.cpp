@@ -1,7 +1,15 @@
-// Edge contraction, the cheapest first. Quality::Fast: costs and places by quadrics. Quality::
-// Surface: places by quadrics, costs are the growth of the sum of squared distances from points of
-// the original surface to the current one; costs of edges near a collapse are looked at again only
-// when their old cost comes first.
+// Edge collapses, the cheapest first. The new vertex always lies where quadrics are least
+// (vertex_quadrics.cpp); the cost decides the order.
+//
+// - Quality::Fast: the cost is the quadric itself, as in M. Garland, P. Heckbert, "Surface
+//   Simplification Using Quadric Error Metrics", 1997.
+// - Quality::Surface: the cost is how much the sum of squared distances between points of the
+//   original surface and the current surface would grow, looked at both ways. This is the distance
+//   to triangles that Y. Kim and B. U. Lee propose ("Error measure for vertex simplification",
+//   2005, section II.2), but against the original surface instead of the mesh before the collapse.
+//   As it is expensive, it is evaluated lazily: a collapse only marks the edges around it as
+//   unchecked, and an unchecked edge is evaluated anew when its old cost reaches the top of the
+//   heap.
 #include "models/simplify/collapse_run.h"
 
 #include <glm/geometric.hpp>
@@ -15,7 +23,8 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// Lighter than where the cost is a distance: there they only lead the place.
+/// The edge weights when costs are quadrics. They are lighter than the default ones, which only
+/// guide the place while distances decide the cost.
 constexpr EdgeWeights fast_weights{.boundary = 1.0, .crease = 0.1, .crease_cosine = 0.5};
 
 } // namespace
@@ -34,6 +43,7 @@ CollapseRun::CollapseRun(
     std::iota(numbers_.begin(), numbers_.end(), 0U);
 }
 
+/// Whether one of the goals is reached.
 bool CollapseRun::is_met(const Goal& goal) const {
     const CollapsibleMesh& mesh = surface_.mesh;
     return (goal.vertices && mesh.vertex_count() <= *goal.vertices) ||
@@ -41,6 +51,7 @@ bool CollapseRun::is_met(const Goal& goal) const {
            (goal.error_m && error_ * units_.diagonal_m > *goal.error_m);
 }
 
+/// Puts all edges into the heap.
 void CollapseRun::fill() {
     const CollapsibleMesh& mesh = surface_.mesh;
     for (HalfEdge h = 0; h < mesh.face_slots() * 3; ++h) {
@@ -67,7 +78,8 @@ void CollapseRun::run(const Goal& goal, const ShowProgress& show_progress) {
     }
 }
 
-/// The edge to collapse next; permissions are relaxed when nothing is left. False at the end.
+/// Finds the edge to collapse next. When no edge is allowed any more, the strictness is relaxed and
+/// all edges are tried again. Returns false at the end.
 bool CollapseRun::next_edge(HalfEdge& h) {
     while (true) {
         if (heap_.empty()) {
@@ -99,10 +111,13 @@ bool CollapseRun::next_edge(HalfEdge& h) {
     }
 }
 
+/// Where the vertex goes that an edge collapses into.
 Placement CollapseRun::placed(HalfEdge h) const {
     return quadrics_.placement(surface_, h);
 }
 
+/// Whether an edge may collapse: link condition first, then the guard against fold-overs and
+/// slivers.
 bool CollapseRun::is_allowed(HalfEdge h, const Placement& placement) {
     if (!surface_.mesh.may_collapse(h)) {
         return false;
@@ -111,7 +126,7 @@ bool CollapseRun::is_allowed(HalfEdge h, const Placement& placement) {
     return may_move(surface_, ring_, placement.place, strictness_);
 }
 
-/// Puts an edge into the heap with its cost of now, or takes it out where it may not collapse.
+/// Puts an edge into the heap with its present cost, or takes it out where it may not collapse.
 void CollapseRun::update_cost(HalfEdge edge) {
     const Placement placement = placed(edge);
     if (points_ == nullptr) {
@@ -127,6 +142,7 @@ void CollapseRun::update_cost(HalfEdge edge) {
     heap_.set(edge, static_cast<float>(there + cost_.way_back(surface_, ring_, placement.place)));
 }
 
+/// The cost that length_share adds, so that short edges go first and regions stay round.
 double CollapseRun::length_cost(HalfEdge edge, const Placement& placement) const {
     const CollapsibleMesh& mesh = surface_.mesh;
     const double length =
@@ -135,7 +151,8 @@ double CollapseRun::length_cost(HalfEdge edge, const Placement& placement) const
     return placement.weight * off * off;
 }
 
-/// Expects the edge's ring in ring_.
+/// How much the squared distances of the tracked points grow by a collapse. The ring of the edge
+/// must be in ring_. Stops early once the growth exceeds `enough`.
 double CollapseRun::surface_increase(HalfEdge h, const Placement& placement, double enough) {
     faces_.clear();
     faces_.push_back(face_of(h));
@@ -150,6 +167,8 @@ double CollapseRun::surface_increase(HalfEdge h, const Placement& placement, dou
     return cost_.increase(enough);
 }
 
+/// Collapses an edge, moves the tracked points to their new nearest triangles, records the collapse
+/// and updates the costs around it.
 void CollapseRun::collapse(HalfEdge h, const Placement& placement) {
     CollapsibleMesh& mesh = surface_.mesh;
     const std::uint32_t kept = mesh.origin(h);
@@ -193,6 +212,7 @@ void CollapseRun::collapse(HalfEdge h, const Placement& placement) {
     update_around(kept);
 }
 
+/// Updates the edges at a vertex, and marks all edges one ring further as unchecked.
 void CollapseRun::update_around(std::uint32_t vertex) {
     const CollapsibleMesh& mesh = surface_.mesh;
     mesh.edges_around(vertex, [&](HalfEdge h) {

@@ -15,21 +15,23 @@
 
 namespace octant::models::simplify {
 
-/// Collapses edges of a surface, the cheapest first.
+/// The greedy loop of edge collapses: always the cheapest edge next.
 class CollapseRun {
 public:
-    /// Quality::Surface needs `points`, the tracked ones of the surface; they and the surface are
-    /// changed. `length_share`: as in SimplifyOptions, without points.
+    /// Without `points` (null) costs are quadrics (Quality::Fast), and `length_share` is that of
+    /// SimplifyOptions. With `points`, the tracked points of the surface, costs are the growth of
+    /// their squared distances (Quality::Surface). The surface and the points are changed by run().
     CollapseRun(
         WorkingSurface& surface,
         const WorkingUnits& units,
         TrackedPoints* points,
         double length_share = 0.0);
 
-    /// Goes on until a goal is met or nothing can be collapsed any more. An error goal is compared
-    /// with estimates.
+    /// Collapses edges until the goal is met or no edge may be collapsed any more. A goal of an
+    /// error is compared with the run's own estimate, not with a certified distance.
     void run(const Goal& goal, const ShowProgress& show_progress);
 
+    /// The collapses so far, in file units: the progressive mesh in reverse.
     std::vector<Collapse>& collapses() { return collapses_; }
 
 private:
@@ -46,16 +48,17 @@ private:
 
     WorkingSurface& surface_;
     const WorkingUnits& units_;
-    TrackedPoints* points_; ///< null: costs by quadrics
+    TrackedPoints* points_; ///< Null: costs are quadrics.
     double length_share_;
     VertexQuadrics quadrics_;
     EdgeHeap heap_;
-    std::vector<bool> checked_;          ///< of each edge: cost and permission are those of now
-    std::vector<std::uint32_t> numbers_; ///< of each vertex slot, in the sequence
+    std::vector<bool> checked_; ///< For each edge whether its cost and permission are up to date.
+    /// For each vertex slot its number in the collapse sequence.
+    std::vector<std::uint32_t> numbers_;
     std::vector<Collapse> collapses_;
     Strictness strictness_;
     bool filled_ = false;
-    double error_ = 0.0; ///< estimated, so far
+    double error_ = 0.0; ///< The estimated error so far, in working units.
     SurfaceCost cost_;
     std::vector<RingFace> ring_;
     std::vector<std::uint32_t> faces_;

@@ -1,3 +1,7 @@
+// Half-edges for collapses and flips. CollapsibleMesh::may_collapse tests the link condition of T.
+// Dey, H. Edelsbrunner, S. Guha, D. Nekhayev, "Topology Preserving Edge Contraction", 1999: the
+// ends of the edge may have no common neighbours but the corners opposite the edge. The 2005 paper
+// tests nothing and so leaves manifolds; its own mode uses PaperMesh instead.
 #include "models/simplify/collapsible_mesh.h"
 
 #include <algorithm>
@@ -14,7 +18,8 @@ CollapsibleMesh::CollapsibleMesh(std::size_t vertices, std::span<const Triangle>
     for (const Triangle& triangle : triangles) {
         origins_.insert(origins_.end(), triangle.begin(), triangle.end());
     }
-    // Half-edges listed by the smaller vertex of their edge.
+    // All half-edges are listed by the smaller vertex of their edge (counting sort), so that twins
+    // are found among neighbours in the list.
     std::vector<std::uint32_t> starts(vertices + 1, 0);
     const auto low = [this](HalfEdge h) { return std::min(origin(h), target(h)); };
     for (HalfEdge h = 0; h < origins_.size(); ++h) {
@@ -52,7 +57,7 @@ CollapsibleMesh::CollapsibleMesh(std::size_t vertices, std::span<const Triangle>
         std::ranges::count_if(outs_, [](HalfEdge h) { return h != none; }));
 }
 
-/// Whether a walk around each vertex comes through all triangles there.
+/// Whether walking around each vertex visits all triangles there.
 bool CollapsibleMesh::has_one_fan_a_vertex() const {
     std::vector<std::size_t> corners(outs_.size(), 0);
     for (const std::uint32_t vertex : origins_) {
@@ -77,6 +82,7 @@ bool CollapsibleMesh::may_collapse(HalfEdge h) const {
     const std::uint32_t u = origin(h);
     const std::uint32_t w = target(h);
     const HalfEdge other = twins_[h];
+    // An ear has two boundary edges; collapsing its third edge would leave a lone edge.
     const auto is_ear = [this](HalfEdge side) {
         return twins_[next_of(side)] == none && twins_[previous_of(side)] == none;
     };
@@ -101,6 +107,7 @@ bool CollapsibleMesh::may_collapse(HalfEdge h) const {
         common += static_cast<std::size_t>(marks_[far_end(e, w)] == mark_);
         ++w_edges;
     });
+    // A lone tetrahedron would become two triangles on top of each other.
     const bool tetrahedron = u_edges == 3 && w_edges == 3 && other != none;
     return common == (other == none ? 1U : 2U) && !tetrahedron;
 }
@@ -129,6 +136,7 @@ void CollapsibleMesh::ring_at(
     });
 }
 
+/// Makes two half-edges each other's twins; either may be none.
 void CollapsibleMesh::join(HalfEdge a, HalfEdge b) {
     if (a != none) {
         twins_[a] = b;
@@ -138,7 +146,8 @@ void CollapsibleMesh::join(HalfEdge a, HalfEdge b) {
     }
 }
 
-/// Lets the vertex that `h` starts from be entered there, moved back to a boundary if it has one.
+/// Sets the half-edge by which walks around origin(h) start: `h`, turned clockwise as far as the
+/// boundary if there is one.
 void CollapsibleMesh::set_out(HalfEdge h) {
     const HalfEdge first = h;
     while (twins_[h] != none) {
@@ -150,7 +159,7 @@ void CollapsibleMesh::set_out(HalfEdge h) {
     outs_[origins_[first]] = h;
 }
 
-/// Takes the triangle of `h` out and joins its two other edges.
+/// Removes the triangle of `h` and joins its two other edges.
 void CollapsibleMesh::take_out(HalfEdge h) {
     const HalfEdge a = twins_[next_of(h)];
     const HalfEdge b = twins_[previous_of(h)];

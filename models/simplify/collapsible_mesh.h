@@ -13,7 +13,8 @@
 
 namespace octant::models::simplify {
 
-/// Half-edge h of triangle h / 3 runs from corner h % 3 to the next one.
+/// A half-edge, numbered 3 * triangle + corner: half-edge h of triangle h / 3 runs from corner h %
+/// 3 to the next corner, counter-clockwise.
 using HalfEdge = std::uint32_t;
 
 constexpr HalfEdge next_of(HalfEdge h) {
@@ -28,28 +29,30 @@ constexpr std::uint32_t face_of(HalfEdge h) {
     return h / 3;
 }
 
-/// A triangle of the neighbourhood of an edge that is about to collapse: `half_edge` starts at the
-/// end of the edge that moves.
+/// A triangle of the ring around an edge that is about to collapse, or around a vertex. Its
+/// `half_edge` starts at the corner that moves.
 struct RingFace {
     std::uint32_t face = none;
     HalfEdge half_edge = none;
 };
 
-/// Triangles and which ones share edges: an oriented manifold, perhaps with boundary, that stays
-/// one. Nothing is allocated by a collapse; triangles keep their numbers.
+/// The connectivity of a triangle mesh as half-edges: an oriented manifold, perhaps with boundary,
+/// which stays one. Triangles keep their numbers ("slots"); a collapse empties two of them and
+/// allocates nothing.
 class CollapsibleMesh {
 public:
-    /// Asserts that every edge lies in at most two triangles, of opposite directions.
+    /// Asserts that every edge lies in at most two triangles that run along it in opposite
+    /// directions, and that the triangles of each vertex form a single fan.
     CollapsibleMesh(std::size_t vertices, std::span<const Triangle> triangles);
 
     std::uint32_t origin(HalfEdge h) const { return origins_[h]; }
 
     std::uint32_t target(HalfEdge h) const { return origins_[next_of(h)]; }
 
-    /// The same edge in the other triangle; none on a boundary.
+    /// The half-edge of the same edge in the other triangle; none on a boundary.
     HalfEdge twin(HalfEdge h) const { return twins_[h]; }
 
-    /// Of an edge's one or two half-edges the smaller: its number.
+    /// The number of an edge: the smaller number of its one or two half-edges.
     HalfEdge edge_of(HalfEdge h) const { return h < twins_[h] ? h : twins_[h]; }
 
     bool face_is_there(std::uint32_t face) const { return origins_[face * 3] != none; }
@@ -66,14 +69,14 @@ public:
 
     bool is_boundary_vertex(std::uint32_t vertex) const { return twins_[outs_[vertex]] == none; }
 
-    /// Some triangle at the vertex, which must be there.
+    /// Any one of the triangles at a vertex, which must be there.
     std::uint32_t face_at(std::uint32_t vertex) const { return face_of(outs_[vertex]); }
 
     Triangle corners(std::uint32_t face) const {
         return {origins_[face * 3], origins_[face * 3 + 1], origins_[face * 3 + 2]};
     }
 
-    /// Calls `visit(half_edge)` for each half-edge that starts at `vertex`, one a triangle,
+    /// Calls `visit(half_edge)` for each half-edge that starts at `vertex`, one for each triangle,
     /// counter-clockwise.
     template <typename Visit>
     void around(std::uint32_t vertex, const Visit& visit) const {
@@ -85,7 +88,8 @@ public:
         } while (h != none && h != first);
     }
 
-    /// Calls `visit(half_edge)` once for each edge at `vertex`; the half-edge may run either way.
+    /// Calls `visit(half_edge)` once for each edge at `vertex`. On a boundary the half-edge of the
+    /// last edge ends at the vertex; all others start there.
     template <typename Visit>
     void edges_around(std::uint32_t vertex, const Visit& visit) const {
         const HalfEdge first = outs_[vertex];
@@ -103,26 +107,25 @@ public:
         }
     }
 
-    /// Whether the collapse of an edge leaves a manifold of the same kind (link condition, with the
-    /// boundary as one more vertex).
+    /// Whether collapsing an edge leaves a manifold of the same topology: the link condition, where
+    /// the boundary counts as one more vertex.
     bool may_collapse(HalfEdge h) const;
 
-    /// Triangles that stay when `h` collapses and have a corner moved.
+    /// Fills `ring` with the triangles that stay when `h` collapses and have a corner that moves.
     void ring_of(HalfEdge h, std::vector<RingFace>& ring) const;
 
-    /// The triangles at a vertex, their half-edges starting there, and their numbers.
+    /// Fills `ring` and `faces` with the triangles at a vertex.
     void ring_at(
         std::uint32_t vertex, std::vector<RingFace>& ring, std::vector<std::uint32_t>& faces) const;
 
-    /// Moves what was at target(h) to origin(h) and takes the edge's triangles out. Expects
-    /// may_collapse(h).
+    /// Collapses an edge: all that met target(h) then meets origin(h), and the edge's triangles go.
+    /// may_collapse(h) must be true.
     void collapse(HalfEdge h);
 
-    /// Whether the other diagonal of the two triangles at `h` may replace it.
+    /// Whether the edge may be replaced by the other diagonal of its two triangles.
     bool may_flip(HalfEdge h) const;
 
-    /// Turns the edge: `h` then runs from corner to corner of the other diagonal, and both
-    /// triangles keep their numbers.
+    /// Flips an edge: `h` then runs along the other diagonal. Both triangles keep their numbers.
     void flip(HalfEdge h);
 
 private:
@@ -132,12 +135,16 @@ private:
     bool has_one_fan_a_vertex() const;
     bool is_neighbour(std::uint32_t vertex, std::uint32_t other) const;
 
-    std::vector<std::uint32_t> origins_; ///< none: the triangle is gone
+    /// For each half-edge the vertex that it starts from; none = the triangle is gone.
+    std::vector<std::uint32_t> origins_;
     std::vector<HalfEdge> twins_;
-    std::vector<HalfEdge> outs_; ///< one that starts at the vertex: on a boundary the first
+    /// For each vertex a half-edge that starts there; at a boundary vertex the one from which
+    /// around() reaches all triangles.
+    std::vector<HalfEdge> outs_;
     std::size_t face_count_ = 0;
     std::size_t vertex_count_ = 0;
-    mutable std::vector<std::uint32_t> marks_; ///< a vertex seen in search `mark_`
+    /// For each vertex the number of the last search that met it.
+    mutable std::vector<std::uint32_t> marks_;
     mutable std::uint32_t mark_ = 0;
 };
 

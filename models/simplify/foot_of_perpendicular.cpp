@@ -1,13 +1,16 @@
-// Distance of a point to a triangle by the foot of the perpendicular.
+// The distance from a point to a triangle by the foot of the perpendicular: Y. Kim, B. U. Lee,
+// "Error measure for vertex simplification", 2005, section II.2, equations (3) to (6) and cases 1
+// to 3. Case 1: the foot is inside, and the distance is that to the plane. Case 2: the point lies
+// between the two planes through an edge's ends perpendicular to it, and the distance is that to
+// the edge. Case 3: the distance is that to the nearest corner.
 //
-// Source: Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, section II.2,
-// equations (3) to (6) and cases 1 to 3.
-// Deviations: the matrix of (6) is singular for every triangle whose plane holds the origin; the
-// same minimum is found from the two edge vectors at P1. "a, b, c = 1" is read as a + b + c = 1. In
-// case 2 the nearest of the edges counts; a corner that is nearer than all of them counts too, as
-// beyond a corner the opposite edge may lie between its planes and yet be far. Works in any
-// dimension, so that colour can count.
-
+// Deviations:
+// - The matrix of (6) is singular for every triangle whose plane contains the origin. The same
+//   minimum is found here from the two edge vectors at P1.
+// - "a, b, c = 1" is read as a + b + c = 1.
+// - In case 2 the nearest of the edges counts. A corner nearer than all of them counts too, for
+//   beyond a corner the opposite edge may lie between its planes and yet be far.
+// - Everything works in six dimensions, so that colour can count.
 #include "models/simplify/foot_of_perpendicular.h"
 
 #include <algorithm>
@@ -18,7 +21,7 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// Cases 2 and 3.
+/// Cases 2 and 3: the squared distance to the border of the triangle.
 double border_distance2(const Corners& triangle, const Point6& x) {
     double least = squared_distance(x, triangle[0]);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -49,7 +52,8 @@ Foot foot_on(const Corners& triangle, const Point6& x) {
     const double uv = dot(u, v);
     const double vv = dot(v, v);
     const double area2 = uu * vv - uv * uv;
-    constexpr double collapsed = 1e-14; // squared sine between the edges
+    // The squared sine of the angle between the edges, below which the triangle has no area.
+    constexpr double collapsed = 1e-14;
     if (area2 > collapsed * uu * vv) {
         const double ru = dot(r, u);
         const double rv = dot(r, v);

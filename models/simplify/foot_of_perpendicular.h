@@ -8,11 +8,12 @@ namespace octant::models::simplify {
 
 using Corners = std::array<Point6, 3>;
 
-/// The perpendicular from a point on a triangle.
+/// Where the perpendicular from a point meets a triangle's plane, and the distance to the triangle.
 struct Foot {
-    bool inside = false; ///< 0 < a, b, c < 1 for the foot a P1 + b P2 + c P3; borders are outside
-    double distance2 =
-        0.0; ///< to the triangle, squared: to the foot where inside, else to the border
+    /// The foot a P1 + b P2 + c P3 has 0 < a, b, c < 1. A foot on the border counts as outside.
+    bool inside = false;
+    /// The squared distance to the triangle: to the foot where that is inside, else to the border.
+    double distance2 = 0.0;
 };
 
 /// Drops the perpendicular from `x`. A triangle without area has no inside.

@@ -1,3 +1,6 @@
+// The proposed costs of a contraction: Y. Kim, B. U. Lee, "Error measure for vertex
+// simplification", 2005, section II.2 (distance to triangles) and the two directions of the
+// bidirectional measure. The reading of what is summed over is stated in paper_simplify.cpp.
 #include "models/simplify/paper_costs.h"
 
 #include "models/simplify/foot_of_perpendicular.h"
@@ -6,6 +9,7 @@ namespace octant::models::simplify {
 
 namespace {
 
+/// The squared distance to a triangle; counts the foot.
 double counted_distance2(const Corners& triangle, const Point6& x, FeetCount& feet) {
     const Foot foot = foot_on(triangle, x);
     ++feet.all;

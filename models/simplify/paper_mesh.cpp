@@ -1,3 +1,6 @@
+// The mesh of the paper's own mode: Y. Kim, B. U. Lee, "Error measure for vertex simplification",
+// 2005, section II, where contraction has no test that keeps a manifold. Plain lists of faces at
+// vertices therefore, instead of half-edges.
 #include "models/simplify/paper_mesh.h"
 
 #include "models/collapse_sequence.h"

@@ -11,14 +11,15 @@
 
 namespace octant::models::simplify {
 
-/// Of the vertex that a contraction makes.
+/// The three candidates of the paper for the vertex that a contraction makes: v1, v2 and (v1 + v2)
+/// / 2.
 enum class Place { First, Second, Middle };
 
-/// Triangles whose vertices are contracted two by two, whatever becomes of the surface: triangles
-/// may come to lie on each other, edges may get more than two.
+/// A mesh whose vertices are contracted two by two, whatever becomes of the surface, as in the
+/// paper: triangles may come to lie on each other, and edges may get more than two triangles.
 class PaperMesh {
 public:
-    /// Colours count by `colour_weight`, in metres for a colour difference of 1.
+    /// `colour_weight` is what a colour difference of 1 counts as, in metres.
     PaperMesh(const TriangleMesh& original, double colour_weight);
 
     const Point6& point(std::uint32_t vertex) const { return points_[vertex]; }
@@ -27,7 +28,7 @@ public:
 
     Corners corners(std::uint32_t face) const;
 
-    /// Faces at a vertex, in the order of their numbers; none for one that was contracted away.
+    /// The faces at a vertex in ascending order; none for a vertex that was contracted away.
     std::span<const std::uint32_t> faces_at(std::uint32_t vertex) const {
         return vertex_faces_[vertex];
     }
@@ -37,30 +38,33 @@ public:
 
     std::size_t vertex_count() const { return points_.size(); }
 
-    /// Faces that were not collapsed.
+    /// The number of faces that have not collapsed.
     std::size_t face_count() const { return face_count_; }
 
-    /// Faces at either vertex, each once, in the order of their numbers.
+    /// Fills `faces` with the faces at either vertex, each once, in ascending order.
     void united_faces(std::uint32_t a, std::uint32_t b, std::vector<std::uint32_t>& faces) const;
 
-    /// Vertices that share a face with this one, each once, in the order of their numbers.
+    /// Fills `others` with the vertices that share a face with this one, each once, in ascending
+    /// order.
     void neighbours(std::uint32_t vertex, std::vector<std::uint32_t>& others) const;
 
-    /// Moves `kept` to candidate(kept, gone, place) and puts it in the place of `gone` in every
-    /// face; faces that had both collapse.
+    /// Contracts an edge: moves `kept` to candidate(kept, gone, place) and puts it in the place of
+    /// `gone` in every face. Faces that had both collapse.
     void contract(std::uint32_t kept, std::uint32_t gone, Place place);
 
-    /// What is left of the original, without vertices that no face uses.
+    /// The present mesh without vertices that no face uses, with the original's materials.
     TriangleMesh left_over(const TriangleMesh& original) const;
 
 private:
+    /// Takes a face out of a vertex's list.
     void drop(std::uint32_t face, std::uint32_t vertex);
 
     std::vector<Point6> points_;
-    std::vector<glm::vec3> colours_; ///< without weight; empty = no colours
+    std::vector<glm::vec3> colours_; ///< Without the weight; empty = no colours.
     std::vector<Triangle> faces_;
-    std::vector<bool> collapsed_;                          ///< by face
-    std::vector<std::vector<std::uint32_t>> vertex_faces_; ///< sorted
+    std::vector<bool> collapsed_; ///< One flag for each face.
+    /// For each vertex its faces, ascending.
+    std::vector<std::vector<std::uint32_t>> vertex_faces_;
     std::size_t face_count_ = 0;
 };
 

@@ -1,14 +1,16 @@
-// Iterative edge contraction with the error measures of 2005.
+// The paper's own mode, for comparison: Y. Kim, B. U. Lee, "Error measure for vertex
+// simplification", 2005, section II. The shortest edge (v1, v2) is contracted to that one of v1, v2
+// and (v1 + v2) / 2 which costs least, until the wanted number of vertices is left.
 //
-// Source: Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, section II.
-// Deviations, where the paper is silent or of two minds: an edge is as long as its ends are apart
-// in space (its figures for the globe come out only with colour in that length: an option); equal
-// lengths go by the numbers of the vertices, equal costs to the first end before the second before
-// the middle. The faces of both ends are united, each once; a cost is the sum of squared distances
-// of a candidate to them, the way back that of both ends to the faces as moved, with the two that
-// collapse; bidirectional is the larger sum. Vertices that no face uses are counted, as the paper's
-// 2000 points of 1725 faces show.
-
+// Deviations, where the paper is silent or contradicts itself:
+// - An edge's length is the distance of its ends in space. The paper's figures for the globe come
+//   out only with colour in that length, which is an option.
+// - Equal lengths go by the numbers of the vertices, equal costs to the first end before the second
+//   before the midpoint.
+// - The faces of both ends are united, each once. A cost is the sum of squared distances from a
+//   candidate to them; the opposite direction is the sum from both ends to the faces as moved, the
+//   two that collapse included; bidirectional is the larger sum.
+// - Vertices that no face uses are counted, as the paper's 2000 points of 1725 faces show.
 #include "models/simplify/paper_simplify.h"
 
 #include "models/simplify/paper_costs.h"
@@ -28,14 +30,15 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// An edge as it was when it was put into the queue.
+/// An edge with its length at the time when it was put into the queue.
 struct QueuedEdge {
     double length2 = 0.0;
-    std::uint32_t first = 0; ///< the smaller number
+    std::uint32_t first = 0; ///< The vertex with the smaller number.
     std::uint32_t second = 0;
-    std::uint32_t changes = 0; ///< of both ends until then
+    /// How often both ends had changed until then; tells outdated entries.
+    std::uint32_t changes = 0;
 
-    /// Shortest on top of a queue.
+    /// Orders the queue so that the shortest edge is on top.
     bool operator<(const QueuedEdge& other) const {
         return std::tie(other.length2, other.first, other.second, other.changes) <
                std::tie(length2, first, second, changes);
@@ -50,11 +53,12 @@ double squared_length(const PaperOptions& options, const Point6& a, const Point6
     return dot(difference, difference);
 }
 
+/// One simplification.
 class PaperRun {
 public:
     PaperRun(const TriangleMesh& original, const PaperOptions& options);
 
-    /// Contracts the shortest edge. False when there is none.
+    /// Contracts the shortest edge. Returns false when there is none.
     bool contract_shortest();
 
     bool goal_met() const;
@@ -69,8 +73,11 @@ private:
         double cost = std::numeric_limits<double>::infinity();
     };
 
+    /// Gives each vertex the sum of its faces' quadrics.
     void sum_quadrics();
+    /// Queues the edges of a vertex, or only those to vertices with larger numbers.
     void queue_edges_of(std::uint32_t vertex, bool larger_only);
+    /// Whether a queued edge is still as it was queued.
     bool stands(const QueuedEdge& edge) const;
     double cost_of(const Contraction& edge, const Point6& candidate);
     Choice best_of(const Contraction& edge);
@@ -79,10 +86,11 @@ private:
     const PaperOptions& options_;
     PaperMesh mesh_;
     std::vector<PlaneQuadric> quadrics_;
-    std::vector<std::uint32_t> changes_; ///< by vertex
+    std::vector<std::uint32_t> changes_; ///< For each vertex how often it changed.
     std::priority_queue<QueuedEdge> queue_;
-    std::vector<std::uint32_t> faces_;      ///< of the edge at hand
-    std::vector<std::uint32_t> neighbours_; ///< of the vertex at hand
+    std::vector<std::uint32_t> faces_; ///< Scratch memory: the faces of the edge at hand.
+    /// Scratch memory: the neighbours of the vertex at hand.
+    std::vector<std::uint32_t> neighbours_;
     FeetCount feet_;
 };
 

@@ -4,12 +4,13 @@
 
 namespace octant::models::simplify {
 
-/// What distances there are around some triangles.
+/// Statistics of the distances seen around some triangles, both ways, in working units.
 struct Heights {
-    double most2 = 0.0;   ///< largest squared distance
-    double squares = 0.0; ///< sum of weight times squared distance
-    double powers = 0.0;  ///< sum of weight times squared distance to the fourth
-    double turned = 0.0;  ///< area that faces against the target
+    double most2 = 0.0;   ///< The largest squared distance.
+    double squares = 0.0; ///< The sum of weight times squared distance.
+    /// The sum of weight times distance to the eighth, which the largest distances dominate.
+    double powers = 0.0;
+    double turned = 0.0; ///< The area that faces against the target.
 
     void add(double distance2, double weight) {
         const double fourth = distance2 * distance2;

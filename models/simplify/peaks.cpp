@@ -1,6 +1,10 @@
-// Lowers the largest distance between two surfaces: least squares, vertex after vertex, where the
-// weight of a distance grows with its sixth power, so that the sum is close to a maximum. Only
-// what touches the largest distances is moved or flipped.
+// Lowers the largest distance between two surfaces. A least-squares fit, vertex after vertex, in
+// which each squared distance has the sixth power of the distance as a weight, approximates a
+// minimum of the maximum (iteratively reweighted least squares for a high norm). Only vertices and
+// edges of triangles with a distance near the largest are touched.
+//
+// Our own addition to the polish after H. Hoppe et al. (1993): the 2005 paper and least squares
+// lessen sums, while the Hausdorff distance, which is what is certified, is a maximum.
 #include "models/simplify/peaks.h"
 
 #include "models/simplify/collapse_guard.h"
@@ -22,21 +26,23 @@ namespace {
 
 using Corners = std::array<glm::dvec3, 3>;
 
-/// Triangles whose largest distance is above that part of the largest of all are worked on.
+/// Triangles whose largest distance exceeds this share of the largest of all are worked on.
 constexpr double hot_share = 0.85;
-/// A round that lowers the largest distance by less than that part is the last one.
+/// A round that lowers the largest distance by less than this share is the last one.
 constexpr double least_gain = 0.003;
 
-/// A distance of more than so many times the root of the mean square stands alone, as where sharp
-/// edges meet: a step that lowers it by more than the second part is let turn triangles further,
-/// make slivers, and add to the squares.
+/// A distance of more than `tall` times the root mean square is an isolated peak, as where sharp
+/// edges meet. A step that lowers it by more than `tall_gain` may turn triangles further, make
+/// slivers, and add more to the squares.
 constexpr double tall = 12.0;
 constexpr double tall_gain = 0.1;
-/// Of the root of the mean square, that such steps may cost together beside the others.
+/// By this share of the root mean square such steps may make it grow, all together and beside the
+/// others.
 constexpr double tall_growth = 0.05;
 
 constexpr double everything = std::numeric_limits<double>::infinity();
 
+/// The state of one run of lower_peaks.
 class PeakLowering {
 public:
     PeakLowering(
@@ -64,7 +70,7 @@ public:
         const auto allowance = [&](double growth) { return (2.0 + growth) * growth * squares; };
         allowance_ = allowance(options.most_growth);
         tall_allowance_ = allowance(tall_growth) - allowance_;
-        // Both ways are in the sum, each over the area.
+        // The sum of squares counts both directions, each over the area, hence the factor 2.
         tall2_ = area > 0.0 ? tall * tall * squares / (2.0 * area) : everything;
     }
 
@@ -87,13 +93,14 @@ private:
 
     WorkingSurface& surface_;
     RingHeights around_;
-    std::vector<Heights> heights_;     ///< of each triangle
-    std::vector<bool> tried_vertices_; ///< in vain, and nothing has changed there since
-    std::vector<bool> tried_edges_;    ///< the same
+    std::vector<Heights> heights_; ///< For each triangle.
+    /// Vertices that were tried in vain and around which nothing has changed since.
+    std::vector<bool> tried_vertices_;
+    std::vector<bool> tried_edges_; ///< Edges of the same kind.
     std::size_t most_looks_ = 0;
-    double allowance_ = 0.0;      ///< by which the sum of squares may still grow
-    double tall2_ = everything;   ///< squares of distances beyond that stand alone
-    double tall_allowance_ = 0.0; ///< the same beyond that, for peaks that stand alone
+    double allowance_ = 0.0;      ///< By how much the sum of squares may still grow.
+    double tall2_ = everything;   ///< The squared distance beyond which a peak counts as isolated.
+    double tall_allowance_ = 0.0; ///< By how much more it may grow for isolated peaks.
 };
 
 void PeakLowering::measure(std::uint32_t face) {
@@ -101,7 +108,8 @@ void PeakLowering::measure(std::uint32_t face) {
     heights_[face] = around_.seen({});
 }
 
-/// The way that lessens the sum of powers: each weight times distance to the sixth.
+/// The step that lessens the sum of high powers most: a fit in which each weight is multiplied by
+/// the sixth power of the distance.
 VertexFit PeakLowering::fitted() const {
     VertexFit fit;
     const PointBlock& block = around_.cost().block();
@@ -129,6 +137,7 @@ VertexFit PeakLowering::fitted() const {
     return fit;
 }
 
+/// Whether a change lowers peaks and costs no more than is allowed.
 bool PeakLowering::is_better(
     const Heights& before, const Heights& after, Strictness strictness) const {
     if (!(after.powers < before.powers) || after.most2 > before.most2) {
@@ -141,7 +150,8 @@ bool PeakLowering::is_better(
                    : growth <= allowance_ && strictness == Strictness::Normal;
 }
 
-/// Takes over the points' lists after a change of faces_.
+/// Accepts a change that was just measured: books its cost and updates the points' lists and the
+/// statistics.
 void PeakLowering::keep(const Heights& before, const Heights& after) {
     allowance_ -= after.squares - before.squares;
     if (allowance_ < 0.0) {
@@ -159,7 +169,8 @@ void PeakLowering::keep(const Heights& before, const Heights& after) {
     }
 }
 
-/// Expects the ring and its heights of now.
+/// Moves a vertex if that is allowed and better. around_ must hold the vertex's ring, and `before`
+/// its present statistics.
 bool PeakLowering::step_to(
     const glm::dvec3& place, std::uint32_t vertex, const Heights& before, Strictness strictness) {
     if (!may_move(surface_, around_.ring(), place, strictness)) {
@@ -175,6 +186,7 @@ bool PeakLowering::step_to(
     return true;
 }
 
+/// Tries to move a vertex along the fitted direction, with shorter and shorter steps.
 void PeakLowering::lower_at(std::uint32_t vertex) {
     around_.take_ring(vertex);
     const glm::dvec3 place = surface_.places[vertex];
@@ -195,6 +207,7 @@ void PeakLowering::lower_at(std::uint32_t vertex) {
     tried_vertices_[vertex] = true;
 }
 
+/// Flips an edge if that is allowed and better.
 void PeakLowering::try_flip(HalfEdge h) {
     CollapsibleMesh& mesh = surface_.mesh;
     if (surface_.is_material_border(h) || !mesh.may_flip(h)) {
@@ -213,7 +226,7 @@ void PeakLowering::try_flip(HalfEdge h) {
             return;
         }
     }
-    for (int turn = 0; turn < 3; ++turn) { // back to the same edge
+    for (int turn = 0; turn < 3; ++turn) { // Four flips of an edge restore it.
         mesh.flip(h);
     }
     tried_edges_[mesh.edge_of(h)] = true;

@@ -8,17 +8,21 @@
 
 namespace octant::models::simplify {
 
+/// How much work lower_peaks may do and what it may cost.
 struct PeakOptions {
     int rounds = 12;
-    double most_growth = 0.01; ///< of the root of the mean square, that lower peaks may cost
-    /// Ends after so many distances of samples, or so many a triangle of the target: the larger.
+    /// Lowering the largest distances may make the root mean square grow by this share.
+    double most_growth = 0.01;
+    /// It ends after this many sample distances, or after looks_a_face for each triangle of the
+    /// target, whichever is more.
     std::size_t least_looks = 70'000;
     std::size_t looks_a_face = 12;
 };
 
-/// Moves vertices and flips edges where the two surfaces are farthest apart, as long as the largest
-/// distance seen falls: from the tracked points to the surface and from samples of the surface to
-/// the target. The points must be in the lists of triangles that are near.
+/// Lowers the largest distance between the two surfaces (the Hausdorff distance as far as it is
+/// seen): moves vertices and flips edges where they are farthest apart, as long as that distance
+/// falls. Seen are the distances from the tracked points to the surface and from samples of the
+/// surface to the target. Each tracked point must be in the list of a triangle that is near.
 void lower_peaks(
     WorkingSurface& surface,
     TrackedPoints& points,

@@ -1,11 +1,10 @@
-// Quadrics of the previous measure.
+// The quadrics of the previous measure: Y. Kim, B. U. Lee, "Error measure for vertex
+// simplification", 2005, equations (1) and (2), after M. Garland, P. S. Heckbert, "Surface
+// simplification using quadric error metrics", 1997, and "Simplifying surfaces with color and
+// texture using quadric error metrics", 1998.
 //
-// Source: Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, equations (1) and
-// (2), after M. Garland, P. S. Heckbert, "Surface simplification using quadric error metrics",
-// 1997, and "Simplifying surfaces with color and texture using quadric error metrics", 1998.
 // Deviations: the paper does not say how the previous measure takes colour in; the second source is
 // used. Planes are not weighted by area, as in (1).
-
 #include "models/simplify/plane_quadric.h"
 
 #include <glm/geometric.hpp>

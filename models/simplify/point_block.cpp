@@ -1,3 +1,8 @@
+// Point-to-triangle distances, many at a time. This is where simplification spends its time: each
+// collapse asks for the distances of some dozens of points to some dozen triangles. The inner loop
+// has no branches and is written once for vectors of 4 (any processor) and 8 floats (with AVX2,
+// chosen when the program runs). Every lane computes the same operations in the same order, so that
+// results do not depend on the width.
 #include "models/simplify/point_block.h"
 
 #include <algorithm>
@@ -9,13 +14,14 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// Four numbers, and as many whole ones; the compiler knows their instructions on any processor.
+/// Vectors of four floats and four integers, which the compiler maps to any processor.
 struct Narrow {
     using Floats = float __attribute__((vector_size(16)));
     using Ints = std::int32_t __attribute__((vector_size(16)));
     static constexpr std::size_t lanes = 4;
 };
 
+/// Vectors of eight floats and eight integers.
 struct Wide {
     using Floats = float __attribute__((vector_size(32)));
     using Ints = std::int32_t __attribute__((vector_size(32)));
@@ -32,7 +38,8 @@ OCTANT_INLINE void store(const V& value, T* to) {
     std::memcpy(to, &value, sizeof(V));
 }
 
-/// Squares of the differences between the colours of points and of places of a triangle.
+/// The squared differences between the colours of points and those at positions (x, y) of a
+/// triangle.
 template <typename F>
 OCTANT_INLINE void colour_errors(
     F& error2, PointBlock& points, std::size_t i, const FlatTriangle& t, const F& x, const F& y) {
@@ -46,8 +53,8 @@ OCTANT_INLINE void colour_errors(
     }
 }
 
-/// One triangle against `lanes` points. Without branches; every point's result is the same however
-/// many are done at once.
+/// Compares one triangle with the next few points and keeps it where it is nearer. Without
+/// branches; each point's result is the same whatever the width.
 template <typename Width, bool coloured>
 OCTANT_INLINE void
 nearest_to_one(PointBlock& points, std::size_t i, const FlatTriangle& t, std::int32_t index) {
@@ -76,6 +83,7 @@ nearest_to_one(PointBlock& points, std::size_t i, const FlatTriangle& t, std::in
     store(F(is_nearer ? found.distance2 : known), &points.distances2[i]);
 }
 
+/// Compares all triangles with the points from `first` up to `end`.
 template <typename Width, bool coloured>
 OCTANT_INLINE void nearest_to_all(
     PointBlock& points,
@@ -93,7 +101,8 @@ OCTANT_INLINE void nearest_to_all(
     }
 }
 
-/// Expects far away points behind the last one, up to a multiple of 8.
+/// The squared distance to the nearest point. Behind the last point there must be far-away ones, up
+/// to a multiple of 8.
 template <typename Width>
 OCTANT_INLINE float least2(const PointBlock& points, const std::array<float, 3>& place) {
     using F = typename Width::Floats;
@@ -118,7 +127,8 @@ OCTANT_INLINE float least2(const PointBlock& points, const std::array<float, 3>&
 #if defined(__x86_64__) && defined(__GNUC__)
 #define OCTANT_HAS_WIDE_VECTORS 1
 
-/// The same operations, eight at once; AVX2 alone brings no fused ones.
+/// The same operations, eight points at a time. AVX2 alone does not fuse multiplications and
+/// additions, so that the bits are the same.
 [[gnu::target("avx2")]] void find_nearest_wide(
     PointBlock& points,
     std::size_t first,

@@ -12,30 +12,34 @@
 
 namespace octant::models::simplify {
 
-/// A triangle in a plane of its own, with colours where there are any.
+/// A triangle in the coordinates of its own plane, in single precision, with its colours where
+/// there are any.
 struct FlatTriangle : measure::PlaneFrame<float> {
-    /// Colour: at corner a, and how it grows along x and y.
+    /// The colour at corner a, and its gradient along the plane's x and y axes.
     std::array<float, 3> colour;
     std::array<float, 3> colour_x;
     std::array<float, 3> colour_y;
 };
 
+/// The triangle without colours.
 FlatTriangle flat(const std::array<glm::dvec3, 3>& corners);
 
-/// With colours, which may have no slope on a triangle without area.
+/// The triangle with colours. On one without area the gradient may be zero.
 FlatTriangle
 flat(const std::array<glm::dvec3, 3>& corners, const std::array<glm::dvec3, 3>& corner_colours);
 
-/// Points one beside the other, and for each what was found nearest to it.
+/// Points in structure-of-arrays layout, so that several are worked on with one instruction, and
+/// for each what was found nearest to it.
 class PointBlock {
 public:
     void clear() { size_ = 0; }
 
     std::size_t size() const { return size_; }
 
+    /// Makes room for a total of so many points, and for the rest of the last vector.
     void make_room(std::size_t points);
 
-    /// make_room must have been called for at least that many.
+    /// Adds a point. make_room must have been called for it.
     void add(std::uint32_t number, const std::array<float, 3>& place, float weight) {
         numbers[size_] = number;
         x[size_] = place[0];
@@ -47,17 +51,18 @@ public:
 
     std::vector<std::uint32_t> numbers;
     std::vector<float> x, y, z, weights;
-    std::vector<float> red, green, blue; ///< filled by the caller where there are colours
-    std::vector<float> distances2;       ///< to the nearest triangle, squared
-    std::vector<float> colour_errors2;   ///< at the nearest point, squared
-    std::vector<std::int32_t> nearest;   ///< which triangle
+    std::vector<float> red, green, blue; ///< Filled by the caller where there are colours.
+    std::vector<float> distances2;       ///< The squared distance to the nearest triangle.
+    std::vector<float> colour_errors2;   ///< The squared difference in colour to the nearest point.
+    std::vector<std::int32_t> nearest;   ///< The index of the nearest triangle.
 
 private:
     std::size_t size_ = 0;
 };
 
-/// Fills distances2 and nearest (of triangles at the same distance the first) for the points from
-/// `first` up to `end`, and colour_errors2 where `coloured`. `first` is a multiple of 8.
+/// Finds the nearest triangle for the points from `first` (a multiple of 8) up to `end`: fills
+/// distances2 and nearest, and colour_errors2 where `coloured`. Of triangles at the same distance
+/// the first one counts. There must be at least one triangle (asserted).
 void find_nearest(
     PointBlock& points,
     std::size_t first,
@@ -65,7 +70,7 @@ void find_nearest(
     std::span<const FlatTriangle> triangles,
     bool coloured);
 
-/// Square of the distance from a place to the nearest of the points; there must be one.
+/// The squared distance from a position to the nearest of the points, of which there must be one.
 float least_distance2(PointBlock& points, const std::array<float, 3>& place);
 
 } // namespace octant::models::simplify

@@ -1,8 +1,11 @@
-// Fits a surface to another one by least squares, vertex after vertex: after H. Hoppe et al., "Mesh
-// Optimization", 1993, section 4.1.
-// Deviations: two-sided (points of the target on the surface, samples of the surface on the
-// target); a Gauss-Newton step on distances; colours; a vertex moves only where that lessens the
-// sum and no triangle turns over.
+// Fits a surface to another one by least squares, vertex after vertex: after H. Hoppe, T. DeRose,
+// T. Duchamp, J. McDonald, W. Stuetzle, "Mesh Optimization", 1993, section 4.1. Each round finds
+// the correspondences anew, then moves each vertex where that lessens the sum of squared distances
+// of all points and samples on its triangles, then flips edges.
+//
+// Deviations: two-sided (points of the target to the surface, samples of the surface to the
+// target); a Gauss-Newton step on distances instead of fixed correspondences; colours are fitted
+// too; a vertex moves only if that lessens the sum and no triangle turns over.
 #include "models/simplify/polish.h"
 
 #include "models/simplify/aims.h"
@@ -20,6 +23,7 @@ namespace octant::models::simplify {
 
 namespace {
 
+/// The state of one polish.
 class Polishing {
 public:
     Polishing(
@@ -63,7 +67,8 @@ private:
     std::vector<std::uint32_t> faces_;
 };
 
-/// Puts points into the lists of nearer triangles, among those that share a vertex with theirs.
+/// Moves tracked points to the lists of nearer triangles, among those that share a vertex with
+/// their present one.
 void Polishing::list_again() {
     const CollapsibleMesh& mesh = surface_.mesh;
     std::vector<std::uint32_t> chosen(points_.size(), none);
@@ -98,11 +103,13 @@ void Polishing::list_again() {
     points_.assign_all(chosen, mesh.face_slots());
 }
 
+/// Loads the triangles at a vertex and their tracked points.
 void Polishing::take_ring(std::uint32_t vertex) {
     surface_.mesh.ring_at(vertex, ring_, faces_);
     cost_.gather(points_, faces_);
 }
 
+/// The least-squares fit of the vertex whose ring is loaded.
 VertexFit Polishing::fitted() {
     VertexFit fit;
     const PointBlock& block = cost_.block();
@@ -117,7 +124,8 @@ VertexFit Polishing::fitted() {
     return fit;
 }
 
-/// Distances of the points to the ring with its vertex there, and of samples to where they aim.
+/// The cost of the loaded ring with its vertex at `place`: squared distances of the tracked points
+/// to it, and of its samples to their aims.
 double Polishing::cost_at(const glm::dvec3& place, const glm::dvec3& colour) {
     cost_.set_triangles(surface_, ring_, place, colour);
     double sum = cost_.total();
@@ -129,6 +137,7 @@ double Polishing::cost_at(const glm::dvec3& place, const glm::dvec3& colour) {
     return sum;
 }
 
+/// Moves one vertex and changes its colour if a full or a shorter step of the fit lessens the cost.
 void Polishing::fit(std::uint32_t vertex) {
     take_ring(vertex);
     const glm::dvec3 place = surface_.places[vertex];
@@ -157,6 +166,7 @@ void Polishing::fit(std::uint32_t vertex) {
     }
 }
 
+/// Flips an edge if that lessens the cost by more than 2 %.
 bool Polishing::try_flip(HalfEdge h) {
     CollapsibleMesh& mesh = surface_.mesh;
     if (surface_.is_material_border(h) || !mesh.may_flip(h)) {
@@ -206,6 +216,7 @@ bool Polishing::try_flip(HalfEdge h) {
     return true;
 }
 
+/// Tries every edge once. Returns how many were flipped.
 std::size_t Polishing::flip_edges() {
     std::size_t count = 0;
     const CollapsibleMesh& mesh = surface_.mesh;

@@ -6,16 +6,18 @@
 
 namespace octant::models::simplify {
 
+/// How thoroughly a surface is fitted.
 struct PolishOptions {
     int rounds = 7;
-    int fields = 3;       ///< a side, of the grid of samples on each triangle
-    bool extremes = true; ///< afterwards lower_peaks and turn_back
-    int threads = 1;      ///< changes no result
+    int fields = 3;       ///< The number of grid fields along a triangle's side, for samples.
+    bool extremes = true; ///< Calls lower_peaks and turn_back at the end.
+    int threads = 1;      ///< The number of threads; it does not change the result.
 };
 
-/// Moves vertices, changes their colours and flips edges as long as the sum of squared distances,
-/// from the tracked points to the surface and from samples of the surface to the target, falls. The
-/// points must be in the lists of triangles of the surface that are near.
+/// Fits a simplified surface to the target: moves vertices, changes their colours and flips edges
+/// as long as the sum of squared distances falls, from the tracked points to the surface and from
+/// samples of the surface to the target. Each tracked point must be in the list of a triangle that
+/// is near.
 void polish(
     WorkingSurface& surface,
     TrackedPoints& points,

@@ -1,3 +1,6 @@
+// Nearest points of the target that lie on the right side. In a part thinner than the error, the
+// nearest point alone may be on the opposite side, and least squares would then turn triangles
+// over.
 #include "models/simplify/polish_target.h"
 
 #include "models/measure/nearest_point.h"
@@ -10,11 +13,12 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// Above 0: the triangle faces that way; below: against it.
+/// Positive where a triangle faces as `normal` does, negative where it faces against it.
 double facing(const PolishTarget& target, std::uint32_t face, const glm::dvec3& normal) {
     return glm::dot(area_vector(target.surface.corner_places(face)), normal);
 }
 
+/// The nearest point of one triangle of the target.
 measure::NearestOnTriangle
 nearest_on(const PolishTarget& target, std::uint32_t face, const glm::dvec3& place) {
     const std::array<glm::dvec3, 3> corners = target.surface.corner_places(face);
@@ -23,9 +27,8 @@ nearest_on(const PolishTarget& target, std::uint32_t face, const glm::dvec3& pla
 
 } // namespace
 
-/// The last place's distance bounds this one's.
 measure::NearestOnMesh NearestInTurn::nearest(const glm::dvec3& place) {
-    constexpr double margin = 1.0 + 1e-9; // for the rounding of roots and sums
+    constexpr double margin = 1.0 + 1e-9; // Makes up for the rounding of square roots and sums.
     const double within = margin * (last_off_ + glm::distance(last_, place)) + bvh_->rounding_m();
     const measure::NearestOnMesh found = bvh_->nearest(place, within);
     last_ = place;
@@ -53,7 +56,8 @@ bool is_against(
 std::optional<glm::dvec3> nearest_alike(
     const PolishTarget& target, const glm::dvec3& place, const glm::dvec3& normal, double within) {
     double least2 = within * within;
-    std::uint32_t found_on = none; // of several at the same distance the lowest
+    // Of several triangles at the same distance the one with the lowest number counts.
+    std::uint32_t found_on = none;
     std::optional<glm::dvec3> found;
     target.bvh.for_each_near(place, within, [&](std::uint32_t face) {
         if (!(facing(target, face, normal) > 0.0)) {

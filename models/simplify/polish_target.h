@@ -10,16 +10,18 @@
 
 namespace octant::models::simplify {
 
-/// The surface that is approached, in working units.
+/// The surface that is approximated, in working units, with a tree over its triangles.
 struct PolishTarget {
     const WorkingSurface& surface;
     const measure::TriangleBvh& bvh;
 };
 
-/// How much a sample pulls to the side that faces its way, beside one whose nearest place does.
+/// The weight of a sample that aims at a farther point facing its way, relative to one that aims at
+/// its nearest point.
 inline constexpr double turned_pull = 10.0;
 
-/// Finds the nearest places of the target for places that lie close one after the other.
+/// Finds the nearest points of the target for a series of positions that are close to each other:
+/// the distance of the last one bounds that of the next.
 class NearestInTurn {
 public:
     explicit NearestInTurn(const PolishTarget& target)
@@ -33,15 +35,17 @@ private:
     double last_off_ = std::numeric_limits<double>::infinity();
 };
 
-/// Whether no triangle of the target within twice the distance of the nearest one faces the way of
-/// `normal`: as measure::flipped_area_share looks at it.
+/// Whether no triangle of the target within twice the distance of the nearest point faces as
+/// `normal` does, so that the surface is folded over at `place`: the criterion of
+/// measure::flipped_area_share.
 bool is_against(
     const PolishTarget& target,
     const glm::dvec3& place,
     const measure::NearestOnMesh& nearest,
     const glm::dvec3& normal);
 
-/// The nearest place, at most `within` away, of a triangle that faces that way.
+/// The nearest point, at most `within` away, of a triangle that faces as `normal` does; nothing if
+/// there is none.
 std::optional<glm::dvec3> nearest_alike(
     const PolishTarget& target, const glm::dvec3& place, const glm::dvec3& normal, double within);
 

@@ -1,8 +1,9 @@
-// Quadrics after M. Garland, P. Heckbert, "Surface Simplification Using Quadric Error Metrics",
-// 1997, weighted by area; colours after H. Hoppe, "New Quadric Metric for Simplifying Meshes with
-// Appearance Attributes", 1999, section 4.
-// Deviations: the place of least cost is drawn to the middle of the edge by `pull` of the trace,
-// instead of a test whether the matrix can be inverted.
+// Quadric error metrics: M. Garland, P. Heckbert, "Surface Simplification Using Quadric Error
+// Metrics", 1997, weighted by area; colours after H. Hoppe, "New Quadric Metric for Simplifying
+// Meshes with Appearance Attributes", 1999, section 4.
+//
+// Deviations: instead of testing whether the matrix can be inverted, the position of least cost is
+// drawn towards the midpoint of the edge, by the share `pull` of the matrix's trace.
 #include "models/simplify/quadric.h"
 
 #include <glm/geometric.hpp>
@@ -13,7 +14,7 @@ namespace octant::models::simplify {
 
 namespace {
 
-constexpr double pull = 1e-4;
+constexpr double pull = 1e-4; ///< The weight of the midpoint, as a share of the trace.
 
 glm::dvec3 times(const Quadric& q, const glm::dvec3& p) {
     return {
@@ -109,7 +110,7 @@ Quadric without_colours(const Quadric& quadric, const ColourQuadric& colours) {
 }
 
 glm::dvec3 solved(const Quadric& m, const glm::dvec3& right_side, const glm::dvec3& fallback) {
-    // Cholesky
+    // Cholesky decomposition into L D L^T.
     if (!(m.xx > 0.0)) {
         return fallback;
     }

@@ -6,9 +6,10 @@
 
 namespace octant::models::simplify {
 
-/// Weighted sum of squared distances to planes: p.A p + 2 b.p + c.
+/// A quadric error metric in space: the weighted sum of squared distances to planes, p^T A p + 2
+/// b^T p + c.
 struct Quadric {
-    double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0; ///< A
+    double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0; ///< The symmetric matrix A.
     glm::dvec3 b{0.0};
     double c = 0.0;
 
@@ -22,8 +23,9 @@ struct Quadric {
     double trace() const { return xx + yy + zz; }
 };
 
-/// What Hoppe 1999 adds for three colours that are linear functions of position on each triangle:
-/// weight * (gradient.p + offset - colour)^2, whose part without the colour is in the Quadric.
+/// The part that H. Hoppe (1999) adds for three colours that are linear functions of position on
+/// each triangle: weight * (gradient^T p + offset - colour)^2, summed. Its part without the colour
+/// is kept in the Quadric.
 struct ColourQuadric {
     std::array<glm::dvec3, 3> gradient{glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
     glm::dvec3 offset{0.0};
@@ -35,7 +37,7 @@ struct ColourQuadric {
     glm::dvec3 colour_at(const glm::dvec3& p) const;
 };
 
-/// Adds one triangle's colours to both.
+/// Adds the colours of one triangle to both quadrics.
 void add_colours(
     Quadric& quadric,
     ColourQuadric& colours,
@@ -43,11 +45,11 @@ void add_colours(
     const std::array<glm::dvec3, 3>& corner_colours,
     double weight);
 
-/// What is left of the sum at the best colours for each place.
+/// The quadric that is left when at each position the best colours are chosen.
 Quadric without_colours(const Quadric& quadric, const ColourQuadric& colours);
 
-/// Where the sum is least, drawn to `middle` a little, so that flat and straight places have one
-/// answer.
+/// The position of the least sum, drawn slightly towards `middle`, so that flat and straight
+/// surroundings have one answer, too.
 glm::dvec3 least_place(const Quadric& quadric, const glm::dvec3& middle);
 
 /// Solves a symmetric positive definite 3 x 3 system; `fallback` where it has no solution.

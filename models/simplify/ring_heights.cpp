@@ -1,3 +1,6 @@
+// What a change of a few triangles does to the distance between two surfaces, measured locally. It
+// is shared by peaks.cpp (largest distance) and turned_faces.cpp (faces that are folded over),
+// which differ in what they call better.
 #include "models/simplify/ring_heights.h"
 
 #include "models/simplify/collapse_guard.h"
@@ -11,17 +14,19 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// As many samples as triangles of the target come on one of the surface, within bounds.
+/// The number of fields along a triangle's side so that there are as many samples as triangles of
+/// the target for each one of the surface, within 4 and 8.
 int grid_fields(std::size_t target_faces, std::size_t faces) {
     const double ratio =
         static_cast<double>(target_faces) / static_cast<double>(std::max<std::size_t>(faces, 1));
     return std::clamp(static_cast<int>(std::sqrt(ratio)), 4, 8);
 }
 
-/// Of a triangle's samples with a spacing.
+/// Bounds of the number of samples on a triangle when there is a spacing.
 constexpr std::size_t least_samples = 12;
 constexpr std::size_t most_samples = 400;
-/// So many as the longest edge is longer than the spacing come on top of those by area.
+/// Beside the samples by area there are this many for each spacing that fits into the longest edge,
+/// so that long thin triangles get enough.
 constexpr double along_edge = 2.0;
 
 } // namespace
@@ -46,6 +51,7 @@ RingHeights::RingHeights(
     }
 }
 
+/// How many samples a triangle gets.
 std::size_t RingHeights::count_for(const std::array<glm::dvec3, 3>& corners) const {
     if (!(spacing_ > 0.0)) {
         return samples_on_.size();
@@ -99,7 +105,8 @@ void RingHeights::set_faces() {
     }
 }
 
-/// Distances of the points in cost_ to its triangles; keeps them by triangle in each_.
+/// Measures the tracked points against the triangles that were set, and keeps the statistics of
+/// each triangle in each_.
 Heights RingHeights::points_heights() {
     Heights heights;
     each_.assign(corners_.size(), {});
@@ -115,7 +122,7 @@ Heights RingHeights::points_heights() {
     return heights;
 }
 
-/// Distances of samples of triangle `i` to the target, as long as limits allow.
+/// Measures the samples of triangle `i` as long as the limits allow.
 void RingHeights::add_samples(std::size_t i, Heights& heights, const HeightLimits& limits) {
     const auto& corners = corners_[i];
     const glm::dvec3 area2 = area_vector(corners);

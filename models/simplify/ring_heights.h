@@ -17,20 +17,21 @@
 
 namespace octant::models::simplify {
 
-/// A sample of a triangle whose corner 0 moves.
+/// A sample of a triangle whose corner 0 is the vertex that moves.
 struct SeenSample {
     glm::dvec3 place{0.0};
-    glm::dvec3 off{0.0};    ///< to the target
-    glm::dvec3 normal{0.0}; ///< of its triangle
-    double share = 0.0;     ///< of corner 0 in its place
-    double area = 0.0;      ///< that it stands for
-    bool turned = false;    ///< faces against the target
+    glm::dvec3 off{0.0};    ///< The vector to the nearest point of the target.
+    glm::dvec3 normal{0.0}; ///< The unit normal of its triangle.
+    double share = 0.0;     ///< The barycentric weight of corner 0.
+    double area = 0.0;      ///< The area that it stands for.
+    bool turned = false;    ///< It faces against the target.
 };
 
-/// More than that need not be seen.
+/// Limits at which measuring ends, because a candidate is already known to be too bad.
 struct HeightLimits {
     double most2 = std::numeric_limits<double>::infinity();
-    double squares = std::numeric_limits<double>::infinity(); ///< with turned area at its price
+    /// This limits squares + price * turned area.
+    double squares = std::numeric_limits<double>::infinity();
     double price = 0.0;
     double turned = std::numeric_limits<double>::infinity();
 
@@ -40,45 +41,53 @@ struct HeightLimits {
     }
 };
 
-/// How far some triangles of a surface are from the target as they are and as they would be, both
-/// ways: the tracked points in their lists, and a grid of samples on each of them.
+/// Measures how far some triangles of a surface are from the target, both ways, as they are and as
+/// they would be after a change: by the tracked points in their lists, and by samples on each of
+/// them.
 class RingHeights {
 public:
-    /// `spacing`: of the samples of a triangle, about; 0: a grid of as many samples as triangles of
-    /// the target come on one of the surface, its border too.
+    /// `spacing` is about the distance between samples. 0 means a grid on each triangle, border
+    /// included, with as many samples as the target has triangles for each one of the surface.
     RingHeights(
         const WorkingSurface& surface,
         TrackedPoints& points,
         const PolishTarget& target,
         double spacing = 0.0);
 
-    /// What is looked at: one triangle, the triangles at a vertex, or those of an edge.
+    /// Loads what is looked at: one triangle ...
     void take_face(std::uint32_t face);
+    /// ... or the triangles at a vertex, which are measured after set_ring ...
     void take_ring(std::uint32_t vertex);
+    /// ... or the two triangles at an edge.
     void take_pair(HalfEdge h);
 
-    /// The ring with its vertex elsewhere; the other two as they are now.
+    /// Sets the loaded ring as it would be with its vertex at `place`.
     void set_ring(const glm::dvec3& place, const glm::dvec3& colour);
+    /// Sets the loaded triangles as they are now.
     void set_faces();
 
-    /// Both ways around the triangles that were set; not all of it where that is above a limit.
+    /// Measures the triangles that were set, both ways. Ends early, with what it has, once a limit
+    /// is exceeded.
     Heights seen(const HeightLimits& limits);
 
-    /// Takes over the points' lists after what was seen last.
+    /// Moves the tracked points to the lists of the triangles that seen() found nearest.
     void keep() { points_.assign(cost_.block(), faces_, faces_); }
 
-    const std::vector<SeenSample>& samples() const { return samples_; } ///< of what was seen last
+    /// The samples that seen() looked at last.
+    const std::vector<SeenSample>& samples() const { return samples_; }
 
     std::span<const RingFace> ring() const { return ring_; }
 
     std::span<const std::uint32_t> faces() const { return faces_; }
 
-    std::span<const Heights> each() const { return each_; } ///< of faces()
+    /// The statistics of seen() for each one of faces().
+    std::span<const Heights> each() const { return each_; }
 
-    /// Largest squared distance of the points alone, of what was seen last.
+    /// The largest squared distance of the tracked points alone, as seen last.
     double points_most2() const { return points_most2_; }
 
-    std::size_t looks() const { return looks_; } ///< samples looked at so far
+    /// How many samples were looked at so far.
+    std::size_t looks() const { return looks_; }
 
     const SurfaceCost& cost() const { return cost_; }
 
@@ -94,13 +103,14 @@ private:
     PolishTarget target_;
     NearestInTurn in_turn_;
     double spacing_ = 0.0;
-    std::vector<TriangleSample> samples_on_; ///< of one triangle; with a spacing its first ones
+    /// The samples of any triangle; with a spacing it uses as many of the first ones as it needs.
+    std::vector<TriangleSample> samples_on_;
     SurfaceCost cost_;
     std::vector<RingFace> ring_;
-    std::vector<std::uint32_t> faces_;               ///< whose points are in cost_
-    std::vector<std::array<glm::dvec3, 3>> corners_; ///< of the triangles in cost_
-    std::vector<Heights> each_;                      ///< around each of these triangles
-    std::vector<SeenSample> samples_;                ///< of what was seen last
+    std::vector<std::uint32_t> faces_;               ///< The triangles whose points are in cost_.
+    std::vector<std::array<glm::dvec3, 3>> corners_; ///< The corners of the triangles in cost_.
+    std::vector<Heights> each_;                      ///< The statistics of each of these triangles.
+    std::vector<SeenSample> samples_;                ///< The samples that were seen last.
     std::size_t looks_ = 0;
     double points_most2_ = 0.0;
 };

@@ -1,3 +1,11 @@
+// The product's simplification: edge collapses (collapse_run.cpp) and then a polish (polish.cpp),
+// after which corner normals are taken over (attributes.cpp).
+//
+// It goes further than Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, from
+// which the distance to triangles in both directions comes: the reference is the original surface
+// instead of the previous mesh, new vertices are placed by quadrics instead of at ends or
+// midpoints, the link condition keeps a manifold, and a wanted error is certified by measuring, not
+// estimated. The paper's own mode is paper_simplify.cpp.
 #include "models/simplify/simplify.h"
 
 #include "models/measure/mesh_distance.h"
@@ -17,18 +25,20 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// Points that stand for the original surface: at least that many.
+/// At least this many points stand for the original surface.
 constexpr std::size_t least_points = 24'000;
-/// How far collapses go beyond an error goal by their estimate: what comes after may lessen it.
+/// How many times the wanted error collapses go by their own estimate: the polish may bring the
+/// error back.
 constexpr double beyond_goal = 2.0;
-/// Tries that an error goal may cost, each a polish and a certified distance.
+/// A wanted error may take this many tries, each with a polish and a certified distance.
 constexpr int most_tries = 6;
-/// A larger part than that of the faces would have to go for another try.
+/// Another try is made only while more than this share of the faces is in question.
 constexpr double close_enough = 0.03;
 
+/// How thoroughly to polish.
 PolishOptions polish_options(
     const WorkingSurface& surface, const WorkingSurface& target, const SimplifyOptions& options) {
-    constexpr std::size_t many = 9; // of the target for one of the surface
+    constexpr std::size_t many = 9; // Triangles of the target for each one of the surface.
     PolishOptions polish;
     polish.threads = options.threads;
     if (options.quality == Quality::Fast) {
@@ -41,7 +51,7 @@ PolishOptions polish_options(
     return polish;
 }
 
-/// Of a surface that has not changed, its triangles in the order of their numbers.
+/// A tree over a surface none of whose triangles has gone, numbered as they are.
 measure::TriangleBvh tree_of(const WorkingSurface& surface) {
     std::vector<Triangle> triangles;
     for (std::uint32_t face = 0; face < surface.mesh.face_slots(); ++face) {
@@ -50,6 +60,7 @@ measure::TriangleBvh tree_of(const WorkingSurface& surface) {
     return {surface.places, triangles};
 }
 
+/// Polishes the surface and converts it to file units, with names and materials of `names`.
 TriangleMesh polished_in(
     WorkingSurface& surface,
     TrackedPoints& points,
@@ -62,6 +73,7 @@ TriangleMesh polished_in(
     return surface.to_mesh(names, units);
 }
 
+/// The mesh with corner normals taken from the original.
 TriangleMesh with_normals(TriangleMesh mesh, const TriangleMesh& original) {
     if (!original.corner_normals.empty()) {
         take_normals(mesh, original, measure::TriangleBvh(original));
@@ -69,7 +81,7 @@ TriangleMesh with_normals(TriangleMesh mesh, const TriangleMesh& original) {
     return mesh;
 }
 
-/// The mesh of a sequence as it is handed out.
+/// The mesh after so many collapses of a sequence, as it is handed out.
 TriangleMesh
 finished(const CollapseSequence& sequence, std::size_t collapses, const SimplifyOptions& options) {
     TriangleMesh mesh = mesh_after(sequence, collapses);
@@ -77,21 +89,22 @@ finished(const CollapseSequence& sequence, std::size_t collapses, const Simplify
                          : with_normals(std::move(mesh), sequence.original);
 }
 
-/// Looks for the most collapses whose mesh keeps an error goal, by certified distances: so that
-/// whoever measures again, as tightly as is usual, finds it kept.
+/// Searches for the most collapses whose polished mesh keeps a wanted error by its certified
+/// distance, so that whoever measures it again with the usual tightness finds it kept.
 class ErrorSearch {
 public:
+    /// The sequence of collapses to a goal, without a polish.
     ErrorSearch(const CollapseSequence& sequence, const SimplifyOptions& options)
         : sequence_(sequence)
         , options_(options)
         , error_m_(*options.goal.error_m)
         , too_many_(sequence.collapses.size() + 1) {}
 
-    /// Leaves the mesh of the returned number of collapses in best().
+    /// Returns the number of collapses, and leaves their mesh in best().
     std::size_t find() {
         best_ = finished(sequence_, 0, options_);
         std::size_t next = first_guess();
-        // More than that only as long as there is nothing to show for them.
+        // More than most_tries are made only while nothing has been found that keeps the error.
         for (int tries = 0; next != fits_ && (tries < most_tries || fits_ == 0); ++tries) {
             tell(next);
             next = next_guess();
@@ -102,13 +115,15 @@ public:
     TriangleMesh& best() { return best_; }
 
 private:
-    /// Of the goal: where tries are made.
+    /// Tries aim at this share of the wanted error.
     static constexpr double aim = 0.97;
-    /// Faces grow with that power of 1 / error.
+    /// The number of faces is assumed to grow with this power of 1 / error.
     static constexpr double steepness = 1.5;
-    /// Of the goal: the estimate that a polished mesh may start from.
+    /// The first try is where the estimate reaches this many times the wanted error, which the
+    /// polish lowers.
     static constexpr double first_try = 1.2;
 
+    /// The number of collapses of the first try, from the estimates in the sequence.
     std::size_t first_guess() const {
         const auto& all = sequence_.collapses;
         const double estimate_m =
@@ -118,6 +133,7 @@ private:
         return static_cast<std::size_t>(over - all.begin());
     }
 
+    /// Tries a number of collapses and narrows the range.
     void tell(std::size_t collapses) {
         TriangleMesh mesh = finished(sequence_, collapses, options_);
         const measure::MeshDistance distance = measure::distance(
@@ -138,6 +154,7 @@ private:
         }
     }
 
+    /// The number of faces after so many collapses.
     double faces_after(std::size_t collapses) const {
         double faces = static_cast<double>(sequence_.original.triangles.size());
         for (std::size_t i = 0; i < collapses; ++i) {
@@ -148,8 +165,9 @@ private:
         return std::max(faces, 1.0);
     }
 
-    /// As many faces as the last try lets expect, where that is well inside of
-    /// the range, else half of it, as a ratio; fits_ itself when the range is close enough.
+    /// The number of collapses to try next: where the last try suggests, if that is well inside the
+    /// range; else half of the range in the logarithm of the number of faces. Returns fits_ when
+    /// the range is narrow enough.
     std::size_t next_guess() const {
         if (too_many_ - fits_ <= 1) {
             return fits_;
@@ -170,18 +188,20 @@ private:
     const CollapseSequence& sequence_;
     const SimplifyOptions& options_;
     double error_m_;
-    double likely_faces_ = 0.0; ///< that the last try tells of
-    std::size_t fits_ = 0;      ///< collapses that keep the goal
-    std::size_t too_many_;      ///< collapses that do not
+    double likely_faces_ = 0.0; ///< The number of faces that the last try suggests.
+    std::size_t fits_ = 0;      ///< The most collapses known to keep the wanted error.
+    std::size_t too_many_;      ///< The fewest collapses known not to keep it.
     TriangleMesh best_;
 };
 
-/// Where there are colours, they must tell their borders.
+/// How many points track the original. Where there are colours there must be enough to show their
+/// borders.
 std::size_t wanted_points(const WorkingSurface& target, Quality quality) {
     return quality == Quality::Surface || target.coloured() ? least_points : 0;
 }
 
-/// Points of the target, in the lists of the nearest triangles of a surface that has not changed.
+/// Points of the target in the lists of their nearest triangles of a surface none of whose
+/// triangles has gone.
 TrackedPoints points_on(
     const WorkingSurface& surface, const WorkingSurface& target, const SimplifyOptions& options) {
     TrackedPoints points(target, wanted_points(target, options.quality));
@@ -195,18 +215,21 @@ TrackedPoints points_on(
     return points;
 }
 
-/// The same by where the collapses took the original's vertices: near enough to start from.
+/// Points of the target in the lists of triangles near them, found by following the collapses of
+/// the vertices: near enough for the polish to start from.
 TrackedPoints points_carried(
     const WorkingSurface& surface,
     const WorkingSurface& target,
     const std::vector<Collapse>& collapses) {
     const std::size_t vertices = target.mesh.vertex_slots();
-    std::vector<std::uint32_t> slots(vertices + collapses.size()); // of all that there ever were
+    // for each number of the sequence its vertex slot
+    std::vector<std::uint32_t> slots(vertices + collapses.size());
     std::iota(slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(vertices), 0U);
     for (std::size_t i = 0; i < collapses.size(); ++i) {
         slots[vertices + i] = slots[collapses[i].first];
     }
-    for (std::size_t i = collapses.size(); i-- > 0;) { // what they became
+    // Backwards: each merged vertex gets the slot of what it became.
+    for (std::size_t i = collapses.size(); i-- > 0;) {
         slots[collapses[i].first] = slots[vertices + i];
         slots[collapses[i].second] = slots[vertices + i];
     }
@@ -220,7 +243,7 @@ TrackedPoints points_carried(
     return points;
 }
 
-/// Contracts edges of the surface until the goal is met.
+/// Collapses edges of the surface until the goal is met.
 std::vector<Collapse> contracted(
     WorkingSurface& surface,
     std::optional<TrackedPoints>& points,
@@ -246,6 +269,8 @@ sequence_to(const Goal& goal, TriangleMesh original, const SimplifyOptions& opti
     return sequence;
 }
 
+/// Simplifies to a wanted error: one sequence of collapses beyond it, and then a search along the
+/// sequence.
 Simplified simplified_to_error(TriangleMesh original, const SimplifyOptions& options) {
     Goal goal = options.goal;
     if (options.quality == Quality::Surface) {

@@ -6,22 +6,23 @@
 
 namespace octant::models::simplify {
 
+/// The result of a simplification.
 struct Simplified {
-    TriangleMesh mesh;         ///< after the last polish; with the original's materials and normals
-    CollapseSequence sequence; ///< what led there, without the polish
+    TriangleMesh mesh; ///< The mesh after the polish, with the original's materials and normals.
+    CollapseSequence sequence; ///< The collapses that led to it, without the polish.
 };
 
-/// Simplifies an oriented manifold (RepairedMesh; asserted). A closed manifold stays a closed
-/// manifold of the same genus, boundaries and creases are kept. The same input gives the same
-/// bytes.
+/// Simplifies an oriented manifold (a RepairedMesh; asserted). A closed manifold stays a closed
+/// manifold of the same genus; boundaries and creases are kept. The same input gives the same bytes
+/// on any number of threads. Lengths are in metres.
 Simplified simplified(TriangleMesh original, const SimplifyOptions& options);
 
-/// The sequence of Quality::Fast alone, without a polish. For that quality and a goal without an
-/// error (asserted).
+/// The collapse sequence of Quality::Fast alone, without a polish. The options must have that
+/// quality and a goal without an error (asserted).
 CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& options);
 
-/// Moves vertices and flips edges of a mesh for a smaller distance to the original, both ways: what
-/// simplified() ends with.
+/// Moves vertices and flips edges of a mesh so that its distance to the original gets smaller, both
+/// ways: the last step of simplified().
 TriangleMesh
 polished(TriangleMesh mesh, const TriangleMesh& original, const SimplifyOptions& options);
 

@@ -1,3 +1,7 @@
+// The cost that orders collapses with Quality::Surface: Y. Kim, B. U. Lee, "Error measure for
+// vertex simplification", 2005, section II.2, distance to triangles in both directions, measured
+// from points of the original surface instead of the vertices of the mesh before (collapse_run.cpp
+// says why).
 #include "models/simplify/surface_cost.h"
 
 #include "models/simplify/collapse_guard.h"
@@ -74,6 +78,8 @@ double SurfaceCost::way_back(
     if (block_.size() == 0) {
         return 0.0;
     }
+    // The squared spacing of the points, about: a triangle's centre may be this far from a point
+    // although the surfaces coincide.
     const double apart2 = 2.0 * area() / static_cast<double>(block_.size());
     const auto beyond = [&](const glm::dvec3& sample) {
         const std::array<float, 3> at = {

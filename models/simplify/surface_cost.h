@@ -13,31 +13,33 @@
 
 namespace octant::models::simplify {
 
-/// What changes around an edge or a vertex costs the tracked points whose triangles change.
+/// What a change around an edge or a vertex costs: the squared distances of the tracked points
+/// whose triangles change, to the triangles as they would be.
 class SurfaceCost {
 public:
-    /// Takes the points of these triangles.
+    /// Loads the tracked points of these triangles.
     void gather(const TrackedPoints& points, std::span<const std::uint32_t> faces);
 
-    /// The triangles as they would be; colours are taken where the surface has any.
+    /// Sets the triangles as they would be: those of the ring with their moving corner at `place`
+    /// and its colour `colour`, which counts where the surface has colours.
     void set_triangles(
         const WorkingSurface& surface,
         std::span<const RingFace> ring,
         const glm::dvec3& place,
         const glm::dvec3& colour);
 
-    /// Sum over the points of weight times squared distance to the triangles, less what it is now.
-    /// Stops as soon as it is larger than `enough` and returns what it has then.
+    /// The sum over the points of weight times squared distance to the set triangles, less the
+    /// present sum. Stops early once it exceeds `enough` and returns what it has then.
     double increase(double enough = std::numeric_limits<double>::infinity());
 
-    /// Sum over the points of weight times squared distance to the triangles.
+    /// The sum over the points of weight times squared distance to the set triangles.
     double total();
 
-    /// A total that rounding of the points may make.
+    /// A total this small may be nothing but the rounding of the points.
     double negligible() const;
 
-    /// What is seen the other way: area of the new triangles times squared distance to the points,
-    /// as far as that is more than the points are apart.
+    /// The cost in the opposite direction: the area of the new triangles times the squared distance
+    /// from their centres to the nearest point, as far as that exceeds the spacing of the points.
     double way_back(
         const WorkingSurface& surface, std::span<const RingFace> ring, const glm::dvec3& place);
 
@@ -46,7 +48,7 @@ public:
     std::vector<FlatTriangle> triangles;
 
 private:
-    double area() const; ///< that the points stand for
+    double area() const; ///< The area that the points stand for.
 
     PointBlock block_;
     double cost_now_ = 0.0;

@@ -1,3 +1,7 @@
+// The points by which the error against the original surface is kept up to date. Every original
+// vertex and at least one point on each original triangle, weighted by area, approximate the
+// integral of the squared distance over the original. Lists of points at triangles make a collapse
+// cost what its neighbourhood holds, however large the mesh.
 #include "models/simplify/tracked_points.h"
 
 #include "models/simplify/triangle_samples.h"
@@ -11,8 +15,8 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// The share of a triangle's area that its corners stand for; with one more point in the middle
-/// the sum is exact for squares of linear functions.
+/// The share of a triangle's area that its three corners stand for. Together with one point in the
+/// middle, the sum is then exact for squares of linear functions.
 constexpr double corner_share = 0.25;
 
 } // namespace

@@ -1,3 +1,5 @@
+// Positions of samples on a triangle: two regular grids, and the R2 sequence of M. Roberts, "The
+// unreasonable effectiveness of quasirandom sequences", 2018, folded into the triangle.
 #include "models/simplify/triangle_samples.h"
 
 #include <cmath>
@@ -39,7 +41,6 @@ std::vector<TriangleSample> middle_grid(int fields) {
     return samples;
 }
 
-/// The R2 sequence of M. Roberts, folded into the triangle.
 glm::dvec3 spread_weights(std::size_t i) {
     const double step = 0.5 + static_cast<double>(i);
     double u = std::fmod(step * 0.7548776662466927, 1.0);

@@ -7,21 +7,21 @@
 
 namespace octant::models::simplify {
 
-/// A place on a triangle.
+/// A position on a triangle.
 struct TriangleSample {
-    glm::dvec3 weights{0.0}; ///< of the triangle's corners
-    double share = 0.0;      ///< of its area that it stands for
+    glm::dvec3 weights{0.0}; ///< The barycentric weights of the corners.
+    double share = 0.0;      ///< The share of the area that it stands for.
 };
 
-/// A grid of so many fields a side on a triangle, with its border: sums over it are exact for
-/// functions linear on the fields.
+/// The nodes of a triangular grid with `fields` fields along each side, the border included. Sums
+/// over it are exact for functions that are linear on each field.
 std::vector<TriangleSample> sample_grid(int fields);
 
-/// The middles of the fields of such a grid: none on the border.
+/// The centroids of the fields of such a grid; none is on the border.
 std::vector<TriangleSample> middle_grid(int fields);
 
-/// Corner weights of place `i` of a sequence that fills a triangle ever more densely and, at any
-/// length, evenly.
+/// The barycentric weights of point `i` of an infinite sequence whose first points are evenly
+/// spread over a triangle, however many are used.
 glm::dvec3 spread_weights(std::size_t i);
 
 } // namespace octant::models::simplify

@@ -1,6 +1,7 @@
-// Turns triangles back that face against the target: in thin parts, where distances alone do not
-// tell one side from the other. Vertices move to where least squares lead when turned samples aim
-// at the side that faces their way, else by trial along the axes.
+// Turns triangles back that face against the target. They occur in parts thinner than the error,
+// where distances alone do not tell one side from the other. Vertices move to where least squares
+// lead when turned samples aim at the side that faces their way, or else by trial along the axes.
+// Our own addition: the 2005 paper does not look at normals.
 #include "models/simplify/turned_faces.h"
 
 #include "models/simplify/collapse_guard.h"
@@ -20,13 +21,13 @@ namespace {
 
 using Corners = std::array<glm::dvec3, 3>;
 
-/// What turned area costs, in mean squares of the distance.
+/// The price of turned area, in multiples of the mean squared distance.
 constexpr double price = 200.0;
-/// Of the largest squared distance: what steps may lead to.
+/// Steps may lead to distances up to this share of the largest squared distance.
 constexpr double most2_share = 0.85;
-/// The same seen from the points, which may lie far apart.
+/// The same for distances from the tracked points, which may lie far apart.
 constexpr double points_most2_share = 0.85;
-/// A round that leaves more than that part of the turned area is the last one.
+/// A round that leaves more than this share of the turned area is the last one.
 constexpr double most_left = 0.98;
 
 double area_of(const WorkingSurface& surface, std::uint32_t face) {
@@ -41,6 +42,7 @@ double area_of(const WorkingSurface& surface) {
     return area;
 }
 
+/// The state of one run of turn_back.
 class TurningBack {
 public:
     TurningBack(
@@ -69,7 +71,8 @@ public:
             }
         }
         const double area = area_of(surface);
-        mean2_ = area > 0.0 ? all.squares / (2.0 * area) : 0.0; // both ways are in the sum
+        // The sum of squares counts both directions.
+        mean2_ = area > 0.0 ? all.squares / (2.0 * area) : 0.0;
         allowance_ = (2.0 + options.most_growth) * options.most_growth * all.squares;
         most_looks_ = around_.looks() + options.looks;
     }
@@ -82,7 +85,7 @@ public:
         return sum;
     }
 
-    /// Distances are rounding alone.
+    /// Whether all distances are nothing but rounding.
     bool is_exact() const { return most2_ <= peak_rounding2; }
 
     void round();
@@ -105,16 +108,18 @@ private:
     WorkingSurface& surface_;
     PolishTarget target_;
     RingHeights around_;
-    std::vector<Heights> heights_;     ///< of each triangle
-    std::vector<bool> tried_vertices_; ///< in vain, and nothing has changed there since
-    double points_before2_ = 0.0;      ///< seen around the points before a step
+    std::vector<Heights> heights_; ///< For each triangle.
+    /// Vertices that were tried in vain and around which nothing has changed since.
+    std::vector<bool> tried_vertices_;
+    /// The largest squared distance of the ring's points before a step.
+    double points_before2_ = 0.0;
     std::size_t most_looks_ = 0;
-    double mean2_ = 0.0;     ///< of distances
-    double allowance_ = 0.0; ///< by which the sum of squares may still grow
-    double most2_ = 0.0;     ///< largest squared distance of a sample at first
+    double mean2_ = 0.0;     ///< The mean squared distance.
+    double allowance_ = 0.0; ///< By how much the sum of squares may still grow.
+    double most2_ = 0.0;     ///< The largest squared distance of a sample at the start.
 };
 
-/// A triangle that is turned itself may also turn over.
+/// As may_become, but a triangle that is turned itself may also turn over.
 bool TurningBack::may_become_here(
     std::uint32_t face, const Corners& before, const Corners& after) const {
     if (may_become(before, after, Strictness::Normal)) {
@@ -124,6 +129,7 @@ bool TurningBack::may_become_here(
     return is_turned && may_become({before[0], before[2], before[1]}, after, Strictness::Normal);
 }
 
+/// The limits at which a candidate step is given up.
 HeightLimits TurningBack::limits(const Heights& before) const {
     const double turned_price = price * mean2_;
     return {
@@ -133,13 +139,14 @@ HeightLimits TurningBack::limits(const Heights& before) const {
         before.turned};
 }
 
+/// Whether a step leaves less turned area and costs no more than is allowed.
 bool TurningBack::is_better(const Heights& before, const Heights& after) const {
     const double points_limit2 = std::max(points_before2_, points_most2_share * most2_);
     return after.turned < before.turned && limits(before).allow(after) &&
            around_.points_most2() <= points_limit2 && after.squares - before.squares <= allowance_;
 }
 
-/// Takes over what was seen last.
+/// Accepts the step that was seen last.
 void TurningBack::keep(const Heights& before, const Heights& after) {
     allowance_ -= after.squares - before.squares;
     around_.keep();
@@ -152,6 +159,8 @@ void TurningBack::keep(const Heights& before, const Heights& after) {
     }
 }
 
+/// The least-squares step of the loaded vertex, where turned samples aim at the side that faces
+/// their way.
 glm::dvec3 TurningBack::way() const {
     VertexFit fit;
     const PointBlock& block = around_.cost().block();
@@ -178,6 +187,7 @@ glm::dvec3 TurningBack::way() const {
     return fit.way();
 }
 
+/// Whether the loaded ring may have its vertex at `place`.
 bool TurningBack::may_step_to(const glm::dvec3& place, std::uint32_t vertex) const {
     return std::ranges::all_of(around_.ring(), [&](const RingFace& face) {
         return may_become_here(
@@ -187,7 +197,8 @@ bool TurningBack::may_step_to(const glm::dvec3& place, std::uint32_t vertex) con
     });
 }
 
-/// Expects the ring and its heights of now.
+/// Moves a vertex if that is allowed and better. around_ must hold the vertex's ring, and `before`
+/// its present statistics.
 bool TurningBack::step_to(const glm::dvec3& place, std::uint32_t vertex, const Heights& before) {
     if (!may_step_to(place, vertex)) {
         return false;
@@ -202,6 +213,7 @@ bool TurningBack::step_to(const glm::dvec3& place, std::uint32_t vertex, const H
     return true;
 }
 
+/// Tries steps of 2, 1 and 1/2 root mean squares along each axis.
 bool TurningBack::step_along_axes(std::uint32_t vertex, const Heights& before) {
     const glm::dvec3 place = surface_.places[vertex];
     for (const double length : {2.0, 1.0, 0.5}) {
@@ -218,6 +230,7 @@ bool TurningBack::step_along_axes(std::uint32_t vertex, const Heights& before) {
     return false;
 }
 
+/// Tries to move one vertex so that there is less turned area at it.
 void TurningBack::move(std::uint32_t vertex) {
     around_.take_ring(vertex);
     const glm::dvec3 place = surface_.places[vertex];

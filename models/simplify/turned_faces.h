@@ -8,16 +8,17 @@
 
 namespace octant::models::simplify {
 
+/// How much work turn_back may do and what it may cost.
 struct TurnOptions {
     int rounds = 8;
-    double most_growth = 0.01;     ///< of the root of the mean square, that it may cost
-    std::size_t samples = 30'000;  ///< by area; more on long thin triangles
-    std::size_t looks = 1'000'000; ///< ends after so many distances of samples
+    double most_growth = 0.01;     ///< The root mean square distance may grow by this share.
+    std::size_t samples = 30'000;  ///< Samples by area; long thin triangles get more.
+    std::size_t looks = 1'000'000; ///< It ends after this many sample distances.
 };
 
-/// Moves vertices where the surface faces against the target, see
-/// measure::flipped_area_share, as long as there is less of that, distances hardly grow and the
-/// largest ones do not. The points must be in the lists of triangles that are near.
+/// Turns triangles back that are folded over (measure::flipped_area_share): moves vertices as long
+/// as there is less of such area, distances hardly grow and the largest ones do not. Each tracked
+/// point must be in the list of a triangle that is near.
 void turn_back(
     WorkingSurface& surface,
     TrackedPoints& points,

@@ -1,3 +1,7 @@
+// The normal equations of one vertex. A point at distance d from the surface wants the surface to
+// move by d along the direction to the point; the vertex takes part in that by its barycentric
+// weight. Three equations result, slightly damped (Levenberg-Marquardt), so that a vertex in a flat
+// surrounding does not slide.
 #include "models/simplify/vertex_fit.h"
 
 #include <glm/geometric.hpp>
@@ -14,13 +18,15 @@ glm::dvec3 widen(const std::array<float, 3>& v) {
     return {v[0], v[1], v[2]};
 }
 
-/// Where a place in a triangle's plane is nearest to the triangle.
+/// The point of a triangle nearest to a point of its plane, in the plane's coordinates.
 struct FlatFoot {
     double x = 0.0;
     double y = 0.0;
     bool inside = true;
 };
 
+/// Takes the nearest point on the edge from (ax, ay) along (ex, ey) where that is nearer than what
+/// was found.
 void take_edge(
     double x,
     double y,
@@ -41,6 +47,7 @@ void take_edge(
     }
 }
 
+/// The point of a triangle nearest to the point (x, y) of its plane.
 FlatFoot foot_of(double x, double y, const FlatTriangle& t) {
     const double bx = static_cast<double>(t.bx);
     const double cx = static_cast<double>(t.cx);

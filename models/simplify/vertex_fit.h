@@ -10,28 +10,31 @@
 
 namespace octant::models::simplify {
 
-/// How much of the distance along the triangle counts: none would be a Gauss-Newton step, all of it
-/// the slower one of iterated closest points.
+/// How much the distance along the triangle counts, beside that across it. 0 would be a
+/// Gauss-Newton step (point-to-plane); 1 the slower convergence of iterated closest points.
 inline constexpr double sideways = 0.1;
 
-/// The way of one vertex, and change of its colour, that lessen a sum of squared distances most,
-/// as far as distances are linear functions of them.
+/// A least-squares fit of one vertex: the step of its position, and the change of its colour, that
+/// lessen a sum of squared distances most, as far as distances are linear functions of both.
 class VertexFit {
 public:
-    /// A point with the nearest place of a triangle whose corner 0 is the vertex. `off`: from that
-    /// place to the point; `share`: of the vertex in that place; `normal`: of the triangle.
+    /// Adds a pair of a point and its nearest point on a triangle whose corner 0 is the vertex.
+    /// `off` runs from the nearest point to the point; `share` is the vertex's barycentric weight
+    /// in the nearest point; `normal` is the triangle's unit normal.
     void add(const glm::dvec3& off, const glm::dvec3& normal, double share, double weight);
 
-    /// The colour of the point less the colour at its nearest place, and how the latter grows with
-    /// place on the triangle.
+    /// Adds the colour of such a pair. `off` is the point's colour less that of the nearest point,
+    /// and `gradient` how the latter grows with position on the triangle.
     void add_colour(
         const glm::dvec3& off,
         const std::array<glm::dvec3, 3>& gradient,
         double share,
         double weight);
 
+    /// The step of the position.
     glm::dvec3 way() const;
 
+    /// The change of the colour.
     glm::dvec3 colour_change() const;
 
 private:
@@ -41,7 +44,7 @@ private:
     glm::dvec3 colour_sum_{0.0};
 };
 
-/// Adds a point of a block after find_nearest, whose nearest triangle is `triangle`.
+/// Adds point `i` of a block after find_nearest; `triangle` is its nearest one.
 void add_point(
     VertexFit& fit,
     const PointBlock& points,

@@ -1,3 +1,6 @@
+// Builds the quadrics of vertices: M. Garland, P. Heckbert, "Surface Simplification Using Quadric
+// Error Metrics", 1997, with their constraint planes for boundaries (section 6), which here also
+// hold creases and borders of materials.
 #include "models/simplify/vertex_quadrics.h"
 
 #include <glm/geometric.hpp>
@@ -27,7 +30,7 @@ void VertexQuadrics::add_face(const WorkingSurface& surface, std::uint32_t face)
         return;
     }
     const glm::dvec3 normal = area2 / length;
-    const double weight = length / 6.0; // a third of the area
+    const double weight = length / 6.0; // A third of the triangle's area goes to each corner.
     Quadric quadric;
     quadric.add_plane(normal, -glm::dot(normal, corners[0]), weight);
     ColourQuadric colours;
@@ -49,7 +52,7 @@ void VertexQuadrics::add_face(const WorkingSurface& surface, std::uint32_t face)
     }
 }
 
-/// A plane through the edge, upright on the triangle of `h`.
+/// Adds the constraint plane of an edge: through the edge, perpendicular to the triangle of `h`.
 void VertexQuadrics::add_edge(
     const WorkingSurface& surface, HalfEdge h, const EdgeWeights& weights) {
     const CollapsibleMesh& mesh = surface.mesh;

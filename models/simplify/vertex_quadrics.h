@@ -9,30 +9,34 @@
 
 namespace octant::models::simplify {
 
-/// Where the vertex that an edge collapses into goes, and what the quadrics say it costs.
+/// Where the vertex that an edge collapses into is placed, and its cost by the quadrics.
 struct Placement {
     glm::dvec3 place{0.0};
     glm::dvec3 colour{0.0};
-    double cost = 0.0;   ///< weighted sum of squared distances, colours included
-    double weight = 0.0; ///< area that the sum runs over
+    double cost = 0.0;   ///< The weighted sum of squared distances, colours included.
+    double weight = 0.0; ///< The area that the sum runs over.
 };
 
-/// How much planes upright on edges count, of the edge's length squared.
+/// The weights of constraint planes, which stand perpendicular on the surface along special edges,
+/// in squares of the edge's length.
 struct EdgeWeights {
-    double boundary = 3.0; ///< and border of materials
+    double boundary = 3.0; ///< For boundaries and for borders between materials.
+    /// For sharp edges (creases).
     double crease = 0.3;
-    double crease_cosine = 0.7; ///< of the angle between normals from which on an edge is sharp
+    /// An edge is sharp when the cosine between its normals is below this.
+    double crease_cosine = 0.7;
 };
 
-/// Quadrics of the vertices of a surface: planes of triangles by area, planes upright on
-/// boundaries, on borders of materials and on sharp edges, colours where there are any.
+/// The quadrics of all vertices of a surface: planes of triangles, weighted by area; constraint
+/// planes along boundaries, borders of materials and creases; and colours where there are any.
 class VertexQuadrics {
 public:
     VertexQuadrics(const WorkingSurface& surface, const EdgeWeights& weights);
 
+    /// Where the collapse of an edge would place its vertex.
     Placement placement(const WorkingSurface& surface, HalfEdge h) const;
 
-    /// Gives the sum of both to `kept`.
+    /// Gives the sum of both vertices' quadrics to `kept`.
     void merge(std::uint32_t kept, std::uint32_t gone);
 
 private:
@@ -40,7 +44,7 @@ private:
     void add_edge(const WorkingSurface& surface, HalfEdge h, const EdgeWeights& weights);
 
     std::vector<Quadric> quadrics_;
-    std::vector<ColourQuadric> colours_; ///< empty = none
+    std::vector<ColourQuadric> colours_; ///< Empty = no colours.
 };
 
 } // namespace octant::models::simplify

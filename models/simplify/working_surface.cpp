@@ -1,3 +1,5 @@
+// Conversion between files and working units, and from the mesh that is being changed back to a
+// TriangleMesh.
 #include "models/simplify/working_surface.h"
 
 #include <glm/common.hpp>
@@ -8,7 +10,8 @@
 namespace octant::models::simplify {
 
 WorkingUnits WorkingUnits::of(const TriangleMesh& mesh, double colour_weight) {
-    constexpr double least_weight = 1e-4; // colours that do not count are still led along
+    // Colours that do not count are carried along with this weight.
+    constexpr double least_weight = 1e-4;
     const Bounds bounds = bounds_of(mesh);
     const double diagonal_m = glm::distance(bounds.least_m, bounds.most_m);
     return {

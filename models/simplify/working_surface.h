@@ -11,9 +11,9 @@
 
 namespace octant::models::simplify {
 
-/// Lengths of a mesh as the simplifier works with them: the middle of its box is the origin, the
-/// box's diagonal is 1, and a colour is `colour_scale` times its parts, so that distances in
-/// (position, colour) count both.
+/// The units in which the simplifier works: the centre of the mesh's bounding box is the origin and
+/// the box's diagonal is 1. A colour is multiplied by `colour_scale`, so that distances in the
+/// space of (position, colour) count both.
 struct WorkingUnits {
     glm::dvec3 middle_m{0.0};
     double diagonal_m = 1.0;
@@ -39,9 +39,9 @@ struct WorkingSurface {
     WorkingSurface(const TriangleMesh& mesh, const WorkingUnits& units);
 
     CollapsibleMesh mesh;
-    std::vector<glm::dvec3> places;       ///< one a vertex
-    std::vector<glm::dvec3> colours;      ///< one a vertex; empty = none
-    std::vector<std::uint32_t> materials; ///< one a triangle; empty = none
+    std::vector<glm::dvec3> places;       ///< One for each vertex slot.
+    std::vector<glm::dvec3> colours;      ///< One for each vertex slot; empty = no colours.
+    std::vector<std::uint32_t> materials; ///< One for each triangle slot; empty = no materials.
 
     bool coloured() const { return !colours.empty(); }
 
@@ -50,18 +50,18 @@ struct WorkingSurface {
         return {places[corners[0]], places[corners[1]], places[corners[2]]};
     }
 
-    /// Whether the two sides of an edge are of different materials.
+    /// Whether the two triangles of an edge have different materials.
     bool is_material_border(HalfEdge h) const {
         return !materials.empty() && mesh.twin(h) != none &&
                materials[face_of(h)] != materials[face_of(mesh.twin(h))];
     }
 
-    /// What is there, vertices and triangles in the order of their numbers. Names and materials
-    /// are `original`'s.
+    /// The present mesh in file units, vertices and triangles in the order of their slots. Name and
+    /// materials are those of `original`.
     TriangleMesh to_mesh(const TriangleMesh& original, const WorkingUnits& units) const;
 };
 
-/// Twice the area, along the normal.
+/// The normal of a triangle with twice its area as its length.
 glm::dvec3 area_vector(const std::array<glm::dvec3, 3>& corners);
 
 } // namespace octant::models::simplify

@@ -6,15 +6,15 @@
 
 namespace octant::visuals::draworder {
 
-/// How many bits are set in both of two rows of equal length. Adds up bytes of eight bits each
-/// (H. S. Warren, "Hacker's Delight", 2003, section 5-1), since without a processor's own
-/// instruction std::popcount is a call for every word.
+/// The number of bits that are set in both of two rows of equal length. It adds up bytes of eight
+/// bits each (H. S. Warren, "Hacker's Delight", 2003, section 5-1), because without a processor's
+/// own instruction std::popcount is a function call for every word.
 inline std::size_t
 count_common(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b) {
     constexpr std::uint64_t pairs = 0x5555555555555555;
     constexpr std::uint64_t nibbles = 0x3333333333333333;
     constexpr std::uint64_t bytes = 0x0f0f0f0f0f0f0f0f;
-    constexpr std::size_t most_words = 31; // a byte holds 31 * 8
+    constexpr std::size_t most_words = 31; // A byte of `sums` can count 31 words of at most 8 bits.
     std::size_t count = 0;
     for (std::size_t word = 0; word < a.size();) {
         std::uint64_t sums = 0;

@@ -1,12 +1,12 @@
-// H. Fuchs, Z. M. Kedem, B. F. Naylor, "On Visible Surface Generation by A Priori Tree Structures",
-// SIGGRAPH 1980: auto-partition, back-to-front walk.
+// Binary space partition: H. Fuchs, Z. M. Kedem, B. F. Naylor, "On Visible Surface Generation by A
+// Priori Tree Structures", SIGGRAPH 1980, with planes of the polygons themselves and a
+// back-to-front walk.
+//
 // Deviations:
-// - The plane of a node is the best of all by number of cuts, not of a sample; of two rules for
-// equals
-//   the tree with the fewest cuts is kept.
-// - Polygons in a node's plane that face the other way stay in the node; each is painted on the way
-//   through when the eye is on its side.
-
+// - The plane of a node is the best of all by the number of cuts, not the best of a sample; of two
+//   rules for equals the tree with the fewest cuts is kept.
+// - Polygons in a node's plane that face the other way stay in the node. Each is painted on the way
+//   through the node when the eye is on its side.
 #include "visuals/draworder/bsp_tree.h"
 
 #include "visuals/draworder/split.h"
@@ -21,18 +21,20 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-constexpr std::size_t most_candidates = 200;
+constexpr std::size_t most_candidates = 200; ///< At most this many planes are tried at a node.
 
 using Polygons = std::vector<std::uint32_t>;
 
+/// Where a polygon lies to a plane.
 enum class Side { In, Front, Back, Both };
 
 /// What decides among planes that cut equally many polygons.
 enum class Among {
-    Even,   ///< sides nearest in number
-    Settled ///< fewest polygons left whose planes cut others on their side
+    Even,   ///< The numbers of polygons on both sides are most equal.
+    Settled ///< The fewest polygons are left whose planes cut others on their side.
 };
 
+/// Builds one tree.
 class BspBuilding {
 public:
     BspBuilding(models::polygons::PolygonModel model, Among among)
@@ -59,7 +61,7 @@ public:
     }
 
 private:
-    /// Polygons that a new node below `parent` has to hold.
+    /// The polygons that a new node below `parent` has to hold.
     struct Task {
         Polygons polygons;
         int parent = BspTree::nothing;
@@ -81,12 +83,13 @@ private:
         return front ? Side::Front : back ? Side::Back : Side::In;
     }
 
-    /// The plane of `cutter` cuts `cut`; both are places in the list of a task.
+    /// The plane of polygon `cutter` cuts polygon `cut`; both are indices into the list of a task.
     struct Conflict {
         std::size_t cutter = 0;
         std::size_t cut = 0;
     };
 
+    /// Where the polygons lie to the plane of one of them.
     std::vector<Side> sides_of(std::uint32_t cutter, const Polygons& polygons) const {
         const Plane plane = models::polygons::plane_of(tree_.model, cutter);
         std::vector<Side> sides;
@@ -96,6 +99,7 @@ private:
         return sides;
     }
 
+    /// All pairs in which the plane of one polygon cuts the other.
     std::vector<Conflict> conflicts_of(const Polygons& polygons) const {
         std::vector<Conflict> conflicts;
         for (std::size_t i = 0; i < polygons.size(); ++i) {
@@ -109,7 +113,7 @@ private:
         return conflicts;
     }
 
-    /// (cuts, what decides among equals): less is better.
+    /// The cost of a plane: the number of cuts, then what decides among equals; less is better.
     std::pair<int, int>
     cost_of(const std::vector<Side>& sides, const std::vector<Conflict>& conflicts) const {
         const auto count = [&](Side side) {
@@ -128,6 +132,7 @@ private:
         return {cuts, static_cast<int>(left)};
     }
 
+    /// The polygon whose plane costs least.
     std::uint32_t best_of(const Polygons& polygons) const {
         const std::size_t tried = std::min(polygons.size(), most_candidates);
         const std::vector<Conflict> conflicts =
@@ -145,6 +150,7 @@ private:
         return best;
     }
 
+    /// Makes the node of a task and the tasks of its two sides.
     void add_node(const Task& task, std::vector<Task>& tasks) {
         const int number = static_cast<int>(tree_.nodes.size());
         if (task.parent != BspTree::nothing) {
@@ -206,7 +212,8 @@ void append_painted(
     const glm::dvec3& eye_m,
     std::vector<std::uint32_t>& painted,
     std::vector<int>& to_do) {
-    // A node on the way down is `node`; one whose far side is painted is ~node.
+    // An entry `node` means that the walk comes down to it; ~node means that its far side has been
+    // painted.
     to_do.clear();
     if (!tree.nodes.empty()) {
         to_do.push_back(0);

@@ -1,3 +1,7 @@
+// Where to cut eye space. Section IV of the 1989 paper divides the viewing directions further until
+// all hidden surfaces are removed, but does not say where. Whether B hides part of A changes only
+// as the eye crosses a plane through an edge of one and a corner of the other, or one of their own
+// planes (the planes of the aspect graph); these are the candidates.
 #include "visuals/draworder/candidate_planes.h"
 
 #include <glm/geometric.hpp>
@@ -16,15 +20,17 @@ namespace {
 /// Points and planes closer than this count as one.
 constexpr double grain = 1e-6;
 
+/// A number in units of `grain`, for comparisons with tolerance.
 std::int64_t grains(double value) {
     return std::llround(value / grain);
 }
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
+/// The corners and edges of some polygons' outlines, equal ones merged.
 struct Outlines {
-    std::vector<glm::dvec3> corners; ///< each place once
-    std::vector<Edge> edges;         ///< each once
+    std::vector<glm::dvec3> corners; ///< Each position once.
+    std::vector<Edge> edges;         ///< Each edge once, as a pair of indices into `corners`.
 };
 
 Outlines outlines_of(const ModelFaces& model, std::span<const std::uint32_t> among) {
@@ -64,7 +70,7 @@ Outlines outlines_of(const ModelFaces& model, std::span<const std::uint32_t> amo
     return out;
 }
 
-/// How far to go on so as to take about `most` of so many.
+/// The step with which about `most` of `all` items are taken.
 std::size_t stride(std::size_t all, std::size_t most) {
     return all / most + 1;
 }
@@ -97,7 +103,7 @@ void add_edge_planes(std::vector<Plane>& planes, const Outlines& outlines, std::
     }
 }
 
-/// Either orientation of a plane has the same key.
+/// A key of a plane that is the same for both of its orientations.
 std::array<std::int64_t, 4> key_of(const Plane& plane) {
     std::array<std::int64_t, 4> key{
         grains(plane.normal.x),
@@ -115,6 +121,7 @@ std::array<std::int64_t, 4> key_of(const Plane& plane) {
     return key;
 }
 
+/// The planes without repetition, in their order.
 std::vector<Plane> each_once(const std::vector<Plane>& planes) {
     std::vector<std::pair<std::array<std::int64_t, 4>, std::size_t>> keys;
     for (std::size_t i = 0; i < planes.size(); ++i) {

@@ -11,28 +11,31 @@
 
 namespace octant::visuals::draworder {
 
-/// Planes across a coordinate axis through a corner of one of some polygons, x before y before z;
-/// about `most` of them, evenly spread over all there are.
+/// Planes perpendicular to a coordinate axis through the corners of the polygons `among`, those of
+/// x before y before z: about `most` of them, spread evenly over all that there are.
 std::vector<Plane>
 axis_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most);
 
-/// Planes by which eye space may be cut so that the pairs among some polygons fall apart, each
-/// once, the plainest first: axis planes, planes of the
-/// polygons, and planes through an edge and a corner. The last are all that bound the region from
-/// where one of the polygons hides another, so that cutting by them ends every pair in time.
-/// Of these no more than about `most` are made, evenly spread over all there are.
+/// Planes by which eye space may be cut so that the hiding relation among some polygons gets
+/// simpler, each once, the plainest first: axis planes, the polygons' own planes, and planes
+/// through an edge of one polygon and a corner of another. The last kind includes all that bound
+/// the region from where one polygon hides another, so that cutting by them resolves every pair in
+/// the end. About `most` of them are made, spread evenly over all that there are.
 std::vector<Plane>
 candidate_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most);
 
-/// How a face lies to a plane: both when it lies on it, neither when it straddles it.
+/// Where a face lies to a plane. Both are true when it lies in the plane, and neither when it
+/// straddles it.
 struct FaceSide {
     bool before = false;
     bool behind = false;
 };
 
+/// Where a face lies to a plane, with `on_plane` as the tolerance.
 FaceSide side_of(const Plane& plane, const Face& face, double on_plane);
 
-/// How polygons lie to a plane. For each side of it the polygons that no eye there can face.
+/// Where polygons lie to a plane that cuts a region of eyes, and for each side of it those polygons
+/// that lie in the plane and face away from all eyes there.
 struct PlaneSides {
     explicit PlaneSides(std::size_t count)
         : sets{PolygonSet(count), PolygonSet(count)}
@@ -44,7 +47,7 @@ struct PlaneSides {
     PolygonSet unseen_behind;
 };
 
-/// Of the polygons `among`.
+/// Where the polygons `among` lie to a plane.
 PlaneSides
 sides_of(const Plane& plane, const ModelFaces& model, std::span<const std::uint32_t> among);
 

@@ -1,3 +1,6 @@
+// Where octants should meet. The 1989 paper takes the origin of the object's axes. Its coordinate
+// planes may cut badly through the parts of an aircraft; shifted to run between them, they order
+// more pairs, and fewer cells have to be divided.
 #include "visuals/draworder/cell_centres.h"
 
 #include "visuals/draworder/candidate_planes.h"
@@ -14,8 +17,10 @@ namespace octant::visuals::draworder {
 
 namespace {
 
+/// At most this many planes of each model are tried.
 constexpr std::size_t most_axis_planes = 3'000;
 
+/// The number of edges that lie on cycles on either side of a plane.
 std::size_t left_on_rings(const Plane& plane, const WorkingModel& work, const Cycles& cycles) {
     const PlaneSides sides = sides_of(plane, work.faces, cycles.polygons);
     const auto& [front, back] = sides.sets;
@@ -45,6 +50,7 @@ glm::dvec3 best_coordinates(const WorkingModel& work, const Cycles& cycles) {
     return best;
 }
 
+/// The centre of the bounding box, body axes.
 glm::dvec3 middle_m(const models::polygons::PolygonModel& model) {
     glm::dvec3 least(std::numeric_limits<double>::max());
     glm::dvec3 most(-std::numeric_limits<double>::max());

@@ -1,3 +1,5 @@
+// Cells as files and checks see them: octants of the eye, their division into four (section IV of
+// the 1989 paper, "divide the viewing directions further"), and regions by planes.
 #include "visuals/draworder/cell_orders.h"
 
 #include <glm/common.hpp>
@@ -14,13 +16,14 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-/// Sine of the angle below which a direction lies in a plane.
+/// The sine of the angle below which a direction counts as lying in a plane.
 constexpr double flat = 1e-9;
 
 Plane plane_through(const glm::dvec3& normal, const glm::dvec3& point_m) {
     return {normal, -glm::dot(normal, point_m)};
 }
 
+/// The cell of an octant path about a centre, without its list.
 ListedCell cell_of_path(const std::string& path, const glm::dvec3& centre_m) {
     const auto corners = corners_of_path(path);
     ListedCell cell;
@@ -30,8 +33,8 @@ ListedCell cell_of_path(const std::string& path, const glm::dvec3& centre_m) {
     return cell;
 }
 
-/// Planes of a cell that is one of several of its path. All of its octant's eyes at the least
-/// distance lie on one plane, which helps checks.
+/// The planes of a cell that shares its path with others. All eyes of its octant at the least
+/// distance (in L1) lie in one plane, which is added because it helps checks.
 std::vector<Plane>
 planes_within_path(const ListedCell& cell, const OrderCell& from, const glm::dvec3& centre_m) {
     std::vector<Plane> planes = cell.planes;
@@ -46,8 +49,9 @@ planes_within_path(const ListedCell& cell, const OrderCell& from, const glm::dve
     return planes;
 }
 
-/// The plane that cuts each direction at the least distance: what lies farther from the centre, by
-/// either metric, is in front of it, because distances add up to at least the distance of the sum.
+/// The plane through the points at the least distance along each of three directions. Whatever is
+/// farther from the centre, in either metric, lies in front of it, because by the triangle
+/// inequality the distances along the directions add up to at least the distance of the sum.
 std::optional<Plane> least_distance_plane(const CellOrders& orders, const ListedCell& cell) {
     if (cell.min_m <= 0.0 || cell.directions.size() != 3) {
         return std::nullopt;
@@ -62,7 +66,7 @@ std::optional<Plane> least_distance_plane(const CellOrders& orders, const Listed
     return Plane{normal / length, -(cell.min_m + glm::dot(normal, orders.centre_m)) / length};
 }
 
-/// Sides of the cube and of the octahedron that hold all eyes up to the greatest distance.
+/// Adds the sides of the cube and of the octahedron that hold all eyes up to the greatest distance.
 void append_greatest_distance(const CellOrders& orders, double max_m, std::vector<Plane>& planes) {
     const double diagonal = std::sqrt(3.0);
     const double octahedron_m = orders.metric == Metric::L1 ? max_m / diagonal : max_m;

@@ -18,62 +18,68 @@
 
 namespace octant::visuals::draworder {
 
-/// How far an eye is from the centre: |x| + |y| + |z| or the usual length.
+/// How the distance of an eye from the centre is measured: L1 is |x| + |y| + |z|, L2 the usual
+/// length.
 enum class Metric { L1, L2 };
 
+/// The length of a vector in a metric.
 double length_m(Metric metric, const glm::dvec3& vector_m);
 
-/// Eyes that share a list: the common front of `planes`, at a distance of min_m to max_m from the
-/// centre.
+/// A cell: the eyes that share one list. It is the intersection of the half-spaces in front of
+/// `planes`, from a distance of min_m to one of max_m from the centre. Body axes, metres.
 struct ListedCell {
-    std::string path;                   ///< octant path in body axes, "+-+/0/3"; empty: none
-    std::vector<glm::dvec3> directions; ///< edges of a cone from the centre; empty: no cone
-    std::vector<Plane> planes;          ///< unit normals, body axes
+    std::string path; ///< The octant path, "+-+/0/3"; empty when the cell has none.
+    /// The edges of a cone with its apex in the centre; empty when the cell is no cone.
+    std::vector<glm::dvec3> directions;
+    std::vector<Plane> planes; ///< With unit normals.
     double min_m = 0.0;
     double max_m = std::numeric_limits<double>::infinity();
-    std::vector<std::uint32_t> list; ///< first painted first; others are never painted
+    /// Polygons, the first painted first; those not listed are never painted.
+    std::vector<std::uint32_t> list;
 };
 
 /// Painting orders by cells, as files hold them and checks read them. An eye uses the first cell
-/// that contains it. Body axes.
+/// that contains it.
 struct CellOrders {
     glm::dvec3 centre_m{0.0};
     Metric metric = Metric::L2;
-    std::size_t faces = 0;                ///< of the model they belong to
-    std::vector<std::uint32_t> two_sided; ///< polygons seen from both sides
-    std::vector<std::uint32_t> parents;   ///< as PolygonModel::parents
+    std::size_t faces = 0;                ///< The number of polygons of the model they belong to.
+    std::vector<std::uint32_t> two_sided; ///< The polygons that are seen from both sides.
+    std::vector<std::uint32_t> parents;   ///< As PolygonModel::parents.
     std::vector<ListedCell> cells;
 };
 
-/// The cells of a model in this form. Octant cells are made from their paths, not from the planes
-/// that the model gives them, except where several share a path (a cell divided by planes); they
-/// begin where the model's orders are meant for: at its
-/// min_distance_m, or for Method::Paper (which has none) at sqrt(3) times the model's radius, so
+/// Converts a model's orders to this form. Octant cells are made from their paths rather than from
+/// the planes that the model gives them, except where several cells share a path (an octant divided
+/// by planes). They begin at the distance from which the model's orders hold: at its
+/// min_distance_m, or for Method::Paper, which has none, at sqrt(3) times the model's radius, so
 /// that no eye of them lies inside the radius.
 CellOrders cell_orders(const OrderedModel& ordered);
 
-/// The cell that an eye uses; nothing when none contains it.
+/// The index of the cell that an eye uses; nothing when none contains it.
 std::optional<std::size_t> cell_of(const CellOrders& orders, const glm::dvec3& eye_m);
 
-/// Whether an eye lies between the least distance and the greatest distance of all cells.
+/// Whether an eye is between the least and the greatest distance of all cells.
 bool in_range(const CellOrders& orders, const glm::dvec3& eye_m);
 
-/// Signs of x, y, z, then up to most_path_levels children 0 .. 3, each behind a slash.
+/// Whether a text is an octant path: the signs of x, y and z, then at most most_path_levels
+/// children 0 to 3, each after a slash.
 bool is_octant_path(std::string_view text);
 inline constexpr std::size_t most_path_levels = 24;
 
-/// Corners A, B, C of the flat triangle that an octant path names, on |x| + |y| + |z| = 1. Children
-/// of (A, B, C), with AB the middle of an edge: 0 = (A, AB, CA), 1 = (AB, B, BC), 2 = (CA, BC, C),
-/// 3 = (BC, CA, AB).
+/// The corners A, B, C of the flat triangle that an octant path names, on |x| + |y| + |z| = 1. The
+/// children of (A, B, C), with AB the midpoint of an edge, are 0 = (A, AB, CA), 1 = (AB, B, BC), 2
+/// = (CA, BC, C) and 3 = (BC, CA, AB).
 std::array<glm::dvec3, 3> corners_of_path(std::string_view path);
 
-/// Planes through `apex_m` whose common front is the cone of the directions; none when they span
-/// all of space that way; nothing when they lie in one plane.
+/// The planes through `apex_m` that bound the cone of all non-negative sums of the directions; none
+/// when these span all of space. Returns nothing when the directions lie in one plane.
 std::optional<std::vector<Plane>>
 planes_of_cone(std::span<const glm::dvec3> directions, const glm::dvec3& apex_m);
 
-/// Planes whose common front holds every eye of a cell, its distances included. Of a least distance
-/// only cones of three directions know a plane; other cells are taken down to the centre.
+/// The planes of a convex region that holds every eye of a cell, its distances included. A plane
+/// for the least distance is known only for cones of three directions; other cells are taken to
+/// reach to the centre.
 std::vector<Plane> region_of(const CellOrders& orders, const ListedCell& cell);
 
 } // namespace octant::visuals::draworder

@@ -1,3 +1,6 @@
+// Prepares polygons for the certificate (order_check.cpp). Rotor blades and other turning parts are
+// replaced by what they sweep, so that one certificate holds for every angle. This code is
+// deliberately apart from turning_parts.cpp, which does the same for finding orders.
 #include "visuals/draworder/check_shape.h"
 
 #include "sim/base/units.h"
@@ -13,12 +16,13 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-/// Sides of the regular polygon around a circle that a corner runs through; its corners lie 0.9 %
-/// outside the circle.
+/// The number of sides of the regular polygon around a circle on which a corner travels; its
+/// corners are 0.9 % outside the circle.
 constexpr int circle_sides = 24;
-/// Sine of the angle below which a normal runs along the axis.
+/// The sine of the angle below which a normal counts as parallel to the axis.
 constexpr double along_axis = 1e-9;
 
+/// Moves corners towards their mean by check_tolerance.
 std::vector<glm::dvec3> drawn_together(std::vector<glm::dvec3> corners) {
     glm::dvec3 middle(0.0);
     for (const glm::dvec3& corner : corners) {
@@ -31,14 +35,14 @@ std::vector<glm::dvec3> drawn_together(std::vector<glm::dvec3> corners) {
     return corners;
 }
 
-/// An axis with two unit vectors across it.
+/// An axis of rotation with two unit vectors perpendicular to it.
 struct Axis {
     glm::dvec3 point{0.0};
     glm::dvec3 along{0.0};
     glm::dvec3 right{0.0};
     glm::dvec3 up{0.0};
 
-    /// Unit vector across, one of circle_sides.
+    /// The unit vector perpendicular to the axis at one of circle_sides angles.
     glm::dvec3 across(int side) const {
         const double angle_rad = 2.0 * pi * side / circle_sides;
         return right * std::cos(angle_rad) + up * std::sin(angle_rad);
@@ -52,9 +56,11 @@ Axis axis_of(const models::polygons::Pivot& pivot, const CheckFrame& frame) {
     return {frame.from_body(pivot.point_m), pivot.axis, right, glm::cross(pivot.axis, right)};
 }
 
+/// The radius of a regular polygon's corners around a unit circle.
 const double outside_circle = 1.0 / std::cos(pi / circle_sides);
 
-/// Corners around the circles of all corners; of circles at one height only the widest.
+/// Points whose hull holds what the corners sweep: regular polygons around their circles, of
+/// circles at the same height only the widest.
 std::vector<glm::dvec3> swept_by(const Axis& axis, std::span<const glm::dvec3> corners) {
     struct Ring {
         double height;
@@ -84,9 +90,10 @@ std::vector<glm::dvec3> swept_by(const Axis& axis, std::span<const glm::dvec3> c
     return points;
 }
 
-/// The plane turns to n.e + d = (part along the axis) + (part across) * cos(angle to e) * |e across
-/// the axis|; the greatest over all angles is at most that of circle_sides directions with the part
-/// across made longer.
+/// The planes that replace a polygon's plane for all angles. As it turns, its value at an eye e is
+/// n.e + d = (part along the axis) + (part across the axis) * cos(angle to e) * |distance of e from
+/// the axis|. The maximum over all angles is at most that over circle_sides directions with the
+/// part across made slightly longer.
 std::vector<Plane> swept_planes(const Axis& axis, const Plane& plane) {
     const double along = glm::dot(plane.normal, axis.along);
     const double across = glm::length(plane.normal - axis.along * along);

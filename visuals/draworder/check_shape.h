@@ -12,7 +12,8 @@
 
 namespace octant::visuals::draworder {
 
-/// Coordinates of a check: in units of the diagonal of the model's bounding box, from its middle.
+/// The coordinates of a check: the centre of the model's bounding box is the origin, and its
+/// diagonal is 1. Axes as the body's.
 struct CheckFrame {
     glm::dvec3 middle_m{0.0};
     double diagonal_m = 1.0;
@@ -28,20 +29,24 @@ struct CheckFrame {
 
 CheckFrame check_frame(const models::polygons::PolygonModel& model);
 
-/// A polygon as a check sees it, in a CheckFrame. Its corners are drawn towards their middle by
-/// check_tolerance, so that polygons which touch do not overlap.
+/// A polygon as a check sees it, in a CheckFrame. Its corners are drawn towards its centre by
+/// check_tolerance, so that polygons which only touch do not overlap.
 struct CheckShape {
-    std::vector<glm::dvec3> corners;    ///< as in the file
-    std::vector<Plane> fronts;          ///< eyes that see it are in front of one of them; 1 or 2
-    std::optional<std::uint32_t> pivot; ///< that turns it
+    std::vector<glm::dvec3> corners; ///< At the angle of the file.
+    /// One plane, or two for a two-sided polygon; eyes that see the polygon are in front of one of
+    /// them.
+    std::vector<Plane> fronts;
+    std::optional<std::uint32_t> pivot; ///< The pivot that turns the polygon.
 
-    // Over all angles of the pivot; as above when there is none.
-    std::vector<glm::dvec3> swept; ///< their convex hull holds the polygon at every angle
-    /// Eyes that see it at some angle are in front of one of them; as many as `fronts` when they
-    /// are the same for every angle.
+    /// Points whose convex hull holds the polygon at every angle of the pivot; the corners when
+    /// there is none.
+    std::vector<glm::dvec3> swept;
+    /// Eyes that see the polygon at some angle are in front of one of these. There are as many as
+    /// `fronts` when they are the same at every angle.
     std::vector<Plane> swept_fronts;
 };
 
+/// The shapes of all polygons of a model; `two_sided` are the polygons seen from both sides.
 std::vector<CheckShape> check_shapes(
     const models::polygons::PolygonModel& model,
     const CheckFrame& frame,

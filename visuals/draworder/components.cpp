@@ -1,3 +1,7 @@
+// Strongly connected components of hiding graphs: R. Tarjan, "Depth-first search and linear graph
+// algorithms", 1972, with a stack of its own instead of recursion and with rows of bits as
+// adjacency. A painting order exists exactly when there is no component of two or more polygons;
+// the 1989 paper does not mention cycles.
 #include "visuals/draworder/components.h"
 
 #include "visuals/draworder/bit_count.h"
@@ -10,6 +14,7 @@ namespace octant::visuals::draworder {
 
 namespace {
 
+/// The number of a polygon that the search has not reached.
 constexpr std::uint32_t unseen = ~std::uint32_t{0};
 
 } // namespace
@@ -19,7 +24,8 @@ std::uint64_t CyclicEdges::row_word(std::uint32_t polygon, std::size_t word) con
     return graph_->row(polygon)[word] & allowed_[word] & ~barred;
 }
 
-/// The component whose first polygon this is leaves the stack; its inner edges are counted.
+/// Takes a finished component off the stack, given its first polygon, and counts the edges within
+/// it.
 void CyclicEdges::close(std::uint32_t polygon) {
     const auto first = std::ranges::find(open_, polygon);
     if (open_.end() - first > 1) {

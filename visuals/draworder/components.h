@@ -9,32 +9,34 @@
 
 namespace octant::visuals::draworder {
 
-/// The part of a hiding graph that has cycles: its strongly connected components of two or more
-/// polygons, without the edges between them.
+/// The cyclic part of a hiding graph: its strongly connected components of two or more polygons,
+/// and the edges within them.
 struct Cycles {
-    std::vector<std::uint32_t> polygons;                ///< of all components, in rising order
-    std::vector<std::vector<std::uint32_t>> components; ///< each in rising order
-    HidingGraph inner;                                  ///< edges within a component
-    std::size_t edges = 0;                              ///< how many these are
+    std::vector<std::uint32_t> polygons; ///< The polygons of all components, ascending.
+    /// The polygons of each component, ascending.
+    std::vector<std::vector<std::uint32_t>> components;
+    HidingGraph inner;     ///< The edges within components.
+    std::size_t edges = 0; ///< The number of these edges.
 };
 
-/// R. Tarjan, "Depth-first search and linear graph algorithms", 1972. Looks at the given polygons
-/// only, and at the edges between them.
+/// Finds the cyclic part by R. Tarjan, "Depth-first search and linear graph algorithms", 1972. Only
+/// the polygons `among` and the edges between them are looked at.
 Cycles cycles_of(const HidingGraph& graph, std::span<const std::uint32_t> among);
 
-/// The same for all polygons.
+/// The cyclic part among all polygons.
 Cycles cycles_of(const HidingGraph& graph);
 
-/// A ring with the fewest polygons: each hidden by the next, the last by the first. Empty without
-/// cycles. Looks for it from the given polygons.
+/// A cycle with the fewest polygons ("ring"): each is hidden by the next, and the last by the
+/// first. Empty when there is no cycle. The search starts from the polygons `among`.
 std::vector<std::uint32_t>
 shortest_ring(const HidingGraph& graph, std::span<const std::uint32_t> among);
 
-/// How many edges lie on cycles of `graph` without those that go into or out of `gone`, and without
-/// those by which one of `hiding` hides one of `hidden`. Looks at the given polygons only. Reuses
-/// its storage.
+/// Counts the edges that lie within strongly connected components, for many variants of one graph
+/// in turn. Its memory is reused.
 class CyclicEdges {
 public:
+    /// The number of such edges in `graph` restricted to the polygons `among`, without edges into
+    /// or out of `gone`, and without those by which a polygon of `hiding` hides one of `hidden`.
     std::size_t count(
         const HidingGraph& graph,
         std::span<const std::uint32_t> among,
@@ -42,17 +44,20 @@ public:
         const PolygonSet& hidden,
         const PolygonSet& gone);
 
-    /// Component of each polygon after count(); of `among` only.
+    /// For each polygon of `among` the number of its component, after count().
     std::span<const std::uint32_t> component_of() const { return component_; }
 
 private:
+    /// A polygon on the stack of the depth-first search, and which of its edges are left.
     struct Visit {
         std::uint32_t polygon = 0;
         std::size_t word = 0;
         std::uint64_t left = 0;
     };
 
+    /// One word of a polygon's row in the restricted graph.
     std::uint64_t row_word(std::uint32_t polygon, std::size_t word) const;
+    /// Searches depth first from a polygon.
     void search_from(std::uint32_t root);
     void close(std::uint32_t polygon);
 

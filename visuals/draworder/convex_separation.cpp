@@ -1,13 +1,16 @@
-// The plane n.x = d with the most air t is the linear programme
-//     maximise t:  n.b - d >= t,  d - n.a >= t,  d w - n.g >= 0 for generators (g, w),  |n_i| <= 1,
-// solved by the simplex method of G. B. Dantzig in dictionary form. The free unknowns n, d, t are
-// written as differences y_i - y_0 of unknowns >= 0. The origin is feasible, so there is no first
-// phase, and the search ends as soon as there is some air. Nearly all bounds are zero, so many
-// rows tie for leaving; among them the one with the largest factor goes, as in P. M. J. Harris,
+// A small linear programme for the separation of convex sets. The plane n.x = d with the largest
+// margin t solves
+//      maximise t:  n.b - d >= t,  d - n.a >= t,  d w - n.g >= 0 for generators (g, w),  |n_i|
+//      <= 1.
+// It is solved by the simplex method of G. B. Dantzig in dictionary form. The free unknowns n, d, t
+// are written as differences y_i - y_0 of unknowns >= 0. The origin is feasible, so there is no
+// first phase, and the search ends as soon as the margin is positive. Nearly all bounds are zero,
+// so that many rows tie for leaving; the one with the largest factor goes, as in P. M. J. Harris,
 // "Pivot selection methods of the Devex LP code", 1973.
-// Deviations: the steps are limited, and a plane counts only once the points have been measured
-// against it. Without one the sets count as inseparable, which never makes an order wrong.
-
+//
+// Deviations: the number of steps is limited, and a plane counts only once the points have been
+// measured against it. Without a plane the sets count as inseparable, which never makes an order
+// wrong.
 #include "visuals/draworder/convex_separation.h"
 
 #include <glm/geometric.hpp>
@@ -23,13 +26,15 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-constexpr std::size_t unknowns = 6; ///< n.x, n.y, n.z, d, t, and what is taken off all of them
-constexpr double least_air = 1e-9;
+/// These are n.x, n.y, n.z, d, t, and y_0, which is subtracted from all of them.
+constexpr std::size_t unknowns = 6;
+constexpr double least_air = 1e-9; ///< The margin that is enough.
 constexpr double rounding = 1e-10;
 constexpr double slack_tolerance = 1e-13;
-constexpr int most_steps = 400;
+constexpr int most_steps = 400; ///< A programme that takes more steps counts as unsolved.
 
-/// slack = bound - sum of factors * unknowns, for every row; value = sum of gain * unknowns.
+/// A dictionary of the simplex method: slack = bound - sum of factors * unknowns for every row, and
+/// value = sum of gain * unknowns.
 class Dictionary {
 public:
     Dictionary() {
@@ -39,13 +44,13 @@ public:
         }
     }
 
-    /// factor . (n, d, t) <= bound, bound >= 0.
+    /// Adds the row factor . (n, d, t) <= bound with bound >= 0.
     void add(const glm::dvec3& n, double d, double t, double bound) {
         rows_.push_back({{n.x, n.y, n.z, d, t, -(n.x + n.y + n.z + d + t)}, bound});
         row_name_.push_back(unknowns + row_name_.size());
     }
 
-    /// Climbs until the value exceeds a limit. False when it does not.
+    /// Climbs until the value exceeds a limit. Returns false when it cannot.
     bool exceeds(double limit) {
         for (int step = 0; step < most_steps && value_ <= limit; ++step) {
             const std::size_t enter = entering();
@@ -54,7 +59,8 @@ public:
             }
             const std::size_t leave = leaving(enter);
             if (leave == rows_.size()) {
-                gain_.at(enter) = 0.0; // the value is bounded: such a gain is rounding
+                // The value is bounded, so a gain without a leaving row is rounding.
+                gain_.at(enter) = 0.0;
             } else {
                 pivot(leave, enter);
             }
@@ -62,7 +68,7 @@ public:
         return value_ > limit;
     }
 
-    /// n.x, n.y, n.z, d of the plane reached.
+    /// The values of n.x, n.y, n.z and d in the present solution.
     glm::dvec4 plane() const {
         std::array<double, unknowns> at{};
         for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -79,10 +85,12 @@ private:
         double bound = 0.0;
     };
 
+    /// The column with the largest gain.
     std::size_t entering() const {
         return static_cast<std::size_t>(std::ranges::max_element(gain_) - gain_.begin());
     }
 
+    /// The row that bounds the entering unknown first.
     std::size_t leaving(std::size_t column) const {
         double nearest = HUGE_VAL;
         for (const Row& row : rows_) {
@@ -101,6 +109,7 @@ private:
         return best;
     }
 
+    /// Exchanges the unknowns of a row and a column.
     void pivot(std::size_t row, std::size_t column) {
         Row& pivot = rows_[row];
         const double inverse = 1.0 / pivot.factor[column];

@@ -1,6 +1,9 @@
-// Splitting as in fig. 14 of the 1989 paper, though where polygons hide one another in a ring and
-// not where they pass through one another; which one to split is not in the paper.
-
+// Splitting of polygons that hide one another in a ring: E. K. Kim, J. A. Park, C. Song, J. H. Kim,
+// 1989, section IV and figure 14.
+//
+// Deviations: the paper splits polygons that pass through one another (split.cpp does that); here
+// the same cut serves polygons that overlap cyclically, such as three bars each over the next.
+// Which one to split is not in the paper.
 #include "visuals/draworder/cycle_split.h"
 
 #include "visuals/draworder/components.h"
@@ -15,6 +18,7 @@ namespace octant::visuals::draworder {
 
 namespace {
 
+/// The hiding graph among the polygons of a deadlock, for its eye or for its region.
 HidingGraph graph_of(RegionGraphs& graphs, const Deadlock& deadlock) {
     const auto& among = deadlock.polygons;
     HidingGraph pairs(graphs.model().faces.size());
@@ -29,13 +33,14 @@ HidingGraph graph_of(RegionGraphs& graphs, const Deadlock& deadlock) {
                         : graphs.surviving(deadlock.region, pairs, among);
 }
 
+/// Whether a face reaches more than `margin` to both sides of a plane.
 bool straddles(const Face& face, const Plane& plane, double margin) {
     const auto heights = [&](const glm::dvec3& corner) { return distance_m(plane, corner); };
     const auto [least, most] = std::ranges::minmax(face.outline, {}, heights);
     return heights(least) < -margin && heights(most) > margin;
 }
 
-/// Pairs on rings among the ring's polygons once one of them has been cut.
+/// The number of cyclic edges among the ring's polygons once one of them has been cut.
 std::size_t left_after(
     const ModelFaces& model,
     const Deadlock& deadlock,

@@ -9,21 +9,21 @@
 
 namespace octant::visuals::draworder {
 
-/// A polygon to cut, and the polygon along whose plane.
+/// A polygon to split, and the polygon in whose plane it is cut.
 struct Cut {
     std::uint32_t polygon = 0;
     std::uint32_t along = 0;
 };
 
-/// The cut that ends most of a shortest ring of a deadlock: of all pairs of the ring of which one
-/// lies on both sides of the other's plane, the one that leaves the fewest pairs on rings, the
-/// lowest numbers among equals. Turning polygons are not cut. Nothing when there is no such pair,
-/// which takes turning polygons in the ring: those without any have no order only if one of them
-/// straddles the plane of another.
+/// The cut that resolves most of a shortest ring of a deadlock. Of all pairs of the ring in which
+/// one polygon straddles the plane of the other, it is the cut that leaves the fewest cyclic edges,
+/// and the lowest polygon numbers among equals. Turning polygons are not cut. Returns nothing when
+/// there is no such pair. That happens only with turning polygons in the ring, because fixed ones
+/// lack an order only if one of them straddles the plane of another.
 std::optional<Cut> best_cut(RegionGraphs& graphs, const Deadlock& deadlock);
 
-/// A pair of a shortest ring of a deadlock, for which no order is right: rather one with a turning
-/// polygon.
+/// The pair of a shortest ring of a deadlock that is given up because no order can be right: one
+/// with a turning polygon if there is any.
 Precedence weakest_pair(RegionGraphs& graphs, const Deadlock& deadlock);
 
 } // namespace octant::visuals::draworder

@@ -1,3 +1,6 @@
+// The run-time side of the 1989 paper, section III.2: "only the sign of the eye vector in the
+// object's frame is computed". Three sign tests are three planes of a tree; finer cells add planes
+// to it, so that octants, cells and trees are looked up by the same loop.
 #include "visuals/draworder/draw_order.h"
 
 #include <algorithm>
@@ -9,7 +12,7 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-/// Signs of x, then y, then z, as octant_of() does: cell = octant.
+/// The tree of the octants: first z, then y, then x, so that cell numbers are those of octant_of().
 std::vector<DrawOrder::Node> octant_nodes() {
     const Plane x{{1.0, 0.0, 0.0}, 0.0};
     const Plane y{{0.0, 1.0, 0.0}, 0.0};

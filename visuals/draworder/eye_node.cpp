@@ -1,3 +1,6 @@
+// The step from a region to a smaller one. Precedences only disappear when a region shrinks, so a
+// child tests no more than the cyclic edges of its parent; and an acyclic graph over a region
+// gives, by topological sorting, one list that is right for all of its eyes.
 #include "visuals/draworder/eye_node.h"
 
 #include "sim/base/error.h"
@@ -13,7 +16,7 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-/// 4 bytes each here, and some 24 in a renderer's index buffer.
+/// The most entries of all lists: each takes 4 bytes here and some 24 in a renderer's index buffer.
 constexpr std::size_t most_entries = 8'000'000;
 
 } // namespace

@@ -13,36 +13,38 @@
 
 namespace octant::visuals::draworder {
 
-/// A region of eye space with what hides what from there.
+/// A region of eye space and the hiding graph for the eyes in it.
 struct EyeNode {
     EyeRegion region;
     HidingGraph graph;
-    Cycles cycles; ///< of the graph
+    Cycles cycles; ///< The cyclic part of the graph; without it the region has a painting order.
 };
 
-/// All pairs are tested.
+/// The node of a region, with all pairs of polygons tested.
 EyeNode eye_node(RegionGraphs& graphs, const EyeRegion& region);
 
-/// A part of a node's region. Only pairs on rings are tested again: the others order what no ring
-/// joins, and do no harm. `sides`: of a plane that the part lies in front of; null for none.
+/// The node of a part of a node's region. Only edges on cycles are tested again; the others stay as
+/// they are, because they have an order already and do no harm. `sides` tells where the polygons
+/// lie to a plane that the part is in front of; null when there is none.
 EyeNode
 part_of(RegionGraphs& graphs, const EyeNode& node, EyeRegion part, const SideSets* sides = nullptr);
 
-/// Polygons for which there is no order, wherever eye space is cut: they hide one another in a ring
-/// from one eye point, or from all of a region that no plane makes simpler.
+/// Polygons that have no painting order however eye space is cut: they hide one another in a ring
+/// from a single eye point, or in all of a region that no plane makes simpler.
 struct Deadlock {
-    std::vector<std::uint32_t> polygons; ///< one component of the graph
+    std::vector<std::uint32_t> polygons; ///< One strongly connected component.
     EyeRegion region;
-    std::optional<glm::dvec3> eye; ///< in the faces' space; none: all of the region
+    std::optional<glm::dvec3> eye; ///< In the faces' space; nothing = all of the region.
 };
 
-/// The ring that an eye in the middle of the region meets, if it does.
+/// The ring that an eye in the middle of the region sees, if there is one.
 std::optional<Deadlock> ring_at_eye(RegionGraphs& graphs, const EyeNode& node);
 
-/// Throws Error when the lists of a model of so many polygons have more entries than can be held.
+/// Throws Error when the lists of a model with so many polygons have more entries than can be held.
 void check_entries(std::size_t entries, std::size_t polygons);
 
-/// The list of a node without cycles: the polygons that face some eye of it, first painted first.
+/// The painting order of a node without cycles: the polygons that face some eye of it, first
+/// painted first, and the lowest number first where there is a choice.
 std::vector<std::uint32_t> list_of(const RegionGraphs& graphs, const EyeNode& node);
 
 } // namespace octant::visuals::draworder

@@ -1,11 +1,13 @@
-// T. S. Motzkin, H. Raiffa, G. L. Thompson, R. M. Thrall, "The double description method", 1953;
-// the combinatorial test of adjacency as in K. Fukuda, A. Prodon, "Double description method
-// revisited", 1996, proposition 7.
+// Convex regions by the double description method: T. S. Motzkin, H. Raiffa, G. L. Thompson, R. M.
+// Thrall, "The double description method", 1953. The region is known both by its half-spaces and by
+// its generating rays. A cut keeps the rays in front of the new plane and adds one for each edge
+// between a ray in front and one behind it. Edges are found by the combinatorial test of adjacency
+// in K. Fukuda, A. Prodon, "Double description method revisited", 1996, proposition 7.
+//
 // Deviations:
 // - Heights within 1e-10 of a plane count as on it.
-// - Lines are kept apart from the rays, so that a region that is bounded by fewer than three planes
-//   needs no artificial box around it.
-
+// - Lines are kept apart from the rays, so that a region bounded by fewer than three planes needs
+//   no artificial box around it.
 #include "visuals/draworder/eye_region.h"
 
 #include <glm/geometric.hpp>
@@ -17,6 +19,7 @@ namespace octant::visuals::draworder {
 
 namespace {
 
+/// A half-space as a vector, whose dot product with a homogeneous point is the height.
 glm::dvec4 front_of(const Plane& plane) {
     return {plane.normal, plane.offset_m};
 }
@@ -88,7 +91,8 @@ std::optional<EyeRegion> EyeRegion::cut(const Plane& plane) const {
     return some_back ? cut_rays(front, heights) : *this;
 }
 
-/// The line becomes the one ray off the new facet; everything else slides along it onto the facet.
+/// The line becomes the one ray that is not on the new facet; everything else slides along it onto
+/// the facet.
 EyeRegion EyeRegion::cut_across_line(const glm::dvec4& front, std::size_t line) const {
     assert(facets_.size() <= most_planes);
     EyeRegion out = *this;
@@ -114,7 +118,7 @@ EyeRegion EyeRegion::cut_across_line(const glm::dvec4& front, std::size_t line) 
     return out;
 }
 
-/// Two rays of a cone span an edge of it unless a third lies on all facets that both lie on.
+/// Two rays of a cone span an edge of it unless a third one lies on all facets on which both lie.
 bool EyeRegion::adjacent(std::size_t a, std::size_t b) const {
     const Facets both = rays_[a].on & rays_[b].on;
     const bool share_enough =
@@ -177,7 +181,7 @@ glm::dvec3 EyeRegion::some_eye() const {
     return glm::dvec3(sum.x, sum.y, sum.z) / sum.w;
 }
 
-/// A facet is needless when all rays on it lie on another one, too.
+/// A facet is redundant when all rays on it lie on another facet, too.
 std::vector<Plane> EyeRegion::planes() const {
     std::vector<bool> kept(facets_.size(), true);
     for (std::size_t i = 1; i < facets_.size(); ++i) {

@@ -1,3 +1,6 @@
+// Outlines for the hiding test. Polygons of a model share edges, and rounding would let them
+// overlap a little and seem to hide one another; shrinking each outline by an inset that is larger
+// than the rounding prevents that.
 #include "visuals/draworder/face.h"
 
 #include <glm/geometric.hpp>
@@ -10,15 +13,17 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-/// Corners sharper than this are blunted no further, or they would run out of the polygon.
+/// At sharper corners the offset is limited, because they would move out of the polygon.
 constexpr double sharpest = 0.01;
 
+/// The unit normal of an edge that points into a counter-clockwise outline.
 glm::dvec2 inward_of(const glm::dvec2& from, const glm::dvec2& to) {
     const glm::dvec2 along = to - from;
     const double length = glm::length(along);
     return length > 0.0 ? glm::dvec2(-along.y, along.x) / length : glm::dvec2(0.0);
 }
 
+/// The outline with every edge moved inwards.
 std::vector<glm::dvec2> drawn_in(const std::vector<glm::dvec2>& outline, double inset) {
     glm::dvec2 middle(0.0);
     for (const glm::dvec2& corner : outline) {

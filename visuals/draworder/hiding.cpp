@@ -1,3 +1,6 @@
+// The exact hiding test; its derivation stands at HidingTest. It replaces steps 2 to 4 of the 1989
+// paper (paper_rule.cpp), which compare two polygons as seen from one viewpoint, by a test that is
+// right for every eye of a region.
 #include "visuals/draworder/hiding.h"
 
 #include "visuals/draworder/convex_separation.h"
@@ -17,20 +20,21 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// Whether a sine is, told from its product with a length whose square is given.
+/// Whether a sine is negative by more than rounding, given its product with a length and the square
+/// of that length.
 bool is_negative(double product, double square) {
     return product < 0.0 && square > rounding * rounding &&
            product * product > rounding * rounding * square;
 }
 
-/// A sector of at most half a turn, counter-clockwise from `low` to `high`.
+/// An angular sector of at most half a turn, counter-clockwise from `low` to `high`.
 class Sector {
 public:
     Sector(const glm::dvec2& low, const glm::dvec2& high)
         : low_(low)
         , high_(high) {}
 
-    /// Widens it to hold a direction; false when it would exceed half a turn.
+    /// Widens the sector to contain a direction; false when it would exceed half a turn.
     bool take(const glm::dvec2& direction) {
         const double square = glm::dot(direction, direction);
         const bool below = is_negative(cross(low_, direction), square);
@@ -114,7 +118,6 @@ void HidingTest::find_crossings(const Face& b, const Face& a, std::span<const gl
     }
 }
 
-/// Whether a line through a corner of b has b on one side and all crossings on the other.
 bool HidingTest::apart_at(const Face& b, std::size_t corner) const {
     const std::size_t count = b.flat.size();
     const glm::dvec2 at = b.flat[corner];

@@ -32,8 +32,8 @@ private:
     std::vector<std::uint64_t> words_;
 };
 
-/// Which polygons hide parts of which, for the eyes of some region: a square of bits. Row a holds
-/// those that hide part of a, which have to be painted after it.
+/// Which polygons hide parts of which others for the eyes of some region, as a square matrix of
+/// bits. Row a holds the polygons that hide part of a; they must be painted after it.
 class HidingGraph {
 public:
     explicit HidingGraph(std::size_t count)
@@ -43,6 +43,7 @@ public:
 
     std::size_t count() const { return count_; }
 
+    /// Whether b hides part of a.
     bool hides(std::size_t b, std::size_t a) const {
         return ((bits_[a * stride_ + b / 64] >> (b % 64)) & 1U) != 0;
     }
@@ -55,6 +56,7 @@ public:
         bits_[a * stride_ + b / 64] &= ~(std::uint64_t{1} << (b % 64));
     }
 
+    /// The polygons that hide part of a, one bit each.
     std::span<const std::uint64_t> row(std::size_t a) const {
         return std::span(bits_).subspan(a * stride_, stride_);
     }
@@ -63,10 +65,10 @@ public:
         return std::span(bits_).subspan(a * stride_, stride_);
     }
 
-    /// Adds a polygon with the pairs of another.
+    /// Adds a polygon with the same edges as another one: the second piece of a split polygon.
     void add_twin(std::size_t polygon);
 
-    /// All pairs between polygons of a set.
+    /// All edges between polygons of a set, as precedences.
     std::vector<Precedence> precedences(const PolygonSet& among) const;
 
 private:
@@ -75,7 +77,7 @@ private:
     std::vector<std::uint64_t> bits_;
 };
 
-/// Calls `visit` with the place of each bit that is set, lowest first.
+/// Calls `visit` with the index of each bit that is set, lowest first.
 template <typename Visit>
 void for_each_bit(std::span<const std::uint64_t> words, Visit visit) {
     for (std::size_t word = 0; word < words.size(); ++word) {

@@ -6,10 +6,11 @@
 
 namespace octant::visuals::draworder {
 
+/// The bound of a variable or row that has none on that side.
 inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// A linear programme: the variables that make the sum of weight * variable largest while all
-/// bounds hold. Meant for tens of variables and a few hundred rows, factors about 1.
+/// A linear programme: find the variables that make the sum of weight * variable largest while all
+/// bounds hold. Meant for tens of variables and a few hundred rows with factors of about 1.
 struct LinearProgramme {
     struct Variable {
         double weight = 0.0;
@@ -17,7 +18,8 @@ struct LinearProgramme {
         double most = unbounded;
     };
 
-    /// least <= sum of factors[i] * variable i <= most; one factor for each variable (asserted).
+    /// A constraint: least <= sum of factors[i] * variable i <= most, with one factor for each
+    /// variable (asserted).
     struct Row {
         std::vector<double> factors;
         double least = -unbounded;

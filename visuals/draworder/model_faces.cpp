@@ -1,3 +1,5 @@
+// From a model in metres to faces in units of its radius, with what is known about turning parts
+// before any eye is looked at: which polygons of one part hide which, and which parts collide.
 #include "visuals/draworder/model_faces.h"
 
 #include "visuals/draworder/components.h"
@@ -15,6 +17,7 @@ namespace octant::visuals::draworder {
 
 namespace {
 
+/// The radius of the model about a point; 1 for a model without extent.
 double farthest_m(const models::polygons::PolygonModel& model, const glm::dvec3& origin_m) {
     double farthest = 0.0;
     for (const std::uint32_t vertex : model.corner_vertices) {
@@ -23,6 +26,7 @@ double farthest_m(const models::polygons::PolygonModel& model, const glm::dvec3&
     return farthest > 0.0 ? farthest : 1.0;
 }
 
+/// Tolerances that suit how flat the model's polygons are.
 Tolerances tolerances_of(const models::polygons::PolygonModel& model, double unit_m) {
     double bent = 0.0;
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
@@ -37,6 +41,7 @@ Tolerances tolerances_of(const models::polygons::PolygonModel& model, double uni
     return tolerances;
 }
 
+/// The face of a polygon as it stands in the file.
 Face outline_of(
     const models::polygons::PolygonModel& model, std::size_t polygon, const ModelFaces& faces) {
     std::vector<glm::dvec3> corners;
@@ -47,8 +52,8 @@ Face outline_of(
     return outline_face(corners, plane, faces.tolerances.inset);
 }
 
-/// Pairs within one part, for eyes everywhere. Where they form cycles, the pairs that an order by
-/// number breaks are left out.
+/// Finds the edges within one turning part for eyes everywhere. Where they form cycles, those edges
+/// are left out that an order by polygon number breaks, and a note says so.
 void add_rigid_pairs(
     const models::polygons::PolygonModel& model, std::uint32_t pivot, ModelFaces& out) {
     HidingTest test(out.tolerances);
@@ -93,7 +98,7 @@ void add_rigid_pairs(
     }
 }
 
-/// Marks what a turning polygon runs into at some angle.
+/// Marks the pairs of a turning polygon with others that it collides with at some angle.
 void find_meetings(
     const models::polygons::PolygonModel& model, std::size_t polygon, ModelFaces& out) {
     const HidingTest test(out.tolerances);

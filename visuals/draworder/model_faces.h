@@ -11,27 +11,30 @@
 
 namespace octant::visuals::draworder {
 
-/// A model made ready for hiding tests: face i stands in for polygon i. Lengths are in units of the
-/// model's radius about `origin_m`, from there.
+/// A model prepared for hiding tests: face i stands for polygon i. The unit of length is the
+/// model's radius about `origin_m`, which is the origin; axes are the body's.
 struct ModelFaces {
     std::vector<Face> faces;
     Tolerances tolerances;
     glm::dvec3 origin_m{0.0};
     double unit_m = 1.0;
-    HidingGraph rigid; ///< pairs within turning parts, which hold for every eye; without cycles
-    HidingGraph
-        ignored; ///< pairs that meet as they turn, both ways; no order can be right for them
-    std::vector<std::string> notes; ///< turning parts whose polygons no order paints rightly
+    /// Edges within turning parts, whose polygons keep their places to each other. They hold for
+    /// every eye and have no cycles.
+    HidingGraph rigid;
+    /// Pairs that collide as they turn, in both directions; no order can be right for them.
+    HidingGraph ignored;
+    /// Messages about turning parts whose polygons no order paints correctly.
+    std::vector<std::string> notes;
 
-    /// A plane of the faces' space in the model's.
+    /// Converts a plane of the faces' space to body axes, metres.
     Plane in_model(const Plane& plane) const;
 
-    /// A plane of the model in the faces' space.
+    /// Converts a plane in body axes to the faces' space.
     Plane in_faces(const Plane& plane) const;
 };
 
-/// Outlines are drawn in by 1e-6 of the radius or, in models whose polygons are less flat than
-/// that, by twice the largest distance of a corner from its polygon's plane.
+/// Prepares a model. Outlines are shrunk by 1e-6 of the radius or, in models whose polygons are
+/// less flat than that, by twice the largest distance of a corner from its polygon's plane.
 ModelFaces model_faces(const models::polygons::PolygonModel& model, const glm::dvec3& origin_m);
 
 } // namespace octant::visuals::draworder

@@ -1,3 +1,5 @@
+// Method::Cells: the octants of the 1989 paper, divided as its section IV asks, with the exact
+// hiding test (hiding.h) instead of the paper's rule. octant_cells.h describes the division.
 #include "visuals/draworder/octant_cells.h"
 
 #include "visuals/draworder/octant_order.h"
@@ -14,16 +16,19 @@ namespace octant::visuals::draworder {
 
 namespace {
 
+/// Octants are divided into quarters at most so often, then by planes.
 constexpr int most_levels = 1;
 
+/// The corners A, B, C of a cell's flat triangle.
 using Triangle = std::array<glm::dvec3, 3>;
 
-/// The plane through the origin and two points, with a third in front of it.
+/// The plane through the origin and two points, oriented so that a third point is in front of it.
 Plane through_origin(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& in_front) {
     const glm::dvec3 normal = glm::normalize(glm::cross(a, b));
     return {glm::dot(normal, in_front) >= 0.0 ? normal : -normal, 0.0};
 }
 
+/// The four children of a triangle.
 std::array<Triangle, 4> quarters(const Triangle& corners) {
     const auto& [a, b, c] = corners;
     const glm::dvec3 ab = (a + b) / 2.0;
@@ -32,7 +37,7 @@ std::array<Triangle, 4> quarters(const Triangle& corners) {
     return {{{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}}};
 }
 
-/// What an octant is part of: all eyes of it that are far enough.
+/// The region of an octant's eyes from the least distance on.
 EyeRegion octant_region(const glm::dvec3& signs, double least_distance) {
     EyeRegion region = EyeRegion::everywhere();
     for (int axis = 0; axis < 3; ++axis) {
@@ -43,12 +48,15 @@ EyeRegion octant_region(const glm::dvec3& signs, double least_distance) {
     return *region.cut({signs / std::sqrt(3.0), -least_distance / std::sqrt(3.0)});
 }
 
+/// A finished cell.
 struct Cell {
     std::vector<std::uint32_t> list;
     std::string path;
     std::vector<Plane> planes;
 };
 
+/// Builds the tree of all octants. Its functions return children as DrawOrder::Node has them: node
+/// numbers >= 0 or ~cell.
 class CellBuilder {
 public:
     CellBuilder(WorkingModel& work, double least_distance)
@@ -61,9 +69,12 @@ public:
     OctantCells cells;
 
 private:
+    /// The subtree of the octants that differ from `first` in the signs of axes 0 to `axis`.
     int octants(int first, int axis);
+    /// The subtree of a cell, which is divided as far as it needs.
     int divide(EyeNode node, const Triangle& corners, const std::string& path, int level);
     int add_cell(Cell cell);
+    /// The subtree of a quarter that is divided by planes.
     int by_planes(const EyeNode& node, const Triangle& corners, const std::string& path);
     int add_node(const Plane& plane);
 
@@ -73,7 +84,7 @@ private:
     RegionGraphs graphs_;
     double least_distance_;
     std::size_t entries_ = 0;
-    std::vector<std::size_t> made_at_; ///< how many polygons there were then
+    std::vector<std::size_t> made_at_; ///< For each cell the number of polygons when it was made.
 };
 
 int CellBuilder::add_node(const Plane& plane) {
@@ -81,7 +92,7 @@ int CellBuilder::add_node(const Plane& plane) {
     return static_cast<int>(nodes().size() - 1);
 }
 
-/// Planes of the cone over a triangle.
+/// The planes of the cone from the origin over a triangle.
 std::vector<Plane> cone_of(const Triangle& corners) {
     const auto& [a, b, c] = corners;
     return {through_origin(b, c, a), through_origin(c, a, b), through_origin(a, b, c)};
@@ -97,7 +108,8 @@ int CellBuilder::add_cell(Cell cell) {
     return ~static_cast<int>(cells.lists.size() - 1);
 }
 
-/// Goes down a tree of planes and collects the fronts that make up each of its cells.
+/// Walks down a tree of planes and collects for each cell the half-spaces that it is the
+/// intersection of.
 void collect_fronts(
     const RegionTree& tree,
     int at,
@@ -134,7 +146,6 @@ int CellBuilder::by_planes(const EyeNode& node, const Triangle& corners, const s
     return moved(top);
 }
 
-/// The number of the node or cell made.
 int CellBuilder::divide(EyeNode node, const Triangle& corners, const std::string& path, int level) {
     if (work_.catch_up(node)) {
         node = part_of(graphs_, node, node.region);
@@ -177,7 +188,6 @@ int CellBuilder::divide(EyeNode node, const Triangle& corners, const std::string
     return at[0];
 }
 
-/// Signs are told by z, then y, then x, as octant_of() does.
 int CellBuilder::octants(int first, int axis) {
     if (axis < 0) {
         const glm::dvec3 signs = octant_signs(first);

@@ -9,25 +9,28 @@
 
 namespace octant::visuals::draworder {
 
-/// The octants about the faces' origin, each divided until its cells have orders. Planes are in
-/// the faces' space.
+/// The octants about the faces' origin, each divided until its cells have orders. Planes are in the
+/// faces' space.
 struct OctantCells {
-    std::vector<DrawOrder::Node> nodes; ///< node 0 first, children behind their parents
+    std::vector<DrawOrder::Node> nodes; ///< Node 0 is the root; children come after their parents.
     std::vector<std::vector<std::uint32_t>> lists;
-    std::vector<std::string> paths;              ///< "+-+/0/3"; cells divided by planes share one
-    std::vector<std::vector<Plane>> cell_planes; ///< without the distance
+    /// Such as "+-+/0/3"; cells that were divided by planes share one.
+    std::vector<std::string> paths;
+    std::vector<std::vector<Plane>> cell_planes; ///< Without the plane of the least distance.
 };
 
 /// Section IV of the 1989 paper: "divide the viewing directions further until all hidden surfaces
-/// are removed". Lists are right for eyes with |x| + |y| + |z| >= least_distance from the origin.
+/// are removed". The lists are right for eyes with |x| + |y| + |z| >= least_distance from the
+/// origin.
 ///
 /// Octant "sx sy sz" is the flat triangle A = (sx, 0, 0), B = (0, sy, 0), C = (0, 0, sz) as seen
-/// from the origin. Where its graph has a cycle it is divided at the middles of its sides into 0 =
-/// (A, AB, CA), 1 = (AB, B, BC), 2 = (CA, BC, C), 3 = (BC, CA, AB). A quarter that is still cyclic
-/// is divided by planes as in region_tree.h: cones about one centre do not come close to a plane
-/// that misses it, however fine they are, and each level of them means more cells than it saves.
+/// from the origin. Where its graph has a cycle it is divided at the midpoints of its sides into 0
+/// = (A, AB, CA), 1 = (AB, B, BC), 2 = (CA, BC, C), 3 = (BC, CA, AB). A quarter that is still
+/// cyclic is divided by planes as in region_tree.h: cones about one centre cannot approximate a
+/// plane that misses the centre, however fine they are, and each further level of them makes more
+/// cells than it saves.
 ///
-/// Splits polygons of the model where there would be no order. Throws Error when there are more
+/// Splits polygons of the model where there is no order otherwise. Throws Error when there are more
 /// cells than can be held.
 OctantCells octant_cells(WorkingModel& work, double least_distance);
 

@@ -36,7 +36,7 @@ glm::dvec3 first_corner_m(const models::polygons::PolygonModel& model, std::size
     return model.vertices_m[model.corners(polygon)[0]];
 }
 
-/// Step 1: n . l > 0.
+/// Step 1, n . l > 0: whether a polygon is seen from a point.
 bool faces_point(
     const models::polygons::PolygonModel& model, std::size_t polygon, const glm::dvec3& point_m) {
     const glm::dvec3 normal = models::polygons::normal_of(model, polygon);
@@ -44,8 +44,8 @@ bool faces_point(
 }
 
 /// Whether n . (eye - V1) > 0 for some eye of the octant with |eye| >= R. If a component of n has
-/// the octant's sign, eyes far out along its axis see the front. If none has, n . eye is largest
-/// at distance R on the axis where n has its smallest component.
+/// the octant's sign, eyes far out along its axis see the front. If none has, n . eye is largest at
+/// distance R on the axis where n has its smallest component.
 bool faces_some_eye(
     const models::polygons::PolygonModel& model,
     std::size_t polygon,
@@ -61,6 +61,7 @@ bool faces_some_eye(
     return std::min(largest, 0.0) * radius_m - offset_m > least_component * radius_m;
 }
 
+/// The polygons of an octant's list, ascending.
 std::vector<std::uint32_t> listed_polygons(
     const models::polygons::PolygonModel& model,
     const PaperOptions& options,
@@ -79,7 +80,7 @@ std::vector<std::uint32_t> listed_polygons(
     return listed;
 }
 
-/// Step 5: all pairs. The precedences speak of places in `polygons`.
+/// Step 5: compares all pairs. The precedences hold indices into `polygons`.
 std::vector<Precedence> all_pairs(std::span<const ScreenPolygon> polygons) {
     std::vector<Precedence> precedences;
     for (std::uint32_t a = 0; a < polygons.size(); ++a) {

@@ -1,7 +1,6 @@
-// A certificate for painting orders after the rule of separation.cpp, which is the condition of the
-// exact orders turned round: they look for what hides what, this looks for planes that prove that
-// nothing does.
-
+// A certificate for painting orders, the exact rule turned round: the code that finds orders looks
+// for what hides what, and this code looks for planes which prove that nothing does. It shares no
+// code with the search, so that a mistake there cannot repeat itself here.
 #include "visuals/draworder/order_check.h"
 
 #include "visuals/draworder/check_shape.h"
@@ -16,11 +15,12 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-/// Sine of the angle below which a plane stays where it is when it turns about an axis.
+/// The sine of the angle below which a plane stays where it is when it turns about an axis.
 constexpr double along_axis = 1e-9;
 
 using Planes = std::vector<Plane>;
 
+/// One run of certify.
 class Certifying {
 public:
     Certifying(const models::polygons::PolygonModel& model, const CellOrders& orders)
@@ -62,6 +62,7 @@ private:
         }
     }
 
+    /// Checks that a polygon which a cell does not list faces away from all its eyes.
     void check_unlisted(std::size_t cell, std::uint32_t polygon) {
         ++check_.unlisted;
         const auto& fronts = shapes_[polygon].swept_fronts;
@@ -73,6 +74,7 @@ private:
         }
     }
 
+    /// Checks that a polygon hides nothing of one that is painted later.
     void check_pair(std::size_t cell, std::uint32_t first, std::uint32_t later) {
         ++check_.pairs;
         switch (certificate(shapes_[first], shapes_[later])) {
@@ -88,7 +90,7 @@ private:
         }
     }
 
-    /// The weakest over the sides from which each of the two is seen.
+    /// The weakest certificate over the sides from which each of the two polygons is seen.
     Certificate certificate(const CheckShape& near_one, const CheckShape& far_one) const {
         const bool rigid = near_one.pivot == far_one.pivot;
         const Planes region = rigid && near_one.pivot ? unturned(*near_one.pivot) : region_;
@@ -109,7 +111,7 @@ private:
         return weakest;
     }
 
-    /// For each side from which a polygon is seen, the planes before which those eyes lie.
+    /// For each side from which a polygon is seen, the planes that those eyes are in front of.
     static std::vector<Planes> sides_of(const CheckShape& shape, bool rigid) {
         if (!rigid && shape.swept_fronts.size() != shape.fronts.size()) {
             return {Planes{}};
@@ -121,7 +123,8 @@ private:
         return sides;
     }
 
-    /// The region as a turning part sees it: planes that turn with the eye hold at no angle.
+    /// The region as a turning part sees it: only planes perpendicular to its axis hold at every
+    /// angle.
     Planes unturned(std::uint32_t pivot) const {
         Planes planes;
         std::ranges::copy_if(region_, std::back_inserter(planes), [&](const Plane& plane) {
@@ -140,7 +143,7 @@ private:
     const CellOrders& orders_;
     CheckFrame frame_;
     std::vector<CheckShape> shapes_;
-    Planes region_; ///< of the cell that is checked
+    Planes region_; ///< The region of the cell that is being checked.
     OrderCheck check_;
 };
 

@@ -1,3 +1,5 @@
+// Painting orders in words: the 1989 paper's table 4 for any model, for `octant draw-order --table`
+// and the panels of the window.
 #include "visuals/draworder/order_table.h"
 
 #include "visuals/draworder/order_text.h"
@@ -13,7 +15,7 @@ namespace octant::visuals::draworder {
 namespace {
 
 constexpr double same_normal = 1e-9;
-constexpr double shown_component = 5e-4; ///< below it a component is 0.000
+constexpr double shown_component = 5e-4; ///< Below this a component would be shown as 0.000.
 
 bool same(const Plane& a, const Plane& b, double tolerance_m) {
     return glm::distance(a.normal, b.normal) < same_normal &&
@@ -24,7 +26,7 @@ std::string number(double value) {
     return fmt::format("{:.4g}", value + 0.0);
 }
 
-/// Such as "0.6 x - 0.8 y".
+/// A linear form in words, such as "0.6 x - 0.8 y".
 std::string sum_in_words(const glm::dvec3& normal) {
     std::string text;
     for (int axis = 0; axis < 3; ++axis) {
@@ -38,6 +40,7 @@ std::string sum_in_words(const glm::dvec3& normal) {
     return text;
 }
 
+/// A half-space in words.
 std::string in_words(
     const Plane& plane,
     const models::polygons::PolygonModel& model,
@@ -119,7 +122,7 @@ std::vector<OrderRow> order_table(
         row.list = list_in_words(cell.list);
         rows.push_back(std::move(row));
     }
-    if (only_octants) { // '+' sorts before '-'
+    if (only_octants) { // The character '+' sorts before '-', which is the paper's order.
         std::ranges::stable_sort(rows, {}, &OrderRow::cell);
     }
     return rows;

@@ -11,24 +11,27 @@
 
 namespace octant::visuals::draworder {
 
-/// One line of a table of painting orders in the form of the 1989 paper's table 4.
+/// One row of a table of painting orders, in the form of the 1989 paper's table 4.
 struct OrderRow {
-    std::string cell;   ///< octant path in the file's axes, or the cell's number from 1
-    std::string region; ///< of other cells, in words: "in front of P3, y < 1.2"; often empty
-    std::string list;   ///< "P1, P7, P2": counted from 1, first painted first
+    std::string cell; ///< The octant path in the file's axes, or the cell's number counted from 1.
+    /// For other cells their planes in words: "in front of P3, y < 1.2"; often empty.
+    std::string region;
+    std::string list; ///< Such as "P1, P7, P2": counted from 1, first painted first.
 };
 
-/// "P1, P7, P2" for 0, 6, 1.
+/// The list 0, 6, 1 as "P1, P7, P2".
 std::string list_in_words(std::span<const std::uint32_t> list);
 
 /// The planes of a cell in words, in the axes of the model's file: a polygon's plane by the
-/// polygon, one across an axis as x > 2, others as 0.6 x - 0.8 y > 1. "everywhere" without planes.
+/// polygon, one perpendicular to an axis as x > 2, others as 0.6 x - 0.8 y > 1. Without planes it
+/// is "everywhere".
 std::string region_in_words(
     std::span<const Plane> planes,
     const models::polygons::PolygonModel& model,
     const models::polygons::FileAxes& axes);
 
-/// The rows of all cells: octants in the paper's order (+++, ++-, +-+, ...), others as they are.
+/// The rows of all cells: octants in the paper's order (+++, ++-, +-+, ...), other cells as they
+/// come.
 std::vector<OrderRow> order_table(
     const models::polygons::PolygonModel& model,
     const CellOrders& orders,

@@ -1,3 +1,5 @@
+// Writes painting orders in the text format that order_text.h describes, and converts octant paths
+// between body axes and the axes of a model file.
 #include "visuals/draworder/order_text.h"
 
 #include <cassert>
@@ -40,7 +42,8 @@ std::string region_text(const ListedCell& cell, const models::polygons::FileAxes
     return text;
 }
 
-/// Where axis `axis` (0 .. 2) of one system lies in the other: its place and sign there.
+/// Where one axis of a coordinate system points in another one: along which axis, and whether in
+/// the opposite direction.
 struct AxisPlace {
     std::size_t axis = 0;
     bool turned_round = false;
@@ -56,8 +59,9 @@ AxisPlace place_of(const glm::dvec3& unit) {
     return {};
 }
 
-/// Signs move with their axes; child 0, 1, 2 is the one at the corner on axis x, y, z, and the
-/// corners of each child are named alike, so that every level changes in the same way.
+/// Converts an octant path to other axes. Signs move with their axes. Children 0, 1, 2 are those at
+/// the corners on x, y, z, and the corners of each child are named alike, so that every level
+/// changes in the same way.
 template <typename ToOther>
 std::string with_axes_changed(const std::string& path, ToOther to_other) {
     assert(is_octant_path(path));

@@ -1,3 +1,5 @@
+// Reads painting orders in the text format that order_text.h describes. Every message names the
+// file, the line, what was expected and what was found.
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "visuals/draworder/order_text.h"
@@ -14,11 +16,12 @@ namespace octant::visuals::draworder {
 namespace {
 
 constexpr double largest_number = 1e12;
-constexpr double least_length = 1e-12; ///< of a normal or a direction
+constexpr double least_length = 1e-12; ///< A normal or direction must be longer than this.
 constexpr long most_planes = 1000;
 constexpr long most_directions = 64;
 constexpr std::size_t most_cells = 1'000'000;
 
+/// The reading of one file, line by line and word by word.
 class OrderReading {
 public:
     OrderReading(
@@ -51,6 +54,7 @@ public:
     }
 
 private:
+    /// Throws Error about the word at hand.
     [[noreturn]] void refuse(const std::string& expected) const {
         const std::string got =
             at_ < words_.size() ? fmt::format("'{}'", printable(std::string(words_[at_]))) : "none";
@@ -81,6 +85,7 @@ private:
         return axes_.body_from_file({x, y, z});
     }
 
+    /// A vector that must not be zero.
     glm::dvec3 long_vector(const char* what) {
         const glm::dvec3 v = vector(what);
         if (glm::length(v) < least_length) {
@@ -104,7 +109,7 @@ private:
         return static_cast<std::uint32_t>(count("a polygon of the model", 0, last));
     }
 
-    /// Polygons up to the end of the line, none of them twice.
+    /// The polygons up to the end of the line, none of them twice.
     std::vector<std::uint32_t> different_faces() {
         std::vector<std::uint32_t> list;
         while (at_ < words_.size()) {
@@ -204,6 +209,7 @@ private:
         orders_.cells.push_back(std::move(cell));
     }
 
+    /// A number that must not be negative.
     double least_zero(const char* what) {
         const double value = number(what);
         if (value < 0.0) {
@@ -213,6 +219,7 @@ private:
         return value;
     }
 
+    /// Reads a cell's region and makes its planes.
     void take_region(ListedCell& cell) {
         if (skip("cone")) {
             const long directions = count("how many directions", 3, most_directions);
@@ -254,7 +261,7 @@ private:
     std::filesystem::path path_;
     models::polygons::FileAxes axes_;
     CellOrders orders_;
-    std::vector<bool> used_; ///< all false between lines
+    std::vector<bool> used_; ///< One flag for each polygon; all are false between lines.
     std::set<std::string> seen_;
     std::vector<std::string_view> words_;
     std::size_t at_ = 0;

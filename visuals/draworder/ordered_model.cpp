@@ -1,3 +1,7 @@
+// The three ways to the orders of a model, and the choice among several results. The exact methods
+// first cut polygons that pass through one another (split.cpp), then search over regions of eyes.
+// As the searches are greedy, small models are searched several times with other weights or other
+// centres; the result with the fewest splits, then with the fewest cells, is kept.
 #include "visuals/draworder/ordered_model.h"
 
 #include "visuals/draworder/cell_centres.h"
@@ -19,11 +23,12 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-/// Larger models have their octants meet at the origin.
+/// In larger models the octants always meet at the origin.
 constexpr std::size_t most_polygons_with_choice = 200;
-/// Models with more pairs on rings get the first search only.
+/// Models with more cyclic edges get one quick search only.
 constexpr std::size_t most_edges_searched_again = 2'000;
 
+/// The searches whose results are compared.
 const std::array<TreeSearch, 3> tree_searches{{{.power = 1.0}, {.power = 0.5}, {.power = 1.5}}};
 const TreeSearch quick_search{.edge_planes = 300, .closer = 48, .exact = 2};
 
@@ -43,7 +48,7 @@ OrderedModel by_paper(models::polygons::PolygonModel model, const OrderOptions& 
     return out;
 }
 
-/// Cells and lists of a model, planes in the space of its faces.
+/// The cells and lists of a model, with planes in the space of its faces.
 struct Orders {
     WorkingModel work;
     std::vector<DrawOrder::Node> nodes;
@@ -51,6 +56,7 @@ struct Orders {
     std::vector<OrderCell> cells;
 };
 
+/// Whether one result is better: fewer splits, then fewer cells.
 bool fewer(const Orders& a, const Orders& b) {
     return std::pair(a.work.twins.size(), a.cells.size()) <
            std::pair(b.work.twins.size(), b.cells.size());
@@ -106,6 +112,7 @@ Orders best_cells(const models::polygons::PolygonModel& model, double least_dist
     return std::move(*best);
 }
 
+/// Finds the orders by Cells or Tree and converts them to body axes.
 OrderedModel exact(models::polygons::PolygonModel model, const OrderOptions& options) {
     const int penetrating = split_penetrating(model);
     const bool by_cells = options.method == Method::Cells;

@@ -30,23 +30,26 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-constexpr double equal_within = 1e-9;
+constexpr double equal_within = 1e-9; ///< Depths and shares that differ by no more count as equal.
 
+/// The cross product on the screen.
 double cross(const glm::dvec3& a, const glm::dvec3& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// Depths of two edges where they cross on the screen.
+/// The depths of two edges where they cross on the screen.
 struct Crossing {
     double depth_a = 0.0;
     double depth_b = 0.0;
 };
 
+/// Whether a point is between the ends of an edge, given its share of the way along it.
 bool inside_edge(double share) {
     return share >= -equal_within && share <= 1.0 + equal_within;
 }
 
-/// Nothing for edges that are parallel, coincident, seen end-on or that do not meet (13)-(20).
+/// The crossing of two edges, (13)-(20). Nothing for edges that are parallel, coincident, seen
+/// end-on or that do not meet.
 std::optional<Crossing> crossing(
     const glm::dvec3& a_from,
     const glm::dvec3& a_to,
@@ -66,7 +69,7 @@ std::optional<Crossing> crossing(
     return Crossing{a_from.z + share_a * a.z, b_from.z + share_b * b.z};
 }
 
-/// Step 2, (5)-(8).
+/// Step 2, (5)-(8): decides by the depth ranges.
 First by_depth_range(const ScreenPolygon& a, const ScreenPolygon& b) {
     const double most = a.most.z - b.most.z;
     const double least = a.least.z - b.least.z;
@@ -79,13 +82,13 @@ First by_depth_range(const ScreenPolygon& a, const ScreenPolygon& b) {
     return First::Either;
 }
 
-/// Step 3, (9)-(12).
+/// Step 3, (9)-(12): whether the screen bounding boxes are disjoint.
 bool boxes_apart(const ScreenPolygon& a, const ScreenPolygon& b) {
     return a.most.x < b.least.x || b.most.x < a.least.x || a.most.y < b.least.y ||
            b.most.y < a.least.y;
 }
 
-/// Step 4.
+/// Step 4, (13)-(29): decides by the depths at the first true crossing of two edges.
 First by_first_crossing(const ScreenPolygon& a, const ScreenPolygon& b) {
     for (std::size_t i = 0; i < a.corners.size(); ++i) {
         for (std::size_t j = 0; j < b.corners.size(); ++j) {

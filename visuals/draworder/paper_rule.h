@@ -8,18 +8,18 @@
 
 namespace octant::visuals::draworder {
 
-/// How the paper's screen coordinates are made from a viewpoint; the paper does not say.
+/// How screen coordinates are made from a viewpoint; the paper does not say.
 enum class Screen {
-    Parallel,   ///< seen from afar along the line viewpoint -> origin
-    Perspective ///< seen from the viewpoint, which looks at the origin
+    Parallel,   ///< A parallel projection along the line from the viewpoint to the origin.
+    Perspective ///< A perspective projection from the viewpoint, which looks at the origin.
 };
 
-/// Body axes to screen coordinates (Xs, Ys, Zs), larger Zs = nearer to the eye. Straight lines and
-/// planes stay straight. Coordinates are in units of `scale_m` near the origin.
+/// Maps body axes to screen coordinates (Xs, Ys, Zs), where a larger Zs is nearer to the eye.
+/// Straight lines and planes stay straight. Near the origin coordinates are in units of `scale_m`.
 class ScreenView {
 public:
-    /// The viewpoint is not the origin, scale_m > 0 (asserted). For Screen::Perspective every point
-    /// that is turned into screen coordinates must lie before the viewpoint.
+    /// The viewpoint must not be the origin, and scale_m > 0 (asserted). With Screen::Perspective
+    /// every point that is mapped must be in front of the viewpoint (asserted).
     ScreenView(const glm::dvec3& viewpoint_m, Screen screen, double scale_m);
 
     glm::dvec3 screen_from_body(const glm::dvec3& point_m) const;
@@ -33,21 +33,22 @@ private:
     Screen screen_;
 };
 
-/// A polygon on the screen and its bounds.
+/// A polygon in screen coordinates, with its bounding box.
 struct ScreenPolygon {
     std::vector<glm::dvec3> corners;
     glm::dvec3 least{0.0};
     glm::dvec3 most{0.0};
 };
 
+/// A polygon of the model in screen coordinates.
 ScreenPolygon
 on_screen(const models::polygons::PolygonModel& model, std::size_t polygon, const ScreenView& view);
 
-/// Which of two polygons has to be painted first.
+/// Which of two polygons must be painted first.
 enum class First { A, B, Either };
 
-/// Steps 2 to 4 of the paper for one pair of polygons: depth ranges, bounding boxes, first true
-/// crossing of their edges. O(corners of a * corners of b).
+/// Steps 2 to 4 of the paper for one pair of polygons: depth ranges, bounding boxes, and the first
+/// true crossing of their edges. The time is that of comparing all edges of a with all of b.
 First paint_first(const ScreenPolygon& a, const ScreenPolygon& b);
 
 } // namespace octant::visuals::draworder

@@ -6,8 +6,9 @@
 
 namespace octant::visuals::draworder {
 
-/// Calls both, the first on a thread of its own if `worthwhile`, and gives what they return. They
-/// share nothing that either writes to, so that the result is the same either way.
+/// Calls both functions, the first one on a thread of its own if `worthwhile`, and returns both
+/// results. Neither may write to what the other one uses, so that the result is the same either
+/// way.
 template <typename First, typename Second>
 auto both(bool worthwhile, First first, Second second) {
     auto there =

@@ -1,3 +1,7 @@
+// The first and coarsest of three judgements in the search for a plane (region_tree.cpp). For eyes
+// in front of a plane, a polygon behind it or in it cannot hide one in front of it or in it, so
+// such edges disappear; counting them takes a few operations on rows of bits. What remains may
+// still contain edges that the exact test would remove.
 #include "visuals/draworder/plane_judge.h"
 
 #include "visuals/draworder/bit_count.h"
@@ -12,13 +16,14 @@ namespace octant::visuals::draworder {
 
 namespace {
 
+/// Of a component at most about this many rows are looked at.
 constexpr std::size_t most_rows = 192;
 
 bool has(const std::vector<std::uint64_t>& words, std::size_t first_word, std::size_t bit) {
     return ((words[first_word + bit / 64] >> (bit % 64)) & 1U) != 0;
 }
 
-/// The middle of the corners and the distance of the farthest.
+/// A bounding sphere: the mean of the corners and the distance of the farthest one.
 std::pair<glm::dvec3, double> ball_around(const std::vector<glm::dvec3>& corners) {
     glm::dvec3 middle(0.0);
     for (const glm::dvec3& corner : corners) {
@@ -45,6 +50,7 @@ PlaneJudge::PlaneJudge(const ModelFaces& model, const Cycles& cycles)
     }
 }
 
+/// Adds the rows of a component.
 void PlaneJudge::add(const HidingGraph& graph, const std::vector<std::uint32_t>& component) {
     const std::size_t words = (component.size() + 63) / 64;
     const std::size_t step = component.size() / most_rows + 1;
@@ -96,7 +102,9 @@ void PlaneJudge::look_at(const Plane& plane) {
     }
 }
 
-/// Edges that do not end on one side of a plane.
+/// The number of edges that do not disappear on one side of the plane: `hidden` are the polygons on
+/// that side or in the plane, `hiding` those on the other side or in it, and `unseen` those that
+/// face away from all eyes there.
 std::size_t PlaneJudge::left(const Words& hidden, const Words& hiding, const Words& unseen) const {
     std::size_t ended = 0;
     Words mask;

@@ -13,31 +13,39 @@
 
 namespace octant::visuals::draworder {
 
-/// Judges planes by what they leave of the edges on cycles, from where polygons lie to them alone:
-/// quickly, so that thousands can be looked at. Holds each component's edges in rows of its own, so
-/// that small components of large models cost little; of large components it looks at some rows
-/// only, evenly spread, which stand for all. Keeps a reference to the faces.
+/// Estimates what a plane that cuts eye space leaves of the cyclic edges, from where polygons lie
+/// to the plane alone. This is quick, so that thousands of planes can be judged. The edges of each
+/// component are held in rows of their own, so that small components of large models cost little;
+/// of large components only some rows are looked at, evenly spread, and stand for all. Keeps a
+/// reference to the faces.
 class PlaneJudge {
 public:
     PlaneJudge(const ModelFaces& model, const Cycles& cycles);
 
+    /// Turns to a plane.
     void look_at(const Plane& plane);
 
-    /// Edges of the cycles that the plane looked at leaves on one of its sides, in rings or not.
+    /// The number of cyclic edges that remain for eyes in front of the plane, whether still on
+    /// cycles or not.
     std::size_t left_in_front() const;
+    /// The same for eyes behind the plane.
     std::size_t left_behind() const;
 
 private:
-    /// A polygon, the ball around it, and where its component's words begin.
+    /// A polygon of a component, with a bounding sphere, and where its bits are.
     struct Member {
         std::uint32_t polygon = 0;
         glm::dvec3 middle{0.0};
         double radius = 0.0;
+        /// The index of its component's first word in the sets below.
         std::size_t first_word = 0;
-        std::size_t bit = 0; ///< from the first word on
+        /// Its own bit, counted from that word.
+        std::size_t bit = 0;
+        /// The index of its row's first word in rows_.
         std::size_t first_row_word = 0;
         std::size_t words = 0;
-        std::size_t weight = 0; ///< how many rows its row stands for
+        /// How many rows its row stands for; 0 when it has none.
+        std::size_t weight = 0;
     };
 
     using Words = std::vector<std::uint64_t>;

@@ -1,3 +1,6 @@
+// Topological sorting after A. B. Kahn, "Topological sorting of large networks", 1962, with a
+// priority queue so that the result is unique. The 1989 paper does not say how a sequence is made
+// from its pairs (step 5).
 #include "visuals/draworder/precedence.h"
 
 #include <cassert>
@@ -10,6 +13,7 @@ namespace {
 
 constexpr std::uint32_t nobody = ~std::uint32_t{0};
 
+/// One run of the sorting.
 class Sequencer {
 public:
     Sequencer(std::size_t count, std::span<const Precedence> precedences)
@@ -46,6 +50,7 @@ public:
     }
 
 private:
+    /// Paints a polygon and releases those that waited for it.
     void paint(std::uint32_t polygon) {
         painted_[polygon] = true;
         for (const std::uint32_t later : later_[polygon]) {
@@ -56,6 +61,7 @@ private:
         }
     }
 
+    /// The unpainted polygon that waits for the fewest others.
     std::uint32_t least_waiting() const {
         std::uint32_t best = nobody;
         for (std::uint32_t polygon = 0; polygon < later_.size(); ++polygon) {

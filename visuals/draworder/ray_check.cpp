@@ -1,3 +1,7 @@
+// An independent test of painting orders by sampling: along each ray the polygon that is painted
+// last must be the one nearest to the eye. It finds gaps between cells, which the certificate
+// (order_check.cpp) cannot see, and it measures how wrong an inexact order is: the share of wrong
+// pixels.
 #include "visuals/draworder/ray_check.h"
 
 #include "sim/base/dice.h"
@@ -13,9 +17,10 @@ namespace octant::visuals::draworder {
 
 namespace {
 
+/// The distance of a polygon that a ray misses.
 constexpr double missed = std::numeric_limits<double>::infinity();
 
-/// A polygon as inner half-spaces, for quick ray tests.
+/// A polygon as a plane and the half-spaces within it, for quick ray tests.
 struct Facet {
     glm::dvec3 normal{0.0};
     glm::dvec3 point_m{0.0};
@@ -24,6 +29,7 @@ struct Facet {
     std::vector<glm::dvec3> inward;
 };
 
+/// The facet of a polygon when its part has turned by an angle.
 Facet facet_of(const models::polygons::PolygonModel& model, std::size_t polygon, double turn_rad) {
     Facet facet;
     facet.normal = models::polygons::normal_of(model, polygon);
@@ -47,7 +53,7 @@ Facet facet_of(const models::polygons::PolygonModel& model, std::size_t polygon,
     return facet;
 }
 
-/// Distance along the ray to the facet's front.
+/// The distance along a ray to the front of a facet, or `missed`.
 double front_hit(const Facet& facet, const glm::dvec3& eye_m, const glm::dvec3& ray) {
     const double slope = glm::dot(ray, facet.normal);
     const double height_m = glm::dot(eye_m - facet.point_m, facet.normal);
@@ -64,7 +70,8 @@ double front_hit(const Facet& facet, const glm::dvec3& eye_m, const glm::dvec3& 
     return at;
 }
 
-/// A target on the disc of radius R around the origin, across the line of sight.
+/// A random point on the disc of radius R around the origin that is perpendicular to the line of
+/// sight.
 glm::dvec3 target_on_disc(Dice& dice, const glm::dvec3& eye_m, double radius_m) {
     const glm::dvec3 ahead = glm::normalize(eye_m);
     const glm::dvec3 aside = std::abs(ahead.x) > 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
@@ -76,6 +83,7 @@ glm::dvec3 target_on_disc(Dice& dice, const glm::dvec3& eye_m, double radius_m) 
            up * (from_middle_m * std::sin(angle_rad));
 }
 
+/// Random eyes and rays, and what they see.
 class Sampling {
 public:
     Sampling(
@@ -94,6 +102,7 @@ public:
         hit_.resize(facets_.size());
     }
 
+    /// The next random eye, body axes.
     glm::dvec3 next_eye_m() {
         glm::dvec3 direction = dice_.direction();
         if (samples_.octant >= 0) {
@@ -105,6 +114,7 @@ public:
                (radius_m_ * samples_.least_distance_radii * std::exp(spread * dice_.next()));
     }
 
+    /// Sends rays from an eye and compares what is painted last with what is nearest.
     void look(const glm::dvec3& eye_m, std::span<const std::uint32_t> painted, RayCount& count) {
         const double away_m = glm::length(eye_m);
         for (int i = 0; i < samples_.rays_per_eye; ++i) {

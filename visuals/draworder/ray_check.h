@@ -11,21 +11,26 @@
 
 namespace octant::visuals::draworder {
 
+/// Which random eyes and rays are tried.
 struct EyeSamples {
     int eyes = 1000;
     int rays_per_eye = 20;
-    double least_distance_radii = 1.0; ///< from the origin, in the model's radius
-    double most_distance_radii = 20.0; ///< distances spread evenly in their logarithm
-    int octant = -1;                   ///< only eyes of this octant; -1 = all
+    /// The least distance from the origin, in radii of the model.
+    double least_distance_radii = 1.0;
+    /// The greatest distance; the logarithm of the distance is evenly distributed.
+    double most_distance_radii = 20.0;
+    int octant = -1; ///< Only eyes of this octant; -1 = all.
     std::uint64_t seed = 1989;
-    double turn_rad = 0.0; ///< how far the parts with a pivot have turned
+    double turn_rad = 0.0; ///< The angle by which the parts with a pivot have turned.
 };
 
+/// What was seen along the rays.
 struct RayCount {
-    long eyes = 0;        ///< that have a list
-    long eyes_in_gap = 0; ///< that no cell contains, although cells reach nearer and farther
-    long hits = 0;        ///< rays that meet a polygon's front
-    long wrong = 0;       ///< of these, rays whose last painted polygon is not the nearest
+    long eyes = 0; ///< The number of eyes that have a list.
+    /// Eyes that no cell contains although they are within the range of distances.
+    long eyes_in_gap = 0;
+    long hits = 0;  ///< Rays that meet the front of a polygon.
+    long wrong = 0; ///< Of these, rays on which the polygon painted last is not the nearest.
 
     double wrong_share() const {
         return hits == 0 ? 0.0 : static_cast<double>(wrong) / static_cast<double>(hits);
@@ -34,19 +39,20 @@ struct RayCount {
     RayCount& operator+=(const RayCount& other);
 };
 
-/// Rays from random eyes in perspective, spread evenly over the disc of the model's radius around
-/// the origin as an eye that looks at it sees it, so that shares are shares of pixels; eyes inside
-/// that radius look in all directions. Polygons that face away from the eye are not painted.
+/// Tries an order by rays from random eyes in perspective. Rays are spread evenly over the disc of
+/// the model's radius around the origin as the eye sees it, so that shares are shares of pixels;
+/// eyes inside that radius look in all directions. Polygons that face away from the eye are not
+/// painted.
 RayCount count_wrong_rays(
     const models::polygons::PolygonModel& model, const DrawOrder& order, const EyeSamples& samples);
 
-/// The same for orders by cells: eyes out of their range are passed over.
+/// Tries orders by cells; eyes outside the range of distances are skipped.
 RayCount count_wrong_rays(
     const models::polygons::PolygonModel& model,
     const CellOrders& orders,
     const EyeSamples& samples);
 
-/// Rays from one eye for one list.
+/// Tries one list with rays from one eye.
 RayCount count_wrong_rays_from(
     const models::polygons::PolygonModel& model,
     std::span<const std::uint32_t> painted,

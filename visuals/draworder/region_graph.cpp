@@ -1,3 +1,5 @@
+// Hiding graphs over regions: applies the exact test of hiding.h to all pairs or to those that may
+// have changed, and avoids cutting the region where a cheaper question decides.
 #include "visuals/draworder/region_graph.h"
 
 #include <glm/geometric.hpp>
@@ -8,13 +10,13 @@ namespace octant::visuals::draworder {
 
 namespace {
 
+/// The part of a region in front of a face; all of it for a body.
 std::optional<EyeRegion> before(const EyeRegion& region, const Face& face) {
     return face.plane ? region.cut(*face.plane) : region;
 }
 
 } // namespace
 
-/// Makes a region ready for hides(); false when it has no eyes that see A from its front.
 bool RegionGraphs::go_before(const EyeRegion& region, const Face& a) {
     before_a_ = before(region, a);
     generators_of_a_.clear();
@@ -24,8 +26,8 @@ bool RegionGraphs::go_before(const EyeRegion& region, const Face& a) {
     return before_a_.has_value();
 }
 
-/// Asks first whether B hides part of A for those corners of the region alone that lie before B:
-/// it often does, and the region need not be cut.
+// Asks first with those generators of the region only that are in front of B. If B hides part of A
+// for these, it does so for the region, which then need not be cut.
 bool RegionGraphs::hides(std::size_t b, std::size_t a) {
     const Face& near_one = faces_.faces[b];
     const Face& far_one = faces_.faces[a];

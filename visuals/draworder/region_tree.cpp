@@ -1,3 +1,13 @@
+// Method::Tree: painting orders for every eye, the model's inside included. Section IV of the 1989
+// paper divides the viewing directions until all hidden surfaces are removed; here eye space is
+// divided by planes until each cell's hiding graph has no cycle.
+//
+// The search is greedy. At a node the candidate planes are judged in three stages, each more exact
+// and more expensive, and applied to fewer planes: by where polygons lie to the plane (PlaneJudge),
+// by the edges that stay on cycles then (CyclicEdges), and by building both sides' graphs with the
+// exact hiding test. The plane with the least cost divides the node. Before that, an eye in the
+// middle of the node is looked at: if it already sees a ring, no plane can help, and a polygon is
+// split.
 #include "visuals/draworder/region_tree.h"
 
 #include "sim/base/error.h"
@@ -18,21 +28,22 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-/// Graphs with more edges are judged by sides alone.
+/// Graphs with more edges are judged without the exact test.
 constexpr std::size_t most_exact_edges = 4'000;
-/// How many times as many planes are tried where the first lead nowhere.
+/// When the first planes lead nowhere, so many times as many are tried.
 constexpr std::size_t more_planes = 16;
 
-/// A cell to be, or a cut.
+/// A branch of the tree while it grows: a finished cell, or a plane with two branches.
 struct Branch {
     std::optional<Plane> plane;
     std::unique_ptr<Branch> front;
     std::unique_ptr<Branch> back;
     std::vector<std::uint32_t> list;
     std::vector<Plane> planes;
-    std::size_t polygons = 0; ///< when the list was made
+    std::size_t polygons = 0; ///< The number of polygons when the list was made.
 };
 
+/// A candidate plane with its estimated cost. The number tells equal ones apart.
 struct Choice {
     Plane plane;
     double cost = 0.0;
@@ -43,7 +54,7 @@ struct Choice {
     }
 };
 
-/// A node cut in two.
+/// A node that was divided by a plane.
 struct Fork {
     Plane plane;
     EyeNode front;
@@ -54,11 +65,12 @@ Plane reversed(const Plane& plane) {
     return {-plane.normal, -plane.offset_m};
 }
 
-/// Whether its work is worth a second thread.
+/// Whether a node's work is worth a second thread.
 bool is_large(const EyeNode& node) {
     return node.cycles.edges > 500;
 }
 
+/// Builds one tree.
 class TreeBuilder {
 public:
     TreeBuilder(WorkingModel& work, const TreeSearch& search)
@@ -86,7 +98,8 @@ private:
     std::size_t entries_ = 0;
 };
 
-/// Lower is better. A side that stays as it was is no gain, and infinitely bad.
+/// The cost of a plane that leaves so many cyclic edges in front and behind, of `before`; less is
+/// better. A side that stays as it was is no gain at all and costs infinitely much.
 double
 TreeBuilder::cost(std::size_t front_edges, std::size_t back_edges, std::size_t before) const {
     if (front_edges >= before || back_edges >= before) {
@@ -96,13 +109,14 @@ TreeBuilder::cost(std::size_t front_edges, std::size_t back_edges, std::size_t b
            std::pow(static_cast<double>(back_edges), search_.power);
 }
 
-/// The cost of a plane that leaves nearly all on both sides.
+/// The cost of a plane that leaves 15 of 16 edges on both sides.
 double TreeBuilder::little_gain(std::size_t before) const {
     const std::size_t left = before - before / 16;
     return cost(left, left, before + 1);
 }
 
-/// The best of some planes, as judged by sides. The first has a number that tells equals apart.
+/// First stage: the best planes by where polygons lie to them. `first_number` is the number of the
+/// first plane.
 std::vector<Choice> TreeBuilder::by_sides(
     const EyeNode& node, std::span<const Plane> planes, std::size_t first_number) const {
     const Cycles& cycles = node.cycles;
@@ -133,7 +147,7 @@ std::vector<Choice> TreeBuilder::by_sides(
     return best;
 }
 
-/// Judges choices by what stays on rings.
+/// Second stage: the cost of each choice by the edges that stay on cycles.
 std::vector<Choice>
 TreeBuilder::by_rings(const EyeNode& node, std::span<const Choice> choices) const {
     const Cycles& cycles = node.cycles;
@@ -151,7 +165,7 @@ TreeBuilder::by_rings(const EyeNode& node, std::span<const Choice> choices) cons
     return out;
 }
 
-/// The planes that leave least on rings, as judged by where polygons lie, best first.
+/// Both stages over many planes, on two threads; best first.
 std::vector<Choice> TreeBuilder::ranked(const EyeNode& node, std::span<const Plane> planes) const {
     const bool large = is_large(node);
     const std::size_t half = planes.size() / 2;
@@ -173,6 +187,7 @@ std::vector<Choice> TreeBuilder::ranked(const EyeNode& node, std::span<const Pla
     return judged;
 }
 
+/// Divides a node by a plane, with the exact test on both sides.
 Fork TreeBuilder::fork(const EyeNode& node, const Plane& plane) const {
     const SideSets sides = sides_of(plane, work_.faces, node.cycles.polygons).sets;
     const SideSets turned{sides.back_or_on, sides.front_or_on};
@@ -187,8 +202,8 @@ Fork TreeBuilder::fork(const EyeNode& node, const Plane& plane) const {
     return {plane, std::move(front), std::move(back)};
 }
 
-/// By the plane that leaves least on rings; for graphs of some size as judged by sides. Nothing
-/// when no plane makes the node simpler.
+/// Third stage: divides the node by each of the best choices and keeps the best result; for very
+/// large graphs only the first choice. Returns nothing when no plane makes the node simpler.
 std::optional<Fork> TreeBuilder::best_fork(const EyeNode& node) const {
     const Cycles& cycles = node.cycles;
     const auto of_planes = [&](std::span<const std::uint32_t> among, std::size_t most) {
@@ -199,7 +214,8 @@ std::optional<Fork> TreeBuilder::best_fork(const EyeNode& node) const {
         choices = of_planes(cycles.polygons, more_planes * search_.edge_planes);
     }
     if (choices.empty()) {
-        // Of many polygons not all planes were made. Those of one ring end it in time.
+        // Of many polygons not all candidate planes were made. All those of one ring are enough to
+        // resolve it in the end.
         choices = of_planes(shortest_ring(cycles.inner, cycles.polygons), search_.edge_planes);
     }
     const std::size_t tried = cycles.edges > most_exact_edges ? 1 : search_.exact;
@@ -217,6 +233,7 @@ std::optional<Fork> TreeBuilder::best_fork(const EyeNode& node) const {
     return best;
 }
 
+/// The finished cell of a node without cycles.
 std::unique_ptr<Branch> TreeBuilder::leaf(const EyeNode& node) {
     auto out = std::make_unique<Branch>();
     out->list = list_of(graphs_, node);
@@ -227,8 +244,9 @@ std::unique_ptr<Branch> TreeBuilder::leaf(const EyeNode& node) {
     return out;
 }
 
-/// Splits polygons until an eye in the middle of the node meets no ring, and some plane makes it
-/// simpler. No fork if none is needed any more.
+/// Splits polygons until an eye in the middle of the node sees no ring and some plane makes the
+/// node simpler, and returns the node divided by that plane. Returns nothing once the node has no
+/// cycles.
 std::optional<Fork> TreeBuilder::settle(EyeNode& node) {
     while (node.cycles.edges > 0) {
         std::optional<Deadlock> deadlock = ring_at_eye(graphs_, node);
@@ -245,6 +263,7 @@ std::optional<Fork> TreeBuilder::settle(EyeNode& node) {
     return std::nullopt;
 }
 
+/// The branch of a node, recursively.
 std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
     if (depth == search_.most_depth) {
         throw Error(fmt::format(
@@ -266,7 +285,7 @@ std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
     return out;
 }
 
-/// The number of a branch, as a child of a node.
+/// Appends a branch to the arrays of the tree and returns its number as a child.
 int flatten(Branch& branch, const WorkingModel& work, RegionTree& out) {
     if (!branch.plane) {
         work.catch_up(branch.list, branch.polygons);

@@ -1,10 +1,11 @@
-// The rule of exact painting orders: let A, B be convex planar polygons and R' the eyes that see
-// both from the front. B can hide part of A if and only if no plane weakly separates B from the
-// convex hull of A and R'. By Farkas' lemma a plane has R' = {e : Ni.e + Di >= 0} in front of it
-// when it is a sum of the planes (Ni, Di) with factors >= 0, and of (0, 1): the factors are the
-// unknowns of a small linear programme, and the plane that comes of them is tried on the corners
-// again, so that nothing rests on the solver's word.
-
+// The rule of exact painting orders as a proof. Let A and B be convex planar polygons and R' the
+// eyes that see both from the front. B can hide part of A if and only if no plane weakly separates
+// B from the convex hull of A and R'.
+//
+// By Farkas' lemma a plane has R' = {e : Ni.e + Di >= 0} in front of it when it is a sum of the
+// planes (Ni, Di), and of (0, 1), with factors >= 0. These factors are the unknowns of a small
+// linear programme. The plane that results is measured against the corners again, so that nothing
+// rests on the solver's word.
 #include "visuals/draworder/separation.h"
 
 #include "visuals/draworder/linear_programme.h"
@@ -19,11 +20,13 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-/// Below this a sum of unit normals is no direction: the region has no inside.
+/// A sum of unit normals below this is no direction: the region has no interior.
 constexpr double least_normal = 1e-9;
 
 constexpr double redundancy_tolerance = 1e-9;
 
+/// Whether a plane has one set of points behind it and the other in front of it, within a
+/// tolerance.
 bool parts(
     const Plane& plane,
     double tolerance,
@@ -35,8 +38,8 @@ bool parts(
                before, [&](const glm::dvec3& p) { return distance_m(plane, p) >= -tolerance; });
 }
 
-/// Unknowns: a factor for each plane, one for (0, 1), and the margin, which is made largest. The
-/// factors add up to 1.
+/// The programme of a separating plane. Its unknowns are a factor for each plane, one for (0, 1),
+/// and the margin, which is maximised; the factors add up to 1.
 LinearProgramme separation_programme(
     std::span<const glm::dvec3> near_one,
     std::span<const glm::dvec3> far_one,
@@ -68,7 +71,7 @@ LinearProgramme separation_programme(
     return programme;
 }
 
-/// The sum of the planes with these factors, negative ones taken as 0.
+/// The sum of the planes with these factors; negative ones, which are rounding, count as 0.
 Plane sum_of(std::span<const Plane> planes, const std::vector<double>& factors) {
     Plane sum{glm::dvec3(0.0), std::max(factors[planes.size()], 0.0)};
     for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -101,8 +104,8 @@ Certificate separated(
     return good ? Certificate::LinearProgramme : Certificate::None;
 }
 
-// Unknowns: a factor for each plane and the error, which is made smallest; the sum of the planes
-// with their factors and `plane` itself is to be (0, 0, 0, 0 or less) within the error.
+// The unknowns are a factor for each plane and the error, which is minimised. The sum of the planes
+// with their factors and of `plane` itself must be (0, 0, 0, 0 or less) within the error.
 bool is_behind(std::span<const Plane> planes, const Plane& plane, double tolerance) {
     LinearProgramme programme;
     programme.variables.assign(planes.size(), {});

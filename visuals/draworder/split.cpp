@@ -36,22 +36,25 @@ using models::polygons::PolygonModel;
 using Corners = std::vector<glm::dvec3>;
 using Outline = std::vector<std::uint32_t>;
 
+/// The share of models::polygons::flatness_tolerance_m within which a corner is on the cut.
 constexpr double on_plane_share_of_flatness = 1e-3;
 
-/// A side of a polygon through which a cut passes.
+/// A side of a polygon that a cut passes through.
 struct CutSide {
     std::uint32_t from = 0;
     std::uint32_t to = 0;
-    std::uint32_t middle = 0; ///< the new vertex
+    std::uint32_t middle = 0; ///< The new vertex on it.
 };
 
+/// The outlines of both pieces of a cut polygon.
 struct Halves {
     Outline front;
     Outline back;
     std::vector<CutSide> cut_sides;
 };
 
-/// Corners within the tolerance belong to both halves; new vertices are added to the model.
+/// Cuts an outline. Corners within the tolerance belong to both halves; new vertices are added to
+/// the model.
 Halves
 halves_of(PolygonModel& model, const Outline& outline, const Plane& plane, double tolerance_m) {
     Halves halves;
@@ -114,6 +117,7 @@ Corners corners_of(const PolygonModel& model, std::size_t polygon) {
     return corners;
 }
 
+/// The part of a convex polygon in front of a plane.
 Corners front_part(const Corners& corners, const Plane& plane) {
     Corners kept;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -130,6 +134,7 @@ Corners front_part(const Corners& corners, const Plane& plane) {
     return kept;
 }
 
+/// Whether there are corners beyond the tolerance on both sides of a plane.
 bool straddles(const Corners& corners, const Plane& plane, double tolerance_m) {
     bool before = false;
     bool behind = false;
@@ -146,7 +151,8 @@ struct Interval {
     double most = -std::numeric_limits<double>::infinity();
 };
 
-/// Where a convex polygon that straddles a plane crosses it, measured along a direction.
+/// The interval in which a convex polygon that straddles a plane crosses it, measured along a
+/// direction.
 Interval crossing(const Corners& corners, const Plane& plane, const glm::dvec3& along) {
     Interval at;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -162,7 +168,7 @@ Interval crossing(const Corners& corners, const Plane& plane, const glm::dvec3& 
     return at;
 }
 
-/// A polygon with the plane of the polygon of which it is a piece.
+/// A polygon or piece of one, with the plane of the whole polygon and a bounding box.
 struct Face {
     Corners corners;
     Plane plane;
@@ -184,6 +190,7 @@ bool boxes_apart(const Face& a, const Face& b) {
     return glm::any(glm::lessThan(a.most, b.least)) || glm::any(glm::lessThan(b.most, a.least));
 }
 
+/// Whether two polygons pass through one another.
 bool penetrate(const Face& a, const Face& b, double tolerance_m) {
     if (a.pivot != b.pivot || boxes_apart(a, b) || !straddles(a.corners, b.plane, tolerance_m) ||
         !straddles(b.corners, a.plane, tolerance_m)) {
@@ -199,6 +206,7 @@ bool penetrate(const Face& a, const Face& b, double tolerance_m) {
     return std::min(in_a.most, in_b.most) - std::max(in_a.least, in_b.least) > tolerance_m;
 }
 
+/// Cuts penetrating polygons, the most useful cut first.
 class Splitter {
 public:
     explicit Splitter(PolygonModel& model)
@@ -227,12 +235,14 @@ public:
     }
 
 private:
-    /// The best cut of a polygon: along the plane of another one.
+    /// The best cut of a polygon: along the plane of another one, with the number of pairs that it
+    /// removes.
     struct Cut {
         std::uint32_t along = 0;
         long pairs_fewer = 0;
     };
 
+    /// Finds the polygons with higher numbers that pass through a polygon.
     void find_partners_after(std::uint32_t face) {
         for (std::uint32_t other = face + 1; other < faces_.size(); ++other) {
             if (penetrate(faces_[face], faces_[other], tolerance_m_)) {
@@ -242,6 +252,7 @@ private:
         }
     }
 
+    /// The polygon whose best cut removes the most pairs; nothing when there are none left.
     std::optional<std::uint32_t> best_polygon() {
         std::optional<std::uint32_t> best;
         for (std::uint32_t i = 0; i < faces_.size(); ++i) {
@@ -269,6 +280,7 @@ private:
         return *best;
     }
 
+    /// By how many the penetrating pairs get fewer when a polygon is cut along a plane.
     long pairs_fewer(std::uint32_t face, const Plane& plane) const {
         const Face& whole = faces_[face];
         const Plane turned_over{-plane.normal, -plane.offset_m};
@@ -282,6 +294,7 @@ private:
         return fewer;
     }
 
+    /// Cuts a polygon and finds the partners of both pieces.
     void cut(std::uint32_t face, std::uint32_t along) {
         const std::vector<std::uint32_t> others = std::exchange(partners_[face], {});
         const std::uint32_t back = split_polygon(model_, face, faces_[along].plane);
@@ -307,8 +320,10 @@ private:
     PolygonModel& model_;
     double tolerance_m_;
     std::vector<Face> faces_;
-    std::vector<std::vector<std::uint32_t>> partners_; ///< of each face, in increasing order
-    std::vector<std::optional<Cut>> cuts_;             ///< nothing where it has to be found anew
+    /// For each face those that it passes through, ascending.
+    std::vector<std::vector<std::uint32_t>> partners_;
+    /// For each face its best cut; nothing where that has to be found anew.
+    std::vector<std::optional<Cut>> cuts_;
 };
 
 } // namespace

@@ -8,32 +8,32 @@
 
 namespace octant::visuals::draworder {
 
-/// How far a corner may lie beside a plane and still count as on it when a polygon is cut: 1e-7 of
-/// the diagonal of the model's bounding box, metres.
+/// The distance from the cutting plane within which a corner counts as on it: 1e-7 of the diagonal
+/// of the model's bounding box, metres.
 double split_tolerance_m(const models::polygons::PolygonModel& model);
 
 /// Cuts a polygon along a plane (unit normal). The piece in front of the plane keeps the number,
-/// the piece behind it is appended; returns its number. Both keep material and part, and
-/// model.parents says of which polygon of the file they are.
+/// the piece behind it is appended; its number is returned. Both keep material and part, and
+/// model.parents tells of which polygon of the file they are pieces.
 ///
-/// The corners on the cut are shared by both pieces. Where the cut passes through a side, its
-/// vertex also becomes a corner of every other polygon that has this side (the same two places as
-/// neighbours), so that no crack opens; corners in the middle of a straight side result.
+/// The corners on the cut are shared by both pieces. Where the cut passes through a side, its new
+/// vertex also becomes a corner of every other polygon with that side (the same two positions as
+/// neighbours), so that no crack opens; such corners lie in the middle of a straight side.
 ///
-/// Corners lie more than split_tolerance_m away on both sides of the plane (asserted). Time grows
-/// with the corners of the whole model.
+/// The polygon must have corners more than split_tolerance_m away on both sides of the plane
+/// (asserted). The time grows with the corners of the whole model.
 std::uint32_t
 split_polygon(models::polygons::PolygonModel& model, std::size_t polygon, const Plane& plane);
 
-/// Cuts polygons that pass through one another until none does, each along the plane of another;
-/// returns how many polygons were added. In each step the cut is made that leaves the fewest pairs,
-/// the lowest polygon numbers among equals.
+/// Cuts polygons that pass through one another until none does, each along the plane of another,
+/// and returns how many polygons were added. Each step makes the cut that leaves the fewest pairs,
+/// with the lowest polygon numbers among equals.
 ///
 /// Two polygons pass through one another when each has corners on both sides of the other's plane
 /// and they share more than a point of the line in which the planes meet. Polygons that only touch
-/// (shared edges, T-joints, a corner on a face) do not; less than flatness_tolerance_m
-/// (models/polygon_check.h) is touching. A polygon that turns about a pivot is cut only against
-/// those that turn about the same one.
+/// (shared edges, T-joints, a corner on a face) do not; anything within flatness_tolerance_m
+/// (models/polygons/polygon_check.h) is touching. A polygon that turns about a pivot is cut only
+/// against those that turn about the same one.
 int split_penetrating(models::polygons::PolygonModel& model);
 
 } // namespace octant::visuals::draworder

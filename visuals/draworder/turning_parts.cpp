@@ -1,3 +1,5 @@
+// Rotors in painting orders. The 1989 paper's 500MD has a rotor, but its orders are for rigid
+// objects; turning_parts.h explains the stand-ins that make one order right at every angle.
 #include "visuals/draworder/turning_parts.h"
 
 #include "sim/base/units.h"
@@ -12,10 +14,11 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-constexpr int ring_corners = 24;
+constexpr int ring_corners = 24; ///< The corners of the regular polygon around a circle.
+/// From this cosine on a normal counts as parallel to the axis.
 constexpr double perpendicular = 1.0 - 1e-10;
 
-/// A regular polygon around a circle across the axis, counter-clockwise about it.
+/// Appends a regular polygon around a circle about an axis, counter-clockwise about it.
 void append_ring(
     std::vector<glm::dvec3>& corners,
     const glm::dvec3& middle,

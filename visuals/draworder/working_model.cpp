@@ -1,3 +1,6 @@
+// The last resort of both exact methods: where no division of eye space gives an order, a polygon
+// is split (section IV and figure 14 of the 1989 paper), and all that was found before is kept up
+// to date.
 #include "visuals/draworder/working_model.h"
 
 #include "sim/base/error.h"
@@ -12,7 +15,7 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-/// Splits beyond one a polygon mean a model that no painting order suits.
+/// A model that needs more than 100 + 2 splits a polygon is not suited to painting orders.
 constexpr std::uint32_t most_splits_a_polygon = 2;
 constexpr std::uint32_t splits_always_allowed = 100;
 

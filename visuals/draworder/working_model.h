@@ -14,10 +14,10 @@ namespace octant::visuals::draworder {
 
 /// A model that may still be split while its orders are being found, with its faces.
 ///
-/// What was found before a split stays right after it: each piece hides and is hidden by no
-/// more than the whole was, and the pieces, being in one plane, do not hide one another. So in a
-/// finished list the new piece goes behind its twin, and in an unfinished graph it gets its twin's
-/// pairs until they are tested again.
+/// What was found before a split stays right after it: each piece hides no more than the whole
+/// polygon did and is hidden by no more, and the pieces, lying in one plane, do not hide one
+/// another. So in a finished list the new piece goes directly behind its twin, and in an unfinished
+/// graph it gets its twin's edges until they are tested again.
 struct WorkingModel {
     WorkingModel(models::polygons::PolygonModel of, const glm::dvec3& origin_m)
         : model(std::move(of))
@@ -25,20 +25,22 @@ struct WorkingModel {
         , first_count(static_cast<std::uint32_t>(model.polygons.size()))
         , notes(faces.notes) {}
 
-    /// Splits a polygon of a deadlock; where only turning polygons are in the way, gives up a pair.
-    /// Throws Error when a model has been split beyond what can be held.
+    /// Splits a polygon of a deadlock, or gives up a pair where only turning polygons are in the
+    /// way. Throws Error when a model has been split beyond what is sensible.
     void resolve(const Deadlock& deadlock);
 
-    /// Gives a node what was split since it was made; true if that was anything.
+    /// Adds to a node the pieces that were split off since it was made. Returns whether there were
+    /// any.
     bool catch_up(EyeNode& node) const;
 
-    /// The same for a list that was made when there were so many polygons.
+    /// Adds such pieces to a list that was made when there were `polygons` polygons.
     void catch_up(std::vector<std::uint32_t>& list, std::size_t polygons) const;
 
     models::polygons::PolygonModel model;
     ModelFaces faces;
     std::uint32_t first_count = 0;
-    std::vector<std::uint32_t> twins; ///< of polygon first_count + i: whose other piece it is
+    /// For polygon first_count + i the polygon whose other piece it is.
+    std::vector<std::uint32_t> twins;
     std::vector<std::string> notes;
 };
 

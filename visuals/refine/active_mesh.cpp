@@ -6,7 +6,7 @@ namespace octant::visuals::refine {
 
 namespace {
 
-/// Slots with a vertex, by the sequence numbers of their nodes.
+/// All slots that hold a vertex, ordered by the sequence numbers of their nodes.
 std::vector<std::uint32_t> slots_in_order(const SelectiveRefiner& refiner) {
     std::vector<std::uint32_t> slots;
     for (std::uint32_t slot = 0; slot < refiner.vertices().size(); ++slot) {
@@ -20,6 +20,8 @@ std::vector<std::uint32_t> slots_in_order(const SelectiveRefiner& refiner) {
     return slots;
 }
 
+/// Adds the active faces to `mesh`, ordered by their original faces. `vertices` gives for each slot
+/// its vertex in `mesh`.
 void add_triangles(
     const SelectiveRefiner& refiner,
     const std::vector<std::uint32_t>& vertices,

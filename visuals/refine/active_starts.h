@@ -8,16 +8,19 @@
 
 namespace octant::visuals::refine {
 
-/// A set of numbers below a bound that tells fast which one lies next before any number: one bit
-/// each, and above every 64 of them one that says whether any is set, and so on. Small enough to
-/// stay in the processor's nearest memory.
+/// A set of numbers below a bound that quickly finds the largest member not above a given number (a
+/// predecessor query). It is a bitmap with summary levels: one bit for each number, above every 64
+/// of these one bit that says whether any of them is set, and so on up to a single word. It is
+/// small enough to stay in the processor's cache.
 ///
-/// SelectiveRefiner keeps the first leaf of each active node in it. Active nodes part the leaves
-/// among them, those of each follow one another: the active node above a leaf is the one that
-/// begins last before it, and no climb from parent to parent is needed.
+/// SelectiveRefiner keeps the first leaf of each active node in it. The active nodes partition the
+/// leaves into runs of consecutive numbers, so the active ancestor of a leaf is the node whose run
+/// begins last at or before it. This is the paper's ActiveAncestor without a climb from parent to
+/// parent.
 class ActiveStarts {
 public:
-    /// Empties the set; numbers below `bound` fit from now on.
+    /// Empties the set. From now on numbers below `bound` may be added; there are at most six
+    /// levels.
     void assign(std::size_t bound) {
         std::size_t words = 0;
         levels_ = 0;
@@ -57,7 +60,8 @@ public:
         }
     }
 
-    /// The largest member that is not above a number; 0 must be a member.
+    /// The largest member that is not above `number`. 0 must be a member, so that there always is
+    /// one.
     std::uint32_t at_or_before(std::uint32_t number) const {
         std::uint64_t word = upto(words_[number / word_bits], number);
         std::size_t level = 0;
@@ -79,16 +83,19 @@ public:
 private:
     static constexpr std::uint32_t word_bits = 64;
 
+    /// The bits of a word up to and including that of `number`.
     static std::uint64_t upto(std::uint64_t word, std::uint32_t number) {
         return word & ~std::uint64_t{0} >> (word_bits - 1 - number % word_bits);
     }
 
+    /// The number that the highest set bit of the word with index `at` stands for.
     static std::uint32_t last_in(std::uint64_t word, std::uint32_t at) {
         return word_bits * at + word_bits - 1 - static_cast<std::uint32_t>(std::countl_zero(word));
     }
 
-    std::vector<std::uint64_t> words_;    ///< the numbers' own first
-    std::array<std::size_t, 6> begins_{}; ///< of each level in words_
+    /// All levels one after the other, the bits of the numbers themselves first.
+    std::vector<std::uint64_t> words_;
+    std::array<std::size_t, 6> begins_{}; ///< The index in words_ at which each level begins.
     std::size_t levels_ = 0;
 };
 

@@ -12,7 +12,7 @@ namespace octant::visuals::refine {
 
 static_assert(std::endian::native == std::endian::little, "files are little-endian");
 
-/// Puts numbers behind one another.
+/// Appends numbers and texts to a string of bytes, little-endian.
 class ByteWriter {
 public:
     template <class Number>
@@ -23,7 +23,8 @@ public:
         bytes_.append(bytes, sizeof(Number));
     }
 
-    /// Seven bits a byte, the lowest first: small numbers are short.
+    /// Writes an unsigned number in 7 bits a byte, the lowest bits first (LEB128), so that small
+    /// numbers take one byte.
     void put_short(std::uint64_t number) {
         while (number >= 128) {
             bytes_.push_back(static_cast<char>(number % 128 + 128));
@@ -32,7 +33,8 @@ public:
         bytes_.push_back(static_cast<char>(number));
     }
 
-    /// The same for a difference of either sign.
+    /// Writes `number` - `from`, which may be negative, with the sign in the lowest bit (zigzag
+    /// coding) and then as put_short does.
     void put_difference(std::uint32_t number, std::uint32_t from) {
         const std::int64_t difference =
             static_cast<std::int64_t>(number) - static_cast<std::int64_t>(from);
@@ -51,7 +53,8 @@ private:
     std::string bytes_;
 };
 
-/// Takes them from there. What is asked for beyond the end is 0, and good() is false from then on.
+/// Reads what ByteWriter wrote. It never reads beyond the end: what is asked for there is 0, and
+/// good() is false from then on, so that callers may check once after several reads.
 class ByteReader {
 public:
     explicit ByteReader(std::string_view bytes)
@@ -83,7 +86,7 @@ public:
         return 0;
     }
 
-    /// Fails beyond 32 bits.
+    /// As take_short; numbers that need more than 32 bits are an error.
     std::uint32_t take_short32() {
         const std::uint64_t number = take_short();
         if (number > 0xffffffffU) {

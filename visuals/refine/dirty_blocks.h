@@ -6,7 +6,7 @@
 
 namespace octant::visuals::refine {
 
-/// Places [first, end) of an array.
+/// A half-open range [first, end) of indices into an array.
 struct PlaceRange {
     std::size_t first = 0;
     std::size_t end = 0;
@@ -14,7 +14,8 @@ struct PlaceRange {
     bool operator==(const PlaceRange&) const = default;
 };
 
-/// Which blocks of an array were written since the last look: what must go to the graphics card.
+/// Remembers which blocks of an array were written since take() was last called, so that only these
+/// are uploaded to the graphics card.
 class DirtyBlocks {
 public:
     static constexpr std::size_t block_size = 64;
@@ -27,13 +28,14 @@ public:
         marks_[block] = 1;
     }
 
-    /// The same where `written`, without a branch; the block has been marked at some time before.
+    /// Marks the block of a place when `written` is true, without a branch. The block must have
+    /// been marked at some time before, so that its mark exists.
     void mark_if(std::size_t place, bool written) {
         marks_[place / block_size] |= static_cast<std::uint8_t>(written);
     }
 
-    /// Puts the runs of marked blocks, cut at `size` places, into `ranges` in order, and forgets
-    /// them.
+    /// Puts the maximal runs of marked blocks into `ranges`, ascending and cut off at `size`
+    /// places, and clears all marks.
     void take(std::size_t size, std::vector<PlaceRange>& ranges) {
         ranges.clear();
         for (std::size_t block = 0; block < marks_.size(); ++block) {

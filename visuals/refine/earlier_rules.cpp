@@ -1,6 +1,10 @@
-// J. C. Xia, A. Varshney, "Dynamic View-Dependent Simplification for Polygonal Models", 1996;
-// H. Hoppe, "View-Dependent Refinement of Progressive Meshes", 1997, section 3: what each remembers
-// of a collapse. Here for counting only, over the hierarchy of any simplification.
+// What two earlier rules of selective refinement remember of a collapse: J. C. Xia, A. Varshney,
+// "Dynamic View-Dependent Simplification for Polygonal Models", 1996 (the 1-ring), and H. Hoppe,
+// "View-Dependent Refinement of Progressive Meshes", 1997, section 3 (four faces).
+//
+// The constructor starts from the original mesh and performs all collapses, finest first, on a
+// FaceLists whose vertices are nodes, and notes the neighbourhood of each collapse. Only the study
+// and `octant refine --rule` use this, to count the splits that each rule forces.
 #include "visuals/refine/earlier_rules.h"
 
 #include "visuals/refine/face_lists.h"
@@ -11,7 +15,7 @@ namespace octant::visuals::refine {
 
 namespace {
 
-/// The face at the edge between two nodes other than `except`; none on a boundary.
+/// The face other than `except` at the edge between two nodes; `none` on a boundary.
 std::uint32_t
 face_across(const FaceLists& faces, std::uint32_t node, std::uint32_t other, std::uint32_t except) {
     std::uint32_t across = none;
@@ -25,6 +29,7 @@ face_across(const FaceLists& faces, std::uint32_t node, std::uint32_t other, std
     return across;
 }
 
+/// The corner of `face` that is neither `node` nor `other`.
 std::uint32_t
 third_vertex(const FaceLists& faces, std::uint32_t node, std::uint32_t other, std::uint32_t face) {
     std::uint32_t third = none;

@@ -9,29 +9,32 @@
 
 namespace octant::visuals::refine {
 
-/// What must be there before a node may split.
+/// Which neighbourhood must be active before a node may split.
 enum class SplitRule {
-    Selective, ///< Kim & Lee 2000: two different cut vertices
-    Hoppe,     ///< Hoppe 1997: the faces that lay beside the two new ones when they collapsed
-    Xia        ///< Xia & Varshney 1996: all vertices that lay around when it collapsed
+    Selective, ///< Kim & Lee 2000, 2001: two different active cut vertices.
+    Hoppe,     ///< Hoppe 1997: the faces that lay beside the two removed ones at collapse time.
+    Xia        ///< Xia & Varshney 1996: all vertices of the 1-ring at collapse time.
 };
 
-/// What the two earlier rules remember of each collapse, for comparison: found by collapsing the
-/// whole mesh in its order once.
+/// The neighbourhoods that the two earlier rules store for each collapse. They are here so that the
+/// three rules can be compared over one hierarchy. Found by replaying all collapses of the mesh
+/// once.
 class EarlierRules {
 public:
     explicit EarlierRules(const ProgressiveMesh& mesh);
 
-    /// Original faces across the other edges of the two faces that the collapse took away: fn0 to
-    /// fn3 of Hoppe 1997; none on a boundary.
+    /// The four original faces fn0 to fn3 of Hoppe 1997: the ones across the remaining edges of the
+    /// two faces that the collapse removed; `none` on a boundary. `node` is an inner node.
     const std::array<std::uint32_t, 4>& faces_beside(std::uint32_t node) const {
         return faces_beside_[node - leaves_];
     }
 
-    /// The nodes around both children when they collapsed.
+    /// The 1-ring of Xia & Varshney: the nodes around both children when they were collapsed,
+    /// ascending.
     std::span<const std::uint32_t> ring(std::uint32_t node) const { return rings_[node - leaves_]; }
 
-    /// The node whose split brings an original face in; none for faces of the base mesh.
+    /// The inner node whose split adds an original face to the active mesh; `none` for a face of
+    /// the base mesh.
     std::uint32_t introducer(std::uint32_t face) const { return introducers_[face]; }
 
 private:

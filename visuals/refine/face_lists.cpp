@@ -1,3 +1,6 @@
+// Corner lists of a mesh that changes all the time. A vertex split moves some corners of one vertex
+// to a new one and adds two faces; an edge collapse does the reverse. Both touch only the corners
+// at these vertices, and that is what the lists make cheap.
 #include "visuals/refine/face_lists.h"
 
 #include <cassert>

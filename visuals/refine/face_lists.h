@@ -11,7 +11,8 @@
 
 namespace octant::visuals::refine {
 
-/// Lets a vector grow by a quarter at a time instead of twice, to `most` items and no further.
+/// Reserves room for `count` items. The vector grows by a quarter at a time instead of doubling,
+/// and never beyond `most` items, to keep memory small.
 template <class Item>
 void make_room(std::vector<Item>& items, std::size_t count, std::size_t most) {
     if (count > items.capacity()) {
@@ -19,49 +20,50 @@ void make_room(std::vector<Item>& items, std::size_t count, std::size_t most) {
     }
 }
 
-/// Triangles between vertices ("slots") with a list of the corners at each vertex, linked through
-/// the corners themselves: adding and taking away needs no memory once there was as much before.
-/// Corner 3 f + k is the kth of face f. A face that was taken away is left as a degenerate one
-/// (all corners at vertex 0) until its place is used again.
+/// Triangles between numbered vertices, with a linked list of the corners at each vertex. The links
+/// are stored with the corners, so that adding and removing needs no memory once there was as much
+/// before. Corner 3 f + k is the k-th corner of face f. A removed face leaves a degenerate one
+/// behind (all corners at vertex 0), which draws nothing, until its place is used again.
 ///
-/// 24 bytes a face, half of them the index list, and 8 a vertex: corners and the labels of faces
-/// have 24 bits.
+/// Memory: 24 bytes a face, half of them the index list that the renderer uses, and 8 bytes a
+/// vertex. For that, corner numbers and face labels have 24 bits.
 class FaceLists {
 public:
     static constexpr std::uint32_t none = models::none;
 
-    /// There will be no more than so many at a time. Corners and labels of faces are below 2^24
-    /// - 1.
+    /// `vertices_at_most` and `faces_at_most` limit how many there may be at a time. Corner numbers
+    /// and face labels must stay below 2^24 - 1 (asserted).
     FaceLists(std::size_t vertices_at_most, std::size_t faces_at_most);
 
-    /// No vertices, no faces; the memory is kept.
+    /// Removes all vertices and faces but keeps the memory.
     void clear();
 
-    /// A vertex without faces, with `none` for a label. Returns its number: that of the one taken
-    /// away last, whose marks it keeps, else one more.
+    /// Adds a vertex without faces whose label is `none`, and returns its number. The number of the
+    /// vertex that was removed last is used again (and keeps its marks); otherwise it is the next
+    /// one.
     std::uint32_t add_vertex();
 
-    /// Takes one without faces away.
+    /// Removes a vertex that has no faces (asserted).
     void remove_vertex(std::uint32_t vertex);
 
-    /// Those taken away included.
+    /// How many vertex numbers are in use, those of removed vertices included.
     std::size_t vertex_count() const { return vertices_.size(); }
 
-    /// Of the caller's, kept with the vertex.
+    /// A number that the caller keeps with a vertex.
     std::uint32_t vertex_label(std::uint32_t vertex) const { return vertices_[vertex].label; }
 
     void set_vertex_label(std::uint32_t vertex, std::uint32_t label) {
         vertices_[vertex].label = label;
     }
 
-    /// Eight bits of the caller's.
+    /// Eight bits that the caller keeps with a vertex.
     std::uint32_t marks(std::uint32_t vertex) const { return vertices_[vertex].marks; }
 
     void set_marks(std::uint32_t vertex, std::uint32_t marks) {
         vertices_[vertex].marks = marks & 0xffU;
     }
 
-    /// `label`: of the caller's, kept with the face. Returns its number.
+    /// Adds a face and returns its number. `label` is a number that the caller keeps with the face.
     std::uint32_t add(const std::array<std::uint32_t, 3>& vertices, std::uint32_t label);
 
     void remove(std::uint32_t face);
@@ -74,8 +76,9 @@ public:
         }
     }
 
-    /// Moves those corners of a vertex to another one for which moves(corner) is true. That one's
-    /// own corners follow behind. Without branches on what moves: it is as good as chance.
+    /// Moves those corners of vertex `from` for which moves(corner) is true to vertex `to`, in
+    /// front of that vertex's own corners. The loop has no branch on what moves, because the
+    /// outcome is as good as random and would be mispredicted half of the time.
     template <class Moves>
     void move_corners(std::uint32_t from, std::uint32_t to, const Moves& moves) {
         std::array<std::uint32_t, 2> heads{no_corner, vertices_[to].first};
@@ -93,21 +96,22 @@ public:
         vertices_[to].first = heads[1] & no_corner;
     }
 
-    /// The face with a label at a vertex; none when there is none.
+    /// The number of the face with a given label at a vertex; `none` when there is none.
     std::uint32_t find(std::uint32_t vertex, std::uint32_t label) const;
 
     std::uint32_t vertex(std::uint32_t corner) const { return indices_[corner]; }
 
-    /// The other two corners of a corner's face, counter-clockwise.
+    /// The next corner of the same face, counter-clockwise.
     static std::uint32_t next_in_face(std::uint32_t corner) {
         return corner % 3 == 2 ? corner - 2 : corner + 1;
     }
 
+    /// The previous corner of the same face, counter-clockwise.
     static std::uint32_t before_in_face(std::uint32_t corner) {
         return corner % 3 == 0 ? corner + 2 : corner - 1;
     }
 
-    /// none for a place without a face.
+    /// The label of a face; `none` for a place without a face.
     std::uint32_t label(std::uint32_t face) const {
         const Link* links = &links_[3 * std::size_t{face}];
         const std::uint32_t label =
@@ -115,12 +119,12 @@ public:
         return label == no_corner ? none : label;
     }
 
-    /// Places of faces, those without one included.
+    /// How many face numbers are in use, those of removed faces included.
     std::size_t place_count() const { return links_.size() / 3; }
 
     std::size_t face_count() const { return face_count_; }
 
-    /// Three a place.
+    /// The index list: three vertices for each place.
     std::span<const std::uint32_t> indices() const { return indices_; }
 
     std::size_t bytes() const;
@@ -129,14 +133,15 @@ private:
     static constexpr std::uint32_t no_corner = 0xffffffU;
 
     struct Vertex {
-        std::uint32_t first : 24 = no_corner; ///< of its corners
+        std::uint32_t first : 24 = no_corner; ///< The head of the list of corners at this vertex.
         std::uint32_t marks : 8 = 0;
         std::uint32_t label = none;
     };
 
-    /// Of a corner. The three of a face hold its label together.
+    /// What is kept with a corner. The three corners of a face hold its 24-bit label together, 8
+    /// bits each.
     struct Link {
-        std::uint32_t next : 24; ///< corner at the same vertex
+        std::uint32_t next : 24; ///< The next corner at the same vertex.
         std::uint32_t label_part : 8;
     };
 
@@ -144,10 +149,12 @@ private:
     void unlink(std::uint32_t corner);
 
     std::vector<Vertex> vertices_;
-    std::vector<std::uint32_t> indices_;      ///< vertices, one a corner
-    std::vector<Link> links_;                 ///< one a corner
-    std::uint32_t free_ = no_corner;          ///< list of places, through their first corners
-    std::uint32_t free_vertices_ = no_corner; ///< list of them, through Vertex::first
+    std::vector<std::uint32_t> indices_; ///< For each corner its vertex.
+    std::vector<Link> links_;            ///< One for each corner.
+    /// The head of the list of free places, linked through their first corners.
+    std::uint32_t free_ = no_corner;
+    /// The head of the list of free vertices, linked through Vertex::first.
+    std::uint32_t free_vertices_ = no_corner;
     std::size_t face_count_ = 0;
     std::size_t vertices_at_most_;
     std::size_t faces_at_most_;

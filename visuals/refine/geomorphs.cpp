@@ -1,3 +1,9 @@
+// Geomorphs after H. Hoppe, "Progressive Meshes", 1996, section 3.1: positions, normals and colours
+// are mixed linearly between two places.
+//
+// Deviation: the share of the way follows from the screen, not from the clock. In each frame a
+// vertex covers at most step_px pixels, as seen from the present eye, so that near vertices take
+// longer than far ones and no motion catches the eye.
 #include "visuals/refine/geomorphs.h"
 
 #include <glm/common.hpp>
@@ -29,8 +35,9 @@ RefinedVertex mixed(const RefinedVertex& from, const RefinedVertex& to, double s
         mixed_colour(from.colour, to.colour, share)};
 }
 
-/// How far a vertex may move so that it moves by `step_px` at most. Outside the picture as at its
-/// corners, about 60 degrees off.
+/// How far a vertex may move in one frame, metres, so that it moves by `step_px` pixels at most in
+/// any direction. Outside the picture the scale of its corners is used, about 60 degrees off the
+/// middle.
 double step_m(const glm::dvec3& from_eye_m, const RefineView& view, double step_px) {
     const double distance_m = std::max(glm::length(from_eye_m), view.near_m);
     const double depth_m = std::max(glm::dot(from_eye_m, view.ahead), 0.5 * distance_m);

@@ -9,7 +9,8 @@
 
 namespace octant::visuals::refine {
 
-/// A unit vector on an octahedron unfolded into a square, 16 bits an axis: within 1e-4 rad.
+/// A unit vector in 32 bits by octahedral coding: it is projected onto an octahedron, which is
+/// unfolded into a square with 16 bits an axis. The error is below 1e-4 rad.
 struct PackedNormal {
     std::int16_t x = 0;
     std::int16_t y = 0;
@@ -17,7 +18,7 @@ struct PackedNormal {
     bool operator==(const PackedNormal&) const = default;
 };
 
-/// A zero vector is packed as +z.
+/// Packs a vector of any length. A zero vector becomes +z.
 inline PackedNormal packed(const glm::vec3& normal) {
     const float sum = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
     if (!(sum > 0.0F)) {
@@ -35,6 +36,7 @@ inline PackedNormal packed(const glm::vec3& normal) {
         static_cast<std::int16_t>(std::lround(y * 32767.0F))};
 }
 
+/// The unit vector that was packed.
 inline glm::vec3 unpacked(const PackedNormal& normal) {
     float x = static_cast<float>(normal.x) / 32767.0F;
     float y = static_cast<float>(normal.y) / 32767.0F;
@@ -45,7 +47,7 @@ inline glm::vec3 unpacked(const PackedNormal& normal) {
     return glm::normalize(glm::vec3(x, y, z));
 }
 
-/// Linear parts 0..1 in 16 bits each.
+/// A colour as three parts, 0 to 1 each, in 16 bits.
 struct PackedColour {
     std::uint16_t red = 65535;
     std::uint16_t green = 65535;
@@ -54,6 +56,7 @@ struct PackedColour {
     bool operator==(const PackedColour&) const = default;
 };
 
+/// Packs a colour; parts outside 0 to 1 are clamped.
 inline PackedColour packed_parts(const glm::vec3& colour) {
     const auto part = [](float value) {
         return static_cast<std::uint16_t>(std::lround(glm::clamp(value, 0.0F, 1.0F) * 65535.0F));
@@ -65,7 +68,7 @@ inline glm::vec3 unpacked(const PackedColour& colour) {
     return glm::vec3(colour.red, colour.green, colour.blue) / 65535.0F;
 }
 
-/// As models::packed_colour.
+/// The colour as the renderer takes it, 8 bits a part: the same rounding as models::packed_colour.
 inline std::uint32_t drawn_colour(const PackedColour& colour) {
     const auto byte = [](std::uint32_t part) { return (part * 255U + 32767U) / 65535U; };
     return byte(colour.red) | byte(colour.green) << 8U | byte(colour.blue) << 16U | 0xff000000U;

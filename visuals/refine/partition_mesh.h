@@ -1,24 +1,26 @@
 #pragma once
 
+#include "models/triangle_mesh.h"
 #include "visuals/refine/active_mesh.h"
-
-#include <cstdint>
+#include "visuals/refine/selective_refiner.h"
 
 namespace octant::visuals::refine {
 
+/// What the colours of a picture of the refinement show.
 enum class ColourBy {
-    Nothing, ///< as the file has it
-    Region,  ///< each active vertex its own colour
-    Level    ///< original vertices below: one is blue, more are warmer
+    Nothing, ///< No colours but those that the mesh itself has.
+    Region,  ///< Each active vertex, or region S(v), has a colour of its own.
+    Level    ///< How many original vertices a node stands for: blue for one, warmer for more.
 };
 
-/// The active mesh with vertices coloured.
-models::TriangleMesh coloured_active(visuals::refine::ActiveMesh active, ColourBy by);
+/// The active mesh with coloured vertices.
+models::TriangleMesh coloured_active(ActiveMesh active, ColourBy by);
 
-/// The original mesh, numbers as in its file, coloured by the active vertex that each of its
-/// vertices lies below: the partition whose graph the active mesh is. Materials and normals are
-/// left out.
+/// The original mesh, vertices and faces numbered as in its file, where each vertex has the colour
+/// of its active ancestor. This shows the paper's partition of the original into the regions S(v),
+/// one for each active vertex; the active mesh is the graph of their adjacency. Materials and
+/// normals are left out.
 models::TriangleMesh
-partition_mesh(const visuals::refine::SelectiveRefiner& refiner, ColourBy by = ColourBy::Region);
+partition_mesh(const SelectiveRefiner& refiner, ColourBy by = ColourBy::Region);
 
 } // namespace octant::visuals::refine

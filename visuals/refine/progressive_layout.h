@@ -18,11 +18,13 @@ namespace octant::visuals::refine {
 inline constexpr std::string_view progressive_mark = "OCTPM\r\n\x1a";
 inline constexpr std::uint32_t progressive_version = 1;
 inline constexpr std::size_t splits_a_block = 512;
-inline constexpr std::size_t block_frame_bytes = 12; ///< count and hash
+inline constexpr std::size_t block_frame_bytes = 12; ///< The bytes of a block's count and hash.
 
+// Flags of the head.
 inline constexpr std::uint8_t has_colours = 1;
 inline constexpr std::uint8_t has_materials = 2;
 
+// Flags of a split: whether it adds a face to the left and to the right of the new edge.
 inline constexpr std::uint8_t has_left = 1;
 inline constexpr std::uint8_t has_right = 2;
 

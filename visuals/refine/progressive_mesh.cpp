@@ -1,8 +1,14 @@
-// J. Kim, S. Lee, "Truly Selective Refinement of Progressive Meshes", Graphics Interface 2001,
-// section 3: the vertex hierarchy and the fundamental cut vertices.
+// The vertex hierarchy and its fundamental cut vertices: J. Kim, S. Lee, "Truly Selective
+// Refinement of Progressive Meshes", Graphics Interface 2001, section 3.
 //
-// Deviations: the fundamental cut vertices are not searched for along the border of both regions:
-// they are the third corners of the two original faces that the collapse takes away.
+// The constructor orders faces and nodes for locality, finds the two fundamental cut vertices vs.l^
+// and vs.r^ of each node, and bounds each node by a sphere and a normal cone for the view
+// criterion.
+//
+// Deviation: the paper searches the fundamental cut vertices along the common border of the regions
+// S(vu) and S(vt). Here none is searched: every face of an active mesh is one original face with
+// its corners replaced by their active ancestors, so the cut vertices are the third corners of the
+// two original faces that the collapse removes.
 #include "visuals/refine/progressive_mesh.h"
 
 #include "sim/base/error.h"
@@ -23,17 +29,20 @@ namespace octant::visuals::refine {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr float rounding = 1.0F + 4e-6F; ///< of distances taken in float
+/// A factor that makes up for the rounding of distances taken in float.
+constexpr float rounding = 1.0F + 4e-6F;
 
 float angle_rad(const glm::vec3& a, const glm::vec3& b) {
     return std::acos(glm::clamp(glm::dot(a, b), -1.0F, 1.0F));
 }
 
+/// An angle in steps of pi / 65535, rounded up so that a cone never gets too narrow.
 std::uint16_t packed_angle(float angle_rad) {
     return static_cast<std::uint16_t>(
         std::min(65535.0F, std::ceil(angle_rad / pi * 65535.0F + 0.01F)));
 }
 
+/// The corner of a face that is not one of the leaves [begin, end).
 std::uint32_t third_corner(const Triangle& face, std::uint32_t begin, std::uint32_t end) {
     for (const std::uint32_t corner : face) {
         if (corner < begin || corner >= end) {
@@ -75,7 +84,8 @@ ProgressiveMesh::ProgressiveMesh(ProgressiveParts parts)
 ProgressiveMesh::ProgressiveMesh(const models::CollapseSequence& sequence)
     : ProgressiveMesh(parts_of(sequence)) {}
 
-/// By their corners' places in the hierarchy: a split then finds its faces close together.
+/// Sorts the faces by their corners' leaf numbers, so that a split finds its faces close together
+/// in memory.
 void ProgressiveMesh::order_faces() {
     const auto key = [&](std::uint32_t face) {
         Triangle corners = parts_.faces[face];
@@ -109,7 +119,8 @@ void ProgressiveMesh::order_faces() {
     }
 }
 
-/// Finds the roots and gives inner nodes their numbers.
+/// Finds the roots, makes errors monotone towards them, and gives the inner nodes their final
+/// numbers.
 void ProgressiveMesh::order_nodes() {
     const auto leaves = static_cast<std::uint32_t>(leaf_count());
     std::vector<std::uint32_t> first_leaves(parts_.positions_m.size());
@@ -158,7 +169,8 @@ void ProgressiveMesh::order_nodes() {
     place_shapes(numbers);
 }
 
-/// Of each node of the parts, which has its roots and splits by the numbers there.
+/// For each node of the parts its final number: a preorder walk that hands out numbers from the
+/// highest down. roots_ and splits still have the old numbers.
 std::vector<std::uint32_t> ProgressiveMesh::new_numbers() const {
     const std::size_t leaves = leaf_count();
     std::vector<std::uint32_t> numbers(parts_.positions_m.size());
@@ -198,6 +210,8 @@ std::vector<bool> ProgressiveMesh::base_faces() const {
     return base;
 }
 
+/// Lays the shapes out with siblings side by side. `numbers` maps the numbers of the parts to the
+/// final ones.
 void ProgressiveMesh::place_shapes(const std::vector<std::uint32_t>& numbers) {
     places_.resize(numbers.size());
     shapes_.resize(numbers.size());
@@ -251,8 +265,10 @@ ProgressiveParts ProgressiveMesh::whole_parts() const {
     return parts;
 }
 
+/// Finds the fundamental cut vertices of every inner node.
 void ProgressiveMesh::find_cuts() {
-    std::vector<std::uint32_t> ends(forks_.size()); // of the leaves below each inner node
+    // For each inner node the end of the leaves below it.
+    std::vector<std::uint32_t> ends(forks_.size());
     for (auto node = static_cast<std::uint32_t>(leaf_count()); node < node_count(); ++node) {
         const std::size_t i = node - leaf_count();
         const std::uint32_t second = split_of(node).second;
@@ -266,6 +282,7 @@ void ProgressiveMesh::find_cuts() {
     }
 }
 
+/// Finds centre and diagonal of the bounding box.
 void ProgressiveMesh::bound_all() {
     if (leaf_count() == 0) {
         return;
@@ -280,6 +297,8 @@ void ProgressiveMesh::bound_all() {
     half_diagonal_m_ = 0.5 * glm::distance(glm::dvec3(least_m), glm::dvec3(most_m));
 }
 
+/// Bounds each leaf by its adjacent original faces: their corners by a sphere, their normals by a
+/// cone.
 void ProgressiveMesh::bound_leaves() {
     for (std::uint32_t face = 0; face < face_count(); ++face) {
         const glm::vec3 normal_of_face = face_normal(face);
@@ -297,6 +316,7 @@ void ProgressiveMesh::bound_leaves() {
     }
 }
 
+/// Bounds each inner node by the spheres and cones of its children, from the finest nodes up.
 void ProgressiveMesh::bound_nodes() {
     for (auto node = static_cast<std::uint32_t>(leaf_count()); node < node_count(); ++node) {
         const Split split = split_of(node);

@@ -17,67 +17,84 @@ namespace octant::visuals::refine {
 using models::none;
 using models::Triangle;
 
-/// What a collapse merged. `first` and `second` are its children, vu and vt.
+/// A node of the vertex hierarchy with its two children: the vertex split that replaces it by them,
+/// and the edge collapse that undoes the split. In the paper's words the node is vs, `first` is vu
+/// and `second` is vt.
 struct Split {
     std::uint32_t first = none;
     std::uint32_t second = none;
-    std::uint32_t left_face = none;  ///< that the collapse took away; none on a boundary
-    std::uint32_t right_face = none; ///< the same
-    float error_m = 0.0F;            ///< of the made node, never less than its children's
+    /// The original face that the collapse removes on the left; none on a boundary.
+    std::uint32_t left_face = none;
+    std::uint32_t right_face = none; ///< The same on the right.
+    /// The error of the surface where this node is active, never less than its children's.
+    float error_m = 0.0F;
 
-    // Found by ProgressiveMesh; nothing in ProgressiveParts.
-    std::uint32_t left_cut = none;  ///< l^: third corner (a leaf) of left_face
+    // The rest is filled in by ProgressiveMesh and is not part of ProgressiveParts.
+    //
+    // The fundamental cut vertex vs.l^: the third corner (a leaf) of left_face.
+    std::uint32_t left_cut = none; ///< l^: third corner (a leaf) of left_face
+    /// The fundamental cut vertex vs.r^: the third corner (a leaf) of right_face.
     std::uint32_t right_cut = none; ///< r^: the same of right_face
-    std::uint32_t first_leaf = 0;   ///< leaves below the made node are numbered from this one on,
-    std::uint32_t middle = 0;       ///< those below its second child from this one on
+    /// The leaves below this node are numbered consecutively, starting here.
+    std::uint32_t first_leaf = 0; ///< leaves below the made node are numbered from this one on,
+    /// Of these, the leaves below the second child start here.
+    std::uint32_t middle = 0; ///< those below its second child from this one on
 };
 
-/// What a vertex hierarchy is made from. Nodes: first the leaves, then one a split, children before
-/// parents and the finest split first (ProgressiveMesh gives inner nodes other numbers). Leaves are
-/// numbered so that those below any node follow one another, those of its first child first.
+/// The data that a vertex hierarchy is made from. Nodes are numbered with the leaves first and then
+/// one inner node for each split, children before parents, so the finest split comes first
+/// (ProgressiveMesh renumbers the inner nodes). Leaves are numbered so that those below any node
+/// are consecutive, those of its first child first.
 struct ProgressiveParts {
     std::string name;
-    glm::dvec3 origin_m{0.0};                  ///< positions are relative to it
-    std::vector<glm::vec3> positions_m;        ///< one a node
-    std::vector<PackedNormal> normals;         ///< one a node
-    std::vector<PackedColour> colours;         ///< one a node, or empty
-    std::vector<Split> splits;                 ///< one an inner node
-    std::vector<Triangle> faces;               ///< of the original mesh, corners are leaves
-    std::vector<std::uint32_t> original_faces; ///< their numbers there; empty = as they come
-    std::vector<std::uint16_t> face_materials; ///< one a face, or empty
+    glm::dvec3 origin_m{0.0}; ///< Positions are relative to this point of the file's axes.
+    std::vector<glm::vec3> positions_m; ///< One for each node.
+    std::vector<PackedNormal> normals;  ///< One for each node.
+    std::vector<PackedColour> colours;  ///< One for each node, or empty.
+    std::vector<Split> splits;          ///< One for each inner node.
+    std::vector<Triangle> faces; ///< The faces of the original mesh; their corners are leaves.
+    /// For each face its number in the original mesh; empty = in order.
+    std::vector<std::uint32_t> original_faces;
+    std::vector<std::uint16_t> face_materials; ///< One for each face, or empty.
     std::vector<models::Material> materials;
-    std::vector<std::uint32_t> original_vertices; ///< number of each leaf in the original mesh
-    std::vector<std::string> notes;               ///< what reading found; often none
+    /// For each leaf its number in the original mesh.
+    std::vector<std::uint32_t> original_vertices;
+    std::vector<std::string> notes; ///< Messages to the user about reading; often none.
 };
 
-/// A node where it is drawn. 28 bytes: siblings lie side by side.
+/// All that is needed to draw a node and to judge its error. 28 bytes; siblings lie side by side in
+/// memory, because a split reads both.
 struct NodeShape {
     glm::vec3 position_m{0.0F};
     PackedNormal normal;
-    float radius_m = 0.0F;
-    PackedColour colour;    ///< white where the mesh has none
-    std::uint16_t cone = 0; ///< half-angle in steps of pi / 65535, rounded up
+    float radius_m = 0.0F; ///< The radius of its bounding sphere, see ProgressiveMesh::radius_m.
+    PackedColour colour;   ///< White where the mesh has no colours.
+    /// The half-angle of the normal cone, in steps of pi / 65535, rounded up.
+    std::uint16_t cone = 0;
 };
 
-/// A mesh with the vertex hierarchy that simplified it: a forest whose leaves are the original
-/// vertices. Shared by any number of fronts (SelectiveRefiner), never changed. About 130 bytes an
-/// original vertex, see bytes().
+/// A mesh with the vertex hierarchy that simplifying it made: a forest whose leaves are the
+/// original vertices and whose roots are the vertices of the base mesh. It never changes and may be
+/// shared by any number of fronts (SelectiveRefiner). About 130 bytes an original vertex, see
+/// bytes().
 ///
-/// Nodes: first the leaves, then the inner ones. From the last number down to the first inner one a
-/// node is followed by all below its first child, then by all below its second: what lies close
-/// together on the surface does so in memory, and parents are met before their children.
+/// Numbers: first the leaves, then the inner nodes. Walking from the highest number down, a node is
+/// followed by the whole subtree of its first child and then by that of its second (a preorder). So
+/// what is close on the surface is close in memory, and parents come before their children.
 class ProgressiveMesh {
 public:
-    /// The parts must keep their promises (asserted where cheap). Throws Error for more faces than
-    /// `most_faces` or more leaves than `most_leaves`.
+    /// The parts must keep the promises stated at ProgressiveParts (asserted where that is cheap).
+    /// Throws Error for more faces than `most_faces` or more leaves than `most_leaves`.
     explicit ProgressiveMesh(ProgressiveParts parts);
 
-    /// Positions that are floats already are kept bit for bit, others rounded to float relative to
-    /// the middle of the mesh; colours have 16 bits a part. Corner normals of the original are
-    /// averaged into one a vertex; without them faces give the normals, weighted by area.
+    /// Makes a hierarchy from a simplification. Positions that are floats already are kept bit for
+    /// bit; others are rounded to float relative to the middle of the mesh. Colours keep 16 bits a
+    /// part. Corner normals of the original are averaged into one a vertex; where there are none,
+    /// face normals weighted by area are used.
     explicit ProgressiveMesh(const models::CollapseSequence& sequence);
 
-    static constexpr std::size_t most_faces = 5'592'400; ///< fronts number corners in 24 bits
+    /// A front numbers its corners in 24 bits.
+    static constexpr std::size_t most_faces = 5'592'400;
     static constexpr std::size_t most_leaves = 16'777'000;
 
     std::size_t leaf_count() const { return parts_.original_vertices.size(); }
@@ -88,7 +105,7 @@ public:
 
     bool is_leaf(std::uint32_t node) const { return node < leaf_count(); }
 
-    /// none of a root.
+    /// The parent of a node; `none` for a root.
     std::uint32_t parent(std::uint32_t node) const {
         const std::size_t place = places_[node];
         return place < roots_.size()
@@ -96,7 +113,7 @@ public:
                    : static_cast<std::uint32_t>(node_count() - 1 - (place - roots_.size()) / 2);
     }
 
-    /// Of an inner node.
+    /// The vertex split of an inner node.
     Split split_of(std::uint32_t node) const {
         const Fork& fork = forks_[node - leaf_count()];
         const std::uint32_t below_first = fork.middle - fork.first_leaf; // leaves
@@ -113,18 +130,19 @@ public:
         return split;
     }
 
-    /// Inner nodes, the last collapse's first.
+    /// All inner nodes in the order in which a progressive mesh splits them: the last collapse
+    /// first.
     std::vector<std::uint32_t> coarsest_first() const;
 
-    /// Whether a face belongs to the base mesh already; one a face.
+    /// One flag for each face: whether it belongs to the base mesh.
     std::vector<bool> base_faces() const;
 
-    /// Leaves below a node are numbered from this one on; a leaf is its own.
+    /// The first of the consecutive leaves below a node; a leaf is below itself.
     std::uint32_t first_leaf(std::uint32_t node) const {
         return is_leaf(node) ? node : forks_[node - leaf_count()].first_leaf;
     }
 
-    /// The last one of them.
+    /// The last of the leaves below a node.
     std::uint32_t last_leaf(std::uint32_t node) const {
         while (!is_leaf(node)) {
             node = split_of(node).second;
@@ -134,7 +152,7 @@ public:
 
     const NodeShape& shape(std::uint32_t node) const { return shapes_[places_[node]]; }
 
-    /// Of both children of an inner node, the first one's first.
+    /// The shapes of both children of an inner node, the first child's first.
     std::span<const NodeShape, 2> child_shapes(std::uint32_t node) const {
         return std::span<const NodeShape, 2>(&shapes_[first_child_place(node)], 2);
     }
@@ -149,58 +167,60 @@ public:
 
     bool has_colours() const { return has_colours_; }
 
-    /// As RefinedVertex::colour; white where the mesh has no colours.
+    /// The colour as RefinedVertex::colour has it; white where the mesh has no colours.
     std::uint32_t colour(std::uint32_t node) const { return drawn_colour(shape(node).colour); }
 
-    /// Of the surface where this node is active; 0 for leaves, never falling towards the root.
+    /// How far the surface is from the original where this node is active, metres. It is 0 for
+    /// leaves and never decreases towards the root.
     float error_m(std::uint32_t node) const {
         return is_leaf(node) ? 0.0F : forks_[node - leaf_count()].error_m;
     }
 
-    /// About the node's position, holds the positions of all nodes below it, the original faces
-    /// at the leaves, and the spheres of its children.
+    /// The radius of a sphere about the node's position that holds the positions of all nodes below
+    /// it, the original faces at the leaves, and the spheres of its children.
     float radius_m(std::uint32_t node) const { return shape(node).radius_m; }
 
-    /// Half-angle of the cone about normal(node) that holds the normals of all original faces at
-    /// the leaves below; pi for all directions.
+    /// The half-angle of the cone about normal(node) that holds the normals of all original faces
+    /// at the leaves below; pi means all directions.
     float cone_rad(std::uint32_t node) const;
 
-    /// Faces are numbered so that neighbours in memory are neighbours on the surface, see
-    /// original_face.
+    /// The original faces with leaves as corners, ordered so that neighbours in memory are
+    /// neighbours on the surface. original_face tells their numbers in the file.
     std::span<const Triangle> faces() const { return parts_.faces; }
 
     std::uint32_t original_face(std::uint32_t face) const { return parts_.original_faces[face]; }
 
+    /// The vertices of the base mesh, ordered by their first leaves.
     std::span<const std::uint32_t> roots() const { return roots_; }
 
-    /// Middle of the box around the original vertices, in file axes.
+    /// The centre of the bounding box of the original vertices, in file axes.
     const glm::dvec3& middle_m() const { return middle_m_; }
 
-    /// Half the box's diagonal.
+    /// Half the diagonal of that bounding box.
     double half_diagonal_m() const { return half_diagonal_m_; }
 
-    /// What it is made from, but for splits, positions, normals and colours: these are in
-    /// split_of() and shape().
+    /// The data it was made from, without splits, positions, normals and colours: these have moved
+    /// into split_of() and shape().
     const ProgressiveParts& parts() const { return parts_; }
 
-    /// All that it can be made from again.
+    /// Complete parts, from which an equal hierarchy can be made.
     ProgressiveParts whole_parts() const;
 
-    /// The number that a CollapseSequence gives a node: that of the vertex in the original mesh,
-    /// or the vertex count plus the collapse's place.
+    /// The number of a node in the CollapseSequence: for a leaf that of its vertex in the original
+    /// mesh, for an inner node the vertex count plus the index of its collapse.
     std::uint32_t sequence_number(std::uint32_t node) const {
         return is_leaf(node) ? parts_.original_vertices[node]
                              : sequence_numbers_[node - leaf_count()];
     }
 
-    /// Unit normal of an original face; 0 for one without area.
+    /// The unit normal of an original face; zero for one without area.
     glm::vec3 face_normal(std::uint32_t face) const;
 
-    /// Memory of hierarchy and faces.
+    /// The memory of hierarchy and faces.
     std::size_t bytes() const;
 
 private:
-    /// What split_of() tells, packed. 28 bytes.
+    /// The contents of split_of() in 28 bytes; children follow from the numbering of the nodes.
     struct Fork {
         std::uint32_t first_leaf;
         std::uint32_t middle : 31;
@@ -222,18 +242,20 @@ private:
     void bound_all();
 
     ProgressiveParts parts_;
-    std::vector<Fork> forks_;                     ///< one an inner node
-    std::vector<std::uint32_t> sequence_numbers_; ///< one an inner node
+    std::vector<Fork> forks_;                     ///< One for each inner node.
+    std::vector<std::uint32_t> sequence_numbers_; ///< One for each inner node.
 
-    /// Place of an inner node's children in shapes_: behind the roots, the coarsest split's first.
+    /// The index in shapes_ of an inner node's first child. The roots come first, then the pairs of
+    /// children, those of the highest node first.
     std::size_t first_child_place(std::uint32_t node) const {
         return roots_.size() + 2 * (node_count() - 1 - node);
     }
 
     NodeShape& shape(std::uint32_t node) { return shapes_[places_[node]]; }
 
-    std::vector<std::uint32_t> roots_;  ///< by their first leaves
-    std::vector<std::uint32_t> places_; ///< in shapes_, one a node; says its parent too
+    std::vector<std::uint32_t> roots_; ///< Ordered by their first leaves.
+    /// For each node its index in shapes_, which also tells its parent.
+    std::vector<std::uint32_t> places_;
     std::vector<NodeShape> shapes_;
     bool has_colours_ = false;
     glm::dvec3 middle_m_{0.0};

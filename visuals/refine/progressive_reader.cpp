@@ -1,3 +1,7 @@
+// Reads progressive meshes (layout in progressive_layout.h). Files come from outside, so every
+// number is checked before it is used: blocks by their checksums, counts against each other and
+// against the bytes that are there, and the hierarchy itself by ProgressiveTree. A file that ends
+// early is still of use, because its splits come coarsest first.
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "visuals/refine/byte_coder.h"
@@ -16,6 +20,7 @@ namespace octant::visuals::refine {
 
 namespace {
 
+/// The counts in a file's first block.
 struct Head {
     std::uint64_t file_bytes = 0;
     std::uint32_t leaves = 0;
@@ -25,6 +30,7 @@ struct Head {
     std::uint8_t flags = 0;
 };
 
+/// The reading of one file, with its position for messages.
 class ProgressiveReading {
 public:
     explicit ProgressiveReading(const std::filesystem::path& path)
@@ -95,7 +101,8 @@ private:
         at_ = mark.size();
     }
 
-    /// Nothing where the file ends before the block does. A block that is there must be whole.
+    /// The bytes of the next block; nothing where the file ends before the block does. Throws Error
+    /// for a block whose checksum is wrong.
     std::optional<std::string> next_block() {
         const std::uint64_t left = file_bytes_ - std::min(file_bytes_, at_);
         std::string frame(4, '\0');
@@ -120,6 +127,8 @@ private:
         return bytes;
     }
 
+    /// Returns nothing for a file shorter than its head says. Throws Error for a whole file with a
+    /// block that reaches beyond its end.
     std::optional<std::string> cut_off() {
         if (head_.file_bytes != 0 && file_bytes_ >= head_.file_bytes) {
             refuse("expected a block, got one longer than the file");
@@ -178,6 +187,7 @@ private:
         return node;
     }
 
+    /// Reads a face whose corners were written as differences from leaf `near`.
     TreeFace take_face(ByteReader& in, std::uint32_t near) const {
         TreeFace face;
         for (std::uint32_t& corner : face.corners) {
@@ -211,7 +221,7 @@ private:
         keep(in.good() && in.left() == 0);
     }
 
-    /// False where the file was cut off.
+    /// Reads the first `wanted` splits. Returns false where the file was cut off before them.
     bool read_splits(std::size_t wanted) {
         while (tree_.split_count() < wanted) {
             const auto block = next_block();
@@ -250,7 +260,8 @@ private:
     void read_numbers() {
         const auto block = next_block();
         if (!block) {
-            return; // cut off just here
+            // The file was cut off just before this block; the leaves then count as they come.
+            return;
         }
         ByteReader in(*block);
         std::uint32_t last = 0;
@@ -262,6 +273,7 @@ private:
         keep(in.good() && in.left() == 0 && tree_.number(std::move(vertices), std::move(faces)));
     }
 
+    /// Throws Error when a promise of the format is broken.
     void keep(bool promise) const {
         if (!promise) {
             refuse("expected a progressive mesh, got one that does not hold together");

@@ -1,3 +1,7 @@
+// Builds a hierarchy from the splits of a file and checks each of them: that the node is active,
+// that its leaves are divided into two non-empty parts, that its faces join both parts with one
+// corner elsewhere, and that its two cut vertices differ, as J. Kim and S. Lee's rule (2001,
+// section 3) demands in the state that the simplification went through.
 #include "visuals/refine/progressive_tree.h"
 
 #include <algorithm>
@@ -15,13 +19,14 @@ bool lies_in(std::uint32_t leaf, std::uint32_t begin, std::uint32_t end) {
     return leaf >= begin && leaf < end;
 }
 
-/// The corner that is not in [begin, end), of a face that lies across.
+/// The one corner of a face that is not a leaf in [begin, end).
 std::uint32_t outside_corner(const TreeFace& face, std::uint32_t begin, std::uint32_t end) {
     return *std::ranges::find_if(
         face.corners, [&](std::uint32_t corner) { return !lies_in(corner, begin, end); });
 }
 
-/// Whether a face has one corner in each half of [begin, end) and one outside it, but below `all`.
+/// Whether a face has one corner in [begin, middle), one in [middle, end) and one outside, all of
+/// them below `all`.
 bool lies_across(
     const TreeFace& face,
     std::uint32_t begin,
@@ -99,8 +104,8 @@ bool ProgressiveTree::add_base_face(const TreeFace& face) {
     return roots[0] != roots[1] && roots[1] != roots[2] && roots[2] != roots[0];
 }
 
-/// Whether the vertices beside both children are two: a split waits for others until they are, and
-/// would wait for ever.
+/// Whether the active vertices beside both children differ. Were they the same, the split would
+/// wait for that vertex to split first, which in a damaged file might never end.
 bool ProgressiveTree::is_cut_apart(const TreeSplit& split, std::uint32_t end) const {
     return !split.left || !split.right ||
            starts_.at_or_before(outside_corner(*split.left, split.begin, end)) !=
@@ -148,7 +153,8 @@ bool ProgressiveTree::number(
     return is_permutation_of_places(vertex_numbers_) && is_permutation_of_places(face_numbers_);
 }
 
-/// Of each node: leaves by their place in the order, inner ones behind them, the last split first.
+/// For each node its number in ProgressiveParts: the leaves by their place in the order, then the
+/// inner nodes, the last split first.
 std::vector<std::uint32_t> ProgressiveTree::final_numbers() const {
     std::vector<std::uint32_t> numbers(nodes_.size(), none);
     auto next = static_cast<std::uint32_t>(nodes_.size());

@@ -1,3 +1,5 @@
+// Writes progressive meshes (layout in progressive_layout.h): the base mesh first, then the vertex
+// splits coarsest first, so that any prefix of the file is a coarser model.
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
@@ -13,6 +15,7 @@ namespace octant::visuals::refine {
 
 namespace {
 
+/// The bytes of one file while they are put together.
 class ProgressiveWriting {
 public:
     explicit ProgressiveWriting(const ProgressiveMesh& mesh)
@@ -55,6 +58,8 @@ private:
         text_ += frame.bytes();
     }
 
+    /// The first block. `file_bytes` is the length of the whole file; the block's own length does
+    /// not depend on it.
     std::string head(std::uint64_t file_bytes) const {
         const ProgressiveParts& parts = mesh_.parts();
         ByteWriter out;
@@ -85,6 +90,7 @@ private:
         }
     }
 
+    /// Writes a face's corners as differences from leaf `near`, which makes them short.
     void put_face(ByteWriter& out, std::uint32_t face, std::uint32_t near) const {
         for (const std::uint32_t corner : mesh_.faces()[face]) {
             out.put_difference(corner, near);
@@ -137,6 +143,8 @@ private:
         }
     }
 
+    /// The last block: the original numbers of leaves and faces, each as the difference from the
+    /// one before.
     std::string numbers() const {
         ByteWriter out;
         std::uint32_t last = 0;
@@ -163,7 +171,7 @@ private:
 
     const ProgressiveMesh& mesh_;
     std::vector<bool> is_base_;
-    std::vector<std::uint32_t> order_; ///< of the splits
+    std::vector<std::uint32_t> order_; ///< All inner nodes, coarsest first.
     std::string text_;
 };
 

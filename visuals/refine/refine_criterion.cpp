@@ -1,8 +1,13 @@
-// H. Hoppe, "View-Dependent Refinement of Progressive Meshes", 1997, section 4: frustum, surface
-// orientation and screen-space error, over bounding spheres and normal cones of the hierarchy.
+// The view criterion: H. Hoppe, "View-Dependent Refinement of Progressive Meshes", 1997, section 4
+// (view frustum, surface orientation, screen-space geometric error), over the bounding spheres and
+// normal cones of the hierarchy.
 //
-// Deviations: one error a node in every direction, from the simplifier, instead of two fitted to
-// samples; the outline has a weight of its own.
+// projected error = focal length in pixels * error of the node / distance to its bounding sphere *
+// weight for orientation * weight for the frustum.
+//
+// Deviations: each node has one error for all directions, which the simplifier brings, instead of
+// two fitted to samples; the silhouette has a weight of its own; weights change gradually over
+// `ramp_rad` instead of in a step.
 #include "visuals/refine/refine_criterion.h"
 
 #include <glm/geometric.hpp>
@@ -16,9 +21,12 @@ namespace octant::visuals::refine {
 namespace {
 
 constexpr double right_angle_rad = 0.5 * std::numbers::pi;
-/// Weights change over so much: a step would split and merge at once when the eye moves.
+/// The angle over which weights change. With a step in their place, nodes would be split and merged
+/// again and again while the eye moves.
 constexpr double ramp_rad = 0.26;
 
+/// The weight for orientation, by the largest and least angle between any normal below the node and
+/// the direction to the eye. It is monotone towards the root, because spheres and cones are nested.
 double facing_weight(
     const ProgressiveMesh& mesh,
     std::uint32_t node,
@@ -44,7 +52,8 @@ double facing_weight(
     return weight + turned * (options.back_weight - weight);
 }
 
-/// By the largest angle that a point of the sphere lies outside a side of the frustum.
+/// The weight for the view frustum, by the largest angle by which the whole bounding sphere lies
+/// outside one of its sides.
 double picture_weight(
     double radius_m,
     const glm::dvec3& to_eye_m,

@@ -9,20 +9,21 @@
 
 namespace octant::visuals::refine {
 
-/// Where a mesh is seen from, in the mesh's own axes.
+/// Where a mesh is seen from, in the mesh's own axes (those of its file), metres.
 struct RefineView {
     glm::dvec3 eye_m{0.0};
-    glm::dvec3 ahead{0.0, 1.0, 0.0}; ///< unit vector
-    /// Unit normals of the frustum's four sides, through the eye, inward; zero = no such side.
+    glm::dvec3 ahead{0.0, 1.0, 0.0}; ///< A unit vector along the line of sight.
+    /// The unit normals of the view frustum's four side planes, which pass through the eye,
+    /// pointing inwards; zero means that there is no such side.
     std::array<glm::dvec3, 4> side_normals{};
-    double focal_px = 869.1; ///< pixels that 1 m takes at 1 m
-    double near_m = 0.01;    ///< what is nearer counts as this far
+    double focal_px = 869.1; ///< How many pixels an object of 1 m covers at a distance of 1 m.
+    double near_m = 0.01;    ///< Anything nearer counts as being this far away.
 
     bool operator==(const RefineView&) const = default;
 };
 
-/// A view with sides for a picture of so many pixels. `up` need not be square to `ahead`, only not
-/// along it. fov_rad: of the height.
+/// A view with a frustum for a picture of the given size. `up` need not be perpendicular to the
+/// line of sight but must not be along it. `fov_rad` is the vertical field of view.
 RefineView picture_view(
     const glm::dvec3& eye_m,
     const glm::dvec3& look_m,
@@ -31,16 +32,24 @@ RefineView picture_view(
     double width_px,
     double height_px);
 
+/// How much an error counts, depending on where it is. silhouette_weight >= front_weight >=
+/// back_weight.
 struct CriterionOptions {
+    /// The weight where the silhouette may run, because errors show most there.
     double silhouette_weight = 2.0; ///< of errors where the outline may run: they show most
     double front_weight = 1.0;
-    double back_weight = 0.0;    ///< of what is turned away as a whole
+    /// The weight of a node whose normal cone faces away from the eye entirely.
+    double back_weight = 0.0; ///< of what is turned away as a whole
+    /// The weight outside the view frustum; it is not 0, because the node may soon be inside.
     double outside_weight = 0.1; ///< of what is not in the picture: it may be soon
-    double play_rad = 0.0;       ///< weights are the largest for directions so far off
+    /// Weights are taken as the largest within this angle, so that they do not change at once when
+    /// the eye moves.
+    double play_rad = 0.0; ///< weights are the largest for directions so far off
 };
 
-/// Error of an inner node as it would show on the screen, pixels, weighted. A node's is never more
-/// than its parent's (weights: silhouette >= front >= back): what must be split is a tree's top.
+/// The screen-space error of an inner node in pixels, weighted by its orientation and place. A
+/// node's is never more than its parent's, so the nodes above a threshold always form the top of
+/// each tree.
 double projected_error_px(
     const ProgressiveMesh& mesh,
     std::uint32_t node,

@@ -1,3 +1,6 @@
+// Refinement of a fresh front in one go: J. Kim, S. Lee, "Truly Selective Refinement of Progressive
+// Meshes", Graphics Interface 2001, section 4. Which nodes must split is known beforehand, so all
+// are handed to split_all at once, which chooses an order of its own.
 #include "visuals/refine/refine_region.h"
 
 #include <glm/geometric.hpp>
@@ -9,7 +12,8 @@ namespace octant::visuals::refine {
 
 namespace {
 
-/// Splits all nodes above marked ones; `marked` has a place a node.
+/// Splits all ancestors of the marked nodes, so that these become active. `marked` has one flag for
+/// each node and is changed.
 std::size_t refine_above(SelectiveRefiner& refiner, std::vector<bool>& marked) {
     const ProgressiveMesh& mesh = refiner.mesh();
     for (std::uint32_t node = 0; node < mesh.node_count(); ++node) {

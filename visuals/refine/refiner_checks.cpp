@@ -1,5 +1,11 @@
-// The parts of SelectiveRefiner that look before an operation and mend behind it: link condition
-// (T. Dey et al., "Topology Preserving Edge Contraction", 1999) and faces that turn over.
+// The parts of SelectiveRefiner that check before an operation and mend after it.
+//
+// - Link condition (T. Dey, H. Edelsbrunner, S. Guha, D. Nekhayev, "Topology Preserving Edge
+//   Contraction", 1999): an edge may collapse when the common neighbours of its ends are just the
+//   third corners of its faces. Kim and Lee (2001) do not test it, because their collapses undo
+//   splits; in a state that no simplification went through, a collapse can pinch the surface.
+// - Fold-overs: where fine meets coarse, a face may turn over against its original. repair() splits
+//   its coarsest corner until none is left, and a collapse that would turn a face is refused.
 #include "visuals/refine/selective_refiner.h"
 
 #include <glm/geometric.hpp>
@@ -12,9 +18,12 @@ namespace octant::visuals::refine {
 
 namespace {
 
-constexpr std::uint32_t once = 1;  // seen in one face of the first vertex
-constexpr std::uint32_t twice = 2; // in two
-constexpr std::uint32_t seen = 4;  // met at the second vertex
+// Marks on vertices; the first three are set only while links_allow runs. `once`: seen in one face
+// of the first vertex; `twice`: seen in two; `seen`: met at the second vertex; `changed`: its faces
+// have changed since repair() last looked at them.
+constexpr std::uint32_t once = 1;
+constexpr std::uint32_t twice = 2;
+constexpr std::uint32_t seen = 4;
 constexpr std::uint32_t changed = 8;
 constexpr std::uint32_t link_bits = once | twice | seen;
 
@@ -27,13 +36,13 @@ bool is_against(
 
 } // namespace
 
-/// Whether the collapse of the edge between two vertices leaves a manifold of the same topology:
-/// both have no common neighbours but those of the one or two faces between them, only one of them
-/// is on a boundary unless the edge is, and what they belong to is more than a lone tetrahedron or
-/// triangle.
+/// Whether collapsing the edge between two vertices leaves a manifold of the same topology: they
+/// have no common neighbours but the third corners of the one or two faces between them, they are
+/// not both on a boundary unless the edge is, and their component is more than a lone tetrahedron
+/// or triangle.
 bool SelectiveRefiner::links_allow(std::uint32_t first_slot, std::uint32_t second_slot) {
     std::size_t first_faces = 0;
-    int first_open = 0; // neighbours along boundary edges
+    int first_open = 0; // The number of its boundary edges.
     faces_.each_corner(first_slot, [&](std::uint32_t corner) {
         ++first_faces;
         for (const std::uint32_t at :
@@ -85,13 +94,13 @@ void SelectiveRefiner::clear_link_marks(std::uint32_t slot) {
     });
 }
 
-/// Where the node at a corner lies.
+/// The position of the node at a corner (not of its vertex, which may be in motion).
 const glm::vec3& SelectiveRefiner::position_at(std::uint32_t corner) const {
     return mesh_->position_m(node_at(faces_.vertex(corner)));
 }
 
-/// Whether a face at a slot, but not at `other`, is turned over when the slot's vertex lies where
-/// `node` does.
+/// Whether any face at `slot` that does not touch `other` would turn over against its original when
+/// the slot's vertex moved to the position of `node`.
 bool SelectiveRefiner::turns_faces(
     std::uint32_t slot, std::uint32_t other, std::uint32_t node) const {
     bool turns = false;
@@ -108,6 +117,7 @@ bool SelectiveRefiner::turns_faces(
     return turns;
 }
 
+/// Whether the face at a place of the index list is more than 90 degrees off its original.
 bool SelectiveRefiner::is_turned(std::uint32_t place) const {
     const std::uint32_t face = faces_.label(place);
     return face != none && is_against(
@@ -125,10 +135,12 @@ std::size_t SelectiveRefiner::turned_faces() const {
     return turned;
 }
 
-/// Of a face that is not an original one as it was.
+/// The inner node with the largest error at the corners of a face, one that spare(node) does not
+/// want spared if there is any; `none` when all corners are original vertices.
 std::uint32_t SelectiveRefiner::coarsest_corner(
     std::uint32_t place, const std::function<bool(std::uint32_t)>& spare) const {
-    std::array<std::uint32_t, 2> coarsest{none, none}; // of all, of those not spared
+    // the coarsest of all corners, and of those that are not spared
+    std::array<std::uint32_t, 2> coarsest{none, none};
     for (std::uint32_t k = 0; k < 3; ++k) {
         const std::uint32_t node = node_at(faces_.vertex(3 * place + k));
         if (mesh_->is_leaf(node)) {
@@ -144,6 +156,7 @@ std::uint32_t SelectiveRefiner::coarsest_corner(
     return coarsest[1] != none ? coarsest[1] : coarsest[0];
 }
 
+/// Remembers that the faces at a slot changed, for repair().
 void SelectiveRefiner::note_change(std::uint32_t slot) {
     if (options_.repair && (faces_.marks(slot) & changed) == 0) {
         mark(slot, changed);
@@ -166,6 +179,8 @@ std::size_t SelectiveRefiner::repair(const std::function<bool(std::uint32_t)>& s
     return done;
 }
 
+/// Splits the coarsest corner of one turned face at a slot, if there is one, and has the slot
+/// looked at again after that.
 void SelectiveRefiner::repair_around(
     std::uint32_t slot, const std::function<bool(std::uint32_t)>& spare) {
     if (node_at(slot) == none) {
@@ -180,7 +195,7 @@ void SelectiveRefiner::repair_around(
     }
     const std::uint32_t coarsest = coarsest_corner(turned, spare);
     if (coarsest == none) {
-        return; // an original face that rounding turned
+        return; // An original face that turned by rounding only; nothing is left to split.
     }
     note_change(slot); // looked at again behind the split
     split(coarsest);
@@ -188,9 +203,11 @@ void SelectiveRefiner::repair_around(
 
 void SelectiveRefiner::nodes_forced_by(
     std::uint32_t active_node, std::vector<std::uint32_t>& forced) const {
-    constexpr std::size_t most = 200; // of hierarchies that simplification makes it is a few
+    // In hierarchies that a simplification made, a few nodes are the rule.
+    constexpr std::size_t most = 200;
     forced.clear();
-    std::vector<std::uint32_t> waiting{active_node}; // each for the next one
+    // Each of these waits for the next one to split.
+    std::vector<std::uint32_t> waiting{active_node};
     while (!waiting.empty() && forced.size() + waiting.size() <= most) {
         const Split wanted = mesh_->split_of(waiting.back());
         const bool is_inside = wanted.left_cut != none && wanted.right_cut != none;
@@ -203,11 +220,11 @@ void SelectiveRefiner::nodes_forced_by(
         waiting.pop_back();
     }
     if (waiting.empty()) {
-        forced.pop_back(); // the node itself
+        forced.pop_back(); // The last one is the active node itself.
     }
 }
 
-/// The active node above a leaf once those in `split` are split.
+/// The active ancestor of a leaf as it will be once the nodes in `split` have been split.
 std::uint32_t
 SelectiveRefiner::ancestor_after(std::uint32_t leaf, std::span<const std::uint32_t> split) const {
     std::uint32_t node = active_ancestor(leaf);

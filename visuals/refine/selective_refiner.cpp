@@ -1,12 +1,19 @@
-// J. Kim, S. Lee, "Truly Selective Refinement of Progressive Meshes", Graphics Interface 2001,
-// section 4: vsplit(vs, vt, vu, val, var) and ecol(vs, vt, vu) with active cut vertices.
+// Selective refinement: J. Kim, S. Lee, "Truly Selective Refinement of Progressive Meshes",
+// Graphics Interface 2001, section 4, with vsplit(vs, vt, vu, val, var) and ecol(vs, vt, vu), where
+// val = ActiveAncestor(vs.l^) and var = ActiveAncestor(vs.r^) are the active cut vertices. A split
+// is legal when val != var; else that vertex splits first.
+//
+// A split gives vs's slot to its first child, a new slot to the second, and moves those corners to
+// the new slot whose original corners lie below the second child. A collapse does the reverse. Both
+// touch only the faces around the vertex.
 //
 // Deviations:
 // - The paper collapses wherever both children are active. In a state that no simplification went
-//   through that can pinch the surface: here the link condition is tested and the collapse refused.
-// - The paper says nothing of faces that turn over where fine meets coarse. See repair().
-// - Which side of a split a face goes to is read off the numbers of its original corners, not by
-//   walking from one cut vertex to the other.
+//   through that can pinch the surface; here the link condition is tested and the collapse refused
+//   (refiner_checks.cpp).
+// - The paper does not speak of faces that turn over where fine meets coarse. See repair().
+// - The paper walks around vs from one cut vertex to the other to divide its faces. Here the leaf
+//   numbers of each face's original corners tell the side.
 #include "visuals/refine/selective_refiner.h"
 
 #include <algorithm>
@@ -23,7 +30,7 @@ RefinedVertex drawn(const NodeShape& shape) {
     return {shape.position_m, shape.normal, drawn_colour(shape.colour)};
 }
 
-/// The same nodes, each once, the largest number first.
+/// The given nodes without repetition in descending order, by a bitmap over all nodes.
 std::vector<std::uint32_t> falling(std::span<const std::uint32_t> nodes, std::size_t node_count) {
     std::vector<std::uint64_t> wanted(node_count / 64 + 1, 0);
     for (const std::uint32_t node : nodes) {
@@ -93,7 +100,7 @@ std::uint32_t SelectiveRefiner::new_slot() {
     return slot;
 }
 
-/// Lets a slot stand for a node, where the node lies.
+/// Puts a node into a slot, drawn at its own position.
 void SelectiveRefiner::put(std::uint32_t slot, std::uint32_t node, const NodeShape& shape) {
     faces_.set_vertex_label(slot, node);
     vertices_[slot] = drawn(shape);
@@ -103,7 +110,8 @@ std::size_t SelectiveRefiner::split(std::uint32_t node) {
     return split_one(node, nullptr);
 }
 
-/// Adds the nodes that were split for others to `forced`.
+/// As split(); adds the nodes that the rule demanded to `forced` unless that is null. The common
+/// case, an active node with two different cut vertices, takes no detour.
 std::size_t SelectiveRefiner::split_one(std::uint32_t node, std::vector<std::uint32_t>* forced) {
     assert(!mesh_->is_leaf(node));
     const std::uint32_t leaf = mesh_->first_leaf(node);
@@ -122,9 +130,11 @@ std::size_t SelectiveRefiner::split_one(std::uint32_t node, std::vector<std::uin
     return counts_.splits - before;
 }
 
-/// Splits an inner node that is not split yet, and before it what is above it and what it needs.
+/// Splits an inner node that is not split yet, after its ancestors and whatever the rule demands.
+/// Works on a stack of nodes, each of which waits for the one above it.
 void SelectiveRefiner::split_with_others(std::uint32_t node, std::vector<std::uint32_t>* forced) {
-    path_.clear(); // the node itself and its ancestors: asked for
+    // The node itself and its ancestors were asked for; every other split counts as forced.
+    path_.clear();
     for (std::uint32_t at = node; at != none && !is_split(at); at = mesh_->parent(at)) {
         path_.push_back(at);
     }
@@ -152,7 +162,8 @@ void SelectiveRefiner::split_with_others(std::uint32_t node, std::vector<std::ui
     }
 }
 
-/// By falling numbers: then each split finds most of what it reads where the one before left it.
+/// Splits in descending order of node numbers. By the numbering of ProgressiveMesh parents then
+/// come before children, and each split finds most of what it reads in the cache.
 std::size_t SelectiveRefiner::split_all(std::span<const std::uint32_t> nodes) {
     const std::size_t before = counts_.splits;
     const std::vector<std::uint32_t> ordered = falling(nodes, mesh_->node_count());
@@ -160,7 +171,8 @@ std::size_t SelectiveRefiner::split_all(std::span<const std::uint32_t> nodes) {
     for (const std::uint32_t node : ordered) {
         split_one(node, &forced);
     }
-    for (const std::uint32_t node : forced) { // asked for after all where one below it was
+    // A forced split was asked for after all when one of the given nodes lies below it.
+    for (const std::uint32_t node : forced) {
         const auto next = std::ranges::lower_bound(ordered, node, std::greater{});
         const std::uint32_t below = mesh_->last_leaf(node) - mesh_->first_leaf(node);
         counts_.forced_by_rule -=
@@ -169,7 +181,7 @@ std::size_t SelectiveRefiner::split_all(std::span<const std::uint32_t> nodes) {
     return counts_.splits - before;
 }
 
-/// Where the active vertices beside both children begin: those of val and var.
+/// The first leaves of val and var: where the active vertices beside both children begin.
 SelectiveRefiner::Cuts SelectiveRefiner::active_cuts(std::uint32_t node) const {
     const std::uint32_t left = mesh_->split_of(node).left_cut;
     const std::uint32_t right = mesh_->split_of(node).right_cut;
@@ -178,7 +190,8 @@ SelectiveRefiner::Cuts SelectiveRefiner::active_cuts(std::uint32_t node) const {
         right == none ? none - 1 : starts_.at_or_before(right)};
 }
 
-/// A node that the earlier rules want split before an active one; none when it may split.
+/// A node that the rule Hoppe or Xia wants to be split before an active node; `none` when the node
+/// may split.
 std::uint32_t SelectiveRefiner::needed_before(std::uint32_t node) const {
     switch (options_.rule) {
     case SplitRule::Hoppe:
@@ -191,6 +204,8 @@ std::uint32_t SelectiveRefiner::needed_before(std::uint32_t node) const {
     return none;
 }
 
+/// The introducer of one of the four faces beside the node's edge that is not in the active mesh
+/// yet.
 std::uint32_t SelectiveRefiner::needed_by_hoppe(std::uint32_t node) const {
     for (const std::uint32_t face : options_.earlier->faces_beside(node)) {
         if (face == none) {
@@ -204,6 +219,7 @@ std::uint32_t SelectiveRefiner::needed_by_hoppe(std::uint32_t node) const {
     return none;
 }
 
+/// The unsplit parent of a node of the 1-ring at collapse time.
 std::uint32_t SelectiveRefiner::needed_by_xia(std::uint32_t node) const {
     for (const std::uint32_t around : options_.earlier->ring(node)) {
         const std::uint32_t parent = mesh_->parent(around);
@@ -214,6 +230,8 @@ std::uint32_t SelectiveRefiner::needed_by_xia(std::uint32_t node) const {
     return none;
 }
 
+/// vsplit: replaces an active node by its children, given its active cut vertices, which must
+/// differ.
 void SelectiveRefiner::split_now(std::uint32_t node, const Cuts& cuts) {
     const Split split = mesh_->split_of(node);
     const std::uint32_t middle = split.middle;
@@ -275,6 +293,7 @@ bool SelectiveRefiner::collapse(std::uint32_t node) {
     return true;
 }
 
+/// ecol: replaces two active siblings by their parent.
 void SelectiveRefiner::collapse_now(std::uint32_t node) {
     const Split split = mesh_->split_of(node);
     const std::uint32_t first_slot = slot(split.first);

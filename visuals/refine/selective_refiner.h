@@ -18,41 +18,46 @@
 
 namespace octant::visuals::refine {
 
-/// A vertex as it is drawn. 20 bytes.
+/// A vertex as it is drawn, in the layout that the graphics card takes. 20 bytes.
 struct RefinedVertex {
-    glm::vec3 position_m{0.0F}; ///< relative to the hierarchy's origin
+    glm::vec3 position_m{0.0F}; ///< Relative to the hierarchy's origin.
     PackedNormal normal{};
-    std::uint32_t colour = 0; ///< as models::ColourVertex::colour
+    std::uint32_t colour = 0; ///< Packed as models::ColourVertex::colour is.
 };
 
+/// How a front splits.
 struct RefinerOptions {
     SplitRule rule = SplitRule::Selective;
-    bool remember_splits = false; ///< for recent_splits
-    bool repair = true;           ///< of fold-overs
+    bool remember_splits = false; ///< Fills recent_splits().
+    bool repair = true;           ///< Mends fold-overs and refuses collapses that would make any.
+    /// What the rules Hoppe and Xia need; made by the constructor when null. Not used by Selective.
     std::shared_ptr<const EarlierRules>
         earlier{}; ///< for the rules Hoppe and Xia only; null = made
 };
 
-/// Operations since the front was made.
+/// How many operations were done since the front was made.
 struct RefinerCounts {
-    std::size_t splits = 0;           ///< all of them
-    std::size_t forced_by_rule = 0;   ///< of them: needed by the rule before another one
-    std::size_t forced_by_repair = 0; ///< of them: done by repair() or needed by its splits
+    std::size_t splits = 0;           ///< All vertex splits.
+    std::size_t forced_by_rule = 0;   ///< Those that the rule demanded before another one.
+    std::size_t forced_by_repair = 0; ///< Those done by repair() or demanded by its splits.
     std::size_t collapses = 0;
-    std::size_t blocked = 0; ///< collapses that were not possible when asked for
+    std::size_t blocked = 0; ///< Collapses that were asked for and refused.
 };
 
-/// One front of active nodes over a shared hierarchy, and the mesh that it stands for: the original
-/// faces whose corners lie below three different active nodes. Starts as the base mesh. Splits and
-/// collapses come in any order; the mesh stays an oriented manifold of the same topology.
+/// A front of active nodes over a shared hierarchy, and the active mesh that it stands for: those
+/// original faces whose corners lie below three different active nodes. It starts as the base mesh.
+/// Splits and collapses may come in any order; the mesh stays an oriented manifold of the same
+/// topology.
 ///
-/// How many further splits a split may cause, by the rule:
+/// The rule decides how many further splits a split forces:
 /// - Selective: none, unless both cut vertices of the node lie below one active node. Then that
-///   node splits first, and perhaps again, and so on: each one was collapsed later than the one
-///   that needs it, so there is an end. A boundary collapse has one cut vertex and causes none.
-/// - Hoppe, Xia: every split that brings back what lay around at the collapse.
+///   node splits first, and so on. The chain ends, because each node in it was collapsed later than
+///   the one that needs it. The collapse of a boundary edge has one cut vertex and forces none.
+/// - Hoppe, Xia: every split that brings back the neighbourhood at collapse time.
 ///
-/// Needs no memory after it has once held as many vertices and faces, but for split_all.
+/// Vertices and faces live in numbered slots and places that are used again; a split changes only
+/// the faces around its vertex. No memory is allocated once the front has been as large before,
+/// except by split_all.
 class SelectiveRefiner {
 public:
     explicit SelectiveRefiner(
@@ -62,43 +67,44 @@ public:
 
     const RefinerOptions& options() const { return options_; }
 
-    /// Splits an inner node; its ancestors first where they are not split yet. Returns how many
-    /// splits were done: 0 when it is split already.
+    /// Splits an inner node, and before it those of its ancestors that are not split yet. Returns
+    /// how many splits were done; 0 when the node is split already.
     std::size_t split(std::uint32_t node);
 
-    /// split() of each, in an order of its own that takes the least time. Counts of forced splits
-    /// leave out those that were asked for.
+    /// Splits each of these inner nodes, in the order that takes the least time. Returns how many
+    /// splits were done. In the counts a split is forced only if it was not asked for.
     std::size_t split_all(std::span<const std::uint32_t> nodes);
 
     /// Puts the nodes that split(active_node) would split before that one into `forced`, in order,
-    /// the first 200 of them; by the rule Selective.
+    /// for the rule Selective. At most 200 are found.
     void nodes_forced_by(std::uint32_t active_node, std::vector<std::uint32_t>& forced) const;
 
-    /// Back to the base mesh. Keeps the memory; counts go on.
+    /// Returns to the base mesh. Memory is kept and the counts go on.
     void restart();
 
-    /// Collapses an inner node whose children are both active. False, and nothing done, where they
-    /// are not or where it would spoil the mesh now: a manifold (link condition), or with repair a
-    /// face turned over. Worth another try when the neighbourhood has changed.
+    /// Collapses the two children of an inner node into it. Does nothing and returns false when
+    /// they are not both active, when the result would not be a manifold (link condition), or, with
+    /// repair, when a face would turn over. It is worth another try when the neighbourhood has
+    /// changed.
     bool collapse(std::uint32_t node);
 
-    /// Whether collapse(node) would do it now.
+    /// Whether collapse(node) would succeed now.
     bool may_collapse(std::uint32_t node);
 
-    /// Inner nodes that were split, in order, since the last forget_recent_splits; none without
+    /// The inner nodes that were split since forget_recent_splits was last called, in order. Needs
     /// options().remember_splits.
     std::span<const std::uint32_t> recent_splits() const { return recent_splits_; }
 
     void forget_recent_splits() { recent_splits_.clear(); }
 
-    /// Splits the coarsest corner of each face that is turned over against its original, until none
-    /// is (only faces changed since the last call are looked at). Returns how many splits were
-    /// done. Without options().repair nothing happens. A split made here may be collapsed again.
-    /// Corners whose nodes spare(node) is true for are only split where there is no other.
+    /// Splits the coarsest corner of each face that is turned over against its original, until
+    /// there is none. Only faces that changed since the last call are looked at. Returns how many
+    /// splits were done. Does nothing without options().repair. Nodes for which spare(node) is true
+    /// are split only where no other corner can be.
     std::size_t repair(const std::function<bool(std::uint32_t)>& spare = {});
 
-    /// Faces of the active mesh that are turned over: their normal is more than 90 degrees off the
-    /// original face's.
+    /// How many faces of the active mesh are turned over: their normals are more than 90 degrees
+    /// off those of their original faces.
     std::size_t turned_faces() const;
 
     bool is_active(std::uint32_t node) const {
@@ -106,15 +112,17 @@ public:
         return starts_.has(leaf) && node_at(slots_[leaf]) == node;
     }
 
-    bool is_split(std::uint32_t node) const { // what is active there lies below it
+    /// Whether a node is above the front: the active node at its first leaf then lies below it and
+    /// has a smaller number.
+    bool is_split(std::uint32_t node) const {
         const std::uint32_t leaf = mesh_->first_leaf(node);
         return starts_.has(leaf) && node_at(slots_[leaf]) < node;
     }
 
-    /// The active node that a leaf lies below.
+    /// The active node that a leaf lies below (ActiveAncestor in the paper).
     std::uint32_t active_ancestor(std::uint32_t leaf) const { return node_at(slot_above(leaf)); }
 
-    /// Its place in the arrays below.
+    /// The slot of a leaf's active ancestor.
     std::uint32_t slot_above(std::uint32_t leaf) const {
         return slots_[starts_.at_or_before(leaf)];
     }
@@ -125,44 +133,49 @@ public:
 
     const RefinerCounts& counts() const { return counts_; }
 
-    /// Place of an active node in the arrays below. A node's first child takes its place over.
+    /// The slot of an active node: its index in vertices(). When a node is split, its first child
+    /// takes over its slot.
     std::uint32_t slot(std::uint32_t active_node) const {
         return slots_[mesh_->first_leaf(active_node)];
     }
 
-    /// The same for a split node: the place of the active node at its first leaf.
+    /// The slot of the active node at the first leaf of a node that is split.
     std::uint32_t slot_below(std::uint32_t split_node) const { return slot(split_node); }
 
-    /// none for a place without a vertex.
+    /// The active node in a slot; `none` for an empty slot.
     std::uint32_t node_at(std::uint32_t slot) const { return faces_.vertex_label(slot); }
 
-    /// By slot, places without a vertex included.
+    /// The vertex array for drawing, indexed by slot, empty slots included.
     std::span<const RefinedVertex> vertices() const { return vertices_; }
 
-    /// Three a face, counter-clockwise from outside; places without a face are (0, 0, 0).
+    /// The index list for drawing: three slots for each place, counter-clockwise seen from outside.
+    /// Places without a face are (0, 0, 0).
     std::span<const std::uint32_t> indices() const { return faces_.indices(); }
 
-    /// Number of the original face at a place of the indices; none without one.
+    /// The number of the original face at a place of the index list; `none` for an empty place.
     std::uint32_t face_at(std::size_t place) const {
         return faces_.label(static_cast<std::uint32_t>(place));
     }
 
-    /// Moves a vertex as it is drawn (geomorphs); a split or collapse puts it where its node is.
+    /// Sets a vertex as it is drawn, for geomorphs. The next split or collapse of its node puts it
+    /// back to the node's position.
     void draw_at(std::uint32_t slot, const RefinedVertex& vertex);
 
-    /// The vertex of a node where it belongs.
+    /// The vertex of a node at the node's own position.
     RefinedVertex vertex_of(std::uint32_t node) const;
 
-    /// Ranges of `vertices` and of places (three `indices` each) written since the last call.
+    /// Puts the ranges of slots whose vertices were written since the last call into `ranges`.
     void take_dirty_vertices(std::vector<PlaceRange>& ranges);
+    /// Puts the ranges of places whose faces were written since the last call into `ranges`.
     void take_dirty_faces(std::vector<PlaceRange>& ranges);
 
-    /// Memory of the front without `vertices`; its part that grows with the hierarchy included.
+    /// The memory of the front without vertices(), its part that grows with the hierarchy included.
     std::size_t bytes() const;
 
 private:
-    /// First leaves of the active nodes beside both children of a node that is to be split; none
-    /// and none - 1 beyond a boundary.
+    /// The first leaves of the active cut vertices val and var of a node that is to be split. They
+    /// are `none` and `none - 1` where the boundary has no cut vertex, so that they never compare
+    /// as equal.
     struct Cuts {
         std::uint32_t left = none;
         std::uint32_t right = none;
@@ -193,13 +206,16 @@ private:
 
     std::shared_ptr<const ProgressiveMesh> mesh_;
     RefinerOptions options_;
-    FaceLists faces_; ///< vertices are slots labelled with their nodes, faces with the originals
-    std::vector<RefinedVertex> vertices_; ///< one a slot
-    ActiveStarts starts_;                 ///< first leaves of active nodes
-    ShortNumbers slots_;                  ///< by first leaf, of active nodes; else anything
-    std::vector<std::uint32_t> stack_;    ///< nodes to split, the next one last
-    std::vector<std::uint32_t> path_;     ///< of split_with_others
-    std::vector<std::uint32_t> changed_;  ///< slots whose faces repair() looks at
+    /// Its vertices are slots labelled with their nodes; its faces are labelled with the original
+    /// faces.
+    FaceLists faces_;
+    std::vector<RefinedVertex> vertices_; ///< One for each slot.
+    ActiveStarts starts_;                 ///< The first leaves of the active nodes.
+    /// For the first leaf of each active node its slot; other entries mean nothing.
+    ShortNumbers slots_;
+    std::vector<std::uint32_t> stack_;   ///< Nodes that wait to be split; the last one is next.
+    std::vector<std::uint32_t> path_;    ///< Scratch memory of split_with_others.
+    std::vector<std::uint32_t> changed_; ///< The slots whose faces repair() has to look at.
     std::vector<std::uint32_t> recent_splits_;
     DirtyBlocks dirty_vertices_;
     DirtyBlocks dirty_faces_;

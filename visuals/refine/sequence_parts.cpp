@@ -1,3 +1,7 @@
+// From a sequence of edge collapses to the parts of a vertex hierarchy: J. Kim, S. Lee, "Truly
+// Selective Refinement of Progressive Meshes", Graphics Interface 2001, section 3 (vertex
+// hierarchy). The sequence names nodes by vertex and collapse numbers; here leaves are renumbered
+// in depth-first order, so that the region S(v) of any node is a range of leaves.
 #include "visuals/refine/sequence_parts.h"
 
 #include <glm/common.hpp>
@@ -14,9 +18,11 @@ using models::Collapse;
 using models::CollapseSequence;
 using models::TriangleMesh;
 
-/// A normal times the area that it speaks for.
+/// A unit normal times the area of the surface that it was averaged over (twice the area, to be
+/// exact).
 using WeightedNormal = glm::dvec3;
 
+/// Whether every coordinate of the original is a float already, so that it can be kept bit for bit.
 bool all_floats(const CollapseSequence& sequence) {
     const auto is_float = [](const glm::dvec3& point_m) {
         return glm::dvec3(glm::vec3(point_m)) == point_m;
@@ -24,11 +30,12 @@ bool all_floats(const CollapseSequence& sequence) {
     return std::ranges::all_of(sequence.original.vertices_m, is_float);
 }
 
-/// Place of each original vertex in an order in which those below any node follow one another.
+/// For each original vertex its leaf number, in an order in which the leaves below any node are
+/// consecutive.
 std::vector<std::uint32_t> leaf_order(const CollapseSequence& sequence) {
     const std::size_t leaves = sequence.original.vertices_m.size();
     const std::size_t nodes = leaves + sequence.collapses.size();
-    std::vector<std::uint32_t> sizes(nodes, 1); // leaves below
+    std::vector<std::uint32_t> sizes(nodes, 1); // the number of leaves below each node
     std::vector<bool> has_parent(nodes, false);
     for (std::size_t i = 0; i < sequence.collapses.size(); ++i) {
         const Collapse& collapse = sequence.collapses[i];
@@ -53,7 +60,8 @@ std::vector<std::uint32_t> leaf_order(const CollapseSequence& sequence) {
     return begins;
 }
 
-/// Of each original vertex, by the original's number.
+/// For each original vertex the sum of its given corner normals weighted by area, or of the normals
+/// of its faces where it has none.
 std::vector<WeightedNormal> vertex_normals(const TriangleMesh& mesh) {
     std::vector<WeightedNormal> from_faces(mesh.vertices_m.size(), WeightedNormal(0.0));
     std::vector<glm::dvec3> given(mesh.normals.empty() ? 0 : mesh.vertices_m.size());
@@ -114,6 +122,8 @@ void add_splits(
     }
 }
 
+/// Adds the normals of leaves and of inner nodes; an inner node's is the area-weighted mean of its
+/// leaves'.
 void add_normals(const TriangleMesh& mesh, ProgressiveParts& parts) {
     const std::vector<WeightedNormal> by_vertex = vertex_normals(mesh);
     std::vector<WeightedNormal> sums;

@@ -8,10 +8,10 @@
 
 namespace octant::visuals::refine {
 
-/// Numbers below 2^24, three bytes each.
+/// An array of numbers below 2^24 in three bytes each.
 class ShortNumbers {
 public:
-    /// So many of them, all 0.
+    /// Makes an array of `count` zeros.
     void assign(std::size_t count) { bytes_.assign(3 * count + 1, 0); }
 
     std::uint32_t operator[](std::size_t at) const {
@@ -27,7 +27,8 @@ public:
 private:
     static_assert(std::endian::native == std::endian::little);
 
-    std::vector<std::uint8_t> bytes_; ///< and one behind the last number, read with it
+    /// There is one more byte at the end, because numbers are read four bytes at a time.
+    std::vector<std::uint8_t> bytes_;
 };
 
 } // namespace octant::visuals::refine

@@ -1,3 +1,14 @@
+// View-dependent refinement frame by frame, with J. Kim and S. Lee's splits (2001, section 4) and
+// H. Hoppe's criterion (1997, section 4).
+//
+// A frame splits every active node whose projected error exceeds error_px, the largest error first,
+// and merges siblings whose parent would show less than merge_share of it, the smallest error
+// first. Three things keep nodes from being split and merged in turns: the gap between the two
+// thresholds, weights that look ahead by an angle (merge_play_rad), and a rest of some frames after
+// each operation.
+//
+// Merging takes several frames: geomorphs first carry both vertices to the parent's position, then
+// the edge is collapsed. If the error grows in the meantime, they turn back.
 #include "visuals/refine/view_refiner.h"
 
 #include <algorithm>
@@ -36,7 +47,8 @@ RefinedFrame ViewRefiner::update(const RefineView& view) {
 }
 
 void ViewRefiner::settle(const RefineView& view) {
-    constexpr int most_rounds = 100; // repair and merging could undo each other's work for ever
+    // Repair and merging could otherwise undo each other's work for ever.
+    constexpr int most_rounds = 100;
     const ViewRefinerOptions kept = options_;
     options_.geomorphs = false;
     options_.operations = std::numeric_limits<std::size_t>::max();
@@ -47,7 +59,8 @@ void ViewRefiner::settle(const RefineView& view) {
     options_ = kept;
 }
 
-/// What is to be split, and what may be merged.
+/// Fills splits_ with the nodes to split, and merges_ with the parents whose children may be
+/// merged.
 void ViewRefiner::gather() {
     splits_.clear();
     merges_.clear();
@@ -69,6 +82,7 @@ void ViewRefiner::gather() {
     }
 }
 
+/// Adds a node to splits_ when its error is too large.
 void ViewRefiner::consider_split(std::uint32_t node) {
     if (front_.mesh().is_leaf(node)) {
         return;
@@ -82,6 +96,7 @@ void ViewRefiner::consider_split(std::uint32_t node) {
     }
 }
 
+/// Splits the nodes of splits_, largest error first, and considers their children in turn.
 void ViewRefiner::split_worst() {
     const auto less = [](const Candidate& a, const Candidate& b) {
         return a.error_px != b.error_px ? a.error_px < b.error_px : a.node < b.node;
@@ -92,7 +107,7 @@ void ViewRefiner::split_worst() {
         const auto [shown_px, node] = splits_.back();
         splits_.pop_back();
         if (!front_.is_active(node)) {
-            continue; // forced by another one
+            continue; // It has been split already, because another node forced it.
         }
         if (shown_px <= options_.again_share * options_.error_px && needs_resting(node)) {
             waiting_ = true;
@@ -110,6 +125,7 @@ void ViewRefiner::split_worst() {
     waiting_ = waiting_ || !splits_.empty();
 }
 
+/// Starts geomorphs for all nodes that were split in this frame.
 void ViewRefiner::start_moves() {
     split_frames_.resize(front_.vertices().size(), 0);
     for (const std::uint32_t node : front_.recent_splits()) {
@@ -123,7 +139,7 @@ void ViewRefiner::start_moves() {
     front_.forget_recent_splits();
 }
 
-/// Vertices on their way to a merge that is not wanted any more, or not possible, go back.
+/// Sends vertices back that travel to a merge which is no longer wanted or no longer possible.
 void ViewRefiner::turn_back_moves() {
     turning_.clear();
     moves_.each([&](std::uint32_t slot, std::uint32_t target) {
@@ -142,6 +158,7 @@ void ViewRefiner::turn_back_moves() {
     }
 }
 
+/// Merges the candidates of merges_, smallest error first.
 void ViewRefiner::merge_smallest() {
     std::ranges::sort(merges_, [](const Candidate& a, const Candidate& b) {
         return a.error_px != b.error_px ? a.error_px < b.error_px : a.node > b.node;
@@ -150,7 +167,7 @@ void ViewRefiner::merge_smallest() {
     for (const Candidate& candidate : merges_) {
         const Split split = front_.mesh().split_of(candidate.node);
         if (!front_.is_active(split.first) || !front_.is_active(split.second)) {
-            continue; // forced to split
+            continue; // A child has been split in the meantime.
         }
         if (left == 0 || is_resting(candidate.node)) {
             waiting_ = true;
@@ -160,6 +177,7 @@ void ViewRefiner::merge_smallest() {
     }
 }
 
+/// Whether one of a node's children came by a split within the last rest_frames.
 bool ViewRefiner::is_resting(std::uint32_t node) const {
     const Split split = front_.mesh().split_of(node);
     const std::uint32_t came =
@@ -167,13 +185,15 @@ bool ViewRefiner::is_resting(std::uint32_t node) const {
     return came != 0 && frame_ - came <= static_cast<std::uint32_t>(options_.rest_frames);
 }
 
+/// Whether an active node came by a merge within the last rest_frames.
 bool ViewRefiner::rests_after_merge(std::uint32_t node) const {
     const std::uint32_t slot = front_.slot(node);
     return slot < merged_.size() && merged_[slot].node == node &&
            frame_ - merged_[slot].frame <= static_cast<std::uint32_t>(options_.rest_frames);
 }
 
-/// Whether splitting an active node splits one that rests after its merge: itself or a forced one.
+/// Whether splitting an active node would split one that rests after its merge: itself or a forced
+/// one.
 bool ViewRefiner::needs_resting(std::uint32_t node) {
     if (rests_after_merge(node)) {
         return true;
@@ -184,7 +204,8 @@ bool ViewRefiner::needs_resting(std::uint32_t node) {
     });
 }
 
-/// Merges a node's children, or sends them to where it lies. False when that is not possible now.
+/// Merges a node's children, or with geomorphs sends them to the node's position until they have
+/// arrived. Returns false when that is not possible now.
 bool ViewRefiner::merge(std::uint32_t node) {
     const Split split = front_.mesh().split_of(node);
     const std::uint32_t first = front_.slot(split.first);

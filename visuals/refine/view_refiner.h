@@ -11,41 +11,49 @@
 
 namespace octant::visuals::refine {
 
+/// When nodes are split and merged, and how fast.
 struct ViewRefinerOptions {
-    double error_px = 1.0;       ///< what shows a larger error is split
-    double merge_share = 0.75;   ///< of error_px: what shows a smaller one is merged, < 1
+    double error_px = 1.0; ///< A node with a larger projected error is split.
+    /// A node with a projected error below this share of error_px is merged; below 1.
+    double merge_share = 0.75;
+    /// CriterionOptions::play_rad for merges: a node that may come into sight soon is not merged.
     double merge_play_rad = 0.2; ///< criterion.play_rad for merges: what comes into sight keeps
-    int rest_frames = 10;        ///< a node that was split is not merged for so many
-    /// Nor is one that was merged split again for so many, nor another one that forces it, unless
-    /// that one shows more than again_share times error_px or nothing else mends a turned face.
+    /// A node that was split is not merged for this many frames.
+    int rest_frames = 10; ///< a node that was split is not merged for so many
+    /// A node that was merged is not split again for rest_frames either, nor is one that would
+    /// force it to split, unless its error is more than this many times error_px or nothing else
+    /// mends a turned face.
     double again_share = 3.0;
+    /// At most this many splits and this many collapses are begun in one frame.
     std::size_t operations = 2000; ///< splits and collapses asked for in a frame, at most
     bool geomorphs = true;
+    /// The weights for splits.
     CriterionOptions criterion{}; ///< of splits
     GeomorphOptions geomorph{};
-    bool repair = true; ///< of fold-overs
+    bool repair = true; ///< Mends fold-overs.
 };
 
-/// What a frame did.
+/// What one frame did.
 struct RefinedFrame {
-    std::size_t splits = 0; ///< forced ones included
+    std::size_t splits = 0; ///< Forced splits included.
     std::size_t collapses = 0;
-    std::size_t moving = 0; ///< vertices that moved
-    bool settled = true;    ///< nothing is left to do for this view
+    std::size_t moving = 0; ///< The number of vertices that moved.
+    bool settled = true;    ///< Nothing is left to do for this view.
 };
 
-/// Keeps a front as fine as a view needs it. Several of them may share a hierarchy. The same views
-/// give the same meshes.
+/// Keeps a front as fine as a view demands, frame after frame, with geomorphs. Several refiners may
+/// share a hierarchy. The same sequence of views gives the same meshes.
 class ViewRefiner {
 public:
     explicit ViewRefiner(
         std::shared_ptr<const ProgressiveMesh> mesh, const ViewRefinerOptions& options = {});
 
-    /// One frame. Worst errors are split first, smallest ones merged first. With a settled view
-    /// nothing is looked at but the view.
+    /// Advances by one frame: splits the largest errors, mends fold-overs, merges the smallest
+    /// errors and moves vertices. While the view does not change and everything is settled, nothing
+    /// is computed.
     RefinedFrame update(const RefineView& view);
 
-    /// Makes the mesh fit a view at once, without moves and however many operations it takes: for
+    /// Makes the mesh fit a view at once, without geomorphs and with any number of operations: for
     /// the first picture that shows it.
     void settle(const RefineView& view);
 
@@ -58,10 +66,12 @@ public:
         return merged_error_px(node) >= options_.merge_share * options_.error_px;
     }
 
-    /// Inner nodes that the criterion alone wants split for a view.
+    /// How many inner nodes the criterion alone wants split for a view; to compare with what the
+    /// rule forces.
     std::size_t wanted_splits(const RefineView& view) const;
 
 private:
+    /// A node with its projected error.
     struct Candidate {
         double error_px = 0.0;
         std::uint32_t node = none;
@@ -71,13 +81,15 @@ private:
         return projected_error_px(front_.mesh(), node, view_, options_.criterion);
     }
 
-    /// What a node would show once its children are merged into it, with play.
+    /// The projected error that a node would have once its children are merged into it; with
+    /// merge_play_rad.
     double merged_error_px(std::uint32_t node) const {
         CriterionOptions criterion = options_.criterion;
         criterion.play_rad += options_.merge_play_rad;
         return projected_error_px(front_.mesh(), node, view_, criterion);
     }
 
+    /// The node that was last merged in a slot, and when.
     struct Merged {
         std::uint32_t node = none;
         std::uint32_t frame = 0;
@@ -100,14 +112,15 @@ private:
     RefineView view_;
     bool has_view_ = false;
     bool settled_ = false;
-    bool waiting_ = false; ///< something is left for the next frame
+    bool waiting_ = false; ///< Something has to be done in a later frame.
     std::uint32_t frame_ = 0;
-    std::vector<Candidate> splits_; ///< a heap, the worst on top
+    std::vector<Candidate> splits_; ///< A heap with the largest error on top.
     std::vector<Candidate> merges_;
-    std::vector<std::uint32_t> turning_;      ///< slots
-    std::vector<std::uint32_t> forced_;       ///< of needs_resting
-    std::vector<std::uint32_t> split_frames_; ///< one a slot: when its node came
-    std::vector<Merged> merged_;              ///< one a slot: what was last merged there
+    std::vector<std::uint32_t> turning_; ///< Scratch memory of turn_back_moves: slots.
+    std::vector<std::uint32_t> forced_;  ///< Scratch memory of needs_resting.
+    /// For each slot the frame in which a split put its node there.
+    std::vector<std::uint32_t> split_frames_;
+    std::vector<Merged> merged_; ///< One for each slot.
 };
 
 } // namespace octant::visuals::refine

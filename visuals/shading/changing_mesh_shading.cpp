@@ -1,11 +1,14 @@
-// Which triangles of a refined mesh are smooth: the rules of shading_rule.cpp (H. Kim, H. Park, "A
-// Hybrid Rendering Model to support LOD (Level of Detail)", 2008, section 3; rule Error is ours)
-// where the triangles are others in each frame.
+// Which triangles of a selectively refined mesh are smooth. The rules are those of shading_rule.cpp
+// (H. Kim, H. Park, "A Hybrid Rendering Model to support LOD (Level of Detail)", 2008, section 3;
+// the rule Error is ours), for meshes whose triangles change from frame to frame, so that nothing
+// can be prepared when a model is loaded.
 //
-// A triangle costs a cross product and, where it faces the eye, two roots; corners are lit once a
-// vertex. The greatest keys are found by counting.
+// Everything is computed from the corners in each call: a triangle costs a cross product and, where
+// it faces the eye, two square roots. Each vertex is lit once, and the greatest keys are found by
+// counting.
 //
-// Deviations: as there. The flat colour is the mean of the corners' colours, as it is drawn.
+// Deviations: those of shading_rule.cpp. The flat colour is the mean of the corners' colours, as
+// the renderer draws it.
 #include "visuals/shading/changing_mesh_shading.h"
 
 #include <glm/geometric.hpp>
@@ -17,8 +20,10 @@ namespace octant::visuals::shading {
 
 namespace {
 
-constexpr std::uint32_t no_triangle = 0; ///< key
-constexpr std::uint32_t least_key = 1;   ///< of triangles
+/// The key of an empty place; it is never chosen, because there are at least as many triangles as
+/// smooth ones.
+constexpr std::uint32_t no_triangle = 0;
+constexpr std::uint32_t least_key = 1; ///< The least key of a place that has a triangle.
 
 } // namespace
 
@@ -41,7 +46,8 @@ void ChangingMeshSelector::light_points(const ChangingMesh& mesh) {
     }
 }
 
-/// What was smooth stays marked where its triangle is still there.
+/// Carries the smooth flags over from the last mesh: a flag stays where the place still has the
+/// same label, and is cleared elsewhere.
 void ChangingMeshSelector::hold_places(const ChangingMesh& mesh) {
     const std::size_t before = std::min(labels_.size(), mesh.labels.size());
     for (std::size_t place = 0; place < before; ++place) {
@@ -60,7 +66,8 @@ std::uint32_t ChangingMeshSelector::by_error(
     const glm::vec3 doubled_m2 = glm::cross(b.place_m - a.place_m, c.place_m - a.place_m);
     const glm::vec3 centre_m = (a.place_m + b.place_m + c.place_m) / 3.0F;
     const glm::vec3 to_eye_m = eye_m - centre_m;
-    const float in_front_m3 = glm::dot(doubled_m2, to_eye_m); // twice the area with it
+    // Twice the area times the eye's height above the plane; negative behind the triangle.
+    const float in_front_m3 = glm::dot(doubled_m2, to_eye_m);
     const float size_m2 = glm::length(doubled_m2);
     if (!(in_front_m3 > 0.0F) || !(size_m2 > 0.0F)) {
         return least_key;

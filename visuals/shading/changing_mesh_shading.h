@@ -12,28 +12,37 @@
 
 namespace octant::visuals::shading {
 
-/// A mesh of triangles that is another one in each frame.
+/// A triangle mesh whose triangles may change from frame to frame, as a selectively refined mesh's
+/// do. Triangles sit in numbered slots ("places"); a slot may be empty. Positions and normals are
+/// in the mesh's own axes.
 struct ChangingMesh {
     std::span<const LitPoint> points;
-    /// Three a place, into `points`; a place whose first two are equal has no triangle.
+    /// Three indices into `points` for each place. A place whose first two indices are equal is
+    /// empty.
     std::span<const std::uint32_t> indices;
-    /// One a place: a triangle that stays where it is keeps it, another one there has another.
+    /// One label for each place. A triangle keeps its label as long as it exists; whatever takes
+    /// its place later has another label.
     std::span<const std::uint32_t> labels;
-    std::size_t triangle_count = 0; ///< places with a triangle
-    glm::vec3 centre_m{0.0F};       ///< about the middle, the same in each frame
+    std::size_t triangle_count = 0; ///< The number of places that are not empty.
+    /// A point near the middle of the mesh, the same in each frame; the eye's angle is measured
+    /// about it.
+    glm::vec3 centre_m{0.0F};
 };
 
-/// Chooses the smooth triangles of a mesh that changes: as ShadingSelector does, but nothing of a
-/// triangle is kept from frame to frame but whether it was smooth. Rules Error and Paper. Time
-/// grows with the triangles; keeps its memory.
+/// Chooses the smooth triangles of a mesh that changes from frame to frame. The rules are those of
+/// ShadingSelector, but all that is kept of a triangle is whether it was smooth. Supports the rules
+/// Error and Paper. The time grows linearly with the triangles; memory is reused, so that no call
+/// allocates once the arrays have reached their size.
 class ChangingMeshSelector {
 public:
-    /// `settings.rule` is not Random (asserted).
+    /// `settings.rule` must not be Random (asserted), because Random needs fixed polygon numbers.
     explicit ChangingMeshSelector(const ShadingRuleSettings& settings = {});
 
-    /// Exactly `smooth_count` smooth ones, from 0 to triangle_count. Without `changed` the mesh has
-    /// the triangles that it had in the last call, and nothing is looked at but eye, light and
-    /// count. Returns whether any triangle may be chosen otherwise than before.
+    /// Makes exactly `smooth_count` triangles smooth (0 to triangle_count, asserted). `eye_m` and
+    /// `light` are in the mesh's axes. `changed` = false promises that the mesh has the same
+    /// triangles as in the last call; then only eye, light and count are compared with those of the
+    /// last choice. Returns whether the choice was made again, so that smooth() may differ from
+    /// before.
     bool choose(
         const ChangingMesh& mesh,
         const glm::dvec3& eye_m,
@@ -41,7 +50,7 @@ public:
         std::size_t smooth_count,
         bool changed);
 
-    /// One a place: 1 = smooth, 0 = flat, or there is no triangle.
+    /// One flag for each place: 1 = smooth (Gouraud), 0 = flat or empty.
     std::span<const std::uint8_t> smooth() const { return smooth_; }
 
 private:
@@ -51,6 +60,7 @@ private:
     by_error(const ChangingMesh& mesh, std::size_t place, const glm::vec3& eye_m) const;
     std::uint32_t by_paper(const ChangingMesh& mesh, std::size_t place) const;
 
+    /// The factor on a triangle's rank that keeps it smooth once it is (hysteresis).
     float hold_of(std::size_t place) const { return smooth_[place] != 0 ? settings_.hold : 1.0F; }
 
     void measure_perimeters(const ChangingMesh& mesh);
@@ -61,10 +71,10 @@ private:
     bool chosen_ = false;
     std::size_t smooth_count_ = 0;
     double mean_perimeter_m_ = 0.0;
-    std::vector<float> intensities_;  ///< one a point
-    std::vector<float> perimeters_m_; ///< one a place, rule Paper
-    std::vector<std::uint32_t> keys_; ///< one a place
-    std::vector<std::uint32_t> labels_;
+    std::vector<float> intensities_;    ///< One for each of the mesh's points.
+    std::vector<float> perimeters_m_;   ///< One for each place, for the rule Paper only.
+    std::vector<std::uint32_t> keys_;   ///< One sort key for each place; see key_of.
+    std::vector<std::uint32_t> labels_; ///< The labels of the last call.
     std::vector<std::uint8_t> smooth_;
 };
 

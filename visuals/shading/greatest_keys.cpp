@@ -1,3 +1,6 @@
+// Selection of the greatest keys by counting: one pass fills a histogram over the keys' top 12
+// bits, a scan from the top finds the bucket in which the count is reached, and std::nth_element
+// orders that bucket only.
 #include "visuals/shading/greatest_keys.h"
 
 #include <algorithm>
@@ -17,7 +20,7 @@ void GreatestKeys::choose(
         ++counts_[key >> bucket_shift];
     }
     std::size_t bucket = counts_.size() - 1;
-    std::size_t left = count; // to be found in this bucket and below
+    std::size_t left = count; // How many of the chosen keys lie in this bucket and below.
     while (counts_[bucket] < left) {
         left -= counts_[bucket--];
     }

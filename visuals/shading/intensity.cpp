@@ -13,7 +13,8 @@ namespace octant::visuals::shading {
 
 namespace {
 
-/// By squares, so that every machine's library gives the same bits.
+/// base^exponent by repeated squaring. std::pow may differ in its last bits from library to
+/// library; this gives the same bits everywhere, and so the same choices.
 float whole_power(float base, int exponent) {
     float power = 1.0F;
     for (; exponent > 0; exponent /= 2) {

@@ -1,6 +1,13 @@
-// Normals inside of polygons by mean value coordinates: M. S. Floater, "Mean value coordinates",
+// Normals inside polygons by mean value coordinates: M. S. Floater, "Mean value coordinates",
 // Computer Aided Geometric Design 20 (1), 2003, equation (2.1).
-// Deviations: corners and points on sides, where the equation divides by 0, get its limit.
+//
+// Gouraud shading interpolates between a polygon's corners. When the 1989 paper's painting order
+// needs a polygon cut in two (section IV, figure 14), new corners appear, and normals computed from
+// the pieces would show the cut. So each new corner takes its normal from the uncut polygon: weight
+// of corner i = (tan(a_(i-1) / 2) + tan(a_i / 2)) / |corner i - point|, where a_i is the angle
+// under which the point sees the side from corner i to corner i + 1.
+//
+// Deviations: at corners and on sides, where the equation divides by 0, its limit is taken.
 #include "visuals/shading/piece_normals.h"
 
 #include <glm/geometric.hpp>
@@ -17,15 +24,17 @@ namespace octant::visuals::shading {
 
 namespace {
 
-constexpr double same_place = 1e-9; ///< share of the side or of the distance to its end
+/// Two points closer than this share of the side's length are the same point.
+constexpr double same_place = 1e-9;
 
-/// Corners of a polygon and their normals.
+/// The corners of one uncut polygon in order, with a unit normal for each.
 struct Outline {
     std::vector<glm::dvec3> places_m;
     std::vector<glm::dvec3> normals;
 };
 
-/// How far a point lies outside of a polygon, seen along its normal; 0 inside.
+/// How far a point lies outside a polygon, metres: the larger of its distance from the plane and
+/// its distance beyond any side. 0 for a point inside.
 double outside_m(
     const models::polygons::PolygonModel& model, std::size_t polygon, const glm::dvec3& point_m) {
     const glm::dvec3 normal = models::polygons::normal_of(model, polygon);
@@ -40,6 +49,8 @@ double outside_m(
     return most_m;
 }
 
+/// The index of that candidate polygon of `whole` in which a point lies, or which is nearest to it.
+/// Several candidates occur when the file's polygon had already been cut into convex parts.
 std::size_t polygon_around(
     const models::polygons::PolygonModel& whole,
     std::span<const std::size_t> candidates,
@@ -56,7 +67,8 @@ std::size_t polygon_around(
     return best;
 }
 
-/// Tangent of half the angle between two vectors; negative where they lie on one line, apart.
+/// The tangent of half the angle between two vectors. Returns -1 where they point in opposite
+/// directions, that is, where the point lies on the side between their ends.
 double half_tangent(const glm::dvec3& one, const glm::dvec3& other) {
     const double lengths = glm::length(one) * glm::length(other);
     const double sine = glm::length(glm::cross(one, other));
@@ -64,6 +76,7 @@ double half_tangent(const glm::dvec3& one, const glm::dvec3& other) {
     return below <= same_place * lengths ? -1.0 : sine / below;
 }
 
+/// Equation (2.1) for a point inside an outline. The result is not yet of unit length.
 glm::dvec3 normal_at(const Outline& outline, const glm::dvec3& point_m) {
     const std::size_t count = outline.places_m.size();
     glm::dvec3 sum(0.0);

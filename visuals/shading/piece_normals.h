@@ -9,11 +9,15 @@
 
 namespace octant::visuals::shading {
 
-/// Corner normals of a model whose polygons were cut into pieces (for a draw order), so that the
-/// pieces together look like the polygons they were: a corner that a polygon had before has the
-/// same normal, one on a side what lies between the side's ends, one inside what lies between all
-/// corners. `whole`: the model before it was cut, `normals`: one a corner of it. The parents of
-/// `pieces` are those of `whole`. As many normals as `pieces` has corners.
+/// Corner normals for a model whose polygons were cut into pieces (a draw order may need that),
+/// chosen so that the pieces together are shaded as the whole polygons were. A corner of a piece
+/// that coincides with a corner of its polygon gets that normal; a corner on a side gets the linear
+/// mixture of the side's two ends; a corner inside gets a mixture of all corners by mean value
+/// coordinates.
+///
+/// `whole` is the model before it was cut and `normals` has one unit normal for each of its corners
+/// (asserted). The parents of `pieces` are the polygons of `whole`. Returns one unit normal for
+/// each corner of `pieces`.
 std::vector<glm::vec3> normals_of_pieces(
     const models::polygons::PolygonModel& whole,
     std::span<const glm::vec3> normals,

@@ -6,21 +6,22 @@
 
 namespace octant::visuals::shading {
 
-/// How much eye and light may change before a choice is looked at again.
+/// How much the eye and the light may change before smooth polygons are chosen again.
 struct LookTolerance {
-    /// By more than this the eye has moved about a model's middle, or the light has turned.
+    /// The eye may move by this angle about the model's centre, and the light may turn by it.
     double angle_rad = 0.03;
-    /// Or the eye is farther or nearer by more than this share of its distance.
+    /// The distance from the eye to the centre may change by this share of itself.
     double distance_share = 0.05;
 };
 
-/// Eye and light that a choice was made for.
+/// The eye and the light that a choice was made for, in the model's axes.
 struct RememberedLook {
     glm::dvec3 eye_m{0.0};
     ShadingLight light;
 };
 
-/// Whether `now` is another look at a model about `centre_m`.
+/// Whether `now` differs from `before` by more than the tolerance, for a model with its centre at
+/// `centre_m`. Any change of the light but its direction counts.
 bool is_other_look(
     const RememberedLook& before,
     const RememberedLook& now,

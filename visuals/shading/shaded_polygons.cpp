@@ -1,6 +1,9 @@
-// What Kim and Park's hybrid rendering model (2008), section 3, asks of a polygon: its size as the
-// sum of its edge lengths, and its corners with their normals.
-// Deviations: areas, centres and fans are here for the other rule; n-gons keep all their edges.
+// Prepares polygons for selection, once when a model is loaded. Kim and Park's hybrid rendering
+// model (2008), section 3, asks two things of a polygon: its size, which is the sum of its edge
+// lengths, and its corners with their vertex normals.
+//
+// Deviations: areas, centroids and triangle fans are kept as well, for the rule Error; polygons
+// with more than three corners stay whole and keep all their edges in the sum.
 #include "visuals/shading/shaded_polygons.h"
 
 #include <glm/common.hpp>
@@ -33,7 +36,8 @@ auto key_of(const LitPoint& point) {
         point.colour_sum);
 }
 
-/// One LitPoint for all corners that have the same, numbered as corners come.
+/// Merges corners that are equal in position, normal and colour into one LitPoint each, numbered in
+/// the order in which they first occur, and fills `shaded.points` and `corner_points`.
 void share_points(std::span<const LitPoint> corners, ShadedPolygons& shaded) {
     std::vector<std::uint32_t> sorted(corners.size());
     std::iota(sorted.begin(), sorted.end(), 0U);
@@ -55,6 +59,8 @@ void share_points(std::span<const LitPoint> corners, ShadedPolygons& shaded) {
     }
 }
 
+/// Computes perimeter, area, centroid, mean colour and triangle fan of one polygon from its
+/// corners.
 void measure(ShadedPolygon& polygon, std::span<const LitPoint> corners, std::span<float> fan_m2) {
     const glm::vec3& first_m = corners.front().place_m;
     glm::vec3 weighted(0.0F);
@@ -75,6 +81,7 @@ void measure(ShadedPolygon& polygon, std::span<const LitPoint> corners, std::spa
     polygon.centre_m = polygon.area_m2 > 0.0F ? weighted / polygon.area_m2 : mean / count;
 }
 
+/// Sets the centre and the radius of a sphere around all points.
 void enclose(ShadedPolygons& shaded) {
     if (shaded.points.empty()) {
         return;
@@ -91,7 +98,7 @@ void enclose(ShadedPolygons& shaded) {
     }
 }
 
-/// `shaded.polygons`: normal, first_corner and corner_count are set.
+/// Completes `shaded`, whose polygons have only their normal, first_corner and corner_count so far.
 ShadedPolygons finished(ShadedPolygons shaded, std::span<const LitPoint> corners) {
     shaded.fan_m2.resize(corners.size());
     double perimeters_m = 0.0;

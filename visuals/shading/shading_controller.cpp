@@ -1,21 +1,25 @@
-// How many polygons are smooth, from frame times: what H. Kim, H. Park, "A Hybrid Rendering Model
-// to support LOD (Level of Detail)", 2008, leave for later (section 5: "an algorithm that finds the
-// numbers of flat and Gouraud polygons by itself").
+// Chooses the number of smooth polygons from measured frame times. H. Kim, H. Park, "A Hybrid
+// Rendering Model to support LOD (Level of Detail)", 2008, leave this for later (section 5: "an
+// algorithm that finds the numbers of flat and Gouraud polygons by itself").
 //
-// - A frame takes t = a + bf f + bg g. Recursive least squares fit it as a + bf n + (bg - bf) g.
-//   Old frames are forgotten by letting each number drift: a fast (the rest of the frame changes),
-//   bf and bg - bf slowly (the machine does not). One common factor of forgetting would take what
-//   a drifted for knowledge of bg - bf. Where n never changes, a and bf n are known only as a sum,
-//   and nothing else is needed: g = clamp((T - a - bf n) / (bg - bf), 0, n).
-// - A fit that sees one g only cannot tell smooth from flat. The way from all flat to the first
-//   target shows many; later, while the deviation of bg - bf is more than a fifth of it, one
-//   polygon in a hundred, those that are smooth by the narrowest choice, is flat every other third
-//   of a second.
-// - A single slow frame is not learnt from. Three in a row are a change of load: a is learnt anew.
-// - The target moves at once when frames come too near to T, otherwise only over a dead band.
-// - bg - bf below two of its deviations: flat polygons gain nothing that can be measured, and all
-//   are smooth. On the way there g changes as much as it can, so that a gain then shows. What may
-//   still be a fifth of T is not called nothing.
+// The model is t = a + bf f + bg g, where f polygons are flat, g are smooth and n = f + g. The
+// wanted number follows from it: g = clamp((T - a - bf n) / (bg - bf), 0, n).
+//
+// - Recursive least squares fit the equal form t = a + bf n + (bg - bf) g. Old frames are forgotten
+//   by letting the variance of each coefficient grow: fast for a, for the rest of the frame
+//   changes; slowly for bf and bg - bf, for the machine does not. One common forgetting factor
+//   would mistake drift of a for knowledge about bg - bf. Where n never changes, a and bf n are
+//   known only as a sum, and the formula needs nothing else.
+// - A fit that has seen a single g cannot tell smooth polygons from flat ones. The way from all
+//   flat to the first target shows many values of g. Later, while the standard deviation of bg - bf
+//   is more than a fifth of it, a probe is made: 1 % of the polygons, those that are smooth by the
+//   narrowest margin, turn flat during half of each cycle of probe_frames.
+// - A single slow frame is not learnt from. Three in a row mean that the load changed, and a is
+//   learnt anew.
+// - The target moves at once when frames come too near to T, and otherwise only across a dead band.
+// - When bg - bf is below two of its standard deviations, flat polygons gain nothing that can be
+//   measured, and all polygons are smooth. On the way there g changes in the largest steps, so that
+//   a gain would show. What could still be a fifth of T is not called nothing.
 #include "visuals/shading/shading_controller.h"
 
 #include <algorithm>
@@ -31,10 +35,13 @@ using Vector = std::array<double, 3>;
 
 constexpr std::size_t level = 0;
 constexpr std::size_t slope = 2;
-constexpr double unknown = 1e4;     ///< variance of what was never seen, in the noise's variance
-constexpr double widest_band = 0.2; ///< share of the polygons
-constexpr int learning_frames = 30; ///< a fit younger than this says nothing of gain
-constexpr int surprises_of_change = 3;
+/// The variance of a coefficient of which nothing is known, in the noise's variance.
+constexpr double unknown = 1e4;
+/// The dead band never gets wider than this share of the polygons.
+constexpr double widest_band = 0.2;
+/// A fit from fewer frames than this may not judge whether flat polygons gain anything.
+constexpr int learning_frames = 30;
+constexpr int surprises_of_change = 3; ///< So many surprises in a row mean that the load changed.
 
 double dot(const Vector& one, const Vector& other) {
     return one[0] * other[0] + one[1] * other[1] + one[2] * other[2];
@@ -50,12 +57,13 @@ Vector times(const std::array<double, 9>& matrix, const Vector& vector) {
     return product;
 }
 
+/// The factors on a, bf n0 and (bg - bf) n0 in the model of the frame time.
 Vector regressors(const ShadingFit& fit, double polygons, double smooth) {
     return {1.0, polygons / fit.polygons, smooth / fit.polygons};
 }
 
-/// Old frames count less, each number as fast as it may drift; nothing becomes less known than it
-/// was before the first frame.
+/// Lets every coefficient's variance grow by its drift, up to that of an unknown one, so that old
+/// frames count less.
 void forget(ShadingFit& fit, const ShadingControl& control) {
     const Vector drift{control.level_drift, control.slope_drift, control.slope_drift};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -64,7 +72,7 @@ void forget(ShadingFit& fit, const ShadingControl& control) {
     }
 }
 
-/// The frame's time says that the load changed: a may be anything, bg - bf by a third other.
+/// After a change of load: a may now be anything, and bg - bf may differ by a third.
 void open_up(ShadingFit& fit) {
     fit.covariance[4 * level] += unknown;
     const double third = fit.ms[slope] / 3.0 / fit.noise_ms;
@@ -73,6 +81,8 @@ void open_up(ShadingFit& fit) {
     fit.surprises = 0;
 }
 
+/// One step of recursive least squares. `x` are the regressors of a frame that took `missed_ms`
+/// longer than the fit expected.
 void correct(ShadingFit& fit, const Vector& x, double missed_ms) {
     const Vector spread = times(fit.covariance, x);
     const double total = 1.0 + dot(x, spread);
@@ -84,6 +94,8 @@ void correct(ShadingFit& fit, const Vector& x, double missed_ms) {
     }
 }
 
+/// The fit after one more frame: forgets, judges whether the frame is a surprise, an outlier or a
+/// change of load, corrects the coefficients and updates the estimate of the noise.
 ShadingFit learnt(ShadingFit fit, const ShadingControl& control, const ShadedFrame& frame) {
     const Vector x = regressors(fit, frame.flat + frame.smooth, frame.smooth);
     const bool first = fit.noise_ms == 0.0;
@@ -117,12 +129,13 @@ ShadingFit learnt(ShadingFit fit, const ShadingControl& control, const ShadedFra
     return fit;
 }
 
+/// The standard deviation of (bg - bf) n0.
 double slope_sd_ms(const ShadingFit& fit) {
     return fit.noise_ms * std::sqrt(std::max(fit.covariance[4 * slope], 0.0));
 }
 
-/// Whether flat polygons gain nothing, or so little that it does not show, judged with the memory
-/// of the last judgement.
+/// Whether flat polygons gain nothing or too little to be measured. `before` is the last judgement:
+/// it takes clearer evidence to change it than to keep it.
 bool without_gain(bool before, const ShadingFit& fit, const ShadingControl& control) {
     const double sd_ms = slope_sd_ms(fit);
     const bool is_little = fit.ms[slope] + 2.0 * sd_ms < control.little_gain * control.share_ms;
@@ -132,7 +145,7 @@ bool without_gain(bool before, const ShadingFit& fit, const ShadingControl& cont
     return fit.frames >= learning_frames && is_little && fit.ms[slope] < 2.0 * sd_ms;
 }
 
-/// Moves `target` towards the best number for n polygons.
+/// Moves `target` towards the best number of smooth polygons, by at most one largest step.
 void aim(ShadingState& state, const ShadingControl& control) {
     const ShadingFit& fit = state.fit;
     const double n = state.polygons;
@@ -158,10 +171,12 @@ void aim(ShadingState& state, const ShadingControl& control) {
     }
 }
 
-/// g of the next frame: the target, a little less of it while more must be learnt.
+/// g of the next frame: the target, or a little less of it while the cost of smooth polygons is not
+/// known well enough.
 int probed(ShadingState& state, const ShadingControl& control) {
     const bool is_known = slope_sd_ms(state.fit) < 0.2 * state.fit.ms[slope];
-    const int target = static_cast<int>(state.target + 1e-6); // rounded up it would not fit
+    // Rounded down, for one polygon more would not fit into T.
+    const int target = static_cast<int>(state.target + 1e-6);
     if (is_known || state.moving || state.no_gain || target == state.polygons) {
         state.probe_frame = 0;
         return target;

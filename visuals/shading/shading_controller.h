@@ -4,65 +4,79 @@
 
 namespace octant::visuals::shading {
 
-/// Every number by which the share of smooth polygons follows the frame time. "Deviations" are
-/// standard deviations of what frames differ from the fit.
+/// All constants by which the share of smooth polygons follows the frame time. "Deviations" are
+/// standard deviations of the frame times about the fitted model.
 struct ShadingControl {
-    double share_ms = 1000.0 / 60.0; ///< T, a frame's time, above zero
-    /// Variance by which a may change from frame to frame, in the noise's variance: with 6.5e-4 it
-    /// is known from the last 40 frames.
+    double share_ms = 1000.0 / 60.0; ///< T: the time a frame should take, above zero.
+    /// How much the variance of a grows from frame to frame, in units of the noise's variance. With
+    /// 6.5e-4 about the last 40 frames decide on a.
     double level_drift = 6.5e-4;
-    double slope_drift = 1e-4;   ///< the same for bf n0 and (bg - bf) n0
-    double noise_weight = 0.025; ///< of a frame in the noise that is expected
-    double aim_sds = 2.6;        ///< the expected time settles below T by so many deviations
-    double overload_sds = 1.9;   ///< less room than this is too little; from 0 to aim_sds
-    double dead_band = 0.04;    ///< share of the polygons by which there may be too few smooth ones
-    double largest_step = 0.10; ///< share of the polygons that may change from frame to frame
-    /// Share of the polygons (one at least) that turn flat for half of each `probe_frames` while
-    /// the fit cannot tell well what they cost; `largest_step` turn smooth where all are flat.
+    double slope_drift = 1e-4;   ///< The same growth for bf n0 and for (bg - bf) n0.
+    double noise_weight = 0.025; ///< The weight of one frame in the running estimate of the noise.
+    double aim_sds = 2.6;        ///< The expected frame time is aimed this many deviations below T.
+    /// Less room below T than this many deviations counts as overload; 0 to aim_sds.
+    double overload_sds = 1.9;
+    /// As long as no more than this share of the polygons could still turn smooth, nothing changes.
+    double dead_band = 0.04;
+    /// At most this share of the polygons changes from one frame to the next.
+    double largest_step = 0.10;
+    /// While the fit does not know well what smooth polygons cost, this share of the polygons (at
+    /// least one) turns flat for half of each `probe_frames`. Where all are flat already, the share
+    /// `largest_step` turns smooth instead.
     double probe = 0.01;
     int probe_frames = 40;
-    /// Share of the polygons that one at least may be for that: of fewer polygons none is asked.
+    /// No probe is made in a model with so few polygons that a single one exceeds this share.
     double largest_probe = 0.05;
-    /// Flat polygons that may gain more than this share of T are not said to gain nothing.
+    /// Flat polygons that might still save more than this share of T are not declared useless.
     double little_gain = 0.2;
-    double surprise_sds = 2.5; ///< three frames in a row beyond this on one side: the load changed
-    double outlier_sds = 4.0;  ///< a frame beyond this says nothing of the fit
+    /// Three frames in a row that miss the fit by more than this, on the same side, mean that the
+    /// load changed.
+    double surprise_sds = 2.5;
+    /// A frame that misses the fit by more than this is left out of the fit.
+    double outlier_sds = 4.0;
 };
 
-/// Fit of t = a + bf f + bg g for some number of polygons n0: recursive least squares.
+/// The model of the frame time, t = a + bf f + bg g, fitted by recursive least squares. Its slopes
+/// are stored times a fixed number of polygons n0, so that all three numbers are milliseconds.
 struct ShadingFit {
-    std::array<double, 3> ms{};         ///< a; bf n0; (bg - bf) n0
-    std::array<double, 9> covariance{}; ///< of `ms`, in units of the noise's variance
-    double noise_ms = 0.0;              ///< standard deviation of frames about the fit
-    int polygons = 1;                   ///< n0
-    int frames = 0;                     ///< seen since the start or the last change of load
-    int surprises = 0;                  ///< in a row, below zero for short frames
+    std::array<double, 3> ms{}; ///< The three numbers a, bf n0 and (bg - bf) n0.
+    /// Their covariance matrix (3 x 3, by rows) in units of the noise's variance.
+    std::array<double, 9> covariance{};
+    double noise_ms = 0.0; ///< The standard deviation of frame times about the fit.
+    int polygons = 1;      ///< n0
+    int frames = 0; ///< How many frames were seen since the start or since the load last changed.
+    /// How many frames in a row missed the fit; negative when they were too short.
+    int surprises = 0;
 };
 
-/// What is carried from one frame to the next: a value, so that a run can be replayed.
+/// All that the controller carries from one frame to the next. It is a plain value, so that a run
+/// can be recorded and replayed.
 struct ShadingState {
-    double target = 0.0; ///< g before probing
-    int smooth = 0;      ///< g of the next frame
-    int polygons = 1;    ///< n of the next frame
-    bool moving = false; ///< the target is on its way to the best number
-    /// Flat polygons are not measurably faster than smooth ones: all are smooth, whatever T.
+    double target = 0.0; ///< g before a probe is taken off; not rounded.
+    int smooth = 0;      ///< g, how many polygons the next frame draws smooth.
+    int polygons = 1;    ///< n, how many polygons the next frame has.
+    bool moving = false; ///< The target is still on its way to the best number.
+    /// Flat polygons are not measurably faster than smooth ones; then all are smooth, whatever T
+    /// is.
     bool no_gain = false;
-    int probe_frame = 0;
+    int probe_frame = 0; ///< The place in the cycle of probe_frames.
     ShadingFit fit;
 };
 
-/// What a frame drawn with ShadingState::smooth took.
+/// What was measured of the frame that was drawn with ShadingState::smooth.
 struct ShadedFrame {
-    double frame_ms = 0.0; ///< at least 0
-    int flat = 0;          ///< f
-    int smooth = 0;        ///< g
+    double frame_ms = 0.0; ///< The frame time, at least 0.
+    int flat = 0;          ///< f, how many polygons were flat.
+    int smooth = 0;        ///< g, how many polygons were smooth.
 };
 
-/// State before the first frame with n polygons (at least 1), all flat: the safe side.
+/// The state before the first frame of n polygons (at least 1, asserted). All are flat, for that
+/// cannot overload the machine.
 ShadingState starting_shading(int polygons);
 
-/// State after a frame; `polygons`, at least 1, is n of the next frame. Settings are as their
-/// comments demand (asserted).
+/// The state after a frame was measured. `polygons` (at least 1) is n of the next frame, which may
+/// differ from this frame's. The settings must be within the limits that their comments state
+/// (asserted). A pure function: same arguments, same result.
 ShadingState next_shading(
     const ShadingState& state,
     const ShadingControl& control,

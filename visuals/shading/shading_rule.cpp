@@ -1,16 +1,19 @@
 // Which polygons are smooth: H. Kim, H. Park, "A Hybrid Rendering Model to support LOD (Level of
-// Detail)", 2008, section 3 (rule Paper); rule Error is ours.
+// Detail)", 2008, section 3, is the rule Paper; the rule Error is ours. Both light every LitPoint,
+// give each polygon a sort key, and make the g greatest keys smooth.
 //
-// Error: over a triangle whose corners are d1, d2, d3 brighter than its flat colour, the square of
-// the error that flat shading makes, between corners by straight lines, has the mean
-// (d1^2 + d2^2 + d3^2 + d1 d2 + d2 d3 + d3 d1) / 6. Times the area on the screen it is what the
-// polygon adds to the picture's squared error against all smooth; the g largest are taken away.
-// Other polygons make fans of triangles. What faces away from the eye makes no error.
+// Error: let d1, d2, d3 be the differences between the intensities at a triangle's corners and the
+// intensity of its flat colour, with linear interpolation between. The square of the error that
+// flat shading makes then has the mean (d1^2 + d2^2 + d3^2 + d1 d2 + d2 d3 + d3 d1) / 6. Times the
+// projected area it is what this polygon adds to the picture's squared error against all-Gouraud
+// shading; making the g largest smooth removes the most. Polygons with more corners are fans of
+// triangles. Polygons that face away from the eye add nothing.
 //
-// Deviations (Paper): printed is a loop whose two counters stop it in file order, sorted sizes
-// without a place to use them, and polygons beyond g or f that get no shading at all. Here: first
-// those whose corners differ by more than the threshold, the ones longer around than the mean
-// before the others, then the rest; each of the three by length around, then by index; the first g.
+// Deviations (Paper): the text prints a loop whose two counters end it in file order, sizes that
+// are sorted but never used, and polygons beyond g or f that get no shading at all. Here the order
+// is: first polygons whose corners differ by more than the threshold and whose perimeter exceeds
+// the mean, then the other ones whose corners differ, then the rest; within each group by
+// perimeter, then by index. The first g are smooth.
 #include "visuals/shading/shading_rule.h"
 
 #include <glm/geometric.hpp>
@@ -24,7 +27,7 @@ namespace octant::visuals::shading {
 
 namespace {
 
-/// Well-mixed bits of a number (SplitMix64's last step).
+/// A hash of 64 bits (the last step of SplitMix64).
 std::uint64_t mixed(std::uint64_t bits) {
     bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9ULL;
     bits = (bits ^ (bits >> 27U)) * 0x94d049bb133111ebULL;
@@ -56,6 +59,8 @@ void ShadingSelector::light_points(const glm::vec3& eye_m, const ShadingLight& l
     }
 }
 
+/// The key by rule Error: tier 0 for polygons that face away, else tier 1 ranked by error times
+/// projected area.
 std::uint32_t ShadingSelector::by_error(
     std::size_t polygon, const glm::vec3& eye_m, const ShadingLight& light) const {
     const ShadedPolygon& shape = polygons_->polygons[polygon];
@@ -80,6 +85,8 @@ std::uint32_t ShadingSelector::by_error(
     return key_of(1, hold * on_screen * error / 6.0F);
 }
 
+/// The key by rule Paper: the tier says whether the corners differ and whether the polygon is
+/// large; its rank within the tier is its perimeter.
 std::uint32_t ShadingSelector::by_paper(std::size_t polygon) const {
     const ShadedPolygon& shape = polygons_->polygons[polygon];
     float least = intensities_[polygons_->corner_points[shape.first_corner]];
@@ -112,6 +119,7 @@ void ShadingSelector::rank_all(const glm::vec3& eye_m, const ShadingLight& light
     }
 }
 
+/// Makes the polygons with the greatest keys smooth. Returns how many polygons changed.
 int ShadingSelector::take_best(int smooth_count) {
     greatest_.choose(keys_, static_cast<std::size_t>(smooth_count), next_);
     int changed = 0;

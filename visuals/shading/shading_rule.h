@@ -13,57 +13,65 @@
 
 namespace octant::visuals::shading {
 
+/// How polygons are ranked; the first g of the ranking are smooth.
 enum class ShadingRule {
-    Error, ///< where flat shading would be wrong by most in the picture
-    Paper, ///< differing corners first, large ones before small ones
-    Random ///< any: what the others must beat
+    Error, ///< Largest visible error of flat shading first.
+    /// As the 2008 paper: corners that differ in intensity first, of these the large polygons
+    /// first.
+    Paper,
+    Random ///< At random: the baseline that the other rules must beat.
 };
 
+/// The rule, and how strongly a choice is held on to while the eye moves.
 struct ShadingRuleSettings {
     ShadingRule rule = ShadingRule::Error;
-    /// Paper: intensities that differ by no more than this (red + green + blue) count as equal.
+    /// Rule Paper: corner intensities (red + green + blue) that differ by no more than this count
+    /// as equal.
     float threshold = 0.05F;
-    std::uint64_t seed = 1; ///< Random
-    /// A polygon that is smooth counts as so many times as wrong (Error), its corners as so many
-    /// times as different (Paper), so that it gives way only to a clearly better one; at least 1.
+    std::uint64_t seed = 1; ///< Rule Random: which of the random rankings.
+    /// Hysteresis, at least 1. The error of a polygon that is smooth already (Error), or the
+    /// difference between its corners (Paper), is multiplied by this, so that it gives way only to
+    /// a clearly better polygon.
     float hold = 1.5F;
-    /// The choice is looked at again when the eye has moved about the model's middle, or the light
-    /// has turned, by more than this.
+    /// The choice is made again when the eye has moved about the model's centre, or the light has
+    /// turned, by more than this angle ...
     double reselect_rad = 0.03;
-    /// Or the eye is farther or nearer by more than this share of its distance.
+    /// ... or when the eye's distance has changed by more than this share of it.
     double reselect_distance = 0.05;
 };
 
-/// Every call with new eye and light is looked at, and nothing of the last choice is held.
+/// Settings with which every choice depends on eye and light of that call only: no hysteresis and
+/// no tolerance. For measurements.
 ShadingRuleSettings without_memory(ShadingRule rule);
 
-/// Six times the mean square of a triangle's error where its corners are off by a, b and c and
-/// points between by straight lines.
+/// Six times the mean square of an error over a triangle, where the error is a, b and c at the
+/// corners and linear between them.
 inline float error_square(float a, float b, float c) {
     return a * a + b * b + c * c + a * b + b * c + c * a;
 }
 
-/// Which polygons of a model are smooth.
+/// Which polygons of a model are smooth, and how the choice came about.
 struct ShadingChoice {
-    std::span<const std::uint8_t> smooth; ///< one a polygon: 1 = smooth, 0 = flat
+    std::span<const std::uint8_t> smooth; ///< One flag for each polygon: 1 = smooth, 0 = flat.
     int smooth_count = 0;
-    int changed = 0;   ///< polygons that changed by this call; 0 for the first choice
-    bool anew = false; ///< this call looked at the polygons again
+    int changed = 0;   ///< How many polygons this call changed; 0 for the first choice.
+    bool anew = false; ///< This call ranked the polygons again.
 };
 
-/// Chooses the smooth polygons of one drawn model and remembers the choice: one a drawn aircraft.
-/// No allocation once it has chosen a few times. Same calls, same choices.
+/// Chooses the smooth polygons of one drawn model and remembers the choice, so each drawn aircraft
+/// has its own selector. It allocates nothing after its first few choices. The same sequence of
+/// calls gives the same choices.
 class ShadingSelector {
 public:
-    /// `polygons` stay where they are as long as the selector.
+    /// `polygons` must outlive the selector.
     explicit ShadingSelector(
         const ShadedPolygons& polygons, const ShadingRuleSettings& settings = {});
 
-    /// Exactly `smooth_count` smooth ones (from 0 to the number of polygons). Eye and light are in
-    /// the polygons' axes. The choice is valid until the next call.
+    /// Makes exactly `smooth_count` polygons smooth (0 to the number of polygons, asserted). Eye
+    /// and light are in the polygons' axes. The returned span is valid until the next call.
     ShadingChoice choose(const glm::dvec3& eye_m, const ShadingLight& light, int smooth_count);
 
-    /// The last choice; all flat before the first.
+    /// The last choice, one flag for each polygon; all are flat before the first choice.
     std::span<const std::uint8_t> smooth() const { return smooth_; }
 
 private:
@@ -76,11 +84,11 @@ private:
 
     const ShadedPolygons* polygons_;
     ShadingRuleSettings settings_;
-    std::vector<float> intensities_;  ///< one a point
-    std::vector<std::uint32_t> keys_; ///< one a polygon, key_of
+    std::vector<float> intensities_;  ///< One for each LitPoint.
+    std::vector<std::uint32_t> keys_; ///< One sort key for each polygon, made by key_of.
     GreatestKeys greatest_;
     std::vector<std::uint8_t> smooth_;
-    std::vector<std::uint8_t> next_;
+    std::vector<std::uint8_t> next_; ///< The choice that is being made; swapped with smooth_.
     RememberedLook look_;
     int smooth_count_ = 0;
     bool chosen_ = false;

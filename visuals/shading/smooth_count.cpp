@@ -1,8 +1,9 @@
-// How many polygons are smooth, by distance and by device: H. Kim, H. Park, "A Hybrid Rendering
-// Model to support LOD (Level of Detail)", 2008, sections 3 and 4.
-// Deviations: the paper's n = (1 - d) g + d f is not f + g = n and has a pole at d = 1/2; meant, by
-// its text, is g = (1 - d) n. It gives no way from its relative speed 0.028 to its "8 or 9" of 415
-// polygons; the one here counts its own operations (table 2) and is ours.
+// How many polygons are smooth, by distance and by the device's speed: H. Kim, H. Park, "A Hybrid
+// Rendering Model to support LOD (Level of Detail)", 2008, sections 3 and 4.
+//
+// Deviations: the printed n = (1 - d) g + d f contradicts f + g = n and has a pole at d = 1/2; the
+// text means g = (1 - d) n. The paper does not say how its relative speed 0.028 leads to "8 or 9"
+// of 415 polygons; the formula here counts the operations of its table 2 and is ours.
 #include "visuals/shading/smooth_count.h"
 
 #include <algorithm>
@@ -13,8 +14,9 @@ namespace octant::visuals::shading {
 
 namespace {
 
+/// Selection and flat shading of one polygon, table 2.
 constexpr double flat_operations = 9.0 + 1.0;
-constexpr double smooth_operations = 9.0 + 4.0;
+constexpr double smooth_operations = 9.0 + 4.0; ///< Selection and Gouraud shading of one polygon.
 
 } // namespace
 

@@ -1,7 +1,12 @@
-// Corner normals by crease angle, for the Gouraud shading of Kim and Park's hybrid rendering model
-// (2008), which takes vertex normals for given.
-// Deviations: the paper averages the faces around a vertex (4 operations); here angles weigh them
-// and edges sharper than the crease angle stay.
+// Corner normals by crease angle. Kim and Park's hybrid rendering model (2008) takes vertex normals
+// for given; Gouraud shading needs them, and a model file need not bring any.
+//
+// For each vertex, corners are connected where their faces share an edge at that vertex. A breadth
+// of corners is collected from each corner across those edges, as long as normals stay within the
+// crease angle of the first one's, and their face normals are averaged.
+//
+// Deviations: the paper counts 4 operations for a plain average of the faces around a vertex; here
+// the average is weighted by angles, and edges sharper than the crease angle stay sharp.
 #include "visuals/shading/vertex_normals.h"
 
 #include <glm/geometric.hpp>
@@ -20,28 +25,30 @@ namespace octant::visuals::shading {
 
 namespace {
 
-constexpr int fixed = -1;
+constexpr int fixed = -1; ///< Stands for the pivot of faces that do not turn.
+/// The tolerance on cosines and on the length of a sum of normals.
 constexpr double same_direction = 1e-9;
 
-/// A corner of a face; places are vertices, those in the same place under one number.
+/// One corner of a face. A "place" is a vertex number; vertices at the same position share one.
 struct Corner {
     std::uint32_t face = 0;
     std::uint32_t place = 0;
-    std::uint32_t before = 0; ///< place of the face's corner before it
-    std::uint32_t after = 0;
-    double angle_rad = 0.0;
+    std::uint32_t before = 0; ///< The place of the previous corner in the face.
+    std::uint32_t after = 0;  ///< The place of the next corner in the face.
+    double angle_rad = 0.0;   ///< The face's interior angle at this corner.
 };
 
 struct Face {
-    glm::dvec3 normal{0.0}; ///< unit; zero where the face has no area
-    int turns_with = fixed; ///< index of a pivot
+    glm::dvec3 normal{0.0}; ///< A unit vector; zero where the face has no area.
+    int turns_with = fixed; ///< The index of the pivot that the face turns about.
 };
 
 struct Faces {
     std::vector<Face> faces;
-    std::vector<Corner> corners; ///< face after face
+    std::vector<Corner> corners; ///< Face after face.
 };
 
+/// For each vertex the lowest number of a vertex at exactly the same position.
 std::vector<std::uint32_t> places_of(std::span<const glm::dvec3> vertices_m) {
     std::vector<std::uint32_t> sorted(vertices_m.size());
     std::iota(sorted.begin(), sorted.end(), 0U);
@@ -81,13 +88,13 @@ void add_corners(
     }
 }
 
-/// The corners at one place and which of them are neighbours across an edge.
+/// All corners at one place, and which of them are neighbours across an edge.
 class Around {
 public:
     explicit Around(const Faces& faces)
         : faces_(&faces) {}
 
-    /// `corners`: indices, upwards.
+    /// Turns to another place. `corners` are the indices of all corners there, in ascending order.
     void look_at(std::span<const std::uint32_t> corners) {
         corners_ = corners;
         neighbours_.assign(corners.size(), {});
@@ -107,6 +114,8 @@ public:
         }
     }
 
+    /// The normal of one corner (by its index among those looked at). `least_cosine` is the cosine
+    /// of the crease angle.
     glm::vec3 normal_at(std::uint32_t start, double least_cosine) {
         const Face& own = face(start);
         if (own.normal == glm::dvec3(0.0)) {
@@ -126,13 +135,14 @@ private:
     struct Edge {
         std::uint32_t other_end = 0;
         std::uint32_t corner = 0;
-        bool leaves = false; ///< runs from this place to the other end
+        bool leaves = false; ///< The face runs from this place to the other end, not towards it.
     };
 
     const Corner& corner(std::uint32_t i) const { return faces_->corners[corners_[i]]; }
 
     const Face& face(std::uint32_t i) const { return faces_->faces[corner(i).face]; }
 
+    /// Makes neighbours of all corners whose faces run along one edge in opposite directions.
     void connect(std::span<const Edge> same_edge) {
         for (const Edge& leaving : same_edge) {
             for (const Edge& coming : same_edge) {
@@ -144,6 +154,7 @@ private:
         }
     }
 
+    /// Marks the corners that share a smooth surface with `start`.
     void reach(std::uint32_t start, double least_cosine) {
         reached_.assign(corners_.size(), 0);
         reached_[start] = 1;
@@ -170,6 +181,7 @@ private:
     std::vector<std::uint32_t> waiting_;
 };
 
+/// The normals of all corners: sorts the corners by place and looks at each place once.
 std::vector<glm::vec3> normals_of(const Faces& faces, double crease_rad) {
     assert(crease_rad >= 0.0 && crease_rad <= pi);
     std::vector<std::uint32_t> sorted(faces.corners.size());
