@@ -1,10 +1,11 @@
 #pragma once
 
-#include "ui/settings/settings_text.h"
+#include "ui/settings/setting_row.h"
 
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace octant::ui::window {
 
@@ -18,19 +19,16 @@ enum class NumberStyle {
     Typed      ///< takes effect on Enter: each change loads something anew
 };
 
-NumberStyle number_style(const settings::FieldInfo& info);
+NumberStyle number_style(const settings::SettingInfo& info);
 
 /// Where an optional number begins when a person switches it on; within its bounds.
-double start_value(const settings::FieldInfo& info);
+double start_value(const settings::SettingInfo& info);
 
 /// What an optional setting is called while it is not set: "auto" or "none".
 std::string_view unset_word(const settings::FieldInfo& info);
 
 /// What the meaning says in brackets of a setting that is not set; may be empty.
 std::string_view unset_meaning(const settings::FieldInfo& info);
-
-/// Built-in names that a text setting takes beside files; empty where it takes other text.
-std::span<const std::string_view> known_names(std::string_view setting);
 
 /// Meaning with its unit, then the option with its form and bounds.
 std::string tooltip_of(const settings::FieldInfo& info);

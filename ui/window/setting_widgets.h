@@ -1,7 +1,7 @@
 #pragma once
 
+#include "ui/settings/setting_row.h"
 #include "ui/settings/settings.h"
-#include "ui/settings/settings_text.h"
 
 #include <span>
 #include <string>
@@ -16,15 +16,8 @@ namespace octant::ui::window {
 /// Settings by their names, in that order. A name that is no setting shows nothing.
 void edit_settings(settings::Settings& settings, std::span<const std::string_view> names);
 
-/// The parts of the list, in its order.
-enum class SettingGroup { Path, View, Time, Surface, Shading, Ground, Air };
-inline constexpr int setting_groups = 7;
-
-/// Headline for people.
-const char* title_of(SettingGroup group);
-
-/// All settings of one part.
-void edit_group(settings::Settings& settings, SettingGroup group);
+/// Shows all settings of one group, in the order of help.
+void edit_group(settings::Settings& settings, settings::SettingGroup group);
 
 /// A list of built-in names, and a field for any other such as a file. True when it was changed.
 bool choose_name(

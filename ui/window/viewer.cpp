@@ -213,7 +213,7 @@ void Viewer::apply_wanted() {
     if (wanted == session_->settings()) {
         return;
     }
-    const bool other_flight = settings::change_between(session_->settings(), state_.wanted) ==
+    const bool other_flight = settings::change_between(session_->settings(), state_.wanted) >=
                               settings::SettingsChange::World;
     try {
         if (other_flight && recording_) {
