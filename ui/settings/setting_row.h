@@ -58,13 +58,14 @@ struct SettingInfo : FieldInfo, SettingFacts {};
 /// one to its member.
 template <auto... members>
 struct Setting : SettingInfo {
-    /// The value in `settings`, constant where they are.
+    /// Returns the value in `settings`, which is constant where they are.
     template <class SomeSettings>
     static constexpr auto& of(SomeSettings& settings) {
         return (settings.*....*members);
     }
 };
 
+/// Makes the row of the setting to which `members` lead.
 template <auto... members>
 constexpr Setting<members...> setting(const FieldInfo& info, const SettingFacts& facts) {
     return {{info, facts}};

@@ -5,8 +5,8 @@
 
 namespace octant::ui::settings {
 
-/// What must be made anew when `before` gives way to `after`: the most that any row asks for whose
-/// values differ.
+/// Returns what must be made anew when `before` gives way to `after`: the most that is asked for by
+/// the rows whose values differ.
 SettingsChange change_between(const Settings& before, const Settings& after);
 
 } // namespace octant::ui::settings

@@ -42,7 +42,7 @@ ordered_json json_of(const std::optional<Value>& value) {
     return value ? json_of(*value) : ordered_json(nullptr);
 }
 
-/// Text of a JSON scalar as a person would have typed it.
+/// Returns the text of a JSON scalar as a person would have typed it.
 std::string scalar_text(const ordered_json& json) {
     return json.is_string() ? json.get<std::string>() : json.dump();
 }

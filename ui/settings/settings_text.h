@@ -26,7 +26,7 @@ struct FieldInfo {
     /// One line for help, with the unit where the form does not say it. Words in brackets at its
     /// end say what holds while the setting is not set.
     std::string_view meaning;
-    /// Limits of numbers, which are within them.
+    /// The least and the greatest number that are taken.
     double least = 0.0;
     double most = 0.0;
     /// The only numbers that a whole-number setting takes; empty: all between the limits.

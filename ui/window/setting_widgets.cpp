@@ -18,7 +18,8 @@ using settings::Settings;
 
 namespace {
 
-/// Frame of one setting: the value's widget, then its name; both show what it means.
+/// Makes the name of a setting beside the widget of its value, which is made while this object
+/// lives. Both show what the setting means as a tooltip.
 class Row {
 public:
     explicit Row(const settings::SettingInfo& info)
@@ -51,7 +52,8 @@ private:
     float width_ = 0.0F;
 };
 
-/// A list to choose from; the chosen index, or nothing. `chosen` < 0: none of them is.
+/// Makes a list to choose from. Returns the index of a name that was picked, if any. `chosen` is
+/// the index of the current name, below zero where the list does not hold it.
 std::optional<int>
 choose(const std::string& shown, std::span<const std::string_view> names, int chosen) {
     std::optional<int> picked;
@@ -101,7 +103,7 @@ bool edit_number(const settings::SettingInfo& info, Number& value) {
     return true;
 }
 
-/// A list of the only numbers that the setting takes.
+/// Makes a list of the only numbers that the setting takes. Returns whether another was picked.
 bool choose_number(const settings::SettingInfo& info, int& value) {
     bool changed = false;
     if (!ImGui::BeginCombo("##value", settings::text_of(value).c_str())) {
@@ -250,7 +252,7 @@ Value started(const settings::SettingInfo& info) {
     }
 }
 
-/// A check mark while it is not set, and then what that means; else the value.
+/// Makes a check mark that unsets the setting and, while it is set, the widget of its value.
 template <class Value>
 bool edit(const settings::SettingInfo& info, std::optional<Value>& value) {
     const float whole = ImGui::CalcItemWidth();
