@@ -9,6 +9,7 @@
 #include "ui/commands/command_terrain_measure.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/settings_options.h"
+#include "ui/settings/terrain_name.h"
 #include "ui/world/terrain_file.h"
 #include "visuals/terrain/ground_file.h"
 
@@ -70,7 +71,7 @@ nlohmann::ordered_json figures_of(const models::heights::HeightField& field) {
 }
 
 void show(const TerrainOptions& options) {
-    if (world::is_imported_ground(options.terrain)) {
+    if (settings::is_imported_ground(options.terrain)) {
         show_ground_file(options.terrain, options.verify, options.json);
         return;
     }

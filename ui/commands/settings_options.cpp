@@ -90,7 +90,9 @@ void add_setting_options(CLI::App& command, Settings& settings, bool path_is_pos
             [&settings](const std::string& file) { settings = settings::read_settings(file); },
             "take settings from FILE or from a recording's run.json; other options override them")
         ->type_name("FILE");
-    settings::visit_settings(settings, OptionAdder(command, path_is_positional, "Settings"));
+    settings::visit_settings(settings, [&](const settings::SettingInfo& info, auto& value) {
+        OptionAdder(command, path_is_positional, std::string(name_of(info.group)))(info, value);
+    });
 }
 
 void add_number_option(CLI::App& command, const settings::FieldInfo& info, double& value) {

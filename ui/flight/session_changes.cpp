@@ -1,6 +1,7 @@
 #include "sim/base/error.h"
 #include "ui/flight/session.h"
 #include "ui/settings/settings_change.h"
+#include "ui/settings/settings_check.h"
 #include "ui/world/scene_ground.h"
 #include "visuals/scene/ground_mesher.h"
 
@@ -14,19 +15,6 @@
 namespace octant::ui::flight {
 
 namespace scene = visuals::scene;
-
-namespace {
-
-/// Whether both fly the same aircraft along the same path over the same ground.
-bool same_flight(const settings::Settings& a, const settings::Settings& b) {
-    return a.path.name == b.path.name && a.path.aircraft == b.path.aircraft &&
-           a.path.axes == b.path.axes && a.path.terrain == b.path.terrain &&
-           a.path.terrain_spacing_m == b.path.terrain_spacing_m && a.path.place == b.path.place &&
-           a.path.heading_deg == b.path.heading_deg && a.path.height_mode == b.path.height_mode &&
-           a.path.lenient == b.path.lenient && a.time.start_s == b.time.start_s;
-}
-
-} // namespace
 
 void Session::apply(const settings::Settings& settings) {
     switch (settings::change_between(settings_, settings)) {
@@ -43,6 +31,7 @@ void Session::apply(const settings::Settings& settings) {
         change_picture(settings);
         break;
     case settings::SettingsChange::World:
+    case settings::SettingsChange::Flight:
         change_world(settings);
         break;
     }
@@ -54,7 +43,9 @@ void Session::change_world(const settings::Settings& settings) {
     world::FrameTimes times = world::frame_times_of(settings, world.flight);
     renderer_->resize(settings.view.size_px, settings.view.samples);
     const double time_s = simulation_->time_s();
-    const bool goes_on = same_flight(settings, settings_) && !simulation_->by_hand();
+    const bool goes_on =
+        settings::change_between(settings_, settings) != settings::SettingsChange::Flight &&
+        !simulation_->by_hand();
     plan_ = nullptr;
     planner_.reset();
     inset_.reset();
@@ -90,7 +81,7 @@ kept_ground(const scene::Scene& scene, const settings::Settings& settings) {
 
 /// All that may fail comes before what could not be taken back.
 void Session::change_picture(const settings::Settings& settings) {
-    world::check_settings(settings);
+    settings::check_settings(settings);
     const scene::FixedPoints points = world::fixed_points(settings, world_);
     world::SceneGround ground;
     ground.ground = kept_ground(world_.scene, world::ground_settings(settings));

@@ -11,16 +11,24 @@ namespace octant::ui::settings {
 enum class HeightMode { Clear, Follow, Datum };
 enum class ContextKind { OsMesa, Egl, Window };
 
-/// Which path, aircraft and ground.
+/// Which path is flown, by which aircraft, over which ground.
 struct PathSettings {
-    std::string name = "straight";               ///< built-in path, path file or recorded track
-    std::vector<std::string> aircraft = {"f15"}; ///< the first flies the path, others beside it
-    std::string axes = "right,up,back";          ///< of aircraft files
+    /// A built-in path, a path file or a recorded track.
+    std::string name = "straight";
+    /// Names or files, at least one. The first aircraft flies the path, the others beside it.
+    std::vector<std::string> aircraft = {"f15"};
+    /// Directions of the axes of aircraft files.
+    std::string axes = "right,up,back";
     std::string terrain = "hills";
-    double terrain_spacing_m = 30.0;   ///< of files that do not say
-    std::optional<std::string> place;  ///< "X,Y" metres or "LAT,LON" degrees
-    std::optional<double> heading_deg; ///< turns the path; nothing: the heading of least relief
-    /// Nothing: clear, or datum for a track that knows its place.
+    /// Sample spacing of terrain files that do not give one.
+    double terrain_spacing_m = 30.0;
+    /// Where the path's origin lies, as "X,Y" in metres or "LAT,LON" in degrees; without it the
+    /// centre of the map.
+    std::optional<std::string> place;
+    /// How far the path is turned clockwise; without it, to the heading of least relief.
+    std::optional<double> heading_deg;
+    /// Without it, paths are lifted clear of the ground, and tracks that know their place fly at
+    /// the heights that they give.
     std::optional<HeightMode> height_mode;
     bool lenient = false;
 
@@ -31,17 +39,20 @@ struct PathSettings {
 struct TimeSettings {
     double rate_hz = 60.0;
     bool frame_per_sample = false;
-    double start_s = 0.0; ///< where in the path the flight begins, after the path's own start
+    /// How long after the path's own start the flight begins.
+    double start_s = 0.0;
     std::optional<int> frames;
     std::optional<double> seconds;
     int warm_up = 10;
-    bool realtime = false;       ///< no faster than the clock
-    std::optional<int> pictures; ///< every Nth frame as PNG, 0 = none; nothing: one a second
+    /// The flight goes no faster than the clock.
+    bool realtime = false;
+    /// A number N keeps every Nth frame as PNG, and 0 none; without it, one a simulated second.
+    std::optional<int> pictures;
 
     bool operator==(const TimeSettings&) const = default;
 };
 
-/// Who draws.
+/// Who draws the pictures.
 struct DrawingSettings {
     ContextKind context = ContextKind::OsMesa;
 
@@ -49,9 +60,9 @@ struct DrawingSettings {
 };
 
 /// Everything that decides what a run shows: what a picture shows (the parts of scene::Settings),
-/// the flight, its frames and who draws them. A run is repeated by repeating its Settings; each
-/// field is an option of the command line (ui/settings/settings_fields.h says name, unit and
-/// meaning). What only says where results go is not here.
+/// the flight, its frames and who draws them. A run is repeated by repeating its Settings. Each
+/// field has a row (ui/settings/README.md) from which its option, its file entry and its widget are
+/// made. What only says where results go is not here.
 struct Settings : visuals::scene::Settings {
     PathSettings path;
     TimeSettings time;

@@ -42,7 +42,7 @@ ordered_json json_of(const std::optional<Value>& value) {
     return value ? json_of(*value) : ordered_json(nullptr);
 }
 
-/// Text of a JSON scalar as a person would have typed it.
+/// Returns the text of a JSON scalar as a person would have typed it.
 std::string scalar_text(const ordered_json& json) {
     return json.is_string() ? json.get<std::string>() : json.dump();
 }
@@ -82,7 +82,7 @@ int line_of_key(const std::string& text, std::string_view key) {
 
 ordered_json settings_json(const Settings& settings) {
     ordered_json json = ordered_json::object();
-    visit_settings(settings, [&](const FieldInfo& info, const auto& value) {
+    visit_settings(settings, [&](const SettingInfo& info, const auto& value) {
         json[std::string(info.name)] = json_of(value);
     });
     return json;
@@ -101,7 +101,7 @@ Settings read_settings(const std::filesystem::path& path) {
     }
     Settings settings;
     std::set<std::string, std::less<>> known;
-    visit_settings(settings, [&](const FieldInfo& info, auto& value) {
+    visit_settings(settings, [&](const SettingInfo& info, auto& value) {
         known.insert(std::string(info.name));
         const auto found = json.find(std::string(info.name));
         if (found == json.end()) {
@@ -120,12 +120,6 @@ Settings read_settings(const std::filesystem::path& path) {
                 line_of_key(text, key),
                 fmt::format("expected the name of a setting, got '{}'", printable(key)));
         }
-    }
-    if (settings.view.samples != 1 && settings.view.samples != 4) {
-        error_at(
-            path,
-            line_of_key(text, "samples"),
-            fmt::format("samples: expected 1 or 4, got {}", settings.view.samples));
     }
     return settings;
 }

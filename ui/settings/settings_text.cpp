@@ -18,11 +18,6 @@ using visuals::scene::Adaptation;
 
 namespace {
 
-/// What can follow the clock, by name.
-constexpr std::array adaptations{
-    std::pair<std::string_view, bool Adaptation::*>{"terrain", &Adaptation::terrain},
-    std::pair<std::string_view, bool Adaptation::*>{"shading", &Adaptation::shading}};
-
 [[noreturn]] void refuse(const FieldInfo& info, const std::string& expected, std::string_view got) {
     throw Error(
         fmt::format("{}: expected {}, got '{}'", info.name, expected, printable(std::string(got))));
@@ -32,7 +27,15 @@ std::string range_of(const FieldInfo& info, std::string_view kind) {
     return fmt::format("{} from {} to {}", kind, info.least, info.most);
 }
 
-/// Exactly `numbers.size()` finite numbers between separators.
+std::string names_of_adaptations() {
+    std::vector<std::string_view> names;
+    for (const NamedAdaptation& each : adaptations) {
+        names.push_back(each.name);
+    }
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Reads exactly `numbers.size()` finite numbers between separators; false for any other text.
 bool read_numbers(std::string_view text, char separator, std::span<double> numbers) {
     const auto fields = split_fields(text, separator);
     if (fields.size() != numbers.size()) {
@@ -80,8 +83,8 @@ std::string text_of(const glm::vec3& colour) {
 
 std::string text_of(const Adaptation& adapt) {
     std::string text;
-    for (const auto& [name, follows] : adaptations) {
-        if (adapt.*follows) {
+    for (const auto& [member, name] : adaptations) {
+        if (adapt.*member) {
             text += text.empty() ? "" : ",";
             text += name;
         }
@@ -110,6 +113,7 @@ void read_setting(const FieldInfo& info, std::string_view text, int& value) {
         static_cast<double>(*number) > info.most) {
         refuse(info, range_of(info, "a whole number"), text);
     }
+    check_listed(info, static_cast<int>(*number));
     value = static_cast<int>(*number);
 }
 
@@ -159,19 +163,22 @@ void read_setting(const FieldInfo& info, std::string_view text, glm::vec3& colou
 void read_setting(const FieldInfo& info, std::string_view text, Adaptation& adapt) {
     Adaptation read;
     if (!text.empty() && text != "none") {
-        std::vector<std::string_view> names;
-        for (const auto& each : adaptations) {
-            names.push_back(each.first);
-        }
         for (const std::string_view word : split_fields(text, ',')) {
-            const auto found = std::find(names.begin(), names.end(), word);
-            if (found == names.end()) {
-                refuse(info, fmt::format("none or a list of {}", fmt::join(names, ", ")), text);
+            const auto found = std::ranges::find(adaptations, word, &NamedAdaptation::name);
+            if (found == adaptations.end()) {
+                refuse(info, fmt::format("none or a list of {}", names_of_adaptations()), text);
             }
-            read.*adaptations[static_cast<std::size_t>(found - names.begin())].second = true;
+            read.*found->member = true;
         }
     }
     adapt = read;
+}
+
+void check_listed(const FieldInfo& info, int value) {
+    if (!info.one_of.empty() && std::ranges::find(info.one_of, value) == info.one_of.end()) {
+        throw Error(fmt::format(
+            "{}: expected {}, got {}", info.name, fmt::join(info.one_of, " or "), value));
+    }
 }
 
 std::size_t read_choice(

@@ -5,11 +5,11 @@
 
 namespace octant::ui::window {
 
-/// The aircraft of a run with `count` >= 1 of them: the last ones leave, or more of the first kind
-/// join. `aircraft` is not empty.
+/// Returns `aircraft`, which is not empty, with `count` >= 1 members: the last ones are left out,
+/// or more of the first kind are added.
 std::vector<std::string> with_count(std::vector<std::string> aircraft, int count);
 
-/// With another kind of aircraft in front, and in place of all of the kind that was there.
+/// Returns `aircraft` with the first one, and all others of its kind, replaced by `leader`.
 std::vector<std::string> with_leader(std::vector<std::string> aircraft, const std::string& leader);
 
 } // namespace octant::ui::window

@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 10> controls{
     "shading-near",
     "shading-far"};
 
-/// What each model can be drawn as.
+/// Lists the levels of detail in which a model can be drawn.
 void show_representations(const visuals::scene::AircraftModel& model) {
     if (model.progressive) {
         ImGui::TextDisabled(
@@ -35,7 +35,7 @@ void show_representations(const visuals::scene::AircraftModel& model) {
     }
 }
 
-/// One line for each model that flies.
+/// Makes one line for each model that flies.
 void show_models(const visuals::scene::Scene& scene) {
     for (std::size_t model = 0; model < scene.models.size(); ++model) {
         const auto flying = std::ranges::count(scene.aircraft, model);

@@ -1,6 +1,6 @@
 #include "sim/base/units.h"
 #include "sim/fixed_step.h"
-#include "ui/settings/settings_fields.h"
+#include "ui/settings/path_fields.h"
 #include "ui/window/aircraft_list.h"
 #include "ui/window/look_control.h"
 #include "ui/window/panel_parts.h"
@@ -31,7 +31,7 @@ void choose_flight(ViewState& state) {
     std::string leader = state.wanted.path.aircraft.front();
     ImGui::PushID("leader");
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * value_share);
-    if (choose_name(leader_info, leader, known_names("aircraft"))) {
+    if (choose_name(leader_info, leader, settings::built_in_aircraft)) {
         state.wanted.path.aircraft = with_leader(state.wanted.path.aircraft, leader);
     }
     ImGui::SameLine();

@@ -9,7 +9,7 @@
 
 namespace octant::ui::window {
 
-/// The last frames of a window, oldest first.
+/// Holds the last frames of a window, oldest first.
 class FrameHistory {
 public:
     static constexpr std::size_t most_frames = 300;
@@ -22,7 +22,7 @@ public:
 
     std::span<const report::FrameRecord> records() const { return records_; }
 
-    /// Of the frames that it holds, made anew every 30 of them.
+    /// Returns the statistics of the frames that it holds, which are computed at every 30th frame.
     const report::Statistics& statistics() const { return statistics_; }
 
 private:

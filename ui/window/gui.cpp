@@ -32,7 +32,8 @@ float content_scale(GLFWwindow* window) {
 void set_style(float scale) {
     ImGui::StyleColorsDark();
     ImGuiStyle& style = ImGui::GetStyle();
-    // Square and unsmoothed: a rectangle is two triangles, which counts where a processor draws.
+    // Without round corners and smooth edges a rectangle is two triangles, which keeps panels cheap
+    // where a processor draws them.
     style.WindowRounding = 0.0F;
     style.FrameRounding = 0.0F;
     style.AntiAliasedLines = false;

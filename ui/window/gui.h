@@ -17,8 +17,8 @@ namespace octant::ui::window {
 /// Dear ImGui over a window: its context, input and drawing. One at a time in a process.
 class Gui {
 public:
-    /// `layout_file`: where the places of panels are kept; empty = nowhere. The window's context
-    /// must be current in every call.
+    /// `layout_file` keeps the places of panels from one run to the next; an empty path keeps them
+    /// nowhere. The window's context must be current in every call.
     Gui(GLFWwindow* window,
         const visuals::gl::Functions& gl,
         const std::filesystem::path& layout_file);
@@ -28,19 +28,20 @@ public:
     Gui(Gui&&) = delete;
     Gui& operator=(Gui&&) = delete;
 
-    /// Between these panels may be made.
+    /// Begins a frame: panels may be made until end_frame().
     void begin_frame();
     void end_frame();
 
-    /// Draws the last frame's panels over a framebuffer of the window. Nothing where there are
-    /// none.
+    /// Draws the last frame's panels over the window's framebuffer of `size_px`. Draws nothing
+    /// where there are no panels.
     void draw(const glm::ivec2& size_px);
 
-    /// Corners of the last frame's panels; 0 = there are none.
+    /// Returns how many vertices the last frame's panels have; 0 where there are no panels.
     int vertices() const;
 
-    /// The pointer or the keys belong to a panel.
+    /// Whether a panel uses the pointer, so that the view must not.
     bool wants_pointer() const;
+    /// Whether a panel uses the keyboard, as while text is typed.
     bool wants_keys() const;
 
 private:

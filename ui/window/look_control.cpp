@@ -16,7 +16,8 @@ using settings::Settings;
 
 namespace {
 
-constexpr double drag_deg = 180.0; ///< of turn for a drag over the picture's height
+/// How far the view turns for a drag over the whole height of the picture.
+constexpr double drag_deg = 180.0;
 constexpr double zoom_a_click = 1.15;
 constexpr double steepest_deg = 89.0;
 constexpr double move_mps = 60.0;
@@ -30,7 +31,7 @@ bool goes_around(View view) {
     return view == View::Chase || view == View::Orbit;
 }
 
-/// Ahead as the free camera looks: its look turned by azimuth and elevation.
+/// Returns the direction in which the free camera looks, turned by azimuth and elevation.
 glm::dvec3 ahead_of(const Settings& settings) {
     const glm::dvec3 straight = glm::normalize(*settings.view.look_m - *settings.view.eye_m);
     const double heading =

@@ -7,7 +7,7 @@
 
 namespace octant::ui::window {
 
-/// Which way the free camera is asked to move, each -1, 0 or 1, in its own axes.
+/// The directions in which the free camera is asked to move, each -1, 0 or 1, in its own axes.
 struct FreeMove {
     int right = 0;
     int up = 0;
@@ -15,23 +15,25 @@ struct FreeMove {
     bool fast = false;
 };
 
-/// Settings after the pointer was dragged so far: the look turned, or the eye around the aircraft.
-/// Dragging right shows more of what is on the left, as a map is dragged.
+/// Returns the settings after the pointer was dragged by these shares of the picture's height. The
+/// direction of view turns, or the eye moves around the aircraft. Dragging right shows more of what
+/// is on the left, as a map is dragged.
 settings::Settings dragged(const settings::Settings& settings, const glm::vec2& share_of_height);
 
-/// Settings after the wheel was turned so many clicks towards the screen.
+/// Returns the settings after the wheel was turned by `clicks` towards the screen.
 settings::Settings zoomed(const settings::Settings& settings, double clicks);
 
-/// Settings looking straight again.
+/// Returns the settings with the view turned straight ahead and a zoom of 1.
 settings::Settings looking_straight(const settings::Settings& settings);
 
-/// Settings of another view, seen from the camera's place where it becomes the free one.
+/// Returns the settings with another view. A view that becomes the free one begins at the place of
+/// `camera`.
 settings::Settings with_view(
     const settings::Settings& settings,
     visuals::scene::View view,
     const visuals::scene::Camera& camera);
 
-/// The free camera `wall_s` later.
+/// Returns the settings after the free camera moved for `wall_s` seconds.
 settings::Settings moved(const settings::Settings& settings, const FreeMove& move, double wall_s);
 
 } // namespace octant::ui::window

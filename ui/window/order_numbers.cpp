@@ -19,10 +19,12 @@ namespace scene = visuals::scene;
 
 namespace {
 
-constexpr double least_area_px = 40.0; ///< of a polygon: numbers on smaller ones cover each other
+/// Area that a polygon must have on the screen to get a number: on smaller ones numbers would cover
+/// each other.
+constexpr double least_area_px = 40.0;
 
-/// World axes with the eye at the origin to places on the screen, in ImGui's coordinates: the
-/// picture fills the window, however many pixels it has.
+/// Projects points, in world axes with the eye at the origin, to places on the screen in ImGui's
+/// coordinates. The picture fills the window, however many pixels it has.
 class ScreenPlaces {
 public:
     ScreenPlaces(const scene::Camera& camera, const glm::ivec2& picture_px)
@@ -32,7 +34,7 @@ public:
               scene::world_to_view(camera))
         , size_(ImGui::GetIO().DisplaySize) {}
 
-    /// Nothing for what lies behind the near plane.
+    /// Returns nothing for a point behind the near plane.
     std::optional<ImVec2> of(const glm::dvec3& at_m) const {
         const glm::vec4 clip = eye_world_to_clip_ * glm::vec4(glm::vec3(at_m), 1.0F);
         if (clip.w <= 0.0F || clip.z > clip.w) {
@@ -63,7 +65,7 @@ bool faces_eye(const scene::SightPolygon& polygon) {
     return glm::dot(normal, polygon.front().at_m) < 0.0;
 }
 
-/// Area on the screen; 0 where a corner is not in front of the eye.
+/// Returns the area on the screen; 0 where a corner is not in front of the eye.
 double area_px(const scene::SightPolygon& polygon, const ScreenPlaces& places) {
     double twice = 0.0;
     std::optional<ImVec2> before = places.of(polygon.back().at_m);

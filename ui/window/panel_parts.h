@@ -11,14 +11,18 @@
 
 namespace octant::ui::window {
 
-/// Where a panel lies before a person moves it. Sizes at a font of 13 pixels.
+/// Where a panel lies before a person moves it. Sizes are those at a font of 13 pixels.
 struct PanelPlace {
-    ImVec2 corner; ///< of the panel and of the window alike: 0,0 upper left .. 1,1 lower right
-    ImVec2 inset;  ///< from that corner of the window towards its middle
+    /// The corner of the panel that lies in the same corner of the window, from 0,0 (upper left) to
+    /// 1,1 (lower right).
+    ImVec2 corner;
+    /// Distance of the panel from that corner, towards the middle of the window.
+    ImVec2 inset;
     ImVec2 size;
 };
 
-/// A panel while it lives. Closed by its own cross too, which `open` then tells.
+/// A panel, whose widgets are made while this object lives. The cross in its title closes it and
+/// sets `open` to false.
 class Panel {
 public:
     Panel(const char* title, const PanelPlace& place, bool& open);
@@ -28,7 +32,7 @@ public:
     Panel(Panel&&) = delete;
     Panel& operator=(Panel&&) = delete;
 
-    /// Something of it is to be seen: make its widgets.
+    /// Whether any part of the panel is on the screen, so that its widgets must be made.
     bool is_seen() const { return seen_; }
 
 private:
@@ -36,32 +40,32 @@ private:
     bool seen_ = false;
 };
 
-/// Shares of a panel's width that the widget of a value takes beside its name.
+/// Shares of a panel's width that the widget of a value takes; its name stands beside it.
 inline constexpr float value_share = 0.55F;
 inline constexpr float wide_share = 0.85F;
 
-/// How many times larger than at a font of 13 pixels everything is.
+/// Returns how many times larger everything is than at a font of 13 pixels.
 float gui_scale();
 
 void show_tooltip(const std::string& text);
 
-/// For the widget made last, enabled or not.
+/// Shows a tooltip while the pointer is over the widget made last, which may be disabled.
 void explain(std::string_view text);
 
-/// As on the key of a command, such as "Space".
+/// Returns the name of the key that gives a command, as written on it, such as "Space".
 std::string_view key_of(ViewCommand command);
 
-/// "text (key)", as labels of buttons.
+/// Returns "text (key)" for labels of buttons.
 std::string with_key(std::string_view text, ViewCommand command);
 
-/// A field of text; what was typed when Enter is pressed.
+/// Makes a field of text. Returns what was typed when Enter is pressed, else nothing.
 std::optional<std::string>
 typed_text(const char* label, const std::string& text, std::string_view hint);
 
-/// How many aircraft fly: takes effect when the slider is let go.
+/// Makes a slider of how many aircraft fly, which takes effect when it is let go.
 void count_slider(std::vector<std::string>& aircraft);
 
-/// A line "name: value" in two columns.
+/// Makes a line "name: value" in two columns.
 void show_value(const char* name, const std::string& value);
 
 } // namespace octant::ui::window

@@ -5,8 +5,9 @@
 
 namespace octant::ui::window {
 
-// Each makes the widgets of one panel between ImGui::NewFrame and ImGui::Render, where it is open.
-// They read the session, and change ViewState alone: settings in `wanted`, all else in `requests`.
+// Each function makes the widgets of one panel, where it is open, between ImGui::NewFrame and
+// ImGui::Render. Panels read the session and change ViewState alone: settings in `wanted`, all else
+// in `requests`.
 
 void flight_panel(ViewState& state, flight::Session& session);
 void timing_panel(ViewState& state);
@@ -18,13 +19,13 @@ void settings_panel(ViewState& state);
 void help_panel(ViewState& state);
 void first_steps_panel(ViewState& state);
 
-/// The message line, and what is always to be seen: recording, paused, by hand.
+/// Makes the line of status marks (recording, paused, by hand) and the line of the last message.
 void status_line(const ViewState& state, flight::Session& session, double now_s);
 
-/// Painting order of the first aircraft's polygons, written on those that face the eye.
+/// Writes the painting order of the first aircraft's polygons on those that face the eye.
 void write_order_numbers(const flight::Session& session);
 
-/// All that are open.
+/// Makes all panels that are open.
 void all_panels(ViewState& state, flight::Session& session, double now_s);
 
 } // namespace octant::ui::window

@@ -9,11 +9,11 @@ namespace octant::ui::window {
 namespace {
 
 constexpr double dead_zone = 0.10;
-/// Share of the cube in the curve: the slope about the centre is one less this.
+/// Share of the cubic term in the curve of an axis. The slope at the centre is 1 minus this.
 constexpr double cubed_share = 0.6;
 constexpr double press_per_s = 2.0;
 constexpr double key_release_per_s = 3.0;
-/// With a stick in hand that has come back to its dead zone.
+/// How fast the controls return to the centre when a stick has come back to its dead zone.
 constexpr double stick_release_per_s = 8.0;
 constexpr double key_throttle_per_s = 0.4;
 constexpr double trigger_throttle_per_s = 0.6;
@@ -21,7 +21,7 @@ constexpr double longest_s = 0.1;
 constexpr std::size_t left_bumper = 4;
 constexpr std::size_t right_bumper = 5;
 
-/// What a stick says, and how fast the controls go to the centre where it says nothing.
+/// The position of a stick, and how fast the controls return to the centre while it is centred.
 struct Stick {
     double pitch = 0.0;
     double roll = 0.0;
@@ -33,7 +33,7 @@ double number_or_zero(double value) {
     return std::isfinite(value) ? value : 0.0;
 }
 
-/// 0 let go .. 1 pressed.
+/// Returns how far a trigger is pressed, from 0 to 1.
 double trigger(float axis) {
     return std::clamp(0.5 * (number_or_zero(static_cast<double>(axis)) + 1.0), 0.0, 1.0);
 }
@@ -63,12 +63,13 @@ double moved(double from, double to, double most) {
     return from + std::clamp(to - from, -most, most);
 }
 
-/// Which way keys move an axis: -1, 0 or 1.
+/// Returns the direction, -1, 0 or 1, in which two keys move an axis.
 double held(bool less, bool more) {
     return (more ? 1.0 : 0.0) - (less ? 1.0 : 0.0);
 }
 
-/// One axis: held keys, then what the stick says, then back to the centre.
+/// Returns one axis after `passed_s`. Held keys move it first, else the stick sets it, else it
+/// returns to the centre.
 double axis_after(double before, double keys, double stick, double release_per_s, double passed_s) {
     if (keys != 0.0) {
         const double back = before * keys < 0.0 ? key_release_per_s : 0.0;

@@ -9,22 +9,25 @@
 
 namespace octant::ui::window {
 
-/// A gamepad in the standard layout, axes and buttons in the order of GLFWgamepadstate: left x,
+/// A gamepad in the standard layout. Axes and buttons are in the order of GLFWgamepadstate: left x,
 /// left y (down is positive), right x, right y, left and right trigger (-1 let go, 1 pressed). The
-/// bumpers are keys for the rudder.
+/// bumpers move the rudder.
 struct GamepadState {
     std::array<float, 6> axes{0.0F, 0.0F, 0.0F, 0.0F, -1.0F, -1.0F};
-    std::array<unsigned char, 15> buttons{}; ///< not 0: pressed
+    /// A button is pressed where it is not 0.
+    std::array<unsigned char, 15> buttons{};
 };
 
-/// A joystick that is no gamepad, as it reports itself: x, y (pulled is positive), and either the
-/// throttle or, with four axes or more, twist and throttle (-1 is full). More axes are not used.
+/// A joystick that is no gamepad, with the axes that it reports: x, y (pulled is positive), and
+/// either the throttle or, with four axes or more, twist and throttle (-1 is full). Further axes
+/// are not used.
 struct JoystickState {
     std::array<float, 4> axes{};
-    int axis_count = 0; ///< without the y axis it is no stick
+    /// A device with fewer than two axes is no stick and is ignored.
+    int axis_count = 0;
 };
 
-/// Which keys are held.
+/// The flight controls whose keys are held.
 struct PilotKeys {
     bool pull = false;
     bool push = false;
@@ -36,14 +39,16 @@ struct PilotKeys {
     bool throttle_down = false;
 };
 
-/// The pointer as a stick.
+/// The pointer when it is used as a stick.
 struct CursorState {
-    glm::dvec2 from_centre_px{0.0}; ///< x to the right, y down (pulls)
-    double full_px = 1.0;           ///< as far from the centre the stick is at its stop; above zero
+    /// Place of the pointer, x to the right and y down, which pulls.
+    glm::dvec2 from_centre_px{0.0};
+    /// Distance from the centre, above zero, at which the stick is at its stop.
+    double full_px = 1.0;
 };
 
-/// What a pilot has in hand. More than one may be there: held keys go before the stick, of sticks
-/// the gamepad goes before the joystick, and that before the pointer.
+/// All devices that a pilot may use at once. Held keys take precedence over the gamepad, that over
+/// the joystick, and that over the pointer.
 struct PilotDevices {
     PilotKeys keys;
     std::optional<GamepadState> gamepad;
@@ -51,16 +56,17 @@ struct PilotDevices {
     std::optional<CursorState> cursor;
 };
 
-/// The controls `passed_s` after `before`. Sticks are taken as they stand, with a dead zone and
-/// finer about the centre; held keys move the stick to its stop in half a second or so, and it goes
-/// back to the centre when they are let go. The throttle stays where it is put: keys and triggers
-/// move it, a joystick's lever is its place. Depends on nothing else; all controls are within their
-/// ranges whatever the devices report. Of more than a tenth of a second only that counts.
+/// Returns the controls `passed_s` seconds after `before`; of more than 0.1 s only that much
+/// counts. Sticks act as they stand, with a dead zone and finer about the centre. Held keys move
+/// the stick to its stop in about half a second, and it returns to the centre when they are let go.
+/// The throttle stays where it is put: keys and triggers move it, and a joystick's lever sets it.
+/// The result depends on the arguments alone, and all controls are within their ranges whatever the
+/// devices report.
 sim::PilotControls
 controls_after(const sim::PilotControls& before, const PilotDevices& devices, double passed_s);
 
-/// An axis with its dead zone taken out and finer about the centre: 0 within the dead zone, odd,
-/// rising, 1 at 1. Not-a-numbers are 0.
+/// Returns an axis of a stick without its dead zone and finer about the centre: an odd, rising
+/// function that is 0 within the dead zone and 1 at 1. NaN gives 0.
 double shaped_axis(double axis);
 
 } // namespace octant::ui::window

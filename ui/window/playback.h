@@ -2,32 +2,37 @@
 
 namespace octant::ui::window {
 
-/// Where a path is being played. A value; wall time is handed in.
+/// The state of playing a path: its time, speed and limits. It reads no clock; callers hand in how
+/// much wall time has passed.
 struct Playback {
     static constexpr double slowest = 0.1;
     static constexpr double fastest = 10.0;
 
     double begin_s = 0.0;
     double end_s = 0.0;
-    double time_s = 0.0; ///< between begin_s and end_s; by hand it may pass the end
-    double speed = 1.0;  ///< simulated seconds a second of wall time
+    /// Lies between begin_s and end_s. In a flight by hand it may pass the end.
+    double time_s = 0.0;
+    /// Simulated seconds in a second of wall time.
+    double speed = 1.0;
     bool playing = true;
     bool loops = true;
 
-    /// What happened to the time.
+    /// How the time changed.
     enum class Moved {
-        On,      ///< forward, or not at all
-        Restarts ///< it jumped back to the beginning
+        /// It went forward or stayed.
+        On,
+        /// It jumped back to the beginning.
+        Restarts
     };
 
-    /// Wall time passes. At the end it begins anew or stops. `open_ended`: there is no end, as by
-    /// hand.
+    /// Lets `wall_s` seconds of wall time pass. At its end the path begins anew or stops, unless
+    /// the flight is `open_ended`, as one by hand is.
     Moved pass(double wall_s, bool open_ended);
 
-    /// One frame of `frame_s` simulated seconds on, then paused.
+    /// Advances by one frame of `frame_s` simulated seconds and pauses.
     void step_frame(double frame_s, bool open_ended);
 
-    /// `speed` doubled or halved `steps` times, within its limits.
+    /// Doubles the speed `steps` times, or halves it for negative `steps`, within its limits.
     void change_speed(int steps);
 };
 

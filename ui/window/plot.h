@@ -9,15 +9,15 @@
 
 namespace octant::ui::window {
 
-/// A plot of the last frames over the panel's width, the newest at its right edge, between two
-/// values. Its lines are cut off at them.
+/// A plot of the last frames over the panel's width, with the newest at its right edge. It shows
+/// values from `least` to `most` and cuts off its lines there.
 class FramePlot {
 public:
     FramePlot(float height_px, double least, double most);
 
     using Record = report::FrameRecord;
 
-    /// One point a frame.
+    /// Draws a line with one point a frame.
     template <class Value>
     void line(std::span<const Record> records, Value value, ImU32 colour) const {
         ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -28,7 +28,7 @@ public:
         list.PathStroke(colour, ImDrawFlags_None, 1.0F);
     }
 
-    /// A tick at the upper edge for each frame that is to be marked.
+    /// Draws a tick at the upper edge for each frame that is to be marked.
     template <class IsMarked>
     void marks(std::span<const Record> records, IsMarked is_marked, ImU32 colour) const {
         for (std::size_t i = 0; i < records.size(); ++i) {
@@ -38,11 +38,11 @@ public:
         }
     }
 
-    /// A value from edge to edge, with what it is called.
+    /// Draws a horizontal line at `value` with its name.
     void level(double value, const char* name, ImU32 colour) const;
 
-    /// The frame under the pointer, as an index into `records` of the last frames; `none` where
-    /// there is none.
+    /// Returns the index in `records`, which are the last frames, of the frame under the pointer;
+    /// `none` where the pointer is not over one.
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
     std::size_t pointed_at(std::span<const Record> records) const;
 
@@ -57,15 +57,15 @@ private:
     double most_;
 };
 
-/// A part of a bar.
+/// One part of a stacked bar.
 struct BarPart {
     const char* name;
     double value;
     ImU32 colour;
 };
 
-/// Parts one behind the other over the panel's width, which stands for `whole` or for their sum
-/// where that is more; below it a legend with their values in `unit`.
+/// Draws the parts side by side over the panel's width, which stands for the larger of `whole` and
+/// their sum. A legend below the bar lists their values in `unit`.
 void stacked_bar(std::span<const BarPart> parts, double whole, const char* unit);
 
 } // namespace octant::ui::window

@@ -28,13 +28,14 @@ constexpr float noon = 12.0F;
 constexpr int spring_equinox = 80;
 constexpr double latitude_without_place_deg = 45.0;
 
-/// The hour as a clock shows it.
+/// Returns the hour in the form "13:05".
 std::string clock_text(float hour) {
     const long minutes = std::lround(hour * 60.0F);
     return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60);
 }
 
-/// Time and day are kept with the panel: settings know only where the sun stands.
+/// Makes sliders for time and day, which set the position of the sun. ImGui keeps time and day with
+/// the panel, because settings hold only the position.
 void time_of_day(settings::Settings& settings, double latitude_deg) {
     ImGuiStorage& storage = *ImGui::GetStateStorage();
     float& hour = *storage.GetFloatRef(ImGui::GetID("hour"), noon);

@@ -1,12 +1,8 @@
 #include "ui/window/setting_style.h"
 
-#include "ui/settings/settings_change.h"
-
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <utility>
 
 namespace octant::ui::window {
 
@@ -21,8 +17,8 @@ bool is_wide(const settings::FieldInfo& info) {
 
 } // namespace
 
-NumberStyle number_style(const settings::FieldInfo& info) {
-    if (settings::change_by(info.name) == settings::SettingsChange::World) {
+NumberStyle number_style(const settings::SettingInfo& info) {
+    if (info.change >= settings::SettingsChange::World) {
         return NumberStyle::Typed;
     }
     if (info.least < 0.0) {
@@ -31,18 +27,8 @@ NumberStyle number_style(const settings::FieldInfo& info) {
     return is_wide(info) ? NumberStyle::LogSlider : NumberStyle::Slider;
 }
 
-double start_value(const settings::FieldInfo& info) {
-    constexpr std::array starts{
-        std::pair<std::string_view, double>{"fov", 45.0},
-        std::pair<std::string_view, double>{"triangles", 20000.0},
-        std::pair<std::string_view, double>{"error-px", 1.0},
-        std::pair<std::string_view, double>{"roughness-c", 20.0},
-        std::pair<std::string_view, double>{"frames", 600.0},
-        std::pair<std::string_view, double>{"seconds", 60.0},
-        std::pair<std::string_view, double>{"pictures", 60.0}};
-    const auto* const found =
-        std::ranges::find(starts, info.name, [](const auto& start) { return start.first; });
-    return std::clamp(found == starts.end() ? 0.0 : found->second, info.least, info.most);
+double start_value(const settings::SettingInfo& info) {
+    return std::clamp(info.start, info.least, info.most);
 }
 
 std::string_view unset_meaning(const settings::FieldInfo& info) {
@@ -57,23 +43,6 @@ std::string_view unset_meaning(const settings::FieldInfo& info) {
 std::string_view unset_word(const settings::FieldInfo& info) {
     const std::string_view meaning = unset_meaning(info);
     return meaning.empty() || meaning == "none" ? "none" : "auto";
-}
-
-std::span<const std::string_view> known_names(std::string_view setting) {
-    static constexpr std::array<std::string_view, 4> paths{"straight", "jinking", "pop-up", "turn"};
-    static constexpr std::array<std::string_view, 3> aircraft{"f15", "500md", "concave"};
-    static constexpr std::array<std::string_view, 4> terrains{
-        "hills", "canyon", "background60", "none"};
-    if (setting == "path") {
-        return paths;
-    }
-    if (setting == "aircraft") {
-        return aircraft;
-    }
-    if (setting == "terrain") {
-        return terrains;
-    }
-    return {};
 }
 
 std::string tooltip_of(const settings::FieldInfo& info) {

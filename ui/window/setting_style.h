@@ -1,42 +1,50 @@
 #pragma once
 
-#include "ui/settings/settings_text.h"
+#include "ui/settings/setting_row.h"
 
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace octant::ui::window {
 
-// How a setting is shown, decided from what the list of settings says of it. Knows no widgets.
+// How a setting is shown, which follows from its row (ui/settings/setting_row.h). No function here
+// makes widgets.
 
 /// How a number is changed by hand.
 enum class NumberStyle {
+    /// A linear slider between the limits.
     Slider,
-    LogSlider, ///< bounds of one sign and three decades or more apart
-    Drag,      ///< wide bounds on both sides of zero
-    Typed      ///< takes effect on Enter: each change loads something anew
+    /// A logarithmic slider, for limits of one sign that are three decades or more apart.
+    LogSlider,
+    /// A field to drag in, for wide limits on both sides of zero.
+    Drag,
+    /// A field whose number takes effect on Enter, because each change loads something anew.
+    Typed
 };
 
-NumberStyle number_style(const settings::FieldInfo& info);
+NumberStyle number_style(const settings::SettingInfo& info);
 
-/// Where an optional number begins when a person switches it on; within its bounds.
-double start_value(const settings::FieldInfo& info);
+/// Returns the number, within its limits, that an optional setting has when a person switches it
+/// on.
+double start_value(const settings::SettingInfo& info);
 
-/// What an optional setting is called while it is not set: "auto" or "none".
+/// Returns the word for an optional setting that is not set: "auto" or "none".
 std::string_view unset_word(const settings::FieldInfo& info);
 
-/// What the meaning says in brackets of a setting that is not set; may be empty.
+/// Returns what holds while the setting is not set, which its meaning says in brackets; empty where
+/// it does not.
 std::string_view unset_meaning(const settings::FieldInfo& info);
 
-/// Built-in names that a text setting takes beside files; empty where it takes other text.
-std::span<const std::string_view> known_names(std::string_view setting);
-
-/// Meaning with its unit, then the option with its form and bounds.
+/// Returns the meaning of a setting and, on a second line, its option with form and limits.
 std::string tooltip_of(const settings::FieldInfo& info);
 
-/// Names parted by commas, and back. Blanks around names and empty names are dropped.
+/// Returns the names in one line, separated by commas.
 std::string joined(std::span<const std::string> names);
+
+/// Returns the names of a line that are separated by commas. Blanks around names and empty names
+/// are dropped.
 std::vector<std::string> parted(std::string_view text);
 
 } // namespace octant::ui::window

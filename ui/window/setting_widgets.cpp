@@ -18,10 +18,11 @@ using settings::Settings;
 
 namespace {
 
-/// Frame of one setting: the value's widget, then its name; both show what it means.
+/// Makes the name of a setting beside the widget of its value, which is made while this object
+/// lives. Both show what the setting means as a tooltip.
 class Row {
 public:
-    explicit Row(const settings::FieldInfo& info)
+    explicit Row(const settings::SettingInfo& info)
         : info_(info) {
         ImGui::PushID(info.name.data(), info.name.data() + info.name.size());
         ImGui::BeginGroup();
@@ -47,11 +48,12 @@ public:
     float width() const { return width_; }
 
 private:
-    const settings::FieldInfo& info_;
+    const settings::SettingInfo& info_;
     float width_ = 0.0F;
 };
 
-/// A list to choose from; the chosen index, or nothing. `chosen` < 0: none of them is.
+/// Makes a list to choose from. Returns the index of a name that was picked, if any. `chosen` is
+/// the index of the current name, below zero where the list does not hold it.
 std::optional<int>
 choose(const std::string& shown, std::span<const std::string_view> names, int chosen) {
     std::optional<int> picked;
@@ -69,7 +71,7 @@ choose(const std::string& shown, std::span<const std::string_view> names, int ch
 }
 
 template <class Number>
-bool edit_number(const settings::FieldInfo& info, Number& value) {
+bool edit_number(const settings::SettingInfo& info, Number& value) {
     constexpr bool whole = std::is_same_v<Number, int>;
     constexpr ImGuiDataType type = whole ? ImGuiDataType_S32 : ImGuiDataType_Double;
     const auto least = static_cast<Number>(info.least);
@@ -101,29 +103,38 @@ bool edit_number(const settings::FieldInfo& info, Number& value) {
     return true;
 }
 
-bool edit(const settings::FieldInfo& info, double& value) {
+/// Makes a list of the only numbers that the setting takes. Returns whether another was picked.
+bool choose_number(const settings::SettingInfo& info, int& value) {
+    bool changed = false;
+    if (!ImGui::BeginCombo("##value", settings::text_of(value).c_str())) {
+        return changed;
+    }
+    for (const int number : info.one_of) {
+        if (ImGui::Selectable(settings::text_of(number).c_str(), number == value) &&
+            number != value) {
+            value = number;
+            changed = true;
+        }
+    }
+    ImGui::EndCombo();
+    return changed;
+}
+
+bool edit(const settings::SettingInfo& info, double& value) {
     return edit_number(info, value);
 }
 
-bool edit(const settings::FieldInfo& info, int& value) {
-    if (info.name != "samples") {
-        return edit_number(info, value);
-    }
-    constexpr std::array<std::string_view, 2> names{"1", "4"};
-    const auto picked = choose(settings::text_of(value), names, value == 1 ? 0 : 1);
-    if (picked) {
-        value = *picked == 0 ? 1 : 4;
-    }
-    return picked.has_value();
+bool edit(const settings::SettingInfo& info, int& value) {
+    return info.one_of.empty() ? edit_number(info, value) : choose_number(info, value);
 }
 
-bool edit(const settings::FieldInfo& /*info*/, bool& value) {
+bool edit(const settings::SettingInfo& /*info*/, bool& value) {
     return ImGui::Checkbox("##value", &value);
 }
 
-bool edit(const settings::FieldInfo& info, std::string& value) {
-    if (const auto names = known_names(info.name); !names.empty()) {
-        return choose_name(info, value, names);
+bool edit(const settings::SettingInfo& info, std::string& value) {
+    if (!info.known.empty()) {
+        return choose_name(info, value, info.known);
     }
     const auto typed = typed_text("##value", value, "");
     if (!typed || typed->empty()) {
@@ -133,7 +144,7 @@ bool edit(const settings::FieldInfo& info, std::string& value) {
     return true;
 }
 
-bool edit(const settings::FieldInfo& info, std::vector<std::string>& value) {
+bool edit(const settings::SettingInfo& info, std::vector<std::string>& value) {
     const auto typed = typed_text("##value", joined(value), info.form);
     const std::vector<std::string> names = typed ? parted(*typed) : std::vector<std::string>();
     if (names.empty()) {
@@ -143,7 +154,7 @@ bool edit(const settings::FieldInfo& info, std::vector<std::string>& value) {
     return true;
 }
 
-bool edit(const settings::FieldInfo& info, glm::ivec2& value) {
+bool edit(const settings::SettingInfo& info, glm::ivec2& value) {
     std::array<int, 2> edited{value.x, value.y};
     if (!ImGui::InputInt2("##value", edited.data(), ImGuiInputTextFlags_EnterReturnsTrue)) {
         return false;
@@ -155,7 +166,7 @@ bool edit(const settings::FieldInfo& info, glm::ivec2& value) {
     return true;
 }
 
-bool edit(const settings::FieldInfo& info, glm::dvec3& value) {
+bool edit(const settings::SettingInfo& info, glm::dvec3& value) {
     std::array<double, 3> edited{value.x, value.y, value.z};
     constexpr float speed_m = 5.0F;
     if (!ImGui::DragScalarN(
@@ -179,23 +190,27 @@ bool edit(const settings::FieldInfo& info, glm::dvec3& value) {
     return true;
 }
 
-bool edit(const settings::FieldInfo& /*info*/, glm::vec3& colour) {
+bool edit(const settings::SettingInfo& /*info*/, glm::vec3& colour) {
     return ImGui::ColorEdit3("##value", &colour.x, ImGuiColorEditFlags_DisplayHex);
 }
 
-bool edit(const settings::FieldInfo& /*info*/, visuals::scene::Adaptation& adapt) {
-    bool changed = ImGui::Checkbox("terrain", &adapt.terrain);
-    ImGui::SameLine();
-    changed = ImGui::Checkbox("shading", &adapt.shading) || changed;
+bool edit(const settings::SettingInfo& /*info*/, visuals::scene::Adaptation& adapt) {
+    bool changed = false;
+    for (const settings::NamedAdaptation& each : settings::adaptations) {
+        if (&each != &settings::adaptations.front()) {
+            ImGui::SameLine();
+        }
+        changed = ImGui::Checkbox(each.name.data(), &(adapt.*each.member)) || changed;
+    }
     return changed;
 }
 
 template <class Enum>
 requires std::is_enum_v<Enum>
 
-bool edit(const settings::FieldInfo& /*info*/, Enum& value) {
-    const auto picked = choose(
-        settings::text_of(value), settings::EnumNames<Enum>::names(), static_cast<int>(value));
+bool edit(const settings::SettingInfo& /*info*/, Enum& value) {
+    const auto picked =
+        choose(settings::text_of(value), settings::names_of<Enum>(), static_cast<int>(value));
     if (picked) {
         value = static_cast<Enum>(*picked);
     }
@@ -205,9 +220,9 @@ bool edit(const settings::FieldInfo& /*info*/, Enum& value) {
 template <class Enum>
 requires std::is_enum_v<Enum>
 
-bool edit(const settings::FieldInfo& info, std::optional<Enum>& value) {
-    std::vector<std::string_view> names = settings::EnumNames<Enum>::names();
-    names.insert(names.begin(), unset_word(info));
+bool edit(const settings::SettingInfo& info, std::optional<Enum>& value) {
+    std::vector<std::string_view> names{unset_word(info)};
+    names.insert(names.end(), settings::names_of<Enum>().begin(), settings::names_of<Enum>().end());
     const int chosen = value ? static_cast<int>(*value) + 1 : 0;
     const auto picked = choose(std::string(names[static_cast<std::size_t>(chosen)]), names, chosen);
     if (picked && *picked == 0) {
@@ -218,7 +233,7 @@ bool edit(const settings::FieldInfo& info, std::optional<Enum>& value) {
     return picked.has_value();
 }
 
-bool edit(const settings::FieldInfo& info, std::optional<std::string>& value) {
+bool edit(const settings::SettingInfo& info, std::optional<std::string>& value) {
     const std::string hint(unset_meaning(info).empty() ? unset_word(info) : unset_meaning(info));
     const auto typed = typed_text("##value", value.value_or(""), hint);
     if (!typed) {
@@ -229,7 +244,7 @@ bool edit(const settings::FieldInfo& info, std::optional<std::string>& value) {
 }
 
 template <class Value>
-Value started(const settings::FieldInfo& info) {
+Value started(const settings::SettingInfo& info) {
     if constexpr (std::is_arithmetic_v<Value>) {
         return static_cast<Value>(start_value(info));
     } else {
@@ -237,9 +252,9 @@ Value started(const settings::FieldInfo& info) {
     }
 }
 
-/// A check mark while it is not set, and then what that means; else the value.
+/// Makes a check mark that unsets the setting and, while it is set, the widget of its value.
 template <class Value>
-bool edit(const settings::FieldInfo& info, std::optional<Value>& value) {
+bool edit(const settings::SettingInfo& info, std::optional<Value>& value) {
     const float whole = ImGui::CalcItemWidth();
     const float from = ImGui::GetCursorPosX();
     bool unset = !value;
@@ -259,16 +274,11 @@ bool edit(const settings::FieldInfo& info, std::optional<Value>& value) {
     return changed;
 }
 
-/// The window decides it.
-bool is_fixed(std::string_view setting) {
-    return setting == "context" || setting == "size";
-}
-
 struct RowOfWidgets {
     template <class Value>
-    void operator()(const settings::FieldInfo& info, Value& value) const {
+    void operator()(const settings::SettingInfo& info, Value& value) const {
         const Row row(info);
-        ImGui::BeginDisabled(is_fixed(info.name));
+        ImGui::BeginDisabled(info.set_by_window);
         edit(info, value);
         ImGui::EndDisabled();
     }
@@ -307,12 +317,21 @@ bool choose_name(
 void edit_settings(Settings& settings, std::span<const std::string_view> names) {
     const RowOfWidgets row;
     for (const std::string_view name : names) {
-        settings::visit_settings(settings, [&](const settings::FieldInfo& info, auto& value) {
+        settings::visit_settings(settings, [&](const settings::SettingInfo& info, auto& value) {
             if (info.name == name) {
                 row(info, value);
             }
         });
     }
+}
+
+void edit_group(Settings& settings, settings::SettingGroup group) {
+    const RowOfWidgets row;
+    settings::visit_settings(settings, [&](const settings::SettingInfo& info, auto& value) {
+        if (info.group == group) {
+            row(info, value);
+        }
+    });
 }
 
 } // namespace octant::ui::window

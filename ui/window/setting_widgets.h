@@ -1,7 +1,7 @@
 #pragma once
 
+#include "ui/settings/setting_row.h"
 #include "ui/settings/settings.h"
-#include "ui/settings/settings_text.h"
 
 #include <span>
 #include <string>
@@ -9,24 +9,18 @@
 
 namespace octant::ui::window {
 
-// Widgets made from the list of all settings (ui/settings_fields.h), between ImGui::NewFrame and
-// ImGui::Render. What a person changes is in the settings at once; text and what loads something
-// anew, on Enter. Values stay within their bounds.
+// Widgets made from the rows of all settings (ui/settings/settings_fields.h), between
+// ImGui::NewFrame and ImGui::Render. A change takes effect at once, or on Enter for text and for
+// what loads something anew. Values stay within their limits.
 
-/// Settings by their names, in that order. A name that is no setting shows nothing.
+/// Shows the settings of these names, in this order. A name that is no setting shows nothing.
 void edit_settings(settings::Settings& settings, std::span<const std::string_view> names);
 
-/// The parts of the list, in its order.
-enum class SettingGroup { Path, View, Time, Surface, Shading, Ground, Air };
-inline constexpr int setting_groups = 7;
+/// Shows all settings of one group, in the order of help.
+void edit_group(settings::Settings& settings, settings::SettingGroup group);
 
-/// Headline for people.
-const char* title_of(SettingGroup group);
-
-/// All settings of one part.
-void edit_group(settings::Settings& settings, SettingGroup group);
-
-/// A list of built-in names, and a field for any other such as a file. True when it was changed.
+/// Shows a list of built-in names and a field for any other text, such as a file. Returns whether
+/// `name` was changed.
 bool choose_name(
     const settings::FieldInfo& info, std::string& name, std::span<const std::string_view> names);
 

@@ -39,10 +39,9 @@ void settings_panel(ViewState& state) {
         return;
     }
     save_and_load(state);
-    for (int i = 0; i < setting_groups; ++i) {
-        const auto group = static_cast<SettingGroup>(i);
-        if (ImGui::CollapsingHeader(title_of(group))) {
-            ImGui::PushID(i);
+    for (const auto& [group, headline] : settings::enum_names<settings::SettingGroup>) {
+        if (ImGui::CollapsingHeader(headline.data())) {
+            ImGui::PushID(headline.data());
             edit_group(state.wanted, group);
             ImGui::PopID();
         }

@@ -9,20 +9,23 @@
 
 namespace octant::ui::window {
 
-/// A word that is always to be seen.
+/// A word of the status line, which is seen even while panels are hidden.
 struct StatusMark {
     std::string text;
     bool warns = false;
 };
 
-/// By hand: what the aircraft does.
+/// What the status line says of an aircraft that is flown by hand.
 struct HandStatus {
     sim::FlightWarnings warnings;
-    bool ended = false;       ///< it flies no further
-    bool off_the_map = false; ///< why; else it met the ground
+    /// The flight has ended: the aircraft left the map or met the ground.
+    bool ended = false;
+    /// The flight ended because the aircraft left the map.
+    bool off_the_map = false;
 };
 
-/// "REC folder", "paused", "x0.5", "by hand", "STALL", ... in this order; each where it holds.
+/// Returns those of the marks "REC folder", "paused", "x0.5", "by hand", "STALL", ... that hold
+/// now, in this order.
 std::vector<StatusMark> status_marks(const ViewState& state, const std::optional<HandStatus>& hand);
 
 } // namespace octant::ui::window

@@ -38,7 +38,7 @@ double mean_of(std::span<const FrameRecord> records, Value value) {
     return count == 0 ? 0.0 : sum / count;
 }
 
-/// Pictures begun a second of wall time.
+/// Returns how many pictures were begun in a second of wall time.
 double frame_rate_hz(std::span<const FrameRecord> records) {
     const double passed_s = records.back().wall_s - records.front().wall_s;
     return passed_s > 0.0 ? static_cast<double>(records.size() - 1) / passed_s : 0.0;

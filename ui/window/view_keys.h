@@ -5,7 +5,7 @@
 
 namespace octant::ui::window {
 
-/// What a key asks of the window.
+/// The commands that keys give to the window.
 enum class ViewCommand {
     Cockpit,
     Chase,
@@ -40,23 +40,29 @@ enum class ViewCommand {
     Leave
 };
 
+/// A key and the command that it gives.
 struct ViewKey {
-    int key = 0; ///< GLFW_KEY_...
+    /// One of GLFW_KEY_...
+    int key = 0;
     ViewCommand command = ViewCommand::Leave;
-    std::string_view name;    ///< as written on the key
-    std::string_view meaning; ///< one line for the help
-    bool repeats = false;     ///< again and again while it is held
+    /// The name as written on the key.
+    std::string_view name;
+    /// One line for the help.
+    std::string_view meaning;
+    /// The command is given again and again while the key is held.
+    bool repeats = false;
 };
 
-/// All keys that ask for something once, in the order of the help.
+/// Returns all keys that give commands, in the order of the help.
 std::span<const ViewKey> view_keys();
 
-/// Keys and mouse that act as long as they are held.
+/// Keys and mouse buttons that act as long as they are held.
 struct HeldKey {
     std::string_view name;
     std::string_view meaning;
 };
 
+/// Returns all keys and mouse buttons that act while they are held, in the order of the help.
 std::span<const HeldKey> held_keys();
 
 } // namespace octant::ui::window

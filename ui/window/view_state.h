@@ -12,7 +12,8 @@ namespace octant::ui::window {
 
 /// Which panels are open.
 struct OpenPanels {
-    bool shown = true; ///< false: all are hidden for now
+    /// While this is false, no panel is shown.
+    bool shown = true;
     bool flight = true;
     bool timing = false;
     bool terrain = false;
@@ -21,12 +22,15 @@ struct OpenPanels {
     bool scene = false;
     bool settings = false;
     bool help = false;
-    bool first_steps = false; ///< three lines on how to begin
+    /// A panel of three lines on how to begin.
+    bool first_steps = false;
 };
 
-/// What panels and keys ask for beside settings; taken up before the next frame and then cleared.
+/// What panels and keys ask for beside settings. The viewer fulfils requests before the next frame
+/// and clears them.
 struct ViewRequests {
-    std::optional<double> go_to_s; ///< a time of the path
+    /// Go to this time of the path.
+    std::optional<double> go_to_s;
     bool step_frame = false;
     bool toggle_hand = false;
     bool level_off = false;
@@ -34,7 +38,8 @@ struct ViewRequests {
     bool screenshot = false;
     bool toggle_full_screen = false;
     bool leave = false;
-    bool count_wrong_pixels = false; ///< against the depth buffer, once
+    /// Compare the picture once with one that a depth buffer gives.
+    bool count_wrong_pixels = false;
     std::optional<std::filesystem::path> save_settings;
     std::optional<std::filesystem::path> load_settings;
 };
@@ -42,29 +47,35 @@ struct ViewRequests {
 /// A line for a person, shown for some seconds.
 struct ViewMessage {
     std::string text;
-    double until_s = 0.0; ///< of the window's clock
+    /// The time on the window's clock when it disappears.
+    double until_s = 0.0;
 };
 
 /// Pixels of the last picture that the draw order got wrong.
 struct WrongPixels {
     long wrong = 0;
-    long differing = 0; ///< with those along edges, where two right pictures may differ
+    /// The wrong pixels and those along edges, where two right pictures may differ.
+    long differing = 0;
     long pixels = 0;
 };
 
 /// What a window knows beside its session: everything that keys, mouse and panels change.
 struct ViewState {
-    settings::Settings wanted; ///< what the next frame shows
+    /// The settings of the next frame.
+    settings::Settings wanted;
     Playback playback;
     OpenPanels open;
     ViewRequests requests;
     FrameHistory history;
     ViewMessage message;
-    bool order_numbers = false; ///< on the polygons of the first aircraft
+    /// The painting order is written on the polygons of the first aircraft.
+    bool order_numbers = false;
     std::optional<WrongPixels> wrong_pixels;
     bool vsync = true;
-    std::string settings_file = "settings.json"; ///< where the panel saves settings and loads them
-    std::optional<std::filesystem::path> recording; ///< where one is being written
+    /// The file in which the settings panel saves settings and from which it loads them.
+    std::string settings_file = "settings.json";
+    /// The folder of the recording that is being made, if any.
+    std::optional<std::filesystem::path> recording;
 };
 
 } // namespace octant::ui::window

@@ -25,7 +25,8 @@ namespace gl = visuals::gl;
 
 namespace {
 
-constexpr double longest_turn_s = 0.25; ///< a longer one does not make the flight jump
+/// Longer turns count as this long, so that the flight does not jump.
+constexpr double longest_turn_s = 0.25;
 constexpr double message_s = 5.0;
 
 std::unique_ptr<gl::WindowContext> open_window(const ViewOptions& options) {
@@ -83,7 +84,8 @@ Viewer::Viewer(const ViewOptions& options)
     clock_ = base::Stopwatch();
 }
 
-/// Without a folder of the user's own it does as well.
+/// Shows the first steps once for each user. Where the user's folder cannot be written, nothing is
+/// kept and the viewer works all the same.
 void Viewer::keep_layout() {
     if (options_.keeps_into.empty()) {
         return;
@@ -149,7 +151,7 @@ bool Viewer::turn() {
     return !state_.requests.leave && glfwWindowShouldClose(context_->window()) == GLFW_FALSE;
 }
 
-/// The picture is as large as the window; nothing changes while it is minimised.
+/// Makes the picture as large as the window. Nothing changes while the window is minimised.
 void Viewer::fit_to_window() {
     const glm::ivec2 size_px = input_->size_px();
     if (size_px.x > 0 && size_px.y > 0) {
@@ -214,7 +216,7 @@ void Viewer::apply_wanted() {
     if (wanted == session_->settings()) {
         return;
     }
-    const bool other_flight = settings::change_between(session_->settings(), state_.wanted) ==
+    const bool other_flight = settings::change_between(session_->settings(), state_.wanted) >=
                               settings::SettingsChange::World;
     try {
         if (other_flight && recording_) {
@@ -233,7 +235,8 @@ void Viewer::apply_wanted() {
     }
 }
 
-/// The picture shown is the one chosen a turn ago; with it the ground of the next is begun.
+/// Shows the picture whose time was chosen a turn ago, and begins the ground of the next one, where
+/// the ground is meshed ahead.
 void Viewer::draw() {
     const double next_s = state_.playback.time_s;
     const bool ahead = session_->settings().ground.mesh_ahead;
@@ -264,7 +267,7 @@ void Viewer::record_frame(const report::FrameRecord& record) {
     }
 }
 
-/// Where the driver does not wait for the display itself.
+/// Waits for the display's next refresh where the driver does not do so itself.
 void Viewer::wait_for_display(double turn_began_s) const {
     if (!state_.vsync) {
         return;

@@ -18,16 +18,22 @@
 
 namespace octant::ui::window {
 
+/// How a viewer begins.
 struct ViewOptions {
-    settings::Settings settings; ///< size_px: of the window, in the display's units
+    /// Their view.size_px is the size of the window in the display's units.
+    settings::Settings settings;
     bool full_screen = false;
-    bool vsync = true; ///< false: as fast as it can
+    /// Pictures wait for the display's refresh; otherwise they follow each other at once.
+    bool vsync = true;
     bool panels = true;
-    bool by_hand = false;                        ///< from the beginning on, level and in trim
-    std::optional<std::filesystem::path> record; ///< from the first frame on
-    std::filesystem::path records_into; ///< folder in which recordings and pictures get folders
+    /// The aircraft is flown by hand from the beginning, where it is level and in trim.
+    bool by_hand = false;
+    /// The folder of a recording that begins with the first frame.
+    std::optional<std::filesystem::path> record;
+    /// The folder in which recordings and pictures get folders of their own.
+    std::filesystem::path records_into;
     /// The user's own folder for the layout of panels and the mark that the first steps were shown;
-    /// empty = nothing is kept.
+    /// an empty path keeps nothing.
     std::filesystem::path keeps_into;
 };
 
@@ -43,11 +49,12 @@ public:
     Viewer(Viewer&&) = delete;
     Viewer& operator=(Viewer&&) = delete;
 
-    /// Takes what was done since the last turn and shows the next picture. False when the window is
-    /// to be closed. Throws Error (driver, disk full).
+    /// Handles all input since the last turn and shows the next picture. Returns false when the
+    /// window is to be closed. Throws Error (driver, disk full).
     bool turn();
 
-    /// Ends the recording, where there is one, and says where its report is. Throws Error.
+    /// Ends the recording, if there is one, and returns the line that says where its report is.
+    /// Throws Error.
     std::optional<std::string> finish_recording();
 
     const Gui& gui() const { return *gui_; }
@@ -88,7 +95,8 @@ private:
     void wait_for_display(double turn_began_s) const;
 
     ViewOptions options_;
-    visuals::gl::WindowContext* context_ = nullptr; ///< the session's
+    /// The session owns it.
+    visuals::gl::WindowContext* context_ = nullptr;
     std::unique_ptr<flight::Session> session_;
     std::optional<WindowInput> input_;
     std::optional<Gui> gui_;
@@ -96,13 +104,19 @@ private:
     std::optional<WindowRecording> recording_;
     base::Stopwatch clock_;
     double last_turn_s_ = 0.0;
-    double shown_s_ = 0.0;       ///< simulated time of the next picture
-    double input_s_ = 0.0;       ///< when the input of the picture after it was read
-    double shown_input_s_ = 0.0; ///< when the input of the next picture was read
-    double presented_s_ = 0.0;   ///< when the last picture was shown
+    /// Simulated time of the next picture.
+    double shown_s_ = 0.0;
+    /// When the input of the picture after the next was read.
+    double input_s_ = 0.0;
+    /// When the input of the next picture was read.
+    double shown_input_s_ = 0.0;
+    /// When the last picture was shown.
+    double presented_s_ = 0.0;
     double refresh_hz_ = 60.0;
-    bool waits_ = false;        ///< the driver waits for the display's refresh
-    glm::ivec2 windowed_at_{0}; ///< place and size before full screen
+    /// The driver waits for the display's refresh.
+    bool waits_ = false;
+    /// Place and size of the window before it filled the screen.
+    glm::ivec2 windowed_at_{0};
     glm::ivec2 windowed_size_{0};
 };
 

@@ -58,7 +58,7 @@ void Viewer::command(ViewCommand what) {
     }
 }
 
-/// Whether the command was one of what is seen.
+/// Carries out a command that changes the view. Returns false for any other command.
 bool Viewer::view_command(ViewCommand what) {
     using C = ViewCommand;
     using scene::View;
@@ -83,7 +83,7 @@ bool Viewer::view_command(ViewCommand what) {
     return true;
 }
 
-/// Whether the command was one of the panels.
+/// Carries out a command that opens or closes panels. Returns false for any other command.
 bool Viewer::panel_command(ViewCommand what) {
     using C = ViewCommand;
     constexpr std::array<std::pair<C, bool OpenPanels::*>, 8> panels{
@@ -227,7 +227,8 @@ void Viewer::go_to(double time_s) {
     shown_s_ = playback.time_s;
 }
 
-/// Back on the path it goes on where the path is at that time.
+/// Gives the aircraft to the pilot or back to the path, which goes on from where it is at that
+/// time.
 void Viewer::toggle_hand() {
     flight::Simulation& simulation = session_->simulation();
     if (!simulation.by_hand()) {
@@ -244,7 +245,7 @@ void Viewer::toggle_hand() {
     go_to(state_.playback.time_s);
 }
 
-/// A name that is not there yet: stem-1, stem-2, ...
+/// Returns the first of the paths stem-1, stem-2, ... that does not exist yet.
 fs::path Viewer::unused_path(const std::string& stem, const std::string& ending) const {
     for (int number = 1;; ++number) {
         const fs::path path = options_.records_into / fmt::format("{}-{}{}", stem, number, ending);
@@ -284,7 +285,7 @@ void Viewer::toggle_recording() {
     }
 }
 
-/// What it wrote stays.
+/// Gives up the recording. The files that it has written so far stay.
 void Viewer::drop_recording() {
     recording_.reset();
     state_.recording.reset();

@@ -10,20 +10,25 @@ struct GLFWwindow;
 
 namespace octant::ui::window {
 
-/// What a person did to a window since it was last asked.
+/// What a person did in a window since the last call of WindowInput::take().
 struct WindowEvents {
     struct Key {
-        int key = 0;          ///< GLFW_KEY_...
-        bool repeats = false; ///< it was held
+        /// One of GLFW_KEY_...
+        int key = 0;
+        /// The key is being held, and this is not its first event.
+        bool repeats = false;
     };
 
-    std::vector<Key> keys;     ///< pressed, in order
-    glm::vec2 dragged{0.0F};   ///< with the left button down, in the window's units
-    double wheel_clicks = 0.0; ///< towards the screen
+    /// Keys in the order in which they were pressed.
+    std::vector<Key> keys;
+    /// How far the pointer was dragged with the left button, in the window's units.
+    glm::vec2 dragged{0.0F};
+    /// How far the wheel was turned towards the screen.
+    double wheel_clicks = 0.0;
 };
 
-/// Collects a window's events. Made before anything else that listens to the window, which must
-/// call on.
+/// Collects a window's events. It must be made before anything else that sets callbacks of the
+/// window, and those must call the callbacks that were set before.
 class WindowInput {
 public:
     explicit WindowInput(GLFWwindow* window);
@@ -33,16 +38,17 @@ public:
     WindowInput(WindowInput&&) = delete;
     WindowInput& operator=(WindowInput&&) = delete;
 
-    /// Events since the last call.
+    /// Returns the events since the last call.
     WindowEvents take();
 
     bool is_down(int key) const;
 
-    /// What a pilot holds: keys, and the first gamepad or joystick.
+    /// Returns the state of the keys that fly, and of the first gamepad or joystick.
     PilotDevices pilot_devices() const;
 
-    /// Size of the window's picture in pixels, 0 while it is minimised, and in its own units.
+    /// Returns the size of the window's picture in pixels, which is 0 while it is minimised.
     glm::ivec2 size_px() const;
+    /// Returns the size of the window in the display's units.
     glm::ivec2 size() const;
 
 private:

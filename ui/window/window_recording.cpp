@@ -24,7 +24,7 @@ constexpr double picture_every_s = 1.0;
 constexpr double flush_every_s = 0.5;
 constexpr const char* flight_name = "flight.csv";
 
-/// Settings that fly without a window what a window flies from this step on.
+/// Returns settings that fly without a window what a window flies from this step on.
 settings::Settings from_step(
     const flight::Session& session, long step, const std::filesystem::path& folder, bool by_hand) {
     settings::Settings settings = world::with_absolute_files(session.settings());
@@ -43,8 +43,8 @@ settings::Settings from_step(
     return settings;
 }
 
-/// Takes the step of the session's time where it has only been gone to. Throws Error at a path's
-/// end.
+/// Returns the simulation step of the session's time, which is simulated first where the session
+/// only went to that time. Throws Error at a path's end.
 long first_step_of(flight::Session& session) {
     flight::Simulation& simulation = session.simulation();
     simulation.advance_to(simulation.time_s());
@@ -62,7 +62,7 @@ report::RunInfo info_of(const flight::Session& session, const settings::Settings
     return info;
 }
 
-/// States as lines of a file: those of a track without its head.
+/// Returns the states as lines of a track file, `with_head` for its first lines.
 std::string lines_of(std::span<const sim::AircraftState> states, bool with_head) {
     const std::string text = flightpaths::exact_track_csv(
         sim::Trajectory(std::vector<sim::AircraftState>(states.begin(), states.end())));
@@ -124,7 +124,8 @@ double WindowRecording::length_s() const {
     return last_time_s_ - sim::time_of_step(first_step_);
 }
 
-/// States from the first step to the last picture's; fewer where a flight by hand ended before.
+/// Returns the number of states from the first step to that of the last picture. It is smaller
+/// where a flight by hand ended before.
 std::size_t WindowRecording::states_to_the_end(flight::Session& session) const {
     const long steps = sim::step_at(last_time_s_) - first_step_ + 1;
     return std::min(static_cast<std::size_t>(steps), session.simulation().log().size());

@@ -12,9 +12,10 @@
 
 namespace octant::ui::window {
 
-/// A flight in a window being recorded. Its run.json flies the same simulation steps again without
-/// a window: along the path from where the recording began for as long as it took, or, where it was
-/// flown by hand at its beginning or later, along flight.csv, which holds the state at every step.
+/// Records a flight in a window. The run.json of the recording flies the same simulation steps
+/// again without a window. It flies along the path, from where the recording began and for as long
+/// as it took; a flight that was by hand for any time is flown along flight.csv, which holds the
+/// state at every step.
 class WindowRecording {
 public:
     /// Begins with the session's last simulation step. Throws Error.
@@ -24,12 +25,12 @@ public:
     /// Throws Error (disk full).
     void add(report::FrameRecord record, flight::Session& session);
 
-    /// Ends with the last picture. Gives the line that says where the report is. Throws Error.
+    /// Ends with the last picture and returns the line that says where the report is. Throws Error.
     std::string finish(flight::Session& session);
 
     const std::filesystem::path& folder() const { return recording_.folder(); }
 
-    /// Simulated, up to the last picture.
+    /// Returns the simulated time up to the last picture.
     double length_s() const;
 
 private:
@@ -43,7 +44,8 @@ private:
     std::optional<GrowingFile> flight_; ///< flight.csv
     std::size_t states_written_ = 0;
     int frames_ = 0;
-    bool first_is_older_ = true; ///< the next picture may have been simulated before the beginning
+    /// The next picture may have been simulated before the beginning of the recording.
+    bool first_is_older_ = true;
     double last_time_s_;
     std::uint64_t last_hash_;
     double next_picture_s_;

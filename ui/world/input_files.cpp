@@ -3,7 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "ui/base/data_files.h"
-#include "ui/world/terrain_file.h"
+#include "ui/settings/terrain_name.h"
 #include "visuals/terrain/ground_file.h"
 
 #include <filesystem>
@@ -56,7 +56,7 @@ settings::Settings with_absolute_files(settings::Settings settings) {
             name = absolute(name);
         }
     }
-    if (!is_built_in_ground(settings.path.terrain) && is_file(settings.path.terrain)) {
+    if (!settings::is_built_in_ground(settings.path.terrain) && is_file(settings.path.terrain)) {
         settings.path.terrain = absolute(settings.path.terrain);
     }
     if (settings.air.drape) {

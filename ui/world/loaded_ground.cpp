@@ -1,5 +1,6 @@
 #include "ui/world/loaded_ground.h"
 
+#include "ui/settings/terrain_name.h"
 #include "ui/world/terrain_file.h"
 #include "visuals/terrain/ground_builder.h"
 #include "visuals/terrain/ground_file.h"
@@ -18,7 +19,7 @@ terrain::GroundTiles LoadedGround::tiles() const {
 }
 
 LoadedGround load_ground(const std::string& name_or_file, double spacing_m) {
-    if (is_imported_ground(name_or_file)) {
+    if (settings::is_imported_ground(name_or_file)) {
         return LoadedGround(terrain::open_ground(name_or_file));
     }
     return LoadedGround(load_height_field(name_or_file, spacing_m));

@@ -1,7 +1,7 @@
 #include "ui/world/scene_ground.h"
 
 #include "models/made/made_up.h"
-#include "sim/base/error.h"
+#include "ui/settings/terrain_name.h"
 #include "ui/world/terrain_file.h"
 #include "visuals/terrain/ground_builder.h"
 #include "visuals/terrain/ground_file.h"
@@ -93,31 +93,6 @@ SceneGround load_polygons(const settings::Settings& settings) {
 
 } // namespace
 
-void check_ground_settings(const settings::Settings& settings) {
-    settings::Settings unasked = settings;
-    unasked.ground.mesh.reset();
-    if (settings.ground.mesh == scene::GroundMetric::ScreenError &&
-        scene::ground_metric(unasked.ground) != scene::GroundMetric::ScreenError) {
-        throw Error("--mesh screen-error: expected --detail exact without --roughness-c, --fans or "
-                    "--propagation, got one that only --mesh midpoint or printed has");
-    }
-    if (is_imported_ground(settings.path.terrain) &&
-        scene::ground_metric(settings.ground) != scene::GroundMetric::ScreenError) {
-        throw Error(fmt::format(
-            "{}: expected --mesh screen-error for an imported ground, got a mesh that goes by "
-            "roughness",
-            printable(settings.path.terrain)));
-    }
-    if (settings.ground.error_px &&
-        scene::ground_metric(settings.ground) != scene::GroundMetric::ScreenError) {
-        throw Error("--error-px: expected --mesh screen-error, got a mesh that goes by roughness");
-    }
-}
-
-bool is_drawn_whole(const std::string& terrain) {
-    return terrain == "background60" || terrain == "none";
-}
-
 settings::Settings ground_settings(const settings::Settings& settings) {
     settings::Settings own = settings;
     if (!settings.air.palette && settings.path.terrain == "canyon") {
@@ -127,12 +102,11 @@ settings::Settings ground_settings(const settings::Settings& settings) {
 }
 
 SceneGround load_scene_ground(const settings::Settings& settings, DrawnBy drawn_by) {
-    check_ground_settings(settings);
-    if (is_drawn_whole(settings.path.terrain)) {
+    if (settings::is_drawn_whole(settings.path.terrain)) {
         return load_polygons(settings);
     }
-    return is_imported_ground(settings.path.terrain) ? load_imported(settings, drawn_by)
-                                                     : load_field(settings, drawn_by);
+    return settings::is_imported_ground(settings.path.terrain) ? load_imported(settings, drawn_by)
+                                                               : load_field(settings, drawn_by);
 }
 
 } // namespace octant::ui::world

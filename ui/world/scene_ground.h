@@ -13,12 +13,6 @@
 
 namespace octant::ui::world {
 
-/// Throws Error for settings of the ground that do not go together.
-void check_ground_settings(const settings::Settings& settings);
-
-/// Ground of polygons: there is no detail to choose.
-bool is_drawn_whole(const std::string& terrain);
-
 /// The settings with what the ground decides where they leave it open: its colours.
 settings::Settings ground_settings(const settings::Settings& settings);
 
@@ -32,8 +26,8 @@ struct SceneGround {
     std::vector<std::string> notes;                 ///< what a person should be told
 };
 
-/// Loads the ground of a run. Throws Error for what cannot be read and for settings that do not go
-/// together.
+/// Loads the ground of a run, whose settings have passed settings::check_settings. Throws Error for
+/// what cannot be read and for a texture on ground that has none.
 SceneGround load_scene_ground(const settings::Settings& settings, DrawnBy drawn_by);
 
 } // namespace octant::ui::world

@@ -6,12 +6,6 @@
 
 namespace octant::ui::world {
 
-/// Names that stand for grounds of the program's own, also where a file of that name lies about.
-bool is_built_in_ground(const std::string& name);
-
-/// Whether a name is that of an imported ground.
-bool is_imported_ground(const std::string& name_or_file);
-
 /// A height field by name: hills, canyon, or a file that GDAL reads. `spacing_m`: of files that do
 /// not say. Throws Error for a name that is neither, listing the built-in ones.
 models::heights::HeightField load_height_field(const std::string& name_or_file, double spacing_m);

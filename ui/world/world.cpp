@@ -7,6 +7,7 @@
 #include "sim/base/error.h"
 #include "sim/base/units.h"
 #include "ui/base/data_files.h"
+#include "ui/settings/settings_check.h"
 #include "ui/world/aircraft_loader.h"
 #include "ui/world/place_text.h"
 #include "ui/world/scene_ground.h"
@@ -171,53 +172,6 @@ void check_wingmen(const World& world) {
     }
 }
 
-void check_shading(const settings::Settings& settings) {
-    const bool hybrid = settings.shading.kind == scene::AircraftShading::Hybrid;
-    const bool by_share = settings.adapt.shading || settings.shading.device_ratio ||
-                          settings.shading.smooth_share < 1.0 ||
-                          settings.shading.rule == scene::HybridRule::Paper;
-    if (by_share && !hybrid) {
-        throw Error("--shading: expected hybrid beside --adapt shading, --smooth-share, "
-                    "--device-ratio or --shading-rule paper, got another one");
-    }
-    if (settings.shading.far_m <= settings.shading.near_m) {
-        throw Error(fmt::format(
-            "--shading-far: expected more than --shading-near ({}), got {}",
-            settings.shading.near_m,
-            settings.shading.far_m));
-    }
-}
-
-void check_adaptation(const settings::Settings& settings) {
-    if (!settings.adapt.terrain) {
-        return;
-    }
-    if (settings.ground.detail != scene::DetailControl::Exact) {
-        throw Error("--adapt terrain: expected --detail exact beside it, got another control");
-    }
-    if (is_drawn_whole(settings.path.terrain)) {
-        throw Error(fmt::format(
-            "--adapt terrain: expected ground with levels of detail, got {}",
-            settings.path.terrain));
-    }
-}
-
-void check_eye_point(const settings::Settings& settings) {
-    const bool free = settings.view.kind == scene::View::Free;
-    if (free && (!settings.view.eye_m || !settings.view.look_m)) {
-        throw Error("--view free: expected --eye X,Y,Z and --look X,Y,Z, got at most one of them");
-    }
-    if (free && *settings.view.eye_m == *settings.view.look_m) {
-        throw Error("--look: expected another point than --eye, got the same");
-    }
-    if (!free && settings.view.kind != scene::View::Tower && settings.view.eye_m) {
-        throw Error("--eye: expected --view tower or free beside it, got another view");
-    }
-    if (!free && settings.view.look_m) {
-        throw Error("--look: expected --view free beside it, got another view");
-    }
-}
-
 } // namespace
 
 Formation formation_of(const scene::Scene& scene) {
@@ -229,7 +183,7 @@ Formation formation_of(const scene::Scene& scene) {
 }
 
 scene::FixedPoints fixed_points(const settings::Settings& settings, const World& world) {
-    check_eye_point(settings);
+    settings::check_eye_point(settings.view);
     scene::FixedPoints points;
     if (settings.view.kind == scene::View::Free) {
         points.free_eye_m = *settings.view.eye_m;
@@ -254,20 +208,8 @@ scene::FixedPoints fixed_points(const settings::Settings& settings, const World&
     return points;
 }
 
-void check_settings(const settings::Settings& settings) {
-    if (settings.view.samples != 1 && settings.view.samples != 4) {
-        throw Error(fmt::format("--samples: expected 1 or 4, got {}", settings.view.samples));
-    }
-    if (settings.view.inset == scene::View::Free && settings.view.kind != scene::View::Free) {
-        throw Error("--inset free: expected --view free beside it, got another view");
-    }
-    check_adaptation(settings);
-    check_shading(settings);
-    check_ground_settings(settings);
-}
-
 World load_world(const settings::Settings& settings, DrawnBy drawn_by) {
-    check_settings(settings);
+    settings::check_settings(settings);
     LoadedAircraft aircraft = load_aircraft(settings);
     Script script = load_script(settings);
     SceneGround ground = load_scene_ground(settings, drawn_by);

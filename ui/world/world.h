@@ -45,9 +45,6 @@ struct World {
 /// The formation in which the scene's aircraft fly.
 Formation formation_of(const visuals::scene::Scene& scene);
 
-/// Throws Error where settings contradict each other.
-void check_settings(const settings::Settings& settings);
-
 /// Where the views of these settings stand that do not follow the aircraft. Throws Error for eye
 /// points that the view does not take.
 visuals::scene::FixedPoints fixed_points(const settings::Settings& settings, const World& world);

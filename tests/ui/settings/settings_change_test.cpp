@@ -15,6 +15,8 @@ TEST_CASE("a change of settings costs what has to be made anew for it") {
     CHECK(change_between(before, after) == SettingsChange::Look);
     after.ground.triangles = 5000;
     CHECK(change_between(before, after) == SettingsChange::Picture);
-    after.path.aircraft.emplace_back("f15");
+    after.air.drape = "photo.tif";
     CHECK(change_between(before, after) == SettingsChange::World);
+    after.path.aircraft.emplace_back("f15");
+    CHECK(change_between(before, after) == SettingsChange::Flight);
 }

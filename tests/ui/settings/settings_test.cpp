@@ -1,13 +1,11 @@
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
-#include "ui/settings/settings_fields.h"
 #include "ui/settings/settings_file.h"
 
 #include <catch2/catch.hpp>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <set>
 
 using namespace octant;
 using ui::settings::Settings;
@@ -43,16 +41,6 @@ TEST_CASE("settings survive the way to a file and back") {
         ui::settings::read_settings(settings_file(json.dump())).path.heading_deg ==
         settings.path.heading_deg);
     CHECK_FALSE(ui::settings::settings_json(Settings{}) == json);
-}
-
-TEST_CASE("every setting has a name of its own, a meaning and readable text") {
-    Settings settings;
-    std::set<std::string_view> names;
-    ui::settings::visit_settings(settings, [&](const ui::settings::FieldInfo& info, const auto&) {
-        CHECK(names.insert(info.name).second);
-        CHECK(info.meaning.size() > 5);
-    });
-    CHECK(names.size() == ui::settings::settings_json(settings).size());
 }
 
 TEST_CASE("a missing key keeps its default and a wrong one is refused with its line") {

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <unistd.h>
 
-namespace octant {
+namespace octant::tests {
 
 namespace fs = std::filesystem;
 
@@ -103,4 +103,4 @@ const visuals::gl::Picture& DrivenViewer::picture() {
     return viewer_->session().picture();
 }
 
-} // namespace octant
+} // namespace octant::tests

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-namespace octant {
+namespace octant::tests {
 
 /// A window on a display of its own, driven as a person does.
 class DrivenViewer {
@@ -61,4 +61,4 @@ private:
 /// A small, quick flight over hills.
 ui::settings::Settings small_flight();
 
-} // namespace octant
+} // namespace octant::tests

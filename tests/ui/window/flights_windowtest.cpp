@@ -13,6 +13,7 @@
 #include <string>
 
 using namespace octant;
+using namespace octant::tests;
 using ui::settings::Settings;
 namespace fs = std::filesystem;
 

@@ -62,11 +62,12 @@ TEST_CASE("a panel draws where it is open and nothing where it is closed") {
 }
 
 TEST_CASE("every setting is to be found in one of the groups of the settings panel") {
+    const auto& groups = ui::settings::enum_names<ui::settings::SettingGroup>;
     HeadlessGui gui;
     ViewState state;
     const std::string texts = gui.texts([&] {
-        for (int group = 0; group < ui::window::setting_groups; ++group) {
-            ui::window::edit_group(state.wanted, static_cast<ui::window::SettingGroup>(group));
+        for (const auto& [group, headline] : groups) {
+            ui::window::edit_group(state.wanted, group);
         }
     });
     ui::settings::visit_settings(
@@ -77,8 +78,8 @@ TEST_CASE("every setting is to be found in one of the groups of the settings pan
     CHECK(state.wanted == ui::settings::Settings{});
     state.open.settings = true;
     const std::string titles = gui.texts([&] { ui::window::settings_panel(state); });
-    for (int group = 0; group < ui::window::setting_groups; ++group) {
-        CHECK(contains(titles, ui::window::title_of(static_cast<ui::window::SettingGroup>(group))));
+    for (const auto& [group, headline] : groups) {
+        CHECK(contains(titles, headline));
     }
 }
 

@@ -7,17 +7,17 @@
 #include <type_traits>
 
 using namespace octant;
-using ui::settings::FieldInfo;
+using ui::settings::SettingInfo;
 using ui::settings::Settings;
 using ui::window::NumberStyle;
 
 namespace {
 
 /// What the list of settings says of one.
-FieldInfo info_of(std::string_view name) {
-    FieldInfo found;
+SettingInfo info_of(std::string_view name) {
+    SettingInfo found{};
     Settings settings;
-    ui::settings::visit_settings(settings, [&](const FieldInfo& info, const auto&) {
+    ui::settings::visit_settings(settings, [&](const SettingInfo& info, const auto&) {
         if (info.name == name) {
             found = info;
         }
@@ -54,7 +54,7 @@ TEST_CASE("numbers that load the world anew wait for Enter") {
 
 TEST_CASE("optional numbers begin within their bounds") {
     Settings settings;
-    ui::settings::visit_settings(settings, [](const FieldInfo& info, const auto& value) {
+    ui::settings::visit_settings(settings, [](const SettingInfo& info, const auto& value) {
         if constexpr (OptionalNumber<std::decay_t<decltype(value)>>::value) {
             CAPTURE(info.name);
             CHECK(ui::window::start_value(info) >= info.least);

@@ -15,6 +15,7 @@
 #include <vector>
 
 using namespace octant;
+using namespace octant::tests;
 using ui::settings::Settings;
 using visuals::scene::View;
 

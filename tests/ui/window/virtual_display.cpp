@@ -11,7 +11,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace octant {
+namespace octant::tests {
 
 struct VirtualDisplay::Connection {
     ::Display* display = nullptr;
@@ -154,4 +154,4 @@ void VirtualDisplay::turn_wheel() {
     release_button(away);
 }
 
-} // namespace octant
+} // namespace octant::tests

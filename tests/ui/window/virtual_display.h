@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-namespace octant {
+namespace octant::tests {
 
 /// A display of its own in memory, with a keyboard and a pointer that are worked as a person's are:
 /// through the display's server. Ends with the object.
@@ -48,4 +48,4 @@ private:
     std::unique_ptr<Connection> connection_;
 };
 
-} // namespace octant
+} // namespace octant::tests

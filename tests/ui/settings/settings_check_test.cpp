@@ -1,0 +1,92 @@
+#include "ui/settings/settings.h"
+#include "ui/settings/settings_check.h"
+
+#include <catch2/catch.hpp>
+
+#include <string>
+
+using namespace octant;
+namespace scene = visuals::scene;
+using ui::settings::Settings;
+
+namespace {
+
+void check_refused(const Settings& settings, const std::string& message) {
+    CHECK_THROWS_WITH(ui::settings::check_settings(settings), message);
+}
+
+} // namespace
+
+TEST_CASE("the defaults contradict nothing") {
+    CHECK_NOTHROW(ui::settings::check_settings(Settings()));
+}
+
+TEST_CASE("only the numbers of samples that renderers offer are taken") {
+    Settings settings;
+    settings.view.samples = 4;
+    CHECK_NOTHROW(ui::settings::check_settings(settings));
+    settings.view.samples = 2;
+    check_refused(settings, "--samples: expected 1 or 4, got 2");
+}
+
+TEST_CASE("eye points are refused where the view does not take them") {
+    Settings settings;
+    settings.view.eye_m = glm::dvec3(1.0, 2.0, 3.0);
+    check_refused(settings, "--eye: expected --view tower or free beside it, got another view");
+    settings.view.kind = scene::View::Tower;
+    CHECK_NOTHROW(ui::settings::check_settings(settings));
+    settings.view.look_m = settings.view.eye_m;
+    check_refused(settings, "--look: expected --view free beside it, got another view");
+    settings.view.kind = scene::View::Free;
+    check_refused(settings, "--look: expected another point than --eye, got the same");
+    settings.view.look_m.reset();
+    check_refused(
+        settings, "--view free: expected --eye X,Y,Z and --look X,Y,Z, got at most one of them");
+}
+
+TEST_CASE("a free inset needs the free view") {
+    Settings settings;
+    settings.view.inset = scene::View::Free;
+    check_refused(settings, "--inset free: expected --view free beside it, got another view");
+}
+
+TEST_CASE("a share of smooth polygons needs hybrid shading, and its distances their order") {
+    Settings settings;
+    settings.shading.kind = scene::AircraftShading::Flat;
+    CHECK_NOTHROW(ui::settings::check_settings(settings));
+    settings.shading.smooth_share = 0.5;
+    check_refused(
+        settings,
+        "--shading: expected hybrid beside --adapt shading, --smooth-share, --device-ratio or "
+        "--shading-rule paper, got another one");
+    settings.shading.kind = scene::AircraftShading::Hybrid;
+    settings.shading.near_m = 5.0;
+    settings.shading.far_m = 2.0;
+    check_refused(settings, "--shading-far: expected more than --shading-near (5), got 2");
+}
+
+TEST_CASE("terrain follows the frame time only where its triangles are counted") {
+    Settings settings;
+    settings.adapt.terrain = true;
+    CHECK_NOTHROW(ui::settings::check_settings(settings));
+    settings.path.terrain = "none";
+    check_refused(settings, "--adapt terrain: expected ground with levels of detail, got none");
+    settings.ground.detail = scene::DetailControl::Damped;
+    check_refused(
+        settings, "--adapt terrain: expected --detail exact beside it, got another control");
+}
+
+TEST_CASE("the screen error is refused beside what only the quadtree has") {
+    Settings settings;
+    settings.ground.mesh = scene::GroundMetric::Midpoint;
+    settings.ground.error_px = 1.0;
+    check_refused(
+        settings, "--error-px: expected --mesh screen-error, got a mesh that goes by roughness");
+    settings.ground.mesh = scene::GroundMetric::ScreenError;
+    CHECK_NOTHROW(ui::settings::check_settings(settings));
+    settings.ground.detail = scene::DetailControl::Damped;
+    check_refused(
+        settings,
+        "--mesh screen-error: expected --detail exact without --roughness-c, --fans or "
+        "--propagation, got one that only --mesh midpoint or printed has");
+}

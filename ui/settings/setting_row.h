@@ -1,0 +1,74 @@
+#pragma once
+
+#include "ui/settings/enum_names.h"
+#include "ui/settings/settings.h"
+#include "ui/settings/settings_text.h"
+
+#include <array>
+#include <span>
+#include <string_view>
+
+namespace octant::ui::settings {
+
+/// Groups under which help and the settings panel show settings.
+enum class SettingGroup { Path, View, Time, Surface, Shading, Ground, Air };
+
+/// The headlines of the groups.
+template <>
+inline constexpr std::array enum_names<SettingGroup>{
+    Named{SettingGroup::Path, "Path, aircraft and ground"},
+    Named{SettingGroup::View, "View and picture"},
+    Named{SettingGroup::Time, "Frames"},
+    Named{SettingGroup::Surface, "Hidden surfaces and detail of aircraft"},
+    Named{SettingGroup::Shading, "Shading of aircraft"},
+    Named{SettingGroup::Ground, "Terrain mesh"},
+    Named{SettingGroup::Air, "Sky, haze, sun and colours"}};
+
+/// What must be made anew when settings change during a flight. Each value includes those before
+/// it.
+enum class SettingsChange {
+    None,
+    /// Only the eye point or the direction of view moves.
+    Look,
+    /// Frames are planned and drawn in another way from now on.
+    Picture,
+    /// Aircraft, path and ground are loaded again, and the flight goes on.
+    World,
+    /// The path or what flies along it is another one: the flight begins again.
+    Flight
+};
+
+/// What the program does with a setting, beside what people write for it.
+struct SettingFacts {
+    SettingGroup group;
+    /// What a change of this setting makes anew.
+    SettingsChange change;
+    /// Built-in names that a text setting takes beside files; empty where it takes other text.
+    std::span<const std::string_view> known{};
+    /// Where an optional number begins when it is switched on by hand.
+    double start = 0.0;
+    /// The window sets it, so that its panels only show it.
+    bool set_by_window = false;
+};
+
+/// Everything about a setting but where its value stands.
+struct SettingInfo : FieldInfo, SettingFacts {};
+
+/// The row of one setting. `members` lead from Settings to the value: a pointer to the part, then
+/// one to its member.
+template <auto... members>
+struct Setting : SettingInfo {
+    /// Returns the value in `settings`, which is constant where they are.
+    template <class SomeSettings>
+    static constexpr auto& of(SomeSettings& settings) {
+        return (settings.*....*members);
+    }
+};
+
+/// Makes the row of the setting to which `members` lead.
+template <auto... members>
+constexpr Setting<members...> setting(const FieldInfo& info, const SettingFacts& facts) {
+    return {{info, facts}};
+}
+
+} // namespace octant::ui::settings

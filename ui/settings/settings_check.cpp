@@ -1,0 +1,106 @@
+#include "ui/settings/settings_check.h"
+
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "ui/settings/settings_fields.h"
+#include "ui/settings/terrain_name.h"
+
+#include <fmt/format.h>
+#include <string>
+#include <type_traits>
+
+namespace octant::ui::settings {
+
+namespace scene = visuals::scene;
+
+namespace {
+
+void check_listed_numbers(const Settings& settings) {
+    visit_settings(settings, []<class Value>(const SettingInfo& info, const Value& value) {
+        if constexpr (std::is_same_v<Value, int>) {
+            try {
+                check_listed(info, value);
+            } catch (const Error& fault) {
+                throw Error(fmt::format("--{}", fault.what()));
+            }
+        }
+    });
+}
+
+void check_shading(const scene::ShadingSettings& shading, const scene::Adaptation& adapt) {
+    const bool by_share = adapt.shading || shading.device_ratio || shading.smooth_share < 1.0 ||
+                          shading.rule == scene::HybridRule::Paper;
+    if (by_share && shading.kind != scene::AircraftShading::Hybrid) {
+        throw Error("--shading: expected hybrid beside --adapt shading, --smooth-share, "
+                    "--device-ratio or --shading-rule paper, got another one");
+    }
+    if (shading.far_m <= shading.near_m) {
+        throw Error(fmt::format(
+            "--shading-far: expected more than --shading-near ({}), got {}",
+            shading.near_m,
+            shading.far_m));
+    }
+}
+
+void check_terrain_adaptation(const scene::GroundSettings& ground, const std::string& terrain) {
+    if (ground.detail != scene::DetailControl::Exact) {
+        throw Error("--adapt terrain: expected --detail exact beside it, got another control");
+    }
+    if (is_drawn_whole(terrain)) {
+        throw Error(
+            fmt::format("--adapt terrain: expected ground with levels of detail, got {}", terrain));
+    }
+}
+
+void check_ground(const scene::GroundSettings& ground, const std::string& terrain) {
+    const bool by_error = scene::ground_metric(ground) == scene::GroundMetric::ScreenError;
+    scene::GroundSettings unasked = ground;
+    unasked.mesh.reset();
+    if (ground.mesh == scene::GroundMetric::ScreenError &&
+        scene::ground_metric(unasked) != scene::GroundMetric::ScreenError) {
+        throw Error("--mesh screen-error: expected --detail exact without --roughness-c, --fans or "
+                    "--propagation, got one that only --mesh midpoint or printed has");
+    }
+    if (!by_error && is_imported_ground(terrain)) {
+        throw Error(fmt::format(
+            "{}: expected --mesh screen-error for an imported ground, got a mesh that goes by "
+            "roughness",
+            printable(terrain)));
+    }
+    if (!by_error && ground.error_px) {
+        throw Error("--error-px: expected --mesh screen-error, got a mesh that goes by roughness");
+    }
+}
+
+} // namespace
+
+void check_eye_point(const scene::ViewSettings& view) {
+    const bool free = view.kind == scene::View::Free;
+    if (free && (!view.eye_m || !view.look_m)) {
+        throw Error("--view free: expected --eye X,Y,Z and --look X,Y,Z, got at most one of them");
+    }
+    if (free && *view.eye_m == *view.look_m) {
+        throw Error("--look: expected another point than --eye, got the same");
+    }
+    if (!free && view.kind != scene::View::Tower && view.eye_m) {
+        throw Error("--eye: expected --view tower or free beside it, got another view");
+    }
+    if (!free && view.look_m) {
+        throw Error("--look: expected --view free beside it, got another view");
+    }
+}
+
+void check_settings(const Settings& settings) {
+    check_listed_numbers(settings);
+    if (settings.view.inset == scene::View::Free && settings.view.kind != scene::View::Free) {
+        throw Error("--inset free: expected --view free beside it, got another view");
+    }
+    if (settings.adapt.terrain) {
+        check_terrain_adaptation(settings.ground, settings.path.terrain);
+    }
+    check_shading(settings.shading, settings.adapt);
+    check_ground(settings.ground, settings.path.terrain);
+    check_eye_point(settings.view);
+}
+
+} // namespace octant::ui::settings
