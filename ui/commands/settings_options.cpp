@@ -1,104 +1,89 @@
 #include "ui/commands/settings_options.h"
 
-#include "sim/base/error.h"
+#include "ui/commands/read_option.h"
 #include "ui/settings/settings_fields.h"
 #include "ui/settings/settings_file.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <string>
-#include <utility>
 
 namespace octant::ui::commands {
 
+using settings::FieldInfo;
 using settings::Settings;
 
 namespace {
 
+/// Makes an option of each setting that it is shown.
 class OptionAdder {
 public:
-    OptionAdder(CLI::App& command, bool path_is_positional, std::string group)
-        : command_(command)
-        , path_is_positional_(path_is_positional)
-        , group_(std::move(group)) {}
+    explicit OptionAdder(std::vector<Option>& options)
+        : options_(options) {}
+
+    void begin_group(const char* heading) { heading_ = heading; }
 
     template <class Value>
-    void operator()(const settings::FieldInfo& info, Value& value) {
-        const bool positional = path_is_positional_ && info.name == "path";
-        const std::string name =
-            positional ? std::string(info.name) : fmt::format("--{}", info.name);
-        CLI::Option* option = command_.add_option_function<std::string>(
-            name,
-            [info, &value](const std::string& text) { read_option(info, text, value); },
-            std::string(info.meaning));
-        option->type_name(std::string(info.form))
-            ->default_str(info.meaning.ends_with(']') ? "" : default_text(value))
-            ->group(group_);
+    void operator()(const FieldInfo& info, Value& value) {
+        add(read_option(info, value, info.name == "path" ? "" : "--"));
     }
 
-    void operator()(const settings::FieldInfo& info, bool& value) {
-        const std::string name = fmt::format("--{0},!--no-{0}", info.name);
-        command_.add_flag(name, value, std::string(info.meaning))
-            ->default_str(value ? "true" : "false")
-            ->group(group_);
+    void operator()(const FieldInfo& info, bool& value) {
+        add(showing(
+            value ? "true" : "false",
+            flag(fmt::format("--{0},!--no-{0}", info.name), std::string(info.meaning), value)));
     }
 
-    void operator()(const settings::FieldInfo& info, std::vector<std::string>& value) {
-        command_
-            .add_option_function<std::vector<std::string>>(
+    void operator()(const FieldInfo& info, std::vector<std::string>& values) {
+        add(showing(
+            values.front(),
+            list_option(
                 fmt::format("--{}", info.name),
-                [&value](const std::vector<std::string>& names) { value = names; },
-                std::string(info.meaning))
-            ->type_name(std::string(info.form))
-            ->default_str(fmt::format("{}", value.front()))
-            ->allow_extra_args(false)
-            ->group(group_);
+                std::string(info.form),
+                std::string(info.meaning),
+                Takes::OneWordAgain,
+                values)));
     }
 
 private:
-    template <class Value>
-    static void
-    read_option(const settings::FieldInfo& info, const std::string& text, Value& value) {
-        try {
-            settings::read_setting(info, text, value);
-        } catch (const Error& fault) {
-            throw Error(fmt::format("{}{}", info.name == "path" ? "" : "--", fault.what()));
-        }
+    void add(Option option) {
+        option.heading = heading_;
+        options_.push_back(std::move(option));
     }
 
-    template <class Value>
-    static std::string default_text(const Value& value) {
-        return settings::text_of(value);
-    }
-
-    template <class Value>
-    static std::string default_text(const std::optional<Value>& value) {
-        return value ? settings::text_of(*value) : "";
-    }
-
-    CLI::App& command_;
-    bool path_is_positional_;
-    std::string group_;
+    std::vector<Option>& options_;
+    std::string heading_;
 };
+
+void add_groups(Settings& settings, OptionAdder& adder) {
+    adder.begin_group("Path, aircraft and ground");
+    settings::visit_path_settings(settings, adder);
+    adder.begin_group("View and picture");
+    settings::visit_view_settings(settings, adder);
+    adder.begin_group("Frames");
+    settings::visit_time_settings(settings, adder);
+    adder.begin_group("Hidden surfaces and detail of aircraft");
+    settings::visit_surface_settings(settings, adder);
+    adder.begin_group("Shading of aircraft");
+    settings::visit_shading_settings(settings, adder);
+    adder.begin_group("Terrain mesh");
+    settings::visit_ground_settings(settings, adder);
+    adder.begin_group("Sky, haze, sun and colours");
+    settings::visit_air_settings(settings, adder);
+}
 
 } // namespace
 
-void add_setting_options(CLI::App& command, Settings& settings, bool path_is_positional) {
-    command
-        .add_option_function<std::string>(
-            "--settings",
-            [&settings](const std::string& file) { settings = settings::read_settings(file); },
-            "take settings from FILE or from a recording's run.json; other options override them")
-        ->type_name("FILE");
-    settings::visit_settings(settings, OptionAdder(command, path_is_positional, "Settings"));
-}
-
-void add_number_option(CLI::App& command, const settings::FieldInfo& info, double& value) {
-    OptionAdder(command, false, "Options")(info, value);
-}
-
-void add_number_option(CLI::App& command, const settings::FieldInfo& info, int& value) {
-    OptionAdder(command, false, "Options")(info, value);
+void add_setting_options(std::vector<Option>& options, Settings& settings) {
+    options.push_back(
+        {.name = "--settings",
+         .form = "FILE",
+         .meaning =
+             "take settings from FILE or from a recording's run.json; other options override "
+             "them",
+         .read = [&settings](const Words& words) {
+             settings = settings::read_settings(words.front());
+         }});
+    OptionAdder adder(options);
+    add_groups(settings, adder);
 }
 
 } // namespace octant::ui::commands

@@ -4,7 +4,6 @@
 #include "ui/report/frame_csv.h"
 #include "ui/report/run_file.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -68,21 +67,6 @@ void check_frames(const Replay& replay, int frames) {
             replay.folder / "frames.csv",
             frames + 2,
             fmt::format("expected at most the {} frames of this flight, got {}", frames, rows));
-    }
-}
-
-void refuse_settings_beside_replay(const CLI::App& command) {
-    constexpr std::array<std::string_view, 3> harmless{"realtime", "pictures", "warm-up"};
-    for (const CLI::Option* option : command.get_options()) {
-        const bool sets = option->get_group() == "Settings" || option->check_name("--settings");
-        const bool allowed = std::any_of(harmless.begin(), harmless.end(), [&](const auto& name) {
-            return option->check_name("--" + std::string(name));
-        });
-        if (option->count() > 0 && sets && !allowed) {
-            throw Error(fmt::format(
-                "--replay: expected no option beside it that may change pictures, got {}",
-                option->get_name()));
-        }
     }
 }
 
