@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdio>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <variant>
 
 namespace octant::ui::base {
 
@@ -13,38 +15,77 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-std::string value_text(const Json& value) {
-    if (value.is_string()) {
-        return printable(value.get<std::string>());
+Json json_of(const Figures& figures);
+
+struct AsJson {
+    Json operator()(std::monostate) const { return nullptr; }
+
+    Json operator()(const Figures::List& list) const {
+        auto json = Json::array();
+        for (const Figures& member : list) {
+            json.push_back(json_of(member));
+        }
+        return json;
     }
-    return value.is_number_float() ? fmt::format("{:.6g}", value.get<double>()) : value.dump();
+
+    Json operator()(const Figures::Named& named) const {
+        auto json = Json::object();
+        for (const auto& [name, figure] : named) {
+            json[name] = json_of(figure);
+        }
+        return json;
+    }
+
+    template <class Plain>
+    Json operator()(const Plain& plain) const {
+        return plain;
+    }
+};
+
+Json json_of(const Figures& figures) {
+    return std::visit(AsJson(), figures.value());
 }
 
 } // namespace
 
-std::string figures_text(const Json& figures) {
+std::string figure_text(const Figures& figure) {
+    if (const auto* text = std::get_if<std::string>(&figure.value())) {
+        return printable(*text);
+    }
+    if (const auto* number = std::get_if<double>(&figure.value())) {
+        return fmt::format("{:.6g}", *number);
+    }
+    return json_of(figure).dump();
+}
+
+std::string figures_text(const Figures& figures) {
+    const auto* named = std::get_if<Figures::Named>(&figures.value());
+    if (named == nullptr) {
+        return figure_text(figures) + "\n";
+    }
     std::size_t width = 0;
-    for (const auto& [name, value] : figures.items()) {
-        width = std::max(width, value.is_array() ? 0 : name.size());
+    for (const auto& [name, figure] : *named) {
+        const bool in_column = !std::holds_alternative<Figures::List>(figure.value());
+        width = std::max(width, in_column ? name.size() : 0);
     }
     std::string text;
-    for (const auto& [name, value] : figures.items()) {
-        if (value.is_array()) {
-            for (const Json& line : value) {
-                text += value_text(line) + "\n";
+    for (const auto& [name, figure] : *named) {
+        if (const auto* list = std::get_if<Figures::List>(&figure.value())) {
+            for (const Figures& member : *list) {
+                text += figure_text(member) + "\n";
             }
         } else {
-            text += fmt::format("{:<{}}  {}\n", name, width, value_text(value));
+            text += fmt::format("{:<{}}  {}\n", name, width, figure_text(figure));
         }
     }
     return text;
 }
 
-std::string figures_json(const Json& figures) {
-    return figures.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+std::string figures_json(const Figures& figures) {
+    return json_of(figures).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void print_figures(const Json& figures, bool as_json) {
+void print_figures(const Figures& figures, bool as_json) {
     std::fputs((as_json ? figures_json(figures) : figures_text(figures)).c_str(), stdout);
 }
 

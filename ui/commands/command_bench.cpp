@@ -1,13 +1,12 @@
 #include "ui/base/figures_text.h"
 #include "ui/commands/bench.h"
 #include "ui/commands/commands.h"
-#include "ui/settings/settings_text.h"
+#include "ui/commands/read_option.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 namespace octant::ui::commands {
 
@@ -55,7 +54,7 @@ void print_table(const std::vector<BenchResult>& results) {
 }
 
 void print_json(const std::vector<BenchResult>& results) {
-    nlohmann::ordered_json scenes = nlohmann::ordered_json::array();
+    auto scenes = base::Figures::list({});
     for (const BenchResult& r : results) {
         scenes.push_back(
             {{"name", r.name},
@@ -69,65 +68,50 @@ void print_json(const std::vector<BenchResult>& results) {
              {"triangles", r.triangles},
              {"hash", fmt::format("{:016x}", r.hash)}});
     }
-    base::print_figures(nlohmann::ordered_json{{"scenes", scenes}}, true);
+    base::print_figures({{"scenes", scenes}}, true);
+}
+
+/// An option for one thing each time that it stands, with all defaults in help.
+Option again(std::string name, std::string meaning, std::vector<std::string>& values) {
+    return showing(
+        fmt::format("[{}]", fmt::join(values, ",")),
+        list_option(std::move(name), "NAME|FILE", std::move(meaning), Takes::OneWordAgain, values));
+}
+
+std::vector<Option> options_of(BenchCommand& bench) {
+    BenchOptions& options = bench.options;
+    settings::Settings& settings = options.settings;
+    return {
+        again("--terrain", "scenes: one for each ground", options.terrains),
+        again("--aircraft", "aircraft of every scene; repeat for wingmen", settings.path.aircraft),
+        read_option(
+            {"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, settings.view.size_px),
+        showing(
+            "20000",
+            read_option(
+                {"triangles", "N", "triangles of ground", 100, 10000000},
+                settings.ground.triangles)),
+        read_option({"context", "KIND", "who draws: osmesa or egl"}, settings.drawing.context),
+        read_option({"frames", "N", "timed frames of each scene", 1, 100000}, options.frames),
+        flag("--json", "as JSON", bench.json),
+        flag("--quiet", "no progress", options.quiet)};
 }
 
 } // namespace
 
-void add_bench_command(CLI::App& program) {
+Command bench_command() {
     auto bench = std::make_shared<BenchCommand>();
     bench->options.terrains = {"hills", "canyon", "background60"};
-    BenchOptions& options = bench->options;
-    CLI::App* command = program.add_subcommand(
-        "bench",
-        "Frame times of standard scenes in turn with the platform's floor, each as a ratio to it");
-    command->add_option("--terrain", options.terrains, "scenes: one for each ground")
-        ->type_name("NAME|FILE")
-        ->capture_default_str()
-        ->allow_extra_args(false);
-    command
-        ->add_option(
-            "--aircraft",
-            options.settings.path.aircraft,
-            "aircraft of every scene; repeat for wingmen")
-        ->type_name("NAME|FILE")
-        ->capture_default_str()
-        ->allow_extra_args(false);
-    command
-        ->add_option_function<std::string>(
-            "--size",
-            [bench](const std::string& text) {
-                settings::read_setting(
-                    {"--size", "", "", 16, 8192}, text, bench->options.settings.view.size_px);
-            },
-            "picture size in pixels")
-        ->type_name("WIDTHxHEIGHT")
-        ->default_str(settings::text_of(options.settings.view.size_px));
-    command->add_option("--triangles", options.settings.ground.triangles, "triangles of ground")
-        ->type_name("N")
-        ->default_str("20000")
-        ->check(CLI::Range(100, 10000000));
-    command
-        ->add_option_function<std::string>(
-            "--context",
-            [bench](const std::string& text) {
-                settings::read_setting(
-                    {"--context", "", ""}, text, bench->options.settings.drawing.context);
-            },
-            "who draws: osmesa or egl")
-        ->type_name("KIND")
-        ->default_str(settings::text_of(options.settings.drawing.context));
-    command->add_option("--frames", options.frames, "timed frames of each scene")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 100000));
-    command->add_flag("--json", bench->json, "as JSON");
-    command->add_flag("--quiet", options.quiet, "no progress");
-    command->footer("Example:\n  octant bench --terrain map.tif --size 1920x1080 --json");
-    command->callback([bench] {
-        const std::vector<BenchResult> results = run_bench(bench->options);
-        bench->json ? print_json(results) : print_table(results);
-    });
+    return {
+        .name = "bench",
+        .summary = "Frame times of standard scenes in turn with the platform's floor, each as a "
+                   "ratio to it",
+        .options = options_of(*bench),
+        .footer = "Example:\n  octant bench --terrain map.tif --size 1920x1080 --json",
+        .run = [bench] {
+            const std::vector<BenchResult> results = run_bench(bench->options);
+            bench->json ? print_json(results) : print_table(results);
+        }};
 }
 
 } // namespace octant::ui::commands

@@ -5,22 +5,22 @@
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/settings_options.h"
+#include "ui/commands/read_option.h"
 #include "ui/world/order_input.h"
 #include "visuals/draworder/order_check.h"
 #include "visuals/draworder/order_table.h"
 #include "visuals/draworder/order_text.h"
 #include "visuals/draworder/separation.h"
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace octant::ui::commands {
 
@@ -28,7 +28,9 @@ namespace draworder = visuals::draworder;
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using base::Figures;
+
+constexpr int usual_rays = 200000; ///< of a check
 
 struct DrawOrderOptions {
     std::string model;
@@ -38,8 +40,8 @@ struct DrawOrderOptions {
     std::string export_file;
     std::string export_model;
     bool check = false;
-    std::string check_file; ///< empty: what was computed
-    int rays = 200000;      ///< 0: none
+    std::string check_file;  ///< empty: what was computed
+    std::optional<int> rays; ///< 0: none
     bool json = false;
     bool quiet = false;
 };
@@ -56,9 +58,8 @@ std::string cell_name(const Work& work, std::size_t cell) {
     return path.empty() ? fmt::format("{}", cell + 1) : draworder::path_in_file(path, work.axes);
 }
 
-Json figures_of(const draworder::OrderedModel& ordered, std::size_t polygons) {
+void add_figures(Figures& figures, const draworder::OrderedModel& ordered, std::size_t polygons) {
     const world::PlaneTests tests = world::plane_tests(ordered);
-    Json figures;
     figures["polygons"] = polygons;
     figures["polygons_after_splitting"] = ordered.model.polygons.size();
     figures["splits"] = ordered.splits;
@@ -68,11 +69,10 @@ Json figures_of(const draworder::OrderedModel& ordered, std::size_t polygons) {
     figures["plane_tests_most"] = tests.most;
     figures["plane_tests_mean"] = tests.mean;
     figures["min_distance_m"] = ordered.min_distance_m;
-    return figures;
 }
 
 /// Finds the orders, or reads them.
-Work prepared(const DrawOrderOptions& options, Json& figures) {
+Work prepared(const DrawOrderOptions& options, Figures& figures) {
     world::OrderInput input = world::read_order_input(options.model, options.axes);
     for (const std::string& note : input.model.notes) {
         base::say(options.quiet, "note: " + note);
@@ -93,12 +93,14 @@ Work prepared(const DrawOrderOptions& options, Json& figures) {
     const base::Stopwatch watch;
     draworder::OrderedModel ordered = draworder::ordered(std::move(input.model), options.order);
     const double build_ms = watch.ms();
-    figures.update(figures_of(ordered, polygons));
+    add_figures(figures, ordered, polygons);
     figures["build_ms"] = build_ms;
     for (const std::string& note : ordered.notes) {
         base::say(options.quiet, "note: " + note);
     }
-    figures["notes"] = ordered.notes;
+    if (options.json) {
+        figures["notes"] = ordered.notes; // else they are said
+    }
     draworder::CellOrders orders = draworder::cell_orders(ordered);
     return {std::move(ordered.model), input.axes, std::move(orders)};
 }
@@ -154,7 +156,7 @@ std::string doubt_in_words(const Work& work, const draworder::Doubt& doubt) {
 }
 
 /// Adds to the figures; false when something could not be certified.
-bool certified(const Work& work, const DrawOrderOptions& options, Json& figures) {
+bool certified(const Work& work, const DrawOrderOptions& options, Figures& figures) {
     base::Progress progress(
         "checking cells", static_cast<int>(work.orders.cells.size()), options.quiet, "cells");
     const draworder::OrderCheck check =
@@ -168,7 +170,7 @@ bool certified(const Work& work, const DrawOrderOptions& options, Json& figures)
     figures["pairs_not_certified"] = check.pairs_open;
     figures["unlisted"] = check.unlisted;
     figures["unlisted_not_certified"] = check.unlisted_open;
-    auto doubts = Json::array();
+    auto doubts = Figures::list({});
     for (const draworder::Doubt& doubt : check.doubts) {
         doubts.push_back(doubt_in_words(work, doubt));
     }
@@ -177,7 +179,7 @@ bool certified(const Work& work, const DrawOrderOptions& options, Json& figures)
 }
 
 /// Adds to the figures; false when a ray sees a wrong polygon or an eye has no cell.
-bool rays_are_right(const Work& work, int rays, Json& figures) {
+bool rays_are_right(const Work& work, int rays, Figures& figures) {
     const draworder::RayCount count = world::cast_rays(work.model, work.orders, rays);
     figures["eyes"] = count.eyes;
     figures["eyes_without_cell"] = count.eyes_in_gap;
@@ -195,7 +197,8 @@ void print_table(const std::vector<draworder::OrderRow>& rows) {
     }
 }
 
-void print_results(const Work& work, const DrawOrderOptions& options, Json figures) {
+void print_results(
+    const Work& work, const DrawOrderOptions& options, bool checked, Figures figures) {
     const auto rows = options.table ? draworder::order_table(work.model, work.orders, work.axes)
                                     : std::vector<draworder::OrderRow>{};
     if (options.json) {
@@ -206,9 +209,8 @@ void print_results(const Work& work, const DrawOrderOptions& options, Json figur
         base::print_figures(figures, true);
         return;
     }
-    figures.erase("notes"); // said already
     print_table(rows);
-    if (!options.table || options.check || options.rays > 0) {
+    if (!options.table || checked) {
         base::print_figures(figures, false);
     }
 }
@@ -220,95 +222,91 @@ void draw_order(const DrawOrderOptions& options) {
             "--export-model: expected a file name that ends in .obj, got '{}'",
             printable(options.export_model)));
     }
-    Json figures;
+    Figures figures;
     const Work work = prepared(options, figures);
     export_files(work, options);
     bool good = true;
     if (options.check) {
         good = certified(work, options, figures);
     }
-    if (options.rays > 0) {
-        good = rays_are_right(work, options.rays, figures) && good;
+    const int rays = options.rays.value_or(options.check ? usual_rays : 0);
+    if (rays > 0) {
+        good = rays_are_right(work, rays, figures) && good;
     }
-    if (options.check || options.rays > 0) {
+    const bool checked = options.check || rays > 0;
+    if (checked) {
         figures["right"] = good;
     }
-    print_results(work, options, figures);
+    print_results(work, options, checked, std::move(figures));
     if (!good) {
         throw CheckSaidNo();
     }
 }
 
-void add_order_options(CLI::App& command, DrawOrderOptions& options) {
-    command.add_option("model", options.model, "f15, 500md, concave, torus or an OBJ file")
-        ->type_name("NAME|FILE")
-        ->required();
-    command.add_option("--axes", options.axes, "where x, y and z of an OBJ file point")
-        ->type_name("X,Y,Z")
-        ->capture_default_str();
-    command
-        .add_option_function<std::string>(
-            "--method",
-            [&options](const std::string& text) {
-                options.order.method = static_cast<draworder::Method>(
-                    settings::read_choice({"--method", "", ""}, text, {"paper", "cells", "tree"}));
-            },
-            "paper (8 octants as printed), cells (octants divided further, exact from a distance "
-            "on) or tree (planes over eye space, exact everywhere)")
-        ->type_name("KIND")
-        ->default_str("tree");
-    add_number_option(
-        command,
-        {"min-distance", "RADII", "cells: exact for eyes |x|+|y|+|z| away, in radii", 1, 1000},
-        options.order.min_distance_radii);
+void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
+    table.insert(
+        table.end(),
+        {required(text_option(
+             "model", "NAME|FILE", "f15, 500md, concave, torus or an OBJ file", options.model)),
+         text_option("--axes", "X,Y,Z", "where x, y and z of an OBJ file point", options.axes),
+         read_option(
+             {"method",
+              "KIND",
+              "paper (8 octants as printed), cells (octants divided further, exact from a distance "
+              "on) or tree (planes over eye space, exact everywhere)"},
+             options.order.method),
+         read_option(
+             {"min-distance", "RADII", "cells: exact for eyes |x|+|y|+|z| away, in radii", 1, 1000},
+             options.order.min_distance_radii)});
 }
 
-void add_result_options(CLI::App& command, DrawOrderOptions& options) {
-    command.add_flag(
-        "--table", options.table, "show every cell and its list, P1 the first polygon");
-    command.add_option("--export", options.export_file, "write the orders as text")
-        ->type_name("FILE");
-    command
-        .add_option(
-            "--export-model",
-            options.export_model,
-            "write the polygons, split where they had to be, that the orders speak of")
-        ->type_name("FILE.obj");
-    command.add_option("--check", options.check_file)
-        ->description("certify and try with rays: the orders of FILE for this model, without FILE "
-                      "those just found")
-        ->type_name("[FILE]")
-        ->expected(0, 1);
-    add_number_option(
-        command,
-        {"rays", "N", "try with so many rays, also without --check; 0 = none", 0, 1e9},
-        options.rays);
-    command.add_flag("--json", options.json, "results as JSON");
-    command.add_flag("--quiet", options.quiet, "no progress, no notes");
+void add_result_options(std::vector<Option>& table, DrawOrderOptions& options) {
+    table.insert(
+        table.end(),
+        {flag("--table", "show every cell and its list, P1 the first polygon", options.table),
+         text_option("--export", "FILE", "write the orders as text", options.export_file),
+         text_option(
+             "--export-model",
+             "FILE.obj",
+             "write the polygons, split where they had to be, that the orders speak of",
+             options.export_model),
+         {.name = "--check",
+          .form = "[FILE]",
+          .meaning = "certify and try with rays: the orders of FILE for this model, without FILE "
+                     "those just found",
+          .takes = Takes::PerhapsOneWord,
+          .read =
+              [&options](const Words& words) {
+                  options.check = true;
+                  options.check_file = words.front();
+              }},
+         showing(
+             fmt::format("{}", usual_rays),
+             read_option(
+                 {"rays", "N", "try with so many rays, also without --check; 0 = none", 0, 1e9},
+                 options.rays)),
+         flag("--json", "results as JSON", options.json),
+         flag("--quiet", "no progress, no notes", options.quiet)});
 }
 
 } // namespace
 
-void add_draw_order_command(CLI::App& program) {
+Command draw_order_command() {
     auto options = std::make_shared<DrawOrderOptions>();
-    CLI::App* command = program.add_subcommand(
-        "draw-order", "Finds, shows, exports and checks the painting orders of a model");
-    add_order_options(*command, *options);
-    add_result_options(*command, *options);
-    command->footer(
-        "Exit code 1: a check said no. A file of orders speaks of the model that --export-model "
-        "writes, in the axes of that file.\n"
-        "Examples:\n"
-        "  octant draw-order concave --method paper --table\n"
-        "  octant draw-order f15 --export f15-orders.txt --export-model f15-split.obj\n"
-        "  octant draw-order f15-split.obj --check f15-orders.txt");
-    command->callback([options, command] {
-        options->check = command->count("--check") > 0;
-        if (!options->check && command->count("--rays") == 0) {
-            options->rays = 0;
-        }
-        draw_order(*options);
-    });
+    Command command = {
+        .name = "draw-order",
+        .summary = "Finds, shows, exports and checks the painting orders of a model",
+        .footer = "Exit code 1: a check said no. A file of orders speaks of the model that "
+                  "--export-model "
+                  "writes, in the axes of that file.\n"
+                  "Examples:\n"
+                  "  octant draw-order concave --method paper --table\n"
+                  "  octant draw-order f15 --export f15-orders.txt --export-model f15-split.obj\n"
+                  "  octant draw-order f15-split.obj --check f15-orders.txt",
+        .run = [options] { draw_order(*options); }};
+    add_order_options(command.options, *options);
+    add_result_options(command.options, *options);
+    return command;
 }
 
 } // namespace octant::ui::commands

@@ -2,6 +2,7 @@
 #include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
 #include "ui/commands/commands.h"
+#include "ui/commands/read_option.h"
 #include "ui/commands/settings_options.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/replay.h"
@@ -10,14 +11,17 @@
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <thread>
 
 namespace octant::ui::commands {
@@ -30,6 +34,7 @@ struct FlyOptions {
     settings::Settings settings;
     flight::RecordOptions record;
     std::optional<flight::Replay> replay;
+    std::vector<std::string> given; ///< names of the options that stand there and set something
     bool json = false;
     bool quiet = false;
     bool if_new = false;
@@ -46,13 +51,13 @@ void wait_for(const base::Stopwatch& since_start, double time_s) {
 void print_summary(
     const flight::FlightEnd& end, const std::optional<flight::ReplayVerdict>& verdict, bool json) {
     if (json) {
-        nlohmann::ordered_json object;
+        base::Figures object;
         for (const report::Figure& figure : report::figures()) {
             const double value = figure.value(end.statistics);
             if (figure.decimals == 0) {
-                object[std::string(figure.key)] = static_cast<int>(value);
+                object[figure.key] = static_cast<int>(value);
             } else {
-                object[std::string(figure.key)] = value;
+                object[figure.key] = value;
             }
         }
         object["state_hash"] = fmt::format("{:016x}", end.state_hash);
@@ -85,15 +90,26 @@ void print_summary(
     }
 }
 
+/// Throws Error when the command line sets anything beside --replay that could change pictures.
+void refuse_settings_beside_replay(const FlyOptions& options) {
+    constexpr std::array<std::string_view, 3> harmless{"--realtime", "--pictures", "--warm-up"};
+    for (const std::string& name : options.given) {
+        if (std::ranges::find(harmless, name) == harmless.end()) {
+            throw Error(fmt::format(
+                "--replay: expected no option beside it that may change pictures, got {}", name));
+        }
+    }
+}
+
 /// Throws Error where options contradict each other.
-void check_options(const CLI::App& command, const FlyOptions& options) {
+void check_options(const FlyOptions& options) {
     if (options.if_new && !options.record.folder) {
         throw Error("--if-new: expected --record DIR beside it, got none");
     }
     if (!options.replay) {
         return;
     }
-    flight::refuse_settings_beside_replay(command);
+    refuse_settings_beside_replay(options);
     if (options.if_new) {
         throw Error("--if-new: expected no --replay beside it, got one");
     }
@@ -156,8 +172,8 @@ std::string shading_note(const visuals::shading::ShadingState& shading) {
         shading.fit.ms[2]);
 }
 
-void fly(const CLI::App& command, FlyOptions options) {
-    check_options(command, options);
+void fly(FlyOptions options) {
+    check_options(options);
     options.settings = world::with_absolute_files(options.settings);
     if (options.if_new && flight::is_recorded(options.record, options.settings)) {
         base::say(
@@ -203,52 +219,68 @@ void fly(const CLI::App& command, FlyOptions options) {
     }
 }
 
+/// Makes each of these options note its name when it is read.
+void note_given(std::span<Option> options, std::vector<std::string>& given) {
+    for (Option& option : options) {
+        const std::string name = option.name.substr(0, option.name.find(','));
+        option.read = [name, read = option.read, &given](const Words& words) {
+            given.push_back(name);
+            read(words);
+        };
+    }
+}
+
+std::vector<Option> options_of(FlyOptions& options) {
+    std::vector<Option> table = {
+        text_option(
+            "--record",
+            "DIR",
+            "write the recording and its report into this folder",
+            options.record.folder),
+        text_option(
+            "--video",
+            "FILE.mp4",
+            "write a video (needs ffmpeg; frame times then include the encoder's load)",
+            options.record.video),
+        {.name = "--replay",
+         .form = "DIR",
+         .meaning = "fly the recording in DIR again by its rows, as far as they go, and check that "
+                    "states and pictures are the same (exit code 1 when not)",
+         .read =
+             [&options](const Words& words) {
+                 const std::filesystem::path folder = words.front();
+                 options.replay = flight::read_replay(folder);
+                 options.record.replay_of = folder;
+                 options.settings = settings::read_settings(folder / "run.json");
+             }},
+        flag("--if-new", "do nothing when DIR holds this very run already", options.if_new),
+        flag("--json", "summary as JSON", options.json),
+        flag("--quiet", "no progress, no notes", options.quiet)};
+    const std::size_t own = table.size();
+    add_setting_options(table, options.settings);
+    note_given(std::span(table).subspan(own), options.given);
+    return table;
+}
+
 } // namespace
 
-void add_fly_command(CLI::App& program) {
+Command fly_command() {
     auto options = std::make_shared<FlyOptions>();
-    CLI::App* command = program.add_subcommand(
-        "fly", "Flies a path without a window, as fast as it can, and records it");
-    command
-        ->add_option_function<std::string>(
-            "--record",
-            [options](const std::string& folder) { options->record.folder = folder; },
-            "write the recording and its report into this folder")
-        ->type_name("DIR");
-    command
-        ->add_option_function<std::string>(
-            "--video",
-            [options](const std::string& file) { options->record.video = file; },
-            "write a video (needs ffmpeg; frame times then include the encoder's load)")
-        ->type_name("FILE.mp4");
-    command
-        ->add_option_function<std::string>(
-            "--replay",
-            [options](const std::string& folder) {
-                options->replay = flight::read_replay(folder);
-                options->record.replay_of = folder;
-                options->settings =
-                    settings::read_settings(std::filesystem::path(folder) / "run.json");
-            },
-            "fly the recording in DIR again by its rows, as far as they go, and check that states "
-            "and pictures are the same (exit code 1 when not)")
-        ->type_name("DIR");
-    command->add_flag(
-        "--if-new", options->if_new, "do nothing when DIR holds this very run already");
-    command->add_flag("--json", options->json, "summary as JSON");
-    command->add_flag("--quiet", options->quiet, "no progress, no notes");
-    add_setting_options(*command, options->settings, true);
-    command->footer(
-        "Examples:\n"
-        "  octant fly straight\n"
-        "  octant fly pop-up --aircraft f15 --terrain canyon --view chase --record my-flight\n"
-        "  octant fly turn --aircraft 500md --terrain map.tif --height-mode follow --video "
-        "turn.mp4\n"
-        "  octant fly --settings my-flight/run.json --record the-same\n"
-        "  octant fly turn --adapt terrain --rate 120 --record fitted\n"
-        "  octant fly jinking --aircraft my-aircraft.ply --aircraft-error-px 0.5\n"
-        "  octant fly --replay fitted");
-    command->callback([command, options] { fly(*command, *options); });
+    return {
+        .name = "fly",
+        .summary = "Flies a path without a window, as fast as it can, and records it",
+        .options = options_of(*options),
+        .footer =
+            "Examples:\n"
+            "  octant fly straight\n"
+            "  octant fly pop-up --aircraft f15 --terrain canyon --view chase --record my-flight\n"
+            "  octant fly turn --aircraft 500md --terrain map.tif --height-mode follow --video "
+            "turn.mp4\n"
+            "  octant fly --settings my-flight/run.json --record the-same\n"
+            "  octant fly turn --adapt terrain --rate 120 --record fitted\n"
+            "  octant fly jinking --aircraft my-aircraft.ply --aircraft-error-px 0.5\n"
+            "  octant fly --replay fitted",
+        .run = [options] { fly(*options); }};
 }
 
 } // namespace octant::ui::commands

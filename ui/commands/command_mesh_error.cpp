@@ -6,17 +6,16 @@
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/settings_options.h"
+#include "ui/commands/read_option.h"
 #include "ui/world/mesh_input.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
+#include <variant>
 
 namespace octant::ui::commands {
 
@@ -24,7 +23,7 @@ namespace measure = models::measure;
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using base::Figures;
 
 struct MeshErrorOptions {
     std::string a;
@@ -78,23 +77,23 @@ Findings found_between(
 }
 
 /// One way, or both: lengths as fractions of the diagonal, then in units.
-Json way_json(const measure::OneWayDistance& way, const Findings& found) {
-    const auto fraction = [&](double length_m) -> Json {
-        return found.diagonal_m > 0.0 ? Json(length_m / found.diagonal_m) : Json();
+Figures way_figures(const measure::OneWayDistance& way, const Findings& found) {
+    const auto fraction = [&](double length_m) {
+        return found.diagonal_m > 0.0 ? Figures(length_m / found.diagonal_m) : Figures();
     };
-    Json json;
-    json["hausdorff_least"] = fraction(way.least_hausdorff_m);
-    json["hausdorff_most"] = fraction(way.most_hausdorff_m);
-    json["rms"] = fraction(way.rms_m);
-    json["mean"] = fraction(way.mean_m);
-    json["hausdorff_least_units"] = way.least_hausdorff_m;
-    json["hausdorff_most_units"] = way.most_hausdorff_m;
-    json["rms_units"] = way.rms_m;
-    json["mean_units"] = way.mean_m;
+    Figures figures;
+    figures["hausdorff_least"] = fraction(way.least_hausdorff_m);
+    figures["hausdorff_most"] = fraction(way.most_hausdorff_m);
+    figures["rms"] = fraction(way.rms_m);
+    figures["mean"] = fraction(way.mean_m);
+    figures["hausdorff_least_units"] = way.least_hausdorff_m;
+    figures["hausdorff_most_units"] = way.most_hausdorff_m;
+    figures["rms_units"] = way.rms_m;
+    figures["mean_units"] = way.mean_m;
     if (found.coloured) {
-        json["colour_rms"] = way.colour_rms;
+        figures["colour_rms"] = way.colour_rms;
     }
-    return json;
+    return figures;
 }
 
 measure::OneWayDistance both_ways(const measure::MeshDistance& distance) {
@@ -106,20 +105,20 @@ measure::OneWayDistance both_ways(const measure::MeshDistance& distance) {
         distance.colour_rms()};
 }
 
-Json defects_json(const measure::MeshDefects& defects) {
-    Json json;
-    json["boundary_edges"] = defects.boundary_edges;
-    json["boundary_loops"] = defects.boundary_loops;
-    json["non_manifold_edges"] = defects.non_manifold_edges;
-    json["non_manifold_vertices"] = defects.non_manifold_vertices;
-    json["turned_edges"] = defects.turned_edges;
-    json["duplicate_faces"] = defects.duplicate_faces;
-    json["degenerate_faces"] = defects.degenerate_faces;
-    json["unreferenced_vertices"] = defects.unreferenced_vertices;
-    json["shells"] = defects.shells;
-    json["euler_characteristic"] = defects.euler_characteristic;
-    json["genus"] = defects.genus ? Json(*defects.genus) : Json();
-    return json;
+Figures defect_figures(const measure::MeshDefects& defects) {
+    Figures figures;
+    figures["boundary_edges"] = defects.boundary_edges;
+    figures["boundary_loops"] = defects.boundary_loops;
+    figures["non_manifold_edges"] = defects.non_manifold_edges;
+    figures["non_manifold_vertices"] = defects.non_manifold_vertices;
+    figures["turned_edges"] = defects.turned_edges;
+    figures["duplicate_faces"] = defects.duplicate_faces;
+    figures["degenerate_faces"] = defects.degenerate_faces;
+    figures["unreferenced_vertices"] = defects.unreferenced_vertices;
+    figures["shells"] = defects.shells;
+    figures["euler_characteristic"] = defects.euler_characteristic;
+    figures["genus"] = defects.genus;
+    return figures;
 }
 
 void print_row(
@@ -139,7 +138,7 @@ void print_row(
         stdout);
 }
 
-void print_text(const Findings& found, const Json& figures) {
+void print_text(const Findings& found) {
     using Way = measure::OneWayDistance;
     std::fputs(
         fmt::format("{:<28} {:>12} {:>12} {:>12}\n", "", "A to B", "B to A", "larger").c_str(),
@@ -165,8 +164,10 @@ void print_text(const Findings& found, const Json& figures) {
     if (found.coloured) {
         print_row("colour rms, of 0..1", found.distance, &Way::colour_rms, 1.0);
     }
-    for (const auto& [name, value] : figures.at("defects_of_b").items()) {
-        std::fputs(fmt::format("B: {:<25} {:>12}\n", name, value.dump()).c_str(), stdout);
+    const Figures defects = defect_figures(found.defects);
+    for (const auto& [name, figure] : std::get<Figures::Named>(defects.value())) {
+        std::fputs(
+            fmt::format("B: {:<25} {:>12}\n", name, base::figure_text(figure)).c_str(), stdout);
     }
     std::fputs(
         fmt::format(
@@ -187,16 +188,16 @@ void mesh_error(const MeshErrorOptions& options) {
     const models::TriangleMesh b = read_surface(options.b);
     const double read_ms = watch.ms();
     const Findings found = found_between(a, b, options);
-    Json figures;
+    Figures figures;
     figures["a"] = options.a;
     figures["b"] = options.b;
     figures["a_triangles"] = a.triangles.size();
     figures["b_triangles"] = b.triangles.size();
     figures["diagonal_units"] = found.diagonal_m;
-    figures["both"] = way_json(both_ways(found.distance), found);
-    figures["a_to_b"] = way_json(found.distance.there, found);
-    figures["b_to_a"] = way_json(found.distance.back, found);
-    figures["defects_of_b"] = defects_json(found.defects);
+    figures["both"] = way_figures(both_ways(found.distance), found);
+    figures["a_to_b"] = way_figures(found.distance.there, found);
+    figures["b_to_a"] = way_figures(found.distance.back, found);
+    figures["defects_of_b"] = defect_figures(found.defects);
     figures["flipped_area_share"] = found.flipped_area_share;
     figures["samples"] = options.samples;
     figures["threads"] = options.threads;
@@ -205,7 +206,7 @@ void mesh_error(const MeshErrorOptions& options) {
     if (options.json) {
         base::print_figures(figures, true);
     } else {
-        print_text(found, figures);
+        print_text(found);
     }
 }
 
@@ -228,34 +229,34 @@ constexpr const char* footer =
     "Example:\n"
     "  octant mesh-error bunny.ply bunny-1000.ply --json";
 
+std::vector<Option> options_of(MeshErrorOptions& options) {
+    return {
+        required(text_option(
+            "A",
+            "MESH",
+            "the original: globe, torus, machined-part, f15, 500md, concave or a file (.obj, .ply, "
+            ".stl, .gltf, .glb, .ac, .wrl)",
+            options.a)),
+        required(text_option("B", "MESH", "what was made of it", options.b)),
+        read_option(
+            {"tightness", "RATIO", "most / least of the largest distance", 1.000001, 100},
+            options.tightness),
+        read_option({"samples", "N", "points each way, for rms and mean", 1, 1e9}, options.samples),
+        read_option({"threads", "N", "that measure [all processors]", 1, 256}, options.threads),
+        flag("--json", "results as JSON", options.json),
+        flag("--quiet", "no progress", options.quiet)};
+}
+
 } // namespace
 
-void add_mesh_error_command(CLI::App& program) {
+Command mesh_error_command() {
     auto options = std::make_shared<MeshErrorOptions>();
-    CLI::App* command = program.add_subcommand(
-        "mesh-error", "Measures how far two triangle meshes are apart, and what is wrong with B");
-    command
-        ->add_option(
-            "A",
-            options->a,
-            "the original: globe, torus, machined-part, f15, 500md, concave or a file (.obj, .ply, "
-            ".stl, .gltf, "
-            ".glb, .ac, .wrl)")
-        ->type_name("MESH")
-        ->required();
-    command->add_option("B", options->b, "what was made of it")->type_name("MESH")->required();
-    add_number_option(
-        *command,
-        {"tightness", "RATIO", "most / least of the largest distance", 1.000001, 100},
-        options->tightness);
-    add_number_option(
-        *command, {"samples", "N", "points each way, for rms and mean", 1, 1e9}, options->samples);
-    add_number_option(
-        *command, {"threads", "N", "that measure [all processors]", 1, 256}, options->threads);
-    command->add_flag("--json", options->json, "results as JSON");
-    command->add_flag("--quiet", options->quiet, "no progress");
-    command->footer(footer);
-    command->callback([options] { mesh_error(*options); });
+    return {
+        .name = "mesh-error",
+        .summary = "Measures how far two triangle meshes are apart, and what is wrong with B",
+        .options = options_of(*options),
+        .footer = footer,
+        .run = [options] { mesh_error(*options); }};
 }
 
 } // namespace octant::ui::commands

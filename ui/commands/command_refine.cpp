@@ -1,14 +1,13 @@
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
 #include "sim/base/units.h"
 #include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/settings_options.h"
-#include "ui/settings/read_option.h"
-#include "ui/settings/settings_text.h"
+#include "ui/commands/read_option.h"
 #include "ui/world/refine_input.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/partition_mesh.h"
@@ -17,14 +16,12 @@
 
 #include <glm/geometric.hpp>
 
-#include <CLI/CLI.hpp>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace octant::ui::commands {
@@ -33,15 +30,14 @@ namespace refine = visuals::refine;
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-using RegionWords = std::tuple<std::string, double, double, double, double>;
+using base::Figures;
 
 struct RefineOptions {
     world::RefineInput input;
     int base = 0;
     int vertices = 0; ///< 0: all
     std::string save;
-    std::vector<RegionWords> regions;
+    std::vector<refine::Sphere> regions;
     double error_px = 0.0; ///< 0: no view
     std::optional<glm::dvec3> eye_m;
     std::optional<glm::dvec3> look_m;
@@ -56,20 +52,33 @@ struct RefineOptions {
     bool json = false;
 };
 
-std::vector<refine::Sphere> spheres_of(const RefineOptions& options) {
-    std::vector<refine::Sphere> spheres;
-    for (const auto& [kind, x, y, z, radius] : options.regions) {
-        if (kind != "sphere") {
-            throw Error(
-                fmt::format("--region: expected sphere X Y Z RADIUS, got '{}'", printable(kind)));
+constexpr std::size_t region_words = 5; ///< sphere X Y Z RADIUS
+
+/// Regions from the words of all --region, `region_words` each. Throws Error.
+std::vector<refine::Sphere> regions_from(const Words& words) {
+    std::vector<refine::Sphere> regions;
+    for (std::size_t first = 0; first + region_words <= words.size(); first += region_words) {
+        if (words[first] != "sphere") {
+            throw Error(fmt::format(
+                "--region: expected sphere X Y Z RADIUS, got '{}'", printable(words[first])));
         }
-        const bool finite = std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
-        if (!finite || !std::isfinite(radius) || radius < 0.0) {
-            throw Error("--region: expected finite numbers and a radius of at least 0");
+        std::array<double, region_words - 1> numbers{};
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            const std::string& word = words[first + 1 + i];
+            const auto number = finite_number(word);
+            if (!number) {
+                throw Error(
+                    fmt::format("--region: expected a finite number, got '{}'", printable(word)));
+            }
+            numbers[i] = *number;
         }
-        spheres.push_back({{x, y, z}, radius});
+        const auto& [x, y, z, radius] = numbers;
+        if (radius < 0.0) {
+            throw Error(fmt::format("--region: expected a radius of at least 0, got {}", radius));
+        }
+        regions.push_back({{x, y, z}, radius});
     }
-    return spheres;
+    return regions;
 }
 
 refine::RefineView view_of(const RefineOptions& options) {
@@ -142,11 +151,10 @@ void write_results(const refine::SelectiveRefiner& refiner, const RefineOptions&
 void refine_all(
     refine::SelectiveRefiner& refiner,
     const RefineOptions& options,
-    const std::vector<refine::Sphere>& spheres,
     const std::optional<refine::RefineView>& view,
-    Json& figures) {
+    Figures& figures) {
     const base::Stopwatch watch;
-    refine::refine_regions(refiner, spheres);
+    refine::refine_regions(refiner, options.regions);
     if (view) {
         refine::refine_for_view(refiner, *view, options.error_px);
     }
@@ -176,7 +184,6 @@ void refine_mesh(RefineOptions options) {
     if (options.vertices > 0) {
         options.input.most_vertices = static_cast<std::size_t>(options.vertices);
     }
-    const std::vector<refine::Sphere> spheres = spheres_of(options);
     if ((options.error_px > 0.0) != options.eye_m.has_value() ||
         options.eye_m.has_value() != options.look_m.has_value()) {
         throw Error(fmt::format(
@@ -202,7 +209,7 @@ void refine_mesh(RefineOptions options) {
     }
     const base::Stopwatch watch;
     const auto mesh = world::read_refine_input(options.input);
-    Json figures;
+    Figures figures;
     figures["model"] = mesh->parts().name;
     figures["original_vertices"] = mesh->leaf_count();
     figures["original_faces"] = mesh->face_count();
@@ -217,103 +224,94 @@ void refine_mesh(RefineOptions options) {
     figures["rule"] = options.rule;
     refine::SelectiveRefiner refiner(
         mesh, {.rule = rule_of(options.rule), .repair = !options.no_repair});
-    refine_all(refiner, options, spheres, view, figures);
+    refine_all(refiner, options, view, figures);
     write_results(refiner, options);
     base::print_figures(figures, options.json);
 }
 
-void add_what(CLI::App& command, RefineOptions& options) {
-    command
-        .add_option(
+std::vector<Option> what_options(RefineOptions& options) {
+    constexpr double far_m = 1e9;
+    return {
+        required(text_option(
             "in",
-            options.input.file,
+            "MESH|FILE.pm",
             "a mesh: globe, torus, machined-part, f15, 500md, concave or a file (.obj, .ply, .stl, "
-            ".gltf, .glb, "
-            ".ac, .wrl); or a progressive mesh")
-        ->type_name("MESH|FILE.pm")
-        ->required();
-    add_number_option(
-        command,
-        {"base", "N", "meshes: simplify to N vertices and no further [all the way]", 0, 1e9},
-        options.base);
-    add_number_option(
-        command,
-        {"vertices", "N", ".pm: read the coarser model of N vertices [all]", 0, 1e9},
-        options.vertices);
-    command
-        .add_option(
-            "--region",
-            options.regions,
-            "every original vertex inside is active (file axes, repeatable)")
-        ->type_name("sphere X Y Z RADIUS");
-    add_number_option(
-        command,
-        {"error-px", "PIXELS", "split what shows a larger error from --eye [none]", 0.0, 1e6},
-        options.error_px);
-    settings::add_read_option(
-        command, {"eye", "X,Y,Z", "where the view is from, file axes", -1e9, 1e9}, options.eye_m);
-    settings::add_read_option(
-        command, {"look", "X,Y,Z", "what it looks at", -1e9, 1e9}, options.look_m);
-    add_number_option(
-        command, {"fov", "DEGREES", "height of the view", 1.0, 170.0}, options.fov_deg);
-    settings::add_read_option(
-        command, {"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, options.size_px)
-        ->default_str(settings::text_of(options.size_px));
+            ".gltf, .glb, .ac, .wrl); or a progressive mesh",
+            options.input.file)),
+        read_option(
+            {"base", "N", "meshes: simplify to N vertices and no further [all the way]", 0, 1e9},
+            options.base),
+        read_option(
+            {"vertices", "N", ".pm: read the coarser model of N vertices [all]", 0, 1e9},
+            options.vertices),
+        {.name = "--region",
+         .form = "sphere X Y Z RADIUS",
+         .meaning = "every original vertex inside is active (file axes, repeatable)",
+         .takes = Takes::SomeWords,
+         .read = [&options](const Words& words) { options.regions = regions_from(words); },
+         .together = static_cast<int>(region_words)},
+        read_option(
+            {"error-px", "PIXELS", "split what shows a larger error from --eye [none]", 0.0, 1e6},
+            options.error_px),
+        read_option(
+            {"eye", "X,Y,Z", "where the view is from, file axes", -far_m, far_m}, options.eye_m),
+        read_option({"look", "X,Y,Z", "what it looks at", -far_m, far_m}, options.look_m),
+        read_option({"fov", "DEGREES", "height of the view", 1.0, 170.0}, options.fov_deg),
+        read_option({"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, options.size_px)};
 }
 
-void add_how(CLI::App& command, RefineOptions& options) {
-    command
-        .add_option(
-            "--rule",
-            options.rule,
-            "what a split needs: two cut vertices (selective), the faces beside (hoppe, 1997) or "
-            "all vertices around (xia, 1996)")
-        ->type_name("RULE")
-        ->check(CLI::IsMember({"selective", "hoppe", "xia"}))
-        ->capture_default_str();
-    command.add_flag("--no-repair", options.no_repair, "leave faces that have turned over");
-    command.add_option("--save", options.save, "write the progressive mesh")->type_name("FILE.pm");
-    command.add_option("--out", options.out, "write the active mesh")->type_name("FILE");
-    command
-        .add_option(
-            "--colour-by",
-            options.colour_by,
-            "colours of --out: each active vertex its own (region) or by original vertices below "
-            "it (level)")
-        ->type_name("WHAT")
-        ->check(CLI::IsMember({"none", "region", "level"}))
-        ->capture_default_str();
-    command
-        .add_option(
-            "--out-partition",
-            options.partition,
-            "write the original mesh coloured by active vertices")
-        ->type_name("FILE");
-    command.add_option("--nodes", options.nodes, "write the list of active nodes")
-        ->type_name("FILE");
-    command.add_flag("--json", options.json, "results as JSON");
-    command.add_flag("--quiet", options.input.quiet, "no progress, no notes");
+void add_how_options(std::vector<Option>& table, RefineOptions& options) {
+    table.insert(
+        table.end(),
+        {choice_option(
+             "--rule",
+             "RULE",
+             "what a split needs: two cut vertices (selective), the faces beside (hoppe, 1997) or "
+             "all vertices around (xia, 1996)",
+             {"selective", "hoppe", "xia"},
+             options.rule),
+         flag("--no-repair", "leave faces that have turned over", options.no_repair),
+         text_option("--save", "FILE.pm", "write the progressive mesh", options.save),
+         text_option("--out", "FILE", "write the active mesh", options.out),
+         choice_option(
+             "--colour-by",
+             "WHAT",
+             "colours of --out: each active vertex its own (region) or by original vertices below "
+             "it (level)",
+             {"none", "region", "level"},
+             options.colour_by),
+         text_option(
+             "--out-partition",
+             "FILE",
+             "write the original mesh coloured by active vertices",
+             options.partition),
+         text_option("--nodes", "FILE", "write the list of active nodes", options.nodes),
+         flag("--json", "results as JSON", options.json),
+         flag("--quiet", "no progress, no notes", options.input.quiet)});
 }
 
 } // namespace
 
-void add_refine_command(CLI::App& program) {
+Command refine_command() {
     auto options = std::make_shared<RefineOptions>();
-    CLI::App* command = program.add_subcommand(
-        "refine", "Makes progressive meshes and refines them where it is asked for");
-    add_what(*command, *options);
-    add_how(*command, *options);
-    command->footer(
-        "Without --region and --error-px the active mesh is the base mesh.\n"
-        "Keys of --json: model, original_vertices, original_faces, base_vertices,\n"
-        "  hierarchy_bytes_a_vertex, load_ms, rule, requested_splits, forced_by_rule,\n"
-        "  turned_faces_before_repair, forced_by_repair, turned_faces, vertices, faces, "
-        "refine_ms.\n"
-        "Examples:\n"
-        "  octant refine bunny.ply --base 100 --save bunny.pm\n"
-        "  octant refine bunny.pm --region sphere -0.05 0.1 0 0.02 --out ear.ply --nodes ear.txt\n"
-        "  octant refine bunny.pm --error-px 1 --eye 0,0.1,0.4 --look 0,0.1,0 --out seen.obj");
-    command->callback([options] { refine_mesh(*options); });
+    Command command = {
+        .name = "refine",
+        .summary = "Makes progressive meshes and refines them where it is asked for",
+        .options = what_options(*options),
+        .footer =
+            "Without --region and --error-px the active mesh is the base mesh.\n"
+            "Keys of --json: model, original_vertices, original_faces, base_vertices,\n"
+            "  hierarchy_bytes_a_vertex, load_ms, rule, requested_splits, forced_by_rule,\n"
+            "  turned_faces_before_repair, forced_by_repair, turned_faces, vertices, faces, "
+            "refine_ms.\n"
+            "Examples:\n"
+            "  octant refine bunny.ply --base 100 --save bunny.pm\n"
+            "  octant refine bunny.pm --region sphere -0.05 0.1 0 0.02 --out ear.ply --nodes "
+            "ear.txt\n"
+            "  octant refine bunny.pm --error-px 1 --eye 0,0.1,0.4 --look 0,0.1,0 --out seen.obj",
+        .run = [options] { refine_mesh(*options); }};
+    add_how_options(command.options, *options);
+    return command;
 }
 
 } // namespace octant::ui::commands

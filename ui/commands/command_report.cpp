@@ -5,7 +5,6 @@
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -49,23 +48,26 @@ void make_report(const ReportOptions& options) {
 
 } // namespace
 
-void add_report_command(CLI::App& program) {
+Command report_command() {
     auto options = std::make_shared<ReportOptions>();
-    CLI::App* command = program.add_subcommand(
-        "report", "Makes report.html from recordings; several are compared side by side");
-    command
-        ->add_option(
-            "folders", options->folders, "folders of recordings, also of flights that were killed")
-        ->type_name("DIR...")
-        ->required();
-    command->add_option("--out", options->out, "the page to write")
-        ->type_name("FILE.html")
-        ->default_str("report.html in the first folder");
-    command->add_flag("--quiet", options->quiet, "no notes");
-    command->footer("Examples:\n"
-                    "  octant report my-flight\n"
-                    "  octant report octant-run depth-buffer-run --out both.html");
-    command->callback([options] { make_report(*options); });
+    return {
+        .name = "report",
+        .summary = "Makes report.html from recordings; several are compared side by side",
+        .options =
+            {required(list_option(
+                 "folders",
+                 "DIR...",
+                 "folders of recordings, also of flights that were killed",
+                 Takes::SomeWords,
+                 options->folders)),
+             showing(
+                 "report.html in the first folder",
+                 text_option("--out", "FILE.html", "the page to write", options->out)),
+             flag("--quiet", "no notes", options->quiet)},
+        .footer = "Examples:\n"
+                  "  octant report my-flight\n"
+                  "  octant report octant-run depth-buffer-run --out both.html",
+        .run = [options] { make_report(*options); }};
 }
 
 } // namespace octant::ui::commands

@@ -4,25 +4,20 @@
 #include "sim/base/output_file.h"
 #include "ui/base/figures_text.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/settings_options.h"
+#include "ui/commands/read_option.h"
 #include "ui/commands/simplify_work.h"
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace octant::ui::commands {
 
 namespace meshfile = models::meshfile;
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 void refuse_faults(const SimplifyCommand& command) {
     const std::filesystem::path out = command.out;
@@ -71,25 +66,9 @@ void refuse_faults(const SimplifyCommand& command) {
     check_can_write(out);
 }
 
-void print(Json figures, bool json) {
-    if (!json) {
-        figures.erase("repairs"); // said already
-        if (figures.contains("levels")) {
-            for (Json& level : figures["levels"]) {
-                level = fmt::format(
-                    "level of {} faces: error {:.4g}, {:.3g} of the diagonal",
-                    level["faces"].get<std::size_t>(),
-                    level["error"].get<double>(),
-                    level["error_of_diagonal"].get<double>());
-            }
-        }
-    }
-    base::print_figures(figures, json);
-}
-
 void run(const SimplifyCommand& command) {
     refuse_faults(command);
-    Json figures;
+    base::Figures figures;
     figures["in"] = command.in;
     figures["out"] = command.out;
     if (command.chain) {
@@ -99,63 +78,59 @@ void run(const SimplifyCommand& command) {
     } else {
         simplify_mesh(command, figures);
     }
-    print(figures, command.json);
+    base::print_figures(figures, command.json);
 }
 
-void add_goal_options(CLI::App& cli, SimplifyCommand& command) {
-    cli.add_option(
-           "in",
-           command.in,
-           "mesh to simplify: globe, torus, machined-part, f15, 500md, concave or a file: .obj, "
-           ".ply, .stl, "
-           ".gltf, .glb, .ac, .wrl")
-        ->type_name("IN")
-        ->required();
-    cli.add_option("out", command.out, "file to write, its ending says how")
-        ->type_name("OUT")
-        ->required();
-    add_number_option(
-        cli, {"vertices", "N", "go down to so many vertices [no goal]", 1, 2e9}, command.vertices);
-    add_number_option(
-        cli,
-        {"faces",
-         "N",
-         "go down to so many triangles; with --chain of the coarsest level [no goal]",
-         1,
-         2e9},
-        command.faces);
-    cli.add_option("--error", command.error)
-        ->description("go as far as the certified two-sided distance stays below, in file units "
-                      "or, as 0.1%, of the diagonal of the bounding box")
-        ->type_name("E|P%");
+std::vector<Option> goal_options(SimplifyCommand& command) {
+    return {
+        required(text_option(
+            "in",
+            "IN",
+            "mesh to simplify: globe, torus, machined-part, f15, 500md, concave or a file: .obj, "
+            ".ply, .stl, .gltf, .glb, .ac, .wrl",
+            command.in)),
+        required(text_option("out", "OUT", "file to write, its ending says how", command.out)),
+        read_option(
+            {"vertices", "N", "go down to so many vertices [no goal]", 1, 2e9}, command.vertices),
+        read_option(
+            {"faces",
+             "N",
+             "go down to so many triangles; with --chain of the coarsest level [no goal]",
+             1,
+             2e9},
+            command.faces),
+        text_option(
+            "--error",
+            "E|P%",
+            "go as far as the certified two-sided distance stays below, in file units or, as 0.1%, "
+            "of the diagonal of the bounding box",
+            command.error)};
 }
 
-void add_other_options(CLI::App& cli, SimplifyCommand& command) {
-    cli.add_option_function<std::string>(
-           "--method",
-           [&command](const std::string& text) {
-               const std::vector<std::string_view> names = {
-                   "surface", "fast", "plane", "triangle", "bidirectional"};
-               command.method = names[settings::read_choice({"--method", "", ""}, text, names)];
-           },
-           "surface (distance to the original surface, both ways) or fast (quadrics, a short "
-           "polish); as printed in the 2005 paper: plane, triangle or bidirectional")
-        ->type_name("KIND")
-        ->default_str("surface");
-    add_number_option(
-        cli,
-        {"colour-weight", "W", "what a colour difference of 1 counts, in diagonals", 0, 1000},
-        command.colour_weight);
-    add_number_option(
-        cli,
-        {"threads", "N", "that work; change no result [all processors]", 1, 1024},
-        command.threads);
-    cli.add_flag("--chain", command.chain, "write levels of detail, halving, into OUT.chain");
-    cli.add_option("--polygons", command.polygons)
-        ->description("with --chain: polygons for its far end, instead of the last level")
-        ->type_name("FILE.obj");
-    cli.add_flag("--json", command.json, "results as JSON");
-    cli.add_flag("--quiet", command.quiet, "no progress, no notes");
+void add_other_options(std::vector<Option>& table, SimplifyCommand& command) {
+    table.insert(
+        table.end(),
+        {choice_option(
+             "--method",
+             "KIND",
+             "surface (distance to the original surface, both ways) or fast (quadrics, a short "
+             "polish); as printed in the 2005 paper: plane, triangle or bidirectional",
+             {"surface", "fast", "plane", "triangle", "bidirectional"},
+             command.method),
+         read_option(
+             {"colour-weight", "W", "what a colour difference of 1 counts, in diagonals", 0, 1000},
+             command.colour_weight),
+         read_option(
+             {"threads", "N", "that work; change no result [all processors]", 1, 1024},
+             command.threads),
+         flag("--chain", "write levels of detail, halving, into OUT.chain", command.chain),
+         text_option(
+             "--polygons",
+             "FILE.obj",
+             "with --chain: polygons for its far end, instead of the last level",
+             command.polygons),
+         flag("--json", "results as JSON", command.json),
+         flag("--quiet", "no progress, no notes", command.quiet)});
 }
 
 constexpr const char* footer =
@@ -178,14 +153,16 @@ constexpr const char* footer =
 
 } // namespace
 
-void add_simplify_command(CLI::App& program) {
-    auto command = std::make_shared<SimplifyCommand>();
-    CLI::App* cli = program.add_subcommand(
-        "simplify", "Reduces triangles of a mesh and certifies how far the result is off");
-    add_goal_options(*cli, *command);
-    add_other_options(*cli, *command);
-    cli->footer(footer);
-    cli->callback([command] { run(*command); });
+Command simplify_command() {
+    auto work = std::make_shared<SimplifyCommand>();
+    Command command = {
+        .name = "simplify",
+        .summary = "Reduces triangles of a mesh and certifies how far the result is off",
+        .options = goal_options(*work),
+        .footer = footer,
+        .run = [work] { run(*work); }};
+    add_other_options(command.options, *work);
+    return command;
 }
 
 } // namespace octant::ui::commands

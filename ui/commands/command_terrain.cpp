@@ -5,22 +5,18 @@
 #include "sim/base/units.h"
 #include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
-#include "ui/commands/command_terrain_import.h"
-#include "ui/commands/command_terrain_measure.h"
+#include "ui/commands/command_terrain_parts.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/settings_options.h"
+#include "ui/commands/read_option.h"
 #include "ui/settings/terrain_name.h"
 #include "ui/world/terrain_file.h"
-#include "visuals/terrain/ground_file.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 
 namespace octant::ui::commands {
@@ -39,8 +35,8 @@ struct TerrainOptions {
     std::string out;
 };
 
-nlohmann::ordered_json figures_of(const models::heights::HeightField& field) {
-    nlohmann::ordered_json figures;
+base::Figures figures_of(const models::heights::HeightField& field) {
+    base::Figures figures;
     double sum_m = 0.0;
     double steepest_rad = 0.0;
     for (int row = 0; row < field.rows(); ++row) {
@@ -99,61 +95,64 @@ void make(TerrainOptions options) {
             field->highest_m()));
 }
 
-void add_info(CLI::App& terrain) {
+Command info_command() {
     auto options = std::make_shared<TerrainOptions>();
-    CLI::App* info =
-        terrain.add_subcommand("info", "Shows size, heights, slopes, voids and place of a terrain");
-    info->add_option("terrain", options->terrain, "hills, canyon or a file that GDAL reads")
-        ->type_name("NAME|FILE")
-        ->required();
-    add_number_option(
-        *info,
-        {"terrain-spacing", "METRES", "sample spacing of files that do not say", 0.01, 1e5},
-        options->spacing_m);
-    info->add_flag("--json", options->json, "as JSON");
-    info->add_flag("--verify", options->verify, "check all of an imported ground");
-    info->footer("Example:\n  octant terrain info map.tif --json");
-    info->callback([options] { show(*options); });
+    return {
+        .name = "info",
+        .summary = "Shows size, heights, slopes, voids and place of a terrain",
+        .options =
+            {required(text_option(
+                 "terrain",
+                 "NAME|FILE",
+                 "hills, canyon or a file that GDAL reads",
+                 options->terrain)),
+             read_option(
+                 {"terrain-spacing",
+                  "METRES",
+                  "sample spacing of files that do not say",
+                  0.01,
+                  1e5},
+                 options->spacing_m),
+             flag("--json", "as JSON", options->json),
+             flag("--verify", "check all of an imported ground", options->verify)},
+        .footer = "Example:\n  octant terrain info map.tif --json",
+        .run = [options] { show(*options); }};
 }
 
-void add_make(CLI::App& terrain) {
+Command make_command() {
     auto options = std::make_shared<TerrainOptions>();
-    CLI::App* make_command =
-        terrain.add_subcommand("make", "Makes a terrain from a seed and writes it as GeoTIFF");
-    make_command->add_option("--kind", options->kind, "hills (gentle) or canyon (rugged)")
-        ->type_name("KIND")
-        ->capture_default_str();
-    add_number_option(*make_command, {"size", "N", "samples a side", 2, 20000}, options->made.size);
-    add_number_option(
-        *make_command,
-        {"spacing", "METRES", "between samples", 0.1, 1000},
-        options->made.spacing_m);
-    add_number_option(
-        *make_command, {"seed", "S", "another seed, another terrain", 0, 1e9}, options->seed);
-    make_command->add_option("--out", options->out, "the file to write")
-        ->type_name("FILE.tif")
-        ->required();
-    make_command->add_flag("--quiet", options->quiet, "no notes");
-    make_command->footer(
-        "Example:\n  octant terrain make --kind canyon --size 2049 --seed 7 --out made.tif");
-    make_command->callback([options] { make(*options); });
+    return {
+        .name = "make",
+        .summary = "Makes a terrain from a seed and writes it as GeoTIFF",
+        .options =
+            {text_option("--kind", "KIND", "hills (gentle) or canyon (rugged)", options->kind),
+             read_option({"size", "N", "samples a side", 2, 20000}, options->made.size),
+             read_option(
+                 {"spacing", "METRES", "between samples", 0.1, 1000}, options->made.spacing_m),
+             read_option({"seed", "S", "another seed, another terrain", 0, 1e9}, options->seed),
+             required(text_option("--out", "FILE.tif", "the file to write", options->out)),
+             flag("--quiet", "no notes", options->quiet)},
+        .footer =
+            "Example:\n  octant terrain make --kind canyon --size 2049 --seed 7 --out made.tif",
+        .run = [options] { make(*options); }};
 }
 
 } // namespace
 
-void add_terrain_command(CLI::App& program) {
-    CLI::App* terrain = program.add_subcommand(
-        "terrain", "Height fields: show, make, import, mesh, measure, ask, check");
-    terrain->require_subcommand(1);
-    terrain->footer("Examples:\n  octant terrain info map.tif\n  octant terrain make --kind canyon "
-                    "--seed 7 --out made.tif");
-    add_info(*terrain);
-    add_make(*terrain);
-    add_terrain_import(*terrain);
-    add_terrain_mesh(*terrain);
-    add_terrain_error(*terrain);
-    add_terrain_query(*terrain);
-    add_terrain_check(*terrain);
+Command terrain_command() {
+    return {
+        .name = "terrain",
+        .summary = "Height fields: show, make, import, mesh, measure, ask, check",
+        .footer = "Examples:\n  octant terrain info map.tif\n  octant terrain make --kind canyon "
+                  "--seed 7 --out made.tif",
+        .commands = {
+            info_command(),
+            make_command(),
+            terrain_import_command(),
+            terrain_mesh_command(),
+            terrain_error_command(),
+            terrain_query_command(),
+            terrain_check_command()}};
 }
 
 } // namespace octant::ui::commands

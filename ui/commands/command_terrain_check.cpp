@@ -1,18 +1,15 @@
 #include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
-#include "ui/commands/command_terrain_measure.h"
-#include "ui/commands/commands.h"
-#include "ui/commands/settings_options.h"
+#include "ui/commands/command_terrain_parts.h"
+#include "ui/commands/read_option.h"
+#include "ui/commands/terrain_options.h"
 #include "ui/terrain/mesh_maker.h"
 #include "ui/terrain/terrain_check.h"
 #include "ui/world/loaded_ground.h"
-#include "visuals/terrain/ground_query.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 namespace octant::ui::commands {
 
@@ -33,7 +30,7 @@ void check(const CheckOptions& options) {
     asked.by_error = options.mesh.mesh == visuals::scene::GroundMetric::ScreenError;
     const ui::terrain::TerrainFaults faults = ui::terrain::check_terrain(*maker, asked);
     if (options.json) {
-        nlohmann::ordered_json figures;
+        base::Figures figures;
         figures["views"] = faults.views;
         figures["drawn"] = faults.drawn;
         figures["triangles"] = faults.triangles;
@@ -64,35 +61,41 @@ void check(const CheckOptions& options) {
     }
 }
 
+std::vector<Option> options_of(CheckOptions& options) {
+    ui::terrain::TerrainCheck& asked = options.check;
+    std::vector<Option> table;
+    add_terrain_options(table, options.view);
+    add_mesh_options(table, options.mesh);
+    table.insert(
+        table.end(),
+        {read_option({"views", "N", "random views", 1, 1e8}, asked.views),
+         read_option({"seed", "S", "another seed, other views", 0, 1e9}, asked.seed),
+         read_option({"every", "N", "only every Nth view of them is made", 1, 1e6}, asked.every),
+         read_option(
+             {"draw-every",
+              "N",
+              "every Nth view made is drawn over a key colour; 0 = none",
+              0,
+              1e6},
+             asked.draw_every),
+         curved_option(asked.earth_radius_m),
+         flag("--json", "as JSON", options.json),
+         flag("--quiet", "no progress", asked.quiet)});
+    return table;
+}
+
 } // namespace
 
-void add_terrain_check(CLI::App& terrain) {
+Command terrain_check_command() {
     auto options = std::make_shared<CheckOptions>();
-    CLI::App* command = terrain.add_subcommand(
-        "check",
-        "Looks for cracks and holes in the meshes of random views, by edge and by picture");
-    ui::terrain::add_terrain_argument(*command, options->view);
-    ui::terrain::add_mesh_options(*command, options->mesh, false);
-    add_number_option(*command, {"views", "N", "random views", 1, 1e8}, options->check.views);
-    add_number_option(
-        *command, {"seed", "S", "another seed, other views", 0, 1e9}, options->check.seed);
-    add_number_option(
-        *command,
-        {"every", "N", "only every Nth view of them is made", 1, 1e6},
-        options->check.every);
-    add_number_option(
-        *command,
-        {"draw-every", "N", "every Nth view made is drawn over a key colour; 0 = none", 0, 1e6},
-        options->check.draw_every);
-    command->add_flag_callback(
-        "--curved",
-        [options] { options->check.earth_radius_m = visuals::terrain::earth_radius_m; },
-        "lower the ground by d^2 / 2R as it is in flight (screen-error meshes)");
-    command->add_flag("--json", options->json, "as JSON");
-    command->add_flag("--quiet", options->check.quiet, "no progress");
-    command->footer("Exit code 1 when there is a crack or a hole.\n"
-                    "Example:\n  octant terrain check canyon --views 10000 --seed 1");
-    command->callback([options] { check(*options); });
+    return {
+        .name = "check",
+        .summary =
+            "Looks for cracks and holes in the meshes of random views, by edge and by picture",
+        .options = options_of(*options),
+        .footer = "Exit code 1 when there is a crack or a hole.\n"
+                  "Example:\n  octant terrain check canyon --views 10000 --seed 1",
+        .run = [options] { check(*options); }};
 }
 
 } // namespace octant::ui::commands

@@ -1,12 +1,12 @@
 #include "sim/base/error.h"
-#include "ui/commands/command_terrain_measure.h"
+#include "ui/commands/command_terrain_parts.h"
+#include "ui/commands/read_option.h"
+#include "ui/commands/terrain_options.h"
 #include "ui/report/table_text.h"
-#include "ui/settings/read_option.h"
 #include "ui/terrain/error_tables.h"
 #include "ui/terrain/eye_points.h"
 #include "ui/world/loaded_ground.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -58,37 +58,49 @@ void show_error(const ErrorOptions& options) {
     std::fputs((options.json ? report::json_of(tables) : text).c_str(), stdout);
 }
 
+std::vector<Option> options_of(ErrorOptions& options) {
+    std::vector<Option> table;
+    add_terrain_options(table, options.view);
+    add_view_options(table, options.view);
+    add_mesh_options(table, options.mesh);
+    add_detail_options(table, options.mesh);
+    table.insert(
+        table.end(),
+        {read_option(
+             {"solve",
+              "PIXELS",
+              "find the coarsest mesh whose 99.9th percentile is this",
+              0.001,
+              1e4},
+             options.solve_px),
+         text_option(
+             "--eye-points",
+             "FILE",
+             "many views: a table map,x_m,y_m,agl_m,heading_deg,pitch_deg",
+             options.eye_points),
+         text_option(
+             "--map", "NAME", "which rows of the table [the terrain file's stem]", options.map),
+         flag(
+             "--compare",
+             "with --solve: beside it Roettger's rule, with full and with partial fans",
+             options.compare),
+         flag("--json", "as JSON", options.json),
+         flag("--quiet", "no progress", options.quiet)});
+    return table;
+}
+
 } // namespace
 
-void add_terrain_error(CLI::App& terrain) {
+Command terrain_error_command() {
     auto options = std::make_shared<ErrorOptions>();
-    CLI::App* error = terrain.add_subcommand(
-        "error", "Measures how far meshes miss the full-resolution ground on the screen");
-    ui::terrain::add_terrain_argument(*error, options->view);
-    ui::terrain::add_view_options(*error, options->view);
-    ui::terrain::add_mesh_options(*error, options->mesh, true);
-    settings::add_read_option(
-        *error,
-        {"solve", "PIXELS", "find the coarsest mesh whose 99.9th percentile is this", 0.001, 1e4},
-        options->solve_px);
-    error
-        ->add_option(
-            "--eye-points",
-            options->eye_points,
-            "many views: a table map,x_m,y_m,agl_m,heading_deg,pitch_deg")
-        ->type_name("FILE");
-    error->add_option("--map", options->map, "which rows of the table [the terrain file's stem]")
-        ->type_name("NAME");
-    error->add_flag(
-        "--compare",
-        options->compare,
-        "with --solve: beside it Roettger's rule, with full and with partial fans");
-    error->add_flag("--json", options->json, "as JSON");
-    error->add_flag("--quiet", options->quiet, "no progress");
-    error->footer("Example:\n  octant terrain error canyon --eye 0,0,900 --look 3000,2000,300 "
+    return {
+        .name = "error",
+        .summary = "Measures how far meshes miss the full-resolution ground on the screen",
+        .options = options_of(*options),
+        .footer = "Example:\n  octant terrain error canyon --eye 0,0,900 --look 3000,2000,300 "
                   "--triangles 20000\n  octant terrain error map.tif --eye-points points.csv "
-                  "--solve 1 --compare");
-    error->callback([options] { show_error(*options); });
+                  "--solve 1 --compare",
+        .run = [options] { show_error(*options); }};
 }
 
 } // namespace octant::ui::commands

@@ -1,20 +1,17 @@
-#include "ui/commands/command_terrain_import.h"
-
 #include "sim/base/error.h"
 #include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
-#include "ui/commands/settings_options.h"
+#include "ui/commands/command_terrain_parts.h"
+#include "ui/commands/read_option.h"
 #include "visuals/terrain/ground_file.h"
 #include "visuals/terrain/ground_import.h"
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -79,9 +76,8 @@ private:
     std::array<double, stage_count> seconds_{};
 };
 
-nlohmann::ordered_json
-figures_of(const GroundShape& shape, const GroundFacts& facts, std::uintmax_t bytes) {
-    nlohmann::ordered_json figures;
+base::Figures figures_of(const GroundShape& shape, const GroundFacts& facts, std::uintmax_t bytes) {
+    base::Figures figures;
     figures["name"] = facts.name;
     figures["columns"] = shape.columns;
     figures["rows"] = shape.rows;
@@ -158,31 +154,40 @@ void show_ground_file(const std::string& file, bool verify, bool json) {
     base::print_figures(figures, json);
 }
 
-void add_terrain_import(CLI::App& terrain) {
-    auto command = std::make_shared<ImportCommand>();
-    CLI::App* app = terrain.add_subcommand(
-        "import", "Makes one file that is mapped, not read, of one or several height files");
-    app->add_option(
-           "files", command->inputs, "what GDAL reads; the first counts where they overlap")
-        ->type_name("FILE")
-        ->required();
-    app->add_option("--out", command->out, "the file to write")
-        ->type_name("FILE.ground")
-        ->required();
-    add_number_option(
-        *app,
-        {"terrain-spacing", "METRES", "sample spacing of files that do not say", 0.01, 1e5},
-        command->spacing_m);
-    add_number_option(
-        *app,
-        {"height-scale", "METRES", "a unit of heights of files that do not say", 1e-6, 1e4},
-        command->height_scale);
-    add_number_option(*app, {"threads", "N", "that build", 1, 256}, command->threads);
-    app->add_flag("--json", command->json, "figures as JSON on stdout");
-    app->add_flag("--quiet", command->quiet, "no notes");
-    app->footer("A stopped import goes on from FILE.ground.part when it is called again.\n"
-                "Example:\n  octant terrain import west.tif east.tif --out both.ground");
-    app->callback([command] { import(*command); });
+Command terrain_import_command() {
+    auto import_options = std::make_shared<ImportCommand>();
+    ImportCommand& options = *import_options;
+    return {
+        .name = "import",
+        .summary = "Makes one file that is mapped, not read, of one or several height files",
+        .options =
+            {required(list_option(
+                 "files",
+                 "FILE",
+                 "what GDAL reads; the first counts where they overlap",
+                 Takes::SomeWords,
+                 options.inputs)),
+             required(text_option("--out", "FILE.ground", "the file to write", options.out)),
+             read_option(
+                 {"terrain-spacing",
+                  "METRES",
+                  "sample spacing of files that do not say",
+                  0.01,
+                  1e5},
+                 options.spacing_m),
+             read_option(
+                 {"height-scale",
+                  "METRES",
+                  "a unit of heights of files that do not say",
+                  1e-6,
+                  1e4},
+                 options.height_scale),
+             read_option({"threads", "N", "that build", 1, 256}, options.threads),
+             flag("--json", "figures as JSON on stdout", options.json),
+             flag("--quiet", "no notes", options.quiet)},
+        .footer = "A stopped import goes on from FILE.ground.part when it is called again.\n"
+                  "Example:\n  octant terrain import west.tif east.tif --out both.ground",
+        .run = [import_options] { import(*import_options); }};
 }
 
 } // namespace octant::ui::commands

@@ -1,16 +1,15 @@
 #include "sim/base/output_file.h"
 #include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
-#include "ui/commands/command_terrain_measure.h"
+#include "ui/commands/command_terrain_parts.h"
+#include "ui/commands/terrain_options.h"
 #include "ui/terrain/ground_ply.h"
 #include "ui/terrain/mesh_maker.h"
 #include "ui/world/loaded_ground.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 
 namespace octant::ui::commands {
@@ -35,7 +34,7 @@ void write_mesh(const MeshOptions& options) {
         *maker, ui::terrain::mesh_view(camera, options.view), options.mesh);
     write_file(options.out, ui::terrain::ply_of(mesh, camera.eye_m, options.ascii));
     if (options.json) {
-        nlohmann::ordered_json figures;
+        base::Figures figures;
         figures["file"] = options.out;
         figures["triangles"] = mesh.counters.triangles;
         figures["vertices"] = mesh.vertices.size();
@@ -55,22 +54,32 @@ void write_mesh(const MeshOptions& options) {
                                   : fmt::format("error {:.4g} px", mesh.error_px)));
 }
 
+std::vector<Option> options_of(MeshOptions& options) {
+    std::vector<Option> table;
+    add_terrain_options(table, options.view);
+    add_view_options(table, options.view);
+    add_mesh_options(table, options.mesh);
+    add_detail_options(table, options.mesh);
+    table.insert(
+        table.end(),
+        {required(text_option("--out", "FILE.ply", "the file to write", options.out)),
+         flag("--ascii", "as text; else binary, little endian", options.ascii),
+         flag("--json", "print what was written as JSON", options.json),
+         flag("--quiet", "no notes", options.quiet)});
+    return table;
+}
+
 } // namespace
 
-void add_terrain_mesh(CLI::App& terrain) {
+Command terrain_mesh_command() {
     auto options = std::make_shared<MeshOptions>();
-    CLI::App* mesh = terrain.add_subcommand(
-        "mesh", "Writes the mesh that is made for one eye point, in world coordinates, as PLY");
-    ui::terrain::add_terrain_argument(*mesh, options->view);
-    ui::terrain::add_view_options(*mesh, options->view);
-    ui::terrain::add_mesh_options(*mesh, options->mesh, true);
-    mesh->add_option("--out", options->out, "the file to write")->type_name("FILE.ply")->required();
-    mesh->add_flag("--ascii", options->ascii, "as text; else binary, little endian");
-    mesh->add_flag("--json", options->json, "print what was written as JSON");
-    mesh->add_flag("--quiet", options->quiet, "no notes");
-    mesh->footer("Example:\n  octant terrain mesh canyon --eye 0,0,900 --look 3000,2000,300 "
-                 "--triangles 20000 --out mesh.ply");
-    mesh->callback([options] { write_mesh(*options); });
+    return {
+        .name = "mesh",
+        .summary = "Writes the mesh that is made for one eye point, in world coordinates, as PLY",
+        .options = options_of(*options),
+        .footer = "Example:\n  octant terrain mesh canyon --eye 0,0,900 --look 3000,2000,300 "
+                  "--triangles 20000 --out mesh.ply",
+        .run = [options] { write_mesh(*options); }};
 }
 
 } // namespace octant::ui::commands

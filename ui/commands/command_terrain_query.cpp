@@ -1,14 +1,14 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "ui/commands/command_terrain_measure.h"
-#include "ui/settings/read_option.h"
+#include "ui/commands/command_terrain_parts.h"
+#include "ui/commands/read_option.h"
+#include "ui/commands/terrain_options.h"
 #include "ui/terrain/mesh_maker.h"
 #include "ui/terrain/terrain_answers.h"
 #include "ui/world/loaded_ground.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/mesh_surface.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
@@ -82,36 +82,52 @@ void query(const QueryOptions& options) {
     std::fputs(ui::terrain::text_of_answers(answers, options.json).c_str(), stdout);
 }
 
+std::vector<Option> options_of(QueryOptions& options) {
+    constexpr double far_m = 1e7;
+    std::vector<Option> table;
+    add_terrain_options(table, options.view);
+    table.insert(
+        table.end(),
+        {list_option(
+             "--at",
+             "X,Y[,Z]",
+             "ground height there; with Z also the height above it",
+             Takes::SomeWords,
+             options.at),
+         text_option(
+             "--points", "FILE", "the same for each line of a CSV file x,y[,z]", options.points),
+         read_option(
+             {"from", "X,Y,Z", "where a line of sight begins", -far_m, far_m}, options.from_m),
+         read_option({"to", "X,Y,Z", "where it ends", -far_m, far_m}, options.to_m),
+         flag(
+             "--flat",
+             "lines of sight over a flat earth; else it curves, R = 6371 km",
+             options.flat),
+         flag(
+             "--as-drawn",
+             "ask the mesh that is drawn from --eye, not the full field",
+             options.as_drawn)});
+    add_view_options(table, options.view);
+    add_mesh_options(table, options.mesh);
+    add_detail_options(table, options.mesh);
+    table.push_back(flag("--json", "as JSON; else CSV", options.json));
+    return table;
+}
+
 } // namespace
 
-void add_terrain_query(CLI::App& terrain) {
+Command terrain_query_command() {
     auto options = std::make_shared<QueryOptions>();
-    CLI::App* command = terrain.add_subcommand(
-        "query", "Height of the ground, height above it and lines of sight, at full resolution");
-    ui::terrain::add_terrain_argument(*command, options->view);
-    command->add_option("--at", options->at, "ground height there; with Z also the height above it")
-        ->type_name("X,Y[,Z]");
-    command->add_option("--points", options->points, "the same for each line of a CSV file x,y[,z]")
-        ->type_name("FILE");
-    settings::add_read_option(
-        *command, {"from", "X,Y,Z", "where a line of sight begins", -1e7, 1e7}, options->from_m);
-    settings::add_read_option(*command, {"to", "X,Y,Z", "where it ends", -1e7, 1e7}, options->to_m);
-    command->add_flag(
-        "--flat", options->flat, "lines of sight over a flat earth; else it curves, R = 6371 km");
-    command->add_flag(
-        "--as-drawn",
-        options->as_drawn,
-        "ask the mesh that is drawn from --eye, not the full field");
-    ui::terrain::add_view_options(*command, options->view);
-    ui::terrain::add_mesh_options(*command, options->mesh, true);
-    command->add_flag("--json", options->json, "as JSON; else CSV");
-    command->footer(
-        "Metres, x east, y north of the map centre, z up from datum. The ground between four "
-        "samples "
-        "is bilinear; the mesh's is flat triangles.\n"
-        "Example:\n  octant terrain query canyon --at 1200,-800\n  octant terrain query canyon "
-        "--from 0,0,900 --to 5000,3000,250 --json");
-    command->callback([options] { query(*options); });
+    return {
+        .name = "query",
+        .summary = "Height of the ground, height above it and lines of sight, at full resolution",
+        .options = options_of(*options),
+        .footer =
+            "Metres, x east, y north of the map centre, z up from datum. The ground between four "
+            "samples is bilinear; the mesh's is flat triangles.\n"
+            "Example:\n  octant terrain query canyon --at 1200,-800\n  octant terrain query canyon "
+            "--from 0,0,900 --to 5000,3000,250 --json",
+        .run = [options] { query(*options); }};
 }
 
 } // namespace octant::ui::commands

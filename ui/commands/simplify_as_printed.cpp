@@ -23,7 +23,7 @@ std::string reading_of(const models::simplify::PaperOptions& options) {
 } // namespace
 
 void add_paper_figures(
-    nlohmann::ordered_json& figures,
+    base::Figures& figures,
     const models::simplify::PaperOptions& options,
     const models::simplify::PaperResult& result) {
     figures["reading"] = reading_of(options);

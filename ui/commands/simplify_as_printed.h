@@ -2,8 +2,7 @@
 
 #include "models/simplify/paper_simplify.h"
 #include "models/triangle_mesh.h"
-
-#include <nlohmann/json.hpp>
+#include "ui/base/figures.h"
 
 namespace octant::ui::commands {
 
@@ -11,7 +10,7 @@ namespace octant::ui::commands {
 /// paper was read, contractions, feet of perpendiculars, sums of the errors, and what is no
 /// manifold any more because the paper has no test that keeps it.
 void add_paper_figures(
-    nlohmann::ordered_json& figures,
+    base::Figures& figures,
     const models::simplify::PaperOptions& options,
     const models::simplify::PaperResult& result);
 

@@ -19,7 +19,6 @@
 #include <array>
 #include <filesystem>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <thread>
@@ -31,7 +30,7 @@ namespace meshfile = models::meshfile;
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using base::Figures;
 
 simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diagonal_m) {
     simplify::SimplifyOptions options;
@@ -51,19 +50,20 @@ simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diag
     return options;
 }
 
-models::TriangleMesh read_repaired(const SimplifyCommand& command, Json& figures) {
+models::TriangleMesh read_repaired(const SimplifyCommand& command, Figures& figures) {
     models::TriangleMesh mesh = world::read_mesh_input(command.in);
     figures["faces_in_file"] = mesh.triangles.size();
     meshfile::RepairedMesh repaired = meshfile::repaired(std::move(mesh));
-    auto repairs = Json::array();
-    for (const std::string& line : meshfile::in_words(repaired.counts)) {
+    const std::vector<std::string> repairs = meshfile::in_words(repaired.counts);
+    for (const std::string& line : repairs) {
         base::say(command.quiet, "repaired: " + line);
-        repairs.push_back(line);
     }
     for (const std::string& note : repaired.mesh.notes) {
         base::say(command.quiet, "note: " + note);
     }
-    figures["repairs"] = repairs;
+    if (command.json) {
+        figures["repairs"] = repairs; // else they are said
+    }
     if (repaired.mesh.triangles.empty()) {
         error_in(command.in, "expected at least one triangle with an area, got none");
     }
@@ -71,7 +71,7 @@ models::TriangleMesh read_repaired(const SimplifyCommand& command, Json& figures
 }
 
 void add_distance(
-    Json& figures,
+    Figures& figures,
     const models::TriangleMesh& original,
     const models::TriangleMesh& mesh,
     int threads) {
@@ -85,6 +85,20 @@ void add_distance(
     if (!original.colours.empty()) {
         figures["colour_rms"] = distance.colour_rms();
     }
+}
+
+/// A level of a chain, in a line or as figures.
+Figures level_figures(const meshfile::ChainLevel& level, double diagonal_m, bool json) {
+    const std::size_t faces = level.mesh.triangles.size();
+    const double of_diagonal = level.error_m / diagonal_m;
+    if (!json) {
+        return fmt::format(
+            "level of {} faces: error {:.4g}, {:.3g} of the diagonal",
+            faces,
+            level.error_m,
+            of_diagonal);
+    }
+    return {{"faces", faces}, {"error", level.error_m}, {"error_of_diagonal", of_diagonal}};
 }
 
 /// As they stand in the file, which has the mesh's axes.
@@ -123,7 +137,7 @@ std::optional<simplify::PaperMeasure> paper_measure(const std::string& method) {
 }
 
 void simplify_as_printed(
-    const SimplifyCommand& command, simplify::PaperMeasure measure, Json& figures) {
+    const SimplifyCommand& command, simplify::PaperMeasure measure, Figures& figures) {
     const models::TriangleMesh original = world::read_mesh_input(command.in);
     const double diagonal_m = models::diagonal_m(original);
     simplify::PaperOptions options;
@@ -149,7 +163,7 @@ void simplify_as_printed(
     figures["time_s"] = time_s;
 }
 
-void simplify_mesh(const SimplifyCommand& command, Json& figures) {
+void simplify_mesh(const SimplifyCommand& command, Figures& figures) {
     models::TriangleMesh original = read_repaired(command, figures);
     simplify::SimplifyOptions options = options_of(command, models::diagonal_m(original));
     figures["faces_before"] = original.triangles.size();
@@ -179,7 +193,7 @@ void simplify_mesh(const SimplifyCommand& command, Json& figures) {
     }
 }
 
-void simplify_into_chain(const SimplifyCommand& command, Json& figures) {
+void simplify_into_chain(const SimplifyCommand& command, Figures& figures) {
     models::TriangleMesh original = read_repaired(command, figures);
     ChainOptions options;
     options.simplify = options_of(command, models::diagonal_m(original));
@@ -199,14 +213,9 @@ void simplify_into_chain(const SimplifyCommand& command, Json& figures) {
     progress.finish();
     meshfile::write_chain(command.out, chain);
     const double diagonal_m = models::diagonal_m(chain.levels.front().mesh);
-    auto levels = Json::array();
     for (const meshfile::ChainLevel& level : chain.levels) {
-        levels.push_back(
-            {{"faces", level.mesh.triangles.size()},
-             {"error", level.error_m},
-             {"error_of_diagonal", level.error_m / diagonal_m}});
+        figures["levels"].push_back(level_figures(level, diagonal_m, command.json));
     }
-    figures["levels"] = levels;
     figures["polygons"] = chain.polygons ? chain.polygons->polygons.size() : 0;
     if (chain.polygons) {
         figures["polygons_error"] = chain.polygons_error_m;

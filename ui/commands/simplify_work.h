@@ -1,9 +1,9 @@
 #pragma once
 
 #include "models/simplify/paper_simplify.h"
+#include "ui/base/figures.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <thread>
@@ -35,13 +35,11 @@ std::optional<models::simplify::PaperMeasure> paper_measure(const std::string& m
 
 /// Each does the work of `octant simplify` in one of its ways, writes the file and adds to the
 /// figures. Throws Error.
-void simplify_mesh(const SimplifyCommand& command, nlohmann::ordered_json& figures);
-void simplify_into_chain(const SimplifyCommand& command, nlohmann::ordered_json& figures);
+void simplify_mesh(const SimplifyCommand& command, base::Figures& figures);
+void simplify_into_chain(const SimplifyCommand& command, base::Figures& figures);
 
 /// As printed: of the mesh as it is, nothing repaired.
 void simplify_as_printed(
-    const SimplifyCommand& command,
-    models::simplify::PaperMeasure measure,
-    nlohmann::ordered_json& figures);
+    const SimplifyCommand& command, models::simplify::PaperMeasure measure, base::Figures& figures);
 
 } // namespace octant::ui::commands

@@ -3,9 +3,7 @@
 #include "sim/base/error.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/run_file.h"
-#include "ui/settings/setting_row.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -69,23 +67,6 @@ void check_frames(const Replay& replay, int frames) {
             replay.folder / "frames.csv",
             frames + 2,
             fmt::format("expected at most the {} frames of this flight, got {}", frames, rows));
-    }
-}
-
-void refuse_settings_beside_replay(const CLI::App& command) {
-    constexpr std::array<std::string_view, 3> harmless{"realtime", "pictures", "warm-up"};
-    const auto headlines = settings::names_of<settings::SettingGroup>();
-    for (const CLI::Option* option : command.get_options()) {
-        const bool sets = std::ranges::find(headlines, option->get_group()) != headlines.end() ||
-                          option->check_name("--settings");
-        const bool allowed = std::any_of(harmless.begin(), harmless.end(), [&](const auto& name) {
-            return option->check_name("--" + std::string(name));
-        });
-        if (option->count() > 0 && sets && !allowed) {
-            throw Error(fmt::format(
-                "--replay: expected no option beside it that may change pictures, got {}",
-                option->get_name()));
-        }
     }
 }
 

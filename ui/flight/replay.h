@@ -7,10 +7,6 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace octant::ui::flight {
 
 /// A recording that is to be flown again as its rows say.
@@ -29,9 +25,6 @@ Replay read_replay(const std::filesystem::path& folder);
 
 /// Throws Error when the recording has more rows than its settings make frames.
 void check_frames(const Replay& replay, int frames);
-
-/// Throws Error when the command line sets anything beside --replay that could change pictures.
-void refuse_settings_beside_replay(const CLI::App& command);
 
 /// How a replay compares with its recording.
 struct ReplayVerdict {

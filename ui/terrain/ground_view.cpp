@@ -2,10 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/units.h"
-#include "ui/settings/read_option.h"
-#include "visuals/terrain/ground_query.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 
@@ -24,74 +21,6 @@ double aspect_of(const glm::ivec2& size_px) {
 }
 
 } // namespace
-
-void add_terrain_argument(CLI::App& command, GroundViewOptions& options) {
-    command.add_option("terrain", options.terrain, "hills, canyon or a file that GDAL reads")
-        ->type_name("NAME|FILE")
-        ->required();
-    settings::add_read_option(
-        command,
-        {"terrain-spacing", "METRES", "sample spacing of files that do not say", 0.01, 1e5},
-        options.spacing_m)
-        ->default_str("30");
-}
-
-void add_view_options(CLI::App& command, GroundViewOptions& options) {
-    settings::add_read_option(
-        command,
-        {"eye",
-         "X,Y,Z",
-         "eye point: metres east, north of the map centre, up from datum",
-         -1e7,
-         1e7},
-        options.eye_m);
-    settings::add_read_option(
-        command,
-        {"look", "X,Y,Z", "a point in the middle of the picture", -1e7, 1e7},
-        options.look_m);
-    settings::add_read_option(
-        command, {"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 16384}, options.size_px)
-        ->default_str("1280x720");
-    settings::add_read_option(
-        command, {"fov", "DEGREES", "vertical field of view", 0.1, 170.0}, options.fov_deg)
-        ->default_str("45");
-    command.add_flag_callback(
-        "--curved",
-        [&options] { options.earth_radius_m = terrain::earth_radius_m; },
-        "lower the ground by d^2 / 2R as it is in flight (screen-error meshes)");
-}
-
-void add_mesh_options(CLI::App& command, GroundMeshOptions& options, bool with_detail) {
-    settings::add_read_option(
-        command,
-        {"mesh", "KIND", "what decides: screen-error, midpoint or printed roughness"},
-        options.mesh)
-        ->default_str(settings::text_of(options.mesh));
-    settings::add_read_option(
-        command, {"fans", "KIND", "of midpoint and printed: partial or full"}, options.fans)
-        ->default_str("partial");
-    settings::add_read_option(
-        command,
-        {"roughness-c", "C", "of midpoint and printed: weight of roughness [20; 5]", 0.0, 1e5},
-        options.roughness_c);
-    command.add_flag(
-        "--geomorphs,!--no-geomorphs",
-        options.geomorphs,
-        "vertices on their way as drawn in flight; else each at its own height [no]");
-    if (!with_detail) {
-        return;
-    }
-    settings::add_read_option(
-        command,
-        {"error-px", "PIXELS", "refine to this error (screen-error)", 0.001, 1e4},
-        options.error_px);
-    settings::add_read_option(
-        command, {"triangles", "N", "refine to this many triangles", 1, 1e8}, options.triangles);
-    settings::add_read_option(
-        command,
-        {"resolution-c", "C", "refine to this C (midpoint, printed)", 1.0, 1e5},
-        options.resolution_c);
-}
 
 scene::Camera camera_of(const GroundViewOptions& options) {
     if (!options.eye_m || !options.look_m) {

@@ -11,10 +11,6 @@
 #include <optional>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace octant::ui::terrain {
 
 /// Which terrain, seen from where and how large: what every command about one mesh is told.
@@ -38,12 +34,6 @@ struct GroundMeshOptions {
     std::optional<int> triangles;
     std::optional<double> resolution_c;
 };
-
-void add_terrain_argument(CLI::App& command, GroundViewOptions& options);
-void add_view_options(CLI::App& command, GroundViewOptions& options);
-
-/// `with_detail`: also --error-px, --triangles and --resolution-c.
-void add_mesh_options(CLI::App& command, GroundMeshOptions& options, bool with_detail);
 
 /// Eye and look as options say. Throws Error when one is missing or both are the same point.
 visuals::scene::Camera camera_of(const GroundViewOptions& options);

@@ -2,11 +2,11 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "ui/base/figures_text.h"
 #include "visuals/terrain/ground_query.h"
 
 #include <cmath>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace octant::ui::terrain {
 
@@ -14,14 +14,10 @@ namespace terrain = visuals::terrain;
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using base::Figures;
 
-Json json_of(const std::optional<double>& number) {
-    return number ? Json(*number) : Json(nullptr);
-}
-
-Json json_of(const std::optional<glm::dvec3>& place) {
-    return place ? Json::array({place->x, place->y, place->z}) : Json(nullptr);
+Figures place_figures(const std::optional<glm::dvec3>& place) {
+    return place ? Figures::list({place->x, place->y, place->z}) : Figures();
 }
 
 std::optional<double> above_m(const PointAnswer& answer) {
@@ -163,25 +159,25 @@ std::string text_of_answers(const Answers& answers, bool json) {
     if (!json) {
         return csv_text(answers);
     }
-    Json whole;
-    whole["points"] = Json::array();
+    Figures whole;
+    whole["points"] = Figures::list({});
     for (const PointAnswer& answer : answers.points) {
         whole["points"].push_back(
             {{"x_m", answer.asked.x_m},
              {"y_m", answer.asked.y_m},
-             {"z_m", json_of(answer.asked.z_m)},
-             {"ground_m", json_of(answer.ground_m)},
-             {"above_ground_m", json_of(above_m(answer))}});
+             {"z_m", answer.asked.z_m},
+             {"ground_m", answer.ground_m},
+             {"above_ground_m", above_m(answer)}});
     }
     if (answers.sight) {
         const SightAnswer& sight = *answers.sight;
         whole["sight"] = {
             {"visible", sight.visible},
-            {"clearance_m", json_of(sight.clearance_m)},
-            {"lowest_at_m", json_of(sight.lowest_at_m)},
-            {"hidden_at_m", json_of(sight.hidden_at_m)}};
+            {"clearance_m", sight.clearance_m},
+            {"lowest_at_m", place_figures(sight.lowest_at_m)},
+            {"hidden_at_m", place_figures(sight.hidden_at_m)}};
     }
-    return whole.dump(2) + "\n";
+    return base::figures_json(whole);
 }
 
 } // namespace octant::ui::terrain

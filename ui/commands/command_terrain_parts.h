@@ -1,15 +1,18 @@
 #pragma once
 
-#include <string>
+#include "ui/commands/command.h"
 
-namespace CLI {
-class App;
-}
+#include <string>
 
 namespace octant::ui::commands {
 
-/// Adds `import` to the terrain command.
-void add_terrain_import(CLI::App& terrain);
+// Commands below `octant terrain` that have a file of their own.
+
+Command terrain_import_command();
+Command terrain_mesh_command();
+Command terrain_error_command();
+Command terrain_query_command();
+Command terrain_check_command();
 
 /// Shows the figures of a file made by import, after checking all of it where `verify`. Throws
 /// Error for a damaged one.

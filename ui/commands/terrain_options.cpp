@@ -1,0 +1,77 @@
+#include "ui/commands/terrain_options.h"
+
+#include "ui/commands/read_option.h"
+#include "visuals/terrain/ground_query.h"
+
+namespace octant::ui::commands {
+
+void add_terrain_options(std::vector<Option>& table, terrain::GroundViewOptions& options) {
+    table.insert(
+        table.end(),
+        {required(text_option(
+             "terrain", "NAME|FILE", "hills, canyon or a file that GDAL reads", options.terrain)),
+         read_option(
+             {"terrain-spacing", "METRES", "sample spacing of files that do not say", 0.01, 1e5},
+             options.spacing_m)});
+}
+
+void add_view_options(std::vector<Option>& table, terrain::GroundViewOptions& options) {
+    constexpr double far_m = 1e7;
+    table.insert(
+        table.end(),
+        {read_option(
+             {"eye",
+              "X,Y,Z",
+              "eye point: metres east, north of the map centre, up from datum",
+              -far_m,
+              far_m},
+             options.eye_m),
+         read_option(
+             {"look", "X,Y,Z", "a point in the middle of the picture", -far_m, far_m},
+             options.look_m),
+         read_option(
+             {"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 16384}, options.size_px),
+         read_option({"fov", "DEGREES", "vertical field of view", 0.1, 170.0}, options.fov_deg),
+         curved_option(options.earth_radius_m)});
+}
+
+void add_mesh_options(std::vector<Option>& table, terrain::GroundMeshOptions& options) {
+    table.insert(
+        table.end(),
+        {read_option(
+             {"mesh", "KIND", "what decides: screen-error, midpoint or printed roughness"},
+             options.mesh),
+         read_option({"fans", "KIND", "of midpoint and printed: partial or full"}, options.fans),
+         read_option(
+             {"roughness-c", "C", "of midpoint and printed: weight of roughness [20; 5]", 0.0, 1e5},
+             options.roughness_c),
+         flag(
+             "--geomorphs,!--no-geomorphs",
+             "vertices on their way as drawn in flight; else each at its own height [no]",
+             options.geomorphs)});
+}
+
+void add_detail_options(std::vector<Option>& table, terrain::GroundMeshOptions& options) {
+    table.insert(
+        table.end(),
+        {read_option(
+             {"error-px", "PIXELS", "refine to this error (screen-error)", 0.001, 1e4},
+             options.error_px),
+         read_option(
+             {"triangles", "N", "refine to this many triangles", 1, 1e8}, options.triangles),
+         read_option(
+             {"resolution-c", "C", "refine to this C (midpoint, printed)", 1.0, 1e5},
+             options.resolution_c)});
+}
+
+Option curved_option(double& radius_m) {
+    return {
+        .name = "--curved",
+        .meaning = "lower the ground by d^2 / 2R as it is in flight (screen-error meshes)",
+        .takes = Takes::Nothing,
+        .read = [&radius_m](const Words& words) {
+            radius_m = words.front() == "true" ? visuals::terrain::earth_radius_m : 0.0;
+        }};
+}
+
+} // namespace octant::ui::commands

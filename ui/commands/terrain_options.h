@@ -1,0 +1,27 @@
+#pragma once
+
+#include "ui/commands/option.h"
+#include "ui/terrain/ground_view.h"
+
+#include <vector>
+
+namespace octant::ui::commands {
+
+// Rows that commands about one mesh of a terrain share. Each adds to a command's table.
+
+/// The terrain, and --terrain-spacing.
+void add_terrain_options(std::vector<Option>& table, terrain::GroundViewOptions& options);
+
+/// Eye, look, size and field of view, and --curved.
+void add_view_options(std::vector<Option>& table, terrain::GroundViewOptions& options);
+
+/// What decides where the mesh is fine.
+void add_mesh_options(std::vector<Option>& table, terrain::GroundMeshOptions& options);
+
+/// How fine it is: --error-px, --triangles and --resolution-c.
+void add_detail_options(std::vector<Option>& table, terrain::GroundMeshOptions& options);
+
+/// --curved, which makes `radius_m` the Earth's.
+Option curved_option(double& radius_m);
+
+} // namespace octant::ui::commands

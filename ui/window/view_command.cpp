@@ -1,0 +1,141 @@
+#include "ui/window/view_command.h"
+
+#include "ui/base/progress.h"
+#include "ui/commands/read_option.h"
+#include "ui/commands/settings_options.h"
+#include "ui/window/viewer.h"
+#include "ui/window/window_bench.h"
+#include "ui/world/input_files.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace octant::ui::window {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The user's own folder for what windows keep; empty where there is none.
+fs::path configuration_folder() {
+    const char* const own = std::getenv("XDG_CONFIG_HOME");
+    if (own != nullptr && fs::path(own).is_absolute()) {
+        return fs::path(own) / "octant";
+    }
+    const char* const home = std::getenv("HOME");
+    return home == nullptr || *home == '\0' ? fs::path() : fs::path(home) / ".config" / "octant";
+}
+
+void print_bench(const WindowBench& bench) {
+    const auto line = [](std::string_view name, const WindowTimes& times, const std::string& rest) {
+        std::fputs(
+            fmt::format("{:<28} {:>9.2f} {:>9.2f}  {}\n", name, times.median_ms, times.p99_ms, rest)
+                .c_str(),
+            stdout);
+    };
+    std::fputs(fmt::format("{:<28} {:>9} {:>9}\n", "", "median ms", "p99 ms").c_str(), stdout);
+    line("without a window", bench.without, "");
+    line(
+        "window, panels hidden",
+        bench.hidden,
+        fmt::format("{:.2f} of it", bench.hidden.median_ms / bench.without.median_ms));
+    line(
+        "window, two panels open",
+        bench.open,
+        fmt::format("{:+.2f} ms", bench.open.median_ms - bench.hidden.median_ms));
+}
+
+void view(const ViewOptions& options, bool quiet) {
+    Viewer viewer(options);
+    for (const std::string& note : viewer.session().world().notes) {
+        base::say(quiet, "note: " + note);
+    }
+    int frames = 0;
+    while (viewer.turn()) {
+        if (options.settings.time.frames && ++frames >= *options.settings.time.frames) {
+            break;
+        }
+    }
+    if (const auto report = viewer.finish_recording()) {
+        base::say(quiet, *report);
+    }
+}
+
+struct ViewWork {
+    ViewOptions view;
+    std::optional<int> bench; ///< frames to time instead of a flight to see
+    bool quiet = false;
+};
+
+void view_or_bench(ViewWork work) {
+    work.view.keeps_into = configuration_folder();
+    work.view.settings = world::with_absolute_files(work.view.settings);
+    if (work.bench) {
+        print_bench(bench_window(work.view, *work.bench, work.quiet));
+    } else {
+        view(work.view, work.quiet);
+    }
+}
+
+std::vector<commands::Option> options_of(ViewWork& work) {
+    using namespace commands;
+    ViewOptions& view = work.view;
+    std::vector<Option> table = {
+        flag("--by-hand", "in the pilot's hands from the start", view.by_hand),
+        flag("--full-screen", "fill the screen (F11)", view.full_screen),
+        flag(
+            "--vsync,!--no-vsync",
+            "one picture a refresh of the display; else as many as there can be",
+            view.vsync),
+        flag("--panels,!--no-panels", "begin with panels shown (Tab)", view.panels),
+        text_option("--record", "DIR", "record from the first frame into this folder", view.record),
+        showing(
+            view.records_into.string(),
+            text_option(
+                "--records-into",
+                "DIR",
+                "where recordings (F9) and screenshots (F12) go",
+                view.records_into)),
+        read_option(
+            {"bench",
+             "FRAMES",
+             "time so many frames without a window, with its panels hidden and with panels open, "
+             "in turn",
+             1,
+             100000},
+            work.bench),
+        flag("--quiet", "no notes", work.quiet)};
+    add_setting_options(table, view.settings);
+    return table;
+}
+
+} // namespace
+
+commands::Command view_command() {
+    auto work = std::make_shared<ViewWork>();
+    work->view.settings.path.terrain = "canyon";
+    work->view.records_into = ".";
+    return {
+        .name = "view",
+        .summary = "Flies along a path or by hand in a window; F1 there lists its keys",
+        .options = options_of(*work),
+        .footer = "Examples:\n"
+                  "  octant view\n"
+                  "  octant view pop-up --aircraft f15 --terrain map.tif --view cockpit\n"
+                  "  octant view --by-hand --aircraft 500md --view chase --inset tower\n"
+                  "  octant view --settings my-flight/run.json\n"
+                  "Of the settings, rate, seconds, pictures, warm-up and realtime count when a "
+                  "recording is flown\n"
+                  "again by octant fly; --frames closes the window after so many.\n"
+                  "No display? octant fly needs none.",
+        .run = [work] { view_or_bench(*work); }};
+}
+
+} // namespace octant::ui::window
