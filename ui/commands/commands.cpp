@@ -20,7 +20,8 @@ Program octant_program(Command view) {
                   "  octant draw-order f15 --table\n"
                   "  octant refine bunny.ply --base 100 --save bunny.pm\n"
                   "  octant simplify bunny.ply small.obj --faces 1000\n"
-                  "octant COMMAND --help shows every option with its unit, default and an example.",
+                  "Every option with its unit and default, and examples: octant COMMAND --help.\n"
+                  "All of them: octant --help-all.",
         .commands = {
             fly_command(),
             std::move(view),
