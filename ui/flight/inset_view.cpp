@@ -1,6 +1,6 @@
 #include "ui/flight/inset_view.h"
 
-#include "visuals/scene/ground_mesher.h"
+#include "visuals/scene/ground.h"
 
 #include <algorithm>
 #include <cassert>

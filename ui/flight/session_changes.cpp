@@ -3,7 +3,7 @@
 #include "ui/settings/settings_change.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/scene_ground.h"
-#include "visuals/scene/ground_mesher.h"
+#include "visuals/scene/ground.h"
 
 #include <algorithm>
 #include <memory>

@@ -56,6 +56,11 @@ protected:
     Ground() = default;
 };
 
+/// The mesher by which a view goes on under other settings: `before` where it meshes this very
+/// ground, else a new one. The ground suits() the settings (asserted).
+std::unique_ptr<GroundMesher>
+mesher_after(std::unique_ptr<GroundMesher> before, const Ground& ground, const Settings& settings);
+
 /// A height field under a quadtree whose triangle count is held. Takes the field over.
 std::shared_ptr<const Ground>
 ground_from_field(models::heights::HeightField field, const Settings& settings);

@@ -8,7 +8,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <vector>
 
 namespace octant::visuals::scene {
@@ -73,10 +72,5 @@ public:
 protected:
     GroundMesher() = default;
 };
-
-/// The mesher by which a view goes on under other settings: `before` where it meshes this very
-/// ground, else a new one. The ground suits() the settings (asserted).
-std::unique_ptr<GroundMesher>
-mesher_after(std::unique_ptr<GroundMesher> before, const Ground& ground, const Settings& settings);
 
 } // namespace octant::visuals::scene

@@ -1,5 +1,3 @@
-#include "visuals/scene/ground_mesher.h"
-
 #include "visuals/scene/ground.h"
 
 namespace octant::visuals::scene {
