@@ -1,9 +1,13 @@
-// Source: P. Lindstrom, V. Pascucci, "Visualization of Large Terrains Made Easy", 2001, section 2
-// (longest-edge bisection, diamonds); the error of a diamond is the true largest deviation instead
-// of that of its middle alone.
-// Both triangles of a diamond are one function, linear but for one absolute value (of x, of y or
-// of x - y), so that rows need no cases. All sums stay below 24 bits: floats are exact here, in any
-// order.
+// Errors of longest-edge bisection: P. Lindstrom, V. Pascucci, "Visualization of Large Terrains
+// Made Easy", 2001, section 2 (bisection and diamonds).
+//
+// The heights of both triangles of a diamond form a single function that is linear but for one
+// absolute value (of x, of y or of x - y), so that rows need no case distinctions and several
+// samples are computed at once. All sums stay below 24 bits, so floats are exact here and the order
+// of operations does not matter.
+//
+// Deviation: the error of a diamond is the true largest deviation of all samples inside, not that
+// of its middle alone.
 #include "visuals/terrain/bisection_error.h"
 
 #include <algorithm>
@@ -19,7 +23,7 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-/// `width` numbers side by side.
+/// Vectors of `width` numbers.
 template <int width>
 struct Lanes {
     using Floats __attribute__((vector_size(4 * width))) = float;
@@ -27,7 +31,8 @@ struct Lanes {
     using Shorts __attribute__((vector_size(2 * width))) = short;
 };
 
-/// |d - 2 half| for d from 0 on, and by row whether a column lies in a diamond on its corner.
+/// For d from 0 on the value |d - 2 half|, and for each row which columns lie in a diamond on its
+/// corner.
 template <int half>
 struct Tables {
     static constexpr auto edge = static_cast<std::size_t>(2 * half);
@@ -49,15 +54,17 @@ struct Tables {
 template <int half>
 constexpr Tables<half> tables{};
 
-/// start + slope * x + bend * |x - ...|, the latter from a table.
+/// The height over one row of samples: start + slope * x + bend * |x - ...|, where the absolute
+/// value comes from a table.
 struct RowPlane {
     float start;
     float slope;
     float bend;
     const float* distance;
-    const float* inside; ///< null: all of the row counts
+    const float* inside; ///< Null means that the whole row counts.
 };
 
+/// Raises `largest` to the deviations of one row of samples from a plane, lane by lane.
 template <int half, int width>
 OCTANT_INLINE void raise_by_row(
     const std::int16_t* numbers, const RowPlane& plane, typename Lanes<width>::Floats& largest) {
@@ -93,7 +100,7 @@ OCTANT_INLINE float largest_of(const typename Lanes<width>::Floats& values) {
     return largest;
 }
 
-/// Inside of a node; its south-west corner is `corner`.
+/// The error inside a node whose south-west corner is `corner`.
 template <int half, int width>
 OCTANT_INLINE float error_of_node(const std::int16_t* corner, std::ptrdiff_t pitch, bool rising) {
     constexpr int edge = 2 * half;
@@ -117,7 +124,7 @@ OCTANT_INLINE float error_of_node(const std::int16_t* corner, std::ptrdiff_t pit
     return largest_of<width>(largest);
 }
 
-/// Inside of a diamond on its corner.
+/// The error inside a diamond on its corner.
 template <int half, int width>
 OCTANT_INLINE float
 error_of_diamond(const std::int16_t* middle, std::ptrdiff_t pitch, bool upright) {
@@ -148,6 +155,7 @@ error_of_diamond(const std::int16_t* middle, std::ptrdiff_t pitch, bool upright)
     return largest_of<width>(largest);
 }
 
+/// The errors of a row of diamonds of one size.
 template <int half, int widest>
 OCTANT_INLINE void
 errors_of_row(const DiamondRow& row, Diamond first, bool alternate, float* errors) {
@@ -167,7 +175,7 @@ errors_of_row(const DiamondRow& row, Diamond first, bool alternate, float* error
     }
 }
 
-/// Only the middle lies inside: half 1.
+/// The errors of diamonds with half 1, inside which there is only the middle.
 OCTANT_INLINE void
 errors_of_middles(const DiamondRow& row, Diamond first, bool alternate, float* errors) {
     const std::array<std::ptrdiff_t, 4> ends = {row.pitch + 1, row.pitch - 1, 1, row.pitch};
@@ -210,6 +218,7 @@ eight_wide(const DiamondRow& row, Diamond first, bool alternate, float* errors) 
     errors_of<8>(row, first, alternate, errors);
 }
 
+/// The widest kernel that this processor can run.
 Kernel best_kernel() {
     return __builtin_cpu_supports("avx2") != 0 ? eight_wide : four_wide;
 }
@@ -224,6 +233,7 @@ void run_kernel(const DiamondRow& row, Diamond first, bool alternate, float* err
     kernel(row, first, alternate, errors);
 }
 
+/// A corner of a triangle in samples, with its height.
 struct Corner {
     std::int64_t x;
     std::int64_t y;
@@ -234,6 +244,7 @@ std::int64_t twice_area(const Corner& a, const Corner& b, std::int64_t x, std::i
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
+/// The largest deviation of the samples in one triangle, edges included.
 double error_of_triangle(const StoredHeights& heights, std::array<Corner, 3> at, int stride) {
     std::int64_t area = twice_area(at[0], at[1], at[2].x, at[2].y);
     if (area == 0) {
@@ -281,7 +292,8 @@ void node_errors(const DiamondRow& row, Diamond first, float* errors) {
 
 float clamped_error(const StoredHeights& heights, const DiamondPlace& place, Diamond diamond) {
     using Step = std::array<int, 2>;
-    // Both ends of the hypotenuse, then both apexes.
+    // For each kind of diamond the directions from the middle to both ends of the hypotenuse and
+    // then to both apexes.
     static constexpr std::array<std::array<Step, 4>, 4> steps = {{
         {{{-1, -1}, {1, 1}, {1, -1}, {-1, 1}}},
         {{{-1, 1}, {1, -1}, {-1, -1}, {1, 1}}},

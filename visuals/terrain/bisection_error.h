@@ -7,41 +7,46 @@
 
 namespace octant::visuals::terrain {
 
-/// Which two triangles lie hypotenuse to hypotenuse about a sample.
+/// A diamond: two triangles of the longest-edge bisection that share their hypotenuse. The sample
+/// in the middle of the hypotenuse splits both.
 enum class Diamond : std::uint8_t {
-    Rising,  ///< a node, cut from its south-west corner to its north-east
-    Falling, ///< a node, cut from its north-west corner to its south-east
-    Lying,   ///< on its corner, cut from west to east
-    Upright  ///< on its corner, cut from south to north
+    Rising,  ///< A square node, cut from its south-west corner to its north-east one.
+    Falling, ///< A square node, cut from its north-west corner to its south-east one.
+    Lying,   ///< A square on its corner, cut from west to east.
+    Upright  ///< A square on its corner, cut from south to north.
 };
 
-/// A row of samples, each the middle of a diamond.
+/// A row of samples, each the middle of a diamond of the same size.
 struct DiamondRow {
     const std::int16_t* first_middle = nullptr;
-    std::ptrdiff_t pitch = 0; ///< numbers from row to row
-    int half = 1;             ///< from a middle to its hypotenuse's ends along an axis: 1 to 16;
-                              ///< the next middle is twice as far
+    std::ptrdiff_t pitch = 0; ///< How many numbers one row of the field is from the next.
+    /// The distance from a middle to the ends of its hypotenuse along an axis, in samples: a power
+    /// of two from 1 to 16. The next middle is twice as far away.
+    int half = 1;
     int count = 0;
 };
 
-/// How far the samples inside the two triangles of each diamond, and on their hypotenuse, lie above
-/// or below the planes through the triangles' corners at most, in steps of the numbers. The legs
-/// are left out: they are the hypotenuses of diamonds half as wide. Exact.
+/// For each diamond of a row, the largest vertical distance of the samples inside its two triangles
+/// and on the hypotenuse from the planes through the triangles' corners, in units of the numbers.
+/// The legs are left out, because they are the hypotenuses of diamonds half as wide. Exact.
 void diamond_errors(const DiamondRow& row, Diamond diamond, float* errors);
 
-/// The same for rows of nodes whose diagonals alternate, `first` and then the other.
+/// The same for a row of nodes whose diagonals alternate, starting with `first` (Rising or
+/// Falling).
 void node_errors(const DiamondRow& row, Diamond first, float* errors);
 
-/// The same for one diamond of a field anywhere, legs included, its corners where the field's last
-/// column and row are repeated in place. Triangles without area and those beyond the field's south
-/// and west do not count. Samples are looked at `stride` apart.
+/// The middle of a diamond anywhere in a field, in samples. Only samples `stride` apart are looked
+/// at.
 struct DiamondPlace {
-    int column = 0; ///< of its middle
+    int column = 0;
     int row = 0;
     int half = 1;
     int stride = 1;
 };
 
+/// The same for a single diamond anywhere in the field, legs included. Its corners are moved onto
+/// the field's last column and row where they lie beyond. Triangles without area and those beyond
+/// the field's south and west sides do not count.
 float clamped_error(const StoredHeights& heights, const DiamondPlace& place, Diamond diamond);
 
 } // namespace octant::visuals::terrain

@@ -1,9 +1,10 @@
-// The resolution C that spends a budget of triangles, exactly and in the frame it is spent.
+// The resolution C that spends a budget of triangles, exactly and in the frame in which it is
+// spent: equations (1) and (3) of E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that
+// Minimize Flickering Effect", solved for C. Each node has a critical C above which it is in the
+// mesh; N(C) is a sum of steps at these values, and the largest C within the budget is read off.
 //
-// Source: equations (1) and (3) of E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that
-// Minimize Flickering Effect", solved for C. The paper steers C by the triangles of earlier frames,
-// equations (4) and (5); here the steps of N(C) themselves are collected and counted.
-// Deviations: none; this takes the place of section 3.
+// Deviation: this replaces section 3 of the paper, which steers C by the triangles of earlier
+// frames, equations (4) and (5).
 #include "visuals/terrain/budget_survey.h"
 
 #include "visuals/terrain/fan_triangles.h"
@@ -19,9 +20,9 @@ namespace octant::visuals::terrain {
 namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr float first_look = 64.0F; ///< without a last frame: C = 8
+constexpr float first_look = 64.0F; ///< Without a last call the first walk looks up to C = 8.
 
-/// All but the node's index.
+/// A child of a node, without its index.
 GroundFan child_of(const GroundFan& fan, unsigned quadrant) {
     GroundFan child;
     child.column = static_cast<std::uint16_t>(2U * fan.column + (quadrant & 1U));
@@ -51,7 +52,8 @@ float BudgetSurvey::limit_for(const SplitRule& rule, const TriangleBudget& budge
     return found;
 }
 
-/// Walks the tree. True: there is more above `high`.
+/// Walks the tree and collects nodes and steps below `high`. Returns whether there is more above
+/// it.
 bool BudgetSurvey::survey(float low, float high, int most_triangles) {
     nodes_.clear();
     steps_.start(low, high);
@@ -64,6 +66,7 @@ bool BudgetSurvey::survey(float low, float high, int most_triangles) {
     return more_above_;
 }
 
+/// Surveys a node and the nodes below it.
 void BudgetSurvey::visit(const Visit& from) {
     if (steps_.at_high() > most_triangles_) {
         return;
@@ -108,8 +111,8 @@ void BudgetSurvey::visit(const Visit& from) {
     }
 }
 
-/// Fills in from where on the quadrants split, which of them are hidden, and the planes that their
-/// boxes may reach beyond.
+/// Fills in the limits at which the quadrants split, which of them are hidden, and which frustum
+/// planes their boxes may reach beyond.
 void BudgetSurvey::test_quadrants(
     const Visit& from, SurveyedNode& node, std::array<unsigned, 4>& planes) {
     const int level = from.fan.level + 1;
@@ -133,7 +136,7 @@ void BudgetSurvey::test_quadrants(
     }
 }
 
-/// The visit to a child; planes and replaced triangles are the caller's to fill in.
+/// The visit to a child; planes and replaced triangles are left to the caller.
 BudgetSurvey::Visit
 BudgetSurvey::below(const Visit& from, const SurveyedNode& node, unsigned quadrant) const {
     Visit next;
@@ -154,7 +157,8 @@ BudgetSurvey::below(const Visit& from, const SurveyedNode& node, unsigned quadra
     return next;
 }
 
-/// Limit above which a node is in the mesh or the field ends there; `parent`: its parent's.
+/// The limit above which a neighbouring node is in the mesh; 0 where the field ends there. `parent`
+/// is the limit of that node's parent.
 float BudgetSurvey::on_beyond(float parent, int level, int column, int row) const {
     const SplitRule::Level& at = rule_->level(level);
     if (column < 0 || row < 0 || column >= at.columns || row >= at.rows) {

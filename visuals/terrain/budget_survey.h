@@ -13,22 +13,22 @@
 
 namespace octant::visuals::terrain {
 
-/// A node that is in the mesh at some limits (SplitRule::limit_squared), with the limits above
-/// which each of its parts is there. Infinite: only above the limits looked at.
+/// A node that is in the mesh at some limits (SplitRule::limit_squared). Its members tell from
+/// which limit on each of its parts is there; infinite means above all limits that were looked at.
 struct SurveyedNode {
-    GroundFan fan;                 ///< `split` is left empty
-    float on = 0.0F;               ///< the node
-    std::array<float, 4> split{};  ///< its quadrants, by bit
-    std::array<float, 4> middle{}; ///< the mid-points of fan_edges
+    GroundFan fan;                 ///< Its `split` is left empty.
+    float on = 0.0F;               ///< The node itself.
+    std::array<float, 4> split{};  ///< Its quadrants, in the order of their bits.
+    std::array<float, 4> middle{}; ///< The mid-points of its fan_edges.
 };
 
-/// Finds, before a mesh is made, the C at which it has a given number of triangles.
+/// Finds the resolution C at which a mesh has a given number of triangles, before the mesh is made.
 ///
-/// The number of triangles at any C is known exactly: a node adds one triangle for each side; a
-/// side's mid-point replaces it by one for each adjoining quadrant that is not hidden; a split
-/// quadrant takes its two away. One walk down to a little more than the C of the last call collects
-/// the values of C at which this happens. The last call only makes the walk short: the answer does
-/// not depend on it.
+/// The number of triangles at any C is known exactly: a node adds one triangle for each of its
+/// sides; the mid-point of a side replaces that triangle by one for each adjoining quadrant that is
+/// not hidden; a quadrant that splits takes its two away. One walk down the tree, to a little more
+/// than the C of the last call, collects the values of C at which this happens. The last call only
+/// makes the walk short; the answer does not depend on it.
 class BudgetSurvey {
 public:
     /// The tree must outlive the survey.
@@ -36,23 +36,25 @@ public:
         : tree_(&tree) {}
 
     /// The largest limit, at most that of `budget.max_resolution`, up to which no mesh has more
-    /// than `budget.triangles`. The limit of the tree's smallest C where even that has more.
+    /// than `budget.triangles` triangles; the limit of the tree's smallest C where even that one
+    /// has more.
     float limit_for(const SplitRule& rule, const TriangleBudget& budget);
 
-    /// What meshes up to the limit last found are made of, and more: in drawing order, parents
-    /// before children.
+    /// The nodes of all meshes up to the limit that was found, and some more: parents before
+    /// children.
     std::span<const SurveyedNode> nodes() const { return nodes_; }
 
     int nodes_tested() const { return nodes_tested_; }
 
 private:
-    /// A node to be surveyed.
+    /// A node that is to be surveyed.
     struct Visit {
         GroundFan fan;
-        unsigned planes = 0;           ///< that its box may reach beyond
-        float on = 0.0F;               ///< limit above which it is in the mesh
-        std::array<float, 4> beyond{}; ///< the same of the nodes beyond its edges; 0 at the border
-        int replaced = 0;              ///< triangles of its parent that it takes the place of
+        unsigned planes = 0; ///< The frustum planes that its box may reach beyond.
+        float on = 0.0F;     ///< The limit above which it is in the mesh.
+        /// The same for the nodes beyond its edges; 0 at the field's border.
+        std::array<float, 4> beyond{};
+        int replaced = 0; ///< How many triangles of its parent it replaces.
     };
 
     bool survey(float low, float high, int most_triangles);
@@ -66,10 +68,10 @@ private:
     std::vector<SurveyedNode> nodes_;
     StepCount steps_;
     float high_ = 0.0F;
-    int most_triangles_ = 0;  ///< a walk stops where it has counted more
-    bool more_above_ = false; ///< something visible is infinite
+    int most_triangles_ = 0;  ///< A walk stops once it has counted more.
+    bool more_above_ = false; ///< Something visible appears only above the limits looked at.
     int nodes_tested_ = 0;
-    double last_resolution_ = 0.0; ///< 0: none yet
+    double last_resolution_ = 0.0; ///< 0 before the first call.
 };
 
 } // namespace octant::visuals::terrain

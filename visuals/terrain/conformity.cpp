@@ -1,8 +1,10 @@
-// Edge matching of a mesh of the ground.
+// Tests that a mesh of the ground is conforming, by matching edges: the property that the paper's
+// fans and the bisection promise, and that cracks violate.
 //
-// Method: edges by the numbers of their vertices in an open hash table. An edge with one triangle
-// is rightly so at the field's border and where the frustum does not see it. A vertex inside an
-// edge leaves that edge open, so that only open edges are compared with vertices of open edges.
+// Edges are kept by their vertices' numbers in an open hash table. An edge with a single triangle
+// is allowed at the field's border and where the frustum does not see it. A vertex inside an edge
+// leaves that edge open, so that only open edges need to be compared with vertices, and only with
+// those of open edges.
 #include "visuals/terrain/conformity.h"
 
 #include <glm/common.hpp>
@@ -18,7 +20,7 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-/// Vertices are put on this many parts of a sample, which floats far from the eye still tell.
+/// Vertices are snapped to this fraction of a sample, which floats far from the eye still resolve.
 constexpr double grid_parts = 256.0;
 
 constexpr std::uint64_t hash_factor = 0x9e3779b97f4a7c15ULL;
@@ -27,7 +29,7 @@ double twice_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Whether any of a line, eye-relative, is inside the frustum by more than rounding.
+/// Whether any part of a line (relative to the eye) is inside the frustum by more than rounding.
 bool is_seen(const glm::dvec3& a_m, const glm::dvec3& b_m, const MeshView& view) {
     const double rounding_m = 1e-2 + 1e-6 * std::max(glm::length(a_m), glm::length(b_m));
     double first = 0.0;
@@ -50,6 +52,7 @@ bool is_seen(const glm::dvec3& a_m, const glm::dvec3& b_m, const MeshView& view)
     return first < last;
 }
 
+/// An order of positions: west before east, then south before north.
 bool before(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x != b.x ? a.x < b.x : a.y < b.y;
 }
@@ -97,6 +100,7 @@ Conformity ConformityCheck::check(const GroundMesh& mesh, const MeshView& view) 
     return found;
 }
 
+/// Snaps all vertices to the grid.
 void ConformityCheck::place_vertices(const GroundMesh& mesh, const MeshView& view) {
     places_.clear();
     for (const models::ColourVertex& vertex : mesh.vertices) {
@@ -106,6 +110,7 @@ void ConformityCheck::place_vertices(const GroundMesh& mesh, const MeshView& vie
     }
 }
 
+/// Enters all edges into the hash table and counts turned triangles.
 void ConformityCheck::match_edges(const GroundMesh& mesh, Conformity& found) {
     const std::size_t wanted = std::bit_ceil(2 * mesh.indices.size() + 2);
     if (edges_.size() < wanted) {
@@ -150,6 +155,7 @@ bool ConformityCheck::on_border(const glm::dvec2& a, const glm::dvec2& b) const 
            (a.y == b.y && (a.y == 0.0 || a.y == last_.y));
 }
 
+/// Counts used vertices at positions that another vertex has.
 int ConformityCheck::doubled_vertices() {
     constexpr std::uint32_t free_slot = ~std::uint32_t{0};
     const std::size_t mask = std::bit_ceil(2 * places_.size() + 2) - 1;
@@ -172,6 +178,7 @@ int ConformityCheck::doubled_vertices() {
     return doubled;
 }
 
+/// Counts vertices strictly inside open edges.
 int ConformityCheck::corners_on_open_edges() {
     sorted_.clear();
     for (const Edge& edge : open_) {

@@ -12,14 +12,18 @@
 
 namespace octant::visuals::terrain {
 
-/// What is wrong with a mesh; all 0 = the ground is one surface without crack, hole or fold.
+/// What is wrong with a mesh. If all counts are 0, the ground is a single surface without a crack,
+/// hole or fold.
 struct Conformity {
-    int open_edges = 0;       ///< without a triangle beyond, though the frustum sees them and the
-                              ///< field goes on there
-    int corners_on_edges = 0; ///< vertices inside an edge of a triangle they do not belong to
-    int crowded_edges = 0;    ///< with more than one triangle on a side
-    int turned_triangles = 0; ///< not counter-clockwise from above, or without area
-    int doubled_vertices = 0; ///< at a place in plan that has a vertex already
+    /// Edges without a triangle on the other side, although the frustum sees them and the field
+    /// goes on there.
+    int open_edges = 0;
+    /// Vertices inside an edge of a triangle that they do not belong to (T-junctions).
+    int corners_on_edges = 0;
+    int crowded_edges = 0; ///< Edges with more than one triangle on a side.
+    /// Triangles that are not counter-clockwise from above or have no area.
+    int turned_triangles = 0;
+    int doubled_vertices = 0; ///< Vertices at a position in plan that has another one.
 
     bool is_whole() const {
         return open_edges + corners_on_edges + crowded_edges + turned_triangles +
@@ -31,22 +35,22 @@ struct Conformity {
     std::string text() const;
 };
 
-/// Edge matching. Keeps its memory from one mesh to the next.
+/// Checks meshes by matching edges. Its memory is reused from mesh to mesh.
 class ConformityCheck {
 public:
-    /// The ground is looked at only now.
+    /// The ground is needed by the constructor only.
     explicit ConformityCheck(const GroundSamples& ground);
 
-    /// `mesh` was made for `view`.
+    /// Checks a mesh that was made for `view`.
     Conformity check(const GroundMesh& mesh, const MeshView& view);
 
 private:
-    /// Slot of a hash table over edges.
+    /// A slot of a hash table over edges.
     struct Edge {
-        std::uint32_t low = 0; ///< smaller vertex
+        std::uint32_t low = 0; ///< The vertex with the smaller number.
         std::uint32_t high = 0;
-        std::uint32_t mesh = 0;    ///< mesh_ where the slot is taken
-        std::uint16_t forward = 0; ///< triangles that walk from low to high
+        std::uint32_t mesh = 0;    ///< Equals mesh_ where the slot is taken.
+        std::uint16_t forward = 0; ///< How many triangles run along it from low to high.
         std::uint16_t back = 0;
     };
 
@@ -59,14 +63,14 @@ private:
 
     double spacing_m_;
     glm::dvec2 half_extent_m_;
-    glm::dvec2 last_; ///< column and row
+    glm::dvec2 last_; ///< The last column and row.
     std::uint32_t mesh_ = 0;
-    std::vector<Edge> edges_; ///< a power of two
+    std::vector<Edge> edges_; ///< The hash table; its size is a power of two.
     std::vector<Edge> open_;
-    std::vector<glm::dvec2> places_; ///< of vertices: samples east, north
+    std::vector<glm::dvec2> places_; ///< For each vertex its position in samples east and north.
     std::vector<std::uint32_t> sorted_;
-    std::vector<std::uint8_t> used_;   ///< by vertex: a triangle has it
-    std::vector<std::uint32_t> slots_; ///< hash table over places
+    std::vector<std::uint8_t> used_;   ///< For each vertex whether a triangle uses it.
+    std::vector<std::uint32_t> slots_; ///< A hash table over positions.
 };
 
 } // namespace octant::visuals::terrain

@@ -1,9 +1,10 @@
-// How quietly the number of triangles is held.
+// Figures for how quietly the number of triangles is held: E. K. Choi, B. S. Shin, "A
+// Quadtree-Based CLOD Method that Minimize Flickering Effect", section 4, which plots dn for each
+// frame.
 //
-// Source: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize Flickering Effect",
-// section 4, which plots dn for each frame.
-// Deviations: the paper gives no figures. Sign changes of dn alone mean nothing, since the quietest
-// run alternates by a few triangles; they are weighted with what is taken back.
+// Deviations: the paper gives plots and no figures. Sign changes of dn alone mean nothing, because
+// even the quietest run alternates by a few triangles; they are weighted by the amount that is
+// taken back.
 #include "visuals/terrain/count_series.h"
 
 #include <algorithm>

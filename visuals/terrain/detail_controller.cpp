@@ -1,19 +1,21 @@
-// Control of the number of triangles by the resolution C.
+// Holds the number of triangles N near a target by the resolution C: E. K. Choi, B. S. Shin, "A
+// Quadtree-Based CLOD Method that Minimize Flickering Effect", section 3. Equation (4) is C_next =
+// C + dn / a; equation (5) damps it by a weighted mean of its last r + 1 results.
 //
-// Source: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize Flickering Effect",
-// section 3, equations (4) and (5).
 // Deviations:
-// - As printed, dn of equation (4) is the change of N from frame to frame, which holds no target
-//   and with the sign printed runs away; that reading is kept as Literal, with the sign that
+// - As printed, dn of equation (4) is the change of N from frame to frame. That holds no target,
+//   and with the printed sign it runs away; this reading is kept as Literal, with the sign that
 //   repeats figure 6. Previous and Damped take dn = target - N.
-// - Equation (5) averages the results of (4), each counted from the C actually used. Averages of
-//   undamped results or of used values hardly damp.
-// - Weights are r+1, ..., 2, 1 over their sum, newest first: the paper only demands that they fall.
-// - Limits of C and automatic a are additions, and the dead band of Damped with what belongs to it:
-//   (5) averages r + 1 frames. Once that many and more were made of one standing view, they are
-//   points of one curve N(C), and C is read off between the two that enclose the target instead:
-//   a slow or ringing loop ends there. N(C) is a staircase: where nearly all between the two is a
-//   step, that step is the dead band, and the nearer end is held.
+// - Equation (5) averages the results of (4), each of which starts from the C actually used.
+//   Averages of undamped results, or of the values used, hardly damp.
+// - The weights are r+1, ..., 2, 1 over their sum, newest first; the paper only demands that they
+//   fall.
+// - Limits of C and an automatic a are additions.
+// - So is the dead band of Damped, with the following. Equation (5) averages r + 1 frames. Once
+//   more than r frames were made of one standing view, they are points of one curve N(C), and C is
+//   read off between the two points that enclose the target; that ends a slow or ringing loop. N(C)
+//   is a staircase: where nearly all of the difference between the two points is a single step,
+//   that step is the dead band, and its nearer end is held.
 #include "visuals/terrain/detail_controller.h"
 
 #include <algorithm>
@@ -24,8 +26,8 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-/// a of equation (4). Far from the target the automatic one limits a step to a factor 1 + g / p
-/// upward and 1 - g / p downward.
+/// a of equation (4). Far from the target the automatic one limits a step to a factor of 1 + g / p
+/// upwards and of 1 - g / p downwards.
 double
 triangles_per_resolution(const ControlSettings& settings, double resolution, double triangles) {
     if (settings.triangles_per_resolution > 0.0) {
@@ -35,7 +37,7 @@ triangles_per_resolution(const ControlSettings& settings, double resolution, dou
            (settings.loop_gain * resolution);
 }
 
-/// C stays for now and the past is forgotten.
+/// The state in which C stays as it is and the past is forgotten.
 DetailState held(const DetailState& state, double triangles) {
     DetailState next = state;
     next.last_triangles = triangles;
@@ -43,15 +45,16 @@ DetailState held(const DetailState& state, double triangles) {
     return next;
 }
 
-/// Two points of N(C) closer than this factor in C always count as the ends of one step.
+/// Two points of N(C) closer than this factor in C always count as the two ends of one step.
 constexpr double step_width = 1.001;
-/// So do two between which N rises this many times faster than N ~ C^2: the most that a smooth
-/// curve does.
+/// So do two points between which N rises this many times as fast as N ~ C^2, the most that a
+/// smooth curve does.
 constexpr double step_steepness = 4.0;
-constexpr double most_change = 2.0;        ///< of C in a frame, where only one side is known
-constexpr double smallest_exponent = 0.25; ///< p that is believed there
+/// C changes at most by this factor in a frame while points lie on one side of the target only.
+constexpr double most_change = 2.0;
+constexpr double smallest_exponent = 0.25; ///< The least exponent p that is believed then.
 
-/// `state` with the last mesh among the points of its view.
+/// `state` with the last mesh added to the points of its view.
 DetailState measured(DetailState state, double target, double triangles, bool same_view) {
     if (!same_view) {
         state.standing_frames = 0;
@@ -68,11 +71,12 @@ DetailState measured(DetailState state, double target, double triangles, bool sa
     return state;
 }
 
+/// Whether there are points on both sides of the target.
 bool is_enclosed(const DetailState& state) {
     return state.below.resolution > 0.0 && state.above.resolution > state.below.resolution;
 }
 
-/// Whether the two points around the target are the ends of one step.
+/// Whether the two points around the target are the ends of one step of N(C).
 bool is_at_step(const DetailState& state) {
     if (!is_enclosed(state)) {
         return false;
@@ -83,13 +87,14 @@ bool is_at_step(const DetailState& state) {
            state.above.triangles - state.below.triangles > step_steepness * smooth;
 }
 
+/// The one of the two points whose N is nearer to the target.
 const CountAt& nearer_end(const DetailState& state, double target) {
     return target - state.below.triangles < state.above.triangles - target ? state.below
                                                                            : state.above;
 }
 
-/// C towards the target from the only side that is known: along N ~ C^p, with p from the two
-/// points last nearest, but not above 1, so that the other side is soon met.
+/// Extrapolates C to the target from the only side that is known: along N ~ C^p, with p from the
+/// two points nearest last, but at most 1, so that the other side is soon met.
 double read_beyond(const CountAt& before, const CountAt& nearest, double target) {
     double exponent = 1.0;
     if (before.resolution > 0.0 && before.resolution != nearest.resolution) {
@@ -102,9 +107,9 @@ double read_beyond(const CountAt& before, const CountAt& nearest, double target)
     return nearest.resolution * std::clamp(ratio, 1.0 / most_change, most_change);
 }
 
-/// C at which the points of the view promise the target: between two on the line of their
-/// logarithms, in every other frame the middle, so that they always close in. `before`: the state
-/// without the last point.
+/// The C at which the points of the view promise the target: between two points on the line through
+/// their logarithms, and in every other frame in the middle, so that they always close in. `before`
+/// is the state without the last point.
 double read_off(const DetailState& before, const DetailState& state, double target) {
     const CountAt& below = state.below;
     const CountAt& above = state.above;
@@ -123,7 +128,7 @@ double read_off(const DetailState& before, const DetailState& state, double targ
            std::pow(above.resolution / below.resolution, std::clamp(share, 0.02, 0.98));
 }
 
-/// Equation (5).
+/// Equation (5): the mean of `newest` and the earlier results, weighted r+1, ..., 2, 1.
 double weighted_mean(double newest, const DetailState& state, int remembered_frames) {
     double weight = remembered_frames + 1.0;
     double sum = newest * weight;

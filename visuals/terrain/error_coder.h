@@ -10,8 +10,8 @@
 
 namespace octant::visuals::terrain {
 
-/// GroundTiles::error_code_of for errors in steps of a stored number, by table: the leading bits of
-/// a float choose a code, one comparison corrects it.
+/// GroundTiles::error_code_of for errors given in units of the stored numbers, by table: the
+/// leading bits of a float select a code, and one comparison corrects it.
 class ErrorCoder {
 public:
     explicit ErrorCoder(double unit_m)
@@ -38,7 +38,7 @@ public:
     }
 
 private:
-    /// Bins 1/64 of an octave to 1/32 wide: narrower than a step between codes.
+    /// A bin spans 1/64 to 1/32 of an octave, which is narrower than the step between two codes.
     static constexpr unsigned dropped_bits = 17;
 
     static std::uint32_t bin_of(float error_m) {

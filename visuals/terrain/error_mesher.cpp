@@ -1,16 +1,22 @@
-// Triangle fans of a longest-edge bisection with geomorphs.
+// Triangle fans of a longest-edge bisection with geomorphs. Which samples are in the mesh is
+// decided by error_rule.cpp (P. Lindstrom, V. Pascucci, 2002).
 //
-// Source: error_rule.cpp. A bisected field is a quadtree of fans around nodes' centres: a fan's
-// quadrant is left to the child whose centre is in the mesh, and an edge has its mid-point where
-// that is. So there is nothing to ask of neighbours; see paint_order.cpp for the order of drawing.
-// Geomorphs: a vertex is drawn between the middle of its two ends as drawn (an edge's corners; for
-// a child's centre its parent's and its parent's corner: always an edge of the mesh without it) and
-// its sample, by the weight (f - 1) / (k - 1) from 0 to 1, f = its error on the screen over the one
-// wanted, which is at least 1.
+// A bisected field is a quadtree of fans around the centres of nodes: a fan's quadrant is left to
+// the child if the child's centre is in the mesh, and an edge has a mid-point if that sample is in
+// the mesh. So no neighbour needs to be asked, unlike in the paper's restricted quadtree. The order
+// of drawing is that of paint_order.cpp.
+//
+// Geomorphs: a vertex is drawn between its sample and the middle of its two ends as these are
+// drawn. The ends are an edge's corners or, for a child's centre, the parent's centre and the
+// parent's corner; they are always an edge of the mesh without the vertex. The weight of the sample
+// is (f - 1) / (k - 1), from 0 to 1, where f >= 1 is the vertex's error on the screen over the one
+// wanted and k is morph_ratio.
+//
 // Deviations:
-// - Where the field's end cuts a node, a centre lies beside the line between its ends and appears
-//   at the height of the nearest place on it, so that the ground about it may move a little.
-// - Corners and centre of the root are always there, at their samples.
+// - Where the field's end cuts a node, a centre lies beside the line between its ends. It appears
+//   at the height of the nearest point of that line, so that the ground around it may move a
+//   little.
+// - Corners and centre of the root are always in the mesh, at their samples.
 #include "visuals/terrain/error_mesher.h"
 
 #include <glm/geometric.hpp>
@@ -27,18 +33,19 @@ namespace {
 
 constexpr std::size_t centre_of_ring = 8;
 
-/// The corners of a child among its parent's ring and centre, as those of fan_ring.
+/// For each child its corners, in the order of fan_ring, as indices into its parent's ring and
+/// centre.
 constexpr std::array<std::array<std::uint8_t, 4>, 4> child_corners = {
     {{0, 1, 8, 7}, {1, 2, 3, 8}, {7, 8, 5, 6}, {8, 3, 4, 5}}};
 
-/// The place in fan_ring of a quadrant's corner.
+/// The index in fan_ring of a quadrant's corner.
 constexpr std::array<std::uint8_t, 4> ring_of_quadrant = {0, 2, 6, 4};
 
-/// By child, which of its fan_edges lie inside its parent.
+/// For each child which of its fan_edges lie inside its parent.
 constexpr std::array<std::array<std::uint8_t, 4>, 4> inner_edges = {
     {{0, 1, 1, 0}, {0, 0, 1, 1}, {1, 1, 0, 0}, {1, 0, 0, 1}}};
 
-/// By the set of quadrants that are hidden, the edges beside one that is not.
+/// For each set of hidden quadrants the edges that have a quadrant beside them which is not hidden.
 constexpr std::array<std::uint8_t, 16> edges_beside = [] {
     std::array<std::uint8_t, 16> edges{};
     for (unsigned hidden = 0; hidden < 16; ++hidden) {
@@ -90,7 +97,7 @@ GroundMesh ErrorMesher::mesh(const MeshView& view, const ErrorTarget& target) {
     return mesh_;
 }
 
-/// Room for five vertices and eight triangles a node, and the root's corners.
+/// Makes room for five vertices and eight triangles for each node, and for the root's corners.
 void ErrorMesher::make_room() {
     const std::size_t count = nodes_.size();
     if (vertices_.size() < 5 * count + 4) {
@@ -112,6 +119,7 @@ void ErrorMesher::make_room() {
     index_count_ = 0;
 }
 
+/// The root's fan with its corners and centre.
 ErrorMesher::EmittedFan ErrorMesher::root_fan() {
     const LevelMemory& memory = rule_.memory(0);
     const FanSamples samples(*ground_, memory.edge(), 0, 0);
@@ -127,7 +135,7 @@ ErrorMesher::EmittedFan ErrorMesher::root_fan() {
     return root;
 }
 
-/// A vertex that is always there; one that is at the same sample, if there is one.
+/// A vertex that is always there; the existing one if there is one at the same sample.
 std::uint32_t ErrorMesher::fixed_vertex(Sample at, std::int16_t height) {
     for (std::uint32_t k = 0; k < vertex_count_; ++k) {
         if (is_at(at, k)) {
@@ -137,11 +145,12 @@ std::uint32_t ErrorMesher::fixed_vertex(Sample at, std::int16_t height) {
     return add_vertex({at, vertex_count_, vertex_count_, 0.5F, height, 0.0F});
 }
 
+/// Adds a vertex between its ends and its sample, lowered by the earth's curvature.
 inline std::uint32_t ErrorMesher::add_vertex(const NewVertex& made) {
     const std::uint32_t vertex = vertex_count_++;
     float height_m = static_cast<float>(
         height_base_m_ + ground_->shape().height_unit_m * static_cast<double>(made.height));
-    height_m_[vertex] = height_m; // its own end, if it is always there
+    height_m_[vertex] = height_m; // A vertex that is always there is its own end.
     const float ratio = std::sqrt(morph_limit_ / made.critical);
     const float weight = std::clamp((ratio - 1.0F) / (morph_ratio - 1.0F), 0.0F, 1.0F);
     const float from_a = height_m_[made.end_a];
@@ -167,7 +176,7 @@ bool ErrorMesher::is_at(Sample at, std::uint32_t vertex) const {
     return origins_[vertex].column == at.column && origins_[vertex].row == at.row;
 }
 
-/// The vertex of a sample of a cut fan, which may have been moved onto one of its ends.
+/// The vertex of a sample of a cut fan, which may coincide with one of its ends.
 std::uint32_t ErrorMesher::cut_vertex(NewVertex made) {
     if (is_at(made.at, made.end_a)) {
         return made.end_a;
@@ -184,11 +193,12 @@ std::uint32_t ErrorMesher::cut_vertex(NewVertex made) {
     return add_vertex(made);
 }
 
+/// Whether a quadrant is drawn by a child.
 bool ErrorMesher::is_drawn(const ErrorNode& node, unsigned quadrant) const {
     return node.quadrant[quadrant] < limit_ && (unsigned{node.hidden} >> quadrant & 1U) == 0;
 }
 
-/// Puts a node's triangles and those of all below it into the mesh.
+/// Puts a node's triangles, and those of all nodes below it, into the mesh.
 void ErrorMesher::emit(EmittedFan& fan) {
     const ErrorNode& node = nodes_[fan.node];
     const LevelMemory& memory = rule_.memory(node.level);
@@ -229,6 +239,7 @@ void ErrorMesher::emit(EmittedFan& fan) {
     runs_[fan.node].end = static_cast<std::uint32_t>(index_count_ / 3);
 }
 
+/// Puts one part of a fan into the mesh: a triangle, or the fan of a child.
 inline void ErrorMesher::emit_part(const EmittedFan& fan, unsigned part) {
     if (part >= first_child_part) {
         EmittedFan child = child_of(fan, part - first_child_part);
@@ -242,6 +253,7 @@ inline void ErrorMesher::emit_part(const EmittedFan& fan, unsigned part) {
     index_count_ += 3;
 }
 
+/// The fan of a child, which takes its corners from its parent.
 ErrorMesher::EmittedFan ErrorMesher::child_of(const EmittedFan& fan, unsigned quadrant) {
     const ErrorNode& node = nodes_[fan.node];
     EmittedFan child;
@@ -260,6 +272,7 @@ ErrorMesher::EmittedFan ErrorMesher::child_of(const EmittedFan& fan, unsigned qu
     return child;
 }
 
+/// Adds the vertex of a fan's centre.
 inline void
 ErrorMesher::add_centre(const FanSamples& samples, std::int16_t height, EmittedFan& fan) {
     const NewVertex made{samples.at(1, 1), fan.end_a, fan.end_b, 0.5F, height, nodes_[fan.node].on};
@@ -272,7 +285,8 @@ ErrorMesher::add_centre(const FanSamples& samples, std::int16_t height, EmittedF
     }
 }
 
-/// Fills in the mid-points beside quadrants that are not hidden.
+/// Fills in the mid-points beside quadrants that are not hidden, and tells the nodes beyond the
+/// edges of them.
 inline void ErrorMesher::add_middles(
     const FanSamples& samples, const LevelMemory::Spot& spot, unsigned middles, EmittedFan& fan) {
     const ErrorNode& node = nodes_[fan.node];

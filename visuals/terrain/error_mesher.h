@@ -22,13 +22,13 @@
 
 namespace octant::visuals::terrain {
 
-/// Makes the mesh of a ground by screen-space error, frame after frame in the same memory, its
+/// Makes the mesh of a ground by screen-space error, frame after frame in the same memory, with the
 /// triangles in the view's painting order. Its memory grows with the mesh, not with the ground.
 ///
-/// The triangles neither gap nor overlap nor touch an edge between its ends, and those of a
-/// narrower frustum are triangles of the unculled mesh. Without geomorphs no sample of the ground
-/// is seen farther from the triangles than the mesh's error_px. With them a vertex that comes or
-/// goes does so in the middle of the edge that it halves.
+/// The mesh is conforming: triangles neither gap nor overlap nor touch an edge between its ends.
+/// The triangles for a narrower frustum are triangles of the unculled mesh. Without geomorphs every
+/// sample of the ground is within the mesh's error_px of the triangles on the screen. With them a
+/// vertex appears and disappears in the middle of the edge that it halves.
 class ErrorMesher {
 public:
     /// `ground` must outlive the mesher and stay where it is.
@@ -39,25 +39,26 @@ public:
     ErrorMesher& operator=(ErrorMesher&&) = delete;
     ~ErrorMesher() = default;
 
-    /// The mesh at the smallest error, at or above the target's, up from which none has more
-    /// triangles than the target's, whatever was meshed before; the same as before, without work,
-    /// where view and target are. Colours are left to vertices(). Beside used samples, vertices may
-    /// be ends of others. Vertices and indices last until the next mesh but one, so that a mesh can
-    /// be drawn while the next is made; origins until the next.
+    /// The mesh at the smallest error, at or above the target's, for which no larger error gives
+    /// more triangles than the target's, whatever was meshed before. The mesh is returned again,
+    /// without work, when view and target are those of the last call. Colours are left to
+    /// vertices(). Beside the samples in use there may be vertices that are only ends of others.
+    /// Vertices and indices stay valid until the next mesh but one, so that a mesh can be drawn
+    /// while the next is made; origins until the next mesh.
     GroundMesh mesh(const MeshView& view, const ErrorTarget& target);
 
-    /// Those of the last mesh, to be coloured.
+    /// The vertices of the last mesh, so that their colours can be set.
     std::span<models::ColourVertex> vertices() { return std::span(vertices_).first(vertex_count_); }
 
-    /// Does now the work that triangles_in() would else do first. Colours are not looked at.
+    /// Does the work now that triangles_in() would otherwise do first. It does not read colours.
     void measure_boxes() const;
 
-    /// Whether a box (world axes, metres) is looked for.
+    /// Decides whether the triangles in a box (world axes, metres) are wanted.
     using BoxTest = std::function<bool(const glm::dvec3& least_m, const glm::dvec3& most_m)>;
 
-    /// Appends the numbers of those triangles of the last mesh, ascending, that belong to nodes of
-    /// whose box around all their triangles as drawn `wanted` says yes, as it does of their
-    /// ancestors'. Not from two threads at a time.
+    /// Appends the numbers of some triangles of the last mesh, ascending: those of the nodes for
+    /// which `wanted` accepts the box around all of their triangles as drawn, and also accepts
+    /// those of all their ancestors. Not to be called from two threads at a time.
     void triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const;
 
     const GroundTiles& ground() const { return *ground_; }
@@ -65,9 +66,10 @@ public:
 private:
     static constexpr std::uint32_t root_node = 1; ///< ErrorSurvey::nodes
 
+    /// Four vertices or nodes of a fan.
     using Four = std::array<std::uint32_t, 4>; ///< vertices or nodes
 
-    /// Lowest and highest of the triangles of a node as drawn, eye subtracted.
+    /// The lowest and highest point of a node's triangles as drawn, relative to the eye.
     struct DrawnHeights {
         float lowest_m = std::numeric_limits<float>::infinity();
         float highest_m = -std::numeric_limits<float>::infinity();
@@ -76,20 +78,21 @@ private:
     /// A fan while it is put into the mesh.
     struct EmittedFan {
         std::uint32_t node;
-        std::array<std::uint32_t, 9> ring; ///< vertices by fan_ring, mid-points only where they are
-                                           ///< used, then the centre
-        std::uint32_t end_a;               ///< of the centre
+        /// The vertices in the order of fan_ring, mid-points only where they are used, and then the
+        /// centre.
+        std::array<std::uint32_t, 9> ring;
+        std::uint32_t end_a; ///< An end of the edge whose middle the centre is.
         std::uint32_t end_b;
-        Four beyond; ///< nodes beyond fan_edges; 0 = none
+        Four beyond; ///< The nodes beyond fan_edges; 0 = none.
     };
 
-    /// A vertex to be made.
+    /// A vertex that is to be made.
     struct NewVertex {
         Sample at{};
         std::uint32_t end_a = 0;
         std::uint32_t end_b = 0;
-        float share = 0.5F;      ///< of end b where it appears
-        std::int16_t height = 0; ///< as stored
+        float share = 0.5F;      ///< Where between its ends it appears; 0 is end a and 1 is end b.
+        std::int16_t height = 0; ///< The height as stored.
         float critical = 0.0F;
     };
 
@@ -120,26 +123,28 @@ private:
     const GroundTiles* ground_;
     ErrorRule rule_;
     ErrorSurvey survey_;
-    MeshView view_; ///< of the last mesh
+    MeshView view_; ///< The view of the last mesh.
     ErrorTarget target_;
     GroundMesh mesh_;
     bool meshed_ = false;
 
     std::span<const ErrorNode> nodes_;
-    std::vector<Four> middle_vertex_;         ///< of nodes_; 0 = none yet
-    std::vector<TriangleRun> runs_;           ///< of nodes_ in the mesh
-    mutable std::vector<DrawnHeights> drawn_; ///< of nodes_ in the mesh
+    /// For each node the vertices of its mid-points; 0 = none yet.
+    std::vector<Four> middle_vertex_;
+    std::vector<TriangleRun> runs_;           ///< For each node that is in the mesh.
+    mutable std::vector<DrawnHeights> drawn_; ///< For each node that is in the mesh.
     mutable bool drawn_measured_ = false;
     float limit_ = 0.0F;
-    float morph_limit_ = 0.0F;          ///< limit_, infinite without geomorphs
-    double height_base_m_ = 0.0;        ///< of the stored 0, eye subtracted
-    const PartOrder* orders_ = nullptr; ///< painting_orders of the view
-    glm::dvec2 eye_{0.0};               ///< samples east and north of the field's first
+    float morph_limit_ = 0.0F;          ///< Equal to limit_, or infinite without geomorphs.
+    double height_base_m_ = 0.0;        ///< The height of the stored number 0, relative to the eye.
+    const PartOrder* orders_ = nullptr; ///< The painting_orders of the view.
+    glm::dvec2 eye_{0.0};               ///< In samples east and north of the field's first sample.
     std::vector<models::ColourVertex> vertices_;
     std::vector<VertexOrigin> origins_;
-    std::vector<float> height_m_; ///< of vertices_ before they are lowered, eye subtracted
+    /// The heights of vertices_ relative to the eye, before the earth's curvature lowers them.
+    std::vector<float> height_m_;
     std::vector<std::uint32_t> indices_;
-    std::vector<models::ColourVertex> last_vertices_; ///< of the last mesh but one
+    std::vector<models::ColourVertex> last_vertices_; ///< The vertices of the last mesh but one.
     std::vector<std::uint32_t> last_indices_;
     std::uint32_t vertex_count_ = 0;
     std::size_t index_count_ = 0;

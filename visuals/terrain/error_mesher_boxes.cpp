@@ -1,4 +1,6 @@
-// Which triangles of a mesh by screen-space error lie in boxes, by those around what is drawn.
+// Which triangles of a mesh lie in some box, such as around an aircraft whose shadow they receive
+// or which they may hide. A node's triangles and those of all nodes below it follow one another in
+// the mesh, so that whole subtrees are accepted or skipped by the box around what is drawn.
 #include "visuals/terrain/error_mesher.h"
 
 #include <algorithm>
@@ -20,6 +22,7 @@ void ErrorMesher::measure_boxes() const {
     }
 }
 
+/// The children of a node that are drawn; 0 for the others.
 ErrorMesher::Four ErrorMesher::drawn_children(const ErrorNode& node) const {
     Four children = node.child;
     for (unsigned q = 0; q < 4; ++q) {
@@ -28,7 +31,7 @@ ErrorMesher::Four ErrorMesher::drawn_children(const ErrorNode& node) const {
     return children;
 }
 
-/// Fills in drawn_ of a node and all below it.
+/// Fills in drawn_ for a node and all nodes below it.
 void ErrorMesher::measure_drawn(std::uint32_t node) const {
     DrawnHeights heights;
     const auto add = [&](float lowest_m, float highest_m) {

@@ -1,27 +1,29 @@
-// Which samples of a ground are in its mesh: longest-edge bisection by screen-space error.
+// Longest-edge bisection by screen-space error: P. Lindstrom, V. Pascucci, "Terrain Simplification
+// Simplified: A General Framework for View-Dependent Out-of-Core Visualization", 2002, with
+// saturated errors and nested regions of influence. A sample v, the middle of the longest edge of
+// two triangles, is in the mesh if its error e(v), seen from the nearest point of its region of
+// influence, is larger than the wanted error: if critical(v) = D2(v) / e(v)^2 < (focal length /
+// wanted error)^2, where D2 is the squared distance.
 //
-// Source: P. Lindstrom, V. Pascucci, "Terrain Simplification Simplified: A General Framework for
-// View-Dependent Out-of-Core Visualization", 2002: saturated errors and nested regions of
-// influence. A sample v, the middle of the longest edge of two triangles, is in the mesh where its
-// error e(v), seen from the nearest point of its region of influence, is larger than the error
-// wanted: where critical(v) = D2(v) / e(v)^2 < (focal length / error wanted)^2.
 // Deviations:
-// - Regions are boxes, not spheres. Horizontally squares of half size 3h about a node's centre and
-//   2h about the middle of an edge, h half the node's edge; they hold all triangles that v may
-//   split and those that samples needing v may. Vertically the bounds of all blocks (nodes with
-//   height bounds, of v's level where that has them) that the square overlaps.
+// - Regions are boxes, not spheres. Horizontally they are squares of half size 3h about a node's
+//   centre and 2h about the middle of an edge, where h is half the node's edge; they contain all
+//   triangles that v may split and those that samples needing v may split. Vertically they have the
+//   bounds of all blocks (nodes with height bounds, of v's level where that has them) that the
+//   square overlaps.
 // - D2 is at least 1 m^2.
-// - Where the earth is curved, e(v) is the stored error and what the edge that v halves rises above
-//   the curve, L^2 / (8 R); heights in D2 are not lowered.
+// - On a curved earth, e(v) is the stored error plus what the edge that v halves rises above the
+//   curve, L^2 / (8 R); the heights in D2 are not lowered.
 //
-// No cracks, because critical values never shrink from a sample to one that needs it, to the last
-// bit. An edge's middle lies h from the centre it needs, 2h + h = 3h. A child's centre, box 3h/2,
-// lies (h/2, h/2) from the middles it needs, h/2 + 3h/2 = 2h. So the whole-numbered ends of boxes
-// are nested; subtracting the eye, rounded, keeps their order, and so do all steps from there to
-// the critical value: maximum, minimum, sum and product of numbers not below zero, quotient.
-// Bounds of blocks hold those of finer ones, and boxes overlap (a common line is none) no block
-// that is not within one that the larger box overlaps. Errors are nested as stored; those of
-// curvature halve from each step to the next.
+// There are no cracks, because critical values never decrease from a sample to one that needs it,
+// to the last bit. An edge's middle lies h from the centre it needs, and 2h + h = 3h. A child's
+// centre, with a box of 3h/2, lies (h/2, h/2) from the middles it needs, and h/2 + 3h/2 = 2h. So
+// the ends of boxes, which are whole numbers, are nested; subtracting the eye with rounding keeps
+// their order, and so do all steps from there to the critical value: maximum, minimum, sum and
+// product of non-negative numbers, and quotient. The bounds of a block contain those of finer
+// blocks, and a box overlaps (a common line does not count) no block that is not within one that
+// the larger box overlaps. Errors are nested as stored; those of curvature halve from each step to
+// the next.
 #include "visuals/terrain/error_rule.h"
 
 #include "visuals/terrain/earth_drop.h"
@@ -40,15 +42,15 @@ namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-/// An eye farther from the field than this, samples, is thought to be here: whole numbers of
-/// samples stay exact in float.
+/// An eye farther from the field than this, in samples, is treated as being there, so that whole
+/// numbers of samples stay exact in float.
 constexpr double farthest_eye = 4194304.0;
 
-/// More than double arithmetic with heights can be wrong by.
+/// More than the rounding of heights in double precision can amount to.
 constexpr double height_margin_m = 1e-3;
 
-// Ends of boxes of influence in half edges from a node's south-west corner: of the middles of its
-// south, east, north and west edge and of the centres of its quarters.
+// The ends of the boxes of influence, in half edges from a node's south-west corner: of the middles
+// of its south, east, north and west edges, and of the centres of its four children.
 constexpr FourFloats west_of_middles = {-1.0F, 0.0F, -1.0F, -2.0F};
 constexpr FourFloats east_of_middles = {3.0F, 4.0F, 3.0F, 2.0F};
 constexpr FourFloats south_of_middles = {-2.0F, -1.0F, 0.0F, -1.0F};
@@ -58,12 +60,14 @@ constexpr FourFloats east_of_centres = {2.0F, 3.0F, 2.0F, 3.0F};
 constexpr FourFloats south_of_centres = {-1.0F, -1.0F, 0.0F, 0.0F};
 constexpr FourFloats north_of_centres = {2.0F, 2.0F, 3.0F, 3.0F};
 
+/// The sample at or below a coordinate, clamped to farthest_eye.
 int whole_below(double place) {
     return static_cast<int>(std::floor(std::clamp(place, -farthest_eye, farthest_eye)));
 }
 
-/// Squares of the distance along one axis from the eye to four boxes, samples^2. Their ends are
-/// given in half edges from `start`, which is exact and from the same sample as `eye`.
+/// The squared distances along one axis from the eye to four boxes, in samples^2. The ends of the
+/// boxes are given in half edges from `start`, which is exact and counted from the same sample as
+/// `eye`.
 inline FourFloats
 box_distance(FourFloats least, FourFloats most, float start, float half_edge, float eye) {
     const FourFloats before = four(start) + least * four(half_edge) - four(eye);
@@ -127,7 +131,7 @@ float ErrorRule::root_error_m() const {
 
 HeightGaps ErrorRule::gaps_around(int level, int column, int row) const {
     const LevelMemory& at = memory(level);
-    std::array<std::array<float, 3>, 3> gap{}; // by row and column
+    std::array<std::array<float, 3>, 3> gap{}; // Indexed by row and column.
     for (int j = 0; j < 3; ++j) {
         for (int i = 0; i < 3; ++i) {
             const int c = column + i - 1;
@@ -174,8 +178,9 @@ FanCriticals ErrorRule::criticals_of(const ErrorPlace& place) const {
         four(spacing_squared_m2_) *
         (box_distance(west_of_centres, east_of_centres, x, at.half_edge, eye_east_) +
          box_distance(south_of_centres, north_of_centres, y, at.half_edge, eye_north_));
-    // The sides of the block that boxes reach beyond.
-    const int last = (1 << std::max(place.level - range_level_, 0)) - 1; // node along the block
+    // On which sides the boxes of influence reach beyond the block.
+    // The last node along a side of the block.
+    const int last = (1 << std::max(place.level - range_level_, 0)) - 1;
     const auto reach = [&](int along) {
         const int within = along & last;
         return (within == 0 ? 1U : 0U) | (within == last ? 2U : 0U);

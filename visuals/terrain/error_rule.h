@@ -12,36 +12,38 @@
 
 namespace octant::visuals::terrain {
 
-/// How far the eye is above or below the ground near a block: a node with height bounds.
+/// The vertical distance of the eye from the ground around a block, which is a node with height
+/// bounds.
 struct HeightGaps {
-    /// Squares of the distance to the block and those beside it, the least. Index: 1 with those
-    /// beyond its west side, 2 east, 4 south, 8 north.
+    /// The least squared distance to the block and to some of its neighbours. The index is a sum: 1
+    /// includes those beyond its west side, 2 east, 4 south, 8 north.
     std::array<float, 16> squared_m2{};
-    float lowest_m = 0.0F; ///< of the block's samples
+    float lowest_m = 0.0F; ///< The lowest of the block's own samples.
     float highest_m = 0.0F;
 };
 
-/// A node, and what its ancestors know for it.
+/// A node, with what its ancestors know about it.
 struct ErrorPlace {
     int level = 0;
     int column = 0;
     int row = 0;
-    const HeightGaps* gaps = nullptr; ///< of the node, or of its ancestor of range_level
+    const HeightGaps* gaps = nullptr; ///< Those of the node or of its ancestor of range_level.
 };
 
-/// Critical values of the samples that a node's fan may have, and errors.
+/// The critical values and errors of the samples that a node's fan may have.
 struct FanCriticals {
-    FourFloats middle;           ///< mid-points of fan_edges
-    FourFloats quadrant;         ///< centres of the children; any where there is none
-    FourFloats quadrant_error_m; ///< of those centres
+    FourFloats middle;   ///< The mid-points of fan_edges.
+    FourFloats quadrant; ///< The centres of the children; meaningless where there is no child.
+    FourFloats quadrant_error_m; ///< The errors of those centres.
 };
 
-/// Which samples of a ground a view wants by screen-space error.
+/// Decides by screen-space error which samples of a ground belong to the mesh of a view.
 class ErrorRule {
 public:
     /// The ground must outlive the rule.
     explicit ErrorRule(const GroundTiles& ground);
 
+    /// Takes a view.
     void look_from(const MeshView& view);
 
     const GroundTiles& ground() const { return *ground_; }
@@ -52,37 +54,41 @@ public:
 
     const MeshView& view() const { return view_; }
 
-    double west_m() const { return west_m_; } ///< of the field, eye subtracted
+    /// The x coordinate of the field's west border relative to the eye.
+    double west_m() const { return west_m_; }
 
-    double south_m() const { return south_m_; } ///< of the field, eye subtracted
+    /// The y coordinate of the field's south border relative to the eye.
+    double south_m() const { return south_m_; }
 
-    /// What critical values are compared with: a sample is in the mesh where its own is smaller.
+    /// The limit for a wanted error in pixels. A sample is in the mesh when its critical value is
+    /// below the limit.
     float limit_of(double error_px) const;
 
+    /// The error in pixels that belongs to a limit.
     double error_px_of(float limit) const;
 
-    /// For a node of a level with height bounds.
+    /// The gaps of a node; its level must have height bounds.
     HeightGaps gaps_around(int level, int column, int row) const;
 
-    /// Error of the root's centre.
+    /// The error of the root's centre.
     float root_error_m() const;
 
-    /// `place.gaps` is set.
+    /// The critical values of a node's fan. `place.gaps` must be set.
     FanCriticals criticals_of(const ErrorPlace& place) const;
 
-    /// planes_cutting for all that a mesh may draw of a node. Drawn heights lie up to `margin_m`
-    /// beyond those of the node's samples.
+    /// planes_cutting (frustum.h) for all that a mesh may draw of a node, where heights are drawn
+    /// up to `margin_m` beyond those of the node's samples.
     unsigned planes_cutting_node(
         const ErrorPlace& place, const HeightGaps& gaps, float margin_m, unsigned planes) const;
 
-    /// How much the ground is lowered at a place, metres east and north of the eye.
+    /// How much the ground is lowered at a place, given in metres east and north of the eye.
     template <typename Real>
     Real drop_m(Real east_m, Real north_m) const {
         return static_cast<Real>(half_curvature_per_m_) * (east_m * east_m + north_m * north_m);
     }
 
 private:
-    /// A level of the ground, and errors by curvature.
+    /// A level of the ground, and the errors that the earth's curvature adds there.
     struct Level {
         LevelMemory memory;
         float half_edge;
@@ -95,16 +101,16 @@ private:
     const GroundTiles* ground_;
     MeshView view_;
     std::vector<Level> levels_;
-    std::array<float, 256> error_m_{}; ///< by code
+    std::array<float, 256> error_m_{}; ///< For each code its error.
     double west_m_ = 0.0;
     double south_m_ = 0.0;
     double half_curvature_per_m_ = 0.0;
     float spacing_squared_m2_ = 0.0F;
     float eye_z_m_ = 0.0F;
     int range_level_ = 0;
-    int origin_column_ = 0; ///< sample at or south-west of the eye
+    int origin_column_ = 0; ///< The sample at the eye or next to it in the south-west.
     int origin_row_ = 0;
-    float eye_east_ = 0.0F; ///< samples from there
+    float eye_east_ = 0.0F; ///< The eye in samples from there.
     float eye_north_ = 0.0F;
 };
 

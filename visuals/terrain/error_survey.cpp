@@ -1,7 +1,6 @@
-// The smallest screen-space error that keeps a budget of triangles, exactly and in the frame it is
-// spent.
-//
-// No source; as budget_survey.cpp, over the critical values of error_rule.cpp.
+// The smallest screen-space error that keeps a budget of triangles, exactly and in the frame in
+// which it is spent. It has no source; it works as budget_survey.cpp does, over the critical values
+// of error_rule.cpp.
 #include "visuals/terrain/error_survey.h"
 
 #include "visuals/terrain/frustum.h"
@@ -16,15 +15,16 @@ namespace octant::visuals::terrain {
 namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr float least_limit = 1e-30F; ///< below every critical value but the root's
-constexpr double first_look_px = 4.0; ///< error, without a last frame
+constexpr float least_limit = 1e-30F; ///< Below every critical value but the root's.
+/// The error that is tried first when there is no last frame.
+constexpr double first_look_px = 4.0;
 
-/// With geomorphs, how far a fan's vertices may be drawn from their samples, in errors of the
-/// fan's own centre. A vertex that is drawn elsewhere than its sample has an error of less than
-/// morph_ratio times the one wanted as seen from its region of influence; those in and around the
-/// fan so of less than so many times the centre's, which is in the mesh. It lies within the largest
-/// error of those ancestors that are not at their samples either, again less than so many times its
-/// own.
+/// With geomorphs, how far a fan's vertices may be drawn from their samples, in errors of the fan's
+/// own centre. A vertex drawn away from its sample has an error of less than morph_ratio times the
+/// wanted one, as seen from its region of influence; the vertices in and around the fan therefore
+/// have less than morph_ratio times the error of the centre, which is in the mesh. A vertex stays
+/// within the largest error of those of its ancestors that are not at their samples either, which
+/// again is less than morph_ratio times its own.
 constexpr float morph_margin = morph_ratio * morph_ratio;
 
 } // namespace
@@ -74,6 +74,7 @@ ErrorSurvey::Visit ErrorSurvey::root_visit() const {
     return root;
 }
 
+/// The index of a new node.
 inline std::size_t ErrorSurvey::next_node() {
     if (count_ == nodes_.size()) {
         nodes_.resize(2 * count_ + 1024);
@@ -81,7 +82,8 @@ inline std::size_t ErrorSurvey::next_node() {
     return count_++;
 }
 
-/// Puts a node and all below it that may be in the mesh into nodes_.
+/// Surveys a node and all nodes below it that may be in the mesh, and returns its index. Counts
+/// triangles only if there is a budget.
 template <bool counting>
 std::uint32_t ErrorSurvey::visit(const Visit& from) {
     const std::size_t own = next_node();
@@ -127,7 +129,7 @@ std::uint32_t ErrorSurvey::visit(const Visit& from) {
     return static_cast<std::uint32_t>(own);
 }
 
-/// All but gaps of their own.
+/// A child's place, with the gaps of its parent.
 inline ErrorPlace ErrorSurvey::child_place(const ErrorPlace& place, unsigned quadrant) {
     return {
         place.level + 1,
@@ -136,7 +138,7 @@ inline ErrorPlace ErrorSurvey::child_place(const ErrorPlace& place, unsigned qua
         place.gaps};
 }
 
-/// Fills in which children are hidden, and what they take over.
+/// Finds out which children are hidden, and what they need from their parent.
 inline void ErrorSurvey::test_children(const Visit& from, Children& children) {
     const GroundLayout& layout = rule_->ground().layout();
     const GroundLayout::Level& at = layout.level(from.place.level + 1);
@@ -162,7 +164,8 @@ inline void ErrorSurvey::test_children(const Visit& from, Children& children) {
     }
 }
 
-/// Adds the steps of a node's fan. `replaced`: the triangles of its quadrants where it is cut.
+/// Adds the steps of a node's fan to the count. `replaced` is set to the triangles of its quadrants
+/// where the field's end cuts it.
 inline void
 ErrorSurvey::count(const Visit& from, const ErrorNode& node, std::array<int, 4>& replaced) {
     for (unsigned k = 0; k < 4 && !more_above_; ++k) {

@@ -13,66 +13,71 @@
 
 namespace octant::visuals::terrain {
 
-/// What a mesh by screen-space error is wanted to be.
+/// What is wanted of a mesh by screen-space error.
 struct ErrorTarget {
-    double error_px = 1.0; ///< at or above zero; 0: everything that is not on straight lines
-    /// More error is allowed where this would be exceeded; any_triangles: it never is.
+    /// The wanted error, at or above zero. With 0 every sample is used that is not on a straight
+    /// line.
+    double error_px = 1.0;
+    /// A larger error is allowed where this number would be exceeded; with any_triangles it never
+    /// is.
     int most_triangles = 32000;
     bool geomorphs = true;
 
     bool operator==(const ErrorTarget&) const = default;
 };
 
-/// With geomorphs a vertex is at its sample where its error, as seen from its region of influence,
-/// is this many times the one wanted, and still between its ends where it is no more than that. A
-/// vertex on its way is so drawn up to 1.04 times the error wanted beside its sample; with 2 never
-/// above it, but half again as fast.
+/// With geomorphs a vertex is at its own sample when its error, as seen from its region of
+/// influence, is this many times the wanted one, and still between its ends when it is no more than
+/// the wanted one. A vertex in motion is then drawn up to 1.04 times the wanted error away from its
+/// sample. With 2 it would never exceed it, but move half as fast again.
 inline constexpr float morph_ratio = 2.5F;
 
 inline constexpr int any_triangles = 1 << 30;
 
-/// A node whose fan is in the mesh at some limits, with the limits above which its parts are.
+/// A node whose fan is in the mesh at some limits. Its members tell from which limit on each part
+/// is there.
 struct alignas(64) ErrorNode {
-    FourFloats middle{};                  ///< mid-points of fan_edges
-    FourFloats quadrant{};                ///< fans of the children
-    std::array<std::uint32_t, 4> child{}; ///< nodes of those that were looked at; 0 = none
-    float on = 0.0F;                      ///< the fan: its centre
+    FourFloats middle{};   ///< The mid-points of fan_edges.
+    FourFloats quadrant{}; ///< The fans of the children.
+    /// The nodes of those children that were looked at; 0 = none.
+    std::array<std::uint32_t, 4> child{};
+    float on = 0.0F; ///< The fan itself, by its centre.
     std::uint16_t column = 0;
     std::uint16_t row = 0;
     std::uint8_t level = 0;
-    std::uint8_t hidden = 0; ///< quadrants outside the frustum or the field
+    std::uint8_t hidden = 0; ///< The quadrants outside the frustum or the field.
 };
 
-/// Collects what a mesh by screen-space error is made of, and finds the error that spends a budget
-/// of triangles, exactly and before the mesh is made: see BudgetSurvey, whose limits on C are here
-/// those of ErrorRule.
+/// Collects what a mesh by screen-space error consists of, and finds the error that spends a budget
+/// of triangles, exactly and before the mesh is made. It does for ErrorRule what BudgetSurvey does
+/// for the paper's quadtree.
 class ErrorSurvey {
 public:
     /// The rule must outlive the survey.
     explicit ErrorSurvey(const ErrorRule& rule)
         : rule_(&rule) {}
 
-    /// The limit that belongs to the smallest error at or above the target's up to which no mesh
-    /// has more than its triangles. The root's fan is always there.
+    /// The limit that belongs to the smallest error, at or above the target's, for which no larger
+    /// error gives more triangles than allowed. The root's fan is always in the mesh.
     float limit_for(const ErrorTarget& target);
 
-    /// The nodes of meshes up to the limit last found, and more; parents before children. The first
-    /// stands for none, then comes the root.
+    /// The nodes of all meshes up to the limit that was found, and some more: parents before
+    /// children. Entry 0 stands for no node; entry 1 is the root.
     std::span<const ErrorNode> nodes() const { return std::span(nodes_).first(count_); }
 
     int nodes_tested() const { return nodes_tested_; }
 
 private:
-    /// A node to be surveyed.
+    /// A node that is to be surveyed.
     struct Visit {
         ErrorPlace place;
-        unsigned planes = 0;  ///< that it may reach beyond
-        float on = 0.0F;      ///< critical value of its centre
-        float error_m = 0.0F; ///< of its centre
-        int replaced = 0;     ///< triangles of its parent that it takes the place of
+        unsigned planes = 0;  ///< The frustum planes that it may reach beyond.
+        float on = 0.0F;      ///< The critical value of its centre.
+        float error_m = 0.0F; ///< The error of its centre.
+        int replaced = 0;     ///< How many triangles of its parent it replaces.
     };
 
-    /// What is found out about the children of a node.
+    /// What was found out about the children of a node.
     struct Children {
         std::array<unsigned, 4> planes{};
         unsigned hidden = 0;
@@ -91,13 +96,14 @@ private:
     std::vector<ErrorNode> nodes_;
     std::size_t count_ = 0;
     StepCount steps_;
-    std::array<std::array<HeightGaps, 4>, 16> gaps_; ///< by level and quadrant, while walking
+    std::array<std::array<HeightGaps, 4>, 16> gaps_; ///< By level and quadrant, during a walk.
     float high_ = 0.0F;
-    float margin_ = 0.0F;     ///< how far beside samples is drawn, in errors of the parent's centre
-    int most_triangles_ = 0;  ///< a walk stops where it has counted more
-    bool more_above_ = false; ///< something visible is only above high_
+    /// How far from their samples vertices may be drawn, in errors of the parent's centre.
+    float margin_ = 0.0F;
+    int most_triangles_ = 0;  ///< A walk stops once it has counted more.
+    bool more_above_ = false; ///< Something visible appears only above high_.
     int nodes_tested_ = 0;
-    double last_error_px_ = 0.0; ///< 0: none yet
+    double last_error_px_ = 0.0; ///< 0 before the first call.
 };
 
 } // namespace octant::visuals::terrain

@@ -6,22 +6,24 @@
 
 namespace octant::visuals::terrain {
 
-/// All quadrants of a node; quadrant q is bit q: 0 south-west, 1 south-east, 2 north-west, 3
-/// north-east.
+/// The set of all quadrants of a node. Quadrant q is bit q: 0 is south-west, 1 south-east, 2
+/// north-west, 3 north-east.
 inline constexpr unsigned all_quadrants = 15;
 
-/// Edges of a fan counter-clockwise from the south one: the corners are those of the two quadrants.
+/// An edge of a fan, between the corners of two quadrants. Corners are in half edges from the
+/// south-west corner.
 struct FanEdge {
-    int corner_a_east; ///< corners in half edges from the south-west corner
+    int corner_a_east;
     int corner_a_north;
     int corner_b_east;
     int corner_b_north;
     unsigned quadrant_a;
     unsigned quadrant_b;
-    int beyond_east; ///< step to the node beyond the edge
+    int beyond_east; ///< The step to the node beyond the edge.
     int beyond_north;
 };
 
+/// The four edges of a fan counter-clockwise: south, east, north, west.
 inline constexpr std::array<FanEdge, 4> fan_edges = {{
     {0, 0, 2, 0, 0, 1, 0, -1},
     {2, 0, 2, 2, 1, 3, 1, 0},
@@ -35,21 +37,23 @@ struct RingSample {
     int north;
 };
 
-/// The outline counter-clockwise from the south-west corner: corners and, at odd places, the
-/// mid-points of fan_edges.
+/// The outline counter-clockwise from the south-west corner: corners at even places, the mid-points
+/// of fan_edges at odd ones.
 inline constexpr std::array<RingSample, 8> fan_ring = {
     {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 
+/// A sample of the field.
 struct Sample {
     int column;
     int row;
 };
 
-/// The nine samples that the triangles of a node's fan use, those beyond the field moved onto its
-/// last column and row.
+/// The nine samples that the triangles of a node's fan may use. Those beyond the field are moved
+/// onto its last column and row.
 class FanSamples {
 public:
-    /// `ground`: anything with columns() and rows(), samples.
+    /// `ground` is anything that has columns() and rows() in samples; `edge` is the node's edge in
+    /// samples.
     template <typename Ground>
     FanSamples(const Ground& ground, int edge, int column, int row)
         : last_column_(ground.columns() - 1)
@@ -58,7 +62,7 @@ public:
         , west_(column * edge)
         , south_(row * edge) {}
 
-    /// Some samples were moved, so that triangles may have no area.
+    /// Whether some samples were moved, so that triangles may have no area.
     bool is_cut() const {
         return west_ + 2 * half_ > last_column_ || south_ + 2 * half_ > last_row_;
     }

@@ -8,19 +8,19 @@
 
 namespace octant::visuals::terrain {
 
-/// Triangles of a fan that have an area: of each side without its mid-point and, with it, beside
-/// its quadrants.
+/// How many triangles with an area a fan has: for each side without its mid-point, for each side
+/// with it beside either of its quadrants, and for each quadrant.
 struct FanTriangles {
     std::array<int, 4> whole{1, 1, 1, 1};
     std::array<int, 4> a{1, 1, 1, 1};
     std::array<int, 4> b{1, 1, 1, 1};
-    std::array<int, 4> of_quadrant{2, 2, 2, 2}; ///< those with mid-points
+    std::array<int, 4> of_quadrant{2, 2, 2, 2}; ///< With mid-points.
 };
 
-/// Those of a node that is not cut.
+/// The triangles of a node that the field's end does not cut.
 inline constexpr FanTriangles all_triangles;
 
-/// Those of a node at the field's north or east end.
+/// The triangles of a node at the field's north or east end.
 inline FanTriangles triangles_with_area(const FanSamples& samples) {
     FanTriangles triangles;
     triangles.of_quadrant = {};
@@ -41,14 +41,15 @@ inline FanTriangles triangles_with_area(const FanSamples& samples) {
 
 /// From which limits on the parts of a fan are in the mesh.
 struct FanLimits {
-    float on = 0.0F;                    ///< the fan
-    const std::array<float, 4>& middle; ///< the mid-points of fan_edges
-    unsigned hidden = 0;                ///< quadrants without triangles
-    int replaced = 0;                   ///< triangles of its parent that it takes the place of
+    float on = 0.0F;                    ///< The fan itself.
+    const std::array<float, 4>& middle; ///< The mid-points of fan_edges.
+    unsigned hidden = 0;                ///< The quadrants without triangles.
+    int replaced = 0;                   ///< How many triangles of its parent it replaces.
 };
 
-/// Adds the steps of N at which a fan appears and its mid-points do, those below `high`. That of a
-/// quadrant which splits is the child's own. True: there are steps above.
+/// Adds the steps of N at which a fan appears and at which its mid-points do, those below `high`.
+/// The step of a quadrant that splits is counted with the child. Returns whether there are steps
+/// above.
 inline bool
 count_fan(const FanLimits& fan, const FanTriangles& triangles, float high, StepCount& steps) {
     const auto unless_hidden = [&](unsigned quadrant, int some) {

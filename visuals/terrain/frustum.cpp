@@ -1,3 +1,6 @@
+// View frustum culling of boxes. Once a box is inside a plane, so are all boxes within it; a walk
+// down a tree therefore passes on the planes that still need a test, and tests none below a node
+// that is wholly inside.
 #include "visuals/terrain/frustum.h"
 
 #include <glm/geometric.hpp>
@@ -8,7 +11,7 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-/// A box this far outside is still drawn: more than double arithmetic can be wrong by.
+/// A box this far outside is still drawn, which is more than double arithmetic can be wrong by.
 constexpr double cull_margin_m = 1e-3;
 
 } // namespace

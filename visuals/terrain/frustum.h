@@ -6,16 +6,17 @@
 
 namespace octant::visuals::terrain {
 
-// Sets of planes through the eye are bits: bit k for normal k.
+// The view frustum is given by the normals of four planes through the eye. A set of planes is a bit
+// mask: bit k stands for normal k.
 
-/// Answer of planes_cutting for a box that is not in sight.
+/// The answer of planes_cutting for a box that is not in sight.
 inline constexpr unsigned outside_frustum = 16;
 
-/// Those normals that are not zero.
+/// The set of those planes whose normals are not zero.
 unsigned planes_of(const std::array<glm::dvec3, 4>& normals);
 
-/// Those of `planes` that a box, eye-relative, is not wholly inside of; outside_frustum when it is
-/// wholly outside one of them. Conservative: a box that touches is never outside.
+/// Those of `planes` that a box (relative to the eye) is not wholly inside of; outside_frustum if
+/// it is wholly outside one of them. Conservative: a box that touches is never outside.
 unsigned planes_cutting(
     const std::array<glm::dvec3, 4>& normals,
     unsigned planes,

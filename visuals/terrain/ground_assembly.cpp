@@ -1,3 +1,6 @@
+// Builds a ground bottom-up, step 1 and 2 of the quadtree paper (E. K. Choi, B. S. Shin, section 2:
+// each leaf's error metric, propagated to the parents), here for the bisection's saturated errors
+// and out of core: a tile needs only the tiles of the next finer level beside it.
 #include "visuals/terrain/ground_assembly.h"
 
 #include "sim/base/worker_team.h"
@@ -48,7 +51,8 @@ GroundShape shape_of(int columns, int rows, double spacing_m, double lowest_m, d
 }
 
 std::int16_t stored_number(float height_m, const GroundShape& shape) {
-    // Leaves no room for a fraction.
+    // Adding this number leaves no room for a fraction, so that the lowest bits hold the rounded
+    // number.
     constexpr double no_fraction = 0x1.8p52;
     const double number =
         (static_cast<double>(height_m) - shape.height_base_m) / shape.height_unit_m;
@@ -95,7 +99,7 @@ HeightFigures GroundAssembly::put_outline() {
         metres(mean_number * heights_.multiplier + heights_.addend)};
 }
 
-/// Returns the sum of all numbers.
+/// Writes the height ranges of the finest level that has them. Returns the sum of all numbers.
 std::int64_t GroundAssembly::put_finest_ranges() {
     const GroundLayout::Level& at = layout_.level(layout_.range_level());
     std::vector<std::int64_t> sums(static_cast<std::size_t>(at.rows));
@@ -129,6 +133,7 @@ std::int64_t GroundAssembly::put_finest_ranges() {
     return std::accumulate(sums.begin(), sums.end(), std::int64_t{0});
 }
 
+/// Writes the height ranges of a level from those of the next finer one.
 void GroundAssembly::put_coarser_ranges(int level) {
     const GroundLayout::Level& at = layout_.level(level);
     const GroundLayout::Level& finer = layout_.level(level + 1);

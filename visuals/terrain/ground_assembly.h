@@ -14,32 +14,33 @@
 
 namespace octant::visuals::terrain {
 
-/// Size, base and unit of a ground whose heights lie between two: the finest power of two of a
-/// metre (not below 2^-12) with which their range is at most 65,000 units, and a base that is a
-/// whole number of them, so that whole metres are stored exactly where the unit is at most 1 m.
+/// The shape of a ground whose heights lie between two values: its unit is the finest power of two
+/// of a metre (not below 2^-12) with which the range is at most 65,000 units, and its base is a
+/// whole number of units, so that whole metres are stored exactly where the unit is at most 1 m.
 GroundShape shape_of(int columns, int rows, double spacing_m, double lowest_m, double highest_m);
 
-/// The stored number nearest to a height.
+/// The stored number that is nearest to a height.
 std::int16_t stored_number(float height_m, const GroundShape& shape);
 
-/// What the numbers themselves tell of a ground.
+/// What the numbers themselves tell about a ground.
 struct HeightFigures {
     float lowest_m = 0.0F;
     float highest_m = 0.0F;
     float mean_m = 0.0F;
 };
 
-/// Fills GroundLayout memory from a field's numbers, tile by tile from the finest level up. Same
-/// bytes for every number of threads.
+/// Fills GroundLayout memory from a field's numbers, tile by tile from the finest level up. Gives
+/// the same bytes for any number of threads.
 class GroundAssembly {
 public:
-    /// Takes a tile's bytes at its offset; `index` counts tiles as they lie in memory. Called by
-    /// several threads, each tile once. The tile can be read in `memory` when it returns.
+    /// Takes a tile's bytes, to be put at `offset`; `index` counts the tiles as they lie in memory.
+    /// Called by several threads, once for each tile. When it returns, the tile must be readable in
+    /// `memory`.
     using TileSink = std::function<void(
         std::size_t index, std::size_t offset, std::span<const std::byte> bytes)>;
 
-    /// `memory`: layout.total_bytes(); what lies before the tiles is written into it. All but the
-    /// sink and the shape outlive the assembly.
+    /// `memory` has layout.total_bytes(); what lies before the tiles is written into it. All
+    /// arguments but the shape must outlive the assembly.
     GroundAssembly(
         const GroundShape& shape,
         const GroundLayout& layout,
@@ -47,14 +48,14 @@ public:
         std::span<std::byte> memory,
         int threads);
 
-    /// Corners and ranges.
+    /// Writes corners and height ranges, and returns the figures.
     HeightFigures put_outline();
 
-    /// Number of tiles, all levels; they are numbered as they are built.
+    /// The number of tiles of all levels. They are numbered in the order in which they are built.
     std::size_t tiles() const;
 
-    /// Builds about `wanted` tiles from `first` on, at least one, and returns the number of the
-    /// next.
+    /// Builds about `wanted` tiles from number `first` on, at least one, and returns the number of
+    /// the next tile.
     std::size_t build(std::size_t first, std::size_t wanted, const TileSink& sink);
 
 private:
@@ -71,7 +72,7 @@ private:
     std::span<std::byte> memory_;
     int threads_;
     ErrorCoder coder_;
-    std::vector<TileBuilder> builders_; ///< one a thread
+    std::vector<TileBuilder> builders_; ///< One for each thread.
 };
 
 } // namespace octant::visuals::terrain

@@ -1,3 +1,5 @@
+// Opens imported grounds. A file of 16385 x 16385 samples is 800 MB; mapping it makes flights over
+// it start at once, and only the tiles that a mesh looks at are read.
 #include "visuals/terrain/ground_file.h"
 
 #include "sim/base/error.h"
@@ -28,6 +30,7 @@ std::uint64_t checksum_at(const MappedFile& file, const GroundFilePlan& plan, st
     return checksum;
 }
 
+/// Throws Error unless the file is finished, has its full length and is sound before the tiles.
 void check_before_tiles(const path& path, const MappedFile& file, const GroundHeader& header) {
     const GroundLayout layout(header.columns, header.rows);
     const GroundFilePlan plan(layout);

@@ -1,3 +1,5 @@
+// Writes and checks the first page of a ground's file. Files come from outside: every number is
+// checked before it is used, and a hash of the layout refuses files of another release.
 #include "visuals/terrain/ground_header.h"
 
 #include "sim/base/error.h"
@@ -48,7 +50,7 @@ bool is_power_of_two(double x) {
     return std::frexp(x, &exponent) == 0.5;
 }
 
-/// False for what is no number, too.
+/// Whether |x| is at most `largest`; false for a NaN.
 bool lies_within(double x, double largest) {
     return std::abs(x) <= largest;
 }
@@ -70,7 +72,8 @@ bool is_sound(const GroundHeader& h) {
            h.progress.stage <= GroundProgress::Stage::Complete;
 }
 
-/// Length of the longest beginning of at most `longest` bytes that ends with a whole character.
+/// The length of the longest beginning of a text that has at most `longest` bytes and ends with a
+/// whole character.
 std::size_t length_cut(std::string_view text, std::size_t longest) {
     std::size_t length = 0;
     while (length < text.size()) {
@@ -84,6 +87,7 @@ std::size_t length_cut(std::string_view text, std::size_t longest) {
     return length;
 }
 
+/// The text with everything replaced that is not valid UTF-8 or is a control character.
 std::string cleaned(std::string_view text) {
     constexpr std::string_view replacement = "\xEF\xBF\xBD";
     std::string out;

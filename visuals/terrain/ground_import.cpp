@@ -1,3 +1,6 @@
+// Imports large height fields. The heights are first read into the end of the file that is being
+// made, then the tiles are built in front of them, and at last the file is cut. The header tells
+// how far this has come, so that an import which was stopped can go on.
 #include "visuals/terrain/ground_import.h"
 
 #include "models/heights/height_source.h"
@@ -26,6 +29,7 @@ using Stage = GroundProgress::Stage;
 constexpr int samples_a_band = 1 << 22;
 constexpr std::size_t tiles_a_batch = 256;
 
+/// One import.
 class Import {
 public:
     Import(
@@ -37,9 +41,12 @@ public:
     ImportSummary run();
 
 private:
+    /// Takes up an unfinished file if there is one that fits. Returns whether there was.
     bool goes_on();
+    /// Makes an empty file of the size that is needed while working.
     void start_anew();
     void tell(ImportStage stage, double done);
+    /// Brings everything done so far to the disk, the header last.
     void save();
     void scan();
     void read();
@@ -49,11 +56,13 @@ private:
     void put_header();
     void drop_part();
 
-    /// Lets `read` read the inputs; where they are at fault, nothing stays to go on from.
+    /// Lets `read` read the inputs. If they are at fault, the unfinished file is removed, because
+    /// there is nothing to go on from.
     template <typename Read>
     void from_inputs(const Read& read);
 
-    /// Calls `work(first row, rows)` for the rows not yet done, from the north, and tells.
+    /// Calls `work(first row, rows)` for the rows that are not yet done, from the north, and
+    /// reports progress.
     template <typename Work>
     void by_bands(ImportStage stage, const Work& work);
 
@@ -66,7 +75,7 @@ private:
                static_cast<std::size_t>(source_.rows());
     }
 
-    /// The field's rows, behind what will be the ground.
+    /// The field's rows, which lie behind what will be the ground.
     std::span<std::int16_t> numbers() {
         std::byte* const start = file_->bytes().data() + plan_.numbers;
         return {reinterpret_cast<std::int16_t*>(start), samples()};
@@ -128,7 +137,6 @@ ImportSummary Import::run() {
     return {shape_, facts_, plan_.file_bytes, note_};
 }
 
-/// Takes up an unfinished file, if there is a fitting one.
 bool Import::goes_on() {
     std::error_code code;
     if (!std::filesystem::exists(part_, code)) {
@@ -240,7 +248,8 @@ void Import::read() {
     }
 }
 
-/// From here on a stop must start anew until all voids are filled: they would not be found again.
+/// Fills the voids. From here until they are filled a stop must start anew, because half-filled
+/// voids would not be found again.
 void Import::fill() {
     if (progress_.voids > 0) {
         tell(ImportStage::Filling, 0.0);
@@ -303,7 +312,7 @@ void Import::finish() {
     progress_.stage = Stage::Complete;
     put_header();
     file_->sync();
-    put_in_place(part_, out_); // while the part is locked
+    put_in_place(part_, out_); // While the part is still locked.
     file_.reset();
     watch_(ImportStage::Writing, 1.0);
 }

@@ -13,16 +13,16 @@ namespace octant::visuals::terrain {
 
 /// What an import is doing, in this order.
 enum class ImportStage {
-    Scanning, ///< looks for the lowest and highest height; left out where all are whole metres
+    Scanning, ///< It looks for the lowest and highest height; left out if all are whole metres.
     Reading,
-    Filling,  ///< voids, where there are any
-    Building, ///< heights, errors, checksums, tile by tile
-    Writing   ///< what the kernel still holds to the disk
+    Filling,  ///< It fills voids, if there are any.
+    Building, ///< It builds heights, errors and checksums, tile by tile.
+    Writing   ///< It brings what the kernel still holds to the disk.
 };
 
-/// Told before a stage begins (0) and as it goes on (to 1). Answers whether what was done so far
-/// shall be brought to the disk now, from where a later import goes on. May throw, which stops the
-/// import.
+/// Called before a stage begins (with 0) and as it goes on (up to 1). Returns whether what was done
+/// so far is to be brought to the disk now, from where a later import can go on. It may throw,
+/// which stops the import.
 using ImportWatch = std::function<bool(ImportStage stage, double done)>;
 
 struct GroundImportOptions {
@@ -30,28 +30,30 @@ struct GroundImportOptions {
     int threads = 2;
 };
 
+/// What was made.
 struct ImportSummary {
     GroundShape shape;
     GroundFacts facts;
-    std::size_t bytes = 0; ///< of the file
-    std::string note;      ///< what became of an earlier, unfinished import; empty without one
+    std::size_t bytes = 0; ///< The size of the file.
+    std::string note;      ///< What became of an earlier, unfinished import; empty without one.
 };
 
-/// Makes one mapped file (ground_file.h) of heights that GDAL reads: one file, or several that form
-/// one ground (models/height_source.h). The same bytes as ground_of for one file without voids.
-/// Voids are filled, rounded to whole metres where the heights are.
+/// Makes one mapped file (ground_file.h) of heights that GDAL reads: from one file, or from several
+/// that form one ground (models/heights/height_source.h). For one file without voids the bytes are
+/// those of ground_of. Voids are filled, rounded to whole metres where the heights are whole
+/// metres.
 ///
-/// Works in OUT.part, which stays when the import is stopped: the next import of the same inputs
-/// (names, sizes, times, options) goes on from what was brought to the disk last, else starts anew;
-/// a stop while voids are filled starts anew, too. OUT.part goes when an input cannot be read. One
-/// import at a time works in it. Heights that are not whole metres are read twice. OUT appears when
-/// all is done and on the disk.
+/// It works in OUT.part, which stays when the import is stopped. The next import of the same inputs
+/// (names, sizes, times, options) goes on from what was last brought to the disk; another one
+/// starts anew, and so does one that was stopped while voids were filled. OUT.part is removed when
+/// an input cannot be read. Only one import at a time works in it. Heights that are not whole
+/// metres are read twice. OUT appears when everything is done and on the disk.
 ///
-/// Memory beside the mapped file, which takes 2 bytes a sample more until it is done: 50 MB, 80
-/// more while voids are filled, GDAL's cache, and what models::HeightSource holds.
+/// Memory beside the mapped file, which takes 2 more bytes a sample until it is done: 50 MB, 80
+/// more while voids are filled, GDAL's cache, and what models::heights::HeightSource holds.
 ///
-/// Throws Error as models::HeightSource and for OUT and OUT.part (no permission, disk full, an
-/// input, in use by another import, a file of another kind in the place of OUT.part).
+/// Throws Error as HeightSource does, and for OUT and OUT.part (no permission, disk full, one of
+/// the inputs, in use by another import, another kind of file in the place of OUT.part).
 ImportSummary import_ground(
     const std::vector<std::filesystem::path>& inputs,
     const std::filesystem::path& out,

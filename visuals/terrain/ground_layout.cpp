@@ -1,3 +1,5 @@
+// Computes the offsets of ground_layout.h. Tiles keep what a mesh looks at together in few pages,
+// so that a mapped file is read in large pieces.
 #include "visuals/terrain/ground_layout.h"
 
 #include <algorithm>
@@ -8,7 +10,7 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-constexpr std::size_t node_bytes = 9; ///< three heights of two bytes, three errors of one
+constexpr std::size_t node_bytes = 9; ///< Three heights of two bytes and three errors of one byte.
 
 std::size_t rounded_up(std::size_t bytes, std::size_t multiple) {
     return (bytes + multiple - 1) / multiple * multiple;

@@ -1,3 +1,4 @@
+// Read-ahead for mapped grounds, by madvise(MADV_WILLNEED).
 #include "visuals/terrain/ground_prefetcher.h"
 
 #include <algorithm>
@@ -50,6 +51,7 @@ void GroundPrefetcher::fetch(glm::dvec2 place_m) {
     }
 }
 
+/// The tiles of a level around a place.
 GroundPrefetcher::Window
 GroundPrefetcher::window_about(const GroundLayout::Level& at, glm::dvec2 place_m) const {
     const double node_m = at.edge * ground_.spacing_m();
@@ -67,6 +69,7 @@ GroundPrefetcher::window_about(const GroundLayout::Level& at, glm::dvec2 place_m
         std::min(at.tiles_up, tile_of(row + reach_nodes, at.tiles_up) + 1)};
 }
 
+/// Asks for the tiles of a window that are not in `known`.
 void GroundPrefetcher::ask_for(
     const GroundLayout::Level& at, const Window& window, const Window& known) const {
     for (int row = window.south; row < window.north; ++row) {
@@ -82,7 +85,7 @@ void GroundPrefetcher::ask_for(
                 ground_.memory().data() + at.first_tile + tile * at.tile_bytes;
             const std::size_t into_page =
                 reinterpret_cast<std::uintptr_t>(begin) % GroundLayout::page_bytes;
-            // Advice: that it was not taken matters to nobody.
+            // The result is ignored, because this is advice only.
             ::madvise(
                 const_cast<std::byte*>(begin - into_page),
                 at.tile_bytes + into_page,

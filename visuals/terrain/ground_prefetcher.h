@@ -12,14 +12,14 @@
 
 namespace octant::visuals::terrain {
 
-/// Asks the kernel, on a thread of its own, for the tiles about a place before they are needed, so
-/// that whoever draws seldom waits for the disk. Changes nothing that can be read.
+/// Asks the kernel, on a thread of its own, for the tiles around a place before they are needed, so
+/// that drawing seldom waits for the disk. It changes nothing that can be read.
 class GroundPrefetcher {
 public:
-    /// On every level: how many nodes away from the place tiles are asked for.
+    /// On every level tiles are asked for up to this many nodes away from the place.
     static constexpr int reach_nodes = 64;
 
-    /// The ground outlives it.
+    /// The ground must outlive the prefetcher.
     explicit GroundPrefetcher(const GroundTiles& ground);
     ~GroundPrefetcher();
     GroundPrefetcher(const GroundPrefetcher&) = delete;
@@ -27,13 +27,13 @@ public:
     GroundPrefetcher(GroundPrefetcher&&) = delete;
     GroundPrefetcher& operator=(GroundPrefetcher&&) = delete;
 
-    /// Where tiles are wanted next, world axes, in the field or not. Returns at once; an earlier
-    /// place that was not yet seen to is forgotten. Tiles that were asked for at the place before
-    /// are not asked for again.
+    /// Tells where tiles are wanted next, in world axes, within the field or not. Returns at once;
+    /// an earlier place that was not dealt with yet is forgotten. Tiles that were asked for at the
+    /// last place are not asked for again.
     void go_to(glm::dvec2 place_m);
 
 private:
-    /// Tiles of a level, last ones excluded.
+    /// A rectangle of tiles of a level; east and north are one past the last.
     struct Window {
         int west = 0;
         int east = 0;
@@ -47,7 +47,7 @@ private:
     void ask_for(const GroundLayout::Level& at, const Window& window, const Window& known) const;
 
     const GroundTiles& ground_;
-    std::vector<Window> asked_; ///< by level
+    std::vector<Window> asked_; ///< For each level what was asked for last.
     std::mutex mutex_;
     std::condition_variable_any wake_;
     std::optional<glm::dvec2> wanted_m_;

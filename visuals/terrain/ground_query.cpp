@@ -1,8 +1,8 @@
-// Lines against the full-resolution ground.
+// Lines against the full-resolution ground: line of sight and height above terrain.
 //
-// Method: the line is cut at the grid's lines. Over one cell both the bilinear ground and the
-// earth's curvature along it are quadratic in the way gone, so that the line's height above them is
-// too: least value and first zero are exact.
+// The line is cut at the grid's lines. Over one cell both the bilinear ground and the earth's
+// curvature along the line are quadratic in the distance travelled, and so is the line's height
+// above them: its minimum and its first zero are exact.
 #include "visuals/terrain/ground_query.h"
 
 #include "models/heights/bilinear.h"
@@ -18,10 +18,10 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-/// A line that is this far below the ground is below it.
+/// A line that is at least this far below the ground is below it.
 constexpr double touch_m = 1e-6;
 
-/// Cell and place in it of a place within the grid.
+/// A cell of the grid and a position in it, 0 to 1.
 struct CellPlace {
     int column;
     int row;
@@ -35,12 +35,13 @@ CellPlace cell_at(const GroundSamples& ground, const glm::dvec2& grid) {
     return {column, row, grid.x - column, grid.y - row};
 }
 
-/// Part of a line, in shares of it.
+/// A part of a line, in shares of its length.
 struct Part {
     double first = 0.0;
     double last = 1.0;
 };
 
+/// Cuts a part to where one coordinate lies between two bounds.
 void cut(Part& part, double start, double way, double least, double most) {
     if (way == 0.0) {
         if (start < least || start > most) {
@@ -54,7 +55,8 @@ void cut(Part& part, double start, double way, double least, double most) {
     part.last = std::min(part.last, std::max(a, b));
 }
 
-/// A line's height above the ground over one cell: constant + linear t + square t^2, t from 0.
+/// The height of a line above the ground over one cell: constant + linear t + square t^2, with t
+/// from 0.
 struct Gap {
     double constant;
     double linear;
@@ -62,14 +64,14 @@ struct Gap {
 
     double at(double t) const { return constant + t * (linear + t * square); }
 
-    /// Where it is least in 0 ... `last`.
+    /// The t in 0 to `last` at which the gap is least.
     double lowest(double last) const {
         const double turn = square > 0.0 ? std::clamp(-linear / (2.0 * square), 0.0, last) : 0.0;
         const double ends = at(last) < at(0.0) ? last : 0.0;
         return at(turn) < at(ends) ? turn : ends;
     }
 
-    /// The first zero in 0 ... `last`, of a gap that goes below zero there.
+    /// The first zero in 0 to `last` of a gap that goes below zero there.
     double first_zero(double last) const {
         if (constant <= 0.0) {
             return 0.0;
@@ -80,15 +82,16 @@ struct Gap {
     }
 };
 
-/// A line in grid and height, lowered as seen from its start.
+/// A line in grid coordinates and height, with the curvature as seen from its start.
 struct Line {
     glm::dvec2 start;
     glm::dvec2 way;
     double start_m;
     double climb_m;
-    double drop_m; ///< at its end
+    double drop_m; ///< At its end.
 };
 
+/// The gap over a cell, from the point at `share` of the line on.
 Gap gap_over(const GroundSamples& ground, const Line& line, const CellPlace& cell, double share) {
     const double south_west_m = ground.height_m(cell.column, cell.row);
     const double east_m = ground.height_m(cell.column + 1, cell.row) - south_west_m;
@@ -106,8 +109,8 @@ Gap gap_over(const GroundSamples& ground, const Line& line, const CellPlace& cel
         line.drop_m - line.way.x * line.way.y * twist_m};
 }
 
-/// Calls visit(gap, share, length) for the cells below a part of the line, in order, until it says
-/// true.
+/// Calls visit(gap, share, length) for the cells below a part of the line, in order, until it
+/// returns true.
 template <class Visit>
 void walk(const GroundSamples& ground, const Line& line, const Part& part, const Visit& visit) {
     double share = part.first;
@@ -142,6 +145,7 @@ Part over_ground(const GroundSamples& ground, const Line& line) {
     return part;
 }
 
+/// The point of the ground below a point of a line.
 glm::dvec3 ground_point(
     const GroundSamples& ground, const glm::dvec3& from_m, const glm::dvec3& to_m, double share) {
     const glm::dvec3 at_m = from_m + (to_m - from_m) * share;
@@ -151,7 +155,7 @@ glm::dvec3 ground_point(
     return {x_m, y_m, ground_height_m(ground, x_m, y_m).value_or(0.0)};
 }
 
-/// The line from `from_m` to `to_m`, of which the latter is lowered already.
+/// The line from `from_m` to `to_m`, where `to_m` is lowered by curvature already.
 Line line_between(
     const GroundSamples& ground,
     const glm::dvec3& from_m,
@@ -212,7 +216,7 @@ std::optional<glm::dvec3> first_ground(
     const glm::dvec3 to_m = from_m + direction * reach_m;
     const Line line = line_between(ground, from_m, to_m, radius_m);
     Part part = over_ground(ground, line);
-    // Lowered ground is nowhere above its highest sample.
+    // Above the highest sample there is nothing to meet, because curvature only lowers the ground.
     cut(part,
         line.start_m,
         line.climb_m,

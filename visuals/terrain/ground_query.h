@@ -8,31 +8,33 @@
 
 namespace octant::visuals::terrain {
 
-// Questions to the full-resolution ground. Its surface is bilinear between four samples, and lines
-// are compared with it exactly, cell by cell. The earth's curvature lowers everything at a level
-// distance d from the eye by d^2 / (2 R); R = 0 is a flat earth.
+// Queries against the full-resolution ground. Its surface is bilinear between four samples, and
+// lines are intersected with it exactly, cell by cell. The earth's curvature lowers everything at a
+// horizontal distance d from the eye by d^2 / (2 R); R = 0 is a flat earth.
 
 inline constexpr double earth_radius_m = 6371000.0;
 
-/// Height of the ground; nothing outside the field.
+/// The height of the ground; nothing outside the field.
 std::optional<double> ground_height_m(const GroundSamples& ground, double x_m, double y_m);
 
 /// What lies between two points.
 struct SightLine {
-    bool visible = true; ///< the line is nowhere more than a micrometre below the ground
-    std::optional<glm::dvec3> hidden_at_m; ///< first point of the ground that hides, world axes
-    double clearance_m = 0.0; ///< height of the line above the ground where it is least; infinite
-                              ///< where there is no ground below it
-    glm::dvec3 lowest_at_m{0.0}; ///< the ground there
+    bool visible = true; ///< The line is nowhere more than a micrometre below the ground.
+    /// The first point of the ground that hides, in world axes.
+    std::optional<glm::dvec3> hidden_at_m;
+    /// The height of the line above the ground where that is least; infinite where there is no
+    /// ground below the line.
+    double clearance_m = 0.0;
+    glm::dvec3 lowest_at_m{0.0}; ///< The point of the ground at which the clearance is least.
 };
 
 /// Whether `to_m` is seen from `from_m`, both in world axes.
 SightLine sight_between(
     const GroundSamples& ground, const glm::dvec3& from_m, const glm::dvec3& to_m, double radius_m);
 
-/// The first point at which a ray meets the ground; nothing where it does not up to `reach_m`. The
-/// direction is a unit vector. The ray is straight and the ground is lowered: where they meet,
-/// world height is what comes back.
+/// The first point at which a ray meets the ground; nothing if it does not within `reach_m`. The
+/// direction is a unit vector. The ray is straight and the ground is lowered by curvature; what is
+/// returned is the ground point at its own height.
 std::optional<glm::dvec3> first_ground(
     const GroundSamples& ground,
     const glm::dvec3& from_m,

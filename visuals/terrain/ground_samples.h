@@ -8,7 +8,7 @@
 
 namespace octant::visuals::terrain {
 
-/// The samples of a ground, whoever stores them: what measures and queries look at. Refers to the
+/// The samples of a ground, whoever stores them; used by measurements and queries. It refers to the
 /// ground, which must outlive it. World axes as in HeightField.
 class GroundSamples {
 public:
@@ -32,15 +32,15 @@ public:
     /// Half the extent of the field from its centre, east and north, metres.
     glm::dvec2 half_extent_m() const { return half_extent_m_; }
 
-    /// No sample is higher.
+    /// The height of the highest sample, or more.
     double highest_m() const { return highest_m_; }
 
-    /// Height of a sample. Column and row are within the grid.
+    /// The height of a sample. Column and row must be within the grid.
     double height_m(int column, int row) const {
         return static_cast<double>(height_(ground_, column, row));
     }
 
-    /// World position of a sample.
+    /// The world position of a sample.
     glm::dvec3 sample_m(int column, int row) const {
         return {
             column * spacing_m_ - half_extent_m_.x,
@@ -48,7 +48,7 @@ public:
             height_m(column, row)};
     }
 
-    /// A place in samples east and north of the first; whole numbers at samples.
+    /// A position in samples east and north of the first sample; whole numbers at samples.
     glm::dvec2 grid_from_world(double x_m, double y_m) const {
         return (glm::dvec2(x_m, y_m) + half_extent_m_) / spacing_m_;
     }

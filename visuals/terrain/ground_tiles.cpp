@@ -1,3 +1,5 @@
+// Access to a ground's numbers by node and by sample, and the table of error codes: 255 values in a
+// geometric series, so that one byte covers centimetres to kilometres at a constant relative error.
 #include "visuals/terrain/ground_tiles.h"
 
 #include "models/heights/bilinear.h"
@@ -27,7 +29,7 @@ GroundTiles::GroundTiles(
 const std::array<float, 256>& GroundTiles::error_metres() {
     static const std::array<float, 256> table = [] {
         constexpr double smallest_m = 0.01;
-        constexpr double ratio = 1.0567; ///< 254 steps to 12,100 m
+        constexpr double ratio = 1.0567; ///< The 254 steps reach 12,100 m.
         std::array<float, 256> metres{};
         double error_m = smallest_m;
         for (std::size_t code = 1; code < metres.size(); ++code) {

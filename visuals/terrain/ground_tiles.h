@@ -20,30 +20,30 @@ namespace octant::visuals::terrain {
 /// What is known of a ground besides its numbers.
 struct GroundFacts {
     std::string name;
-    std::optional<models::heights::GeoPlace> place;   ///< nothing for made ground
-    std::optional<models::heights::MapSystem> system; ///< as HeightField::system
-    std::int64_t filled_voids = 0;                    ///< samples without data that were filled in
+    std::optional<models::heights::GeoPlace> place;   ///< Nothing for made ground.
+    std::optional<models::heights::MapSystem> system; ///< As HeightField::system.
+    std::int64_t filled_voids = 0;                    ///< Samples without data that were filled.
     float lowest_m = 0.0F;
     float highest_m = 0.0F;
     float mean_m = 0.0F;
 };
 
-/// Heights of a ground and, for each sample that a mesh may leave out, the error of doing so: the
-/// one thing that meshes by screen-space error are made from. Reads GroundLayout memory, which may
-/// be a mapped file. World axes as in HeightField: x east, y north, z up, metres, origin at the
-/// field's centre at datum; column 0 west, row 0 south.
+/// The heights of a ground and, for each sample that a mesh may leave out, the error of leaving it
+/// out: all that meshes by screen-space error are made from. It reads GroundLayout memory, which
+/// may be a mapped file. World axes as in HeightField: x east, y north, z up, metres, with the
+/// origin at the field's centre at datum; column 0 is west and row 0 south.
 ///
-/// The error of a sample is for the longest-edge bisection of the field. A sample halves the
-/// longest edge of two triangles (one at the border). Its own error is how far the field's samples
-/// lie above or below those two triangles, at most; stored is the largest of its own and those of
-/// all samples that need it, so that errors never grow from a sample to one that needs it. A sample
-/// needs: the middle of an edge, the centres of both nodes beside the edge; the centre of a node,
-/// the middles of the two edges through its parent's other samples: those two of its corners that
-/// are neither its parent's centre nor its parent's corner.
+/// The error of a sample belongs to the longest-edge bisection of the field. A sample halves the
+/// longest edge of two triangles (of one at the border). Its own error is the largest vertical
+/// distance of the field's samples from those two triangles. Stored is the largest of its own error
+/// and those of all samples that need it (the saturated error), so that errors never grow from a
+/// sample to one that it needs. The middle of an edge needs the centres of both nodes beside the
+/// edge. The centre of a node needs the middles of two edges of its parent: those two of its
+/// corners that are neither its parent's centre nor its parent's corner.
 class GroundTiles {
 public:
-    /// `memory`: laid out as GroundLayout(shape.columns, shape.rows) says, its size asserted, kept
-    /// alive by `owner`.
+    /// `memory` is laid out as GroundLayout(shape.columns, shape.rows) says (its size is asserted)
+    /// and kept alive by `owner`.
     GroundTiles(
         const GroundShape& shape,
         GroundFacts facts,
@@ -66,50 +66,51 @@ public:
 
     double spacing_m() const { return shape_.spacing_m; }
 
-    /// Height of the root's corners: south-west, south-east, north-west, north-east.
+    /// The height of one of the root's corners: south-west, south-east, north-west, north-east.
     float corner_m(unsigned corner) const {
         return height_of(heights_at(layout_.corners())[corner]);
     }
 
-    /// Height of a sample by its node. South also of row rows(level), West also of column
-    /// columns(level) (each beyond the last node).
+    /// The height of a sample by its node. South may be asked also for row rows(level), and West
+    /// also for column columns(level), each one beyond the last node.
     float height_m(int level, NodePart part, int column, int row) const {
         return height_of(*stored_height(layout_.level(level), part, column, row));
     }
 
-    /// Number of the error of a sample by its node, as height_m; error_of makes it metres. 0 only
-    /// where the error is 0.
+    /// The code of a sample's error by its node, as for height_m; error_m_of makes it metres. It is
+    /// 0 only where the error is 0.
     std::uint8_t error_code(int level, NodePart part, int column, int row) const {
         return *stored_error(layout_.level(level), part, column, row);
     }
 
-    /// Metres of an error's number, at or above every error so numbered, at most 6 % above (up to
-    /// 12 km). Ascending.
+    /// The metres of an error code: at or above every error that has this code, and at most 6 %
+    /// above (up to 12 km). Ascending.
     static float error_m_of(std::uint8_t code) { return error_metres()[code]; }
 
-    /// Smallest code whose metres are at or above; 255 for errors beyond all.
+    /// The smallest code whose metres are at or above an error; 255 for errors beyond all.
     static std::uint8_t error_code_of(float error_m);
 
-    /// Heights between which all samples of a node lie, for levels up to
-    /// layout().range_level(): nodes below have none of their own.
+    /// A lower bound of all samples of a node, for levels up to layout().range_level(); finer nodes
+    /// have no bounds of their own.
     float lowest_m(int level, int column, int row) const {
         return height_of(range(level, column, row).lowest);
     }
 
+    /// The upper bound, for the same levels.
     float highest_m(int level, int column, int row) const {
         return height_of(range(level, column, row).highest);
     }
 
-    /// Height of any sample (asserted to be one).
+    /// The height of any sample (asserted to be one).
     float height_m(int column, int row) const;
 
-    /// World position of a sample.
+    /// The world position of a sample.
     glm::dvec3 sample_m(int column, int row) const;
 
     /// Half the extent of the field from its centre, east and north, metres.
     glm::dvec2 half_extent_m() const;
 
-    /// Height of the ground between samples (bilinear); nothing outside the field.
+    /// The height of the ground between samples (bilinear); nothing outside the field.
     std::optional<double> height_at(double x_m, double y_m) const;
 
 private:
@@ -130,7 +131,7 @@ private:
              static_cast<std::size_t>(column)];
     }
 
-    /// Offset of a node's tile and place of the node in it.
+    /// The offset of a node's tile, and the place of the node in it.
     struct TilePlace {
         std::size_t tile;
         std::size_t node;

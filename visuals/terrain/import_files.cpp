@@ -1,3 +1,5 @@
+// The files around an import: nothing of the user's is overwritten, and a finished file appears
+// under its name in one step.
 #include "visuals/terrain/import_files.h"
 
 #include "sim/base/error.h"

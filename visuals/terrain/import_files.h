@@ -8,22 +8,23 @@
 
 namespace octant::visuals::terrain {
 
-/// Tells the inputs (names, sizes, times) and options of one import from those of another.
+/// A hash of the inputs (names, sizes, times) and options of an import, which tells one import from
+/// another.
 std::uint64_t hash_of_inputs(
     const std::vector<std::filesystem::path>& inputs,
     const models::heights::ImportOptions& options);
 
-/// Throws Error when writing `out` and, on the way, `part` would harm an input or what is no
-/// regular file.
+/// Throws Error when writing `out`, and `part` on the way, would overwrite an input or something
+/// that is no regular file.
 void check_out(
     const std::vector<std::filesystem::path>& inputs,
     const std::filesystem::path& out,
     const std::filesystem::path& part);
 
-/// Throws Error when a file in the place of `part` is neither empty nor begins as grounds do.
+/// Throws Error when there is a file at `part` that is neither empty nor begins as ground files do.
 void check_unfinished(const std::filesystem::path& part);
 
-/// Gives the part the name `out`, on the disk when it returns. Throws Error.
+/// Renames the part to `out`; the new name is on the disk when it returns. Throws Error.
 void put_in_place(const std::filesystem::path& part, const std::filesystem::path& out);
 
 } // namespace octant::visuals::terrain

@@ -8,13 +8,14 @@
 
 namespace octant::visuals::terrain {
 
-/// Lets the progress know the lowest and highest of some rows.
+/// Updates the lowest and highest height in `progress` by some rows.
 void scan_rows(
     models::heights::HeightSource& source, int first_row, int count, GroundProgress& progress);
 
-/// The numbers to keep of the rows that fill the span, void_number without data: whole metres
-/// where the source has them, whose lowest and highest the progress is told; else by shape_of the
-/// scanned ones. Counts voids. Throws Error as the source.
+/// Reads the rows that fill the span as the numbers to keep, void_number for samples without data.
+/// If the source has whole metres, these are kept, and lowest and highest in `progress` are
+/// updated; otherwise the numbers are those of shape_of the scanned heights. Counts voids. Throws
+/// Error as the source does.
 void read_rows(
     models::heights::HeightSource& source,
     int first_row,

@@ -8,12 +8,13 @@
 
 namespace octant::visuals::terrain {
 
-/// The numbers of a level of GroundTiles by node, quickly: those of a node's fan lie together.
+/// Fast access to the numbers of a level of GroundTiles by node. The numbers of a node's fan lie
+/// close together.
 class LevelMemory {
 public:
     using FourCodes = std::array<std::uint8_t, 4>;
 
-    /// Where a node's numbers lie.
+    /// Where a node's numbers lie: its tile, and its place in it.
     struct Spot {
         const std::byte* tile;
         std::size_t node;
@@ -40,7 +41,7 @@ public:
             static_cast<std::size_t>(((row & mask_) << at_.tile_shift) + (column & mask_))};
     }
 
-    /// Numbers of the errors of the mid-points of a node's fan_edges.
+    /// The error codes of the mid-points of a node's fan_edges.
     FourCodes middle_codes(int column, int row) const {
         const Spot own = spot(column, row);
         return {
@@ -52,20 +53,20 @@ public:
             *error(own, NodePart::West)};
     }
 
-    /// Those of the centres of the four children of one node of the level above, the first at
-    /// (column, row); any for children that do not exist.
+    /// The error codes of the centres of the four children of one node of the level above, the
+    /// first of which is at (column, row); meaningless for children that do not exist.
     FourCodes child_codes(int column, int row) const {
         const std::uint8_t* first = error(spot(column, row), NodePart::Centre);
         const std::uint8_t* above = first + (std::ptrdiff_t{1} << at_.tile_shift);
         return {first[0], first[1], above[0], above[1]};
     }
 
-    /// Stored height of the root's corner in a quadrant.
+    /// The stored height of the root's corner in a quadrant.
     std::int16_t corner_height(std::size_t quadrant) const { return heights(corners_)[quadrant]; }
 
     std::int16_t centre_height(const Spot& own) const { return *height(own, NodePart::Centre); }
 
-    /// Stored height of the mid-point of one of fan_edges of a node.
+    /// The stored height of the mid-point of one of a node's fan_edges.
     std::int16_t middle_height(const Spot& own, int column, int row, std::size_t edge) const {
         switch (edge) {
         case 0:

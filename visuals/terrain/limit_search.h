@@ -8,28 +8,30 @@
 
 namespace octant::visuals::terrain {
 
-/// Where the number of triangles N of a mesh is looked at, over the limit that decides what is in
-/// it.
+/// A search for the limit at which a mesh has a given number of triangles N.
 struct LimitSearch {
-    int triangles = 0;  ///< budget
-    float least = 0.0F; ///< limits that are allowed, above zero
+    int triangles = 0;  ///< The budget.
+    float least = 0.0F; ///< The least allowed limit, above zero.
     float most = 0.0F;
-    float last = 0.0F;  ///< limit found for the frame before; 0 = none
-    float first = 0.0F; ///< how far to look without it
+    float last = 0.0F;  ///< The limit found for the frame before; 0 = none.
+    float first = 0.0F; ///< How far to look when there is none.
 };
 
-/// The largest limit up to which no mesh has more triangles than the budget; the least where even
-/// that has more. The last frame's only makes the way short: the answer does not depend on it.
+/// The largest limit up to which no mesh has more triangles than the budget; the least allowed one
+/// if even that has more. The last frame's limit only makes the search short; the answer does not
+/// depend on it.
 ///
-/// `walk(low, high, most_triangles)` starts `steps` with (low, high) and adds all steps of N below
-/// high; it may stop at more than `most_triangles`. True: there are steps above.
+/// `walk(low, high, most_triangles)` must start `steps` with (low, high) and add all steps of N
+/// below high; it may stop once there are more than `most_triangles`. It returns whether there are
+/// steps above.
 template <typename Walk>
 float limit_within(const LimitSearch& search, StepCount& steps, const Walk& walk) {
-    // How far a walk looks, as factors of the limit. They decide about time only.
-    constexpr float look_below = 0.7F;    // from the last frame's: steps are told apart from here
-    constexpr float look_above = 1.08F;   // from the last frame's: down to here
-    constexpr float step_back = 0.1F;     // after far too many triangles
-    constexpr float least_growth = 1.25F; // after too few
+    // How far a walk looks, as factors of the limit. They influence the time only.
+    // Below the last limit: single steps are known from here on.
+    constexpr float look_below = 0.7F;
+    constexpr float look_above = 1.08F;   // Above the last limit: the walk ends here.
+    constexpr float step_back = 0.1F;     // After far too many triangles.
+    constexpr float least_growth = 1.25F; // After too few triangles.
     constexpr float most_growth = 8.0F;
 
     const float least = search.least;

@@ -4,9 +4,9 @@
 
 namespace octant::visuals::terrain {
 
-/// N'(C), triangles per unit of C, around `detail.resolution`: the difference of two meshes 4 % of
-/// C apart, so that single steps of N(C) do not matter. Divided by a of equation (4) it is the loop
-/// gain g.
+/// N'(C), in triangles for a unit of C, around `detail.resolution`: the difference of two meshes 4
+/// % of C apart, so that single steps of N(C) do not matter. Divided by a of equation (4) it is the
+/// loop gain g.
 double triangles_gained(Mesher& mesher, const MeshView& view, const Detail& detail);
 
 } // namespace octant::visuals::terrain

@@ -1,3 +1,4 @@
+// Memory-mapped files on POSIX systems, with locks against a second import into the same file.
 #include "visuals/terrain/mapped_file.h"
 
 #include "sim/base/error.h"
@@ -20,7 +21,7 @@ namespace {
     error_in(path, fmt::format("cannot be {}: {}", what, std::strerror(errno)));
 }
 
-/// Holds a descriptor until all went well.
+/// Closes a descriptor unless it is released, so that nothing leaks when a constructor throws.
 class Opened {
 public:
     explicit Opened(int descriptor)
@@ -54,7 +55,8 @@ std::size_t size_of_regular(const std::filesystem::path& path, int descriptor) {
     return static_cast<std::size_t>(status.st_size);
 }
 
-/// Also refuses a file that was renamed by the import that held the lock until now.
+/// Locks a file against other writers. Also refuses a file that the import which held the lock
+/// until now has renamed.
 void lock(const std::filesystem::path& path, int descriptor) {
     const bool is_held =
         ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || errno == EINTR);
@@ -70,7 +72,7 @@ void lock(const std::filesystem::path& path, int descriptor) {
     }
 }
 
-/// Sets the length of an empty file. Returns 0 or the error number.
+/// Allocates the space of an empty file. Returns 0 or the error number.
 int take_room(int descriptor, off_t length) {
     while (::fallocate(descriptor, 0, 0, length) != 0) {
         if (errno == EOPNOTSUPP) {

@@ -1,3 +1,5 @@
+// Point location in a mesh of very different triangles: a hashed hierarchical grid, in which every
+// triangle is entered at the level of its own size.
 #include "visuals/terrain/mesh_surface.h"
 
 #include <glm/common.hpp>
@@ -15,8 +17,8 @@ namespace {
 constexpr double smallest_cell_m = 1.0;
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
-/// A place this far beyond an edge still belongs to the triangle, as a share of its size: more
-/// than floats far from the eye are wrong by.
+/// A position this far beyond an edge, as a share of the triangle's size, still belongs to the
+/// triangle. That is more than the rounding of floats far from the eye.
 constexpr double edge_share = 1e-6;
 
 double twice_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {

@@ -12,33 +12,33 @@
 
 namespace octant::visuals::terrain {
 
-/// The surface that a mesh draws, asked by place in plan. Keeps its memory from one mesh to the
-/// next; the mesh itself is not needed after take().
+/// The surface that a mesh draws, to be asked by position in plan. Its memory is reused from mesh
+/// to mesh; the mesh itself is not needed after take().
 class MeshSurface {
 public:
-    /// `eye_m`: what the mesh is relative to.
+    /// Takes a mesh whose positions are relative to `eye_m`.
     void take(const GroundMesh& mesh, const glm::dvec3& eye_m);
 
-    /// Number of the triangle above or below a place; one of them at an edge; nothing where there
-    /// is no mesh.
+    /// The number of the triangle above or below a position, one of them at an edge; nothing where
+    /// there is no mesh.
     std::optional<std::uint32_t> triangle_at(double x_m, double y_m) const;
 
-    /// World height of the surface; nothing where there is no mesh.
+    /// The world height of the surface; nothing where there is no mesh.
     std::optional<double> height_at(double x_m, double y_m) const;
 
-    /// The first place where the way between two world positions meets the mesh, as a share of it;
-    /// nothing where it does not.
+    /// The first point at which the way between two world positions meets the mesh, as a share of
+    /// that way; nothing if it does not.
     std::optional<double> first_hit(const glm::dvec3& from_m, const glm::dvec3& to_m) const;
 
 private:
-    /// Cells of a size that halves from level to level; a triangle is in those of the smallest that
-    /// are as large as itself: four at most.
+    /// A triangle in a cell. The size of cells halves from level to level; a triangle is entered
+    /// into the cells of the smallest size that is as large as the triangle: four at most.
     struct Entry {
         std::uint32_t level = 0;
         std::int32_t column = 0;
         std::int32_t row = 0;
         std::uint32_t triangle = 0;
-        std::uint32_t next = 0; ///< entry of the same slot; none = end
+        std::uint32_t next = 0; ///< The next entry of the same hash slot; none = end.
     };
 
     static constexpr int levels = 32;
@@ -55,10 +55,10 @@ private:
     bool covers(std::uint32_t triangle, const glm::dvec2& place_m) const;
 
     glm::dvec3 eye_m_{0.0};
-    std::uint32_t levels_used_ = 0;      ///< bits
-    std::vector<glm::dvec3> vertices_m_; ///< relative to the eye
+    std::uint32_t levels_used_ = 0;      ///< A bit mask of levels.
+    std::vector<glm::dvec3> vertices_m_; ///< Relative to the eye.
     std::vector<std::uint32_t> indices_;
-    std::vector<std::uint32_t> slots_; ///< first entry
+    std::vector<std::uint32_t> slots_; ///< For each hash slot its first entry.
     std::vector<Entry> entries_;
 };
 

@@ -1,13 +1,18 @@
-// Triangle fans of a restricted quadtree.
+// Triangle fans of a restricted quadtree: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method
+// that Minimize Flickering Effect", equations (1) and (3) and steps 3 and 4 of section 2; fans
+// after S. Roettger, W. Heidrich, P. Slusallek, H.-P. Seidel, "Real-Time Generation of Continuous
+// Levels of Detail for Height Fields".
 //
-// Source: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize Flickering Effect",
-// equations (1) and (3) and steps 3 and 4 of section 2; fans after S. Roettger, W. Heidrich, P.
-// Slusallek, H.-P. Seidel, "Real-Time Generation of Continuous Levels of Detail for Height Fields".
+// Step 3 walks down the tree from the root and collects the nodes that are split (visit, add); step
+// 4 emits a full or partial fan for each of them (emit). A fan leaves out the mid-points of edges
+// beyond which the neighbour is coarser, so that there are no cracks.
+//
 // Deviations:
-// - Triangles come in painting order: see paint_order.cpp. The paper draws with a depth buffer.
-// - An edge keeps its mid-point where this node has a child beside it; else where the node beyond
-//   the edge is in the mesh or would be but for the frustum; and always at the field's border.
-// - See split_rule.cpp for those of equation (3).
+// - Triangles come in painting order (paint_order.cpp). The paper draws with a depth buffer.
+// - An edge keeps its mid-point where this node has a child beside it; otherwise where the node
+//   beyond the edge is in the mesh, or would be but for the frustum; and always at the field's
+//   border.
+// - Those of equation (3) are stated in split_rule.cpp.
 #include "visuals/terrain/mesher.h"
 
 #include "visuals/terrain/frustum.h"
@@ -76,6 +81,7 @@ Mesher::mesh_within(const MeshView& view, const Detail& detail, const TriangleBu
     return finished(rule_.resolution_of(limit_));
 }
 
+/// Prepares for a new mesh.
 void Mesher::start(const MeshView& view) {
     fans_.clear();
     places_.clear();
@@ -84,7 +90,7 @@ void Mesher::start(const MeshView& view) {
     eye_ = glm::dvec2(-rule_.west_m(), -rule_.south_m()) / tree_->field().spacing_m();
 }
 
-/// Puts a node that is in the mesh into fans_, after its parent.
+/// Adds a node that is in the mesh to fans_, after its parent. Returns its index.
 std::size_t Mesher::add(const GroundFan& fan, unsigned middles) {
     const std::size_t own = fans_.size();
     newest_[fan.level] = static_cast<std::uint32_t>(own);
@@ -97,7 +103,7 @@ std::size_t Mesher::add(const GroundFan& fan, unsigned middles) {
     return own;
 }
 
-/// The mesh of fans_.
+/// Makes the mesh of fans_.
 GroundMesh Mesher::finished(double resolution) {
     make_room();
     emit(0);
@@ -112,7 +118,7 @@ GroundMesh Mesher::finished(double resolution) {
         {}};
 }
 
-/// Whether a node is in the unculled mesh.
+/// Whether a node is in the unculled mesh: it and all of its ancestors are switched on.
 bool Mesher::is_split(int level, int column, int row) const {
     for (; level > 0; --level) {
         if (!wants_split(level, column, row)) {
@@ -124,8 +130,8 @@ bool Mesher::is_split(int level, int column, int row) const {
     return true;
 }
 
-/// Puts a node and all that is split below it into fans_. `planes`: those that the node's box may
-/// reach beyond.
+/// Adds a node and all nodes that are split below it to fans_. `planes` are the frustum planes that
+/// the node's box may reach beyond.
 void Mesher::visit(GroundFan fan, unsigned planes) {
     fan.at_frustum = planes != 0;
     in_mesh_[fan.node] = 1;
@@ -168,7 +174,8 @@ void Mesher::visit(GroundFan fan, unsigned planes) {
     }
 }
 
-/// Room for nine vertices and eight triangles a fan, and stamps for all of them.
+/// Makes room for nine vertices and eight triangles for each fan, and for the stamps of all of
+/// them.
 void Mesher::make_room() {
     const std::size_t fans = fans_.size();
     const std::size_t most_vertices = std::min(9 * fans, vertex_of_sample_.size());
@@ -186,7 +193,7 @@ void Mesher::make_room() {
     }
 }
 
-/// Whether the node beyond one edge is in the mesh, or the field ends there.
+/// Whether the node beyond an edge is in the mesh, or the field ends there.
 bool Mesher::has_neighbour(const GroundFan& fan, int east, int north) const {
     const SplitRule::Level& at = rule_.level(fan.level);
     const int column = fan.column + east;
@@ -201,7 +208,7 @@ bool Mesher::has_neighbour(const GroundFan& fan, int east, int north) const {
     return fan.at_frustum && is_split(fan.level, column, row);
 }
 
-/// Bit k: edge k of fan_edges has a mid-point.
+/// The set of edges that have a mid-point, as bits by fan_edges.
 unsigned Mesher::middles_of(const GroundFan& fan) const {
     unsigned middles = 0;
     for (unsigned k = 0; k < 4; ++k) {
@@ -214,7 +221,7 @@ unsigned Mesher::middles_of(const GroundFan& fan) const {
     return middles;
 }
 
-/// Puts a node's triangles and those of all below it into the mesh.
+/// Puts a node's triangles, and those of all nodes below it, into the mesh.
 void Mesher::emit(std::uint32_t own) {
     const GroundFan& fan = fans_[own];
     FanPlace& place = places_[own];
@@ -250,6 +257,7 @@ void Mesher::emit(std::uint32_t own) {
     place.triangles.end = static_cast<std::uint32_t>(index_count_ / 3);
 }
 
+/// Puts one part of a fan into the mesh: a triangle, or the fan of a child.
 inline void Mesher::emit_part(EmittedFan& fan, unsigned part) {
     if (part >= first_child_part) {
         emit(fan.child[part - first_child_part]);
@@ -272,7 +280,8 @@ std::ptrdiff_t Mesher::index_of(Sample at) const {
     return static_cast<std::ptrdiff_t>(at.row) * tree_->field().columns() + at.column;
 }
 
-/// The vertex of a sample by its index; `at`: gives its place.
+/// The vertex of a sample, given by its index; `at` returns its column and row and is called for a
+/// new vertex only.
 template <typename At>
 std::uint32_t Mesher::vertex_at(std::ptrdiff_t sample, const At& at) {
     std::uint32_t& stamp = vertex_of_sample_[static_cast<std::size_t>(sample)];

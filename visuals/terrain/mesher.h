@@ -19,54 +19,59 @@
 
 namespace octant::visuals::terrain {
 
-/// Makes the mesh of a quadtree for an eye point, frame after frame in the same memory, its
-/// triangles in the view's painting order. The order is exact up to the rounding of the eye's place
-/// in samples, wherever the eye is.
+/// Makes the mesh of a quadtree for an eye point, frame after frame in the same memory, with the
+/// triangles in the view's painting order. The order is exact up to the rounding of the eye's
+/// position in samples, wherever the eye is.
 ///
-/// With crack-free propagation the triangles neither gap nor overlap nor touch an edge between its
-/// ends, and those of a narrower frustum are triangles of the unculled mesh: every one that
-/// reaches into the frustum is there.
+/// With crack-free propagation the mesh is conforming: triangles neither gap nor overlap nor touch
+/// an edge between its ends. The triangles for a narrower frustum are triangles of the unculled
+/// mesh, and every one of those that reaches into the frustum is there.
 class Mesher {
 public:
-    /// `colours`: one per sample as in ColourVertex, row after row from the south (size asserted).
-    /// Tree and colours must outlive the mesher.
+    /// `colours` has one colour for each sample, as in ColourVertex, row after row from the south
+    /// (its size is asserted). Tree and colours must outlive the mesher.
     Mesher(const Quadtree& tree, std::span<const std::uint32_t> colours);
 
-    /// `detail.roughness_weight` is at least 0 and below 1e6 (asserted).
+    /// The mesh at a given C. `detail.roughness_weight` must be at least 0 and below 1e6
+    /// (asserted).
     GroundMesh mesh(const MeshView& view, const Detail& detail);
 
     /// The mesh at the largest C up to which none has more triangles than the budget, whatever was
-    /// meshed before; `detail.resolution` is not looked at. It has as many as the steps of N(C)
-    /// allow, fewer where C ends at `budget.max_resolution`, and more only where those at the
-    /// tree's smallest C already are. mesh() at the C returned makes the same triangles.
+    /// meshed before; `detail.resolution` is not used. It has as many triangles as the steps of
+    /// N(C) allow: fewer where C ends at `budget.max_resolution`, and more only if even the tree's
+    /// smallest C has more. mesh() at the returned C makes the same triangles.
     GroundMesh
     mesh_within(const MeshView& view, const Detail& detail, const TriangleBudget& budget);
 
-    /// Nodes of the last mesh, parents before children, also those without triangles of their own.
+    /// The nodes of the last mesh, parents before children, including those without triangles of
+    /// their own.
     std::span<const GroundFan> fans() const { return fans_; }
 
-    /// Whether a box (world axes, metres) is looked for.
+    /// Decides whether the triangles in a box (world axes, metres) are wanted.
     using BoxTest = std::function<bool(const glm::dvec3& least_m, const glm::dvec3& most_m)>;
 
-    /// Appends the numbers of those triangles of the last mesh, ascending, that belong to nodes of
-    /// whose box around all their samples `wanted` says yes, as it does of their ancestors'.
+    /// Appends the numbers of some triangles of the last mesh, ascending: those of the nodes for
+    /// which `wanted` accepts the box around all of their samples, and also accepts those of all
+    /// their ancestors.
     void triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const;
 
     const Quadtree& tree() const { return *tree_; }
 
 private:
+    /// Whether a node is switched on by its own f < 1, equation (3).
     bool wants_split(int level, int column, int row) const {
         return rule_.critical_squared(level, column, row) < limit_;
     }
 
-    /// Where a fan stands in the mesh.
+    /// Where a fan is in the mesh.
     struct FanPlace {
-        std::array<std::uint32_t, 4> child{}; ///< fan by quadrant, where there is one
-        TriangleRun triangles;                ///< its own and all below it
-        std::uint8_t middles = 0;             ///< bit k: edge k of fan_edges has a mid-point
+        /// The fan of each quadrant's child, where there is one.
+        std::array<std::uint32_t, 4> child{};
+        TriangleRun triangles;    ///< Its own triangles and all of those below it.
+        std::uint8_t middles = 0; ///< Bit k: edge k of fan_edges has a mid-point.
     };
 
-    /// Indices of the samples of fan_ring less the centre's.
+    /// For the samples of fan_ring their indices relative to the centre's.
     using Ring = std::array<std::ptrdiff_t, 8>;
 
     static constexpr std::uint32_t no_vertex = ~std::uint32_t{0};
@@ -74,9 +79,9 @@ private:
     /// A fan while it is put into the mesh.
     struct EmittedFan {
         const FanSamples& samples;
-        const std::array<std::uint32_t, 4>& child; ///< as FanPlace::child
-        const std::ptrdiff_t* ring;                ///< eight
-        std::ptrdiff_t centre;                     ///< index of the sample
+        const std::array<std::uint32_t, 4>& child; ///< As FanPlace::child.
+        const std::ptrdiff_t* ring;                ///< Eight entries of a Ring.
+        std::ptrdiff_t centre;                     ///< The index of the centre's sample.
         std::uint32_t centre_vertex = no_vertex;
     };
 
@@ -102,16 +107,18 @@ private:
 
     SplitRule rule_;
     BudgetSurvey survey_;
-    float limit_ = 0.0F; ///< SplitRule::limit_squared of the mesh
+    float limit_ = 0.0F; ///< SplitRule::limit_squared of the mesh.
 
-    std::vector<Ring> rings_; ///< of fans that are not cut, by level
+    std::vector<Ring> rings_; ///< For each level, for fans that are not cut.
     std::vector<GroundFan> fans_;
-    std::vector<FanPlace> places_;                ///< of fans_
-    std::array<std::uint32_t, 16> newest_{};      ///< fan by level, while they are collected
-    const PartOrder* orders_ = nullptr;           ///< painting_orders of the view
-    glm::dvec2 eye_{0.0};                         ///< samples east and north of the field's first
-    std::vector<std::uint8_t> in_mesh_;           ///< per node, all 0 between frames
-    std::vector<std::uint32_t> vertex_of_sample_; ///< first_stamp_ + vertex, smaller: none yet
+    std::vector<FanPlace> places_; ///< One for each of fans_.
+    /// For each level the last fan, while they are collected.
+    std::array<std::uint32_t, 16> newest_{};
+    const PartOrder* orders_ = nullptr; ///< The painting_orders of the view.
+    glm::dvec2 eye_{0.0};               ///< In samples east and north of the field's first sample.
+    std::vector<std::uint8_t> in_mesh_; ///< One flag for each node; all are 0 between frames.
+    /// For each sample first_stamp_ + its vertex; a smaller value means none yet.
+    std::vector<std::uint32_t> vertex_of_sample_;
     std::uint32_t first_stamp_ = 1;
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;

@@ -1,3 +1,5 @@
+// Fills voids of fields that are too large to be smoothed in one piece: coarse first, then tile by
+// tile with a margin.
 #include "visuals/terrain/number_voids.h"
 
 #include "models/heights/height_voids.h"
@@ -9,9 +11,10 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-constexpr std::size_t most_at_once = std::size_t{1} << 22U; ///< samples
+/// The most samples that are filled in one piece.
+constexpr std::size_t most_at_once = std::size_t{1} << 22U;
 constexpr int piece_edge = 1024;
-constexpr int margin = 32; ///< samples about a piece that take part in its smoothing
+constexpr int margin = 32; ///< Samples around a piece that take part in its smoothing.
 
 struct Field {
     std::span<std::int16_t> numbers;
@@ -30,6 +33,7 @@ float height_of(std::int16_t number) {
                                  : static_cast<float>(number);
 }
 
+/// The mean of the known samples of a block; NaN when there are none.
 float block_mean(const Field& field, int column, int row, int edge) {
     double sum = 0.0;
     int known = 0;
@@ -55,7 +59,7 @@ models::heights::HeightGrid block_means(const Field& field, int edge) {
     return means;
 }
 
-/// A rectangle of samples, last ones excluded.
+/// A rectangle of samples; east and north are one past the last.
 struct Piece {
     int west;
     int east;
@@ -73,6 +77,8 @@ bool has_voids(const Field& field, const Piece& piece) {
     return false;
 }
 
+/// Writes the heights of a grid into the voids of a piece. `of` is the rectangle that the grid
+/// covers.
 void put_filled(
     const Field& field, const Piece& piece, const models::heights::HeightGrid& grid, Piece of) {
     for (int row = piece.south; row < piece.north; ++row) {
@@ -86,6 +92,7 @@ void put_filled(
     }
 }
 
+/// Fills the voids of one piece, starting from the coarse field.
 void fill_piece(
     const Field& field, const Piece& piece, const models::heights::HeightGrid& coarse, int edge) {
     const Piece wide{

@@ -1,11 +1,12 @@
-// The painting order of a fan's triangles and quadrants.
+// The painting order of a fan's triangles and quadrants, so that the ground needs no depth buffer,
+// as the aircraft need none. It has no source; the quadtree paper draws with a depth buffer.
 //
-// No source; the paper draws with a depth buffer. A line of sight lies in plan on a ray from the
-// eye, and the triangles of a height field do not overlap in plan: an order that is back to front
-// along every plan ray is right whatever the heights. All parts of a node are wedges around its
-// centre, and along a ray that misses the centre the direction from the centre turns one way only
-// and by less than half a turn. So of each of the two chains of wedges from the one opposite the
-// eye round to the one with the eye a ray sees a part of one, in turn.
+// In plan a line of sight lies on a ray from the eye, and the triangles of a height field do not
+// overlap in plan. So an order that is back to front along every ray in plan is right, whatever the
+// heights. All parts of a node are wedges around its centre. Along a ray that misses the centre the
+// direction from the centre turns one way only, and by less than half a turn. Hence, of the two
+// chains of wedges that lead from the wedge opposite the eye round to the wedge with the eye, a ray
+// crosses part of one chain, in order.
 #include "visuals/terrain/paint_order.h"
 
 #include <algorithm>
@@ -16,9 +17,9 @@ namespace {
 
 constexpr unsigned wedges = 8;
 
-/// When a part is painted as seen from wedge `eye`: opposite wedge, its two chains one after the
-/// other, wedge with the eye. A part over two wedges comes with the first of them, but last where
-/// one of them is the eye's.
+/// When a part is painted as seen from wedge `eye`: first the opposite wedge, then its two chains
+/// one after the other, then the wedge with the eye. A part over two wedges comes with the first of
+/// them, but last if one of them is the eye's.
 constexpr unsigned turn_of(unsigned part, unsigned eye) {
     constexpr std::array<unsigned, wedges> turn_from_opposite = {0, 1, 2, 3, 7, 6, 5, 4};
     unsigned first = wedges;
@@ -33,7 +34,7 @@ constexpr unsigned turn_of(unsigned part, unsigned eye) {
     return first;
 }
 
-/// Fills in the sets of places of an order.
+/// An order with its sets of places filled in.
 constexpr PartOrder with_places(const std::array<std::uint8_t, fan_parts>& parts) {
     constexpr std::array<unsigned, wedges> quadrant_of_wedge = {0, 1, 1, 3, 3, 2, 2, 0};
     PartOrder order;
@@ -59,6 +60,7 @@ constexpr PartOrder with_places(const std::array<std::uint8_t, fan_parts>& parts
     return order;
 }
 
+/// The order for an eye in a given wedge.
 constexpr PartOrder order_seen_from(unsigned eye, PaintOrder order) {
     std::array<std::uint8_t, fan_parts> parts{};
     std::size_t count = 0;
@@ -83,6 +85,7 @@ constexpr std::array<PartOrder, wedges> orders_seen_from_all(PaintOrder order) {
     return orders;
 }
 
+/// The order by part number, in which places are parts.
 constexpr PartOrder parts_by_number() {
     std::array<std::uint8_t, fan_parts> parts{};
     for (std::size_t part = 0; part < fan_parts; ++part) {
@@ -101,16 +104,18 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// A part of a cut fan as it is sorted.
+/// A part of a cut fan while it is being sorted.
 struct CutPart {
     enum Side { Opposite, Left, Right, Eye };
 
-    Side side;         ///< of the line from the centre to the eye; the wedges on it apart
-    glm::dvec2 inside; ///< a direction within the wedge
+    /// Its side of the line from the centre to the eye; wedges that contain the line have values of
+    /// their own.
+    Side side;
+    glm::dvec2 inside; ///< A direction within the wedge.
     std::uint8_t part;
 };
 
-/// The wedge from `from` counter-clockwise to `to`, less than half a turn apart.
+/// The wedge from `from` counter-clockwise to `to`, which are less than half a turn apart.
 CutPart
 cut_part(unsigned part, const glm::dvec2& from, const glm::dvec2& to, const glm::dvec2& eye) {
     CutPart made{CutPart::Eye, from + to, static_cast<std::uint8_t>(part)};
@@ -159,7 +164,7 @@ PartRow parts_of_cut_fan(
             row[count++] = cut_part(part, direction_to(from), direction_to(to), eye);
         }
     }
-    // At most eight at a time.
+    // Insertion sort, because there are at most eight parts.
     for (unsigned k = 1; k < count; ++k) {
         for (unsigned j = k; j > 0 && is_painted_before(row[j], row[j - 1]); --j) {
             std::swap(row[j], row[j - 1]);

@@ -12,11 +12,11 @@
 
 namespace octant::visuals::terrain {
 
-// Everything that a node may consist of, by number:
-//   0 to 7   triangle from the centre to the samples k and k + 1 of fan_ring,
-//   8 to 11  triangle from the centre to a whole edge of fan_edges,
-//   12 to 15 the quadrant k - 12, left to a child.
-// Each fills a wedge around the centre, and no two that are there together overlap.
+// The parts that a node's fan may consist of, by number:
+//   0 to 7   the triangle from the centre to the samples k and k + 1 of fan_ring,
+//   8 to 11  the triangle from the centre to a whole edge of fan_edges,
+//   12 to 15 the quadrant k - 12, which is left to a child.
+// Each part is a wedge around the centre, and parts that are present together do not overlap.
 inline constexpr unsigned first_edge_part = 8;
 inline constexpr unsigned first_child_part = 12;
 inline constexpr std::size_t fan_parts = 16;
@@ -45,24 +45,24 @@ inline constexpr std::array<PartSides, fan_parts> part_sides = {
      {5, 7},
      {3, 5}}};
 
-/// An order of all parts, and which places in it are taken.
+/// An order of all parts. Sets of places in the order are bit masks.
 struct PartOrder {
-    std::array<std::uint8_t, fan_parts> part{}; ///< by place
-    // Sets of places as bits:
-    std::array<std::uint16_t, 16>
-        with_middles{}; ///< triangles, by the set of edges with mid-points
-    std::array<std::uint16_t, 16>
-        uncovered{};                          ///< all but half-edge triangles in a set of quadrants
-    std::array<std::uint16_t, 16> children{}; ///< by the set of quadrants drawn by children
+    std::array<std::uint8_t, fan_parts> part{}; ///< The part at each place.
+    /// For each set of edges with mid-points the places of the triangles.
+    std::array<std::uint16_t, 16> with_middles{};
+    /// For each set of quadrants all places but those of half-edge triangles in these quadrants.
+    std::array<std::uint16_t, 16> uncovered{};
+    /// For each set of quadrants drawn by children their places.
+    std::array<std::uint16_t, 16> children{};
 
-    /// The places of the triangles of a fan; `covered`: quadrants without half-edge triangles.
+    /// The places of a fan's triangles; `covered` are the quadrants without half-edge triangles.
     unsigned triangles(unsigned middles, unsigned covered) const {
         return unsigned{with_middles[middles]} & uncovered[covered];
     }
 };
 
-/// The wedge between the samples k and k + 1 of fan_ring in which a point lies, seen from the
-/// centre of a fan that is not cut. Either one on a line between two.
+/// The wedge between the samples k and k + 1 of fan_ring that contains a point, seen from the
+/// centre of a fan that is not cut; either one for a point on the line between two wedges.
 inline unsigned wedge_towards(double east, double north) {
     constexpr std::array<std::uint8_t, 8> wedges = {0, 1, 5, 4, 7, 2, 6, 3};
     const unsigned which = (east >= 0.0 ? 1U : 0U) | (north >= 0.0 ? 2U : 0U) |
@@ -70,20 +70,20 @@ inline unsigned wedge_towards(double east, double north) {
     return wedges[which];
 }
 
-/// Parts in painting order, by the wedge with the eye, for fans that are not cut.
+/// The painting orders of fans that are not cut, by the wedge that contains the eye.
 const std::array<PartOrder, 8>& painting_orders(PaintOrder order);
 
-/// The set of parts of a fan, as bits; arguments as those of PartOrder.
+/// The set of a fan's parts as a bit mask by part number; the arguments are those of PartOrder.
 unsigned parts_of(unsigned middles, unsigned covered, unsigned children);
 
-/// Some parts in a row.
+/// Some parts in painting order.
 struct PartRow {
     std::array<std::uint8_t, fan_parts> part{};
     unsigned count = 0;
 };
 
-/// Those of a set of parts of a fan that have an area though the field's edge has cut it, in
-/// painting order. `eye`: in samples east and north of the fan's centre.
+/// Those of a set of parts that have an area although the field's border cuts the fan, in painting
+/// order. `eye` is in samples east and north of the fan's centre.
 PartRow parts_of_cut_fan(
     const FanSamples& samples, unsigned parts, const glm::dvec2& eye, PaintOrder order);
 

@@ -6,18 +6,18 @@
 
 namespace octant::visuals::terrain {
 
-/// A perspective picture, as far as measures need it. World axes.
+/// A perspective picture as far as measurements need it. World axes, metres.
 struct PictureView {
     glm::dvec3 eye_m{0.0};
-    glm::dvec3 right{1.0, 0.0, 0.0}; ///< unit vectors
+    glm::dvec3 right{1.0, 0.0, 0.0}; ///< Together with `up` and `ahead`: orthogonal unit vectors.
     glm::dvec3 up{0.0, 0.0, 1.0};
     glm::dvec3 ahead{0.0, 1.0, 0.0};
-    double focal_px = 869.1; ///< as MeshView::focal_px
+    double focal_px = 869.1; ///< As MeshView::focal_px.
     double half_width_px = 640.0;
     double half_height_px = 360.0;
-    double near_m = 10.0; ///< nothing nearer is measured
+    double near_m = 10.0; ///< Nothing nearer is measured.
 
-    /// View axes (right, up, ahead) of an eye-relative vector, metres.
+    /// Converts a vector relative to the eye to view axes (right, up, ahead), metres.
     glm::dvec3 seen_m(const glm::dvec3& from_eye_m) const {
         return {glm::dot(right, from_eye_m), glm::dot(up, from_eye_m), glm::dot(ahead, from_eye_m)};
     }
@@ -30,7 +30,7 @@ struct PictureView {
                -focal_px * seen.y <= half_height_px * seen.z;
     }
 
-    /// Pixels right of and above the middle. The point is ahead of the eye.
+    /// The pixels right of and above the middle. The point must be in front of the eye.
     glm::dvec2 pixel(const glm::dvec3& seen) const {
         return glm::dvec2(seen.x, seen.y) * (focal_px / seen.z);
     }

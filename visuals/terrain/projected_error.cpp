@@ -1,8 +1,9 @@
-// The error of a mesh in pixels against the full-resolution ground.
+// The error of a mesh in pixels against the full-resolution ground: the measure by which the
+// paper's quadtree and the default mesh are compared.
 //
-// Method: each triangle is rasterised in plan over the samples it covers, its borders included; a
-// bit per sample sees to it that each counts once (both triangles at an edge have the same height
-// there). Rows are cut into bands, always the same ones, that threads share.
+// Each triangle is rasterised in plan over the samples that it covers, its border included. One bit
+// for each sample sees to it that each counts once (both triangles at an edge have the same height
+// there). Rows are divided into bands, always the same ones, which threads share.
 #include "visuals/terrain/projected_error.h"
 
 #include "sim/base/nearest_rank.h"
@@ -22,13 +23,13 @@ namespace {
 
 constexpr int rows_of_band = 64;
 
-/// Vertices are put on this many parts of a sample, which floats far from the eye still tell.
+/// Vertices are snapped to this fraction of a sample, which floats far from the eye still resolve.
 constexpr double grid_parts = 256.0;
 
-/// Wider than rounding, far narrower than a part.
+/// Wider than rounding, and far narrower than that fraction.
 constexpr double border = 1e-7;
 
-/// Heights over a triangle: height of the first corner and slopes, metres per sample.
+/// The slopes of a triangle, metres for a sample east and north.
 struct Slope {
     double east = 0.0;
     double north = 0.0;
@@ -44,7 +45,7 @@ Slope slope_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
         ((c.z - a.z) * (b.x - a.x) - (b.z - a.z) * (c.x - a.x)) / twice_area};
 }
 
-/// The part of a row of samples within a triangle in plan.
+/// The part of a row of samples that lies within a triangle in plan.
 struct RowPart {
     double first;
     double last;
@@ -65,6 +66,7 @@ RowPart part_of_row(const std::array<glm::dvec3, 3>& corner, double row) {
     return part;
 }
 
+/// Whether a triangle in view axes is not wholly outside one plane of the frustum.
 bool touches_frustum(const std::array<glm::dvec3, 3>& seen, const PictureView& view) {
     const double wide = view.half_width_px / view.focal_px;
     const double tall = view.half_height_px / view.focal_px;
@@ -90,7 +92,7 @@ int triangles_in_view(const GroundMesh& mesh, const PictureView& view) {
     return count;
 }
 
-/// Value of the nearest rank; reorders.
+/// A percentile by nearest rank; reorders the values.
 double nearest_rank(std::vector<float>& values, int permille) {
     const auto at =
         values.begin() + static_cast<std::ptrdiff_t>(rank_of(values.size(), permille) - 1);
@@ -98,7 +100,7 @@ double nearest_rank(std::vector<float>& values, int permille) {
     return static_cast<double>(*at);
 }
 
-/// Figures of all errors; reorders them.
+/// The figures over all errors; reorders them.
 void summarise(std::vector<float>& errors_px, ProjectedError& error) {
     if (errors_px.empty()) {
         return;
@@ -125,9 +127,9 @@ void summarise(std::vector<float>& errors_px, ProjectedError& error) {
 struct ErrorMeter::Picture {
     const PictureView& view;
     double earth_radius_m;
-    glm::dvec2 first_m; ///< the first sample's place relative to the eye
+    glm::dvec2 first_m; ///< The first sample's position relative to the eye.
 
-    /// Place relative to the eye of a sample.
+    /// The position of a sample relative to the eye, lowered by curvature.
     glm::dvec3 sample_m(const GroundSamples& ground, int column, int row) const {
         const double x = first_m.x + column * ground.spacing_m();
         const double y = first_m.y + row * ground.spacing_m();

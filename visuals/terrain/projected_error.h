@@ -12,29 +12,32 @@
 
 namespace octant::visuals::terrain {
 
-/// How far a mesh misses the full-resolution ground in one picture, pixels.
+/// How far a mesh misses the full-resolution ground in one picture, in pixels.
 struct ProjectedError {
     double maximum_px = 0.0;
-    double p999_px = 0.0; ///< 99.9th percentile, nearest rank
+    double p999_px = 0.0; ///< The 99.9th percentile by nearest rank.
     double p99_px = 0.0;
     double rms_px = 0.0;
     double mean_px = 0.0;
-    std::int64_t samples = 0;   ///< measured: inside the frustum, above or below the mesh
-    std::int64_t uncovered = 0; ///< inside the frustum without mesh there: 0 unless it has holes
-    int triangles_in_view = 0;  ///< of the mesh, not wholly outside one plane of the frustum
+    /// The number of measured samples: inside the frustum, above or below the mesh.
+    std::int64_t samples = 0;
+    /// Samples inside the frustum without a mesh there: 0 unless it has holes.
+    std::int64_t uncovered = 0;
+    /// Triangles of the mesh that are not wholly outside one plane of the frustum.
+    int triangles_in_view = 0;
 };
 
-/// Measures meshes against a ground. Keeps its memory from one to the next.
+/// Measures meshes against a ground. Its memory is reused from mesh to mesh.
 class ErrorMeter {
 public:
-    /// `threads`: at least 1; figures do not depend on it.
+    /// `threads` is at least 1; the figures do not depend on it.
     explicit ErrorMeter(GroundSamples ground, int threads = 2);
 
-    /// Every sample of the ground inside the frustum (as it lies, the near plane too) counts once:
-    /// its error is the distance on the screen between it and the mesh's surface at the same x, y.
-    /// A surface nearer than the near plane is projected from there. `mesh`: relative to
-    /// `view.eye_m`, lowered by d^2 / (2 `earth_radius_m`), as the samples are then; 0 = flat
-    /// earth.
+    /// Every sample of the ground inside the frustum (the near plane included) counts once: its
+    /// error is the distance on the screen between it and the mesh's surface at the same x, y. A
+    /// surface nearer than the near plane is projected from there. The positions in `mesh` are
+    /// relative to `view.eye_m` and lowered by d^2 / (2 `earth_radius_m`), and so are the samples;
+    /// 0 = flat earth.
     ProjectedError
     measure(const GroundMesh& mesh, const PictureView& view, double earth_radius_m = 0.0);
 
@@ -45,7 +48,7 @@ private:
     struct Band {
         int first_row = 0;
         int end_row = 0;
-        std::vector<std::uint64_t> met; ///< bit per sample, rows of whole words
+        std::vector<std::uint64_t> met; ///< One bit for each sample, rows of whole words.
         std::vector<float> errors_px;
         std::int64_t uncovered = 0;
     };
@@ -61,7 +64,8 @@ private:
     std::size_t words_of_row_;
     std::vector<Band> bands_;
     std::vector<float> errors_px_;
-    std::vector<glm::dvec3> corners_; ///< mesh vertices: samples east, north; metres above the eye
+    /// The vertices of the mesh: samples east and north, and metres above the eye.
+    std::vector<glm::dvec3> corners_;
 };
 
 } // namespace octant::visuals::terrain

@@ -1,20 +1,20 @@
-// Quadtree of node roughness for continuous level of detail.
+// The quadtree of node roughness: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that
+// Minimize Flickering Effect", equation (2) and steps 1 and 2 of section 2, after S. Roettger, W.
+// Heidrich, P. Slusallek, H.-P. Seidel, "Real-Time Generation of Continuous Levels of Detail for
+// Height Fields", 1998.
 //
-// Source: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize Flickering Effect",
-// equation (2) and steps 1 and 2 of section 2; after S. Roettger, W. Heidrich, P. Slusallek, H.-P.
-// Seidel, "Real-Time Generation of Continuous Levels of Detail for Height Fields", 1998.
 // Deviations:
-// - Roughness is measured at every node, not only at the leaves, and the larger of own and
+// - Roughness is measured at every node, not only at the leaves, and the larger of the own and the
 //   propagated value counts.
-// - The printed propagation (plain maximum to the own parent) leaves cracks. The crack-free one
+// - The printed propagation (the plain maximum in the own parent) leaves cracks. The crack-free one
 //   serves three parents: a fan whose child quadrant is split needs the edge mid-points at the
 //   child's outer corners, so the two nodes beyond those edges must be split far enough as well.
-//   Their centres are at most sqrt(2.5) child edges away from the child's. If the child has
-//   l < d C m with m = max(c d2, 1), such a parent has l' < d C m + sqrt(2.5) d, and that is below
-//   2 d C m' whenever m' >= m / 2 + sqrt(2.5) / (2 C). For C >= C_min this follows from
-//   d2' >= K d2 with K = 0.5 + sqrt(2.5) / (2 C_min).
-// - The paper is silent on sizes other than 2^n + 1: see the padding in the header. A line that
-//   the padding cuts short is compared with the straight line at its shifted middle.
+//   Their centres are at most sqrt(2.5) child edges away from the child's. If the child has l < d C
+//   m with m = max(c d2, 1), such a parent has l' < d C m + sqrt(2.5) d, and that is below 2 d C m'
+//   whenever m' >= m / 2 + sqrt(2.5) / (2 C). For C >= C_min this follows from d2' >= K d2 with K =
+//   0.5 + sqrt(2.5) / (2 C_min).
+// - The paper does not speak of sizes other than 2^n + 1; the header describes the padding. A line
+//   that the padding cuts short is compared with the straight line at its shifted middle.
 #include "visuals/terrain/quadtree.h"
 
 #include <algorithm>
@@ -29,7 +29,8 @@ namespace {
 constexpr float smallest_roughness = 0x1p-14F;
 constexpr float largest_roughness = 131040.0F;
 
-/// Rounded up. Slopes below the smallest never decide anything and are raised to it.
+/// A roughness in 16 bits, rounded up. Slopes below the smallest one never decide anything and are
+/// raised to it.
 std::uint16_t packed_roughness(float roughness) {
     if (roughness <= 0.0F) {
         return 0;
@@ -39,12 +40,12 @@ std::uint16_t packed_roughness(float roughness) {
         (std::bit_cast<std::uint32_t>(clamped * 0x1p-112F) + 0xfffU) >> 12U);
 }
 
-/// The nine samples by which a node is judged, padding included: columns and rows west or south
-/// end, middle, east or north end.
+/// The nine samples by which a node is judged, padding included, at the west (south) end, middle
+/// and east (north) end of columns (rows).
 struct NineSamples {
     std::array<int, 3> columns;
     std::array<int, 3> rows;
-    std::array<std::array<float, 3>, 3> height_m; ///< [row][column]
+    std::array<std::array<float, 3>, 3> height_m; ///< Indexed [row][column].
 };
 
 NineSamples nine_samples(const models::heights::HeightField& field, int west, int south, int edge) {
@@ -62,14 +63,15 @@ NineSamples nine_samples(const models::heights::HeightField& field, int west, in
     return nine;
 }
 
-/// Largest |height difference| between any two corners: the six edges at once.
+/// The largest |height difference| between any two corners, which covers all six lines at once.
 float corner_range_m(const NineSamples& nine) {
     const auto& h = nine.height_m;
     const auto [low, high] = std::minmax({h[0][0], h[0][2], h[2][0], h[2][2]});
     return high - low;
 }
 
-/// Largest deviation of the middles of four sides and two diagonals from the straight lines.
+/// The largest deviation of the middles of the four sides and two diagonals from the straight
+/// lines.
 float middle_deviation_m(const NineSamples& nine) {
     const auto& h = nine.height_m;
     const auto off = [](float middle, float a, float b) {
@@ -84,7 +86,7 @@ float middle_deviation_m(const NineSamples& nine) {
          off(h[1][1], h[0][2], h[2][0])});
 }
 
-/// The same where the padding has moved middles and ends.
+/// The same for a node in which the padding has moved middles and ends.
 float cut_middle_deviation_m(const NineSamples& nine) {
     const auto& h = nine.height_m;
     const auto share = [](const std::array<int, 3>& at) {
@@ -95,7 +97,7 @@ float cut_middle_deviation_m(const NineSamples& nine) {
     const auto off = [](float middle, float a, float b, float part) {
         return std::abs(middle - (a + (b - a) * part));
     };
-    // The shifted centre lies on neither diagonal but within a triangle at each.
+    // The shifted centre lies on neither diagonal, but within one triangle beside each.
     const float rising = s > t ? h[0][0] + (h[0][2] - h[0][0]) * s + (h[2][2] - h[0][2]) * t
                                : h[0][0] + (h[2][0] - h[0][0]) * t + (h[2][2] - h[2][0]) * s;
     const float falling = s + t < 1.0F ? h[0][0] + (h[0][2] - h[0][0]) * s + (h[2][0] - h[0][0]) * t
@@ -141,6 +143,7 @@ Quadtree::Quadtree(const models::heights::HeightField& field, const QuadtreeOpti
     }
 }
 
+/// Measures the roughness of all nodes of a level.
 void Quadtree::measure(int level) {
     const int edge = edge_samples(level);
     const float per_edge = static_cast<float>(1.0 / (edge * field_->spacing_m()));
@@ -159,6 +162,7 @@ void Quadtree::measure(int level) {
     }
 }
 
+/// Finds the height bounds of the last level's nodes.
 void Quadtree::bound_last_level() {
     const int level = levels() - 1;
     const double per_step = step_m_ > 0.0 ? 1.0 / step_m_ : 0.0;
@@ -181,7 +185,7 @@ void Quadtree::bound_last_level() {
     }
 }
 
-/// Height bounds of a node from those of its children that exist.
+/// Finds a node's height bounds from those of its existing children.
 void Quadtree::bound_by_children(int level, int column, int row) {
     QuadtreeNode& node = nodes_[index_of(level, column, row)];
     node.lowest = 255;
@@ -196,8 +200,8 @@ void Quadtree::bound_by_children(int level, int column, int row) {
     }
 }
 
-/// Largest d2 of the nodes one level down whose splitting needs this node: the own four and, where
-/// the propagation is crack-free, the eight beyond the edges.
+/// The largest d2 of those nodes one level down whose splitting needs this node: its own four and,
+/// with crack-free propagation, the eight beyond its edges.
 float Quadtree::roughest_child(int level, int column, int row) const {
     const int below = level + 1;
     const int reach = options_.propagation == Propagation::CrackFree ? 1 : 0;
@@ -207,18 +211,20 @@ float Quadtree::roughest_child(int level, int column, int row) const {
         if (child_row < 0 || child_row >= rows(below)) {
             continue;
         }
-        const int side = j < 0 || j > 1 ? 0 : reach; // corners of the 4 x 4 block touch nothing
+        // The corners of the 4 x 4 block touch nothing.
+        const int side = j < 0 || j > 1 ? 0 : reach;
         const int first = std::max(2 * column - side, 0);
         const int last = std::min(2 * column + 1 + side, columns(below) - 1);
         const QuadtreeNode* child = nodes_.data() + index_of(below, first, child_row);
         for (int i = first; i <= last; ++i, ++child) {
-            roughest = std::max(roughest, child->roughness); // the packing keeps the order
+            // Packed values have the same order as the values themselves.
+            roughest = std::max(roughest, child->roughness);
         }
     }
     return roughness_of({roughest, 0, 0});
 }
 
-/// Height bounds and propagated roughness of a level from the one below.
+/// Takes the height bounds and the propagated roughness of a level from the one below.
 void Quadtree::take_from_children(int level) {
     const double share = options_.propagation == Propagation::CrackFree
                              ? 0.5 + std::sqrt(2.5) / (2.0 * options_.min_resolution)

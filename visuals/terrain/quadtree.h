@@ -11,28 +11,28 @@
 
 namespace octant::visuals::terrain {
 
-/// What a node of the quadtree remembers, quantised outward. 4 bytes.
+/// What a node of the quadtree stores, rounded to the safe side. 4 bytes.
 struct QuadtreeNode {
-    std::uint16_t roughness = 0; ///< d2 as five bits of exponent and eleven of fraction
-    std::uint8_t lowest = 0;     ///< 255ths of the field's height range
-    std::uint8_t highest = 0;    ///< 255ths of the field's height range
+    std::uint16_t roughness = 0; ///< d2 as five bits of exponent and eleven bits of fraction.
+    std::uint8_t lowest = 0;     ///< In 255ths of the field's height range.
+    std::uint8_t highest = 0;    ///< In 255ths of the field's height range.
 };
 
-/// The d2 a node stands for: at most 0.05 % above what was stored.
+/// The d2 that a node stands for: at most 0.05 % above the value that was stored.
 inline float roughness_of(const QuadtreeNode& node) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(node.roughness) << 12U) * 0x1p112F;
 }
 
-/// Quadtree over a height field of any size. Level 0 is the root; each level halves the edge; the
-/// last level's nodes have an edge of two samples. The field is thought of as padded to a square
-/// of 2^n + 1 samples by repeating its last column and row *in place* (a padded sample lies where
-/// the field's edge lies), so that everything beyond the field has no area. Nodes without area do
-/// not exist. Node (column, row) of a level covers the samples from column * edge_samples(level)
-/// to (column + 1) * edge_samples(level), those within the field.
+/// A quadtree over a height field of any size. Level 0 is the root; each level halves the edge; the
+/// nodes of the last level have an edge of two samples. The field is thought of as padded to a
+/// square of 2^n + 1 samples by repeating its last column and row *in place* (a padded sample lies
+/// on the field's border), so that everything beyond the field has no area. Nodes without area do
+/// not exist. Node (column, row) of a level covers the samples from column * edge_samples(level) to
+/// (column + 1) * edge_samples(level), as far as they are within the field.
 class Quadtree {
 public:
-    /// Computes all nodes. The field must outlive the tree and stay where it is. Options are as
-    /// their comments demand (asserted).
+    /// Computes all nodes. The field must outlive the tree and stay where it is. The options must
+    /// be as their comments demand (asserted).
     explicit Quadtree(
         const models::heights::HeightField& field, const QuadtreeOptions& options = {});
 
@@ -42,16 +42,16 @@ public:
 
     int levels() const { return static_cast<int>(levels_.size()); }
 
-    /// Edge of a node in samples: a power of two, 2 on the last level.
+    /// The edge of a node in samples: a power of two, 2 on the last level.
     int edge_samples(int level) const { return 1 << (levels() - level); }
 
-    /// Number of nodes with an area from west to east.
+    /// The number of nodes with an area from west to east.
     int columns(int level) const { return levels_[static_cast<std::size_t>(level)].columns; }
 
-    /// Number of nodes with an area from south to north.
+    /// The number of nodes with an area from south to north.
     int rows(int level) const { return levels_[static_cast<std::size_t>(level)].rows; }
 
-    /// Index into nodes().
+    /// The index of a node in nodes().
     std::size_t index_of(int level, int column, int row) const {
         const Level& at = levels_[static_cast<std::size_t>(level)];
         return at.first + static_cast<std::size_t>(row) * static_cast<std::size_t>(at.columns) +
@@ -66,10 +66,10 @@ public:
         return roughness_of(nodes_[index_of(level, column, row)]);
     }
 
-    /// A height at or below every sample of the node, metres; never far below.
+    /// A height at or below every sample of the node, in metres, and never far below.
     double lowest_m(const QuadtreeNode& node) const { return base_m_ + node.lowest * step_m_; }
 
-    /// A height at or above every sample of the node, metres; never far above.
+    /// A height at or above every sample of the node, in metres, and never far above.
     double highest_m(const QuadtreeNode& node) const { return base_m_ + node.highest * step_m_; }
 
 private:

@@ -1,13 +1,13 @@
-// Which nodes of a restricted quadtree split.
+// Which nodes of the restricted quadtree split: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD
+// Method that Minimize Flickering Effect", equations (1) and (3).
 //
-// Source: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize Flickering Effect",
-// equations (1) and (3).
 // Deviations:
-// - Equation (3), f = l / (d C max(c d2, 1)) < 1, is kept as C > l / (d max(c d2, 1)), both sides
-//   squared: the right side belongs to the node and the view alone.
+// - Equation (3), f = l / (d C max(c d2, 1)) < 1, is evaluated as C > l / (d max(c d2, 1)), with
+//   both sides squared. The right side belongs to the node and the view alone, so that the C of
+//   every step of N(C) is known.
 // - l is sqrt(dx^2 + dy^2 + (eye's height above the ground below it)^2), with dx, dy to the node's
-//   centre: the third part is the same for all nodes, so that l changes by no more than the way
-//   between two centres and splitting is monotone down the tree.
+//   centre. The third part is the same for all nodes, so that l changes by no more than the
+//   distance between two centres and splitting is monotone down the tree.
 // - The root is always in the mesh, whatever its f.
 // - C is raised to the tree's smallest and multiplied by the view's magnification.
 #include "visuals/terrain/split_rule.h"
@@ -21,7 +21,7 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-/// More than double arithmetic with heights can be wrong by.
+/// More than the rounding of heights in double precision can amount to.
 constexpr double height_margin_m = 1e-6;
 
 } // namespace

@@ -14,21 +14,21 @@
 
 namespace octant::visuals::terrain {
 
-/// Axes-aligned, world axes.
+/// An axis-aligned box in world axes.
 struct NodeBox {
     glm::dvec3 least_m;
     glm::dvec3 most_m;
 };
 
-/// Which nodes of a quadtree a view switches on and which it cannot see.
+/// Which nodes of a quadtree a view switches on, and which it cannot see.
 class SplitRule {
 public:
-    /// What the rule needs of a level of the tree.
+    /// What the rule must know of a level of the tree.
     struct Level {
-        int edge;          ///< samples
-        int columns;       ///< nodes
-        int rows;          ///< nodes
-        std::size_t first; ///< node
+        int edge;          ///< In samples.
+        int columns;       ///< In nodes.
+        int rows;          ///< In nodes.
+        std::size_t first; ///< The index of its first node.
         float edge_samples;
         float half_edge_samples;
     };
@@ -36,7 +36,7 @@ public:
     /// The tree must outlive the rule.
     explicit SplitRule(const Quadtree& tree);
 
-    /// Takes a view; `detail.resolution` is not looked at.
+    /// Takes a view; `detail.resolution` is not used.
     void look_from(const MeshView& view, const Detail& detail);
 
     const Quadtree& tree() const { return *tree_; }
@@ -45,7 +45,7 @@ public:
 
     const Level& level(int index) const { return levels_[static_cast<std::size_t>(index)]; }
 
-    /// Index into Quadtree::nodes().
+    /// The index of a node in Quadtree::nodes().
     std::uint32_t node_at(int level_index, int column, int row) const {
         const Level& at = levels_[static_cast<std::size_t>(level_index)];
         return static_cast<std::uint32_t>(
@@ -53,23 +53,25 @@ public:
             static_cast<std::size_t>(column));
     }
 
-    double west_m() const { return west_m_; } ///< of the field, eye subtracted
+    /// The x coordinate of the field's west border relative to the eye.
+    double west_m() const { return west_m_; }
 
-    double south_m() const { return south_m_; } ///< of the field, eye subtracted
+    /// The y coordinate of the field's south border relative to the eye.
+    double south_m() const { return south_m_; }
 
-    /// What critical values are compared with: the square of C, raised to the tree's smallest,
-    /// times the magnification.
+    /// The limit that critical values are compared with: the square of C, which is raised to the
+    /// tree's smallest, times the magnification.
     float limit_squared(double resolution) const {
         const double seen =
             std::max(resolution, tree_->options().min_resolution) * view_.magnification;
         return static_cast<float>(seen * seen);
     }
 
-    /// The C of a limit that is not below the smallest: limit_squared of it is `limit` again.
+    /// The C of a limit that is not below the smallest one; limit_squared of it is `limit` again.
     double resolution_of(float limit) const;
 
-    /// Equation (3) solved for C, squared: a node's quadrant of its parent is switched on where
-    /// this is below the limit, if the parent's is. The root is always on.
+    /// Equation (3) solved for C and squared. A node's quadrant of its parent is switched on if
+    /// this is below the limit and the parent is on. The root is always on.
     float critical_squared(int level, int column, int row) const {
         if (level == 0) {
             return 0.0F;
@@ -78,14 +80,14 @@ public:
                                              : own_critical_squared(level - 1, column / 2, row / 2);
     }
 
-    /// The same of the four children at (column, row) and east and north of it, by quadrant.
-    /// Anything for those that do not exist.
+    /// The same for the four children at (column, row) and east and north of it, by quadrant;
+    /// meaningless for those that do not exist.
     std::array<float, 4> critical_squared_of_four(int level, int column, int row) const;
 
     /// A box around all samples of a node, a little wider than the tree's height bounds.
     NodeBox box_of(const GroundFan& node) const;
 
-    /// planes_cutting for the box of a node's samples.
+    /// planes_cutting (frustum.h) for the box of a node's samples.
     unsigned planes_cutting_node(const GroundFan& node, unsigned planes) const;
 
 private:
@@ -111,7 +113,7 @@ private:
     float roughness_weight_ = 0.0F;
     float eye_column_ = 0.0F;
     float eye_row_ = 0.0F;
-    float eye_height_squared_ = 0.0F; ///< samples^2
+    float eye_height_squared_ = 0.0F; ///< In samples^2.
     double west_m_ = 0.0;
     double south_m_ = 0.0;
 };

@@ -1,3 +1,5 @@
+// Finds where a staircase first exceeds a limit without sorting all of its steps: a histogram tells
+// the bin in which it may happen, and only the steps of that bin are sorted.
 #include "visuals/terrain/step_count.h"
 
 #include <algorithm>
@@ -22,7 +24,8 @@ void StepCount::start(float low, float high) {
     }
 }
 
-/// Bins are evenly spaced over the bits of the floating-point numbers: roughly over the logarithm.
+/// The bin of a place. Bins are evenly spaced over the bits of floating-point numbers, which is
+/// roughly over their logarithm.
 std::size_t StepCount::bin_of(float place) const {
     return (std::bit_cast<std::uint32_t>(place) - std::bit_cast<std::uint32_t>(low_)) >> bin_shift_;
 }
@@ -48,7 +51,7 @@ std::optional<float> StepCount::first_above(int limit) {
     return std::nullopt;
 }
 
-/// The same among the steps of one bin; `count`: N before it.
+/// first_above among the steps of one bin; `count` is N before it.
 std::optional<float> StepCount::first_above_in(std::size_t bin, int count, int limit) {
     steps_of_bin_.clear();
     for (const Step& step : steps_) {

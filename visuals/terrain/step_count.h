@@ -8,14 +8,14 @@
 namespace octant::visuals::terrain {
 
 /// A whole number N that changes in steps along a line of values at or above zero: N(x) is the sum
-/// of all changes at places below x. Knows single steps only between two bounds and takes those
-/// below as one, so that many steps cost little.
+/// of all changes at places below x. It knows single steps only between two bounds and sums up
+/// those below, so that many steps cost little.
 class StepCount {
 public:
-    /// Forgets all steps. 0 <= low <= high (asserted).
+    /// Forgets all steps and sets the bounds, 0 <= low <= high (asserted).
     void start(float low, float high);
 
-    /// A step at `place` below high.
+    /// Adds a step at a place below high.
     void add(float place, int change) {
         total_ += change;
         if (place < low_) {
@@ -26,15 +26,17 @@ public:
         steps_.push_back({place, change});
     }
 
-    int at_high() const { return total_; } ///< N(high)
+    /// N(high).
+    int at_high() const { return total_; }
 
-    int at_low() const { return below_; } ///< N(low)
+    /// N(low).
+    int at_low() const { return below_; }
 
-    /// At or above every N(x), x <= low.
+    /// An upper bound of N(x) for all x <= low.
     int most_below_low() const { return below_ + fallen_below_; }
 
-    /// The largest x from low to high so that N(y) <= limit for all y from low to x; nothing where
-    /// that holds up to high. N(low) is within the limit (asserted).
+    /// The largest x from low to high such that N(y) <= limit for all y from low to x; nothing if
+    /// that holds up to high. N(low) must be within the limit (asserted).
     std::optional<float> first_above(int limit);
 
 private:
@@ -57,7 +59,7 @@ private:
     std::vector<Step> steps_;
     std::vector<Step> steps_of_bin_;
     std::array<int, bins> change_{};
-    std::array<int, bins> rise_{}; ///< sum of the changes above zero
+    std::array<int, bins> rise_{}; ///< The sum of the changes above zero.
 };
 
 } // namespace octant::visuals::terrain

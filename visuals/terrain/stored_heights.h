@@ -14,7 +14,7 @@ struct StoredHeights {
     int rows = 0;
     int multiplier = 1;
     int addend = 0;
-    double number_unit_m = 1.0; ///< metres that two successive numbers are apart
+    double number_unit_m = 1.0; ///< The height difference of two successive numbers.
 
     std::int16_t number(int column, int row) const {
         return numbers

@@ -1,9 +1,14 @@
-// Source: P. Lindstrom, V. Pascucci, "Terrain Simplification Simplified", 2002, section 3
-// (saturated errors along the dependencies of longest-edge bisection).
+// Saturated errors of a tile: P. Lindstrom, V. Pascucci, "Terrain Simplification Simplified", 2002,
+// section 3 (errors saturated along the dependencies of longest-edge bisection).
+//
+// Each sample gets the maximum of its own error and the stored errors of the samples that need it:
+// middles of edges from centres one level finer, centres from middles of their own level. Maxima
+// are taken of the one-byte codes, which keep the order.
+//
 // Deviations: the own error is the true largest deviation inside a sample's diamond (17 % fewer
-// triangles at equal error than that of the middle alone); diamonds with a half edge above 16
-// samples look at every half / 16-th sample in each direction, saturation brings what lies between;
-// a diamond's legs are left to the smaller diamonds on them, which saturation includes.
+// triangles at equal error than with that of the middle alone). Diamonds with a half edge above 16
+// samples look at every (half / 16)-th sample in each direction; saturation brings what lies
+// between. A diamond's legs are left to the smaller diamonds on them, which saturation includes.
 #include "visuals/terrain/tile_builder.h"
 
 #include <algorithm>
@@ -14,7 +19,7 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-constexpr int widest_half = 16; ///< lattice steps
+constexpr int widest_half = 16; ///< In lattice steps.
 
 std::size_t index_of(int column, int row, int columns) {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -60,6 +65,7 @@ std::span<const std::byte> TileBuilder::build(const TilePlace& place) {
     return tile_;
 }
 
+/// Sets the lattice of samples to look at: the field itself, or a copy of every stride-th sample.
 void TileBuilder::choose_lattice() {
     const Extent& e = extent_;
     if (e.stride == 1) {
@@ -84,12 +90,14 @@ void TileBuilder::choose_lattice() {
     lattice_ = copied_.data();
 }
 
+/// A row of diamonds on the lattice, given by the sample of the first middle.
 DiamondRow TileBuilder::lattice_row(int column, int row, int count) const {
     const std::ptrdiff_t across = (column - lattice_column_) / extent_.stride;
     const std::ptrdiff_t up = (row - lattice_row_) / extent_.stride;
     return {lattice_ + up * pitch_ + across, pitch_, extent_.half / extent_.stride, count};
 }
 
+/// Copies the codes of the centres one level finer from finished tiles.
 void TileBuilder::fetch_children() {
     const int edge = 2 * most + 2;
     if (level_ + 1 == layout_.levels()) {
@@ -122,8 +130,8 @@ void TileBuilder::fetch_children() {
     }
 }
 
-/// Largest code of the four centres a level finer about the sample, whose place is given in halves
-/// of a node from the tile's south-west corner.
+/// The largest code of the four centres one level finer around a sample, whose place is given in
+/// half nodes from the tile's south-west corner.
 std::uint8_t TileBuilder::children(int column, int row) const {
     if (level_ + 1 == layout_.levels()) {
         return 0;
@@ -133,13 +141,14 @@ std::uint8_t TileBuilder::children(int column, int row) const {
     return std::max({south_west[0], south_west[1], south_west[edge], south_west[edge + 1]});
 }
 
-/// Own errors of a row of samples: middles of nodes, of their south or of their west edges.
+/// Measures the own errors of a row of samples: the middles of nodes, of their south edges or of
+/// their west edges.
 void TileBuilder::measure(int row, Diamond diamond, std::span<std::uint8_t> codes) {
     const Extent& e = extent_;
     const int count = static_cast<int>(codes.size());
     const int from_edge = diamond == Diamond::Upright ? 0 : e.half;
     const int first = e.first_column * e.at.edge + from_edge;
-    // From here to there the whole diamond lies in the field.
+    // From `begin` to `end` the whole diamond lies within the field.
     const int begin = first < e.half ? 1 : 0;
     int end = (heights_.columns - 1 - e.half - first + e.at.edge) / e.at.edge;
     if (row < e.half || row + e.half > heights_.rows - 1) {
@@ -170,6 +179,7 @@ void TileBuilder::measure(int row, Diamond diamond, std::span<std::uint8_t> code
     }
 }
 
+/// The stored errors of the middles of south edges.
 void TileBuilder::measure_souths() {
     const Extent& e = extent_;
     for (int row = 0; row <= e.rows; ++row) {
@@ -183,6 +193,7 @@ void TileBuilder::measure_souths() {
     }
 }
 
+/// The stored errors of the middles of west edges.
 void TileBuilder::measure_wests() {
     const Extent& e = extent_;
     for (int row = 0; row < e.rows; ++row) {
@@ -196,6 +207,7 @@ void TileBuilder::measure_wests() {
     }
 }
 
+/// The stored errors of the centres, which come last because they need those of the edges.
 void TileBuilder::measure_centres() {
     const Extent& e = extent_;
     for (int row = 0; row < e.rows; ++row) {
@@ -220,7 +232,8 @@ void TileBuilder::measure_centres() {
     }
 }
 
-/// Stored height of a sample, its place in half edges from the field's south-west corner.
+/// The stored height of a sample, whose place is given in half edges from the field's south-west
+/// corner.
 std::int16_t TileBuilder::height(int column, int row) const {
     return heights_.stored(heights_.number(
         std::min(column * extent_.half, heights_.columns - 1),
@@ -271,6 +284,7 @@ void TileBuilder::put_errors() {
     part(2, wests_, e.columns + 1);
 }
 
+/// Writes the strips beyond the last row and column of nodes, where this tile is beside them.
 void TileBuilder::put_strips() {
     const Extent& e = extent_;
     if (e.first_row + e.rows == e.at.rows) {

@@ -20,31 +20,31 @@ struct TilePlace {
 };
 
 /// Makes tiles one by one, heights and saturated errors, each after all tiles of the next finer
-/// level. One builder a thread; it keeps its memory, at most 10 MB.
+/// level around it. There is one builder for each thread; it reuses its memory, at most 10 MB.
 class TileBuilder {
 public:
-    /// `memory`: GroundLayout memory where finished tiles of the finer level can be read and where
-    /// the strips are written. All three outlive the builder.
+    /// `memory` is GroundLayout memory in which finished tiles of the finer level can be read and
+    /// into which the strips are written. All arguments must outlive the builder.
     TileBuilder(
         const GroundLayout& layout,
         const StoredHeights& heights,
         const ErrorCoder& coder,
         std::span<std::byte> memory);
 
-    /// The bytes of a tile, until the next call. Writes those parts of the strips that lie beside
-    /// it.
+    /// The bytes of a tile, valid until the next call. Also writes those parts of the strips that
+    /// lie beside it.
     std::span<const std::byte> build(const TilePlace& place);
 
 private:
-    /// Nodes of a tile, last ones excluded, and what their level has in common.
+    /// The nodes of a tile, and what they have in common.
     struct Extent {
         GroundLayout::Level at;
         int first_column = 0;
         int first_row = 0;
         int columns = 0;
         int rows = 0;
-        int half = 0;   ///< samples
-        int stride = 1; ///< samples between those looked at
+        int half = 0;   ///< Half a node's edge in samples.
+        int stride = 1; ///< The distance in samples between those that are looked at.
     };
 
     static constexpr int most = GroundLayout::tile_edge;
@@ -68,14 +68,15 @@ private:
     std::span<std::byte> memory_;
     int level_ = 0;
     Extent extent_;
-    std::vector<std::int16_t> copied_; ///< every stride-th sample about the tile
+    std::vector<std::int16_t> copied_; ///< Every stride-th sample around the tile.
     const std::int16_t* lattice_ = nullptr;
     std::ptrdiff_t pitch_ = 0;
-    int lattice_column_ = 0; ///< of lattice_[0], samples
+    int lattice_column_ = 0; ///< The column of lattice_[0] in samples.
     int lattice_row_ = 0;
-    std::vector<std::uint8_t> children_; ///< of centres a level finer, one more on each side
-    std::vector<std::uint8_t> souths_;   ///< codes, row after row, one row more than nodes
-    std::vector<std::uint8_t> wests_;    ///< one column more than nodes
+    /// The codes of the centres one level finer, one more on each side of the tile.
+    std::vector<std::uint8_t> children_;
+    std::vector<std::uint8_t> souths_; ///< Codes, row after row; one row more than nodes.
+    std::vector<std::uint8_t> wests_;  ///< Codes, row after row; one column more than nodes.
     std::vector<std::uint8_t> centres_;
     std::vector<float> errors_;
     std::vector<std::byte> tile_;

@@ -7,14 +7,15 @@
 
 namespace octant::visuals::terrain {
 
-/// Triangles of a fan and of all fans below it, which follow one another in a mesh.
+/// The triangles of a fan and of all fans below it, which follow one another in a mesh.
 struct TriangleRun {
     std::uint32_t first = 0;
     std::uint32_t end = 0;
 };
 
-/// Goes through a fan's run in drawing order: `own(triangle)` for each of its own, `below(child)`
-/// for each of `children` (0 = none) with a run that is not empty. `run_of(child)`: that run.
+/// Walks through a fan's run in drawing order: calls `own(triangle)` for each of its own triangles,
+/// and `below(child)` for each of `children` (0 = none) with a run that is not empty.
+/// `run_of(child)` returns that run.
 template <typename RunOf, typename Own, typename Below>
 void for_each_in_run(
     const TriangleRun& run,
@@ -22,7 +23,7 @@ void for_each_in_run(
     const RunOf& run_of,
     const Own& own,
     const Below& below) {
-    std::array<std::uint32_t, 4> drawn{}; // in drawing order
+    std::array<std::uint32_t, 4> drawn{}; // In drawing order.
     std::size_t count = 0;
     for (const std::uint32_t child : children) {
         if (child == 0 || run_of(child).first == run_of(child).end) {

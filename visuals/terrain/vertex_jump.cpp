@@ -1,3 +1,5 @@
+// The measure of popping: what the quadtree paper does not look at (it counts triangles) and
+// geomorphs remove. `octant study popping` plots it along flights.
 #include "visuals/terrain/vertex_jump.h"
 
 #include <glm/geometric.hpp>
@@ -26,7 +28,7 @@ std::optional<VertexJump> JumpMeter::next(const GroundMesh& mesh, const PictureV
     return most;
 }
 
-/// At the vertices of `own`, against the surface of `other`, seen from `later`.
+/// Compares the vertices of `own` with the surface of `other`, as seen from `later`.
 void JumpMeter::compare_at(
     const Frame& own, const Frame& other, const Frame& later, VertexJump& most) {
     for (const glm::dvec3& vertex_m : own.vertices_m) {

@@ -14,24 +14,24 @@
 
 namespace octant::visuals::terrain {
 
-/// The largest change of the drawn ground from one frame to the next.
+/// The largest change of the drawn ground from one frame to the next (popping).
 struct VertexJump {
     double jump_px = 0.0;
-    glm::dvec3 place_m{0.0}; ///< where, on the later mesh
+    glm::dvec3 place_m{0.0}; ///< Where it happens, on the later mesh.
 };
 
-/// Measures popping along a flight. Keeps its memory from frame to frame.
+/// Measures popping along a flight. Its memory is reused from frame to frame.
 class JumpMeter {
 public:
-    /// Takes the next frame's mesh, relative to `view.eye_m`, and compares it with the last one's,
-    /// both looked at from `view`: at each vertex of either mesh that both frames show, how far the
-    /// two surfaces lie apart on the screen. Nothing for the first frame.
+    /// Takes the next frame's mesh, relative to `view.eye_m`, and compares it with the last one,
+    /// both as seen from `view`: at each vertex of either mesh that both frames show, how far apart
+    /// the two surfaces are on the screen. Returns nothing for the first frame.
     std::optional<VertexJump> next(const GroundMesh& mesh, const PictureView& view);
 
 private:
     struct Frame {
         MeshSurface surface;
-        std::vector<glm::dvec3> vertices_m; ///< world axes
+        std::vector<glm::dvec3> vertices_m; ///< In world axes.
         PictureView view;
     };
 
@@ -40,7 +40,7 @@ private:
 
     std::array<Frame, 2> frames_;
     std::size_t taken_ = 0;
-    std::vector<std::uint8_t> used_; ///< by vertex: a triangle has it
+    std::vector<std::uint8_t> used_; ///< For each vertex whether a triangle uses it.
 };
 
 } // namespace octant::visuals::terrain
