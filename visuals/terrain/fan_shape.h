@@ -6,9 +6,8 @@
 
 namespace octant::visuals::terrain {
 
-/// All quadrants of a node; quadrant q is bit q: 0 south-west, 1 south-east, 2 north-west, 3
-/// north-east.
-inline constexpr unsigned all_quadrants = 15;
+// Quadrants of a node are numbered 0 south-west, 1 south-east, 2 north-west, 3 north-east; in a set
+// of them quadrant q is bit q.
 
 /// Edges of a fan counter-clockwise from the south one: the corners are those of the two quadrants.
 struct FanEdge {

@@ -103,9 +103,6 @@ public:
     /// Height of any sample (asserted to be one).
     float height_m(int column, int row) const;
 
-    /// World position of a sample.
-    glm::dvec3 sample_m(int column, int row) const;
-
     /// Half the extent of the field from its centre, east and north, metres.
     glm::dvec2 half_extent_m() const;
 
