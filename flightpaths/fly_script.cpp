@@ -20,7 +20,7 @@ namespace {
 constexpr double held_on_s = 1.0;
 /// A pull that has not reached its angle by then never will.
 constexpr double longest_pull_s = 60.0;
-/// Slack of the energy check, m/s of climb.
+/// By how much a climb may pass the sustained rate before it is refused: rounding.
 constexpr double climb_slack_mps = 0.05;
 
 class Flight {

@@ -10,7 +10,7 @@
 
 namespace octant::flightpaths {
 
-/// When a leg began; for bookmarks in a recording.
+/// The time at which a leg began, for bookmarks in a recording.
 struct LegBegin {
     double time_s = 0.0;
     std::string label; ///< the leg's label, or its kind

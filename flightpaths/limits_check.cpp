@@ -16,7 +16,7 @@ namespace {
 /// Slack for limits that a leg asks for exactly, relative.
 constexpr double slack = 1e-9;
 
-/// Two decimals at most, one at least.
+/// The number with one or two decimals.
 std::string short_number(double value) {
     std::string text = fmt::format("{:.2f}", value);
     return text.back() == '0' ? text.substr(0, text.size() - 1) : text;

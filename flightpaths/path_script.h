@@ -12,7 +12,7 @@ namespace octant::flightpaths {
 /// each with its keys.
 enum class LegKind { Straight, Hold, Climb, Dive, Turn, Jink, Pull, Push };
 
-/// The word for a kind in a path file.
+/// The word that names a kind of leg in a path file.
 std::string_view word_of(LegKind kind);
 
 /// One manoeuvre. Which members count depends on the kind; the reader has checked that those it
@@ -22,7 +22,7 @@ struct Leg {
     int line = 0; ///< where the leg begins in its file
     std::string label;
     std::optional<double> duration_s;
-    std::optional<double> load_factor;        ///< g
+    std::optional<double> load_factor;        ///< lift over weight, in g
     std::optional<double> bank_rad;           ///< right wing down
     std::optional<double> climb_rad;          ///< path angle to hold or to reach, up
     std::optional<double> to_height_m;        ///< leg ends when this height is passed
@@ -42,10 +42,10 @@ struct PathScript {
     std::filesystem::path file;
     std::string aircraft;
     std::string title;
-    int rate_hz = 20;             ///< samples a second; divides sim::steps_per_second
-    int samples = 0;              ///< at least 2
-    double min_clearance_m = 1.0; ///< lowest clearance over the ground that the path is meant for,
-                                  ///< at least 1
+    int rate_hz = 20; ///< samples a second; divides sim::steps_per_second
+    int samples = 0;  ///< at least 2
+    /// Lowest clearance over the ground that the path is meant for; at least 1.
+    double min_clearance_m = 1.0;
     double angle_of_attack_rad_per_g = 0.0;
     int start_line = 1;   ///< where [start] begins in the file
     double north_m = 0.0; ///< start

@@ -23,7 +23,7 @@ constexpr double same_relief_m = 1e-6;
 /// A clearance of no more than this is contact, for the same reason.
 constexpr double contact_m = 1e-6;
 
-/// Every step from the start, and the end.
+/// The times of all steps from the start of a path on, and of its end.
 std::vector<double> step_times(const sim::Trajectory& path) {
     const double duration_s = path.end_s() - path.start_s();
     const long steps = static_cast<long>(std::ceil(duration_s * sim::steps_per_second - 1e-6));
@@ -293,7 +293,6 @@ PlacedPath place_over_ground(
         choice.origin_m,
         lowest.clearance_m,
         times_s[lowest.step],
-        places_m[lowest.step],
         std::move(notes)};
 }
 

@@ -17,12 +17,15 @@ namespace octant::flightpaths {
 using GroundHeight = std::function<std::optional<double>(double x_m, double y_m)>;
 
 enum class HeightMode {
-    Clear,  ///< the whole path lifted (or lowered) by one height: its lowest clearance over the
-            ///< ground is the wanted one
-    Follow, ///< heights are heights over a smoothed ground; where the aircraft cannot follow any,
-            ///< the whole path is lifted by one height, and a note says so
-    Datum   ///< heights as they are; with place 0, 0 and heading 0 all of the path is as it was, to
-            ///< the last bit
+    /// The whole path is lifted (or lowered) by one height, so that its lowest clearance over the
+    /// ground is the wanted one.
+    Clear,
+    /// Heights are heights over a smoothed ground; where the aircraft cannot follow any, the whole
+    /// path is lifted by one height, and a note says so.
+    Follow,
+    /// Heights stay as they are; with place 0, 0 and heading 0 all of the path is as it was, to the
+    /// last bit.
+    Datum
 };
 
 struct Placement {
@@ -42,8 +45,7 @@ struct PlacedPath {
     glm::dvec2 origin_m{0.0}; ///< where the path's origin came to lie
     double lowest_clearance_m = 0.0;
     double lowest_clearance_at_s = 0.0;
-    glm::dvec3 lowest_clearance_place_m{0.0}; ///< of the aircraft then
-    std::vector<std::string> notes;           ///< what was not done as wanted, a sentence each
+    std::vector<std::string> notes; ///< what was not done as wanted, a sentence each
 };
 
 /// Puts a path over ground. A clearance is the height of the aircraft's reference point (the origin

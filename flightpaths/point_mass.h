@@ -15,9 +15,9 @@ struct PointMass {
     double load_factor = 1.0;                       ///< lift over weight, in g
 };
 
-/// What is held constant over one step.
+/// Rates that are held constant over one step.
 struct Controls {
-    double roll_rate_radps = 0.0;      ///< about the velocity, right wing down
+    double roll_rate_radps = 0.0;      ///< about the velocity; positive lowers the right wing
     double load_factor_rate_gps = 0.0; ///< change of the load factor, g/s
     double acceleration_mps2 = 0.0;    ///< change of the speed
 };

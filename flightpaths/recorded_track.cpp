@@ -141,7 +141,7 @@ void need_columns(const Header& header, const Source& at) {
     }
 }
 
-/// All four columns of the quaternion, or none.
+/// Refuses a header that names some but not all four columns of the quaternion.
 void need_whole_quaternion(const Header& header, const Source& at) {
     const bool any = header.has({QuaternionW}) || header.has({QuaternionX}) ||
                      header.has({QuaternionY}) || header.has({QuaternionZ});

@@ -38,7 +38,7 @@ public:
     const toml::table& required_table(std::string_view name);
     /// The array of tables under `name`, which must be there with at least one table.
     const toml::array& required_tables(std::string_view name);
-    /// Refuses a key that nothing has asked for.
+    /// Throws Error for a key that nothing has asked for.
     void finish() const;
 
     [[noreturn]] void refuse(int line, const std::string& what) const;

@@ -28,7 +28,7 @@ std::string fixed(double value, int decimals) {
     return fmt::format("{:.{}f}", unsigned_zero(value, decimals), decimals);
 }
 
-/// Degrees in [0, 360) even after rounding.
+/// A heading as text, degrees in [0, 360) even after rounding.
 std::string compass(double heading_rad, int decimals) {
     const std::string text = fixed(deg_from_rad(heading_rad), decimals);
     return text == fixed(360.0, decimals) ? fixed(0.0, decimals) : text;

@@ -25,7 +25,7 @@ struct AcmiHeader {
     std::string title;
     /// A known one (sim/aircraft_kind.h) gets what Tacview calls it, another one its own name.
     std::string aircraft;
-    GeoOrigin origin; ///< where x = y = 0 lies
+    GeoOrigin origin; ///< where the world's origin lies on the earth
     std::vector<LegBegin> bookmarks;
 };
 

@@ -8,7 +8,7 @@
 
 namespace octant::models {
 
-/// No triangle, no vertex.
+/// Stands for no triangle or no vertex.
 inline constexpr std::uint32_t none = ~std::uint32_t{0};
 
 /// One edge collapse: the vertices `first` and `second` become a new one, whose number is the

@@ -21,7 +21,7 @@ struct AircraftKind {
     FlightModel flight_model = FlightModel::FixedWing;
     /// Slowest level flight that is handed to a pilot; not below limits.least_speed_mps.
     double slowest_handed_over_mps = 0.0;
-    /// In body axes.
+    /// Where the pilot's eye is, in body axes.
     glm::dvec3 pilot_eye_m{0.0};
     /// What Tacview calls such an aircraft: its tags ("Air+FixedWing") and its name.
     std::string_view tacview_type;

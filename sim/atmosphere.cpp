@@ -16,7 +16,7 @@ namespace {
 constexpr double sea_level_k = 288.15;
 constexpr double sea_level_kgpm3 = 1.225;
 constexpr double sea_level_sound_mps = 340.294;
-constexpr double gas_constant = 287.05287; // of air, J/(kg K)
+constexpr double gas_constant = 287.05287; // specific gas constant of air, J/(kg K)
 
 struct Layer {
     double base_m;

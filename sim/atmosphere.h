@@ -6,8 +6,8 @@ namespace octant::sim {
 struct Air {
     double density_kgpm3 = 0.0;
     double sound_mps = 0.0;         ///< speed of sound
-    double pressure_ratio = 0.0;    ///< to sea level
-    double temperature_ratio = 0.0; ///< to sea level
+    double pressure_ratio = 0.0;    ///< pressure over that at sea level
+    double temperature_ratio = 0.0; ///< absolute temperature over that at sea level
 };
 
 /// Air of a height above datum, taken as geopotential height above sea level. Heights below -2 km

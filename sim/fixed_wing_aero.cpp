@@ -24,11 +24,11 @@ namespace {
 constexpr double broken_rad = rad_from_deg(36.0);
 constexpr double bend_rad = stall_alpha_rad - linear_alpha_rad;
 constexpr double plate_drag = 1.9;
-constexpr double side_slope = 0.9; // per radian
+constexpr double side_slope = 0.9; // side force per radian of sideslip
 constexpr double induced_factor = 0.13;
 
 constexpr double dry_lever = 0.8;
-constexpr double dry_share = 0.6; // of the thrust with reheat
+constexpr double dry_share = 0.6; // dry thrust over thrust with reheat
 constexpr double installed_share = 0.92;
 constexpr double throttle_ratio = 1.07;
 constexpr double static_thrust_n = 2.0 * 23770.0 * 4.4482216 * installed_share;

@@ -25,13 +25,15 @@ namespace {
 constexpr double weight_n = f15::mass_kg * gravity_mps2;
 constexpr double no_authority_mps = 10.0;
 constexpr double full_authority_mps = 40.0;
-constexpr double full_roll_mps = 170.0; ///< below it the roll rate falls with the airspeed
+/// Below this airspeed the roll rate falls with the airspeed.
+constexpr double full_roll_mps = 170.0;
 constexpr double load_factor_lag_s = 0.15;
 constexpr double roll_lag_s = 0.2;
 constexpr double rudder_lag_s = 0.4;
 constexpr double engine_lag_s = 0.8;
 constexpr double incidence_lag_s = 0.8;
-constexpr double attitude_lag_s = 0.1; ///< errors of angle of attack and sideslip go as fast
+/// Time constant by which errors of angle of attack and sideslip fade.
+constexpr double attitude_lag_s = 0.1;
 constexpr double fastest_pitch_radps = 1.2;
 constexpr double full_rudder_rad = rad_from_deg(6.0);
 /// Angle of attack that asking for a tenth more than the wing has adds, and its most, with the
@@ -49,7 +51,7 @@ double authority(double speed_mps) {
         (speed_mps - no_authority_mps) / (full_authority_mps - no_authority_mps), 0.0, 1.0);
 }
 
-/// Lift of one unit of the coefficient.
+/// The lift at a lift coefficient of 1.
 double lift_scale_n(const Air& air, double speed_mps) {
     return 0.5 * air.density_kgpm3 * speed_mps * speed_mps * f15::wing_m2;
 }
@@ -100,7 +102,7 @@ FixedWingFlight::FixedWingFlight(const AircraftLimits& limits, const AircraftSta
     asked_load_factor_ =
         std::clamp(start.load_factor, limits_.least_load_factor, limits_.most_load_factor);
     asked_alpha_rad_ = wanted_alpha_rad(asked_load_factor_, now_.speed_mps, 0.0);
-    warnings_ = {}; // of nothing before the first step
+    warnings_ = {}; // nothing has been flown yet
     if (now_.speed_mps > full_authority_mps) {
         incidence_rad_ = asked_alpha_rad_ - now_.alpha_rad;
     } else {
@@ -188,7 +190,7 @@ glm::dvec3 FixedWingFlight::turn_radps(
                    yaw_radps * (attitude * body_down));
 }
 
-/// Brings what the pilot asks for one step on.
+/// Moves what the flight controls ask for one step towards what the pilot's controls command.
 void FixedWingFlight::ask(const PilotControls& controls) {
     const glm::dvec3& velocity = state_.velocity_mps;
     const double speed_mps = now_.speed_mps;

@@ -23,18 +23,19 @@ public:
     double trim_throttle() const override { return trim_lever_; }
 
 private:
-    /// What velocity and attitude bring about.
+    /// Airflow and forces at one velocity and attitude.
     struct Flow {
         double speed_mps = 0.0;
-        double alpha_rad = 0.0; ///< geometric, without incidence_rad_
+        double alpha_rad =
+            0.0; ///< angle of attack as velocity and attitude have it, without incidence_rad_
         double beta_rad = 0.0;
-        glm::dvec3 along{0.0}; ///< unit, of the velocity; 0 at rest
+        glm::dvec3 along{0.0}; ///< unit vector of the velocity; 0 at rest
         glm::dvec3 acceleration_mps2{0.0};
-        double thrust_lift_n = 0.0; ///< part of the thrust that lifts
+        double thrust_lift_n = 0.0; ///< component of the thrust along the lift
         double load_factor = 0.0;
     };
 
-    /// Course of the angle of attack over one step.
+    /// The angle of attack at the beginning and at the end of a step.
     struct Pitching {
         double from_rad = 0.0;
         double to_rad = 0.0;
@@ -57,10 +58,10 @@ private:
     Flow now_;
     FlightWarnings warnings_;
     double trim_lever_ = 0.0;
-    double lever_ = 0.0;             ///< of the engines, behind the pilot's
-    double asked_load_factor_ = 1.0; ///< on its way to what the stick asks for
-    double asked_alpha_rad_ = 0.0;   ///< that gives it, with incidence
-    double roll_radps_ = 0.0;        ///< about the velocity
+    double lever_ = 0.0;             ///< what the engines run at; lags behind the pilot's lever
+    double asked_load_factor_ = 1.0; ///< lags behind what the stick commands
+    double asked_alpha_rad_ = 0.0;   ///< gives asked_load_factor_; incidence_rad_ included
+    double roll_radps_ = 0.0;        ///< roll rate about the velocity
     double asked_beta_rad_ = 0.0;
     /// What the start's attitude lacks of the angle of attack of its load factor; fades away.
     double incidence_rad_ = 0.0;

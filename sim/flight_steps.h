@@ -8,13 +8,13 @@
 
 namespace octant::sim {
 
-/// Controls within their ranges; a not-a-number becomes 0.
+/// The controls clamped to their ranges; a not-a-number becomes 0.
 PilotControls clean(const PilotControls& controls);
 
-/// First-order lag over one step.
+/// The value after one step of a first-order lag towards `target`.
 double lagged(double now, double target, double time_constant_s);
 
-/// As lagged, at most `fastest_per_s` in either direction.
+/// The same with a rate of at most `fastest_per_s` in either direction.
 double lagged(double now, double target, double time_constant_s, double fastest_per_s);
 
 /// 0 up to `low`, 1 from `high` on, smooth between. low < high.

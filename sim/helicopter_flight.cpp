@@ -36,17 +36,20 @@ constexpr double pedal_sideslip_rad = rad_from_deg(10.0);
 constexpr double sideslip_lag_s = 0.8;
 constexpr double collective_lag_s = 0.25;
 constexpr double downwash_lag_s = 0.15;
-constexpr double still_mps = 1.0;        ///< centred cyclic stops the aircraft below
-constexpr double moving_mps = 4.0;       ///< centred cyclic holds the speed above
-constexpr double slow_mps = 8.0;         ///< pedals turn on the spot below
-constexpr double fast_mps = 18.0;        ///< and ask for sideslip above
-constexpr double speed_margin_mps = 5.0; ///< nose-down cyclic fades out so far below the limit
+/// Below still_mps a centred cyclic stops the aircraft, above moving_mps it holds the speed.
+constexpr double still_mps = 1.0;
+constexpr double moving_mps = 4.0;
+/// Below slow_mps the pedals turn on the spot, above fast_mps they command sideslip.
+constexpr double slow_mps = 8.0;
+constexpr double fast_mps = 18.0;
+/// Nose-down cyclic fades out over this range below the never-exceed speed.
+constexpr double speed_margin_mps = 5.0;
 constexpr double pull_up_rad_per_mps = rad_from_deg(2.0);
 constexpr double most_pull_up_rad = rad_from_deg(20.0);
 
 const glm::dvec3 body_up(0.0, 0.0, -1.0);
 
-/// Drag and blow-back, body axes.
+/// Drag of the body and blow-back of the disc, in body axes.
 glm::dvec3 drag_n(const glm::dvec3& body_mps, const Air& air) {
     const double speed_mps = glm::length(body_mps);
     const double slow = speed_mps / blow_back_mps;

@@ -45,9 +45,9 @@ private:
     StepClock clock_;
     Air air_;
     double trim_collective_ = 0.0;
-    double collective_ = 0.0; ///< of the blades, behind the pilot's
+    double collective_ = 0.0; ///< what the blades stand at; lags behind the pilot's lever
     double induced_mps_ = 0.0;
-    EulerAngles angle_rates_radps_; ///< of heading, pitch and roll
+    EulerAngles angle_rates_radps_; ///< rates of heading, pitch and roll
     FlightWarnings warnings_;
     Flow now_;
 };

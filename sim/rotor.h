@@ -6,11 +6,11 @@ namespace octant::sim::md500 {
 
 inline constexpr double mass_kg = 1361.0;
 
-/// The wind at the rotor, m/s.
+/// The airflow at the rotor.
 struct RotorFlow {
-    double through_mps = 0.0; ///< climb along the shaft
-    double across_mps = 0.0;  ///< in the disc; not negative
-    double induced_mps = 0.0; ///< downwash at the disc
+    double through_mps = 0.0; ///< speed of climb along the shaft
+    double across_mps = 0.0;  ///< speed in the plane of the disc; not negative
+    double induced_mps = 0.0; ///< induced velocity (downwash) at the disc
 };
 
 /// What the blades lift at a collective of 0 .. 1 with no regard to power. May be negative.
@@ -22,7 +22,7 @@ double collective_of_thrust(double newtons, const RotorFlow& flow, const Air& ai
 /// The most that the engine's power can lift, infinite where the wind drives the rotor.
 double powered_thrust_n(const RotorFlow& flow, const Air& air);
 
-/// Downwash that this thrust ends at.
+/// The induced velocity of a steady thrust.
 double steady_induced_mps(double newtons, const RotorFlow& flow, const Air& air);
 
 } // namespace octant::sim::md500

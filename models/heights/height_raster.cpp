@@ -89,7 +89,7 @@ std::optional<double> declared_no_data(GDALRasterBandH band) {
     return declared != 0 ? std::optional(value) : std::nullopt;
 }
 
-/// Fills in all that concerns the first band.
+/// Reads what describes the first band: no-data value, scale, offset and unit.
 void take_first_band(const path& file, OpenRaster& raster) {
     GDALDatasetH dataset = raster.dataset.get();
     if (GDALGetRasterCount(dataset) < 1) {
@@ -127,7 +127,7 @@ bool is_void(double raw, const std::optional<double>& no_data) {
     return raw == -32768.0 || raw == -32767.0 || raw == -9999.0;
 }
 
-/// Raw numbers to metres, voids to NaN.
+/// The height in metres of a raw number; NaN for one that stands for no data.
 float height_from_raw(const path& file, double raw, const OpenRaster& band) {
     if (is_void(raw, band.no_data)) {
         return std::numeric_limits<float>::quiet_NaN();

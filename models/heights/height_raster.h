@@ -16,7 +16,7 @@ namespace octant::models::heights {
 struct HeightRaster {
     Dataset dataset;                ///< still open: owner of `system`
     HeightGrid grid;                ///< metres, NaN where the file has no data
-    std::optional<GridFrame> frame; ///< nothing for a mere picture
+    std::optional<GridFrame> frame; ///< nothing for a file without georeference
     SystemHandle system = nullptr;  ///< null when the file names none
 };
 
@@ -33,11 +33,11 @@ struct OpenRaster {
     bool from_east = false;         ///< its lines run westward
     bool from_south = false;        ///< its first line is the southernmost
     bool whole_metres = false;      ///< its numbers are metres that fit 16 bits
-    std::optional<GridFrame> frame; ///< nothing for a mere picture
-    SystemHandle system = nullptr;  ///< null when the file names none; the dataset's
+    std::optional<GridFrame> frame; ///< nothing for a file without georeference
+    SystemHandle system = nullptr;  ///< owned by the dataset; null when the file names none
 };
 
-/// Rows of a grid, counted from the south.
+/// Consecutive rows of a grid, counted from the south.
 struct RowBand {
     int first = 0;
     int count = 0;
@@ -68,7 +68,7 @@ void read_heights(
     std::span<float> heights_m,
     const GdalSession& gdal);
 
-/// The same of a raster of whole metres (asserted); void_metres without data.
+/// As read_heights, for a raster of whole metres (asserted); void_metres without data.
 void read_whole_metres(
     const std::filesystem::path& file,
     const OpenRaster& raster,

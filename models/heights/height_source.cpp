@@ -78,7 +78,7 @@ struct HeightSource::Content {
     std::vector<path> files;
     std::unique_ptr<GdalSession> gdal;
     std::vector<Piece> pieces;
-    std::optional<HeightField> whole; ///< instead of pieces
+    std::optional<HeightField> whole; ///< set instead of pieces where one file had to be resampled
     int columns = 0;
     int rows = 0;
     double spacing_m = 0.0;
@@ -281,7 +281,6 @@ HeightSource::HeightSource(std::vector<path> files, const ImportOptions& options
 }
 
 HeightSource::~HeightSource() = default;
-HeightSource::HeightSource(HeightSource&&) noexcept = default;
 
 int HeightSource::columns() const {
     return content_->columns;

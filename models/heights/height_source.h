@@ -26,12 +26,12 @@ namespace octant::models::heights {
 /// names the call of gdalwarp that makes a file which can be streamed. So is a plain PGM.
 class HeightSource {
 public:
-    static constexpr int largest_samples = 65536; ///< width and height
+    static constexpr int largest_samples = 65536; ///< of width and of height
 
     /// Opens all files. Throws Error as read_height_field, and for files that do not fit together.
     HeightSource(std::vector<std::filesystem::path> files, const ImportOptions& options = {});
     ~HeightSource();
-    HeightSource(HeightSource&&) noexcept;
+    HeightSource(HeightSource&&) = delete;
     HeightSource& operator=(HeightSource&&) = delete;
     HeightSource(const HeightSource&) = delete;
     HeightSource& operator=(const HeightSource&) = delete;
@@ -45,17 +45,17 @@ public:
     /// Name of the first file, and how many more there are.
     std::string name() const;
 
-    /// Voids that are filled already when heights are read.
+    /// How many voids were filled before heights are read.
     std::int64_t filled_voids() const;
 
-    /// All heights are whole metres that fit 16 bits.
+    /// Whether all heights are whole metres that fit 16 bits.
     bool whole_metres() const;
 
     /// Heights of rows from `first_row` on, as many as fill the span, row after row from the south,
     /// NaN without data. Throws Error (damaged file, heights not believed).
     void read(int first_row, std::span<float> heights_m);
 
-    /// The same where whole_metres() (asserted); void_metres (models/height_raster.h) without data.
+    /// Whole metres, where whole_metres() (asserted); void_metres (height_raster.h) without data.
     void read(int first_row, std::span<std::int16_t> heights_m);
 
 private:

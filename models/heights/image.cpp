@@ -115,7 +115,7 @@ void read_alpha(
     }
 }
 
-/// Numbers of a palette to its colours.
+/// Replaces numbers of a palette by its colours.
 void apply_palette(GDALColorTableH palette, Image& image) {
     std::array<std::array<std::uint8_t, 4>, 256> colours{};
     const int entries = std::min(GDALGetColorEntryCount(palette), 256);

@@ -39,7 +39,7 @@ struct LocalGrid {
     HeightGrid grid;
     double spacing_m = 0.0;
     GeoPlace place;
-    MapSystem system; ///< the frame's
+    MapSystem system; ///< that of the local frame
 };
 
 /// The ground about the centre of a grid in some coordinate system: a transverse Mercator

@@ -24,7 +24,7 @@ public:
 
     int line() const { return line_; }
 
-    /// Empty at the end of the text.
+    /// The next word; empty at the end of the text.
     std::string_view next() {
         while (at_ < text_.size() && (is_blank(text_[at_]) || text_[at_] == '#')) {
             if (text_[at_] == '#') {

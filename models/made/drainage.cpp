@@ -39,7 +39,7 @@ bool is_inside(const TerrainGrid& grid, int column, int row) {
 
 /// The descent over one facet: a triangle of a cell, a side neighbour and a corner neighbour.
 struct Facet {
-    double slope = 0.0;         ///< of the steepest descent within it, a cell
+    double slope = 0.0;         ///< of the steepest descent within the facet, a cell
     double corner_chance = 0.0; ///< share of corner steps that leads in its direction
 };
 

@@ -7,12 +7,12 @@
 
 namespace octant::models::made {
 
-/// Where water runs on a grid.
+/// Where water runs on a grid; one entry a cell.
 struct Drainage {
     std::vector<int> receiver;    ///< cell that a cell drains to; itself for an outlet or a pit
     std::vector<int> upstream;    ///< all cells, every receiver before its donors
-    std::vector<double> length_m; ///< to the receiver
-    std::vector<double> area_m2;  ///< that drains through a cell, itself included
+    std::vector<double> length_m; ///< way to the receiver
+    std::vector<double> area_m2;  ///< area that drains through a cell, itself included
 };
 
 /// Raises every pit to its spill level plus a trace, so that all ground drains to an outlet.

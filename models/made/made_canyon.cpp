@@ -29,7 +29,7 @@ struct Layer {
     double steepness = 1.0; ///< times the slope of even rock
 };
 
-/// From the river up.
+/// Layers of rock from the river up.
 constexpr std::array<Layer, 18> layers = {{
     {250.0, 1.7}, // inner gorge
     {55.0, 5.0},  // Tapeats cliff

@@ -27,7 +27,7 @@ std::size_t steps_along(double length_m) {
     return static_cast<std::size_t>(std::lround(length_m / step_m));
 }
 
-/// Points of a line without its end.
+/// Adds the points of a line but for its end.
 void add_line(Outline& outline, const glm::dvec2& start, const glm::dvec2& end) {
     const std::size_t steps = steps_along(glm::distance(start, end));
     for (std::size_t i = 0; i < steps; ++i) {
@@ -47,7 +47,7 @@ void add_arc(
     }
 }
 
-/// A rounded corner, a step and a hollow.
+/// The outline of the block: a rounded corner, a step and a hollow.
 Outline block_outline() {
     constexpr double quarter = std::numbers::pi / 2.0;
     Outline outline;
@@ -79,7 +79,7 @@ Outline circle(const Outline& outline, double radius_m) {
     return made;
 }
 
-/// Where a ring's plane lies.
+/// The frame of a ring, which lies in its x-y plane.
 struct Frame {
     glm::dvec3 origin{0.0};
     glm::dvec3 x{1.0, 0.0, 0.0};
@@ -122,7 +122,7 @@ public:
         }
     }
 
-    /// Closes the mesh so far on.
+    /// Ends the mesh in a point so far ahead and returns it.
     TriangleMesh end(double way_m) {
         mesh_.vertices_m.push_back(frame_.origin + way_m * frame_.z);
         join_to_pole(mesh_.vertices_m.size() - 1);

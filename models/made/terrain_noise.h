@@ -32,7 +32,7 @@ struct Warp {
     double north_m(double x_m, double y_m) const;
 };
 
-/// 0 below `low`, 1 above `high`, smooth between.
+/// 0 below `low`, 1 above `high`, a smooth transition between them.
 double smooth_step(double low, double high, double value);
 
 } // namespace octant::models::made

@@ -18,7 +18,7 @@ constexpr int most_depth = 100;
 constexpr long most_count = 0x7fffffff;
 constexpr std::size_t least_vertex_bytes = 6; ///< "0 0 0" and what parts it from the next
 
-/// Of an object, apart from what is read.
+/// Keywords of an object that say nothing about its shape.
 constexpr std::array<std::string_view, 10> ignored_keywords{
     "name", "texture", "texrep", "texoff", "subdiv", "crease", "url", "hidden", "locked", "folded"};
 
@@ -58,7 +58,7 @@ private:
         }
     }
 
-    /// MATERIAL "name" rgb R G B and more.
+    /// Reads the rest of a line MATERIAL "name" rgb R G B ...
     void take_material_line() {
         std::string_view rest = words_.rest_of_line();
         Material material{.name = taken_name(rest)};
@@ -106,7 +106,7 @@ private:
         return static_cast<float>(*value);
     }
 
-    /// What follows OBJECT, kids and all.
+    /// Reads what follows OBJECT, its kids included.
     void take_object(const Placement& parent, int depth) {
         if (depth > most_depth) {
             words_.refuse(fmt::format("objects at most {} deep", most_depth), "a deeper one");
@@ -156,7 +156,7 @@ private:
         return {x, y, z};
     }
 
-    /// Row by row.
+    /// Reads a rotation matrix, row after row.
     void take_turn(glm::dmat3& turn) {
         for (int row = 0; row < 3; ++row) {
             const glm::dvec3 numbers = vector();

@@ -234,7 +234,7 @@ bool sound(const polygons::PolygonModel& model, const polygons::Polygon& polygon
     return polygon.material < model.materials.size() && polygon.part < model.parts.size();
 }
 
-/// Needs corners in order.
+/// Whether all polygons are convex; their corners must be valid indices.
 bool all_convex(const polygons::PolygonModel& model) {
     const double tolerance_m = polygons::flatness_tolerance_m(model);
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {

@@ -27,7 +27,7 @@ public:
     /// Part `part` of entry `entry`; whole numbers that stand for 0..1 as such.
     double at(std::size_t entry, int part) const;
 
-    /// An entry of whole numbers.
+    /// An entry as a whole number.
     std::uint32_t whole_at(std::size_t entry) const;
 
 private:

@@ -107,7 +107,7 @@ void MeshBuilder::finish_normals() {
         mesh_.normals.emplace_back(normal_of(mesh_, mesh_.triangles[t], upwards));
         std::ranges::replace_if(corners, is_faulty, own);
     }
-    // No triangle points to them any more.
+    // Faulty normals go: no triangle points to them any more.
     for (std::size_t n = 0; n < faulty_normals_.size(); ++n) {
         if (faulty_normals_[n]) {
             mesh_.normals[n] = glm::vec3(0.0F, 0.0F, 1.0F);

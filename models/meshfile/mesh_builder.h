@@ -14,7 +14,7 @@
 
 namespace octant::models::meshfile {
 
-/// No normal, no material, no vertex.
+/// Stands for no normal, no material or no vertex.
 inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
 inline constexpr std::size_t most_polygon_corners = 10'000;
@@ -53,12 +53,12 @@ public:
 
     std::uint32_t add_material(Material material);
 
-    /// Cut into triangles by cut_polygon (polygon_cut.h).
+    /// Adds a polygon, cut into triangles by cut_polygon (polygon_cut.h).
     void add_polygon(std::span<const Corner> corners, std::uint32_t material = no_index);
 
     void add_note(std::string note) { mesh_.notes.push_back(std::move(note)); }
 
-    /// Throws Error when there is no triangle.
+    /// The finished mesh. Throws Error when it has no triangle.
     TriangleMesh finish();
 
 private:

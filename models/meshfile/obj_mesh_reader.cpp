@@ -102,7 +102,7 @@ private:
         return static_cast<std::uint32_t>(*value > 0 ? *value - 1 : most + *value);
     }
 
-    /// 7, 7/1, 7//3 or 7/1/3.
+    /// A corner written as 7, 7/1, 7//3 or 7/1/3.
     Corner corner(std::string_view word) const {
         const std::size_t slash = word.find('/');
         const std::size_t second = word.find('/', std::min(slash, word.size() - 1) + 1);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t largest_file_bytes = std::size_t{1} << 30U;
 
-/// Numbers of an ascii body.
+/// Gives the numbers of an ascii body one after the other.
 class WordSource {
 public:
     WordSource(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)
@@ -45,7 +45,7 @@ private:
     WordScanner words_;
 };
 
-/// Numbers of a binary body.
+/// Gives the numbers of a binary body one after the other.
 class ByteSource {
 public:
     ByteSource(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)

@@ -24,20 +24,20 @@ public:
     glm::dvec3
     vector(const VrmlNode& node, std::string_view name, const glm::dvec3& otherwise) const;
 
-    /// Whole numbers; none without the field.
+    /// The whole numbers of a field; none where the node has no such field.
     std::vector<long> indices(const VrmlNode& node, std::string_view name) const;
 
     /// Triples of the list `name` of the node in a field of another node; none without either.
     std::vector<glm::dvec3>
     triples(const VrmlNode& node, std::string_view field_name, std::string_view name) const;
 
-    /// TRUE without the field.
+    /// The value of a field; true where the node has no such field.
     bool flag(const VrmlNode& node, std::string_view name) const;
 
     /// The node, or the first one, in a field; null without.
     const VrmlNode* only_node(const VrmlNode& node, std::string_view name) const;
 
-    /// Of what a Transform holds.
+    /// How a Transform places the nodes that it holds.
     Placement placement(const VrmlNode& transform) const;
 
     /// Place of a node in VrmlFile::nodes.

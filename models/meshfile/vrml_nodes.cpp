@@ -72,7 +72,7 @@ private:
         }
     }
 
-    /// ROUTE A.a TO B.b and prototypes.
+    /// Passes over ROUTE A.a TO B.b and prototypes; false where neither begins.
     bool passed_over() {
         const std::string_view word = words_.peek();
         if (word == "ROUTE") {

@@ -21,7 +21,7 @@ struct VrmlNode {
     int line = 1;
     std::map<std::string_view, VrmlField> fields; ///< the last one of each name
 
-    /// Nothing where the node has no such field.
+    /// The field of a name; null where the node has none.
     const VrmlField* field(std::string_view field_name) const;
 };
 

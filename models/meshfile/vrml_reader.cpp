@@ -308,7 +308,7 @@ private:
         return at->second;
     }
 
-    /// Colours of whole faces are materials.
+    /// The material that stands for a colour of whole faces.
     std::uint32_t face_material(const glm::dvec3& colour) {
         const auto [at, is_new] =
             face_materials_.try_emplace({colour.x, colour.y, colour.z}, no_index);

@@ -20,16 +20,16 @@ public:
     /// The same, and goes on behind it. Throws Error at the end.
     std::string_view take(std::string_view what);
 
-    /// A finite number within most_coordinate. Throws Error.
+    /// The next word as a finite number within most_coordinate. Throws Error.
     double number(std::string_view what);
 
-    /// A whole number. Throws Error.
+    /// The next word as a whole number. Throws Error.
     long whole(std::string_view what);
 
     /// Whether the word is a bracket or a brace.
     static bool is_mark(std::string_view word);
 
-    /// Of the word that peek gave last.
+    /// The line of the word that peek gave last.
     int line() const { return line_; }
 
     /// Byte of the text at which the next word, or what is before it, begins.

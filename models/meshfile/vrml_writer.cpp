@@ -11,7 +11,7 @@ namespace octant::models::meshfile {
 
 namespace {
 
-/// Of VRML itself, and those of the lists below.
+/// Words that no DEF may take: those of VRML itself, and those of the lists below.
 constexpr std::array<std::string_view, 10> taken_words{
     "DEF", "USE", "TRUE", "FALSE", "NULL", "PROTO", "ROUTE", "points", "colours", "normals"};
 

@@ -19,7 +19,7 @@ public:
     /// Throws Error at the end of the text; `what` is what it then expected.
     std::string_view word(std::string_view what);
 
-    /// Empty at the end of the text.
+    /// The next word; empty at the end of the text.
     std::string_view word_or_end();
 
     /// What is left of the line at hand, without blanks at either end; the next word is in the line
@@ -29,10 +29,10 @@ public:
     /// Passes over so many bytes. Throws Error when there are fewer.
     void skip_bytes(std::size_t count, std::string_view what);
 
-    /// A finite number within most_coordinate. Throws Error.
+    /// The next word as a finite number within most_coordinate. Throws Error.
     double number(std::string_view what);
 
-    /// A whole number of `least` to `most`. Throws Error.
+    /// The next word as a whole number of `least` to `most`. Throws Error.
     long whole(std::string_view what, long least, long most);
 
     int line() const { return line_; }

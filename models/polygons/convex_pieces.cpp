@@ -50,7 +50,7 @@ public:
         }
     }
 
-    /// Nothing when the corners run out of ears.
+    /// Clips ears until a triangle is left; nothing where no ear is found.
     std::optional<std::vector<Piece>> triangles() {
         std::vector<Piece> out;
         rank_all(tolerance_m_);
@@ -193,7 +193,7 @@ Piece joined(const Piece& first, std::size_t side, const Piece& second) {
     return out;
 }
 
-/// A side of two pieces.
+/// A side that two pieces share.
 struct Diagonal {
     std::size_t from = 0;
     std::size_t to = 0;

@@ -20,7 +20,7 @@ int side_of(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& point) {
     return std::abs(turn) <= limit ? 0 : (turn > 0.0 ? 1 : -1);
 }
 
-/// For a point on the line a -> b.
+/// Whether a point on the line through a and b lies between them.
 bool within(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& point) {
     return glm::dot(point - a, point - b) <= 0.0;
 }

@@ -22,7 +22,7 @@ public:
     /// Goes to the next line; false when there is none.
     bool next();
 
-    /// Until the next call of next().
+    /// The line that next() went to; valid until its next call.
     std::string_view text() const { return text_; }
 
     /// Where the line begins in the file, from 1.

@@ -217,7 +217,7 @@ private:
         }
     }
 
-    /// False when there is no such file.
+    /// Reads a material file; false when there is no such file.
     bool take_material_file(const std::string& name) {
         const std::filesystem::path file = path_.parent_path() / name;
         std::error_code ignored;
@@ -293,14 +293,14 @@ private:
     FileAxes axes_;
     PolygonModel model_;
     Names parts_;
-    Names materials_; ///< line 0 for "default" without usemtl
+    Names materials_; ///< the line is 0 for "default" without usemtl
     std::string part_ = "default";
     std::string material_ = "default";
     int material_line_ = 0;
     std::map<std::string, glm::vec3> colours_;
     bool has_material_file_ = false;
     std::set<std::string> missing_files_;
-    std::set<std::string> old_statements_; ///< that the notes name
+    std::set<std::string> old_statements_; ///< superseded keywords that the notes name already
     std::vector<int> polygon_lines_;
     std::vector<PivotLine> pivots_;
     int line_ = 0;

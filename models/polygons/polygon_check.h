@@ -23,7 +23,7 @@ double flatness_tolerance_m(const PolygonModel& model);
 std::optional<std::string>
 polygon_fault(const PolygonModel& model, std::size_t polygon, double tolerance_m);
 
-/// The same for corners without a model.
+/// What is wrong with a polygon given by its corners alone, as polygon_fault says it.
 std::optional<std::string> corners_fault(std::span<const glm::dvec3> corners_m, double tolerance_m);
 
 /// What is wrong with corners that could not even be cut into convex planar pieces: two corners in

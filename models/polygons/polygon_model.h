@@ -26,8 +26,8 @@ struct Polygon {
 struct Pivot {
     std::uint32_t part = 0;  ///< index into PolygonModel::parts
     glm::dvec3 point_m{0.0}; ///< a point of the axis, body axes
-    glm::dvec3 axis{
-        0.0, 0.0, 1.0};       ///< unit vector, body axes; positive turns follow the right hand
+    /// Unit vector along the axis, body axes; positive turns follow the right-hand rule.
+    glm::dvec3 axis{0.0, 0.0, 1.0};
     double turns_per_s = 0.0; ///< how fast it turns in flight; the file shows it at angle 0
 };
 

@@ -37,8 +37,6 @@ public:
 
     float weight(std::uint32_t point) const { return weights_[point]; }
 
-    void set_weight(std::uint32_t point, float weight) { weights_[point] = weight; }
-
     float distance2(std::uint32_t point) const { return distances2_[point]; }
 
     std::uint32_t face(std::uint32_t point) const { return faces_[point]; }

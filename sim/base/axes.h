@@ -26,10 +26,10 @@ EulerAngles euler_from_body_to_world(const glm::dquat& body_to_world);
 /// Unit vector of a compass direction, level. 0 = north (0, 1, 0), pi/2 = east (1, 0, 0).
 glm::dvec3 direction_from_heading(double heading_rad);
 
-/// Angle brought into [0, 2 pi).
+/// The same angle in [0, 2 pi).
 double wrapped_to_two_pi(double angle_rad);
 
-/// Angle brought into (-pi, pi].
+/// The same angle in (-pi, pi].
 double wrapped_to_pi(double angle_rad);
 
 } // namespace octant

@@ -12,7 +12,7 @@ public:
     explicit Dice(std::uint64_t seed)
         : state_(seed) {}
 
-    /// 0 <= x < 1.
+    /// A number spread evenly over 0 <= x < 1.
     double next() {
         state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
         return static_cast<double>(state_ >> 11U) * 0x1p-53;
@@ -20,7 +20,7 @@ public:
 
     double between(double least, double most) { return least + (most - least) * next(); }
 
-    /// About normal, mean 0, deviation 1.
+    /// A number that is about normally distributed, with mean 0 and standard deviation 1.
     double bell() {
         double sum = -6.0;
         for (int i = 0; i < 12; ++i) {
@@ -29,7 +29,7 @@ public:
         return sum;
     }
 
-    /// Unit vector, all directions alike.
+    /// A unit vector; all directions are equally likely.
     glm::dvec3 direction();
 
 private:

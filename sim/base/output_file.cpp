@@ -104,11 +104,6 @@ GrowingFile::~GrowingFile() {
     }
 }
 
-GrowingFile::GrowingFile(GrowingFile&& other) noexcept
-    : path_(std::move(other.path_))
-    , kept_(std::move(other.kept_))
-    , descriptor_(std::exchange(other.descriptor_, -1)) {}
-
 void GrowingFile::append(std::string_view text) {
     kept_ += text;
 }

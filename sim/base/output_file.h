@@ -23,7 +23,7 @@ public:
     /// Creates or empties the file. Throws Error.
     explicit GrowingFile(std::filesystem::path path);
     ~GrowingFile();
-    GrowingFile(GrowingFile&& other) noexcept;
+    GrowingFile(GrowingFile&&) = delete;
     GrowingFile& operator=(GrowingFile&&) = delete;
     GrowingFile(const GrowingFile&) = delete;
     GrowingFile& operator=(const GrowingFile&) = delete;

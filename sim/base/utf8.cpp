@@ -24,7 +24,7 @@ std::size_t utf8_length(std::string_view text) {
             return 0;
         }
     }
-    // Too long forms, surrogates and what lies past U+10FFFF.
+    // Overlong forms, surrogates and what lies beyond U+10FFFF are no characters.
     const unsigned second = byte(1);
     const bool bad = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
                      (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);

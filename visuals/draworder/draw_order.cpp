@@ -12,7 +12,7 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-/// The tree of the octants: first z, then y, then x, so that cell numbers are those of octant_of().
+/// The tree of the octants: first z, then y, then x, so that cell numbers are those of the octants.
 std::vector<DrawOrder::Node> octant_nodes() {
     const Plane x{{1.0, 0.0, 0.0}, 0.0};
     const Plane y{{0.0, 1.0, 0.0}, 0.0};

@@ -98,11 +98,6 @@ std::vector<Precedence> all_pairs(std::span<const ScreenPolygon> polygons) {
 
 } // namespace
 
-int octant_of(const glm::dvec3& eye_in_body_m) {
-    return (eye_in_body_m.x < 0.0 ? 1 : 0) + (eye_in_body_m.y < 0.0 ? 2 : 0) +
-           (eye_in_body_m.z < 0.0 ? 4 : 0);
-}
-
 std::string octant_name(int octant) {
     assert(octant >= 0 && octant < 8);
     std::string name;

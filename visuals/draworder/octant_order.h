@@ -13,9 +13,8 @@
 
 namespace octant::visuals::draworder {
 
-/// The octant of an eye in body axes, 0 to 7: bit 0 is set when x is negative, bit 1 when y is, and
-/// bit 2 when z is. Zero, of either sign, counts as positive.
-int octant_of(const glm::dvec3& eye_in_body_m);
+// Octants of the eye in body axes are numbered 0 to 7: bit 0 is set where x is negative, bit 1
+// where y is, and bit 2 where z is. Zero, of either sign, counts as positive.
 
 /// The signs of x, y, z as the paper writes them: octant 0 is "+++", 1 is "-++", 4 is "++-".
 std::string octant_name(int octant);
@@ -41,7 +40,7 @@ struct PaperOptions {
 
 /// The painting orders of the eight octants.
 struct OctantOrders {
-    std::array<std::vector<std::uint32_t>, 8> lists; ///< Indexed by octant_of; first painted first.
+    std::array<std::vector<std::uint32_t>, 8> lists; ///< Indexed by octant; first painted first.
     /// The number of broken cycles in all octants; 0 = every precedence is kept.
     int broken_cycles = 0;
     int cyclic_octants = 0; ///< The number of octants with broken cycles.

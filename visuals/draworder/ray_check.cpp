@@ -159,12 +159,22 @@ RayCount count_wrong_rays(
     const models::polygons::PolygonModel& model,
     const DrawOrder& order,
     const EyeSamples& samples) {
+    const PaintedFrom painted_from = [&](const glm::dvec3& eye_m) {
+        return order.polygons_of(order.cell_of(eye_m));
+    };
+    return count_wrong_rays(model, painted_from, samples);
+}
+
+RayCount count_wrong_rays(
+    const models::polygons::PolygonModel& model,
+    const PaintedFrom& painted_from,
+    const EyeSamples& samples) {
     Sampling sampling(model, samples, {});
     RayCount count;
     for (int eye = 0; eye < samples.eyes; ++eye) {
         const glm::dvec3 eye_m = sampling.next_eye_m();
         ++count.eyes;
-        sampling.look(eye_m, order.polygons_of(order.cell_of(eye_m)), count);
+        sampling.look(eye_m, painted_from(eye_m), count);
     }
     return count;
 }
@@ -187,18 +197,6 @@ RayCount count_wrong_rays(
             ++count.eyes_in_gap;
         }
     }
-    return count;
-}
-
-RayCount count_wrong_rays_from(
-    const models::polygons::PolygonModel& model,
-    std::span<const std::uint32_t> painted,
-    const glm::dvec3& eye_m,
-    int rays) {
-    Sampling sampling(model, {.rays_per_eye = rays}, {});
-    RayCount count;
-    count.eyes = 1;
-    sampling.look(eye_m, painted, count);
     return count;
 }
 

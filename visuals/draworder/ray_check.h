@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 namespace octant::visuals::draworder {
@@ -46,17 +47,19 @@ struct RayCount {
 RayCount count_wrong_rays(
     const models::polygons::PolygonModel& model, const DrawOrder& order, const EyeSamples& samples);
 
+/// Gives the list that is painted for an eye; it must stay as it is until the next call.
+using PaintedFrom = std::function<std::span<const std::uint32_t>(const glm::dvec3& eye_m)>;
+
+/// Tries lists that are made for each eye.
+RayCount count_wrong_rays(
+    const models::polygons::PolygonModel& model,
+    const PaintedFrom& painted_from,
+    const EyeSamples& samples);
+
 /// Tries orders by cells; eyes outside the range of distances are skipped.
 RayCount count_wrong_rays(
     const models::polygons::PolygonModel& model,
     const CellOrders& orders,
     const EyeSamples& samples);
-
-/// Tries one list with rays from one eye.
-RayCount count_wrong_rays_from(
-    const models::polygons::PolygonModel& model,
-    std::span<const std::uint32_t> painted,
-    const glm::dvec3& eye_m,
-    int rays);
 
 } // namespace octant::visuals::draworder

@@ -102,7 +102,6 @@ private:
     std::uint32_t add_vertex(const NewVertex& made);
     std::uint32_t cut_vertex(NewVertex made);
     void emit(EmittedFan& fan);
-    void emit_cut(EmittedFan& fan, const FanSamples& samples, const glm::dvec2& eye);
     void emit_part(const EmittedFan& fan, unsigned part);
     EmittedFan child_of(const EmittedFan& fan, unsigned quadrant);
     void add_centre(const FanSamples& samples, std::int16_t height, EmittedFan& fan);

@@ -6,9 +6,8 @@
 
 namespace octant::visuals::terrain {
 
-/// The set of all quadrants of a node. Quadrant q is bit q: 0 is south-west, 1 south-east, 2
-/// north-west, 3 north-east.
-inline constexpr unsigned all_quadrants = 15;
+// Quadrants of a node are numbered 0 south-west, 1 south-east, 2 north-west, 3 north-east; in a set
+// of them quadrant q is bit q.
 
 /// An edge of a fan, between the corners of two quadrants. Corners are in half edges from the
 /// south-west corner.

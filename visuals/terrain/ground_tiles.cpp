@@ -63,14 +63,6 @@ float GroundTiles::height_m(int column, int row) const {
     return height_m(level, part, column >> (zeros + 1), row >> (zeros + 1));
 }
 
-glm::dvec3 GroundTiles::sample_m(int column, int row) const {
-    const glm::dvec2 half = half_extent_m();
-    return {
-        column * spacing_m() - half.x,
-        row * spacing_m() - half.y,
-        static_cast<double>(height_m(column, row))};
-}
-
 glm::dvec2 GroundTiles::half_extent_m() const {
     return {0.5 * (columns() - 1) * spacing_m(), 0.5 * (rows() - 1) * spacing_m()};
 }

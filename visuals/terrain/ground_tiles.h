@@ -104,9 +104,6 @@ public:
     /// The height of any sample (asserted to be one).
     float height_m(int column, int row) const;
 
-    /// The world position of a sample.
-    glm::dvec3 sample_m(int column, int row) const;
-
     /// Half the extent of the field from its centre, east and north, metres.
     glm::dvec2 half_extent_m() const;
 

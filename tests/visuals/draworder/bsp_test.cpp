@@ -3,6 +3,9 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "shapes.h"
 #include "wrong_rays.h"
@@ -21,15 +24,18 @@ std::vector<std::uint32_t> painted(const BspTree& tree, const glm::dvec3& eye_m)
 
 /// Wrong rays of the lists that the tree gives to some eyes, each eye with its own list.
 RayCount rays_of(const BspTree& tree) {
-    Dice dice(11);
-    RayCount count;
-    for (int i = 0; i < 150; ++i) {
-        const double radii = dice.between(0.1, 4.0);
-        const glm::dvec3 eye_m =
-            dice.direction() * (models::polygons::radius_m(tree.model) * radii);
-        count += count_wrong_rays_from(tree.model, painted(tree, eye_m), eye_m, 100);
-    }
-    return count;
+    std::vector<std::uint32_t> list;
+    const PaintedFrom painted_from = [&](const glm::dvec3& eye_m) {
+        list = painted(tree, eye_m);
+        return std::span<const std::uint32_t>(list);
+    };
+    const EyeSamples samples{
+        .eyes = 150,
+        .rays_per_eye = 100,
+        .least_distance_radii = 0.1,
+        .most_distance_radii = 4.0,
+        .seed = 11};
+    return count_wrong_rays(tree.model, painted_from, samples);
 }
 
 } // namespace
