@@ -16,6 +16,7 @@
 #include <cmath>
 #include <deque>
 #include <optional>
+#include <utility>
 
 namespace octant::flightpaths {
 

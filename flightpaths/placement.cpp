@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace octant::flightpaths {

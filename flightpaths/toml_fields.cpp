@@ -3,8 +3,10 @@
 #include "sim/base/error.h"
 #include "sim/base/units.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 
 namespace octant::flightpaths {

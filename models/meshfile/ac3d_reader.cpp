@@ -8,6 +8,7 @@
 #include <charconv>
 #include <fmt/format.h>
 #include <optional>
+#include <utility>
 
 namespace octant::models::meshfile {
 

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace octant::models::meshfile {
 

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <span>
 #include <string_view>
+#include <utility>
 
 namespace octant::models::meshfile {
 

@@ -6,6 +6,7 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>

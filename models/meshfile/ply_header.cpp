@@ -7,6 +7,7 @@
 #include <array>
 #include <fmt/format.h>
 #include <optional>
+#include <utility>
 
 namespace octant::models::meshfile {
 

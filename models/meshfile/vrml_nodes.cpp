@@ -6,6 +6,7 @@
 
 #include <cctype>
 #include <fmt/format.h>
+#include <utility>
 
 namespace octant::models::meshfile {
 

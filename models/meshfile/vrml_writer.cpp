@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 namespace octant::models::meshfile {
 

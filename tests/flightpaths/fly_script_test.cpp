@@ -3,7 +3,9 @@
 #include "sim/base/error.h"
 #include "sim/base/units.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "scratch.h"

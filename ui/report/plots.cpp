@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 namespace octant::ui::report {
 

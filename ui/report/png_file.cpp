@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <memory>
 #include <png.h>
+#include <utility>
 #include <zlib.h>
 
 namespace octant::ui::report {

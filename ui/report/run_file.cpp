@@ -4,6 +4,7 @@
 #include "sim/base/text_file.h"
 #include "ui/report/json_text.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>

@@ -5,6 +5,7 @@
 #include "visuals/terrain/ground_tiles.h"
 
 #include <string>
+#include <utility>
 #include <variant>
 
 namespace octant::ui::world {

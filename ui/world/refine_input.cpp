@@ -8,6 +8,7 @@
 #include "visuals/refine/progressive_file.h"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace octant::ui::world {
 

@@ -11,6 +11,7 @@
 #include <cassert>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace octant::visuals::draworder {
 

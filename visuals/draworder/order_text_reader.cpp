@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <set>
 #include <string_view>
+#include <utility>
 
 namespace octant::visuals::draworder {
 

@@ -23,6 +23,7 @@
 #include <fmt/format.h>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace octant::visuals::refine {
 

@@ -15,6 +15,7 @@
 #include <fstream>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace octant::visuals::refine {
 

@@ -21,6 +21,7 @@
 #include <bit>
 #include <cassert>
 #include <functional>
+#include <utility>
 
 namespace octant::visuals::refine {
 

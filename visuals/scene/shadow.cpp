@@ -10,6 +10,7 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace octant::visuals::scene {
 

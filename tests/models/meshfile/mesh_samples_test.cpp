@@ -1,6 +1,7 @@
 #include "tests/models/meshfile/mesh_samples.h"
 
 #include <catch2/catch.hpp>
+#include <utility>
 
 using namespace octant::models;
 using namespace octant::models::meshfile::test;

@@ -10,6 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include <iostream>
+#include <utility>
 
 using namespace octant::models;
 using namespace octant::models::meshfile;

@@ -1,7 +1,9 @@
 #include "models/meshfile/polygon_cut.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 using namespace octant::models::meshfile;
 

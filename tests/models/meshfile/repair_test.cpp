@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <utility>
 
 using namespace octant::models;
 using namespace octant::models::meshfile;

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 using namespace octant::models;

@@ -9,6 +9,7 @@
 #include <array>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "shapes.h"
 #include "wrong_rays.h"

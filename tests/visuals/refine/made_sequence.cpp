@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <utility>
 
 namespace octant::visuals::refine::test {
 

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace octant::ui::studies::draw_order {

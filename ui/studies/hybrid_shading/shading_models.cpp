@@ -14,6 +14,7 @@
 #include <cassert>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace octant::ui::studies::hybrid_shading {
 

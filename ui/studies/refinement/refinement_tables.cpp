@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <functional>
 #include <random>
+#include <utility>
 
 namespace octant::ui::studies::refinement {
 

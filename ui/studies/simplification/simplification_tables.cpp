@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace octant::ui::studies::simplification {
