@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/collapse_sequence.h"
-#include "visuals/refine/progressive_mesh.h"
+#include "visuals/refine/progressive_parts.h"
 
 namespace octant::visuals::refine {
 

@@ -46,7 +46,7 @@ void add_row(report::HtmlTable& table, const std::string& path, const Change& ch
 }
 
 Change shimmer_along(
-    const PoppingStudyOptions& options,
+    const ShimmerOptions& options,
     const settings::Settings& flown,
     const terrain::GroundSamples& ground) {
     const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(flown);
@@ -81,7 +81,7 @@ Change shimmer_along(
 
 } // namespace
 
-report::HtmlTable shimmer_table(const PoppingStudyOptions& options) {
+report::HtmlTable shimmer_table(const ShimmerOptions& options) {
     const world::LoadedGround ground =
         world::load_ground(options.settings.path.terrain, options.settings.path.terrain_spacing_m);
     const terrain::GroundSamples samples = ground.samples();

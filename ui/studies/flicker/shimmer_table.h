@@ -1,12 +1,19 @@
 #pragma once
 
 #include "ui/report/html_text.h"
-#include "ui/studies/flicker/study_popping.h"
+#include "ui/settings/settings.h"
 
 namespace octant::ui::studies::flicker {
 
+/// How shimmer is measured.
+struct ShimmerOptions {
+    settings::Settings settings; ///< terrain, size, triangles, error_px, rate, frames, ...
+    int every = 60;              ///< a pair of consecutive frames in so many
+    bool quiet = false;
+};
+
 /// A row a path and one for all: mean change of reprojected pixels for one and four samples a
 /// pixel, geomorphs off and on. Draws. Throws Error.
-report::HtmlTable shimmer_table(const PoppingStudyOptions& options);
+report::HtmlTable shimmer_table(const ShimmerOptions& options);
 
 } // namespace octant::ui::studies::flicker

@@ -155,7 +155,7 @@ void study_popping(const PoppingStudyOptions& options) {
     std::vector<report::HtmlTable> tables = {popping_table(options)};
     std::vector<std::string> files = {"popping"};
     if (options.shimmer) {
-        tables.push_back(shimmer_table(options));
+        tables.push_back(shimmer_table({options.settings, options.every, options.quiet}));
         files.emplace_back("shimmer");
     }
     std::string markdown;
