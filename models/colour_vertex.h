@@ -10,12 +10,13 @@ namespace octant::models {
 /// A vertex as it goes to the graphics card. 16 bytes.
 struct ColourVertex {
     glm::vec3 position_m{0.0F}; ///< world axes, metres, eye point subtracted
-    /// Red in the lowest byte, then green, blue, alpha; each 0..255. Alpha of ground is 255, and in
-    /// a shadow the share of its light that is left.
+    /// Red in the lowest byte, then green, blue, alpha; each 0..255. Red, green and blue are
+    /// display values (models/display_colour.h). Alpha of ground is 255, and in a shadow the share
+    /// of its light that is left.
     std::uint32_t colour = 0;
 };
 
-/// Packs linear parts 0..1 (clamped, rounded) with full alpha.
+/// Packs display values 0..1 (clamped, rounded) with full alpha.
 inline std::uint32_t packed_colour(const glm::vec3& rgb) {
     const auto byte = [](float part) {
         const float clamped = part < 0.0F ? 0.0F : (part > 1.0F ? 1.0F : part);

@@ -6,10 +6,10 @@
 
 namespace octant::models {
 
-/// A surface colour, linear parts 0..1 of red, green, blue.
+/// A named surface colour.
 struct Material {
     std::string name;
-    glm::vec3 colour{0.7F};
+    glm::vec3 colour{0.7F}; ///< red, green, blue: display values 0..1 (models/display_colour.h)
 };
 
 } // namespace octant::models

@@ -20,7 +20,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct TriangleMesh {
     std::string name;
     std::vector<glm::dvec3> vertices_m;
-    std::vector<glm::vec3> colours; ///< one a vertex, linear parts 0..1; empty = no colours
+    std::vector<glm::vec3> colours; ///< one a vertex, display values 0..1; empty = no colours
     std::vector<Triangle> triangles;
     std::vector<glm::vec3> normals; ///< unit vectors that corner_normals points into; often empty
     std::vector<Triangle> corner_normals;          ///< one a triangle; empty where `normals` is

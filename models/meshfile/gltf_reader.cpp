@@ -1,3 +1,4 @@
+#include "models/display_colour.h"
 #include "models/meshfile/gltf_data.h"
 #include "models/meshfile/gltf_scene.h"
 #include "models/meshfile/mesh_formats.h"
@@ -180,15 +181,16 @@ private:
                 fmt::format("{} of {}", colours.count(), colours.parts()));
         }
         for (std::size_t i = 0; i < count; ++i) {
-            glm::vec3 colour;
+            glm::dvec3 colour;
             for (int part = 0; part < 3; ++part) {
                 const double value = colours.at(i, part);
                 if (!(value >= 0.0 && value <= 1.0)) { // also NaN
                     data_.refuse(where, "colours of 0 to 1", fmt::format("{}", value));
                 }
-                colour[part] = static_cast<float>(value);
+                colour[part] = value;
             }
-            mesh_.set_colour(first + static_cast<std::uint32_t>(i), colour);
+            mesh_.set_colour(
+                first + static_cast<std::uint32_t>(i), glm::vec3(display_from_linear(colour)));
         }
     }
 
@@ -263,7 +265,7 @@ private:
                     data_.refuse(where, "a colour of 0 to 1", fmt::format("{}", c[part]));
                 }
             }
-            made.colour = glm::vec3(glm::dvec3(c[0], c[1], c[2]));
+            made.colour = glm::vec3(display_from_linear({c[0], c[1], c[2]}));
         }
         return materials_[index] = mesh_.add_material(std::move(made));
     }

@@ -1,3 +1,4 @@
+#include "models/display_colour.h"
 #include "models/meshfile/base64.h"
 #include "models/meshfile/byte_writer.h"
 #include "models/meshfile/mesh_builder.h"
@@ -71,11 +72,11 @@ public:
         }
         for (std::uint32_t material = 0; material < mesh.materials.size(); ++material) {
             add_primitive(material);
-            const glm::vec3& c = mesh.materials[material].colour;
+            const glm::dvec3 c = linear_from_display(glm::dvec3(mesh.materials[material].colour));
             json_["materials"].push_back(
                 {{"name", mesh.materials[material].name},
                  {"pbrMetallicRoughness",
-                  {{"baseColorFactor", {c.x, c.y, c.z, 1.0F}}, {"metallicFactor", 0.0F}}}});
+                  {{"baseColorFactor", {c.x, c.y, c.z, 1.0}}, {"metallicFactor", 0.0F}}}});
         }
         json_["meshes"] = Json::array({{{"primitives", primitives_}}});
         json_["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
@@ -130,7 +131,7 @@ private:
         if (!mesh_.colours.empty()) {
             const std::size_t first = bytes_.size();
             for (const std::uint32_t vertex : split_.vertices) {
-                append_vector(mesh_.colours[vertex]);
+                append_vector(glm::vec3(linear_from_display(glm::dvec3(mesh_.colours[vertex]))));
             }
             attributes_["COLOR_0"] = add_accessor(first, count, float_type, "VEC3");
         }

@@ -10,7 +10,8 @@ namespace octant::models::meshfile {
 /// (ascii, binary of both byte orders), .stl (ascii, binary), .gltf and .glb, .ac (AC3D), .wrl
 /// (VRML 2.0 IndexedFaceSet). Polygons are cut into triangles; nothing else is changed: see
 /// repair.h. Scenes are read as they stand (nodes placed, mirrored ones turned round again), axes
-/// and units as the file has them. Whole-number colours stand for 0..1, taken as linear.
+/// and units as the file has them. Whole-number colours stand for 0..1. Colours
+/// are display values (models/display_colour.h); those of glTF, linear in its files, are converted.
 ///
 /// Left out, where a file has it: textures, lines and points, face colours of PLY, normals of STL,
 /// inner nodes of unknown kinds; of two-sided surfaces the back. TriangleMesh::notes says what may
@@ -29,7 +30,8 @@ TriangleMesh read_mesh(const std::filesystem::path& path);
 ///     .obj        all
 ///     .ply        no materials; normals where each vertex has only one
 ///     .stl        places in float; vertices in the order of their first corners, nothing else
-///     .gltf .glb  places in float; a vertex of several normals becomes several
+///     .gltf .glb  places in float, colours of vertices to one step of a float; a vertex of
+///                 several normals becomes several
 ///     .ac         no colours of vertices, no normals
 ///     .wrl        all; letters and digits of materials' names
 /// With several materials .gltf, .glb and .wrl put triangles in the order of their materials; .obj,

@@ -33,8 +33,9 @@ std::string ply_bytes(const TriangleMesh& mesh);
 /// A binary STL file: coordinates in float, one normal a triangle, nothing else.
 std::string stl_bytes(const TriangleMesh& mesh);
 
-/// glTF 2.0 with its data inside, as JSON text or as a binary file: coordinates and colours in
-/// float, a primitive a material. A vertex of several normals is written once for each.
+/// glTF 2.0 with its data inside, as JSON text or as a binary file: coordinates and colours
+/// (linear in light, as glTF has them) in float, a primitive a material. A vertex of several
+/// normals is written once for each.
 std::string gltf_text(const TriangleMesh& mesh);
 std::string glb_bytes(const TriangleMesh& mesh);
 

@@ -7,10 +7,10 @@
 
 namespace octant::models::polygons {
 
-/// Materials of an MTL file in file order: `newmtl NAME` and its `Kd R G B`, taken as they are; a
-/// material without Kd keeps the default colour, all other lines are ignored. Throws Error
-/// "file:line: expected ..., got ..." for a Kd that is not three numbers 0..1 or that comes before
-/// any newmtl, for a name that is missing or comes twice, and for a file that is not text.
+/// Materials of an MTL file in file order: `newmtl NAME` and its `Kd R G B`, taken as display
+/// values; a material without Kd keeps the default colour, all other lines are ignored. Throws
+/// Error "file:line: expected ..., got ..." for a Kd that is not three numbers 0..1 or that comes
+/// before any newmtl, for a name that is missing or comes twice, and for a file that is not text.
 std::vector<Material> read_mtl(const std::filesystem::path& path);
 
 } // namespace octant::models::polygons

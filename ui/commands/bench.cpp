@@ -2,9 +2,11 @@
 
 #include "sim/base/hash.h"
 #include "ui/base/progress.h"
+#include "ui/flight/make_renderer.h"
 #include "ui/flight/session.h"
 #include "ui/report/statistics.h"
-#include "visuals/gl/bare_grid.h"
+#include "visuals/scene/bare_grid.h"
+#include "visuals/scene/step_writer.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -15,7 +17,6 @@
 
 namespace octant::ui::commands {
 
-namespace gl = visuals::gl;
 namespace scene = visuals::scene;
 
 namespace {
@@ -27,28 +28,23 @@ constexpr int warm_up_frames = 20;
 class Floor {
 public:
     explicit Floor(const settings::Settings& settings)
-        : context_(flight::make_context(settings.drawing.context))
-        , renderer_(std::make_unique<gl::Renderer>(
-              context_->functions(),
-              settings.view.size_px.x,
-              settings.view.size_px.y,
-              settings.view.samples)) {
+        : renderer_(flight::make_renderer(settings)) {
         plan_.view_to_clip = scene::view_to_clip(
             {}, static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y);
-        grid_ = gl::bare_grid(floor_triangles, plan_.view_to_clip);
+        grid_ = scene::bare_grid(floor_triangles, plan_.view_to_clip);
         plan_.ground = {grid_.vertices, grid_.indices};
+        scene::StepWriter(plan_).paint_ground();
         renderer_->warm_up();
     }
 
-    ~Floor() { context_->make_current(); }
-
+    ~Floor() = default;
     Floor(const Floor&) = delete;
     Floor& operator=(const Floor&) = delete;
     Floor(Floor&&) = delete;
     Floor& operator=(Floor&&) = delete;
 
     report::FrameRecord draw() {
-        context_->make_current();
+        renderer_->make_current();
         report::FrameRecord record;
         const base::Stopwatch whole;
         base::Stopwatch stage;
@@ -62,14 +58,13 @@ public:
         return record;
     }
 
-    const gl::Picture& picture() const { return picture_; }
+    const scene::Picture& picture() const { return picture_; }
 
 private:
-    std::unique_ptr<gl::Context> context_;
-    std::unique_ptr<gl::Renderer> renderer_; ///< goes before its context
-    gl::BareGrid grid_;
+    std::unique_ptr<scene::Renderer> renderer_;
+    scene::BareGrid grid_;
     scene::FramePlan plan_;
-    gl::Picture picture_;
+    scene::Picture picture_;
 };
 
 /// Frames of one scene and the hash of what they showed.
@@ -78,7 +73,7 @@ struct Timed {
     std::vector<report::FrameRecord> records;
     Hash hash;
 
-    void add(const report::FrameRecord& record, const gl::Picture& picture) {
+    void add(const report::FrameRecord& record, const scene::Picture& picture) {
         records.push_back(record);
         hash.add(std::as_bytes(std::span(picture.rgba)));
     }

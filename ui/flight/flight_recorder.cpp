@@ -43,7 +43,7 @@ std::string adaptation_text(const scene::LoadSettings& load) {
 
 } // namespace
 
-report::PictureView view_of(const visuals::gl::Picture& picture) {
+report::PictureView view_of(const visuals::scene::Picture& picture) {
     return {picture.width, picture.height, 4, std::as_bytes(std::span(picture.rgba)), false};
 }
 
@@ -54,7 +54,7 @@ report::RunInfo run_info(const settings::Settings& settings, const Session& sess
     info.settings_json = settings::settings_json(settings).dump(2);
     info.version = base::program_version();
     info.commit = base::program_commit();
-    info.gl_renderer = session.context().renderer;
+    info.gl_renderer = session.renderer().info().device;
     info.path_offset_m = {flight.place_m.x, flight.place_m.y, flight.offset_m};
     info.machine = report::read_machine_info(std::chrono::system_clock::now());
     info.facts = {
@@ -64,7 +64,8 @@ report::RunInfo run_info(const settings::Settings& settings, const Session& sess
         {"lowest clearance",
          fmt::format("{:.1f} m at {:.2f} s", flight.lowest_clearance_m, flight.lowest_clearance_s)},
         {"drawn by",
-         fmt::format("{}, OpenGL {}", session.context().kind, session.context().version)}};
+         fmt::format(
+             "{}, OpenGL {}", session.renderer().info().kind, session.renderer().info().version)}};
     if (settings.adapt.terrain) {
         info.facts.emplace_back(
             "adaptation", adaptation_text(scene::load_settings(settings, session.rate_hz())));

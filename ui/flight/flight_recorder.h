@@ -40,7 +40,7 @@ report::RunInfo run_info(const settings::Settings& settings, const Session& sess
 std::string write_report(const std::filesystem::path& folder);
 
 /// A picture as the report's files take it; refers to it.
-report::PictureView view_of(const visuals::gl::Picture& picture);
+report::PictureView view_of(const visuals::scene::Picture& picture);
 
 /// Writes a flight as it is flown: recording folder, pictures, video. Without a folder only the
 /// figures are kept.

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "ui/settings/settings.h"
-#include "visuals/gl/renderer.h"
+#include "visuals/scene/frame_plan.h"
+#include "visuals/scene/picture.h"
 #include "visuals/scene/planner.h"
 #include "visuals/scene/scene.h"
 
@@ -29,7 +30,7 @@ public:
     /// Settings of the view alone: its camera and its size.
     const settings::Settings& settings() const { return settings_; }
 
-    visuals::gl::PixelRect rectangle() const { return rectangle_; }
+    visuals::scene::PixelRect rectangle() const { return rectangle_; }
 
     /// Planner::prepare.
     void prepare(const visuals::scene::Camera& camera) { planner_->prepare(camera); }
@@ -45,7 +46,7 @@ private:
 
     const visuals::scene::Scene& scene_;
     settings::Settings settings_;
-    visuals::gl::PixelRect rectangle_;
+    visuals::scene::PixelRect rectangle_;
     std::optional<visuals::scene::Planner> planner_;
     bool settles_ = true; ///< the ground's detail has not been set for a first picture
 };

@@ -1,8 +1,8 @@
 #include "ui/flight/session.h"
 
+#include "ui/flight/make_renderer.h"
 #include "ui/report/statistics.h"
 #include "visuals/gl/platform_tuning.h"
-#include "visuals/gl/window_context.h"
 
 #include <algorithm>
 #include <span>
@@ -11,45 +11,27 @@
 namespace octant::ui::flight {
 
 namespace scene = visuals::scene;
-namespace gl = visuals::gl;
-
-std::unique_ptr<gl::Context> make_context(settings::ContextKind kind) {
-    switch (kind) {
-    case settings::ContextKind::Egl:
-        return gl::make_egl_context();
-    case settings::ContextKind::Window:
-        return gl::make_window_context({.visible = false});
-    case settings::ContextKind::OsMesa:
-        break;
-    }
-    return gl::make_osmesa_context();
-}
 
 namespace {
 
-std::unique_ptr<gl::Context>
-made(std::unique_ptr<gl::Context> context, settings::ContextKind kind) {
-    return context ? std::move(context) : make_context(kind);
+std::unique_ptr<scene::Renderer>
+given_or_made(std::unique_ptr<scene::Renderer> given, const settings::Settings& settings) {
+    return given ? std::move(given) : make_renderer(settings);
 }
 
 } // namespace
 
 Session::Session(
-    const settings::Settings& settings, Shows shows, std::unique_ptr<gl::Context> context)
+    const settings::Settings& settings, Shows shows, std::unique_ptr<scene::Renderer> renderer)
     : settings_(settings)
-    , context_(made(std::move(context), settings.drawing.context))
+    , renderer_(given_or_made(std::move(renderer), settings))
     , world_(world::load_world(settings, drawn_by()))
-    , renderer_(std::make_unique<gl::Renderer>(
-          context_->functions(),
-          settings.view.size_px.x,
-          settings.view.size_px.y,
-          settings.view.samples))
     , times_(world::frame_times_of(settings_, world_.flight))
     , ground_height_(
           [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); }) {
     load_into_renderer(shows);
     renderer_->warm_up();
-    gl::spread_raster_threads();
+    visuals::gl::spread_raster_threads();
     if (settings_.view.inset) {
         inset_ = std::make_unique<InsetView>(settings_, world_.scene);
     }
@@ -57,12 +39,7 @@ Session::Session(
 }
 
 world::DrawnBy Session::drawn_by() const {
-    return gl::is_processor(context_->description().renderer) ? world::DrawnBy::Processor
-                                                              : world::DrawnBy::Gpu;
-}
-
-Session::~Session() {
-    context_->make_current();
+    return renderer_->info().on_processor ? world::DrawnBy::Processor : world::DrawnBy::Gpu;
 }
 
 void Session::load_into_renderer(Shows shows) {

@@ -9,11 +9,10 @@
 #include "ui/world/frame_times.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
-#include "visuals/gl/context.h"
-#include "visuals/gl/picture.h"
-#include "visuals/gl/renderer.h"
 #include "visuals/scene/id_plan.h"
+#include "visuals/scene/picture.h"
 #include "visuals/scene/planner.h"
+#include "visuals/scene/renderer.h"
 #include "visuals/shading/shading_controller.h"
 
 #include <cstdint>
@@ -25,9 +24,6 @@
 #include <vector>
 
 namespace octant::ui::flight {
-
-/// The context that the settings ask for, current in this thread. Throws Error.
-std::unique_ptr<visuals::gl::Context> make_context(settings::ContextKind kind);
 
 /// What the pictures of a session show.
 enum class Shows {
@@ -42,13 +38,14 @@ enum class Shows {
 /// own times by draw_at(), and changes settings and simulation between them.
 class Session {
 public:
-    /// Loads the world and draws once in every drawing state, in this context or in one that it
-    /// makes as the settings say. Throws Error. Stays in its place: parts of it point at others.
+    /// Loads the world and draws once in every drawing state, with this renderer, which must be of
+    /// the settings' picture size, or with one that it makes as the settings say. Throws Error.
+    /// Stays in its place: parts of it point at others.
     explicit Session(
         const settings::Settings& settings,
         Shows shows = Shows::World,
-        std::unique_ptr<visuals::gl::Context> context = nullptr);
-    ~Session();
+        std::unique_ptr<visuals::scene::Renderer> renderer = nullptr);
+    ~Session() = default;
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
     Session(Session&&) = delete;
@@ -58,7 +55,7 @@ public:
 
     const settings::Settings& settings() const { return settings_; }
 
-    const visuals::gl::ContextDescription& context() const { return context_->description(); }
+    const visuals::scene::Renderer& renderer() const { return *renderer_; }
 
     /// Number of frames of the run.
     int frames() const { return static_cast<int>(times_.at_s.size()); }
@@ -66,9 +63,8 @@ public:
     /// Frames a second of simulated time, for video and stress.
     double rate_hz() const { return times_.rate_hz; }
 
-    /// Makes the session's context current: to be called before draw() when several sessions take
-    /// turns.
-    void make_current() { context_->make_current(); }
+    /// Renderer::make_current: to be called before draw() when several sessions take turns.
+    void make_current() { renderer_->make_current(); }
 
     /// Flies as many frames as there are decisions, at most frames() (asserted), each as decided
     /// whatever the clock says. Before the first draw().
@@ -84,7 +80,7 @@ public:
     report::FrameRecord draw_at(double time_s, std::optional<double> next_s);
 
     /// Called in place of reading the picture: shows it.
-    using Presenter = std::function<void(visuals::gl::Renderer&)>;
+    using Presenter = std::function<void(visuals::scene::Renderer&)>;
 
     void present_by(Presenter presenter) { presenter_ = std::move(presenter); }
 
@@ -119,7 +115,7 @@ public:
     void read_picture();
 
     /// Picture of the last frame that was read, top row first.
-    const visuals::gl::Picture& picture() const { return picture_; }
+    const visuals::scene::Picture& picture() const { return picture_; }
 
     /// What `--adapt shading` has found out.
     const std::optional<visuals::shading::ShadingState>& shading() const {
@@ -166,9 +162,8 @@ private:
     void follow_inset();
 
     settings::Settings settings_;
-    std::unique_ptr<visuals::gl::Context> context_;
+    std::unique_ptr<visuals::scene::Renderer> renderer_;
     world::World world_;
-    std::unique_ptr<visuals::gl::Renderer> renderer_; ///< goes before its context
     std::optional<visuals::scene::Planner> planner_;
     std::unique_ptr<InsetView> inset_; ///< of the same scene
     std::optional<visuals::scene::IdPlan> ids_;
@@ -181,7 +176,7 @@ private:
     const visuals::scene::FramePlan* plan_ = nullptr; ///< of the last picture; null = is no more
     const visuals::scene::FramePlan* inset_plan_ = nullptr;
     Presenter presenter_;
-    visuals::gl::Picture picture_;
+    visuals::scene::Picture picture_;
     int last_triangles_ = 0;
     Decider decider_;
     std::optional<int> smooth_target_; ///< of the last picture; nothing: by the settings' share

@@ -13,8 +13,8 @@
 
 namespace octant::ui::studies {
 
-/// Light as it reaches the eye, red + green + blue, linear, not cut off: a square picture, top row
-/// first. What no polygon covers is 0.
+/// Light as it reaches the eye, red + green + blue in display values, not cut off: a square
+/// picture, top row first. What no polygon covers is 0.
 struct LightPicture {
     int size_px = 0;
     std::vector<float> light;

@@ -1,8 +1,9 @@
 #include "ui/terrain/key_pictures.h"
 
-#include "ui/flight/session.h"
 #include "ui/terrain/ground_view.h"
+#include "visuals/gl/make_renderer.h"
 #include "visuals/scene/facing.h"
+#include "visuals/scene/step_writer.h"
 
 #include <glm/geometric.hpp>
 
@@ -14,7 +15,6 @@
 namespace octant::ui::terrain {
 
 namespace scene = visuals::scene;
-namespace gl = visuals::gl;
 
 namespace {
 
@@ -30,14 +30,9 @@ constexpr double past_all = 1.2; ///< of the mesh's reach: below its lowest vert
 KeyPictures::KeyPictures(const glm::ivec2& size_px, const glm::dvec2& half_extent_m)
     : size_px_(size_px)
     , half_extent_m_(half_extent_m)
-    , context_(flight::make_context(settings::ContextKind::OsMesa))
-    , renderer_(std::make_unique<gl::Renderer>(context_->functions(), size_px.x, size_px.y, 1)) {
+    , renderer_(visuals::gl::make_osmesa_renderer(size_px, 1)) {
     renderer_->load_models({});
     renderer_->warm_up();
-}
-
-KeyPictures::~KeyPictures() {
-    context_->make_current();
 }
 
 void KeyPictures::draw(const visuals::terrain::GroundMesh& mesh, const scene::Camera& camera) {
@@ -58,6 +53,7 @@ void KeyPictures::draw(const visuals::terrain::GroundMesh& mesh, const scene::Ca
     plan.background = {1.0F, 0.0F, 1.0F};
     const scene::GroundFrame ground{{vertices_, mesh.indices}, {}, {}};
     plan.ground = scene::facing_the_eye(ground, camera.vertical_fov_rad / size_px_.y, facing_);
+    scene::StepWriter(plan).paint_ground();
     renderer_->draw(plan);
     renderer_->finish_and_read(picture_);
 }

@@ -1,9 +1,8 @@
 #pragma once
 
-#include "visuals/gl/context.h"
-#include "visuals/gl/picture.h"
-#include "visuals/gl/renderer.h"
 #include "visuals/scene/camera.h"
+#include "visuals/scene/picture.h"
+#include "visuals/scene/renderer.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/mesh_surface.h"
 #include "visuals/terrain/picture_view.h"
@@ -20,9 +19,9 @@ namespace octant::ui::terrain {
 class KeyPictures {
 public:
     /// For meshes of a ground that reaches `half_extent_m` from its centre. Throws Error when there
-    /// is no context.
+    /// is no renderer.
     KeyPictures(const glm::ivec2& size_px, const glm::dvec2& half_extent_m);
-    ~KeyPictures();
+    ~KeyPictures() = default;
     KeyPictures(const KeyPictures&) = delete;
     KeyPictures& operator=(const KeyPictures&) = delete;
     KeyPictures(KeyPictures&&) = delete;
@@ -39,9 +38,8 @@ private:
 
     glm::ivec2 size_px_;
     glm::dvec2 half_extent_m_;
-    std::unique_ptr<visuals::gl::Context> context_;
-    std::unique_ptr<visuals::gl::Renderer> renderer_; ///< goes before its context
-    visuals::gl::Picture picture_;
+    std::unique_ptr<visuals::scene::Renderer> renderer_;
+    visuals::scene::Picture picture_;
     visuals::terrain::MeshSurface surface_;
     visuals::terrain::PictureView view_;
     double reach_m_ = 0.0;  ///< of the mesh from the eye

@@ -4,8 +4,11 @@
 #include "sim/base/output_file.h"
 #include "ui/base/data_files.h"
 #include "ui/settings/settings_change.h"
+#include "ui/window/gui.h"
 #include "ui/window/look_control.h"
 #include "ui/window/panels.h"
+#include "visuals/gl/make_renderer.h"
+#include "visuals/gl/window_context.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -46,23 +49,26 @@ fs::path layout_file(const fs::path& folder) {
 
 Viewer::Viewer(const ViewOptions& options)
     : options_(options) {
-    std::unique_ptr<gl::WindowContext> context = open_window(options);
+    std::shared_ptr<gl::WindowContext> context = open_window(options);
     context_ = context.get();
     input_.emplace(context_->window());
     settings::Settings settings = options.settings;
     settings.drawing.context = settings::ContextKind::Window;
     settings.view.size_px = input_->size_px();
-    session_ =
-        std::make_unique<flight::Session>(settings, flight::Shows::World, std::move(context));
-    session_->present_by([this](gl::Renderer& renderer) {
+    session_ = std::make_unique<flight::Session>(
+        settings,
+        flight::Shows::World,
+        gl::make_renderer(std::move(context), settings.view.size_px, settings.view.samples));
+    session_->present_by([this](scene::Renderer& renderer) {
         if (!renderer.is_in_window()) {
-            renderer.copy_to(0, input_->size_px());
+            renderer.copy_to_window(input_->size_px());
         }
         gui_->draw(input_->size_px());
         context_->swap_buffers();
     });
     keep_layout();
-    gui_.emplace(context_->window(), context_->functions(), layout_file(options_.keeps_into));
+    gui_ = std::make_unique<Gui>(
+        context_->window(), context_->functions(), layout_file(options_.keeps_into));
     refresh_hz_ = refresh_hz_of(glfwGetPrimaryMonitor());
     state_.wanted = settings;
     state_.vsync = options.vsync;
@@ -97,6 +103,10 @@ void Viewer::keep_layout() {
     } catch (const Error&) {
         options_.keeps_into.clear();
     }
+}
+
+GLFWwindow* Viewer::window() const {
+    return context_->window();
 }
 
 Viewer::~Viewer() {

@@ -3,20 +3,26 @@
 #include "ui/base/stopwatch.h"
 #include "ui/flight/session.h"
 #include "ui/settings/settings.h"
-#include "ui/window/gui.h"
 #include "ui/window/pilot_input.h"
 #include "ui/window/view_keys.h"
 #include "ui/window/view_state.h"
 #include "ui/window/window_input.h"
 #include "ui/window/window_recording.h"
-#include "visuals/gl/window_context.h"
 
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
+struct GLFWwindow;
+
+namespace octant::visuals::gl {
+class WindowContext;
+}
+
 namespace octant::ui::window {
+
+class Gui;
 
 /// How a viewer begins.
 struct ViewOptions {
@@ -63,7 +69,7 @@ public:
 
     ViewState& state() { return state_; }
 
-    GLFWwindow* window() const { return context_->window(); }
+    GLFWwindow* window() const;
 
 private:
     void take_events(double wall_s);
@@ -99,7 +105,7 @@ private:
     visuals::gl::WindowContext* context_ = nullptr;
     std::unique_ptr<flight::Session> session_;
     std::optional<WindowInput> input_;
-    std::optional<Gui> gui_;
+    std::unique_ptr<Gui> gui_;
     ViewState state_;
     std::optional<WindowRecording> recording_;
     base::Stopwatch clock_;

@@ -305,8 +305,7 @@ void Viewer::take_screenshot() {
 
 void Viewer::count_wrong_pixels() {
     try {
-        const studies::draw_order::PixelCheck check =
-            studies::draw_order::check_pixels(*session_, context_->functions());
+        const studies::draw_order::PixelCheck check = studies::draw_order::check_pixels(*session_);
         state_.wrong_pixels = {check.wrong, check.differing, check.pixels};
     } catch (const Error& fault) {
         say(fault.what());
@@ -314,7 +313,7 @@ void Viewer::count_wrong_pixels() {
 }
 
 void Viewer::toggle_full_screen() {
-    GLFWwindow* const window = context_->window();
+    GLFWwindow* const window = this->window();
     if (glfwGetWindowMonitor(window) != nullptr) {
         glfwSetWindowMonitor(
             window,

@@ -3,6 +3,7 @@
 #include "models/heights/image.h"
 #include "models/heights/image_on_ground.h"
 #include "sim/base/error.h"
+#include "visuals/scene/ground_texture_maker.h"
 
 #include <fmt/format.h>
 

@@ -23,12 +23,12 @@ AircraftPainter::AircraftPainter(const Functions& gl, DrawState& state)
     : gl_(gl)
     , state_(state)
     , programs_(make_program_pair(gl, "aircraft", {aircraft_vert, aircraft_frag}))
-    , model_vertices_(make_buffer(gl))
-    , model_indices_(make_buffer(gl))
-    , part_buffer_(gl, first_capacity_bytes)
-    , smooth_buffer_(gl, first_capacity_bytes)
-    , instance_buffer_(gl, first_capacity_bytes)
-    , command_buffer_(gl, first_capacity_bytes)
+    , model_vertices_(make_buffer(gl, "model vertices"))
+    , model_indices_(make_buffer(gl, "model indices"))
+    , part_buffer_(gl, "parts of aircraft", first_capacity_bytes)
+    , smooth_buffer_(gl, "smooth polygons", first_capacity_bytes)
+    , instance_buffer_(gl, "aircraft instances", first_capacity_bytes)
+    , command_buffer_(gl, "aircraft draws", first_capacity_bytes)
     , array_(make_model_array(
           gl, model_vertices_.name(), model_indices_.name(), instance_buffer_.name())) {}
 
@@ -98,21 +98,21 @@ void AircraftPainter::upload(const scene::FramePlan& plan) {
     gl_.bind_buffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_.name());
 }
 
-void AircraftPainter::draw(
-    std::uint32_t first, std::uint32_t count, Depth depth, const scene::Clip* clip) {
-    assert(std::size_t{first} + count <= commands_.size());
-    if (count == 0) {
+void AircraftPainter::draw(const scene::PaintStep& step, const scene::Clip* clip) {
+    assert(std::size_t{step.first} + step.count <= commands_.size());
+    assert(step.depth != scene::DepthUse::DepthOnly);
+    if (step.count == 0) {
         return;
     }
-    state_.use_depth(depth);
+    state_.use_depth(step.depth);
     state_.cull_back_faces(true);
     state_.use_program(programs_, clip);
     gl_.bind_vertex_array(array_.name());
     gl_.multi_draw_elements_indirect(
         GL_TRIANGLES,
         GL_UNSIGNED_INT,
-        reinterpret_cast<const void*>(first * sizeof(Command)),
-        static_cast<GLsizei>(count),
+        reinterpret_cast<const void*>(step.first * sizeof(Command)),
+        static_cast<GLsizei>(step.count),
         sizeof(Command));
     state_.count_draw_call();
 }

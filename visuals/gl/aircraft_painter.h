@@ -12,7 +12,7 @@
 
 namespace octant::visuals::gl {
 
-/// Draws aircraft. From a plan's upload on, each call draws of that plan.
+/// Draws aircraft. From a plan's upload on, each step is one of that plan.
 class AircraftPainter {
 public:
     AircraftPainter(const Functions& gl, DrawState& state);
@@ -20,22 +20,20 @@ public:
     /// In place of those loaded before; AircraftDraw::model counts in this list.
     void load_models(std::span<const scene::ModelBuffers> models);
 
-    /// Whether a plan may ask for solid aircraft, and so for depth.
+    /// Whether a plan may draw an aircraft by depth among others that are painted in order.
     bool has_meshes() const { return has_meshes_; }
 
-    /// Of any mesh that comes as scene::ModelVertex.
+    /// For any mesh that comes as scene::ModelVertex.
     const ProgramPair& programs() const { return programs_; }
 
-    /// That every draw names a model, indices and parts that are there is asserted.
+    /// Asserts that every draw names a model, indices and parts that are there.
     void upload(const scene::FramePlan& plan);
 
     /// Puts an aircraft 100 m ahead into a plan without any, if a model is loaded.
     void add_any(scene::FramePlan& plan) const;
 
-    /// FramePlan::aircraft `first` to `first + count - 1` in this order, by one call. No clip = not
-    /// cut.
-    void
-    draw(std::uint32_t first, std::uint32_t count, Depth depth, const scene::Clip* clip = nullptr);
+    /// A step of Aircraft, by one call. No clip = not cut.
+    void draw(const scene::PaintStep& step, const scene::Clip* clip);
 
 private:
     struct ModelPlace {

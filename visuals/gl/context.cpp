@@ -1,5 +1,7 @@
 #include "visuals/gl/context.h"
 
+#include "visuals/gl/debug_messages.h"
+
 #include <algorithm>
 #include <array>
 
@@ -48,7 +50,9 @@ void Context::leave() {
 void Context::start(const std::string& kind, AddressOf address_of) {
     make_current();
     functions_ = load_functions(address_of);
-    description_ = {kind, text(functions_, GL_RENDERER), text(functions_, GL_VERSION)};
+    const std::string device = text(functions_, GL_RENDERER);
+    info_ = {kind, device, text(functions_, GL_VERSION), is_processor(device)};
+    print_debug_messages(functions_);
 }
 
 } // namespace octant::visuals::gl

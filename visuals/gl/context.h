@@ -1,6 +1,7 @@
 #pragma once
 
 #include "visuals/gl/functions.h"
+#include "visuals/scene/renderer.h"
 
 #include <memory>
 #include <string>
@@ -8,14 +9,8 @@
 
 namespace octant::visuals::gl {
 
-/// What draws, for reports.
-struct ContextDescription {
-    std::string kind;     ///< "osmesa" or "egl"
-    std::string renderer; ///< the driver's GL_RENDERER
-    std::string version;  ///< the driver's GL_VERSION
-};
-
-/// Whether a processor draws, not a GPU: by the driver's GL_RENDERER.
+/// Whether a processor draws, not a GPU: by the driver's GL_RENDERER, and by that of the current
+/// context.
 bool is_processor(std::string_view renderer);
 bool draws_on_processor(const Functions& gl);
 
@@ -35,12 +30,14 @@ public:
 
     const Functions& functions() const { return functions_; }
 
-    const ContextDescription& description() const { return description_; }
+    /// What draws.
+    const scene::RendererInfo& info() const { return info_; }
 
 protected:
     Context() = default;
 
-    /// Makes it current and fills functions and description. Throws Error.
+    /// Makes it current and fills functions and info; in debug builds its messages are printed from
+    /// now on. Throws Error.
     void start(const std::string& kind, AddressOf address_of);
 
     /// For the destructor of a maker: releases the context where it is still current.
@@ -51,7 +48,7 @@ private:
     virtual void release() = 0;
 
     Functions functions_;
-    ContextDescription description_;
+    scene::RendererInfo info_;
 };
 
 /// A context on Mesa's off-screen library (processor only, no display needed), current in this

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <string>
 
 namespace octant::visuals::gl {
 namespace {
 
 using scene::Clip;
+using scene::DepthUse;
 
 constexpr GLint planes_uniform = 0; ///< place in the shaders, where CUT is defined
 
@@ -26,11 +28,13 @@ constexpr float edge_on_steps = -0x1p23F * 0.02F;
 
 ProgramPair make_program_pair(
     const Functions& gl, const char* name, const ProgramText& text, const char* defined) {
+    const std::string cut = std::string(name) + ", cut";
     if (defined == nullptr) {
-        return {make_program(gl, name, text), make_program(gl, name, text, {"CUT"})};
+        return {make_program(gl, name, text), make_program(gl, cut.c_str(), text, {"CUT"})};
     }
     return {
-        make_program(gl, name, text, {defined}), make_program(gl, name, text, {defined, "CUT"})};
+        make_program(gl, name, text, {defined}),
+        make_program(gl, cut.c_str(), text, {defined, "CUT"})};
 }
 
 void DrawState::begin_picture(Rows rows) {
@@ -47,18 +51,19 @@ void DrawState::begin_picture(Rows rows) {
     draw_calls_ = 0;
 }
 
-void DrawState::use_depth(Depth depth) {
-    if (depth == Depth::Unused) {
+void DrawState::use_depth(DepthUse use) {
+    if (use == DepthUse::None) {
         gl_.disable(GL_DEPTH_TEST);
         return;
     }
+    const bool where_equal = use == DepthUse::OnGround || use == DepthUse::InfinitelyFar;
     gl_.enable(GL_DEPTH_TEST);
-    gl_.depth_func(depth == Depth::Nearest || depth == Depth::EdgeOn ? GL_GREATER : GL_GEQUAL);
-    gl_.depth_mask(depth == Depth::InfinitelyFar ? GL_FALSE : GL_TRUE);
-    if (depth == Depth::OnGround) {
+    gl_.depth_func(where_equal ? GL_GEQUAL : GL_GREATER);
+    gl_.depth_mask(use == DepthUse::InfinitelyFar ? GL_FALSE : GL_TRUE);
+    if (use == DepthUse::OnGround) {
         gl_.enable(GL_POLYGON_OFFSET_FILL);
         gl_.polygon_offset(towards_eye_px, towards_eye_steps);
-    } else if (depth == Depth::EdgeOn) {
+    } else if (use == DepthUse::EdgeOn) {
         gl_.enable(GL_POLYGON_OFFSET_FILL);
         gl_.polygon_offset(0.0F, edge_on_steps);
     } else {

@@ -2,24 +2,15 @@
 
 #include "visuals/gl/object.h"
 #include "visuals/gl/program.h"
-#include "visuals/scene/frame_plan.h"
+#include "visuals/scene/paint_step.h"
 
 namespace octant::visuals::gl {
-
-/// What is asked of the depth buffer; greater is nearer.
-enum class Depth {
-    Unused,       ///< drawn over whatever is there
-    Nearest,      ///< drawn where nearer than what is there, and written
-    EdgeOn,       ///< drawn where there is nothing but what lies well behind it; written
-    OnGround,     ///< drawn where it lies on what is there, a little towards the eye; written
-    InfinitelyFar ///< drawn where nothing is; not written
-};
 
 /// A program of two kinds: for draws that are cut by planes, and for all others, which then pay
 /// nothing for the planes.
 struct ProgramPair {
     Object whole;
-    Object cut;
+    Object cut; ///< empty where nothing is ever cut
 };
 
 /// Links both kinds, the second with CUT defined, both with `defined`. Throws Error with `name`.
@@ -42,7 +33,8 @@ public:
     /// about the context is taken for granted.
     void begin_picture(Rows rows);
 
-    void use_depth(Depth depth);
+    /// DepthOnly as Nearest: whoever draws so keeps the colours himself.
+    void use_depth(scene::DepthUse use);
     void cull_back_faces(bool cull);
 
     /// Whether what is drawn covers the picture by its alpha only; the picture's own alpha stays

@@ -1,5 +1,6 @@
 #include "sim/base/error.h"
 #include "visuals/gl/context.h"
+#include "visuals/gl/debug_messages.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -60,13 +61,15 @@ public:
         EGLConfig config = nullptr;
         EGLint configs = 0;
         eglChooseConfig(display, config_wanted.data(), &config, 1, &configs);
-        const std::array<EGLint, 7> wanted{
+        const std::array<EGLint, 9> wanted{
             EGL_CONTEXT_MAJOR_VERSION,
             4,
             EGL_CONTEXT_MINOR_VERSION,
             5,
             EGL_CONTEXT_OPENGL_PROFILE_MASK,
             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+            EGL_CONTEXT_OPENGL_DEBUG,
+            prints_debug_messages ? EGL_TRUE : EGL_FALSE,
             EGL_NONE};
         if (configs > 0 && eglBindAPI(EGL_OPENGL_API) == EGL_TRUE) {
             context_ = eglCreateContext(display, config, EGL_NO_CONTEXT, wanted.data());

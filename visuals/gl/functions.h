@@ -30,6 +30,8 @@
     X(create_textures, PFNGLCREATETEXTURESPROC, "glCreateTextures")                                \
     X(create_vertex_arrays, PFNGLCREATEVERTEXARRAYSPROC, "glCreateVertexArrays")                   \
     X(cull_face, PFNGLCULLFACEPROC, "glCullFace")                                                  \
+    X(debug_message_callback, PFNGLDEBUGMESSAGECALLBACKPROC, "glDebugMessageCallback")             \
+    X(debug_message_control, PFNGLDEBUGMESSAGECONTROLPROC, "glDebugMessageControl")                \
     X(delete_buffers, PFNGLDELETEBUFFERSPROC, "glDeleteBuffers")                                   \
     X(delete_framebuffers, PFNGLDELETEFRAMEBUFFERSPROC, "glDeleteFramebuffers")                    \
     X(delete_program, PFNGLDELETEPROGRAMPROC, "glDeleteProgram")                                   \
@@ -70,6 +72,7 @@
     X(named_renderbuffer_storage_multisample,                                                      \
       PFNGLNAMEDRENDERBUFFERSTORAGEMULTISAMPLEPROC,                                                \
       "glNamedRenderbufferStorageMultisample")                                                     \
+    X(object_label, PFNGLOBJECTLABELPROC, "glObjectLabel")                                         \
     X(pixel_storei, PFNGLPIXELSTOREIPROC, "glPixelStorei")                                         \
     X(polygon_offset, PFNGLPOLYGONOFFSETPROC, "glPolygonOffset")                                   \
     X(program_uniform_4fv, PFNGLPROGRAMUNIFORM4FVPROC, "glProgramUniform4fv")                      \

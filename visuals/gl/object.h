@@ -47,10 +47,13 @@ private:
     Delete delete_ = nullptr;
 };
 
-Object make_buffer(const Functions& gl);
+/// `label`: what debug messages call it.
+Object make_buffer(const Functions& gl, const char* label);
 Object make_vertex_array(const Functions& gl);
 Object make_framebuffer(const Functions& gl);
 Object make_renderbuffer(const Functions& gl);
-Object make_texture(const Functions& gl); ///< two-dimensional
+
+/// A two-dimensional one; `label` as make_buffer.
+Object make_texture(const Functions& gl, const char* label);
 
 } // namespace octant::visuals::gl

@@ -7,7 +7,9 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/vec4.hpp>
 
+#include <cassert>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace octant::visuals::gl {
@@ -33,27 +35,39 @@ OverlayPainter::OverlayPainter(const Functions& gl, DrawState& state)
     : gl_(gl)
     , state_(state)
     , programs_{make_program(gl, "overlay", {overlay_vert, overlay_frag}), {}}
-    , vertices_(gl, first_capacity_bytes)
-    , indices_(gl, first_capacity_bytes)
+    , vertices_(gl, "overlay vertices", first_capacity_bytes)
+    , indices_(gl, "overlay indices", first_capacity_bytes)
     , array_(make_array(gl, vertices_, indices_)) {}
 
-void OverlayPainter::draw(const scene::OverlayDraw& overlay, int width, int height) {
-    if (overlay.indices.empty()) {
+void OverlayPainter::upload(const scene::OverlayDraw& overlay, const glm::ivec2& size_px) {
+    index_count_ = overlay.indices.size();
+    if (index_count_ == 0) {
         return;
     }
     vertices_.fill({std::as_bytes(overlay.vertices)});
     indices_.fill({std::as_bytes(overlay.indices)});
     const glm::vec4 clip_per_px(
-        2.0F / static_cast<float>(width), 2.0F / static_cast<float>(height), 0.0F, 0.0F);
-    state_.use_depth(Depth::Unused);
-    state_.cull_back_faces(false);
-    state_.use_program(programs_);
+        2.0F / static_cast<float>(size_px.x), 2.0F / static_cast<float>(size_px.y), 0.0F, 0.0F);
     gl_.program_uniform_4fv(
         programs_.whole.name(), clip_per_px_uniform, 1, glm::value_ptr(clip_per_px));
+}
+
+void OverlayPainter::draw(const scene::PaintStep& step) {
+    assert(std::size_t{step.first} + step.count <= index_count_);
+    if (step.count == 0) {
+        return;
+    }
+    state_.use_depth(step.depth);
+    state_.cull_back_faces(false);
+    state_.use_program(programs_);
     state_.blend(true);
     gl_.bind_vertex_array(array_.name());
     gl_.draw_elements_base_vertex(
-        GL_TRIANGLES, static_cast<GLsizei>(overlay.indices.size()), GL_UNSIGNED_INT, nullptr, 0);
+        GL_TRIANGLES,
+        static_cast<GLsizei>(step.count),
+        GL_UNSIGNED_INT,
+        reinterpret_cast<const void*>(step.first * sizeof(std::uint32_t)),
+        0);
     state_.blend(false);
     state_.count_draw_call();
 }

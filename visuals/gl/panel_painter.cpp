@@ -24,7 +24,7 @@ constexpr std::size_t first_capacity_bytes = std::size_t{1} << 18;
 Object
 make_atlas(const Functions& gl, std::span<const std::uint8_t> texels, const glm::ivec2& size) {
     assert(texels.size() == static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
-    Object texture = make_texture(gl);
+    Object texture = make_texture(gl, "panel atlas");
     gl.texture_storage_2d(texture.name(), 1, GL_R8, size.x, size.y);
     gl.pixel_storei(GL_UNPACK_ALIGNMENT, 1);
     gl.texture_sub_image_2d(
@@ -51,8 +51,8 @@ PanelPainter::PanelPainter(
     : gl_(gl)
     , program_(make_program(gl, "panels", {panel_vert, panel_frag}))
     , atlas_(make_atlas(gl, atlas, size))
-    , vertices_(gl, first_capacity_bytes)
-    , indices_(gl, first_capacity_bytes)
+    , vertices_(gl, "panel vertices", first_capacity_bytes)
+    , indices_(gl, "panel indices", first_capacity_bytes)
     , array_(make_array(gl, vertices_, indices_)) {}
 
 void PanelPainter::begin(const PanelSurface& surface) {

@@ -1,6 +1,7 @@
 #include "visuals/gl/program.h"
 
 #include "sim/base/error.h"
+#include "visuals/gl/debug_messages.h"
 
 #include <array>
 #include <string>
@@ -48,6 +49,7 @@ Object make_program(
     std::initializer_list<const char*> defined) {
     Object program(
         gl, gl.create_program(), [](const Functions& f, GLuint n) { f.delete_program(n); });
+    label_object(gl, GL_PROGRAM, program.name(), name);
     const auto attach = [&](GLenum kind, const char* stage) {
         if (stage != nullptr) {
             const std::string code = with_definitions(stage, defined);

@@ -12,9 +12,9 @@ constexpr std::size_t first_capacity_bytes = std::size_t{1} << 12;
 RefinedPainter::RefinedPainter(const Functions& gl, DrawState& state)
     : gl_(gl)
     , state_(state)
-    , vertices_(gl, first_capacity_bytes)
-    , indices_(gl, first_capacity_bytes)
-    , instances_(gl, first_capacity_bytes)
+    , vertices_(gl, "refined vertices", first_capacity_bytes)
+    , indices_(gl, "refined indices", first_capacity_bytes)
+    , instances_(gl, "refined instances", first_capacity_bytes)
     , array_(make_model_array(gl, vertices_.name(), indices_.name(), instances_.name())) {}
 
 void RefinedPainter::upload(const scene::FramePlan& plan) {
@@ -44,16 +44,18 @@ void RefinedPainter::upload(const scene::FramePlan& plan) {
     instances_.fill({std::as_bytes(std::span(instance_values_))});
 }
 
-void RefinedPainter::draw(std::uint32_t first, std::uint32_t count, const ProgramPair& programs) {
-    assert(std::size_t{first} + count <= places_.size());
-    if (count == 0) {
+void RefinedPainter::draw(
+    const scene::PaintStep& step, const scene::Clip* clip, const ProgramPair& programs) {
+    assert(std::size_t{step.first} + step.count <= places_.size());
+    assert(step.depth != scene::DepthUse::DepthOnly);
+    if (step.count == 0) {
         return;
     }
-    state_.use_depth(Depth::Nearest);
+    state_.use_depth(step.depth);
     state_.cull_back_faces(true);
-    state_.use_program(programs);
+    state_.use_program(programs, clip);
     gl_.bind_vertex_array(array_.name());
-    for (std::uint32_t i = first; i < first + count; ++i) {
+    for (std::uint32_t i = step.first; i < step.first + step.count; ++i) {
         gl_.draw_elements_instanced(
             GL_TRIANGLES,
             static_cast<GLsizei>(places_[i].index_count),

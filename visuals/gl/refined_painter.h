@@ -12,17 +12,17 @@
 
 namespace octant::visuals::gl {
 
-/// Draws FramePlan::refined: meshes that are uploaded anew for each picture, by the program and the
-/// buffers of the aircraft. From a plan's upload on, each call draws of that plan.
+/// Draws FramePlan::refined: meshes that are uploaded anew for each picture, by the programs and
+/// the buffers of the aircraft. From a plan's upload on, each step is one of that plan.
 class RefinedPainter {
 public:
     RefinedPainter(const Functions& gl, DrawState& state);
 
-    /// After AircraftPainter::upload, whose parts and bits count.
+    /// To be called after AircraftPainter::upload, which uploads parts and bits for both.
     void upload(const scene::FramePlan& plan);
 
-    /// By the aircraft's programs, where nearest.
-    void draw(std::uint32_t first, std::uint32_t count, const ProgramPair& programs);
+    /// A step of Refined, by the aircraft's programs. No clip = not cut.
+    void draw(const scene::PaintStep& step, const scene::Clip* clip, const ProgramPair& programs);
 
 private:
     struct Place {

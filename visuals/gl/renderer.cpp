@@ -6,20 +6,18 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cstddef>
-#include <cstdint>
 #include <fmt/format.h>
 #include <span>
+#include <utility>
 
 namespace octant::visuals::gl {
 namespace {
 
-using models::ColourVertex;
 using scene::FramePlan;
-using scene::HiddenSurface;
 using scene::PaintStep;
+using scene::PixelRect;
 
 constexpr GLuint picture_binding = 0; ///< place in the shaders
 
@@ -63,15 +61,24 @@ PictureValues values_of(const FramePlan& plan, const PixelRect& rect, Rows rows)
 
 } // namespace
 
-Renderer::Renderer(const Functions& gl, int width, int height, int samples)
-    : gl_(gl)
-    , framebuffer_(gl, width, height, samples)
-    , picture_values_(gl, sizeof(PictureValues))
-    , state_(gl)
-    , triangles_(gl, state_)
-    , aircraft_(gl, state_)
-    , refined_(gl, state_)
-    , overlay_(gl, state_) {}
+Renderer::Renderer(std::shared_ptr<Context> context, const glm::ivec2& size_px, int samples)
+    : context_(std::move(context))
+    , gl_(context_->functions())
+    , framebuffer_(gl_, size_px.x, size_px.y, samples)
+    , picture_values_(gl_, "picture values", sizeof(PictureValues))
+    , state_(gl_)
+    , triangles_(gl_, state_)
+    , aircraft_(gl_, state_)
+    , refined_(gl_, state_)
+    , overlay_(gl_, state_) {}
+
+Renderer::~Renderer() {
+    context_->make_current();
+}
+
+std::unique_ptr<scene::Renderer> Renderer::beside(const glm::ivec2& size_px, int samples) const {
+    return std::make_unique<Renderer>(context_, size_px, samples);
+}
 
 void Renderer::resize(const glm::ivec2& size_px, int samples) {
     if (framebuffer_.fits(size_px, samples)) {
@@ -80,8 +87,8 @@ void Renderer::resize(const glm::ivec2& size_px, int samples) {
     framebuffer_ = Framebuffer(gl_, size_px.x, size_px.y, samples);
 }
 
-void Renderer::copy_to(GLuint framebuffer, const glm::ivec2& size_px) {
-    framebuffer_.copy_to(framebuffer, size_px);
+void Renderer::copy_to_window(const glm::ivec2& size_px) {
+    framebuffer_.copy_to(0, size_px);
 }
 
 void Renderer::load_models(std::span<const scene::ModelBuffers> models) {
@@ -93,13 +100,13 @@ void Renderer::load_ground_texture(const scene::GroundTexture& texture) {
 }
 
 void Renderer::draw(const FramePlan& plan) {
-    const PixelRect whole{0, 0, framebuffer_.width(), framebuffer_.height()};
-    const bool fits = plan.hidden_surface != HiddenSurface::DepthBuffer &&
-                      !aircraft_.has_meshes() && framebuffer_.fits(window_px_, 1);
+    const bool fits =
+        plan.depth_boxes.empty() && !aircraft_.has_meshes() && framebuffer_.fits(window_px_, 1);
     rows_ = fits ? Rows::FromBelow : Rows::FromTop;
-    gl_.bind_framebuffer(GL_FRAMEBUFFER, target_of(plan));
+    const GLuint target = target_of(plan);
+    gl_.bind_framebuffer(GL_FRAMEBUFFER, target);
     state_.begin_picture(rows_);
-    draw_into(plan, {whole, false});
+    draw_into(plan, {target, {0, 0, framebuffer_.width(), framebuffer_.height()}, false});
 }
 
 void Renderer::draw_inset(const FramePlan& plan, const PixelRect& rect) {
@@ -114,7 +121,7 @@ void Renderer::draw_inset(const FramePlan& plan, const PixelRect& rect) {
     gl_.scissor(at.x - frame, at.y - frame, at.width + 2 * frame, at.height + 2 * frame);
     gl_.clear_named_framebufferfv(target, GL_COLOR, 0, glm::value_ptr(inset_frame));
     gl_.scissor(at.x, at.y, at.width, at.height);
-    draw_into(plan, {at, true});
+    draw_into(plan, {target, at, true});
     gl_.disable(GL_SCISSOR_TEST);
 }
 
@@ -128,37 +135,19 @@ PixelRect Renderer::on_target(const PixelRect& rect) const {
 
 GLuint Renderer::target_of(const FramePlan& plan) const {
     if (rows_ == Rows::FromBelow) {
+        assert(plan.depth_boxes.empty());
         return 0;
     }
-    const bool with_depth =
-        plan.hidden_surface == HiddenSurface::DepthBuffer || !plan.depth_boxes.empty();
-    return with_depth ? framebuffer_.name() : framebuffer_.name_without_depth();
+    return plan.depth_boxes.empty() ? framebuffer_.name_without_depth() : framebuffer_.name();
 }
 
-/// Into what is bound.
+/// The place's target must be bound.
 void Renderer::draw_into(const FramePlan& plan, const Place& place) {
-    const PixelRect& rect = place.rect;
-    gl_.viewport(rect.x, rect.y, rect.width, rect.height);
-    clear(plan);
-    upload(plan, rect);
-    if (plan.hidden_surface == HiddenSurface::DepthBuffer) {
-        draw_by_depth(plan);
-    } else {
-        paint(plan, place);
-    }
-    overlay_.draw(plan.overlay, rect.width, rect.height);
-}
-
-void Renderer::clear(const FramePlan& plan) {
-    const GLuint target = target_of(plan);
+    gl_.viewport(place.rect.x, place.rect.y, place.rect.width, place.rect.height);
     const glm::vec4 background(plan.background, 1.0F);
-    gl_.clear_named_framebufferfv(target, GL_COLOR, 0, glm::value_ptr(background));
-    if (plan.hidden_surface == HiddenSurface::DepthBuffer) {
-        // A mask left by the sky of the picture before would keep the clearing out, too.
-        gl_.depth_mask(GL_TRUE);
-        const float infinitely_far = 0.0F;
-        gl_.clear_named_framebufferfv(target, GL_DEPTH, 0, &infinitely_far);
-    }
+    gl_.clear_named_framebufferfv(place.target, GL_COLOR, 0, glm::value_ptr(background));
+    upload(plan, place.rect);
+    paint(plan, place);
 }
 
 void Renderer::upload(const FramePlan& plan, const PixelRect& rect) {
@@ -168,66 +157,55 @@ void Renderer::upload(const FramePlan& plan, const PixelRect& rect) {
     triangles_.upload(plan);
     aircraft_.upload(plan);
     refined_.upload(plan);
+    overlay_.upload(plan.overlay, {rect.width, rect.height});
 }
 
-/// Background, sky, ground, then each step over what is there: no depth but that of solids.
 void Renderer::paint(const FramePlan& plan, const Place& place) {
-    triangles_.draw_sky(Depth::Unused);
-    triangles_.draw_ground(Depth::Unused);
     for (const PaintStep& step : plan.steps) {
         const scene::Clip* const clip =
             step.clip == PaintStep::whole ? nullptr : &plan.clips[step.clip];
         switch (step.what) {
-        case PaintStep::What::Aircraft:
-            aircraft_.draw(step.first, step.count, Depth::Unused, clip);
-            break;
-        case PaintStep::What::Ground:
-            triangles_.repaint(step.first, step.count, clip);
-            break;
         case PaintStep::What::ClearDepth:
-            clear_depth(plan, plan.depth_boxes[step.first], place);
+            clear_depth(plan.depth_boxes[step.first], place);
             break;
-        case PaintStep::What::GroundDepth:
-            triangles_.draw_depth(step.first, step.count);
+        case PaintStep::What::Sky:
+        case PaintStep::What::Ground:
+        case PaintStep::What::GroundAgain:
+            triangles_.draw(step, clip);
             break;
-        case PaintStep::What::Solid:
-            aircraft_.draw(step.first, step.count, Depth::Nearest);
+        case PaintStep::What::Aircraft:
+            aircraft_.draw(step, clip);
             break;
         case PaintStep::What::Refined:
-            refined_.draw(step.first, step.count, aircraft_.programs());
+            refined_.draw(step, clip, aircraft_.programs());
+            break;
+        case PaintStep::What::Overlay:
+            overlay_.draw(step);
             break;
         }
     }
 }
 
-/// In a box of the plan's picture.
-void Renderer::clear_depth(const FramePlan& plan, const scene::PixelBox& box, const Place& place) {
+/// In a box of the plan's picture; picture and target have their rows in one order where depth is
+/// used.
+void Renderer::clear_depth(const scene::PixelBox& box, const Place& place) {
     const PixelRect& rect = place.rect;
     const glm::ivec2 least = glm::max(box.least, glm::ivec2(0));
     const glm::ivec2 size = glm::min(box.most, glm::ivec2(rect.width, rect.height)) - least;
     if (size.x <= 0 || size.y <= 0) {
         return;
     }
+    // A mask left by an earlier step would keep the clearing out, too.
     gl_.depth_mask(GL_TRUE);
     gl_.enable(GL_SCISSOR_TEST);
     gl_.scissor(rect.x + least.x, rect.y + least.y, size.x, size.y);
     const float infinitely_far = 0.0F;
-    gl_.clear_named_framebufferfv(target_of(plan), GL_DEPTH, 0, &infinitely_far);
+    gl_.clear_named_framebufferfv(place.target, GL_DEPTH, 0, &infinitely_far);
     if (place.is_inset) {
         gl_.scissor(rect.x, rect.y, rect.width, rect.height);
     } else {
         gl_.disable(GL_SCISSOR_TEST);
     }
-}
-
-/// From near to far, so that what is hidden is not coloured first. Where aircraft and ground are
-/// equally near the aircraft is seen.
-void Renderer::draw_by_depth(const FramePlan& plan) {
-    aircraft_.draw(0, static_cast<std::uint32_t>(plan.aircraft.size()), Depth::Nearest);
-    refined_.draw(0, static_cast<std::uint32_t>(plan.refined.size()), aircraft_.programs());
-    triangles_.draw_ground(Depth::Nearest);
-    triangles_.draw_shadows();
-    triangles_.draw_sky(Depth::InfinitelyFar);
 }
 
 void Renderer::finish() {
@@ -238,7 +216,7 @@ void Renderer::finish() {
     }
 }
 
-void Renderer::finish_and_read(Picture& picture) {
+void Renderer::finish_and_read(scene::Picture& picture) {
     assert(!is_in_window());
     finish();
     picture.width = framebuffer_.width();
@@ -247,56 +225,6 @@ void Renderer::finish_and_read(Picture& picture) {
         std::size_t{4} * static_cast<std::size_t>(picture.width) *
         static_cast<std::size_t>(picture.height));
     framebuffer_.read(picture.rgba);
-}
-
-void Renderer::warm_up() {
-    const std::array<ColourVertex, 3> corners{
-        ColourVertex{{-1.0F, -1.0F, -2.0F}, 0U},
-        ColourVertex{{1.0F, -1.0F, -2.0F}, 0U},
-        ColourVertex{{0.0F, 1.0F, -2.0F}, 0U}};
-    const std::array<std::uint32_t, 3> triangle{0, 1, 2};
-    const std::array<scene::ModelVertex, 3> mesh_corners{
-        scene::ModelVertex{.position_m = corners[0].position_m},
-        scene::ModelVertex{.position_m = corners[1].position_m},
-        scene::ModelVertex{.position_m = corners[2].position_m}};
-    FramePlan plan;
-    plan.view_to_clip = glm::mat4(0.0F);
-    plan.view_to_clip[0][0] = 1.0F;
-    plan.view_to_clip[1][1] = 1.0F;
-    plan.view_to_clip[2][3] = -1.0F;
-    plan.view_to_clip[3][2] = 0.5F;
-    plan.sky = {corners, triangle};
-    plan.ground = {corners, triangle};
-    plan.shadow_indices = {0, 1, 2};
-    if (triangles_.has_texture()) {
-        plan.ground_texture.emplace();
-    }
-    plan.repaint_indices = {0, 1, 2};
-    plan.clips.push_back({{glm::vec4(1.0F, 0.0F, 0.0F, 0.0F)}, 1});
-    plan.steps = {
-        {PaintStep::What::Ground, 0, 3, PaintStep::whole}, {PaintStep::What::Ground, 0, 3, 0}};
-    const std::array<scene::OverlayVertex, 3> overlay_corners{
-        {{{0.0F, 0.0F}, 0U}, {{4.0F, 0.0F}, 0U}, {{0.0F, 4.0F}, 0U}}};
-    plan.overlay = {overlay_corners, triangle};
-    aircraft_.add_any(plan);
-    const auto aircraft = static_cast<std::uint32_t>(plan.aircraft.size());
-    plan.steps.push_back({PaintStep::What::Aircraft, 0, aircraft, PaintStep::whole});
-    plan.steps.push_back({PaintStep::What::Aircraft, 0, aircraft, 0});
-    if (aircraft_.has_meshes()) {
-        plan.depth_boxes.push_back({{0, 0}, {1, 1}});
-        plan.steps.push_back({PaintStep::What::ClearDepth, 0, 1, PaintStep::whole});
-        plan.steps.push_back({PaintStep::What::GroundDepth, 0, 3, PaintStep::whole});
-        plan.steps.push_back({PaintStep::What::Solid, 0, aircraft, PaintStep::whole});
-        plan.refined.push_back({mesh_corners, triangle, 0, 0, {}});
-        plan.steps.push_back({PaintStep::What::Refined, 0, 1, PaintStep::whole});
-    }
-    Picture picture;
-    for (const HiddenSurface way : {HiddenSurface::Octant, HiddenSurface::DepthBuffer}) {
-        plan.hidden_surface = way;
-        draw(plan);
-        draw_inset(plan, {0, 0, framebuffer_.width(), framebuffer_.height()});
-        finish_and_read(picture);
-    }
 }
 
 } // namespace octant::visuals::gl

@@ -2,9 +2,9 @@
 
 namespace octant::visuals::gl {
 
-StreamBuffer::StreamBuffer(const Functions& gl, std::size_t first_capacity_bytes)
+StreamBuffer::StreamBuffer(const Functions& gl, const char* label, std::size_t first_capacity_bytes)
     : gl_(gl)
-    , buffer_(make_buffer(gl))
+    , buffer_(make_buffer(gl, label))
     , capacity_bytes_(first_capacity_bytes) {}
 
 void StreamBuffer::fill(std::span<const std::span<const std::byte>> pieces) {

@@ -12,7 +12,8 @@ namespace octant::visuals::gl {
 /// driver need not wait for the picture before; its size only grows.
 class StreamBuffer {
 public:
-    StreamBuffer(const Functions& gl, std::size_t first_capacity_bytes);
+    /// `label`: what debug messages call it.
+    StreamBuffer(const Functions& gl, const char* label, std::size_t first_capacity_bytes);
 
     GLuint name() const { return buffer_.name(); }
 

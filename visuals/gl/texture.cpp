@@ -47,7 +47,7 @@ void set_filters(const Functions& gl, const Object& texture) {
 
 Object make_texture(const Functions& gl, const scene::GroundImage& image, TextureKind kind) {
     const bool colours = kind == TextureKind::Colours;
-    Object texture = make_texture(gl);
+    Object texture = make_texture(gl, colours ? "ground colours" : "ground slopes");
     const auto longer_side = static_cast<unsigned>(std::max(image.width, image.height));
     gl.texture_storage_2d(
         texture.name(),

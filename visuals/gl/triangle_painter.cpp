@@ -13,6 +13,7 @@ namespace octant::visuals::gl {
 namespace {
 
 using models::ColourVertex;
+using scene::PaintStep;
 
 // Places in the shaders.
 constexpr GLuint albedo_unit = 0;
@@ -37,8 +38,8 @@ TrianglePainter::TrianglePainter(const Functions& gl, DrawState& state)
     , state_(state)
     , ground_programs_(make_program_pair(gl, "ground", {ground_vert, smooth_frag}))
     , sky_programs_{make_program(gl, "sky", {sky_vert, smooth_frag}), {}}
-    , vertices_(gl, first_capacity_bytes)
-    , indices_(gl, first_capacity_bytes)
+    , vertices_(gl, "ground and sky vertices", first_capacity_bytes)
+    , indices_(gl, "ground and sky indices", first_capacity_bytes)
     , array_(make_array(gl, vertices_, indices_)) {}
 
 void TrianglePainter::load_texture(const scene::GroundTexture& texture) {
@@ -75,82 +76,47 @@ void TrianglePainter::upload(const scene::FramePlan& plan) {
         gl_.bind_texture_unit(normal_unit, texture_->normal.name());
     }
     const std::span shadow_vertices(plan.shadow_vertices);
+    const std::span again(plan.repaint_indices);
     vertices_.fill(
         {std::as_bytes(plan.ground.vertices),
          std::as_bytes(shadow_vertices),
          std::as_bytes(plan.sky.vertices)});
     indices_.fill(
         {std::as_bytes(plan.ground.indices),
-         std::as_bytes(std::span(plan.repaint_indices)),
-         std::as_bytes(std::span(plan.shadow_indices)),
+         std::as_bytes(again),
          std::as_bytes(plan.sky.indices)});
-    ground_ = {0, plan.ground.indices.size() - plan.edge_on_indices};
-    edge_on_ = {ground_.count, plan.edge_on_indices};
-    repainted_ = {plan.ground.indices.size(), plan.repaint_indices.size()};
-    shadows_ = {repainted_.first + repainted_.count, plan.shadow_indices.size()};
-    sky_ = {shadows_.first + shadows_.count, plan.sky.indices.size()};
+    ground_ = {0, plan.ground.indices.size()};
+    repainted_ = {ground_.count, again.size()};
+    sky_ = {repainted_.first + repainted_.count, plan.sky.indices.size()};
     first_sky_vertex_ = static_cast<GLint>(plan.ground.vertices.size() + shadow_vertices.size());
 }
 
-void TrianglePainter::draw_sky(Depth depth) {
-    if (sky_.count > 0) {
-        state_.use_depth(depth);
-        state_.use_program(sky_programs_);
-        draw(sky_, first_sky_vertex_);
+void TrianglePainter::draw(const PaintStep& step, const scene::Clip* clip) {
+    const bool is_sky = step.what == PaintStep::What::Sky;
+    const Range& list = is_sky ? sky_ : step.what == PaintStep::What::Ground ? ground_ : repainted_;
+    assert(std::size_t{step.first} + step.count <= list.count);
+    assert(clip == nullptr || !is_sky);
+    if (step.count == 0) {
+        return;
     }
-}
-
-void TrianglePainter::draw_ground(Depth depth) {
-    if (ground_.count > 0) {
-        state_.use_depth(depth);
-        state_.use_program(ground_programs());
-        draw(ground_, 0);
-    }
-    if (edge_on_.count > 0) {
-        state_.use_depth(Depth::EdgeOn);
-        state_.use_program(ground_programs());
-        draw(edge_on_, 0);
-    }
-}
-
-void TrianglePainter::draw_shadows() {
-    if (shadows_.count > 0) {
-        state_.use_depth(Depth::OnGround);
-        state_.use_program(ground_programs());
-        draw(shadows_, 0);
-    }
-}
-
-void TrianglePainter::repaint(std::uint32_t first, std::uint32_t count, const scene::Clip* clip) {
-    assert(std::size_t{first} + count <= repainted_.count);
-    if (count > 0) {
-        state_.use_depth(Depth::Unused);
-        state_.use_program(ground_programs(), clip);
-        draw({repainted_.first + first, count}, 0);
-    }
-}
-
-void TrianglePainter::draw_depth(std::uint32_t first, std::uint32_t count) {
-    assert(std::size_t{first} + count <= repainted_.count);
-    if (count > 0) {
-        state_.use_depth(Depth::Nearest);
-        state_.use_program(ground_programs());
+    const bool depth_only = step.depth == scene::DepthUse::DepthOnly;
+    if (depth_only) {
         gl_.color_mask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-        draw({repainted_.first + first, count}, 0);
-        gl_.color_mask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     }
-}
-
-void TrianglePainter::draw(Range indices, GLint first_vertex) {
+    state_.use_depth(step.depth);
+    state_.use_program(is_sky ? sky_programs_ : ground_programs(), clip);
     state_.cull_back_faces(false);
     gl_.bind_vertex_array(array_.name());
     gl_.draw_elements_base_vertex(
         GL_TRIANGLES,
-        static_cast<GLsizei>(indices.count),
+        static_cast<GLsizei>(step.count),
         GL_UNSIGNED_INT,
-        reinterpret_cast<const void*>(indices.first * sizeof(std::uint32_t)),
-        first_vertex);
+        reinterpret_cast<const void*>((list.first + step.first) * sizeof(std::uint32_t)),
+        is_sky ? first_sky_vertex_ : 0);
     state_.count_draw_call();
+    if (depth_only) {
+        gl_.color_mask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    }
 }
 
 } // namespace octant::visuals::gl

@@ -11,8 +11,8 @@
 
 namespace octant::visuals::gl {
 
-/// Draws what lies in world axes: ground, shadows, sky. From a plan's upload on, each call draws of
-/// that plan.
+/// Draws what lies in world axes: ground, shadows, sky. From a plan's upload on, each step is one
+/// of that plan.
 class TrianglePainter {
 public:
     TrianglePainter(const Functions& gl, DrawState& state);
@@ -24,19 +24,8 @@ public:
 
     void upload(const scene::FramePlan& plan);
 
-    void draw_sky(Depth depth);
-
-    /// The whole list in its order.
-    void draw_ground(Depth depth);
-
-    /// FramePlan::shadow_indices.
-    void draw_shadows();
-
-    /// FramePlan::repaint_indices `first` to `first + count - 1`, without depth. No clip = not cut.
-    void repaint(std::uint32_t first, std::uint32_t count, const scene::Clip* clip);
-
-    /// The same triangles into the depth buffer alone, where they are nearest.
-    void draw_depth(std::uint32_t first, std::uint32_t count);
+    /// A step of Sky, Ground or GroundAgain. No clip = not cut; the sky never is.
+    void draw(const scene::PaintStep& step, const scene::Clip* clip);
 
 private:
     struct Range {
@@ -56,7 +45,6 @@ private:
     }
 
     void use_mesh_look(const scene::FramePlan& plan);
-    void draw(Range indices, GLint first_vertex);
 
     const Functions& gl_;
     DrawState& state_;
@@ -64,15 +52,13 @@ private:
     ProgramPair sky_programs_;
     std::optional<GroundTexturing> texture_;
     std::optional<ProgramPair> mesh_programs_;
-    bool shows_mesh_ = false; ///< the plan asks for it
-    bool textured_ = false;   ///< the plan asks for it
+    bool shows_mesh_ = false; ///< as the plan says
+    bool textured_ = false;   ///< as the plan says
     StreamBuffer vertices_;   ///< ground, shadows, sky
-    StreamBuffer indices_;    ///< ground, repainted, shadows, sky
+    StreamBuffer indices_;    ///< ground, what is painted again, sky
     Object array_;
     Range ground_;
-    Range edge_on_;
     Range repainted_;
-    Range shadows_;
     Range sky_;
     GLint first_sky_vertex_ = 0;
 };

@@ -47,7 +47,7 @@ inline glm::vec3 unpacked(const PackedNormal& normal) {
     return glm::normalize(glm::vec3(x, y, z));
 }
 
-/// A colour as three parts, 0 to 1 each, in 16 bits.
+/// A colour as three display values, 0 to 1 each, in 16 bits.
 struct PackedColour {
     std::uint16_t red = 65535;
     std::uint16_t green = 65535;

@@ -22,7 +22,7 @@ GroundPoint ground_point(const terrain::GroundSamples& ground, int column, int r
 std::vector<std::uint32_t>
 ground_colours(const models::heights::HeightField& field, const AirSettings& settings);
 
-/// Mean of packed colours, linear parts 0..1.
+/// Mean of packed colours, display values 0..1.
 glm::vec3 mean_colour(const std::vector<std::uint32_t>& colours);
 
 } // namespace octant::visuals::scene

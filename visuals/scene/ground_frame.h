@@ -8,7 +8,7 @@
 
 namespace octant::visuals::scene {
 
-/// Indices of one triangle's shadow pieces, in FramePlan::shadow_indices' numbering.
+/// Indices of one triangle's shadow pieces, numbered as FramePlan::repaint_indices are.
 struct ShadowPieces {
     std::uint32_t triangle = 0; ///< number in Ground::triangles
     std::uint32_t first = 0;    ///< place of the first index among the pieces' indices

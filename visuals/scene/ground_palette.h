@@ -33,7 +33,7 @@ class GroundPalette {
 public:
     explicit GroundPalette(const AirSettings& settings);
 
-    /// Own colour, linear parts 0..1. Features smaller than `footprint_m` are seen as their mean:
+    /// Own colour, display values 0..1. Features smaller than `footprint_m` are seen as their mean:
     /// the size of what one colour stands for, metres.
     glm::vec3 own(const GroundPoint& point, float footprint_m) const;
 

@@ -124,9 +124,10 @@ const FramePlan& IdPlan::of(const FramePlan& plan) {
     plan_.ground_texture.reset();
     plan_.ambient = glm::vec3(1.0F);
     plan_.sunlight = glm::vec3(0.0F);
-    plan_.sky = {};
+    std::erase_if(plan_.steps, [](const PaintStep& step) {
+        return step.what == PaintStep::What::Sky || step.what == PaintStep::What::Overlay;
+    });
     std::ranges::fill(plan_.smooth, 0U); // a flat polygon has one colour
-    plan_.overlay = {};
     for (AircraftDraw& draw : plan_.aircraft) {
         draw.model = model_of_part_[draw.first_part];
         draw.tints = {};

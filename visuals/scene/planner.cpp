@@ -3,6 +3,7 @@
 #include "visuals/draworder/octant_order.h"
 #include "visuals/scene/facing.h"
 #include "visuals/scene/ground_palette.h"
+#include "visuals/scene/ground_texture_maker.h"
 #include "visuals/scene/mesh_levels.h"
 
 #include <glm/geometric.hpp>
@@ -91,7 +92,6 @@ Planner::Planner(const Scene& scene, const Settings& settings, std::unique_ptr<G
     , steps_(plan_) {
     plan_.background = settings.air.background;
     plan_.haze = {settings.air.background, static_cast<float>(settings.air.visibility_m)};
-    plan_.hidden_surface = settings.surface.hidden_surface;
     plan_.mesh_look = settings.ground.show_mesh;
     plan_.sample_spacing_m = std::max(static_cast<float>(scene.ground->spacing_m()), 1e-3F);
     plan_.to_sun = glm::vec3(to_sun_);
@@ -170,7 +170,6 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
         mesher_->triangles(ground_request(camera, request.triangle_target), counts.ground), {}, {}};
     write_parts();
     cast_shadows(camera);
-    plan_ground();
     plan_sky(camera);
     if (settings_.view.kind == View::Cockpit && settings_.view.head_up_display) {
         plan_head_up_display(camera, request.states.front());
@@ -187,10 +186,11 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
     count_aircraft(counts);
     counts.shadow_triangles = static_cast<int>(ground_.shadow_indices.size() / 3);
     if (settings_.surface.hidden_surface == HiddenSurface::DepthBuffer) {
-        paint_nearest_first();
+        paint_by_depth();
     } else {
-        paint_knots(camera, counts);
+        paint_in_order(camera, counts);
     }
+    steps_.paint_overlay();
     return {plan_, counts};
 }
 
@@ -286,17 +286,6 @@ void Planner::cast_shadows(const Camera& camera) {
     }
     ground_.shadows = shadows_.pieces();
     ground_.shadow_indices = shadows_.indices();
-}
-
-void Planner::plan_ground() {
-    plan_.shadow_indices.clear();
-    if (settings_.surface.hidden_surface == HiddenSurface::DepthBuffer) {
-        plan_.ground =
-            facing_first(ground_.all, pixel_rad_, facing_indices_, plan_.edge_on_indices);
-        plan_.shadow_indices.assign(ground_.shadow_indices.begin(), ground_.shadow_indices.end());
-    } else {
-        plan_.ground = facing_the_eye(ground_, pixel_rad_, facing_indices_);
-    }
 }
 
 void Planner::plan_head_up_display(const Camera& camera, const sim::AircraftState& state) {

@@ -104,15 +104,15 @@ private:
     void place(PlacedAircraft& aircraft, const sim::AircraftState& state, const glm::dvec3& eye_m);
     void represent(PlacedAircraft& aircraft);
     void refine_meshes(const Camera& camera);
-    void paint(const PlacedAircraft& aircraft);
     void cast_shadows(const Camera& camera);
-    void plan_ground();
     void write_parts();
-    void paint_nearest_first();
+    void paint_by_depth();
+    void paint_in_order(const Camera& camera, PlanCounts& counts);
+    void paint(const PlacedAircraft& aircraft, DepthUse depth);
     void paint_knots(const Camera& camera, PlanCounts& counts);
     void paint_knot(const Knot& knot, const Camera& camera, PlanCounts& counts);
     void paint_members(const Knot& knot, PlanCounts& counts);
-    void paint_solids(const Knot& knot);
+    void paint_members_by_depth(const Knot& knot);
     void plan_head_up_display(const Camera& camera, const sim::AircraftState& state);
     void count_aircraft(PlanCounts& counts) const;
 

@@ -1,12 +1,22 @@
+#include "visuals/scene/facing.h"
 #include "visuals/scene/pixel_box.h"
 #include "visuals/scene/planner.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
 
-// In which order, and how, what has been planned is painted.
+// Writes the painting steps of a plan: in which order, and how, what has been planned is drawn.
+//
+// In painting order (HiddenSurface::Octant, BackFace): sky, ground with its shadows in place, then
+// the aircraft from far to near. After each knot of aircraft the ground that lies before it is
+// painted again, cut to where the knot is seen. Meshes alone ask for depth, within their knot.
+//
+// By depth (HiddenSurface::DepthBuffer): from near to far, so that what is hidden is not coloured
+// first: aircraft, ground, shadows, sky. Where aircraft and ground are equally near the aircraft is
+// seen.
 
 namespace octant::visuals::scene {
 
@@ -18,8 +28,7 @@ constexpr double rounding_px = 0.01;
 
 } // namespace
 
-/// The cockpit, if any, is nearer than all.
-void Planner::paint_nearest_first() {
+void Planner::paint_by_depth() {
     std::iota(near_to_far_.begin(), near_to_far_.end(), 0U);
     const auto distance2_m2 = [&](std::uint32_t i) {
         return glm::dot(hulls_[i].centre_m, hulls_[i].centre_m);
@@ -29,22 +38,39 @@ void Planner::paint_nearest_first() {
         const double b_m2 = distance2_m2(b);
         return a_m2 != b_m2 ? a_m2 < b_m2 : a < b;
     });
+    steps_.clear_depth({glm::ivec2(0), settings_.view.size_px});
     if (placed_.size() > hulls_.size()) {
-        steps_.paint(draw_of(placed_.back()));
+        paint(placed_.back(), DepthUse::Nearest); // the cockpit is nearer than all
     }
-    for (const std::uint32_t i : near_to_far_) {
-        paint(placed_[i]);
+    // What is refined comes apart, so that all others become one step.
+    for (const bool refined : {false, true}) {
+        for (const std::uint32_t i : near_to_far_) {
+            if (is_refined(placed_[i]) == refined) {
+                paint(placed_[i], DepthUse::Nearest);
+            }
+        }
+    }
+    std::size_t edge_on_indices = 0;
+    plan_.ground = facing_first(ground_.all, pixel_rad_, facing_indices_, edge_on_indices);
+    steps_.paint_ground_by_depth(edge_on_indices);
+    steps_.paint_shadows_by_depth(ground_);
+    steps_.paint_sky(DepthUse::InfinitelyFar);
+}
+
+void Planner::paint_in_order(const Camera& camera, PlanCounts& counts) {
+    plan_.ground = facing_the_eye(ground_, pixel_rad_, facing_indices_);
+    steps_.paint_sky();
+    steps_.paint_ground();
+    paint_knots(camera, counts);
+    if (placed_.size() > hulls_.size()) {
+        paint(placed_.back(), DepthUse::None); // the cockpit is nearer than all
     }
 }
 
-/// As a whole.
-void Planner::paint(const PlacedAircraft& aircraft) {
-    if (!is_solid(aircraft)) {
-        steps_.paint(draw_of(aircraft));
-        return;
-    }
+/// Paints a whole aircraft. What was refined for this frame is always drawn by depth.
+void Planner::paint(const PlacedAircraft& aircraft, DepthUse depth) {
     if (!is_refined(aircraft)) {
-        steps_.paint_solid(draw_of(aircraft));
+        steps_.paint(draw_of(aircraft), depth);
         return;
     }
     const auto i = static_cast<std::size_t>(&aircraft - placed_.data());
@@ -52,16 +78,13 @@ void Planner::paint(const PlacedAircraft& aircraft) {
     draw.first_part = aircraft.first_part;
     draw.first_smooth = smooth_.refined_word();
     draw.tints = aircraft.tints;
-    steps_.paint_solid(draw);
+    steps_.paint(draw);
 }
 
 void Planner::paint_knots(const Camera& camera, PlanCounts& counts) {
     order_.arrange(hulls_);
     for (const Knot& knot : order_.knots()) {
         paint_knot(knot, camera, counts);
-    }
-    if (placed_.size() > hulls_.size()) {
-        steps_.paint(draw_of(placed_.back()));
     }
 }
 
@@ -97,7 +120,7 @@ void Planner::paint_members(const Knot& knot, PlanCounts& counts) {
     const bool alone = in_front_.meeting().empty() && members_.size() == 1;
     counts.knots += alone ? 0 : 1;
     if (solid) {
-        paint_solids(knot);
+        paint_members_by_depth(knot);
     } else if (alone) {
         steps_.paint(draw_of(*members_.front()));
     } else {
@@ -108,17 +131,13 @@ void Planner::paint_members(const Knot& knot, PlanCounts& counts) {
 }
 
 /// By a depth buffer that holds nothing else but the ground that meets them.
-void Planner::paint_solids(const Knot& knot) {
-    steps_.begin_solids(pixel_box(knot.box, plan_, settings_.view.size_px));
+void Planner::paint_members_by_depth(const Knot& knot) {
+    steps_.clear_depth(pixel_box(knot.box, plan_, settings_.view.size_px));
     if (!in_front_.meeting().empty()) {
         steps_.hide_by_ground(ground_, in_front_.meeting());
     }
     for (const PlacedAircraft* member : members_) {
-        if (is_solid(*member)) {
-            paint(*member);
-        } else {
-            steps_.paint_solid(draw_of(*member));
-        }
+        paint(*member, DepthUse::Nearest);
     }
 }
 

@@ -12,6 +12,13 @@
 
 namespace octant::visuals::scene {
 
+/// How hidden surfaces of aircraft are removed.
+enum class HiddenSurface {
+    Octant,      ///< polygons painted in precomputed order, no depth anywhere
+    DepthBuffer, ///< 32-bit float, reversed
+    BackFace     ///< back faces removed, polygons in file order: the 1989 paper's fast, wrong way
+};
+
 enum class View { Chase, Cockpit, Tower, Orbit, Free };
 enum class GroundMetric { Printed, Midpoint, ScreenError };
 enum class Propagation { CrackFree, Printed };

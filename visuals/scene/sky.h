@@ -12,7 +12,7 @@ namespace octant::visuals::scene {
 struct Plain {
     double height_below_eye_m = 0.0; ///< zero, less or not finite = no plain, only haze
     double map_edge_m = 0.0;         ///< level distance from the eye to the nearest edge of the map
-    glm::vec3 colour{0.4F};          ///< mean colour of the ground, linear parts 0..1
+    glm::vec3 colour{0.4F};          ///< mean colour of the ground, display values 0..1
     double earth_radius_m = 0.0;     ///< the plain sinks with the square of the distance; 0 = flat
 };
 

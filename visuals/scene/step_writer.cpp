@@ -24,18 +24,68 @@ edge_normal(const glm::dvec3& from_m, const glm::dvec3& to_m, const glm::dvec3& 
 
 } // namespace
 
-void StepWriter::paint(const AircraftDraw& draw) {
+void StepWriter::clear_depth(const PixelBox& box) {
+    const auto place = static_cast<std::uint32_t>(plan_.depth_boxes.size());
+    plan_.depth_boxes.push_back(box);
+    plan_.steps.push_back({PaintStep::What::ClearDepth, place, 1});
+}
+
+void StepWriter::paint_range(
+    PaintStep::What what, std::size_t first, std::size_t count, DepthUse depth) {
+    if (count > 0) {
+        plan_.steps.push_back(
+            {what,
+             static_cast<std::uint32_t>(first),
+             static_cast<std::uint32_t>(count),
+             PaintStep::whole,
+             depth});
+    }
+}
+
+void StepWriter::paint_sky(DepthUse depth) {
+    paint_range(PaintStep::What::Sky, 0, plan_.sky.indices.size(), depth);
+}
+
+void StepWriter::paint_ground() {
+    paint_range(PaintStep::What::Ground, 0, plan_.ground.indices.size(), DepthUse::None);
+}
+
+void StepWriter::paint_ground_by_depth(std::size_t edge_on_indices) {
+    const std::size_t facing = plan_.ground.indices.size() - edge_on_indices;
+    paint_range(PaintStep::What::Ground, 0, facing, DepthUse::Nearest);
+    paint_range(PaintStep::What::Ground, facing, edge_on_indices, DepthUse::EdgeOn);
+}
+
+void StepWriter::paint_shadows_by_depth(const GroundFrame& ground) {
+    const std::size_t first = plan_.repaint_indices.size();
+    const auto pieces = ground.shadow_indices;
+    plan_.repaint_indices.insert(plan_.repaint_indices.end(), pieces.begin(), pieces.end());
+    paint_range(PaintStep::What::GroundAgain, first, pieces.size(), DepthUse::OnGround);
+}
+
+void StepWriter::paint_overlay() {
+    paint_range(PaintStep::What::Overlay, 0, plan_.overlay.indices.size(), DepthUse::None);
+}
+
+void StepWriter::paint(const AircraftDraw& draw, DepthUse depth) {
     const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
     plan_.aircraft.push_back(draw);
     if (!plan_.steps.empty()) {
         PaintStep& last = plan_.steps.back();
         if (last.what == PaintStep::What::Aircraft && last.clip == PaintStep::whole &&
-            last.first + last.count == place) {
+            last.depth == depth && last.first + last.count == place) {
             ++last.count;
             return;
         }
     }
-    plan_.steps.push_back({PaintStep::What::Aircraft, place, 1, PaintStep::whole});
+    plan_.steps.push_back({PaintStep::What::Aircraft, place, 1, PaintStep::whole, depth});
+}
+
+void StepWriter::paint(const RefinedDraw& draw) {
+    const auto place = static_cast<std::uint32_t>(plan_.refined.size());
+    plan_.refined.push_back(draw);
+    plan_.steps.push_back(
+        {PaintStep::What::Refined, place, 1, PaintStep::whole, DepthUse::Nearest});
 }
 
 std::uint32_t StepWriter::add_clip(std::span<const glm::dvec3> normals) {
@@ -117,7 +167,7 @@ void StepWriter::paint_before(
             continue;
         }
         cone_clip = cone_clip == PaintStep::whole ? add_clip(cone.planes()) : cone_clip;
-        plan_.steps.push_back({PaintStep::What::Ground, first, count, cone_clip});
+        plan_.steps.push_back({PaintStep::What::GroundAgain, first, count, cone_clip});
         continues = true;
     }
 }
@@ -147,7 +197,7 @@ void StepWriter::paint_outside(
         Clip& clip = plan_.clips[index];
         clip.planes[static_cast<std::size_t>(clip.count++)] =
             glm::vec4(glm::vec3(plane.normal), static_cast<float>(plane.offset_m));
-        plan_.steps.push_back({PaintStep::What::Ground, first, count, index});
+        plan_.steps.push_back({PaintStep::What::GroundAgain, first, count, index});
     }
 }
 
@@ -157,14 +207,8 @@ void StepWriter::paint_within(
     add_indices(ground, triangle);
     const auto count = static_cast<std::uint32_t>(plan_.repaint_indices.size()) - first;
     for_each_clip(region, [&](std::uint32_t clip) {
-        plan_.steps.push_back({PaintStep::What::Ground, first, count, clip});
+        plan_.steps.push_back({PaintStep::What::GroundAgain, first, count, clip});
     });
-}
-
-void StepWriter::begin_solids(const PixelBox& box) {
-    const auto place = static_cast<std::uint32_t>(plan_.depth_boxes.size());
-    plan_.depth_boxes.push_back(box);
-    plan_.steps.push_back({PaintStep::What::ClearDepth, place, 1, PaintStep::whole});
 }
 
 void StepWriter::hide_by_ground(
@@ -175,19 +219,8 @@ void StepWriter::hide_by_ground(
         plan_.repaint_indices.insert(plan_.repaint_indices.end(), own.begin(), own.end());
     }
     const auto count = static_cast<std::uint32_t>(3 * triangles.size());
-    plan_.steps.push_back({PaintStep::What::GroundDepth, first, count, PaintStep::whole});
-}
-
-void StepWriter::paint_solid(const AircraftDraw& draw) {
-    const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
-    plan_.aircraft.push_back(draw);
-    plan_.steps.push_back({PaintStep::What::Solid, place, 1, PaintStep::whole});
-}
-
-void StepWriter::paint_solid(const RefinedDraw& draw) {
-    const auto place = static_cast<std::uint32_t>(plan_.refined.size());
-    plan_.refined.push_back(draw);
-    plan_.steps.push_back({PaintStep::What::Refined, place, 1, PaintStep::whole});
+    plan_.steps.push_back(
+        {PaintStep::What::GroundAgain, first, count, PaintStep::whole, DepthUse::DepthOnly});
 }
 
 } // namespace octant::visuals::scene

@@ -5,19 +5,44 @@
 #include "visuals/scene/ground_in_front.h"
 #include "visuals/scene/sight.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace octant::visuals::scene {
 
-/// Appends to the painting steps of a plan. Consecutive aircraft that are not cut become one step.
+/// Appends to the painting steps of a plan.
 class StepWriter {
 public:
     explicit StepWriter(FramePlan& plan)
         : plan_(plan) {}
 
-    void paint(const AircraftDraw& draw);
+    /// Depth becomes infinitely far there: what is drawn by depth from here on hides only itself.
+    void clear_depth(const PixelBox& box);
+
+    /// The plan's sky; nothing where it is empty.
+    void paint_sky(DepthUse depth = DepthUse::None);
+
+    /// The plan's ground in its order; nothing where it is empty.
+    void paint_ground();
+
+    /// The plan's ground by depth, of which the last `edge_on_indices` indices belong to triangles
+    /// that face away but for rounding: they only close holes along edges, elsewhere their depths
+    /// mean nothing.
+    void paint_ground_by_depth(std::size_t edge_on_indices);
+
+    /// All shadows, where ground has been drawn by depth.
+    void paint_shadows_by_depth(const GroundFrame& ground);
+
+    /// The plan's overlay; nothing where it is empty.
+    void paint_overlay();
+
+    /// A whole aircraft. Consecutive ones that are drawn alike become one step.
+    void paint(const AircraftDraw& draw, DepthUse depth = DepthUse::None);
+
+    /// A mesh that was refined for this frame, by depth.
+    void paint(const RefinedDraw& draw);
 
     /// Paints an aircraft's range once more where `region` is seen: a part of one of its polygons.
     void paint_within(const AircraftDraw& draw, const SightPolygon& region);
@@ -35,16 +60,13 @@ public:
     void
     paint_within(const GroundFrame& ground, std::uint32_t triangle, const SightPolygon& region);
 
-    /// What is painted solid from here on hides only itself and the ground given beside it.
-    void begin_solids(const PixelBox& box);
-
-    /// Ground that solids may stick in: triangles that have been painted.
+    /// Gives depth to ground that what comes next by depth may stick in: triangles that have been
+    /// painted.
     void hide_by_ground(const GroundFrame& ground, std::span<const std::uint32_t> triangles);
 
-    void paint_solid(const AircraftDraw& draw);
-    void paint_solid(const RefinedDraw& draw);
-
 private:
+    void paint_range(PaintStep::What what, std::size_t first, std::size_t count, DepthUse depth);
+
     /// Index of a new clip by planes through the eye, at most Clip::most_planes.
     std::uint32_t add_clip(std::span<const glm::dvec3> normals);
     void paint_outside(

@@ -31,7 +31,7 @@ public:
     /// Colour of a sample seen through a footprint of 2^octave samples, packed.
     std::uint32_t colour_of(std::uint16_t column, std::uint16_t row, unsigned octave) const;
 
-    /// Mean over the ground, of widely spaced samples, linear parts 0..1.
+    /// Mean over the ground, of widely spaced samples, display values 0..1.
     glm::vec3 mean() const;
 
 private:

@@ -1,3 +1,4 @@
+#include "models/display_colour.h"
 #include "models/meshfile/base64.h"
 #include "models/meshfile/mesh_file.h"
 #include "tests/models/meshfile/mesh_samples.h"
@@ -105,18 +106,27 @@ TEST_CASE("primitives of one glTF mesh share the vertices of the same accessor")
     CHECK(mesh.vertices_m.size() == 4);
     REQUIRE(mesh.materials.size() == 2);
     CHECK(mesh.materials[0].name == "red");
-    CHECK(mesh.materials[0].colour == glm::vec3(1.0F, 0.5F, 0.0F));
+    CHECK(mesh.materials[0].colour == glm::vec3(1.0F, 0.735357F, 0.0F)); // linear in the file
     CHECK(mesh.triangle_materials == std::vector<std::uint32_t>{1, 1, 0, 0});
 }
 
-TEST_CASE("colours of glTF in bytes stand for 0 to 1") {
+TEST_CASE("a display value is brighter than the light it stands for, and comes back to the bit") {
+    CHECK(linear_from_display(glm::dvec3(0.5)).x == Approx(0.214041));
+    CHECK(linear_from_display({0.0, 0.04045, 1.0}).y == Approx(0.04045 / 12.92));
+    for (int step = 0; step <= 1000; ++step) {
+        const glm::vec3 display(static_cast<float>(step) / 1000.0F);
+        CHECK(glm::vec3(display_from_linear(linear_from_display(glm::dvec3(display)))) == display);
+    }
+}
+
+TEST_CASE("colours of glTF in bytes stand for 0 to 1, linear in light") {
     Parts parts;
     parts.primitive = R"({"attributes":{"POSITION":0,"COLOR_0":2},"mode":5})";
     parts.accessors.pop_back();
     parts.accessors += R"(,{"bufferView":0,"byteOffset":12,"componentType":5121,
         "normalized":true,"count":4,"type":"VEC4"}])";
     const TriangleMesh mesh = read(parts);
-    CHECK(mesh.colours[0].z == Approx(128.0 / 255.0)); // 1.0F is 00 00 80 3f
+    CHECK(mesh.colours[0].z == Approx(0.7366).margin(1e-4)); // 1.0F is 00 00 80 3f
 }
 
 TEST_CASE("data of glTF may lie in files beside it, but not outside its folder") {

@@ -11,8 +11,8 @@ using namespace octant;
 
 namespace {
 
-visuals::gl::Picture picture_of(int width, int height, const std::vector<std::uint32_t>& ids) {
-    visuals::gl::Picture picture;
+visuals::scene::Picture picture_of(int width, int height, const std::vector<std::uint32_t>& ids) {
+    visuals::scene::Picture picture;
     picture.width = width;
     picture.height = height;
     picture.rgba.resize(4 * ids.size());

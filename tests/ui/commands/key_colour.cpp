@@ -13,7 +13,7 @@ namespace octant::tests {
 
 namespace {
 
-long cracks_in(const visuals::gl::Picture& picture) {
+long cracks_in(const visuals::scene::Picture& picture) {
     constexpr std::uint32_t key = 0xffff00ffU; // magenta, opaque
     std::vector<std::uint32_t> pixels(picture.rgba.size() / 4);
     std::memcpy(pixels.data(), picture.rgba.data(), picture.rgba.size());

@@ -98,7 +98,7 @@ void DrivenViewer::drag(const glm::ivec2& from, const glm::ivec2& to) {
     turns(2);
 }
 
-const visuals::gl::Picture& DrivenViewer::picture() {
+const visuals::scene::Picture& DrivenViewer::picture() {
     viewer_->session().read_picture();
     return viewer_->session().picture();
 }

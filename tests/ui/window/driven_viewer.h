@@ -42,7 +42,7 @@ public:
     void drag(const glm::ivec2& from, const glm::ivec2& to);
 
     /// The session's picture, top row first.
-    const visuals::gl::Picture& picture();
+    const visuals::scene::Picture& picture();
 
     ~DrivenViewer();
     DrivenViewer(const DrivenViewer&) = delete;

@@ -22,7 +22,7 @@ using visuals::scene::View;
 namespace {
 
 /// Share of pixels that differ by more than rounding.
-double difference(const visuals::gl::Picture& a, const visuals::gl::Picture& b) {
+double difference(const visuals::scene::Picture& a, const visuals::scene::Picture& b) {
     if (a.rgba.size() != b.rgba.size()) {
         return 1.0;
     }
@@ -73,7 +73,7 @@ TEST_CASE("keys 1 to 5 show the five views, each another picture of the paused f
          {"3", View::Tower},
          {"4", View::Orbit},
          {"5", View::Free}}};
-    std::vector<visuals::gl::Picture> pictures;
+    std::vector<visuals::scene::Picture> pictures;
     for (const auto& [key, view] : views) {
         driven->strike(key);
         CHECK(driven->settings().view.kind == view);
@@ -94,7 +94,7 @@ TEST_CASE("a paused window shows the same picture again and again") {
     }
     driven->turns(20);
     driven->strike("space");
-    const visuals::gl::Picture before = driven->picture();
+    const visuals::scene::Picture before = driven->picture();
     driven->turns(5);
     CHECK(driven->picture().rgba == before.rgba);
     driven->strike("period");
@@ -111,7 +111,7 @@ TEST_CASE("the window's picture is that of a flight without a window") {
     driven->turns(3);
     Settings settings = driven->settings();
     settings.drawing.context = ui::settings::ContextKind::OsMesa;
-    const visuals::gl::Picture shown = driven->picture();
+    const visuals::scene::Picture shown = driven->picture();
     ui::flight::Session session(settings);
     session.draw(0);
     CHECK(difference(session.picture(), shown) < 0.001);
@@ -123,7 +123,7 @@ TEST_CASE("dragging turns the eye around the aircraft, the wheel comes nearer, V
         return;
     }
     driven->strike("space");
-    const visuals::gl::Picture straight = driven->picture();
+    const visuals::scene::Picture straight = driven->picture();
     driven->drag({240, 180}, {320, 200});
     CHECK(std::abs(driven->settings().view.azimuth_deg) > 20.0);
     CHECK(driven->settings().view.elevation_deg > 5.0);
@@ -142,7 +142,7 @@ TEST_CASE("I opens a second view in a corner and leaves the rest of the picture"
         return;
     }
     driven->strike("space");
-    const visuals::gl::Picture alone = driven->picture();
+    const visuals::scene::Picture alone = driven->picture();
     driven->strike("i");
     REQUIRE(driven->settings().view.inset == View::Chase);
     driven->strike("i");
@@ -216,9 +216,9 @@ TEST_CASE("M shows the edges of the ground's triangles, then their levels") {
         return;
     }
     driven->strike("space");
-    const visuals::gl::Picture plain = driven->picture();
+    const visuals::scene::Picture plain = driven->picture();
     driven->strike("m");
-    const visuals::gl::Picture edges = driven->picture();
+    const visuals::scene::Picture edges = driven->picture();
     CHECK(difference(edges, plain) > 0.02);
     driven->strike("m");
     CHECK(difference(driven->picture(), edges) > 0.05);

@@ -7,7 +7,6 @@
 
 using namespace octant;
 using namespace octant::tests;
-using scene::HiddenSurface;
 
 TEST_CASE("back faces of aircraft are not drawn, those of ground and sky are") {
     Studio studio;
@@ -15,20 +14,18 @@ TEST_CASE("back faces of aircraft are not drawn, those of ground and sky are") {
     Triangles turned_away;
     turned_away.add({}, 10.0F, red, false);
     const glm::mat4 flipped = glm::rotate(ahead(10.0F), 3.14159265F, glm::vec3(0.0F, 1.0F, 0.0F));
-    for (const HiddenSurface way : all_ways) {
+    for (const Way way : all_ways) {
         scene::FramePlan plan = empty_plan();
-        plan.hidden_surface = way;
         plan.ground = turned_away.draw();
-        CHECK(middle(studio.picture(plan)) == red_px);
+        CHECK(middle(studio.picture(plan, way)) == red_px);
         plan.ground = {};
         set_square(plan, 0, flipped);
-        CHECK(middle(studio.picture(plan)) == grey_px);
+        CHECK(middle(studio.picture(plan, way)) == grey_px);
         set_square(plan, 0, ahead(10.0F));
-        CHECK(middle(studio.picture(plan)) == red_px);
+        CHECK(middle(studio.picture(plan, way)) == red_px);
         plan = empty_plan();
-        plan.hidden_surface = way;
         plan.sky = turned_away.draw();
-        CHECK(middle(studio.picture(plan)) == red_px);
+        CHECK(middle(studio.picture(plan, way)) == red_px);
     }
 }
 
@@ -37,16 +34,14 @@ TEST_CASE("with depth an aircraft behind a wall of ground is hidden, else it is 
     load_squares(studio);
     Triangles wall;
     wall.add({}, 20.0F, blue);
-    for (const HiddenSurface way : all_ways) {
+    for (const Way way : all_ways) {
         scene::FramePlan plan = empty_plan();
-        plan.hidden_surface = way;
         plan.ground = wall.draw();
         set_square(plan, 0, ahead(20.5F));
-        CHECK(
-            middle(studio.picture(plan)) == (way == HiddenSurface::DepthBuffer ? blue_px : red_px));
+        CHECK(middle(studio.picture(plan, way)) == (way == Way::ByDepth ? blue_px : red_px));
         set_square(plan, 0, ahead(19.5F));
-        CHECK(middle(studio.picture(plan)) == red_px);
-        CHECK(pixel(studio.picture(plan), 0, 0) == blue_px);
+        CHECK(middle(studio.picture(plan, way)) == red_px);
+        CHECK(pixel(studio.picture(plan, way), 0, 0) == blue_px);
     }
 }
 
@@ -57,10 +52,9 @@ TEST_CASE("of aircraft the last in the list is on top, unless depth decides") {
         scene::FramePlan plan = empty_plan();
         add_square(plan, nearer_first ? 0 : 1, ahead(nearer_first ? 10.0F : 12.0F));
         add_square(plan, nearer_first ? 1 : 0, ahead(nearer_first ? 12.0F : 10.0F));
-        for (const HiddenSurface way : all_ways) {
-            plan.hidden_surface = way;
-            const bool red_is_seen = way == HiddenSurface::DepthBuffer || !nearer_first;
-            CHECK(middle(studio.picture(plan)) == (red_is_seen ? red_px : green_px));
+        for (const Way way : all_ways) {
+            const bool red_is_seen = way == Way::ByDepth || !nearer_first;
+            CHECK(middle(studio.picture(plan, way)) == (red_is_seen ? red_px : green_px));
         }
     }
 }
@@ -81,8 +75,7 @@ TEST_CASE("within an aircraft the last polygon is on top, unless depth decides")
     add_square(plan, 0, ahead(10.0F));
     plan.aircraft[0].index_count = 12;
     CHECK(middle(studio.picture(plan)) == green_px);
-    plan.hidden_surface = HiddenSurface::DepthBuffer;
-    CHECK(middle(studio.picture(plan)) == red_px);
+    CHECK(middle(studio.picture(plan, Way::ByDepth)) == red_px);
 }
 
 TEST_CASE("an aircraft is drawn from its own model and its own range of indices") {
@@ -117,20 +110,19 @@ TEST_CASE("each part of an aircraft turns with its own matrix") {
     model.indices.insert(model.indices.end(), {4, 5, 6, 4, 6, 7});
     const std::array<scene::ModelBuffers, 2> models{square_model(blue), model};
     studio.renderer().load_models(models);
-    for (const HiddenSurface way : all_ways) {
+    for (const Way way : all_ways) {
         scene::FramePlan plan = empty_plan();
-        plan.hidden_surface = way;
         add_square(plan, 0, glm::translate(ahead(4.0F), glm::vec3(-3.0F, 0.0F, 0.0F)));
         add_square(plan, 1, ahead(4.0F));
         plan.aircraft[1].index_count = 12;
         plan.parts.push_back(ahead(3.9F));
-        const gl::Picture upright = studio.picture(plan);
+        const scene::Picture upright = studio.picture(plan, way);
         CHECK(pixel(upright, 0, 32) == blue_px);
         CHECK(middle(upright) == green_px);
         CHECK(pixel(upright, 32, 26) == green_px);
         CHECK(pixel(upright, 26, 32) == red_px);
         plan.parts[2] = glm::rotate(plan.parts[2], 1.57079633F, glm::vec3(0.0F, 0.0F, 1.0F));
-        const gl::Picture turned = studio.picture(plan);
+        const scene::Picture turned = studio.picture(plan, way);
         CHECK(middle(turned) == green_px);
         CHECK(pixel(turned, 32, 26) == red_px);
         CHECK(pixel(turned, 26, 32) == green_px);
@@ -154,9 +146,8 @@ TEST_CASE("aircraft drawn together give the picture of those drawn one by one") 
     for (std::uint32_t i = 0; i < 60; ++i) {
         apart.steps.push_back({scene::PaintStep::What::Aircraft, i, 1, scene::PaintStep::whole});
     }
-    const gl::Picture picture = studio.picture(together);
+    const scene::Picture picture = studio.picture(together);
     CHECK((studio.picture(apart).rgba == picture.rgba));
     // They do not cross, so depth finds the same; its order within models changes nothing.
-    together.hidden_surface = HiddenSurface::DepthBuffer;
-    CHECK((studio.picture(together).rgba == picture.rgba));
+    CHECK((studio.picture(together, Way::ByDepth).rgba == picture.rgba));
 }

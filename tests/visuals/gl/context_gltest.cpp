@@ -59,9 +59,9 @@ TEST_CASE("a driver without a needed function is refused by the function's name"
 
 TEST_CASE("an off-screen context says what draws") {
     const auto context = gl::make_osmesa_context();
-    CHECK(context->description().kind == "osmesa");
-    CHECK_FALSE(context->description().renderer.empty());
-    CHECK_NOTHROW(gl::expect_gl_4_5(context->description().version));
+    CHECK(context->info().kind == "osmesa");
+    CHECK_FALSE(context->info().device.empty());
+    CHECK_NOTHROW(gl::expect_gl_4_5(context->info().version));
 }
 
 TEST_CASE("two off-screen contexts live side by side and draw each their own picture") {
@@ -91,8 +91,8 @@ TEST_CASE("EGL and OSMesa give the same picture bit for bit, in turns in one pro
     }
     Studio by_egl(std::move(context));
     Studio by_osmesa;
-    if (by_egl.context().description().renderer != by_osmesa.context().description().renderer) {
-        std::cout << "SKIPPED: EGL draws with " << by_egl.context().description().renderer << '\n';
+    if (by_egl.context().info().device != by_osmesa.context().info().device) {
+        std::cout << "SKIPPED: EGL draws with " << by_egl.context().info().device << '\n';
         return;
     }
     for (int turn = 0; turn < 2; ++turn) {
@@ -105,7 +105,7 @@ TEST_CASE("an EGL context outlives another one on the same display") {
     if (!context) {
         return;
     }
-    CHECK(context->description().kind == "egl");
+    CHECK(context->info().kind == "egl");
     Studio stays(std::move(context));
     {
         Studio goes(gl::make_egl_context());
@@ -117,7 +117,7 @@ TEST_CASE("an EGL context outlives another one on the same display") {
 }
 
 TEST_CASE("a picture that the driver cannot hold is refused with the sizes that it can") {
-    const auto context = gl::make_osmesa_context();
+    const std::shared_ptr<gl::Context> context = gl::make_osmesa_context();
     GLint largest = 0;
     context->functions().get_integerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
     const std::string most = std::to_string(largest);
@@ -126,7 +126,7 @@ TEST_CASE("a picture that the driver cannot hold is refused with the sizes that 
                std::to_string(width) + " x " + std::to_string(height);
     };
     const auto make = [&](int width, int height, int samples) {
-        gl::Renderer(context->functions(), width, height, samples);
+        gl::Renderer(context, {width, height}, samples);
     };
     CHECK_THROWS_WITH(make(largest + 1, 10, 1), refusal(largest + 1, 10));
     CHECK_THROWS_WITH(make(10, largest + 1, 1), refusal(10, largest + 1));

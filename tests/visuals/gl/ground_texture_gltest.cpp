@@ -4,7 +4,6 @@
 
 using namespace octant;
 using namespace octant::tests;
-using scene::HiddenSurface;
 
 namespace {
 
@@ -45,10 +44,9 @@ TEST_CASE("textured ground has south at the texture's first row and west at its 
     Studio studio;
     studio.renderer().load_ground_texture(four_texels());
     const Triangles ground = whole_ground();
-    for (const HiddenSurface way : all_ways) {
+    for (const Way way : all_ways) {
         scene::FramePlan plan = plan_over(ground);
-        plan.hidden_surface = way;
-        const gl::Picture picture = studio.picture(plan);
+        const scene::Picture picture = studio.picture(plan, way);
         CHECK(pixel(picture, 2, 61) == red_px);
         CHECK(pixel(picture, 61, 61) == green_px);
         CHECK(pixel(picture, 2, 2) == blue_px);
@@ -87,19 +85,14 @@ TEST_CASE("a shadow on textured ground leaves its share of the texture's colour"
     Studio studio;
     studio.renderer().load_ground_texture(four_texels());
     const Triangles ground = whole_ground();
-    for (const HiddenSurface way : all_ways) {
+    for (const Way way : all_ways) {
         scene::FramePlan plan = plan_over(ground);
-        plan.hidden_surface = way;
         for (const models::ColourVertex& vertex : ground.vertices) {
             plan.shadow_vertices.push_back({vertex.position_m, 0x80000000U});
         }
-        if (way == HiddenSurface::DepthBuffer) {
-            plan.shadow_indices = {4, 5, 6};
-        } else {
-            plan.repaint_indices = {4, 5, 6};
-            plan.steps = {{scene::PaintStep::What::Ground, 0, 3, scene::PaintStep::whole}};
-        }
-        const gl::Picture picture = studio.picture(plan);
+        plan.repaint_indices = {4, 5, 6};
+        plan.steps = {{scene::PaintStep::What::GroundAgain, 0, 3}};
+        const scene::Picture picture = studio.picture(plan, way, 3);
         CHECK(pixel(picture, 61, 61) == Pixel{0, 128, 0, 255});
         CHECK(pixel(picture, 2, 2) == blue_px); // not in the shadow
     }
@@ -109,17 +102,14 @@ TEST_CASE("textured ground that is painted again is cut by its planes") {
     Studio studio;
     studio.renderer().load_ground_texture(four_texels());
     const Triangles ground = whole_ground();
-    for (const HiddenSurface way : painting_ways) {
-        scene::FramePlan plan = plan_over(ground);
-        plan.hidden_surface = way;
-        plan.ground.indices = {};
-        plan.repaint_indices = ground.indices;
-        plan.clips.push_back({{glm::vec4(1.0F, 0.0F, 0.0F, 0.0F)}, 1});
-        plan.steps = {{scene::PaintStep::What::Ground, 0, 6, 0}};
-        const gl::Picture picture = studio.picture(plan);
-        CHECK(pixel(picture, 61, 61) == green_px);
-        CHECK(pixel(picture, 2, 61) == Pixel{0, 0, 0, 255});
-    }
+    scene::FramePlan plan = plan_over(ground);
+    plan.ground.indices = {};
+    plan.repaint_indices = ground.indices;
+    plan.clips.push_back({{glm::vec4(1.0F, 0.0F, 0.0F, 0.0F)}, 1});
+    plan.steps = {{scene::PaintStep::What::GroundAgain, 0, 6, 0}};
+    const scene::Picture picture = studio.picture(plan);
+    CHECK(pixel(picture, 61, 61) == green_px);
+    CHECK(pixel(picture, 2, 61) == Pixel{0, 0, 0, 255});
 }
 
 TEST_CASE("renderers on a processor are told from GPUs by their names") {

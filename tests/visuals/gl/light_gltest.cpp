@@ -116,7 +116,7 @@ TEST_CASE("a flat polygon has one colour, the face colour of the corner its fan 
     studio.renderer().load_models({&model, 1});
     scene::FramePlan plan = empty_plan();
     add_square(plan, 0, ahead(1.0F));
-    const gl::Picture picture = studio.picture(plan);
+    const scene::Picture picture = studio.picture(plan);
     CHECK(pixel(picture, 5, 20) == red_px);
     CHECK(pixel(picture, 60, 50) == red_px);
 }

@@ -33,7 +33,7 @@ struct Overlay {
     scene::OverlayDraw draw() const { return {vertices, indices}; }
 };
 
-int differing(const gl::Picture& a, const gl::Picture& b, int tolerance) {
+int differing(const scene::Picture& a, const scene::Picture& b, int tolerance) {
     int pixels = 0;
     for (int row = 0; row < a.height; ++row) {
         for (int column = 0; column < a.width; ++column) {
@@ -49,8 +49,8 @@ int differing(const gl::Picture& a, const gl::Picture& b, int tolerance) {
     return pixels;
 }
 
-gl::Picture part_of(const gl::Picture& picture, const gl::PixelRect& rect) {
-    gl::Picture part;
+scene::Picture part_of(const scene::Picture& picture, const scene::PixelRect& rect) {
+    scene::Picture part;
     part.width = rect.width;
     part.height = rect.height;
     for (int row = 0; row < rect.height; ++row) {
@@ -71,12 +71,11 @@ TEST_CASE("an overlay lies over everything at its pixels, by its alpha") {
     Overlay overlay;
     overlay.add({8.0F, 4.0F}, {16.0F, 60.0F}, white, 255)
         .add({32.0F, 4.0F}, {40.0F, 60.0F}, 0, 128);
-    for (const scene::HiddenSurface way : all_ways) {
+    for (const Way way : all_ways) {
         scene::FramePlan plan = empty_plan();
-        plan.hidden_surface = way;
         add_square(plan, 0, ahead(0.6F)); // red over the whole picture, near
         plan.overlay = overlay.draw();
-        const gl::Picture picture = studio.picture(plan);
+        const scene::Picture picture = studio.picture(plan, way);
         CHECK(pixel(picture, 8, 4) == Pixel{255, 255, 255, 255});
         CHECK(pixel(picture, 15, 59) == Pixel{255, 255, 255, 255});
         CHECK(pixel(picture, 7, 4) == red_px);
@@ -88,7 +87,7 @@ TEST_CASE("an overlay lies over everything at its pixels, by its alpha") {
         CHECK(half[3] == 255);
         CHECK(studio.renderer().draw_calls() == 2);
         plan.overlay = {};
-        CHECK(count_of(studio.picture(plan), red_px) == side_px * side_px);
+        CHECK(count_of(studio.picture(plan, way), red_px) == side_px * side_px);
         CHECK(studio.renderer().draw_calls() == 1);
     }
 }
@@ -104,7 +103,7 @@ TEST_CASE("later parts of an overlay cover earlier ones") {
 }
 
 TEST_CASE("an inset shows what a renderer of its size shows, around it nothing changes") {
-    const gl::PixelRect rect{101, 37, 64, 48};
+    const scene::PixelRect rect{101, 37, 64, 48};
     const FullScene full;
     Overlay overlay;
     overlay.add({3.0F, 5.0F}, {20.0F, 9.0F}, white, 200);
@@ -114,21 +113,22 @@ TEST_CASE("an inset shows what a renderer of its size shows, around it nothing c
         studio->context().make_current();
         studio->renderer().load_models(full.models());
     }
-    for (const scene::HiddenSurface outer_way : all_ways) {
-        for (const scene::HiddenSurface way : all_ways) {
-            const scene::FramePlan plan = full.plan(outer_way);
-            scene::FramePlan inset = full.plan(way);
+    for (const Way outer_way : all_ways) {
+        for (const Way way : all_ways) {
+            const scene::FramePlan plan = full.plan();
+            scene::FramePlan inset = full.plan();
             inset.overlay = overlay.draw();
-            const gl::Picture alone = small.picture(inset);
-            const gl::Picture without = large.picture(plan);
+            const scene::Picture alone = small.picture(inset, way, FullScene::shadow_indices);
+            const scene::Picture without =
+                large.picture(plan, outer_way, FullScene::shadow_indices);
             large.context().make_current();
-            gl::Picture with;
-            large.renderer().draw(plan);
-            large.renderer().draw_inset(inset, rect);
+            scene::Picture with;
+            large.renderer().draw(framed(plan, outer_way, FullScene::shadow_indices));
+            large.renderer().draw_inset(framed(inset, way, FullScene::shadow_indices), rect);
             large.renderer().finish_and_read(with);
             CHECK(differing(part_of(with, rect), alone, 2) <= 3);
-            const gl::PixelRect framed{rect.x - 1, rect.y - 1, rect.width + 2, rect.height + 2};
-            gl::Picture restored = with;
+            const scene::PixelRect framed{rect.x - 1, rect.y - 1, rect.width + 2, rect.height + 2};
+            scene::Picture restored = with;
             for (int row = framed.y; row < framed.y + framed.height; ++row) {
                 for (int i = 4 * framed.x; i < 4 * (framed.x + framed.width); ++i) {
                     const auto at = static_cast<std::size_t>(4 * with.width * row + i);
@@ -149,13 +149,13 @@ TEST_CASE("in an inset planes cut where they cut in a picture of its own") {
     inset.clips.push_back(
         {{glm::vec4(1.0F, 0.0F, 0.0F, 0.0F), glm::vec4(0.0F, 1.0F, 0.0F, 0.0F)}, 2});
     inset.steps = {{scene::PaintStep::What::Aircraft, 0, 1, 0}};
-    const gl::PixelRect rect{24, 40, 20, 20};
+    const scene::PixelRect rect{24, 40, 20, 20};
     studio.context().make_current();
     studio.renderer().draw(empty_plan());
     studio.renderer().draw_inset(inset, rect);
-    gl::Picture picture;
+    scene::Picture picture;
     studio.renderer().finish_and_read(picture);
-    const gl::Picture part = part_of(picture, rect);
+    const scene::Picture part = part_of(picture, rect);
     CHECK(count_of(part, red_px) == 10 * 10); // the upper right quarter
     CHECK(pixel(part, 10, 9) == red_px);
     CHECK(pixel(part, 9, 9) == grey_px);
@@ -167,19 +167,17 @@ TEST_CASE("an inset may lie in a corner, and the next picture is whole again") {
     load_squares(studio);
     scene::FramePlan green_plan = empty_plan();
     green_plan.background = green;
-    for (const scene::HiddenSurface way : all_ways) {
+    for (const Way way : all_ways) {
         scene::FramePlan plan = empty_plan();
-        plan.hidden_surface = way;
-        green_plan.hidden_surface = way;
         studio.context().make_current();
-        studio.renderer().draw(plan);
-        studio.renderer().draw_inset(green_plan, {0, 44, 20, 20});
-        gl::Picture picture;
+        studio.renderer().draw(framed(plan, way));
+        studio.renderer().draw_inset(framed(green_plan, way), {0, 44, 20, 20});
+        scene::Picture picture;
         studio.renderer().finish_and_read(picture);
         CHECK(count_of(picture, green_px) == 20 * 20);
         CHECK(pixel(picture, 0, 63) == green_px);
         CHECK(pixel(picture, 19, 44) == green_px);
         CHECK(count_of(picture, grey_px) == side_px * side_px - 21 * 21); // a frame of one pixel
-        CHECK(count_of(studio.picture(green_plan), green_px) == side_px * side_px);
+        CHECK(count_of(studio.picture(green_plan, way), green_px) == side_px * side_px);
     }
 }

@@ -7,7 +7,6 @@
 
 using namespace octant;
 using namespace octant::tests;
-using scene::HiddenSurface;
 using scene::PaintStep;
 using What = scene::PaintStep::What;
 
@@ -44,29 +43,26 @@ struct Overlapping {
 TEST_CASE("aircraft and ground are painted in the order of the steps") {
     Studio studio;
     Overlapping scene(studio);
-    for (const HiddenSurface way : painting_ways) {
-        scene.plan.hidden_surface = way;
-        scene.plan.steps = {{What::Aircraft, 0, 2, whole}};
-        CHECK(middle(studio.picture(scene.plan)) == blue_px);
-        scene.plan.steps = {{What::Aircraft, 1, 1, whole}, {What::Aircraft, 0, 1, whole}};
-        CHECK(middle(studio.picture(scene.plan)) == red_px);
-        scene.plan.steps = {{What::Aircraft, 0, 2, whole}, {What::Ground, 0, 6, whole}};
-        CHECK(count_of(studio.picture(scene.plan), green_px) == side_px * side_px);
-        scene.plan.steps = {
-            {What::Aircraft, 0, 1, whole},
-            {What::Ground, 0, 6, whole},
-            {What::Aircraft, 1, 1, whole}};
-        const gl::Picture picture = studio.picture(scene.plan);
-        CHECK(count_of(picture, blue_px) == 16 * 16);
-        CHECK(count_of(picture, red_px) == 0);
-    }
+    scene.plan.steps = {{What::Aircraft, 0, 2, whole}};
+    CHECK(middle(studio.picture(scene.plan)) == blue_px);
+    scene.plan.steps = {{What::Aircraft, 1, 1, whole}, {What::Aircraft, 0, 1, whole}};
+    CHECK(middle(studio.picture(scene.plan)) == red_px);
+    scene.plan.steps = {{What::Aircraft, 0, 2, whole}, {What::GroundAgain, 0, 6, whole}};
+    CHECK(count_of(studio.picture(scene.plan), green_px) == side_px * side_px);
+    scene.plan.steps = {
+        {What::Aircraft, 0, 1, whole},
+        {What::GroundAgain, 0, 6, whole},
+        {What::Aircraft, 1, 1, whole}};
+    const scene::Picture picture = studio.picture(scene.plan);
+    CHECK(count_of(picture, blue_px) == 16 * 16);
+    CHECK(count_of(picture, red_px) == 0);
 }
 
 TEST_CASE("only the named ground triangles are painted again") {
     Studio studio;
     Overlapping scene(studio);
-    scene.plan.steps = {{What::Aircraft, 0, 1, whole}, {What::Ground, 3, 3, whole}};
-    const gl::Picture picture = studio.picture(scene.plan);
+    scene.plan.steps = {{What::Aircraft, 0, 1, whole}, {What::GroundAgain, 3, 3, whole}};
+    const scene::Picture picture = studio.picture(scene.plan);
     CHECK(pixel(picture, 40, 36) == red_px);
     CHECK(pixel(picture, 24, 28) == green_px);
 }
@@ -81,8 +77,8 @@ TEST_CASE("a shadow piece is painted again like the ground it counts on after") 
     for (const std::uint32_t corner : shadow.indices) {
         scene.plan.repaint_indices.push_back(corner + 4);
     }
-    scene.plan.steps = {{What::Aircraft, 0, 1, whole}, {What::Ground, 0, 6, whole}};
-    const gl::Picture picture = studio.picture(scene.plan);
+    scene.plan.steps = {{What::Aircraft, 0, 1, whole}, {What::GroundAgain, 0, 6, whole}};
+    const scene::Picture picture = studio.picture(scene.plan);
     CHECK(count_of(picture, grey_px) == 16 * 16);
     CHECK(count_of(picture, red_px) == 32 * 32 - 16 * 16);
 }
@@ -92,8 +88,8 @@ TEST_CASE("a clip cuts an aircraft's draw and that of the ground at its plane, a
     Overlapping scene(studio);
     scene.plan.clips = {right_of(0.0F), right_of(0.125F)};
     scene.plan.steps = {
-        {What::Aircraft, 0, 1, 0}, {What::Ground, 0, 6, 1}, {What::Aircraft, 1, 1, whole}};
-    const gl::Picture picture = studio.picture(scene.plan);
+        {What::Aircraft, 0, 1, 0}, {What::GroundAgain, 0, 6, 1}, {What::Aircraft, 1, 1, whole}};
+    const scene::Picture picture = studio.picture(scene.plan);
     CHECK(count_of(picture, red_px) == 4 * 8 * 2); // columns 32 to 35, rows outside the blue ones
     CHECK(pixel(picture, 31, 18) == green_px);
     CHECK(pixel(picture, 32, 18) == red_px);
@@ -142,7 +138,7 @@ TEST_CASE("planes lie in world axes whichever way the eye looks") {
     clip.planes[0] = view_to_world * clip.planes[0];
     scene.plan.clips = {clip};
     scene.plan.steps = {{What::Aircraft, 0, 1, 0}};
-    const gl::Picture picture = studio.picture(scene.plan);
+    const scene::Picture picture = studio.picture(scene.plan);
     CHECK(pixel(picture, 35, 32) == grey_px);
     CHECK(pixel(picture, 36, 32) == red_px);
 }
@@ -150,16 +146,16 @@ TEST_CASE("planes lie in world axes whichever way the eye looks") {
 TEST_CASE("ground painted again cut by a plane has the colours that it has whole") {
     Studio studio;
     const FullScene full;
-    scene::FramePlan plan = full.plan(HiddenSurface::Octant);
+    scene::FramePlan plan = full.plan();
     plan.aircraft.clear();
     plan.steps.clear();
     plan.repaint_indices.assign(plan.ground.indices.begin(), plan.ground.indices.end());
     const auto count = static_cast<std::uint32_t>(plan.repaint_indices.size());
-    const gl::Picture once = studio.picture(plan);
+    const scene::Picture once = studio.picture(plan);
     plan.clips[0].planes[0] = glm::vec4(0.8F, 0.0F, -0.6F, -300.0F);
     plan.clips[0].count = 1;
-    plan.steps = {{What::Ground, 0, count, 0}};
-    const gl::Picture twice = studio.picture(plan);
+    plan.steps = {{What::GroundAgain, 0, count, 0}};
+    const scene::Picture twice = studio.picture(plan);
     // Cutting adds corners, rounded to 1/256 pixel: edges may move by a pixel, colours by a step.
     int other = 0;
     for (std::size_t i = 0; i < once.rgba.size(); ++i) {
@@ -167,7 +163,7 @@ TEST_CASE("ground painted again cut by a plane has the colours that it has whole
     }
     CHECK(other == 0);
     plan.ground = {plan.ground.vertices, {}};
-    const gl::Picture right = studio.picture(plan);
+    const scene::Picture right = studio.picture(plan);
     const int unlike = [&] {
         int found = 0;
         for (std::size_t i = 0; i < once.rgba.size(); i += 4) {
@@ -187,9 +183,8 @@ TEST_CASE("a plan after one with clips is drawn uncut") {
     CHECK(count_of(studio.picture(scene.plan), red_px) == 32 * 16);
     scene.plan.steps = {{What::Aircraft, 0, 1, whole}};
     CHECK(count_of(studio.picture(scene.plan), red_px) == 32 * 32);
-    scene.plan.hidden_surface = HiddenSurface::DepthBuffer;
     scene.plan.ground = {};
-    CHECK(count_of(studio.picture(scene.plan), red_px) > 32 * 16);
+    CHECK(count_of(studio.picture(scene.plan, Way::ByDepth), red_px) > 32 * 16);
 }
 
 TEST_CASE("the renderer says how many draw calls the last picture took") {
@@ -199,7 +194,7 @@ TEST_CASE("the renderer says how many draw calls the last picture took") {
     studio.picture(scene.plan);
     CHECK(studio.renderer().draw_calls() == 1);
     scene.plan.clips = {right_of(0.0F)};
-    scene.plan.steps = {{What::Ground, 0, 6, 0}, {What::Aircraft, 0, 1, whole}};
+    scene.plan.steps = {{What::GroundAgain, 0, 6, 0}, {What::Aircraft, 0, 1, whole}};
     studio.picture(scene.plan);
     CHECK(studio.renderer().draw_calls() == 3);
     studio.picture(empty_plan());
@@ -217,16 +212,19 @@ TEST_CASE("solids are hidden by depth among themselves, and by nothing painted b
     add_square(plan, 0, ahead(10.0F));
     add_square(plan, 2, ahead(12.0F));
     plan.depth_boxes = {{{0, 0}, {side_px, side_px}}};
-    plan.steps = {{What::ClearDepth, 0, 1, whole}, {What::Solid, 0, 2, whole}};
-    CHECK(middle(studio.picture(plan)) == red_px);
     plan.steps = {
-        {What::ClearDepth, 0, 1, whole}, {What::Solid, 1, 1, whole}, {What::Solid, 0, 1, whole}};
+        {What::ClearDepth, 0, 1, whole}, {What::Aircraft, 0, 2, whole, scene::DepthUse::Nearest}};
     CHECK(middle(studio.picture(plan)) == red_px);
     plan.steps = {
         {What::ClearDepth, 0, 1, whole},
-        {What::Solid, 0, 1, whole},
+        {What::Aircraft, 1, 1, whole, scene::DepthUse::Nearest},
+        {What::Aircraft, 0, 1, whole, scene::DepthUse::Nearest}};
+    CHECK(middle(studio.picture(plan)) == red_px);
+    plan.steps = {
         {What::ClearDepth, 0, 1, whole},
-        {What::Solid, 1, 1, whole}};
+        {What::Aircraft, 0, 1, whole, scene::DepthUse::Nearest},
+        {What::ClearDepth, 0, 1, whole},
+        {What::Aircraft, 1, 1, whole, scene::DepthUse::Nearest}};
     CHECK(middle(studio.picture(plan)) == blue_px);
 }
 
@@ -243,10 +241,10 @@ TEST_CASE("ground drawn as depth alone hides solids and changes no pixel") {
     add_square(plan, 2, ahead(11.0F));
     plan.steps = {
         {What::ClearDepth, 0, 1, whole},
-        {What::GroundDepth, 0, 6, whole},
-        {What::Solid, 1, 1, whole}};
+        {What::GroundAgain, 0, 6, whole, scene::DepthUse::DepthOnly},
+        {What::Aircraft, 1, 1, whole, scene::DepthUse::Nearest}};
     CHECK(middle(studio.picture(plan)) == grey_px);
-    plan.steps.back() = {What::Solid, 0, 1, whole};
+    plan.steps.back() = {What::Aircraft, 0, 1, whole, scene::DepthUse::Nearest};
     CHECK(middle(studio.picture(plan)) == red_px);
 }
 
@@ -259,10 +257,10 @@ TEST_CASE("depth is cleared inside its box only") {
     plan.depth_boxes = {{{0, 0}, {side_px, side_px}}, {{8, 4}, {20, 14}}};
     plan.steps = {
         {What::ClearDepth, 0, 1, whole},
-        {What::Solid, 0, 1, whole},
+        {What::Aircraft, 0, 1, whole, scene::DepthUse::Nearest},
         {What::ClearDepth, 1, 1, whole},
-        {What::Solid, 1, 1, whole}};
-    const gl::Picture picture = studio.picture(plan);
+        {What::Aircraft, 1, 1, whole, scene::DepthUse::Nearest}};
+    const scene::Picture picture = studio.picture(plan);
     CHECK(count_of(picture, blue_px) == 12 * 10);
     CHECK(pixel(picture, 8, 4) == blue_px);
     CHECK(pixel(picture, 19, 13) == blue_px);
@@ -280,11 +278,11 @@ TEST_CASE("a smooth polygon has the light of its corners, a flat one that of its
     plan.sunlight = glm::vec3(1.0F);
     plan.to_sun = glm::vec3(0, 0, 1);
     add_square(plan, 0, glm::scale(ahead(10.0F), glm::vec3(10.0F, 10.0F, 1.0F)));
-    const gl::Picture flat = studio.picture(plan);
+    const scene::Picture flat = studio.picture(plan);
     CHECK(pixel(flat, 2, side_px / 2)[0] == 255);
     CHECK(pixel(flat, side_px - 3, side_px / 2)[0] == 255);
     plan.smooth = {1};
-    const gl::Picture smooth = studio.picture(plan);
+    const scene::Picture smooth = studio.picture(plan);
     CHECK(pixel(smooth, 2, side_px / 2)[0] > 235);
     CHECK(pixel(smooth, side_px - 3, side_px / 2)[0] < 20);
     CHECK(std::abs(int{middle(smooth)[0]} - 127) < 6);

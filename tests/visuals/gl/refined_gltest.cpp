@@ -1,18 +1,18 @@
 #include "models/made/made_up.h"
 #include "tests/visuals/gl/small_scene.h"
-#include "visuals/scene/mesh_levels.h"
-#include "visuals/scene/refined_aircraft.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <vector>
 
 using namespace octant;
 using namespace octant::tests;
-using scene::HiddenSurface;
+using scene::DepthUse;
 using scene::PaintStep;
 using What = scene::PaintStep::What;
 
@@ -21,39 +21,49 @@ namespace {
 constexpr std::uint32_t whole = PaintStep::whole;
 constexpr int picture_px = 160;
 
-/// A coloured torus of triangles whose normals are those of its vertices.
-models::TriangleMesh torus_mesh() {
+/// A coloured torus, each triangle with three corners of its own, lit at its corners and as a
+/// whole.
+std::vector<scene::ModelVertex> torus_corners() {
     const models::polygons::PolygonModel quads = models::made::torus();
-    models::TriangleMesh mesh;
-    mesh.name = "torus";
-    mesh.vertices_m = quads.vertices_m;
-    for (const glm::dvec3& vertex_m : mesh.vertices_m) {
-        mesh.colours.push_back(glm::vec3(0.55 + 0.3 * vertex_m));
-    }
+    std::vector<scene::ModelVertex> corners;
+    const auto add = [&](const std::array<std::uint32_t, 3>& triangle) {
+        std::array<glm::dvec3, 3> at_m;
+        for (std::size_t k = 0; k < 3; ++k) {
+            at_m[k] = quads.vertices_m[triangle[k]];
+        }
+        const glm::vec3 face_normal(
+            glm::normalize(glm::cross(at_m[1] - at_m[0], at_m[2] - at_m[0])));
+        const glm::dvec3 middle_m = (at_m[0] + at_m[1] + at_m[2]) / 3.0;
+        for (const glm::dvec3& vertex_m : at_m) {
+            const glm::dvec3 ring_m = glm::normalize(glm::dvec3(vertex_m.x, vertex_m.y, 0.0));
+            corners.push_back(
+                {.position_m = glm::vec3(vertex_m),
+                 .normal = glm::vec3(glm::normalize(vertex_m - ring_m)),
+                 .face_normal = face_normal,
+                 .colour = models::packed_colour(glm::vec3(0.55 + 0.3 * vertex_m)),
+                 .face_colour = models::packed_colour(glm::vec3(0.55 + 0.3 * middle_m))});
+        }
+    };
     for (std::size_t i = 0; i < quads.polygons.size(); ++i) {
-        const auto corners = quads.corners(i);
-        mesh.triangles.push_back({corners[0], corners[1], corners[2]});
-        mesh.triangles.push_back({corners[0], corners[2], corners[3]});
+        const auto quad = quads.corners(i);
+        add({quad[0], quad[1], quad[2]});
+        add({quad[0], quad[2], quad[3]});
     }
-    for (const glm::dvec3& vertex_m : mesh.vertices_m) {
-        const glm::dvec3 ring_m = glm::normalize(glm::dvec3(vertex_m.x, vertex_m.y, 0.0));
-        mesh.normals.emplace_back(glm::normalize(vertex_m - ring_m));
-    }
-    mesh.corner_normals = mesh.triangles;
-    return mesh;
+    return corners;
 }
 
 /// A torus 2 m ahead, leaning so that it hides a part of itself, as a level of detail drawn in full
-/// and as a refined mesh of the same triangles.
+/// and as a mesh of the same triangles that comes with each plan.
 class TwoTori {
 public:
-    TwoTori() {
-        scene::append_level(level_, {&mesh_, 0.0});
-        models::CollapseSequence sequence;
-        sequence.original = mesh_;
-        refined_.emplace(
-            std::make_shared<const visuals::refine::ProgressiveMesh>(sequence), scene::Settings());
-        refined_->update(glm::dmat4(body_), {}, true);
+    TwoTori()
+        : refined_(torus_corners()) {
+        level_.vertices = refined_;
+        level_.has_meshes = true;
+        for (std::uint32_t i = 0; i < refined_.size(); ++i) {
+            level_.indices.push_back(i);
+            level_.vertices[i].polygon = i / 3;
+        }
     }
 
     void load(Studio& studio) {
@@ -61,27 +71,27 @@ public:
         studio.renderer().load_models({&level_, 1});
     }
 
-    int triangles() const { return refined_->triangles(); }
+    int triangles() const { return static_cast<int>(refined_.size() / 3); }
 
     scene::FramePlan level_plan(bool smooth) const {
         scene::FramePlan plan = lit_plan();
-        plan.smooth.assign(mesh_.triangles.size() / 32 + 1, smooth ? ~0U : 0U);
+        plan.smooth.assign(refined_.size() / 3 / 32 + 1, smooth ? ~0U : 0U);
         plan.aircraft = {
             {.model = 0, .index_count = static_cast<std::uint32_t>(level_.indices.size())}};
-        plan.steps.push_back({What::Solid, 0, 1, whole});
+        plan.steps.push_back({What::Aircraft, 0, 1, whole, DepthUse::Nearest});
         return plan;
     }
 
-    /// Valid until the next call.
+    /// So many triangles smooth, all over the torus. Valid until the next call.
     scene::FramePlan refined_plan(int smooth) {
         scene::FramePlan plan = lit_plan();
         plan.smooth = {1};
-        visuals::shading::ShadingLight light;
-        light.to_light = plan.to_sun * glm::mat3(body_);
-        const glm::vec3 eye_m = -glm::vec3(body_[3]) * glm::mat3(body_);
-        refined_->shade(glm::dvec3(eye_m), light, smooth);
-        plan.refined = {refined_->draw()};
-        plan.steps.push_back({What::Refined, 0, 1, whole});
+        for (int i = 0; i < triangles(); ++i) {
+            const bool is_smooth = i * smooth / triangles() != (i + 1) * smooth / triangles();
+            refined_[std::size_t{3} * static_cast<std::size_t>(i)].polygon = is_smooth ? 0 : 1;
+        }
+        plan.refined = {{.vertices = refined_, .indices = level_.indices}};
+        plan.steps.push_back({What::Refined, 0, 1, whole, DepthUse::Nearest});
         return plan;
     }
 
@@ -97,13 +107,12 @@ private:
         return plan;
     }
 
-    models::TriangleMesh mesh_ = torus_mesh();
     scene::ModelBuffers level_;
-    std::optional<scene::RefinedAircraft> refined_;
+    std::vector<scene::ModelVertex> refined_;
     glm::mat4 body_ = glm::rotate(ahead(2.0F), -1.2F, glm::vec3(1.0F, 0.2F, 0.0F));
 };
 
-int largest_difference(const gl::Picture& one, const gl::Picture& other) {
+int largest_difference(const scene::Picture& one, const scene::Picture& other) {
     int largest = 0;
     for (std::size_t i = 0; i < one.rgba.size(); ++i) {
         largest = std::max(largest, std::abs(int{one.rgba[i]} - int{other.rgba[i]}));
@@ -111,7 +120,7 @@ int largest_difference(const gl::Picture& one, const gl::Picture& other) {
     return largest;
 }
 
-int pixels_that_differ(const gl::Picture& one, const gl::Picture& other, int by = 0) {
+int pixels_that_differ(const scene::Picture& one, const scene::Picture& other, int by = 0) {
     int count = 0;
     for (int row = 0; row < one.height; ++row) {
         for (int column = 0; column < one.width; ++column) {
@@ -133,18 +142,19 @@ struct TorusStudio {
 
     TorusStudio() { tori.load(studio); }
 
-    gl::Picture picture(const scene::FramePlan& plan) { return studio.picture(plan); }
+    scene::Picture picture(const scene::FramePlan& plan, Way way = Way::InOrder) {
+        return studio.picture(plan, way);
+    }
 };
 
 } // namespace
 
 TEST_CASE("a refined mesh looks as the same mesh drawn in full, smooth and flat") {
     TorusStudio here;
-    const gl::Picture smooth = here.picture(here.tori.level_plan(true));
-    const gl::Picture flat = here.picture(here.tori.level_plan(false));
+    const scene::Picture smooth = here.picture(here.tori.level_plan(true));
+    const scene::Picture flat = here.picture(here.tori.level_plan(false));
     CHECK(pixels_that_differ(smooth, here.picture(empty_plan())) > 4000);
     CHECK(pixels_that_differ(smooth, flat, 2) > 2000);
-    // Normals are packed.
     CHECK(
         largest_difference(smooth, here.picture(here.tori.refined_plan(here.tori.triangles()))) <=
         1);
@@ -153,9 +163,9 @@ TEST_CASE("a refined mesh looks as the same mesh drawn in full, smooth and flat"
 
 TEST_CASE("of a refined mesh each pixel is as all smooth or as all flat, and some are as each") {
     TorusStudio here;
-    const gl::Picture smooth = here.picture(here.tori.refined_plan(here.tori.triangles()));
-    const gl::Picture flat = here.picture(here.tori.refined_plan(0));
-    const gl::Picture hybrid = here.picture(here.tori.refined_plan(100));
+    const scene::Picture smooth = here.picture(here.tori.refined_plan(here.tori.triangles()));
+    const scene::Picture flat = here.picture(here.tori.refined_plan(0));
+    const scene::Picture hybrid = here.picture(here.tori.refined_plan(here.tori.triangles() / 2));
     int as_smooth = 0;
     int as_flat = 0;
     int other = 0;
@@ -176,11 +186,8 @@ TEST_CASE("of a refined mesh each pixel is as all smooth or as all flat, and som
 
 TEST_CASE("a refined mesh hides itself and is hidden by ground before it, and by depth anywhere") {
     TorusStudio here;
-    scene::FramePlan painted = here.tori.refined_plan(50);
-    scene::FramePlan by_depth = painted;
-    by_depth.hidden_surface = HiddenSurface::DepthBuffer;
-    by_depth.depth_boxes.clear();
-    CHECK(largest_difference(here.picture(painted), here.picture(by_depth)) == 0);
+    scene::FramePlan painted = here.tori.refined_plan(here.tori.triangles() / 3);
+    CHECK(largest_difference(here.picture(painted), here.picture(painted, Way::ByDepth)) == 0);
     Triangles ground;
     ground.add({-1.0F, -1.0F, 0.0F, 1.0F}, 0.5F, green); // the left half, before the torus
     ground.add({0.0F, -1.0F, 1.0F, 1.0F}, 5.0F, green);  // the right half, behind it
@@ -188,10 +195,10 @@ TEST_CASE("a refined mesh hides itself and is hidden by ground before it, and by
     painted.repaint_indices = ground.indices;
     painted.steps = {
         {What::ClearDepth, 0, 1, whole},
-        {What::GroundDepth, 0, 12, whole},
-        {What::Refined, 0, 1, whole}};
-    const gl::Picture free = here.picture(here.tori.refined_plan(50));
-    const gl::Picture cut = here.picture(painted);
+        {What::GroundAgain, 0, 12, whole, DepthUse::DepthOnly},
+        {What::Refined, 0, 1, whole, DepthUse::Nearest}};
+    const scene::Picture free = here.picture(here.tori.refined_plan(here.tori.triangles() / 3));
+    const scene::Picture cut = here.picture(painted);
     for (int row = 0; row < picture_px; ++row) {
         for (int column = 0; column < picture_px; ++column) {
             const Pixel expected = column < picture_px / 2 ? grey_px : pixel(free, column, row);
@@ -202,12 +209,12 @@ TEST_CASE("a refined mesh hides itself and is hidden by ground before it, and by
 
 TEST_CASE("tints show what is smooth and what is flat") {
     TorusStudio here;
-    scene::FramePlan plan = here.tori.refined_plan(100);
+    scene::FramePlan plan = here.tori.refined_plan(here.tori.triangles() / 2);
     plan.ambient = glm::vec3(1.0F);
     plan.sunlight = glm::vec3(0.0F);
     plan.refined[0].tints = {
         .smooth = models::packed_colour(blue), .flat = models::packed_colour(red)};
-    const gl::Picture picture = here.picture(plan);
+    const scene::Picture picture = here.picture(plan);
     CHECK(count_of(picture, blue_px) > 1000);
     CHECK(count_of(picture, red_px) > 1000);
     CHECK(
@@ -218,8 +225,8 @@ TEST_CASE("tints show what is smooth and what is flat") {
 TEST_CASE("depth is cleared within an inset alone, as large as the picture too") {
     TorusStudio here;
     const scene::FramePlan plan = here.tori.refined_plan(here.tori.triangles());
-    const gl::Picture alone = here.picture(plan);
-    gl::Picture picture;
+    const scene::Picture alone = here.picture(plan);
+    scene::Picture picture;
     gl::Renderer& renderer = here.studio.renderer();
     renderer.draw(empty_plan());
     renderer.draw_inset(plan, {0, 0, picture_px, picture_px});

@@ -7,11 +7,10 @@
 
 using namespace octant;
 using namespace octant::tests;
-using scene::HiddenSurface;
 
 TEST_CASE("an empty plan gives the background everywhere") {
     Studio studio;
-    const gl::Picture picture = studio.picture(empty_plan());
+    const scene::Picture picture = studio.picture(empty_plan());
     CHECK(picture.width == side_px);
     CHECK(picture.height == side_px);
     REQUIRE(picture.rgba.size() == 4U * side_px * side_px);
@@ -26,7 +25,7 @@ TEST_CASE("the first row of the picture is its top, the first column its left") 
         .add({-1.0F, -1.0F, 0.0F, 0.0F}, 100.0F, green);
     scene::FramePlan plan = empty_plan();
     plan.ground = ground.draw();
-    const gl::Picture picture = studio.picture(plan);
+    const scene::Picture picture = studio.picture(plan);
     CHECK(pixel(picture, 0, 0) == red_px);
     CHECK(pixel(picture, 63, 31) == red_px);
     CHECK(pixel(picture, 0, 32) == green_px);
@@ -41,9 +40,8 @@ TEST_CASE("with depth a nearer ground triangle hides a farther one, whichever is
         ground.add({}, nearer_first ? 10.0F : 20.0F, nearer_first ? red : green)
             .add({}, nearer_first ? 20.0F : 10.0F, nearer_first ? green : red);
         scene::FramePlan plan = empty_plan();
-        plan.hidden_surface = HiddenSurface::DepthBuffer;
         plan.ground = ground.draw();
-        CHECK(middle(studio.picture(plan)) == red_px);
+        CHECK(middle(studio.picture(plan, Way::ByDepth)) == red_px);
     }
 }
 
@@ -53,10 +51,7 @@ TEST_CASE("without depth the ground is painted in its order, whatever is nearer"
     ground.add({}, 10.0F, red).add({}, 20.0F, green);
     scene::FramePlan plan = empty_plan();
     plan.ground = ground.draw();
-    for (const HiddenSurface way : painting_ways) {
-        plan.hidden_surface = way;
-        CHECK(middle(studio.picture(plan)) == green_px);
-    }
+    CHECK(middle(studio.picture(plan)) == green_px);
 }
 
 // Depth is 0.5 / distance: 1 cm at 5 km changes it by 2e-10, and floats there are 7e-12 apart.
@@ -68,9 +63,8 @@ TEST_CASE("reversed depth tells 1 cm apart at 5 km") {
         ground.add({}, nearer_first ? 5000.0F : 5000.01F, nearer_first ? red : green)
             .add({}, nearer_first ? 5000.01F : 5000.0F, nearer_first ? green : red);
         scene::FramePlan plan = empty_plan();
-        plan.hidden_surface = HiddenSurface::DepthBuffer;
         plan.ground = ground.draw();
-        const gl::Picture picture = studio.picture(plan);
+        const scene::Picture picture = studio.picture(plan, Way::ByDepth);
         CHECK(count_of(picture, red_px) == side_px * side_px);
     }
 }
@@ -80,9 +74,8 @@ TEST_CASE("what is nearer than the near plane is cut off, what is a million km a
     Triangles ground;
     ground.add({-1.0F, -1.0F, 0.0F, 1.0F}, 0.4F, red).add({0.0F, -1.0F, 1.0F, 1.0F}, 1e9F, green);
     scene::FramePlan plan = empty_plan();
-    plan.hidden_surface = HiddenSurface::DepthBuffer;
     plan.ground = ground.draw();
-    const gl::Picture picture = studio.picture(plan);
+    const scene::Picture picture = studio.picture(plan, Way::ByDepth);
     CHECK(pixel(picture, 10, 32) == grey_px);
     CHECK(pixel(picture, 50, 32) == green_px);
 }
@@ -94,13 +87,12 @@ TEST_CASE("the sky is behind everything, however near its triangles are") {
     Triangles ground;
     sky.add({}, 1.0F, blue);
     ground.add({-1.0F, -1.0F, 1.0F, 0.0F}, 1e6F, green);
-    for (const HiddenSurface way : all_ways) {
+    for (const Way way : all_ways) {
         scene::FramePlan plan = empty_plan();
-        plan.hidden_surface = way;
         plan.sky = sky.draw();
         plan.ground = ground.draw();
         add_square(plan, 0, ahead(4.0F));
-        const gl::Picture picture = studio.picture(plan);
+        const scene::Picture picture = studio.picture(plan, way);
         CHECK(pixel(picture, 32, 0) == blue_px);
         CHECK(pixel(picture, 32, 63) == green_px);
         CHECK(middle(picture) == red_px);
@@ -116,7 +108,7 @@ TEST_CASE("four samples a pixel soften an edge, one does not") {
     plan.ground = ground.draw();
     for (const int samples : {1, 4}) {
         Studio studio(gl::make_osmesa_context(), samples);
-        const gl::Picture picture = studio.picture(plan);
+        const scene::Picture picture = studio.picture(plan);
         std::set<int> reds;
         for (int row = 0; row < side_px; ++row) {
             for (int column = 0; column < side_px; ++column) {
@@ -142,7 +134,7 @@ TEST_CASE("the same plan gives the same bytes again, also after warming up") {
 
 TEST_CASE("a picture's memory is kept from frame to frame") {
     Studio studio;
-    gl::Picture picture;
+    scene::Picture picture;
     studio.renderer().draw(empty_plan());
     studio.renderer().finish_and_read(picture);
     const auto* const before = picture.rgba.data();

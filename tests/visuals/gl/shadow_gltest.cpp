@@ -7,7 +7,6 @@
 
 using namespace octant;
 using namespace octant::tests;
-using scene::HiddenSurface;
 
 namespace {
 
@@ -54,25 +53,19 @@ TEST_CASE("with depth a shadow lies on the ground without a hole") {
             const float size = 0.002F + 0.0002F * static_cast<float>(i);
             for (const glm::vec2 aside :
                  {glm::vec2(0.0F), glm::vec2(size, 0.1F * size), glm::vec2(0.3F * size, size)}) {
-                plan.shadow_indices.push_back(
+                plan.repaint_indices.push_back(
                     static_cast<std::uint32_t>(4 + plan.shadow_vertices.size()));
                 plan.shadow_vertices.push_back(
                     {on_slope(ground, second, b + aside.x, c + aside.y),
                      models::packed_colour(red)});
             }
         }
-        plan.hidden_surface = HiddenSurface::DepthBuffer;
-        const gl::Picture by_depth = studio.picture(plan);
+        const auto shadows = static_cast<std::uint32_t>(plan.repaint_indices.size());
+        const scene::Picture by_depth =
+            studio.picture(plan, Way::ByDepth, static_cast<int>(shadows));
         // The same painted: ground, then shadows.
-        scene::FramePlan painted = plan;
-        painted.hidden_surface = HiddenSurface::Octant;
-        painted.repaint_indices = plan.shadow_indices;
-        painted.steps = {
-            {scene::PaintStep::What::Ground,
-             0,
-             static_cast<std::uint32_t>(plan.shadow_indices.size()),
-             scene::PaintStep::whole}};
-        const gl::Picture over = studio.picture(painted);
+        plan.steps = {{scene::PaintStep::What::GroundAgain, 0, shadows}};
+        const scene::Picture over = studio.picture(plan);
         CHECK(count_of(over, red_px) > 1000);
         CHECK(count_of(over, green_px) > 1000);
         CHECK((by_depth.rgba == over.rgba));
@@ -87,13 +80,12 @@ TEST_CASE("a shadow is hidden by ground and aircraft in front of it") {
     Triangles shadow;
     shadow.add({-0.5F, -0.5F, 0.5F, 0.5F}, 10.1F, grey);
     scene::FramePlan plan = empty_plan();
-    plan.hidden_surface = HiddenSurface::DepthBuffer;
     plan.ground = ground.draw();
     plan.shadow_vertices = shadow.vertices;
     for (const std::uint32_t corner : shadow.indices) {
-        plan.shadow_indices.push_back(corner + 8);
+        plan.repaint_indices.push_back(corner + 8);
     }
-    CHECK(count_of(studio.picture(plan), grey_px) == 16 * 32);
+    CHECK(count_of(studio.picture(plan, Way::ByDepth, 6), grey_px) == 16 * 32);
     add_square(plan, 0, ahead(10.09F));
-    CHECK(middle(studio.picture(plan)) == red_px);
+    CHECK(middle(studio.picture(plan, Way::ByDepth, 6)) == red_px);
 }

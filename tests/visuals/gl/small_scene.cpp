@@ -1,7 +1,7 @@
 #include "tests/visuals/gl/small_scene.h"
 
 #include "sim/base/hash.h"
-#include "visuals/gl/bare_grid.h"
+#include "visuals/scene/bare_grid.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -34,6 +34,34 @@ scene::ModelBuffers box_model(const glm::vec3& half_m) {
 
 } // namespace
 
+scene::FramePlan framed(scene::FramePlan plan, Way way, int shadow_indices) {
+    using What = scene::PaintStep::What;
+    using scene::DepthUse;
+    constexpr std::uint32_t whole = scene::PaintStep::whole;
+    const auto size = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
+    const scene::PaintStep overlay{What::Overlay, 0, size(plan.overlay.indices)};
+    if (way == Way::InOrder) {
+        std::vector<scene::PaintStep> steps{
+            {What::Sky, 0, size(plan.sky.indices)}, {What::Ground, 0, size(plan.ground.indices)}};
+        steps.insert(steps.end(), plan.steps.begin(), plan.steps.end());
+        steps.push_back(overlay);
+        plan.steps = steps;
+        return plan;
+    }
+    const auto shadows = static_cast<std::uint32_t>(shadow_indices);
+    const std::uint32_t first_shadow = size(plan.repaint_indices) - shadows;
+    plan.depth_boxes = {{glm::ivec2(0), glm::ivec2(1 << 14)}}; // beyond any picture
+    plan.steps = {
+        {What::ClearDepth, 0, 1},
+        {What::Aircraft, 0, size(plan.aircraft), whole, DepthUse::Nearest},
+        {What::Refined, 0, size(plan.refined), whole, DepthUse::Nearest},
+        {What::Ground, 0, size(plan.ground.indices), whole, DepthUse::Nearest},
+        {What::GroundAgain, first_shadow, shadows, whole, DepthUse::OnGround},
+        {What::Sky, 0, size(plan.sky.indices), whole, DepthUse::InfinitelyFar},
+        overlay};
+    return plan;
+}
+
 void add_square(scene::FramePlan& plan, std::uint32_t model, const glm::mat4& body_to_eye_world) {
     const auto first_part = static_cast<std::uint32_t>(plan.parts.size());
     plan.parts.push_back(body_to_eye_world);
@@ -58,7 +86,7 @@ void load_squares(Studio& studio, bool as_meshes) {
     studio.renderer().load_models(models);
 }
 
-int count_of(const gl::Picture& picture, const Pixel& colour) {
+int count_of(const scene::Picture& picture, const Pixel& colour) {
     int count = 0;
     for (int row = 0; row < picture.height; ++row) {
         for (int column = 0; column < picture.width; ++column) {
@@ -70,7 +98,7 @@ int count_of(const gl::Picture& picture, const Pixel& colour) {
 
 FullScene::FullScene()
     : models_{box_model({6.0F, 1.0F, 1.5F}), box_model({1.0F, 5.0F, 0.2F})} {
-    const gl::BareGrid grid = gl::bare_grid(2000, empty_plan().view_to_clip);
+    const scene::BareGrid grid = scene::bare_grid(2000, empty_plan().view_to_clip);
     ground_ = {grid.vertices, grid.indices};
     for (std::size_t corner = 0; corner < 4; ++corner) {
         models_[1].vertices[corner].part = 1;
@@ -85,9 +113,8 @@ FullScene::FullScene()
     }
 }
 
-scene::FramePlan FullScene::plan(scene::HiddenSurface way) const {
+scene::FramePlan FullScene::plan() const {
     scene::FramePlan plan = empty_plan();
-    plan.hidden_surface = way;
     plan.ground = ground_.draw();
     plan.sky = sky_.draw();
     plan.haze = {{0.7F, 0.8F, 0.9F}, 1500.0F};
@@ -111,14 +138,13 @@ scene::FramePlan FullScene::plan(scene::HiddenSurface way) const {
         {glm::vec3(5.0F, -6.0F, -20.0F), 0xff202020U},
         {glm::vec3(0.0F, -7.0F, -40.0F), 0xff202020U}};
     const auto first_shadow = static_cast<std::uint32_t>(ground_.vertices.size());
-    plan.shadow_indices = {first_shadow, first_shadow + 1, first_shadow + 2};
     plan.repaint_indices = {0, 1, 2, first_shadow, first_shadow + 1, first_shadow + 2};
     plan.clips.push_back(
         {{glm::vec4(0.7F, 0.7F, 0.0F, 1.0F), glm::vec4(-1.0F, 0.0F, 0.0F, 3.0F)}, 2});
     constexpr std::uint32_t whole = scene::PaintStep::whole;
     plan.steps = {
         {What::Aircraft, 0, 2, whole},
-        {What::Ground, 0, 6, 0},
+        {What::GroundAgain, 0, 6, 0},
         {What::Aircraft, 2, 1, whole},
         {What::Aircraft, 0, 1, 0}};
     return plan;
@@ -129,8 +155,8 @@ std::uint64_t hash_of_full_scene(Studio& studio) {
     studio.context().make_current();
     studio.renderer().load_models(full.models());
     Hash hash;
-    for (const scene::HiddenSurface way : all_ways) {
-        const gl::Picture picture = studio.picture(full.plan(way));
+    for (const Way way : all_ways) {
+        const scene::Picture picture = studio.picture(full.plan(), way, FullScene::shadow_indices);
         hash.add(std::as_bytes(std::span(picture.rgba)));
     }
     return hash.value();

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "visuals/gl/context.h"
-#include "visuals/gl/picture.h"
 #include "visuals/gl/renderer.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/frame_plan.h"
+#include "visuals/scene/picture.h"
 
 #include <array>
 #include <cmath>
@@ -26,12 +26,9 @@ constexpr glm::vec3 grey{0.5F, 0.5F, 0.5F};
 
 using Pixel = std::array<int, 4>;
 
-constexpr std::array<scene::HiddenSurface, 3> all_ways{
-    scene::HiddenSurface::Octant,
-    scene::HiddenSurface::DepthBuffer,
-    scene::HiddenSurface::BackFace};
-constexpr std::array<scene::HiddenSurface, 2> painting_ways{
-    scene::HiddenSurface::Octant, scene::HiddenSurface::BackFace};
+/// The two ways in which planners have a scene drawn.
+enum class Way { InOrder, ByDepth };
+constexpr std::array<Way, 2> all_ways{Way::InOrder, Way::ByDepth};
 
 constexpr Pixel red_px{255, 0, 0, 255};
 constexpr Pixel green_px{0, 255, 0, 255};
@@ -88,6 +85,11 @@ inline scene::ModelBuffers square_model(const glm::vec3& colour) {
     return model;
 }
 
+/// The steps of a whole picture for a plan. In order: sky, ground, the plan's own steps, overlay.
+/// By depth: all its aircraft and meshes, ground, the last `shadow_indices` of repaint_indices as
+/// shadows, sky, overlay.
+scene::FramePlan framed(scene::FramePlan plan, Way way = Way::InOrder, int shadow_indices = 0);
+
 /// Nothing but grey background; aircraft keep their own colour.
 inline scene::FramePlan empty_plan() {
     scene::Camera camera;
@@ -115,14 +117,14 @@ void add_square(scene::FramePlan& plan, std::uint32_t model, const glm::mat4& bo
 /// Leaves the plan with this one aircraft.
 void set_square(scene::FramePlan& plan, std::uint32_t model, const glm::mat4& body_to_eye_world);
 
-inline Pixel pixel(const gl::Picture& picture, int column, int row) {
+inline Pixel pixel(const scene::Picture& picture, int column, int row) {
     const std::size_t at =
         4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width) +
              static_cast<std::size_t>(column));
     return {picture.rgba[at], picture.rgba[at + 1], picture.rgba[at + 2], picture.rgba[at + 3]};
 }
 
-inline Pixel middle(const gl::Picture& picture) {
+inline Pixel middle(const scene::Picture& picture) {
     return pixel(picture, picture.width / 2, picture.height / 2);
 }
 
@@ -135,19 +137,20 @@ public:
         int width = side_px,
         int height = side_px)
         : context_(std::move(context))
-        , renderer_(context_->functions(), width, height, samples) {}
+        , renderer_(context_, {width, height}, samples) {}
 
-    ~Studio() { context_->make_current(); }
-
+    ~Studio() = default;
     Studio(const Studio&) = delete;
     Studio& operator=(const Studio&) = delete;
     Studio(Studio&&) = delete;
     Studio& operator=(Studio&&) = delete;
 
-    gl::Picture picture(const scene::FramePlan& plan) {
+    /// Of the framed() plan.
+    scene::Picture
+    picture(const scene::FramePlan& plan, Way way = Way::InOrder, int shadow_indices = 0) {
         context_->make_current();
-        gl::Picture drawn;
-        renderer_.draw(plan);
+        scene::Picture drawn;
+        renderer_.draw(framed(plan, way, shadow_indices));
         renderer_.finish_and_read(drawn);
         return drawn;
     }
@@ -157,7 +160,7 @@ public:
     gl::Context& context() { return *context_; }
 
 private:
-    std::unique_ptr<gl::Context> context_;
+    std::shared_ptr<gl::Context> context_;
     gl::Renderer renderer_;
 };
 
@@ -170,7 +173,9 @@ public:
 
     std::span<const scene::ModelBuffers> models() const { return models_; }
 
-    scene::FramePlan plan(scene::HiddenSurface way) const;
+    /// Of its repaint_indices the last shadow_indices are all of its shadow.
+    scene::FramePlan plan() const;
+    static constexpr int shadow_indices = 3;
 
 private:
     Triangles ground_;
@@ -182,9 +187,9 @@ private:
 void load_squares(Studio& studio, bool as_meshes = false);
 
 /// Number of pixels of that colour.
-int count_of(const gl::Picture& picture, const Pixel& colour);
+int count_of(const scene::Picture& picture, const Pixel& colour);
 
-/// Hash of the picture of FullScene, each way of hidden surfaces after the other.
+/// Hash of the picture of FullScene, drawn in order and by depth.
 std::uint64_t hash_of_full_scene(Studio& studio);
 
 } // namespace octant::tests

@@ -1,5 +1,5 @@
 #include "visuals/scene/ground_colours.h"
-#include "visuals/scene/ground_texture.h"
+#include "visuals/scene/ground_texture_maker.h"
 
 #include <catch2/catch.hpp>
 

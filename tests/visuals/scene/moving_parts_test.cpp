@@ -45,13 +45,13 @@ TEST_CASE("a turning part's matrix puts its points where the pivot has turned th
     const glm::dvec3 expected_m = states[1].position_m + attitude * turned_m - camera.eye_m;
     CHECK(glm::distance(placed(point_m, 1), expected_m) < 1e-4);
     CHECK(glm::distance(placed(turned_m, 0), expected_m) < 1e-4);
-    // All three in one step that is not cut.
+    // All three in one step that is not cut: there is neither sky nor ground.
     REQUIRE(plan.steps.size() == 1);
     CHECK(plan.steps[0].count == 3);
     CHECK(plan.steps[0].clip == PaintStep::whole);
 }
 
-TEST_CASE("with a depth buffer one step paints the aircraft from the nearest") {
+TEST_CASE("with a depth buffer one step draws the aircraft from the nearest") {
     Scene scene;
     scene.ground = triangle_ground({});
     scene.add_model(convex_aircraft(box_model({1, 1, 1})));
@@ -61,7 +61,12 @@ TEST_CASE("with a depth buffer one step paints the aircraft from the nearest") {
     Planner planner(scene, settings);
     const std::vector states{state_at({0, 30, 0}), state_at({0, 90, 0}), state_at({0, 60, 0})};
     const FramePlan& plan = planner.plan({Camera(), states}).plan;
-    REQUIRE(plan.steps.size() == 1);
+    REQUIRE(plan.steps.size() == 2);
+    CHECK(plan.steps[0].what == PaintStep::What::ClearDepth);
+    CHECK(plan.depth_boxes.at(0).most == settings.view.size_px);
+    CHECK(plan.steps[1].what == PaintStep::What::Aircraft);
+    CHECK(plan.steps[1].count == 3);
+    CHECK(plan.steps[1].depth == DepthUse::Nearest);
     REQUIRE(plan.aircraft.size() == 3);
     CHECK(plan.aircraft[0].first_part == 0);
     CHECK(plan.aircraft[1].first_part == 2);

@@ -36,21 +36,20 @@ PlanPainter::PlanPainter(const scene::FramePlan& plan, const scene::Scene& scene
         }
         return Triangle{at[0], at[1], at[2]};
     };
-    for (std::size_t i = 0; i < plan.ground.indices.size(); i += 3) {
-        triangles_.push_back(ground_triangle(plan.ground.indices, i));
-    }
     for (const scene::PaintStep& step : plan.steps) {
         if (step.what == scene::PaintStep::What::Aircraft) {
             add_aircraft(plan, scene, step);
             continue;
         }
-        if (step.what != scene::PaintStep::What::Ground) {
+        const bool again = step.what == scene::PaintStep::What::GroundAgain;
+        if (!again && step.what != scene::PaintStep::What::Ground) {
             continue;
         }
+        const std::span indices = again ? std::span(plan.repaint_indices) : plan.ground.indices;
         for (std::size_t i = step.first; i < step.first + step.count; i += 3) {
-            Triangle triangle = ground_triangle(plan.repaint_indices, i);
+            Triangle triangle = ground_triangle(indices, i);
             triangle.clip = step.clip == scene::PaintStep::whole ? nullptr : &plan.clips[step.clip];
-            triangle.again = true;
+            triangle.again = again;
             triangles_.push_back(triangle);
         }
     }

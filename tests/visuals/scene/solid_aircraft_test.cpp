@@ -12,6 +12,7 @@
 using namespace octant;
 using namespace octant::tests;
 namespace scene = octant::visuals::scene;
+using scene::DepthUse;
 using What = scene::PaintStep::What;
 
 namespace {
@@ -45,6 +46,11 @@ int count(const scene::FramePlan& plan, What what) {
     return static_cast<int>(std::ranges::count(plan.steps, what, &scene::PaintStep::what));
 }
 
+/// Steps that use depth so.
+int count(const scene::FramePlan& plan, DepthUse depth) {
+    return static_cast<int>(std::ranges::count(plan.steps, depth, &scene::PaintStep::depth));
+}
+
 } // namespace
 
 TEST_CASE("an aircraft is a mesh near the eye and polygons far from it, and no depth is asked for "
@@ -53,13 +59,13 @@ TEST_CASE("an aircraft is a mesh near the eye and polygons far from it, and no d
     scene::Planner planner(flight.scene, flight.settings);
     const std::array near{state_at({30, 0, 50})};
     const scene::PlannedFrame solid = planner.plan({flight.camera, near});
-    CHECK(count(solid.plan, What::Solid) == 1);
+    CHECK(count(solid.plan, DepthUse::Nearest) == 1);
     CHECK(count(solid.plan, What::ClearDepth) == 1);
     CHECK(solid.counts.aircraft_level == 0);
     CHECK(solid.counts.aircraft_polygons == 4);
     const std::array far{state_at({190, 0, 50})};
     const scene::PlannedFrame painted = planner.plan({flight.camera, far});
-    CHECK(count(painted.plan, What::Solid) == 0);
+    CHECK(count(painted.plan, DepthUse::Nearest) == 0);
     CHECK(painted.plan.depth_boxes.empty());
     CHECK(painted.counts.aircraft_level == 1);
     CHECK(painted.counts.aircraft_polygons == 6);
@@ -99,14 +105,16 @@ TEST_CASE("ground that a mesh sticks in hides it by depth, and meshes that meet 
     const scene::PlannedFrame frame = planner.plan({flight.camera, both});
     const scene::FramePlan& plan = frame.plan;
     CHECK(count(plan, What::ClearDepth) == 1);
-    CHECK(count(plan, What::GroundDepth) == 1);
-    CHECK(count(plan, What::Solid) == 2);
+    CHECK(count(plan, DepthUse::DepthOnly) == 1);
+    CHECK(count(plan, DepthUse::Nearest) == 1);
     CHECK(frame.counts.knots == 1);
-    const auto at = [&](What what) {
-        return std::ranges::find(plan.steps, what, &scene::PaintStep::what) - plan.steps.begin();
-    };
-    CHECK(at(What::ClearDepth) < at(What::GroundDepth));
-    CHECK(at(What::GroundDepth) < at(What::Solid));
+    const auto clear = std::ranges::find(plan.steps, What::ClearDepth, &scene::PaintStep::what);
+    REQUIRE(plan.steps.end() - clear >= 3);
+    CHECK(clear[1].depth == DepthUse::DepthOnly);
+    CHECK(clear[1].what == What::GroundAgain);
+    CHECK(clear[2].depth == DepthUse::Nearest);
+    CHECK(clear[2].what == What::Aircraft);
+    CHECK(clear[2].count == 2);
 }
 
 TEST_CASE("a mesh out of view costs as little as its polygons") {

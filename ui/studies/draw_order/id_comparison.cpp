@@ -9,10 +9,9 @@ namespace octant::ui::studies::draw_order {
 
 namespace {
 
-namespace gl = visuals::gl;
 namespace scene = visuals::scene;
 
-std::uint32_t id_at(const gl::Picture& picture, int x, int y) {
+std::uint32_t id_at(const scene::Picture& picture, int x, int y) {
     std::uint32_t id = 0;
     const std::size_t pixel =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
@@ -22,7 +21,8 @@ std::uint32_t id_at(const gl::Picture& picture, int x, int y) {
 }
 
 /// Whether a number occurs in the picture within `reach` pixels of a place, in either direction.
-bool occurs_around(const gl::Picture& picture, const glm::ivec2& at, int reach, std::uint32_t id) {
+bool occurs_around(
+    const scene::Picture& picture, const glm::ivec2& at, int reach, std::uint32_t id) {
     for (int v = std::max(at.y - reach, 0); v <= std::min(at.y + reach, picture.height - 1); ++v) {
         for (int u = std::max(at.x - reach, 0); u <= std::min(at.x + reach, picture.width - 1);
              ++u) {
@@ -44,7 +44,7 @@ public:
         settings_.view.size_px *= scale;
     }
 
-    const gl::Picture& picture(int frame) {
+    const scene::Picture& picture(int frame) {
         if (!session_) {
             session_ = std::make_unique<flight::Session>(settings_, flight::Shows::PolygonNumbers);
         }
@@ -60,7 +60,7 @@ private:
 
 } // namespace
 
-IdDifference difference_of(const gl::Picture& picture, const gl::Picture& reference) {
+IdDifference difference_of(const scene::Picture& picture, const scene::Picture& reference) {
     assert(picture.width == reference.width && picture.height == reference.height);
     IdDifference difference;
     difference.pixels = static_cast<long>(picture.width) * picture.height;
@@ -81,8 +81,8 @@ IdDifference difference_of(const gl::Picture& picture, const gl::Picture& refere
 
 long wrong_among(
     std::span<const glm::ivec2> pixels,
-    const gl::Picture& picture,
-    const gl::Picture& large_reference,
+    const scene::Picture& picture,
+    const scene::Picture& large_reference,
     int scale) {
     return std::ranges::count_if(pixels, [&](const glm::ivec2& pixel) {
         const glm::ivec2 middle = pixel * scale + scale / 2;
@@ -128,26 +128,25 @@ IdComparison compare_with_depth_buffer(
 
 namespace {
 
-gl::Picture number_picture(
-    flight::Session& session, const settings::Settings& settings, const gl::Functions& functions) {
+scene::Picture number_picture(flight::Session& session, const settings::Settings& settings) {
     // Meshed by the session's settings, so that all pictures show the same triangles.
     const scene::Scene& scene = session.world().scene;
     scene::Planner planner(scene, settings, scene.ground->mesher(session.settings()));
     planner.settle(session.camera());
     scene::IdPlan ids(scene);
-    gl::Renderer renderer(functions, settings.view.size_px.x, settings.view.size_px.y, 1);
-    renderer.load_models(ids.models());
+    const auto renderer = session.renderer().beside(settings.view.size_px, 1);
+    renderer->load_models(ids.models());
     const scene::PlannedFrame frame =
         planner.plan({session.camera(), session.states(), session.triangle_target()});
-    gl::Picture picture;
-    renderer.draw(ids.of(frame.plan));
-    renderer.finish_and_read(picture);
+    scene::Picture picture;
+    renderer->draw(ids.of(frame.plan));
+    renderer->finish_and_read(picture);
     return picture;
 }
 
 } // namespace
 
-PixelCheck check_pixels(flight::Session& session, const gl::Functions& functions) {
+PixelCheck check_pixels(flight::Session& session) {
     settings::Settings painted = session.settings();
     painted.surface.shadows = false;
     painted.view.samples = 1;
@@ -156,16 +155,12 @@ PixelCheck check_pixels(flight::Session& session, const gl::Functions& functions
     tested.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
     settings::Settings large = tested;
     large.view.size_px *= LargeReference::scale;
-    const gl::Picture picture = number_picture(session, painted, functions);
-    const IdDifference difference =
-        difference_of(picture, number_picture(session, tested, functions));
+    const scene::Picture picture = number_picture(session, painted);
+    const IdDifference difference = difference_of(picture, number_picture(session, tested));
     PixelCheck check{.pixels = difference.pixels, .differing = difference.differing};
     if (!difference.apart.empty()) {
         check.wrong = wrong_among(
-            difference.apart,
-            picture,
-            number_picture(session, large, functions),
-            LargeReference::scale);
+            difference.apart, picture, number_picture(session, large), LargeReference::scale);
     }
     return check;
 }

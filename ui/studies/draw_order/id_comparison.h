@@ -2,8 +2,7 @@
 
 #include "ui/flight/session.h"
 #include "ui/settings/settings.h"
-#include "visuals/gl/functions.h"
-#include "visuals/gl/picture.h"
+#include "visuals/scene/picture.h"
 
 #include <glm/vec2.hpp>
 
@@ -22,14 +21,14 @@ struct IdDifference {
 
 /// Compares two pictures of the same size (asserted).
 IdDifference
-difference_of(const visuals::gl::Picture& picture, const visuals::gl::Picture& reference);
+difference_of(const visuals::scene::Picture& picture, const visuals::scene::Picture& reference);
 
 /// How many of the pixels have a number that is in none of the 3 x 3 pixels around them in a
 /// reference that was drawn `scale` times as large.
 long wrong_among(
     std::span<const glm::ivec2> pixels,
-    const visuals::gl::Picture& picture,
-    const visuals::gl::Picture& large_reference,
+    const visuals::scene::Picture& picture,
+    const visuals::scene::Picture& large_reference,
     int scale);
 
 /// Sums over the frames of a run.
@@ -62,8 +61,8 @@ struct PixelCheck {
     long wrong = 0;     ///< of these, where a picture three times as large does not show it nearby
 };
 
-/// Draws the session's last moment by order and by depth and compares. Its context must be current,
-/// with these functions. Throws Error (driver).
-PixelCheck check_pixels(flight::Session& session, const visuals::gl::Functions& gl);
+/// Draws the session's last moment by order and by depth, beside its renderer, and compares. Throws
+/// Error (driver).
+PixelCheck check_pixels(flight::Session& session);
 
 } // namespace octant::ui::studies::draw_order

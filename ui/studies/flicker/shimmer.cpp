@@ -61,7 +61,7 @@ std::optional<glm::dvec2> pixel_of(
     return view.pixel(seen);
 }
 
-double luminance(const visuals::gl::Picture& picture, int x, int y) {
+double luminance(const visuals::scene::Picture& picture, int x, int y) {
     const std::size_t at =
         4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
              static_cast<std::size_t>(x));
@@ -69,7 +69,7 @@ double luminance(const visuals::gl::Picture& picture, int x, int y) {
            0.0722 * picture.rgba[at + 2];
 }
 
-double luminance_between(const visuals::gl::Picture& picture, const glm::dvec2& at) {
+double luminance_between(const visuals::scene::Picture& picture, const glm::dvec2& at) {
     const int x = static_cast<int>(at.x);
     const int y = static_cast<int>(at.y);
     const double east = at.x - x;
@@ -116,8 +116,8 @@ std::vector<SamePlace> same_places(
 }
 
 double mean_change(
-    const visuals::gl::Picture& earlier,
-    const visuals::gl::Picture& later,
+    const visuals::scene::Picture& earlier,
+    const visuals::scene::Picture& later,
     const std::vector<SamePlace>& places) {
     double sum = 0.0;
     for (const SamePlace& place : places) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ui/flight/flight_cameras.h"
-#include "visuals/gl/picture.h"
+#include "visuals/scene/picture.h"
 #include "visuals/terrain/ground_samples.h"
 
 #include <glm/vec2.hpp>
@@ -27,8 +27,8 @@ std::vector<SamePlace> same_places(
 
 /// Mean absolute change of luminance (0 to 255) over the places; 0 without any.
 double mean_change(
-    const visuals::gl::Picture& earlier,
-    const visuals::gl::Picture& later,
+    const visuals::scene::Picture& earlier,
+    const visuals::scene::Picture& later,
     const std::vector<SamePlace>& places);
 
 } // namespace octant::ui::studies::flicker

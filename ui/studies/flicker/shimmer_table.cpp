@@ -68,7 +68,7 @@ Change shimmer_along(
             flight::Session& session = *sessions[k];
             session.make_current();
             session.draw(static_cast<int>(frame));
-            const visuals::gl::Picture earlier = session.picture();
+            const visuals::scene::Picture earlier = session.picture();
             session.draw(static_cast<int>(frame) + 1);
             change.sum[k] += mean_change(earlier, session.picture(), places);
         }

@@ -112,7 +112,7 @@ report::HtmlTable gain_table(std::span<const ShadingRun> runs) {
     table.note =
         "Share of all polygons of the model, those that face away included. Eight eyes around the "
         "model, three radii from its middle; PSNR of the mean square error over all covered pixels "
-        "of all eyes, white = R + G + B = 3, linear light. Facing only: the paper's "
+        "of all eyes, white = R + G + B = 3 in display values. Facing only: the paper's "
         "rule as if polygons that face away were not there. Exact: beyond 100 dB, a hundred "
         "thousandth of white. Random: mean square of four seeds.";
     return table;

@@ -66,7 +66,7 @@ report::Picture picture_of(const models::TriangleMesh& original, bool y_up) {
         const LightPicture seen = pictures.hybrid(std::vector<std::uint8_t>(polygons.size(), 0));
         for (std::size_t at = 0; at < seen.light.size(); ++at) {
             if (pictures.covered()[at] != 0) {
-                // Screens are not linear.
+                // Brightened, so that slopes in shade are told apart in print.
                 const float shown = std::pow(glm::clamp(seen.light[at], 0.0F, 1.0F), 1.0F / 2.2F);
                 picture.bytes[3 * at + static_cast<std::size_t>(part)] =
                     static_cast<std::byte>(std::lround(255.0F * shown));

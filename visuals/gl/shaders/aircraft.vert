@@ -13,14 +13,7 @@ layout(location = 8) in vec4 face_colour; // of the polygon that begins here
 layout(location = 9) in vec4 smooth_tint; // of the aircraft's smooth polygons; a = 0: none
 layout(location = 10) in vec4 flat_tint; // the same of its flat ones
 
-layout(std140, binding = 0) uniform Picture {
-    mat4 world_to_clip;
-    vec4 haze; // colour, 1 / visibility (0 = no haze)
-    vec4 to_sun; // unit, world axes
-    vec4 ambient;
-    vec4 sunlight;
-    mat4 ray_from_pixel;
-};
+#include "picture.glsl"
 
 layout(std430, binding = 0) readonly buffer Parts {
     mat4 body_to_eye_world[]; // world axes, eye at the origin

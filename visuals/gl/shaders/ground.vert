@@ -4,14 +4,7 @@
 layout(location = 0) in vec3 position_m; // world axes, eye at the origin
 layout(location = 1) in vec4 own_colour;
 
-layout(std140, binding = 0) uniform Picture {
-    mat4 world_to_clip;
-    vec4 haze; // colour, 1 / visibility (0 = no haze)
-    vec4 to_sun;
-    vec4 ambient;
-    vec4 sunlight;
-    mat4 ray_from_pixel;
-};
+#include "picture.glsl"
 
 out vec3 colour;
 #ifdef MESH

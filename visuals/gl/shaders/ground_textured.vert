@@ -4,16 +4,7 @@
 layout(location = 0) in vec3 position_m; // world axes, eye at the origin
 layout(location = 1) in vec4 own_colour; // only alpha: share of the light that is left
 
-layout(std140, binding = 0) uniform Picture {
-    mat4 world_to_clip;
-    vec4 haze; // colour, 1 / visibility (0 = no haze)
-    vec4 to_sun;
-    vec4 ambient;
-    vec4 sunlight;
-    mat4 ray_from_pixel;
-    vec4 albedo_place; // of the eye, then a metre's share
-    vec4 normal_place;
-};
+#include "picture.glsl"
 
 out vec2 albedo_at;
 out vec2 normal_at;

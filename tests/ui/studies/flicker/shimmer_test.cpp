@@ -49,7 +49,7 @@ TEST_CASE("a picture that moves with the ground does not change; another does") 
     const auto places =
         same_places(ground, looking_down(0.0), looking_down(1000.0 / focal_px), size_px, 0.0);
     const auto ramp = [&](int offset) {
-        visuals::gl::Picture picture;
+        visuals::scene::Picture picture;
         picture.width = size_px.x;
         picture.height = size_px.y;
         for (int k = 0; k < size_px.x * size_px.y; ++k) {

@@ -1,4 +1,4 @@
-#include "visuals/scene/ground_texture.h"
+#include "visuals/scene/ground_texture_maker.h"
 
 #include "sim/base/worker_team.h"
 #include "visuals/scene/ground_colours.h"

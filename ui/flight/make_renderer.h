@@ -1,0 +1,13 @@
+#pragma once
+
+#include "ui/settings/settings.h"
+#include "visuals/scene/renderer.h"
+
+#include <memory>
+
+namespace octant::ui::flight {
+
+/// The renderer that the settings ask for, current in this thread. Throws Error.
+std::unique_ptr<visuals::scene::Renderer> make_renderer(const settings::Settings& settings);
+
+} // namespace octant::ui::flight

@@ -1,0 +1,14 @@
+// What all shaders read about a picture: PictureValues of visuals/gl/renderer.cpp.
+#ifndef PICTURE
+#define PICTURE
+layout(std140, binding = 0) uniform Picture {
+    mat4 world_to_clip;
+    vec4 haze; // colour, 1 / visibility (0 = no haze)
+    vec4 to_sun; // unit, world axes
+    vec4 ambient;
+    vec4 sunlight;
+    mat4 ray_from_pixel; // world axes, one unit deep
+    vec4 albedo_place; // texture coordinates of the eye, then their change a metre
+    vec4 normal_place;
+};
+#endif

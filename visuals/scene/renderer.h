@@ -1,0 +1,90 @@
+#pragma once
+
+#include "visuals/scene/frame_plan.h"
+#include "visuals/scene/ground_texture.h"
+#include "visuals/scene/picture.h"
+
+#include <glm/vec2.hpp>
+
+#include <memory>
+#include <span>
+#include <string>
+
+namespace octant::visuals::scene {
+
+/// What draws, for reports.
+struct RendererInfo {
+    std::string kind;          ///< "osmesa", "egl" or "window"
+    std::string device;        ///< what the driver calls the device
+    std::string version;       ///< the driver's
+    bool on_processor = false; ///< a processor draws, not a GPU
+};
+
+/// Makes pictures of frame plans: draws their steps in their order and decides nothing. Belongs to
+/// the thread that made it.
+class Renderer {
+public:
+    virtual ~Renderer() = default;
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+    Renderer(Renderer&&) = delete;
+    Renderer& operator=(Renderer&&) = delete;
+
+    virtual const RendererInfo& info() const = 0;
+
+    /// To be called before other calls when several renderers take turns in a thread. Throws Error.
+    virtual void make_current() = 0;
+
+    /// Another renderer on the same device, with nothing loaded: both are current together. Throws
+    /// Error when the driver cannot hold that size.
+    virtual std::unique_ptr<Renderer> beside(const glm::ivec2& size_px, int samples) const = 0;
+
+    /// Draws pictures of another size or with other samples (1 or 4 a pixel) from now on. Throws
+    /// Error and leaves it as it is when the driver cannot.
+    virtual void resize(const glm::ivec2& size_px, int samples) = 0;
+
+    /// Loads the aircraft models, in place of those loaded before: AircraftDraw::model counts in
+    /// this list.
+    virtual void load_models(std::span<const ModelBuffers> models) = 0;
+
+    /// Loads the ground's texture, in place of one loaded before: FramePlan::ground_texture asks
+    /// for it. Throws Error when the driver has no memory for it.
+    virtual void load_ground_texture(const GroundTexture& texture) = 0;
+
+    /// Draws once in every state that a plan can ask for, because drivers compile on first use
+    /// (14-18 ms each). To be called after loading; what the picture holds afterwards is undefined.
+    virtual void warm_up() = 0;
+
+    /// Starts the drawing of a picture; the plan's memory is free again on return.
+    virtual void draw(const FramePlan& plan) = 0;
+
+    /// Draws a second plan, made for a picture of the size of `rect`, over that part of the picture
+    /// that draw() has begun, as if it were a picture of its own, with a thin frame around it.
+    /// `rect` must lie within the picture (asserted). The plan's memory is free again on return.
+    virtual void draw_inset(const FramePlan& plan, const PixelRect& rect) = 0;
+
+    /// Waits until the picture is drawn. Throws Error when the driver reports one.
+    virtual void finish() = 0;
+
+    /// finish(), then copies the picture. `picture` keeps its memory between calls.
+    virtual void finish_and_read(Picture& picture) = 0;
+
+    /// Of the last draw() and the insets since; consecutive aircraft of a step are one.
+    virtual int draw_calls() const = 0;
+
+    /// From now on pictures may be drawn straight into the window, which is so large, where they
+    /// fit: that saves copying them there. 0,0 = no window.
+    virtual void aim_at_window(const glm::ivec2& window_px) = 0;
+
+    /// Whether the last picture was drawn straight into the window: it cannot be read then.
+    virtual bool is_in_window() const = 0;
+
+    /// Waits for the picture and copies it into the lower left corner of the window, stretched to
+    /// `size_px`, upright there.
+    virtual void copy_to_window(const glm::ivec2& size_px) = 0;
+
+protected:
+    Renderer() = default;
+};
+
+} // namespace octant::visuals::scene
