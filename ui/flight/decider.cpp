@@ -13,8 +13,8 @@ void Decider::begin(const scene::Settings& settings, double rate_hz) {
     adapt_ = settings.adapt;
     rate_hz_ = rate_hz;
     settled_triangles_ = scene::triangle_target(settings);
-    load_settings_ = scene::load_settings(settings, rate_hz);
-    load_ = scene::starting_at(settled_triangles_, load_settings_);
+    load_settings_ = load_settings(settings, rate_hz);
+    load_ = starting_at(settled_triangles_, load_settings_);
     shading_.reset();
 }
 
@@ -22,7 +22,7 @@ int Decider::triangle_target(int frame) {
     if (!replayed_.empty()) {
         const auto number = static_cast<std::size_t>(frame);
         assert(number < replayed_.size());
-        load_ = scene::with_target(load_, replayed_[number].triangle_target);
+        load_ = with_target(load_, replayed_[number].triangle_target);
         return load_.triangles();
     }
     return adapt_.terrain ? load_.triangles() : settled_triangles_;
@@ -47,8 +47,7 @@ double Decider::learn(const FrameOutcome& outcome) {
         return outcome.frame_ms * rate_hz_ / 1000.0;
     }
     if (!outcome.warm_up) {
-        load_ =
-            scene::next_state(load_, load_settings_, {outcome.frame_ms, outcome.terrain_triangles});
+        load_ = next_state(load_, load_settings_, {outcome.frame_ms, outcome.terrain_triangles});
     }
     return load_.stress.value_or(std::numeric_limits<double>::quiet_NaN());
 }

@@ -26,7 +26,7 @@ namespace scene = visuals::scene;
 
 namespace {
 
-std::string adaptation_text(const scene::LoadSettings& load) {
+std::string adaptation_text(const LoadSettings& load) {
     return fmt::format(
         "terrain: {} to {} triangles; left alone at a stress of {:.2f} to {:.2f}, else brought to "
         "the middle by at most {:.1f} % down and {:.1f} % up a frame; stress filtered over "
@@ -68,7 +68,7 @@ report::RunInfo run_info(const settings::Settings& settings, const Session& sess
              "{}, OpenGL {}", session.renderer().info().kind, session.renderer().info().version)}};
     if (settings.adapt.terrain) {
         info.facts.emplace_back(
-            "adaptation", adaptation_text(scene::load_settings(settings, session.rate_hz())));
+            "adaptation", adaptation_text(load_settings(settings, session.rate_hz())));
     }
     info.notes = session.world().notes;
     info.inputs = world::input_hashes(settings);

@@ -1,5 +1,5 @@
-#include "tests/visuals/scene/small_world.h"
-#include "visuals/scene/load_controller.h"
+#include "sim/base/dice.h"
+#include "ui/flight/load_controller.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 using namespace octant;
-using namespace octant::visuals::scene;
+using namespace octant::ui::flight;
 
 namespace {
 
@@ -17,7 +17,7 @@ struct Machine {
     double fixed_ms = 3.0;
     double ms_per_triangle = 0.0005;
     double noise = 0.0; ///< share of the frame time, either way
-    tests::PlaceDice dice{7};
+    Dice dice{7};
 
     double frame_ms(int triangles) {
         const double exact_ms = fixed_ms + ms_per_triangle * triangles;
@@ -26,7 +26,7 @@ struct Machine {
 };
 
 LoadSettings settings_at(double rate_hz, int budget = 20000) {
-    Settings settings;
+    visuals::scene::Settings settings;
     settings.ground.triangles = budget;
     settings.adapt.terrain = true;
     return load_settings(settings, rate_hz);
@@ -187,7 +187,7 @@ TEST_CASE("the stress is none before a frame is measured and the filtered share 
 }
 
 TEST_CASE("whatever frames take, the budget changes in small steps within its limits") {
-    tests::PlaceDice dice(11);
+    Dice dice(11);
     for (int run = 0; run < 50; ++run) {
         const LoadSettings settings = settings_at(dice.between(1.0, 1000.0));
         LoadState state = starting_at(dice.between(100.0, 1e6), settings);

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-namespace octant::visuals::scene {
+namespace octant::ui::flight {
 
 /// Every number by which the ground's triangle budget follows the frame time. "Stress", the word of
 /// image generators, is the share of its time that a frame uses: frame_ms / share_ms.
@@ -50,7 +50,7 @@ struct FrameLoad {
 };
 
 /// The settings of a run: from an eighth of its triangle budget to four times as many.
-LoadSettings load_settings(const Settings& settings, double rate_hz);
+LoadSettings load_settings(const visuals::scene::Settings& settings, double rate_hz);
 
 /// State before the first frame, at rest in the middle of the band.
 LoadState starting_at(double triangles, const LoadSettings& settings);
@@ -61,4 +61,4 @@ LoadState with_target(const LoadState& state, int triangles);
 /// State after a frame. Settings are as their comments demand (asserted).
 LoadState next_state(const LoadState& state, const LoadSettings& settings, const FrameLoad& load);
 
-} // namespace octant::visuals::scene
+} // namespace octant::ui::flight

@@ -9,13 +9,13 @@
 // - A new budget takes the filter's memory with it as if the whole frame were ground: without that
 //   the budget would overshoot by what it changes within the filter's time constant. What else a
 //   frame holds makes a course slower, or end early and be followed by another, never swing back.
-#include "visuals/scene/load_controller.h"
+#include "ui/flight/load_controller.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-namespace octant::visuals::scene {
+namespace octant::ui::flight {
 
 namespace {
 
@@ -60,8 +60,8 @@ int LoadState::triangles() const {
     return static_cast<int>(std::lround(target));
 }
 
-LoadSettings load_settings(const Settings& settings, double rate_hz) {
-    const int budget = triangle_target(settings);
+LoadSettings load_settings(const visuals::scene::Settings& settings, double rate_hz) {
+    const int budget = visuals::scene::triangle_target(settings);
     LoadSettings load;
     load.share_ms = 1000.0 / rate_hz;
     load.lowest = std::max(budget / 8, 1);
@@ -101,4 +101,4 @@ LoadState next_state(const LoadState& state, const LoadSettings& settings, const
     return next;
 }
 
-} // namespace octant::visuals::scene
+} // namespace octant::ui::flight
