@@ -1,3 +1,4 @@
+#include "sim/aircraft_kind.h"
 #include "ui/flight/simulation.h"
 
 #include <catch2/catch.hpp>
@@ -64,7 +65,7 @@ TEST_CASE("a dive by hand ends on the ground, and levelling off goes on above it
     const ui::world::World world = small_world();
     Simulation simulation(world);
     simulation.advance_to(1.0);
-    simulation.take_over("f15");
+    simulation.take_over(sim::aircraft_kind("f15"));
     REQUIRE(simulation.by_hand());
     sim::PilotControls push = simulation.controls();
     push.pitch = -1.0;
@@ -72,7 +73,7 @@ TEST_CASE("a dive by hand ends on the ground, and levelling off goes on above it
     simulation.advance_to(15.0);
     CHECK(simulation.end_of_flight() == Simulation::End::OnTheGround);
     CHECK(simulation.states().front().position_m.z > 0.0);
-    simulation.level_off("f15");
+    simulation.level_off(sim::aircraft_kind("f15"));
     CHECK_FALSE(simulation.end_of_flight());
     simulation.advance_to(15.5);
     CHECK(simulation.states().front().position_m.z > 150.0);
@@ -81,8 +82,8 @@ TEST_CASE("a dive by hand ends on the ground, and levelling off goes on above it
 TEST_CASE("a flight by hand straight ahead ends at the border of the map") {
     const ui::world::World world = small_world();
     Simulation simulation(world);
-    simulation.take_over("f15");
-    simulation.level_off("f15");
+    simulation.take_over(sim::aircraft_kind("f15"));
+    simulation.level_off(sim::aircraft_kind("f15"));
     simulation.advance_to(60.0);
     CHECK(simulation.end_of_flight() == Simulation::End::OffTheMap);
     CHECK(simulation.states().front().position_m.y > 1900.0);
