@@ -5,7 +5,7 @@
 #include "ui/flight/make_renderer.h"
 #include "ui/flight/session.h"
 #include "ui/report/statistics.h"
-#include "visuals/scene/bare_grid.h"
+#include "visuals/gl/bare_grid.h"
 #include "visuals/scene/step_writer.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ public:
         : renderer_(flight::make_renderer(settings)) {
         plan_.view_to_clip = scene::view_to_clip(
             {}, static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y);
-        grid_ = scene::bare_grid(floor_triangles, plan_.view_to_clip);
+        grid_ = visuals::gl::bare_grid(floor_triangles, plan_.view_to_clip);
         plan_.ground = {grid_.vertices, grid_.indices};
         scene::StepWriter(plan_).paint_ground();
         renderer_->warm_up();
@@ -62,7 +62,7 @@ public:
 
 private:
     std::unique_ptr<scene::Renderer> renderer_;
-    scene::BareGrid grid_;
+    visuals::gl::BareGrid grid_;
     scene::FramePlan plan_;
     scene::Picture picture_;
 };

@@ -1,5 +1,5 @@
 #include "tests/visuals/gl/small_scene.h"
-#include "visuals/scene/bare_grid.h"
+#include "visuals/gl/bare_grid.h"
 
 #include <catch2/catch.hpp>
 
@@ -14,7 +14,7 @@ TEST_CASE("the bare grid covers the whole picture and has the triangles asked fo
     const int height = 90;
     const glm::mat4 view_to_clip = scene::view_to_clip(camera, 16.0 / 9.0);
     for (const int triangles : {2, 3, 1000, 20000, 200000}) {
-        const scene::BareGrid grid = scene::bare_grid(triangles, view_to_clip);
+        const gl::BareGrid grid = gl::bare_grid(triangles, view_to_clip);
         CHECK(grid.indices.size() / 3 >= static_cast<std::size_t>(triangles));
         CHECK(
             static_cast<double>(grid.indices.size()) / 3 <=
@@ -27,5 +27,5 @@ TEST_CASE("the bare grid covers the whole picture and has the triangles asked fo
         const scene::Picture picture = studio.picture(plan);
         CHECK(count_of(picture, red_px) == 0);
     }
-    CHECK(scene::bare_grid(20000, view_to_clip).indices.size() == 60000);
+    CHECK(gl::bare_grid(20000, view_to_clip).indices.size() == 60000);
 }

@@ -1,7 +1,7 @@
 #include "tests/visuals/gl/small_scene.h"
 
 #include "sim/base/hash.h"
-#include "visuals/scene/bare_grid.h"
+#include "visuals/gl/bare_grid.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -98,7 +98,7 @@ int count_of(const scene::Picture& picture, const Pixel& colour) {
 
 FullScene::FullScene()
     : models_{box_model({6.0F, 1.0F, 1.5F}), box_model({1.0F, 5.0F, 0.2F})} {
-    const scene::BareGrid grid = scene::bare_grid(2000, empty_plan().view_to_clip);
+    const gl::BareGrid grid = gl::bare_grid(2000, empty_plan().view_to_clip);
     ground_ = {grid.vertices, grid.indices};
     for (std::size_t corner = 0; corner < 4; ++corner) {
         models_[1].vertices[corner].part = 1;

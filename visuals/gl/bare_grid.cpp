@@ -1,4 +1,4 @@
-#include "visuals/scene/bare_grid.h"
+#include "visuals/gl/bare_grid.h"
 
 #include <glm/geometric.hpp>
 
@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace octant::visuals::scene {
+namespace octant::visuals::gl {
 namespace {
 
 constexpr float nearest_m = 600.0F;
@@ -61,4 +61,4 @@ BareGrid bare_grid(int triangles, const glm::mat4& view_to_clip) {
     return grid;
 }
 
-} // namespace octant::visuals::scene
+} // namespace octant::visuals::gl
