@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace octant::visuals::refine {
@@ -119,9 +118,6 @@ public:
     PackedColour packed_colour(std::uint32_t node) const { return shape(node).colour; }
 
     bool has_colours() const { return has_colours_; }
-
-    /// The colour as RefinedVertex::colour has it; white where the mesh has no colours.
-    std::uint32_t colour(std::uint32_t node) const { return drawn_colour(shape(node).colour); }
 
     /// How far the surface is from the original where this node is active, metres. It is 0 for
     /// leaves and never decreases towards the root.

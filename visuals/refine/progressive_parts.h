@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/collapse_sequence.h"
+#include "models/material.h"
 #include "models/triangle_mesh.h"
 #include "visuals/refine/packed_attributes.h"
 
@@ -28,8 +29,8 @@ struct Split {
     float error_m = 0.0F;
 
     // The rest is filled in by ProgressiveMesh and is not part of ProgressiveParts.
-    //
-    // The fundamental cut vertex vs.l^: the third corner (a leaf) of left_face.
+
+    /// The fundamental cut vertex vs.l^: the third corner (a leaf) of left_face.
     std::uint32_t left_cut = none;
     /// The fundamental cut vertex vs.r^: the third corner (a leaf) of right_face.
     std::uint32_t right_cut = none;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visuals/refine/active_starts.h"
-#include "visuals/refine/progressive_mesh.h"
+#include "visuals/refine/progressive_parts.h"
 
 #include <array>
 #include <cstdint>

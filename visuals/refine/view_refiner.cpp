@@ -232,21 +232,4 @@ bool ViewRefiner::merge(std::uint32_t node) {
     return true;
 }
 
-std::size_t ViewRefiner::wanted_splits(const RefineView& view) const {
-    const ProgressiveMesh& mesh = front_.mesh();
-    std::vector<std::uint32_t> open(mesh.roots().begin(), mesh.roots().end());
-    std::size_t wanted = 0;
-    while (!open.empty()) {
-        const std::uint32_t node = open.back();
-        open.pop_back();
-        if (!mesh.is_leaf(node) &&
-            projected_error_px(mesh, node, view, options_.criterion) > options_.error_px) {
-            ++wanted;
-            open.push_back(mesh.split_of(node).first);
-            open.push_back(mesh.split_of(node).second);
-        }
-    }
-    return wanted;
-}
-
 } // namespace octant::visuals::refine

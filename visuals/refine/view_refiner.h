@@ -66,10 +66,6 @@ public:
         return merged_error_px(node) >= options_.merge_share * options_.error_px;
     }
 
-    /// How many inner nodes the criterion alone wants split for a view; to compare with what the
-    /// rule forces.
-    std::size_t wanted_splits(const RefineView& view) const;
-
 private:
     /// A node with its projected error.
     struct Candidate {

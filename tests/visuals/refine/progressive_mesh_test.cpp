@@ -37,7 +37,7 @@ TEST_CASE("a strip of two triangles collapses once, and its cut vertices are its
     CHECK(mesh.position_m(4) == glm::vec3(0.5F, 0.5F, 0.0F));
     CHECK(glm::distance(mesh.normal(4), glm::vec3(0.0F, 0.0F, 1.0F)) < 1e-4F);
     CHECK(mesh.cone_rad(4) < 0.001F);
-    CHECK(mesh.colour(4) == 0xffffffffU);
+    CHECK(drawn_colour(mesh.packed_colour(4)) == 0xffffffffU);
     // 0.707 to a child and sqrt(2) from there to the farthest corner of its faces.
     CHECK(mesh.radius_m(4) == Approx(1.5 * std::numbers::sqrt2).epsilon(1e-4));
 }
