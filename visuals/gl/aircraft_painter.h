@@ -17,13 +17,13 @@ class AircraftPainter {
 public:
     AircraftPainter(const Functions& gl, DrawState& state);
 
-    /// In place of those loaded before; AircraftDraw::model counts in this list.
+    /// Uploads the models in place of those loaded before; AircraftDraw::model counts in this list.
     void load_models(std::span<const scene::ModelBuffers> models);
 
     /// Whether a plan may draw an aircraft by depth among others that are painted in order.
     bool has_meshes() const { return has_meshes_; }
 
-    /// For any mesh that comes as scene::ModelVertex.
+    /// They draw any mesh that comes as scene::ModelVertex.
     const ProgramPair& programs() const { return programs_; }
 
     /// Asserts that every draw names a model, indices and parts that are there.
@@ -43,7 +43,7 @@ private:
         std::size_t parts = 0; ///< body and turning parts
     };
 
-    /// As glMultiDrawElementsIndirect reads it.
+    /// A draw as glMultiDrawElementsIndirect reads it.
     struct Command {
         GLuint index_count = 0;
         GLuint instance_count = 0;

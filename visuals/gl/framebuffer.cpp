@@ -74,7 +74,7 @@ Object Framebuffer::make_target(const Object& colour, const Object* depth) const
     return target;
 }
 
-/// Several samples averaged.
+/// The framebuffer object to copy from: of several samples a pixel their average, made now.
 GLuint Framebuffer::averaged() const {
     if (averaged_.name() == 0) {
         return with_depth_.name();

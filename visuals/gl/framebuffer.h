@@ -20,10 +20,10 @@ public:
 
     int height() const { return height_; }
 
-    /// To draw into colour and depth.
+    /// The framebuffer object to draw into colour and depth.
     GLuint name() const { return with_depth_.name(); }
 
-    /// To draw into the same colour, without depth.
+    /// The framebuffer object to draw into the same colour, without depth.
     GLuint name_without_depth() const { return without_depth_.name(); }
 
     /// Waits for the drawing and copies it, 4 * width * height bytes (asserted). Several samples

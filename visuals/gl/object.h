@@ -49,6 +49,7 @@ private:
 
 /// `label`: what debug messages call it.
 Object make_buffer(const Functions& gl, const char* label);
+
 Object make_vertex_array(const Functions& gl);
 Object make_framebuffer(const Functions& gl);
 Object make_renderbuffer(const Functions& gl);

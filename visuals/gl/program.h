@@ -6,7 +6,7 @@
 
 namespace octant::visuals::gl {
 
-/// Shaders of a program as text.
+/// The texts of a program's shaders.
 struct ProgramText {
     const char* vertex = nullptr;
     const char* fragment = nullptr;

@@ -5,14 +5,15 @@
 
 namespace octant::visuals::gl {
 
+/// What the texels of a ground image are.
 enum class TextureKind {
-    Colours, ///< 3 bytes a texel
-    Slopes   ///< 2 bytes a texel
+    Colours, ///< red, green, blue: 3 bytes a texel
+    Slopes   ///< x and y of a normal: 2 bytes a texel
 };
 
-/// A texture with all its smaller sizes, filtered between them, on a GPU also along the line of
-/// sight; beyond its edge it continues as at the edge. Throws Error when the driver has
-/// no memory for it.
+/// A texture with all its mip levels, filtered between them (trilinear), on a GPU also along the
+/// line of sight (anisotropic); beyond its edge it continues as at the edge. Throws Error when the
+/// driver has no memory for it.
 Object make_texture(const Functions& gl, const scene::GroundImage& image, TextureKind kind);
 
 } // namespace octant::visuals::gl

@@ -50,7 +50,7 @@ void TrianglePainter::load_texture(const scene::GroundTexture& texture) {
         make_texture(gl_, texture.normal, TextureKind::Slopes)};
 }
 
-/// Made when first asked for: few runs look at the mesh.
+/// The programs that show the mesh are made when first asked for: few runs look at it.
 void TrianglePainter::use_mesh_look(const scene::FramePlan& plan) {
     shows_mesh_ = plan.mesh_look != scene::MeshLook::None;
     if (!shows_mesh_) {

@@ -82,7 +82,7 @@ private:
 
     void release() override { glfwMakeContextCurrent(nullptr); }
 
-    Library library_; ///< goes last
+    Library library_; ///< is left after the window is closed
     GLFWwindow* window_ = nullptr;
 };
 

@@ -11,6 +11,7 @@ struct GLFWwindow;
 
 namespace octant::visuals::gl {
 
+/// How a window is opened.
 struct WindowOptions {
     glm::ivec2 size{1280, 720}; ///< in the display's own units
     std::string title = "Octant";
