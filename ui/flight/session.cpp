@@ -94,7 +94,7 @@ scene::Camera Session::camera_of(const settings::Settings& settings) const {
         ground_height_);
 }
 
-/// Chooses the cameras of the simulation's time.
+/// Chooses the cameras for the time that the simulation has reached.
 void Session::look(Moment& moment) const {
     moment.camera = camera_of(settings_);
     if (inset_) {
@@ -111,7 +111,7 @@ void Session::reach(double time_s, int frame, Moment& moment) {
     moment.triangle_target = decider_.triangle_target(frame);
 }
 
-/// Begins on the ground of the moment to come.
+/// Begins to mesh the ground for the next picture, beside the drawing of this one.
 void Session::mesh_ahead() {
     planner_->prepare(next_.camera, next_.triangle_target);
     if (inset_) {

@@ -165,7 +165,7 @@ private:
     std::unique_ptr<visuals::scene::Renderer> renderer_;
     world::World world_;
     std::optional<visuals::scene::Planner> planner_;
-    std::unique_ptr<InsetView> inset_; ///< of the same scene
+    std::unique_ptr<InsetView> inset_; ///< over world_.scene, as planner_; null = no inset
     std::optional<visuals::scene::IdPlan> ids_;
     std::optional<Simulation> simulation_;
     world::FrameTimes times_;
@@ -173,14 +173,15 @@ private:
     Moment now_;
     Moment next_;
     bool next_is_reached_ = false;
-    const visuals::scene::FramePlan* plan_ = nullptr; ///< of the last picture; null = is no more
+    /// Plan of the last picture; null once its planner is gone.
+    const visuals::scene::FramePlan* plan_ = nullptr;
     const visuals::scene::FramePlan* inset_plan_ = nullptr;
     Presenter presenter_;
     visuals::scene::Picture picture_;
     int last_triangles_ = 0;
     Decider decider_;
     std::optional<int> smooth_target_; ///< of the last picture; nothing: by the settings' share
-    int drawn_ = 0;                    ///< pictures by draw_at
+    int drawn_ = 0;                    ///< pictures drawn by draw_at() so far
     Hash picture_hash_;
     base::Stopwatch since_first_frame_;
 };

@@ -20,7 +20,7 @@ namespace terrain = visuals::terrain;
 
 namespace {
 
-/// All but the ground itself and its texture.
+/// What is to be said of a ground; the ground itself and its texture are still to be filled in.
 template <class Field>
 SceneGround described(
     const Field& field,

@@ -16,7 +16,8 @@ namespace octant::visuals::scene {
 
 namespace {
 
-/// A box may be wider without doing harm.
+/// What the boxes around aircraft are made wider by, so that rounding leaves nothing outside: wider
+/// ones only cost time.
 constexpr double hull_margin_px = 0.25;
 constexpr double hull_margin_m = 0.01;
 
@@ -26,7 +27,7 @@ glm::dmat4 body_to_eye_world(const sim::AircraftState& state, const glm::dvec3& 
     return matrix;
 }
 
-/// The state as it is seen over a round earth: sunk as the ground below it.
+/// The state as it is seen over a round earth: sunk as far as the ground below it.
 sim::AircraftState sunk(sim::AircraftState state, const glm::dvec3& eye_m, double earth_radius_m) {
     if (earth_radius_m > 0.0) {
         const glm::dvec2 level_m(state.position_m - eye_m);
@@ -132,7 +133,8 @@ void Planner::place_and_refine(const PlanRequest& request) {
     }
 }
 
-/// Those that are drawn as polygons rest.
+/// Refines the meshes of the aircraft that are drawn as meshes; those drawn as polygons keep theirs
+/// as they are.
 void Planner::refine_meshes(const Camera& camera) {
     const RefineLook look{frustum_, camera.view_to_world * glm::dvec3(0.0, 0.0, -1.0), pixel_rad_};
     refine_splits_ = 0;
@@ -207,7 +209,7 @@ void Planner::plan_sky(const Camera& camera) {
         plan_.haze);
 }
 
-/// Where each aircraft is, which list it is painted by and the box that stands in for it.
+/// Decides where each aircraft is, which list it is painted by and which box stands in for it.
 void Planner::place_aircraft(const Camera& camera, std::span<const sim::AircraftState> states) {
     for (std::size_t i = 0; i < states.size(); ++i) {
         const sim::AircraftState state = sunk(states[i], camera.eye_m, mesher_->earth_radius_m());
@@ -248,7 +250,8 @@ void Planner::place(
     aircraft.range = by_cell ? model.cells[static_cast<std::size_t>(cell)] : model.file_order;
 }
 
-/// Chooses the representation that is as good as asked for; the coarsest out of view.
+/// Chooses the coarsest representation that is as good as asked for; out of view the coarsest of
+/// all.
 void Planner::represent(PlacedAircraft& aircraft) {
     const AircraftModel& model = *aircraft.model;
     if (model.as_polygons() == 0) {

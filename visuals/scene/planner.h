@@ -34,16 +34,16 @@ namespace octant::visuals::scene {
 struct PlanCounts {
     GroundCounts ground;
     int aircraft_polygons = 0;
-    int draw_cell = 0; ///< of the first aircraft
+    int draw_cell = 0; ///< cell of the first aircraft's draw order in which the eye is
     int cuts = 0;      ///< ground triangles and aircraft polygons painted again, cut by planes
-    int knots = 0;     ///< aircraft painted polygon by polygon: they meet, or stand in a ring
+    int knots = 0;     ///< groups of aircraft that meet or stand in a ring, painted by polygons
     int unordered = 0; ///< polygons that should have been painted again and were too many
     int shadow_triangles = 0;
-    int may_be_smooth = 0;   ///< polygons of whole models, triangles of refined meshes
-    int smooth_polygons = 0; ///< of them: lit smoothly
-    int aircraft_level = 0;  ///< representation of the first aircraft, 0 = the finest
-    int refine_splits = 0;   ///< of all aircraft's meshes
-    int refine_collapses = 0;
+    int may_be_smooth = 0;    ///< polygons of whole models and triangles of refined meshes
+    int smooth_polygons = 0;  ///< those of may_be_smooth that are lit smoothly
+    int aircraft_level = 0;   ///< representation of the first aircraft, 0 = the finest
+    int refine_splits = 0;    ///< vertex splits in all meshes that are refined
+    int refine_collapses = 0; ///< edge collapses in all meshes that are refined
 };
 
 /// What a frame is to show, and how finely.
