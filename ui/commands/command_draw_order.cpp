@@ -6,6 +6,7 @@
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/read_option.h"
+#include "ui/settings/settings_text.h"
 #include "ui/world/order_input.h"
 #include "visuals/draworder/order_check.h"
 #include "visuals/draworder/order_table.h"
@@ -87,8 +88,7 @@ Work prepared(const DrawOrderOptions& options, Figures& figures) {
         figures["cells"] = work.orders.cells.size();
         return work;
     }
-    constexpr std::array names = {"paper", "cells", "tree"};
-    figures["method"] = names[static_cast<std::size_t>(options.order.method)];
+    figures["method"] = settings::text_of(options.order.method);
     const std::size_t polygons = input.model.polygons.size();
     const base::Stopwatch watch;
     draworder::OrderedModel ordered = draworder::ordered(std::move(input.model), options.order);

@@ -2,6 +2,7 @@
 
 #include "sim/base/dice.h"
 #include "ui/base/stopwatch.h"
+#include "ui/settings/settings_text.h"
 #include "ui/world/order_input.h"
 #include "visuals/draworder/bsp_tree.h"
 #include "visuals/draworder/order_check.h"
@@ -22,7 +23,6 @@ namespace {
 
 constexpr std::array methods = {
     draworder::Method::Paper, draworder::Method::Cells, draworder::Method::Tree};
-constexpr std::array method_names = {"paper", "cells", "tree"};
 constexpr std::size_t tree_method = 2;
 
 using List = std::vector<std::uint32_t>;
@@ -241,7 +241,7 @@ report::HtmlTable method_table(std::span<const OrderedInEveryWay> models) {
             const auto check = draworder::certify(ordered.model, draworder::cell_orders(ordered));
             table.rows.push_back(
                 {model.name,
-                 method_names[i],
+                 settings::text_of(methods[i]),
                  fmt::format("{}", ordered.model.polygons.size()),
                  fmt::format("{}", ordered.splits),
                  fmt::format("{}", ordered.order.cell_count()),
