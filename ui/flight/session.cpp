@@ -2,7 +2,7 @@
 
 #include "ui/flight/make_renderer.h"
 #include "ui/report/statistics.h"
-#include "visuals/gl/platform_tuning.h"
+#include "visuals/scene/ground_texture_maker.h"
 
 #include <algorithm>
 #include <span>
@@ -31,7 +31,6 @@ Session::Session(
           [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); }) {
     load_into_renderer(shows);
     renderer_->warm_up();
-    visuals::gl::spread_raster_threads();
     if (settings_.view.inset) {
         inset_ = std::make_unique<InsetView>(settings_, world_.scene);
     }

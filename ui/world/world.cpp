@@ -45,6 +45,23 @@ const sim::AircraftKind& flown_kind(const flightpaths::PathScript& script) {
     }
 }
 
+/// What a person should be told where an aircraft without a row of its own flies a built-in path.
+void note_what_flies(
+    const std::string& path,
+    const std::string& aircraft,
+    const sim::AircraftKind& flown,
+    std::vector<std::string>& notes) {
+    const std::vector<std::string> built_in = base::built_in_paths();
+    const bool is_built_in = std::ranges::find(built_in, path) != built_in.end();
+    if (is_built_in && sim::find_aircraft_kind(aircraft) == nullptr) {
+        notes.push_back(fmt::format(
+            "{} flies the {} path of {}, within its limits: only its own shape is known",
+            printable(aircraft),
+            path,
+            flown.name));
+    }
+}
+
 Script load_script(const settings::Settings& settings) {
     const std::filesystem::path file =
         base::path_file(settings.path.name, settings.path.aircraft.front());
@@ -52,6 +69,7 @@ Script load_script(const settings::Settings& settings) {
         const flightpaths::PathScript script = flightpaths::read_path_script(file);
         const sim::AircraftKind& kind = flown_kind(script);
         flightpaths::FlownPath flown = flightpaths::fly(script, kind, settings.path.lenient);
+        note_what_flies(settings.path.name, settings.path.aircraft.front(), kind, flown.notes);
         return {
             std::move(flown.trajectory),
             static_cast<double>(script.rate_hz),

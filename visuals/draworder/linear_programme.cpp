@@ -48,6 +48,7 @@ Columns columns_of(const LinearProgramme& programme) {
         columns.least.push_back(clp_bound(least));
         columns.most.push_back(clp_bound(most));
         for (std::size_t row = 0; row < programme.rows.size(); ++row) {
+            assert(programme.rows[row].factors.size() == programme.variables.size());
             if (const double factor = programme.rows[row].factors[i]; factor != 0.0) {
                 columns.rows.push_back(static_cast<int>(row));
                 columns.factors.push_back(factor);
@@ -56,7 +57,6 @@ Columns columns_of(const LinearProgramme& programme) {
         columns.starts.push_back(static_cast<CoinBigIndex>(columns.rows.size()));
     }
     for (const LinearProgramme::Row& row : programme.rows) {
-        assert(row.factors.size() == programme.variables.size());
         columns.row_least.push_back(clp_bound(row.least));
         columns.row_most.push_back(clp_bound(row.most));
     }

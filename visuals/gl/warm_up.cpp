@@ -1,3 +1,4 @@
+#include "visuals/gl/platform_tuning.h"
 #include "visuals/gl/renderer.h"
 
 #include <array>
@@ -113,6 +114,7 @@ void Renderer::warm_up() {
     draw_twice();
     paint_by_depth(plan, {framebuffer_.width(), framebuffer_.height()});
     draw_twice();
+    spread_raster_threads();
 }
 
 } // namespace octant::visuals::gl

@@ -1,5 +1,6 @@
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
+#include "ui/base/data_files.h"
 #include "ui/settings/settings_change.h"
 #include "ui/settings/settings_fields.h"
 #include "ui/settings/settings_file.h"
@@ -134,4 +135,12 @@ TEST_CASE("settings of one group stand together, in the order of the groups") {
     CHECK(
         std::set(groups.begin(), groups.end()).size() ==
         ui::settings::names_of<ui::settings::SettingGroup>().size());
+}
+
+TEST_CASE("the names that path and aircraft rows offer are those that the program has") {
+    const auto same = [](const auto& offered, const std::vector<std::string>& had) {
+        return std::ranges::equal(offered, had);
+    };
+    CHECK(same(ui::settings::built_in_paths, ui::base::built_in_paths()));
+    CHECK(same(ui::settings::built_in_aircraft, ui::base::built_in_models()));
 }
