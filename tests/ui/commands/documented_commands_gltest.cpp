@@ -93,7 +93,7 @@ commands::Command command_named(std::string_view name) {
 
 } // namespace
 
-TEST_CASE("command lines are found in a text, without comments, parted by ; and &&") {
+TEST_CASE("command lines are found in a text, without comments, parted by semicolons and &&") {
     const auto lines =
         tests::command_lines("Examples of octant:\n"
                              "  octant fly turn --size 64x36   # a comment; octant no\n"
