@@ -70,13 +70,15 @@ std::vector<PaperOptions> all_readings() {
     return readings;
 }
 
+/// The octant by which the paper's orders choose their list.
+int octant_of(const glm::dvec3& eye_in_body_m) {
+    static const DrawOrder order(paper_orders(paper_example()));
+    return order.cell_of(eye_in_body_m);
+}
+
 } // namespace
 
 TEST_CASE("the octant of an eye is told by its signs, zero counting as positive") {
-    const DrawOrder order(paper_orders(paper_example()));
-    const auto octant_of = [&](const glm::dvec3& eye_in_body_m) {
-        return order.cell_of(eye_in_body_m);
-    };
     CHECK(octant_of({1, 1, 1}) == 0);
     CHECK(octant_of({-1, 1, 1}) == 1);
     CHECK(octant_of({1, -1, 1}) == 2);
