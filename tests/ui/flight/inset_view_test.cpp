@@ -37,8 +37,9 @@ models::heights::HeightField rough_field() {
 
 /// An imported ground of that name in the scratch folder.
 std::filesystem::path imported(const std::string& name) {
-    const std::filesystem::path heights = scratch_folder() / (name + ".tif");
     const std::filesystem::path out = scratch_folder() / name;
+    std::filesystem::path heights = out;
+    heights += ".tif";
     models::heights::write_height_field(heights, rough_field());
     visuals::terrain::import_ground(
         {heights}, out, {}, [](visuals::terrain::ImportStage, double) { return false; });
