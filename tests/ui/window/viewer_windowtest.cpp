@@ -1,5 +1,6 @@
 #include "tests/ui/window/driven_viewer.h"
 #include "ui/flight/session.h"
+#include "ui/window/gui.h"
 
 #include <catch2/catch.hpp>
 
