@@ -26,8 +26,8 @@ private:
     /// Airflow and forces at one velocity and attitude.
     struct Flow {
         double speed_mps = 0.0;
-        double alpha_rad =
-            0.0; ///< angle of attack as velocity and attitude have it, without incidence_rad_
+        /// The angle of attack as velocity and attitude have it, without incidence_rad_.
+        double alpha_rad = 0.0;
         double beta_rad = 0.0;
         glm::dvec3 along{0.0}; ///< unit vector of the velocity; 0 at rest
         glm::dvec3 acceleration_mps2{0.0};

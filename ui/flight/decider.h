@@ -16,8 +16,8 @@ struct FrameOutcome {
     double frame_ms = 0.0;
     int terrain_triangles = 0;
     int may_be_smooth = 0;   ///< polygons of aircraft, at least 0
-    int smooth_polygons = 0; ///< of them: were
-    bool warm_up = false;    ///< teaches nothing
+    int smooth_polygons = 0; ///< how many of these were lit smoothly
+    bool warm_up = false;    ///< a warm-up frame, from which nothing is learned
 };
 
 /// Decides for each frame how many triangles of ground it aims at and how many polygons are smooth:

@@ -29,8 +29,8 @@ void check_frames(const Replay& replay, int frames);
 /// How a replay compares with its recording.
 struct ReplayVerdict {
     std::string state_hash;   ///< "same", "other" or "unknown" (the recording was killed)
-    std::string picture_hash; ///< likewise
-    bool differs = false;     ///< at least one of them is known to be another
+    std::string picture_hash; ///< "same", "other" or "unknown", as state_hash
+    bool differs = false;     ///< whether one of the two hashes is known to be another
     std::string line;         ///< all of it for people
 };
 

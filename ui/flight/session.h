@@ -79,7 +79,8 @@ public:
     /// it.
     report::FrameRecord draw_at(double time_s, std::optional<double> next_s);
 
-    /// Called in place of reading the picture: shows it.
+    /// Shows a finished picture; called with the renderer that holds it, in place of reading its
+    /// pixels.
     using Presenter = std::function<void(visuals::scene::Renderer&)>;
 
     void present_by(Presenter presenter) { presenter_ = std::move(presenter); }
@@ -98,7 +99,7 @@ public:
     /// Goes to a time of the path.
     void begin_at(double time_s);
 
-    /// From the eye point that the last picture was seen from.
+    /// The camera of the last picture.
     const visuals::scene::Camera& camera() const { return now_.camera; }
 
     /// Simulation::state_hash when the last picture's time was reached.

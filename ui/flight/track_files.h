@@ -10,7 +10,8 @@ namespace octant::ui::flight {
 /// Error.
 void write_tracks(const std::filesystem::path& folder, const world::World& world, double until_s);
 
-/// The same of a flight that left the world's path.
+/// Writes the tracks of a flight that left the world's path: `flight` holds its samples. Throws
+/// Error.
 void write_tracks(
     const std::filesystem::path& folder, const world::World& world, const sim::Trajectory& flight);
 

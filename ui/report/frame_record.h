@@ -42,7 +42,7 @@ struct FrameRecord {
     int smooth_polygons = 0;  ///< of aircraft_polygons
     int smooth_target = -1;   ///< smooth polygons that this frame was to have; negative: by a share
     int refine_splits = 0;    ///< of meshes that are refined in each frame
-    int refine_collapses = 0; ///< the same
+    int refine_collapses = 0; ///< of meshes that are refined in each frame
     double refine_ms = 0.0;   ///< of plan_ms: placing the aircraft and refining their meshes
     int aircraft_level = 0;   ///< level of detail of the first aircraft, 0 = the finest
     int missed = 0; ///< by the clock: 1 when the picture came later than the next one was due

@@ -19,7 +19,7 @@ public:
     explicit LoadedGround(visuals::terrain::GroundTiles tiles)
         : ground_(std::move(tiles)) {}
 
-    /// Refers to this.
+    /// A view of the samples, valid as long as this ground stays where it is.
     visuals::terrain::GroundSamples samples() const;
 
     /// Nothing for an imported ground.

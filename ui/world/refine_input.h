@@ -26,7 +26,8 @@ struct RefineMesh {
 /// Reads, or makes by repair and simplification, a hierarchy. Throws Error.
 RefineMesh read_refine_mesh(const RefineInput& input);
 
-/// The same; notes go to stderr.
+/// Reads or makes a hierarchy as read_refine_mesh does, and prints its notes to stderr. Throws
+/// Error.
 std::shared_ptr<const visuals::refine::ProgressiveMesh> read_refine_input(const RefineInput& input);
 
 } // namespace octant::ui::world

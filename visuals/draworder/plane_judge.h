@@ -28,7 +28,7 @@ public:
     /// The number of cyclic edges that remain for eyes in front of the plane, whether still on
     /// cycles or not.
     std::size_t left_in_front() const;
-    /// The same for eyes behind the plane.
+    /// The number of cyclic edges that remain for eyes behind the plane.
     std::size_t left_behind() const;
 
 private:

@@ -11,8 +11,8 @@ namespace octant::visuals::scene {
 /// An eye point and where it looks. World: x east, y north, z up, metres.
 struct Camera {
     glm::dvec3 eye_m{0.0};
-    glm::dquat view_to_world{
-        1.0, 0.0, 0.0, 0.0}; ///< view axes as in OpenGL: x right, y up, -z ahead
+    /// View axes are as in OpenGL: x right, y up, -z ahead.
+    glm::dquat view_to_world{1.0, 0.0, 0.0, 0.0};
     double vertical_fov_rad = 0.785398163397448; ///< 45 degrees
     double near_m = 0.5;
 };

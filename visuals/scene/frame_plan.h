@@ -98,7 +98,7 @@ struct Haze {
 enum class MeshLook {
     None,
     Edges, ///< lines along the edges of the triangles that are seen
-    Levels ///< the same, and a colour for each halving of the triangles' size
+    Levels ///< the lines, and a colour for each halving of the triangles' size
 };
 
 /// Everything a renderer needs for one picture, and nothing of any graphics library. The picture

@@ -37,7 +37,7 @@ public:
     /// the size of what one colour stands for, metres.
     glm::vec3 own(const GroundPoint& point, float footprint_m) const;
 
-    /// The same lit by the sun.
+    /// The colour as own() gives it, lit by the sun, display values.
     glm::vec3 lit(const GroundPoint& point, float footprint_m) const;
 
 private:

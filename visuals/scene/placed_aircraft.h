@@ -17,7 +17,7 @@ struct PlacedAircraft {
     const AircraftModel* model = nullptr;
     std::uint32_t model_index = 0;
     std::span<const std::uint32_t> polygons; ///< in painting order
-    IndexRange range;                        ///< the same as drawn
+    IndexRange range;                        ///< of the index buffer: what is drawn of it
     int cell = 0;                            ///< of the draw order, in which the eye is
     bool is_represented = false;             ///< in the last frame, in view
     std::size_t representation = 0;          ///< index into AircraftModel::errors_m

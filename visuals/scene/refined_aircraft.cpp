@@ -105,7 +105,7 @@ void RefinedAircraft::follow_front() {
     }
 }
 
-/// The same of its triangles' numbers.
+/// Copies the numbers of the triangles whose blocks changed in the front.
 void RefinedAircraft::follow_labels() {
     refine::SelectiveRefiner& front = refiner_.front();
     front.take_dirty_faces(ranges_);

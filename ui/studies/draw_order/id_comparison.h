@@ -36,8 +36,9 @@ struct IdComparison {
     long pixels = 0;
     long differing = 0;
     long apart = 0; ///< whose number is in none of the reference's 3 x 3 pixels
-    long wrong =
-        0; ///< of these, where a reference three times as large has it nowhere there either
+    /// Of the pixels apart, those whose number a reference of three times the size does not have
+    /// there either.
+    long wrong = 0;
     int frames = 0;
     int frames_with_cuts = 0; ///< in which something stood in front of an aircraft
     long cuts = 0;

@@ -8,8 +8,8 @@ namespace octant::ui::studies::flicker {
 struct FlickerStudyOptions {
     std::filesystem::path out;
     std::string gentle = "hills";  ///< name or file, as load_height_field takes them
-    std::string rugged = "canyon"; ///< the same
-    double spacing_m = 30.0;       ///< of files that do not say
+    std::string rugged = "canyon"; ///< name or file, as `gentle`
+    double spacing_m = 30.0;       ///< of height files that name no spacing
     int frames = 1000;             ///< of the path; a fifth of them, at least 60, at a fixed view
     bool json = false;             ///< print the tables as JSON instead of Markdown
     bool quiet = false;
