@@ -192,6 +192,7 @@ PathScript read_path_script(const std::filesystem::path& file) {
     PathScript script;
     script.file = file;
     script.aircraft = fields.required_text("aircraft");
+    script.aircraft_line = line_of(*root.get("aircraft"));
     script.title = fields.required_text("title");
     script.rate_hz = fields.required_whole("rate_hz", 1, sim::steps_per_second);
     if (sim::steps_per_second % script.rate_hz != 0) {

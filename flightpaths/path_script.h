@@ -41,6 +41,7 @@ struct Leg {
 struct PathScript {
     std::filesystem::path file;
     std::string aircraft;
+    int aircraft_line = 1; ///< where the file names it
     std::string title;
     int rate_hz = 20; ///< samples a second; divides sim::steps_per_second
     int samples = 0;  ///< at least 2

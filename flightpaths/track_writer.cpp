@@ -48,11 +48,11 @@ std::string acmi_text(std::string_view text) {
     return out;
 }
 
-std::string properties_of(const std::string& aircraft) {
-    if (const sim::AircraftKind* kind = sim::find_aircraft_kind(aircraft)) {
-        return fmt::format("Type={},Name={}", kind->tacview_type, kind->tacview_name);
+std::string properties_of(const AcmiHeader& header) {
+    if (header.kind != nullptr) {
+        return fmt::format("Type={},Name={}", header.kind->tacview_type, header.kind->tacview_name);
     }
-    return "Type=Air+FixedWing,Name=" + acmi_text(aircraft);
+    return "Type=Air+FixedWing,Name=" + acmi_text(header.aircraft);
 }
 
 std::string acmi_transform(const sim::AircraftState& state, const GeoOrigin& origin) {
@@ -139,7 +139,7 @@ std::string track_acmi(const sim::Trajectory& trajectory, const AcmiHeader& head
         text += fmt::format("#{}\n1,", fixed(state.time_s, 3));
         text += acmi_transform(state, header.origin);
         if (first) {
-            text += "," + properties_of(header.aircraft) + ",Color=Blue";
+            text += "," + properties_of(header) + ",Color=Blue";
             first = false;
         }
         text += fmt::format(",TAS={}\n", fixed(glm::length(state.velocity_mps), 1));

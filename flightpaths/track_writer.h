@@ -2,6 +2,7 @@
 
 #include "flightpaths/fly_script.h"
 #include "flightpaths/local_tangent.h"
+#include "sim/aircraft_kind.h"
 #include "sim/trajectory.h"
 
 #include <string>
@@ -23,8 +24,9 @@ std::string exact_track_csv(const sim::Trajectory& trajectory);
 /// What a Tacview file says beside the motion.
 struct AcmiHeader {
     std::string title;
-    /// A known one (sim/aircraft_kind.h) gets what Tacview calls it, another one its own name.
-    std::string aircraft;
+    /// The row of the aircraft, which says what Tacview calls it; null where it has none.
+    const sim::AircraftKind* kind = nullptr;
+    std::string aircraft; ///< the name of an aircraft without a row
     GeoOrigin origin; ///< where the world's origin lies on the earth
     std::vector<LegBegin> bookmarks;
 };

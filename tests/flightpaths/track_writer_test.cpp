@@ -34,7 +34,13 @@ TEST_CASE("a track is written with its columns, and never with a minus zero or 3
 
 TEST_CASE("a Tacview file has its header, transforms and bookmarks") {
     CHECK(
-        track_acmi(two_samples(), {"Pop-up, dive", "f15", {37.5, 127.1}, {{0.05, "pull|down"}}}) ==
+        track_acmi(
+            two_samples(),
+            {"Pop-up, dive",
+             &octant::sim::aircraft_kind("f15"),
+             "",
+             {37.5, 127.1},
+             {{0.05, "pull|down"}}}) ==
         "FileType=text/acmi/tacview\n"
         "FileVersion=2.2\n"
         "0,ReferenceTime=2026-01-01T00:00:00Z\n"
@@ -53,9 +59,9 @@ TEST_CASE("a Tacview file has its header, transforms and bookmarks") {
 
 TEST_CASE("a helicopter is a rotorcraft, another aircraft goes by its own name") {
     CHECK_THAT(
-        track_acmi(two_samples(), {"a", "500md", {}, {}}),
+        track_acmi(two_samples(), {"a", &octant::sim::aircraft_kind("500md"), "", {}, {}}),
         Catch::Contains(",Type=Air+Rotorcraft,Name=500MD,"));
     CHECK_THAT(
-        track_acmi(two_samples(), {"a", "my,own\n", {}, {}}),
+        track_acmi(two_samples(), {"a", nullptr, "my,own\n", {}, {}}),
         Catch::Contains(",Type=Air+FixedWing,Name=my\\,own ,"));
 }

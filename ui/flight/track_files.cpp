@@ -40,6 +40,7 @@ void write_tracks(
     write_file(folder / "track.csv", flightpaths::track_csv(flight));
     flightpaths::AcmiHeader header;
     header.title = world.flight.title;
+    header.kind = world.leader_kind;
     header.aircraft = world.scene.model_of(0).polygons.name;
     for (const flightpaths::LegBegin& leg : world.flight.legs) {
         if (leg.time_s >= flight.start_s() && leg.time_s <= flight.end_s() + rounding_s) {

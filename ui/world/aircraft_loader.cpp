@@ -56,9 +56,13 @@ bool is_polygon_model(const std::filesystem::path& file) {
     return static_cast<std::size_t>(faces) <= most_polygons_of_a_model;
 }
 
-scene::AircraftModel
-ready(models::polygons::PolygonModel model, const settings::Settings& settings, Notes& notes) {
-    const glm::dvec3 eye_m = scene::pilot_eye_m(model);
+/// `kind`: the row of the aircraft; null for one of which only the shape is known.
+scene::AircraftModel ready(
+    models::polygons::PolygonModel model,
+    const sim::AircraftKind* kind,
+    const settings::Settings& settings,
+    Notes& notes) {
+    const glm::dvec3 eye_m = kind != nullptr ? kind->pilot_eye_m : scene::pilot_eye_m(model);
     const models::polygons::PolygonModel whole = model;
     draworder::OrderedModel ordered = with_order(std::move(model), settings);
     notes.insert(notes.end(), ordered.notes.begin(), ordered.notes.end());
@@ -78,12 +82,12 @@ load_model(const std::string& name, const settings::Settings& settings, Notes& n
     if (is_polygon_model(file)) {
         models::polygons::PolygonModel model = models::polygons::read_obj(file, axes);
         notes.insert(notes.end(), model.notes.begin(), model.notes.end());
-        return ready(std::move(model), settings, notes);
+        return ready(std::move(model), sim::find_aircraft_kind(name), settings, notes);
     }
     MeshAircraft mesh = read_mesh_aircraft(file, axes);
     notes.insert(notes.end(), mesh.notes.begin(), mesh.notes.end());
     const bool too_many = mesh.polygons.polygons.size() > most_polygons_of_a_model;
-    scene::AircraftModel model = ready(std::move(mesh.polygons), settings, notes);
+    scene::AircraftModel model = ready(std::move(mesh.polygons), nullptr, settings, notes);
     if (too_many) { // without a painting order they only throw shadows
         mesh.polygons_error_m = std::numeric_limits<double>::infinity();
     }

@@ -41,7 +41,7 @@ const sim::AircraftKind& flown_kind(const flightpaths::PathScript& script) {
     try {
         return sim::aircraft_kind(script.aircraft);
     } catch (const Error& fault) {
-        error_in(script.file, fault.what());
+        error_at(script.file, script.aircraft_line, fault.what());
     }
 }
 
@@ -242,6 +242,7 @@ World load_world(const settings::Settings& settings, DrawnBy drawn_by) {
         std::move(aircraft.models),
         std::move(aircraft.aircraft),
         aircraft.cockpit};
+    world.leader_kind = sim::find_aircraft_kind(settings.path.aircraft.front());
     world.ground_name = std::move(ground.name);
     world.ground_place = ground.place;
     check_wingmen(world);

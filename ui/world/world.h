@@ -2,6 +2,7 @@
 
 #include "flightpaths/fly_script.h"
 #include "models/heights/height_field.h"
+#include "sim/aircraft_kind.h"
 #include "sim/trajectory.h"
 #include "ui/settings/settings.h"
 #include "ui/world/formation.h"
@@ -33,6 +34,8 @@ struct Flight {
 /// Everything a run needs, loaded.
 struct World {
     visuals::scene::Scene scene;
+    /// The row of the first aircraft; null where only its shape is known.
+    const sim::AircraftKind* leader_kind = nullptr;
     Flight flight{
         .trajectory = sim::Trajectory(std::vector<sim::AircraftState>(1)), .title = {}, .legs = {}};
     visuals::scene::FixedPoints points;

@@ -1,7 +1,6 @@
 #include "visuals/scene/aircraft_model.h"
 
 #include "models/colour_vertex.h"
-#include "sim/aircraft_kind.h"
 #include "visuals/shading/vertex_normals.h"
 
 #include <glm/common.hpp>
@@ -157,9 +156,6 @@ void add_progressive(
 }
 
 glm::dvec3 pilot_eye_m(const models::polygons::PolygonModel& model) {
-    if (const sim::AircraftKind* kind = sim::find_aircraft_kind(model.name)) {
-        return kind->pilot_eye_m;
-    }
     glm::dvec3 least(std::numeric_limits<double>::max());
     glm::dvec3 most(std::numeric_limits<double>::lowest());
     for (const glm::dvec3& vertex : model.vertices_m) {

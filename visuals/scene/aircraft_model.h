@@ -65,9 +65,8 @@ void add_progressive(
     std::shared_ptr<const refine::ProgressiveMesh> mesh,
     double polygons_error_m);
 
-/// Where the pilot's eye is in an aircraft, body axes: that of its type where the model has the
-/// name of one (sim/aircraft_kind.h), else a quarter of the length behind the nose at the height of
-/// the top.
+/// Where a pilot's eye may be in an aircraft of which only the shape is known, body axes: a quarter
+/// of the length behind the nose at the height of the top.
 glm::dvec3 pilot_eye_m(const models::polygons::PolygonModel& model);
 
 } // namespace octant::visuals::scene

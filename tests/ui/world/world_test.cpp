@@ -1,12 +1,16 @@
 #include "models/heights/height_field_export.h"
+#include "sim/aircraft_kind.h"
 #include "sim/base/error.h"
+#include "sim/base/output_file.h"
 #include "tests/scratch.h"
 #include "ui/world/frame_times.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
 
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -52,6 +56,37 @@ TEST_CASE(
     CHECK(world.scene.models.size() == 2U + (world.scene.cockpit ? 1U : 0U));
     CHECK(world.flight.title == "500md straight over none");
     CHECK(ui::world::formation_of(world.scene).framed_radius_m(1.0) > 1.0);
+}
+
+TEST_CASE("a file is no known aircraft because of its name, and says whose path it borrows") {
+    const std::filesystem::path file = tests::scratch_folder() / "f15.obj";
+    write_file(file, "v 0 0 -4\nv 2 0 4\nv -2 0 4\nv 0 1 4\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
+    Settings settings = over("none");
+    settings.path.aircraft = {file.string()};
+    const ui::world::World world = ui::world::load_world(settings);
+    CHECK(world.leader_kind == nullptr);
+    CHECK_FALSE(world.scene.cockpit);
+    CHECK(
+        glm::distance(
+            world.scene.model_of(0).subject.pilot_eye_m, sim::aircraft_kind("f15").pilot_eye_m) >
+        0.1);
+    CHECK(std::ranges::any_of(world.notes, [](const std::string& note) {
+        return note.find("flies the straight path of f15") != std::string::npos;
+    }));
+}
+
+TEST_CASE("a path file of an unknown aircraft is refused with its line") {
+    const std::filesystem::path file = tests::scratch_folder() / "kite.toml";
+    write_file(
+        file,
+        "title = \"a kite\"\naircraft = \"kite\"\nrate_hz = 20\nsamples = 20\n"
+        "min_clearance_m = 5\n[start]\nnorth_m = 0\neast_m = 0\nheight_m = 100\n"
+        "heading_deg = 0\nspeed_mps = 100\n[[leg]]\nfly = \"straight\"\nduration_s = 1\n");
+    Settings settings = over("none");
+    settings.path.name = file.string();
+    CHECK_THROWS_WITH(
+        ui::world::load_world(settings),
+        Catch::Contains("kite.toml:2: expected aircraft f15 or 500md, got 'kite'"));
 }
 
 TEST_CASE("a path is laid over ground from a file with the clearance that it asks for") {
