@@ -152,7 +152,7 @@ axis_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::
 std::vector<Plane>
 candidate_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most) {
     const Outlines outlines = outlines_of(model, among);
-    std::vector<Plane> planes = axis_planes_of(outlines, 2 * most);
+    std::vector<Plane> planes;
     for (const std::uint32_t polygon : among) {
         if (model.faces[polygon].plane) {
             planes.push_back(*model.faces[polygon].plane);

@@ -17,10 +17,11 @@ std::vector<Plane>
 axis_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most);
 
 /// Planes by which eye space may be cut so that the hiding relation among some polygons gets
-/// simpler, each once, the plainest first: axis planes, the polygons' own planes, and planes
-/// through an edge of one polygon and a corner of another. The last kind includes all that bound
-/// the region from where one polygon hides another, so that cutting by them resolves every pair in
-/// the end. About `most` of them are made, spread evenly over all that there are.
+/// simpler, each once, the plainest first: the polygons' own planes, and planes through an edge of
+/// one polygon and a corner of another. The last kind includes all that bound the region from where
+/// one polygon hides another, so that cutting by them resolves every pair in the end. About `most`
+/// of them are made, spread evenly over all that there are. A model that is turned gets the same
+/// planes, turned.
 std::vector<Plane>
 candidate_planes(const ModelFaces& model, std::span<const std::uint32_t> among, std::size_t most);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/planar/planar_model.h"
 #include "sim/base/plane.h"
 
 #include <glm/vec2.hpp>
@@ -30,10 +31,10 @@ struct Face {
 
 /// Tolerances of hiding tests, in the unit of EyeRegion.
 struct Tolerances {
-    /// A point within this distance of a plane counts as on it.
-    double on_plane = 1e-7;
     /// Outlines are shrunk by this distance.
-    double inset = 1e-6;
+    double inset = models::planar::planar_tolerance;
+    /// A point within this distance of a plane counts as on it.
+    double on_plane = inset / 10.0;
 };
 
 /// The face of a convex outline that lies in `plane` but for rounding. Its corners are projected

@@ -1,5 +1,6 @@
 // From a model in metres to faces in units of its radius, with what is known about turning parts
-// before any eye is looked at: which polygons of one part hide which, and which parts collide.
+// before any eye is looked at: which polygons of one part hide which, and which parts collide; and
+// with what is known about polygons that overlap in one plane.
 #include "visuals/draworder/model_faces.h"
 
 #include "visuals/draworder/components.h"
@@ -24,21 +25,6 @@ double farthest_m(const models::polygons::PolygonModel& model, const glm::dvec3&
         farthest = std::max(farthest, glm::distance(model.vertices_m[vertex], origin_m));
     }
     return farthest > 0.0 ? farthest : 1.0;
-}
-
-/// Tolerances that suit how flat the model's polygons are.
-Tolerances tolerances_of(const models::polygons::PolygonModel& model, double unit_m) {
-    double bent = 0.0;
-    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-        const Plane plane = models::polygons::plane_of(model, i);
-        for (const std::uint32_t vertex : model.corners(i)) {
-            bent = std::max(bent, std::abs(distance_m(plane, model.vertices_m[vertex])) / unit_m);
-        }
-    }
-    Tolerances tolerances;
-    tolerances.inset = std::max(tolerances.inset, 2.0 * bent);
-    tolerances.on_plane = tolerances.inset / 10.0;
-    return tolerances;
 }
 
 /// The face of a polygon as it stands in the file.
@@ -123,6 +109,41 @@ void find_meetings(
     }
 }
 
+/// Whether two polygons that face the same way lie in one plane and overlap there.
+bool overlap_in_plane(const Face& a, const Face& b, double on_plane) {
+    const bool one_plane = a.plane && b.plane && !a.pivot && !b.pivot &&
+                           glm::dot(a.plane->normal, b.plane->normal) > 0.0 &&
+                           behind_or_on(a, *b.plane, on_plane) &&
+                           behind_or_on(b, *a.plane, on_plane) &&
+                           behind_or_on(a, {-b.plane->normal, -b.plane->offset_m}, on_plane);
+    const auto parts = [&](const Face& of, const Face& other) {
+        for (std::size_t i = 0; i < of.corners.size(); ++i) {
+            const glm::dvec3& from = of.corners[i];
+            const glm::dvec3 along = of.corners[(i + 1) % of.corners.size()] - from;
+            const glm::dvec3 inward = glm::cross(of.plane->normal, along);
+            const bool outside = std::ranges::all_of(other.corners, [&](const glm::dvec3& corner) {
+                return glm::dot(corner - from, inward) <= 0.0;
+            });
+            if (outside) {
+                return true;
+            }
+        }
+        return false;
+    };
+    return one_plane && !parts(a, b) && !parts(b, a);
+}
+
+/// Of polygons that overlap in one plane the later one of the file hides the earlier one.
+void add_decals(ModelFaces& out) {
+    for (std::size_t later = 1; later < out.faces.size(); ++later) {
+        for (std::size_t first = 0; first < later; ++first) {
+            if (overlap_in_plane(out.faces[first], out.faces[later], out.tolerances.on_plane)) {
+                out.rigid.add(later, first);
+            }
+        }
+    }
+}
+
 } // namespace
 
 Plane ModelFaces::in_model(const Plane& plane) const {
@@ -143,7 +164,6 @@ ModelFaces model_faces(const models::polygons::PolygonModel& model, const glm::d
         .rigid = HidingGraph(count),
         .ignored = HidingGraph(count),
         .notes = {}};
-    out.tolerances = tolerances_of(model, out.unit_m);
     for (std::size_t i = 0; i < count; ++i) {
         const auto pivot = models::polygons::pivot_of(model, i);
         out.faces.push_back(
@@ -160,6 +180,7 @@ ModelFaces model_faces(const models::polygons::PolygonModel& model, const glm::d
     for (std::uint32_t pivot = 0; pivot < model.pivots.size(); ++pivot) {
         add_rigid_pairs(model, pivot, out);
     }
+    add_decals(out);
     for (std::size_t i = 0; i < count; ++i) {
         if (out.faces[i].pivot) {
             find_meetings(model, i, out);

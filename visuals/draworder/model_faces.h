@@ -18,8 +18,9 @@ struct ModelFaces {
     Tolerances tolerances;
     glm::dvec3 origin_m{0.0};
     double unit_m = 1.0;
-    /// Edges within turning parts, whose polygons keep their places to each other. They hold for
-    /// every eye and have no cycles.
+    /// Edges within turning parts, whose polygons keep their places to each other, and from each
+    /// polygon to later ones that overlap it in its plane. They hold for every eye and have no
+    /// cycles.
     HidingGraph rigid;
     /// Pairs that collide as they turn, in both directions; no order can be right for them.
     HidingGraph ignored;
@@ -33,8 +34,8 @@ struct ModelFaces {
     Plane in_faces(const Plane& plane) const;
 };
 
-/// Prepares a model. Outlines are shrunk by 1e-6 of the radius or, in models whose polygons are
-/// less flat than that, by twice the largest distance of a corner from its polygon's plane.
+/// Prepares a planar model (models/planar/planar_model.h). Outlines are shrunk by planar_tolerance
+/// times the radius.
 ModelFaces model_faces(const models::polygons::PolygonModel& model, const glm::dvec3& origin_m);
 
 } // namespace octant::visuals::draworder

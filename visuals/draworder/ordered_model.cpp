@@ -4,6 +4,7 @@
 // centres; the result with the fewest splits, then with the fewest cells, is kept.
 #include "visuals/draworder/ordered_model.h"
 
+#include "models/planar/planar_model.h"
 #include "visuals/draworder/cell_centres.h"
 #include "visuals/draworder/octant_cells.h"
 #include "visuals/draworder/region_tree.h"
@@ -112,28 +113,47 @@ Orders best_cells(const models::polygons::PolygonModel& model, double least_dist
     return std::move(*best);
 }
 
+std::vector<std::string> notes_of(const models::planar::PlanarModel& planar) {
+    std::vector<std::string> notes;
+    if (planar.cut_polygons > 0) {
+        notes.push_back(fmt::format(
+            "{} polygons are not planar or not convex enough to be ordered as they are: cut into "
+            "pieces",
+            planar.cut_polygons));
+    }
+    if (planar.lost_polygons > 0) {
+        notes.push_back(fmt::format("{} polygons have no area: left out", planar.lost_polygons));
+    }
+    return notes;
+}
+
 /// Finds the orders by Cells or Tree and converts them to body axes.
-OrderedModel exact(models::polygons::PolygonModel model, const OrderOptions& options) {
+OrderedModel exact(const models::polygons::PolygonModel& given, const OrderOptions& options) {
+    const models::planar::PlanarModel planar = models::planar::planar_model(given);
+    models::polygons::PolygonModel model = planar.model;
     const int penetrating = split_penetrating(model);
     const bool by_cells = options.method == Method::Cells;
     Orders orders = by_cells ? best_cells(model, options.min_distance_radii) : best_tree(model);
     const ModelFaces& faces = orders.work.faces;
     for (DrawOrder::Node& node : orders.nodes) {
-        node.plane = faces.in_model(node.plane);
+        node.plane = planar.in_given(faces.in_model(node.plane));
     }
     for (OrderCell& cell : orders.cells) {
         for (Plane& plane : cell.planes) {
-            plane = faces.in_model(plane);
+            plane = planar.in_given(faces.in_model(plane));
         }
     }
+    std::vector<std::string> notes = notes_of(planar);
+    notes.insert(notes.end(), orders.work.notes.begin(), orders.work.notes.end());
     return {
-        .model = std::move(orders.work.model),
+        .model = models::planar::as_given(std::move(orders.work.model), planar, given),
         .order = DrawOrder(std::move(orders.nodes), orders.lists),
         .cells = std::move(orders.cells),
-        .centre_m = faces.origin_m,
-        .min_distance_m = by_cells ? options.min_distance_radii * faces.unit_m : 0.0,
+        .centre_m = planar.in_given(faces.origin_m),
+        .min_distance_m =
+            by_cells ? options.min_distance_radii * faces.unit_m * planar.radius_m : 0.0,
         .splits = penetrating + static_cast<int>(orders.work.twins.size()),
-        .notes = std::move(orders.work.notes)};
+        .notes = std::move(notes)};
 }
 
 } // namespace
@@ -142,7 +162,7 @@ OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& o
     if (options.method == Method::Paper) {
         return by_paper(std::move(model), options);
     }
-    return exact(std::move(model), options);
+    return exact(model, options);
 }
 
 } // namespace octant::visuals::draworder

@@ -207,7 +207,13 @@ Fork TreeBuilder::fork(const EyeNode& node, const Plane& plane) const {
 std::optional<Fork> TreeBuilder::best_fork(const EyeNode& node) const {
     const Cycles& cycles = node.cycles;
     const auto of_planes = [&](std::span<const std::uint32_t> among, std::size_t most) {
-        return ranked(node, candidate_planes(work_.faces, among, most));
+        std::vector<Plane> planes;
+        if (search_.by_axes) {
+            planes = axis_planes(work_.faces, among, 2 * most);
+        }
+        const auto others = candidate_planes(work_.faces, among, most);
+        planes.insert(planes.end(), others.begin(), others.end());
+        return ranked(node, planes);
     };
     std::vector<Choice> choices = of_planes(cycles.polygons, search_.edge_planes);
     if (choices.empty() || choices.front().cost > little_gain(cycles.edges)) {

@@ -12,7 +12,7 @@
 
 #include "visuals/draworder/split.h"
 
-#include "models/polygons/polygon_check.h"
+#include "models/planar/planar_model.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -35,9 +35,6 @@ namespace {
 using models::polygons::PolygonModel;
 using Corners = std::vector<glm::dvec3>;
 using Outline = std::vector<std::uint32_t>;
-
-/// The share of models::polygons::flatness_tolerance_m within which a corner is on the cut.
-constexpr double on_plane_share_of_flatness = 1e-3;
 
 /// A side of a polygon that a cut passes through.
 struct CutSide {
@@ -211,7 +208,7 @@ class Splitter {
 public:
     explicit Splitter(PolygonModel& model)
         : model_(model)
-        , tolerance_m_(models::polygons::flatness_tolerance_m(model)) {
+        , tolerance_m_(split_tolerance_m(model)) {
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
             faces_.push_back(face_of(
                 corners_of(model, i),
@@ -329,7 +326,16 @@ private:
 } // namespace
 
 double split_tolerance_m(const PolygonModel& model) {
-    return models::polygons::flatness_tolerance_m(model) * on_plane_share_of_flatness;
+    if (model.vertices_m.empty()) {
+        return 0.0;
+    }
+    glm::dvec3 least = model.vertices_m[0];
+    glm::dvec3 most = model.vertices_m[0];
+    for (const glm::dvec3& vertex : model.vertices_m) {
+        least = glm::min(least, vertex);
+        most = glm::max(most, vertex);
+    }
+    return models::planar::planar_tolerance * glm::distance(least, most) / 2.0;
 }
 
 std::uint32_t split_polygon(PolygonModel& model, std::size_t polygon, const Plane& plane) {

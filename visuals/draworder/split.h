@@ -8,8 +8,8 @@
 
 namespace octant::visuals::draworder {
 
-/// The distance from the cutting plane within which a corner counts as on it: 1e-7 of the diagonal
-/// of the model's bounding box, metres.
+/// The distance from a plane within which a corner counts as on it: planar_tolerance times half the
+/// diagonal of the model's bounding box, in the unit of the model.
 double split_tolerance_m(const models::polygons::PolygonModel& model);
 
 /// Cuts a polygon along a plane (unit normal). The piece in front of the plane keeps the number,
@@ -31,8 +31,8 @@ split_polygon(models::polygons::PolygonModel& model, std::size_t polygon, const 
 ///
 /// Two polygons pass through one another when each has corners on both sides of the other's plane
 /// and they share more than a point of the line in which the planes meet. Polygons that only touch
-/// (shared edges, T-joints, a corner on a face) do not; anything within flatness_tolerance_m
-/// (models/polygons/polygon_check.h) is touching. A polygon that turns about a pivot is cut only
+/// (shared edges, T-joints, a corner on a face) do not; anything within split_tolerance_m is
+/// touching. A polygon that turns about a pivot is cut only
 /// against those that turn about the same one.
 int split_penetrating(models::polygons::PolygonModel& model);
 

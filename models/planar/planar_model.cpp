@@ -1,0 +1,209 @@
+#include "models/planar/planar_model.h"
+
+#include "models/planar/file_precision.h"
+#include "models/planar/incidences.h"
+#include "models/planar/near_vertices.h"
+#include "models/planar/planarize.h"
+#include "models/polygons/convex_pieces.h"
+#include "models/polygons/polygon_check.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace octant::models::planar {
+
+namespace {
+
+using polygons::Pivot;
+using polygons::PolygonModel;
+using Outline = std::vector<std::uint32_t>;
+
+constexpr double most_reach = 1e-6;
+/// No point moves farther than so many times the reach.
+constexpr double moves_in_reaches = 4.0;
+/// A polygon whose height over its longest side is less has no area.
+constexpr double least_height = planar_tolerance;
+
+/// The middle of the box around all corners, and the distance of the farthest corner from it.
+void find_frame(const PolygonModel& model, PlanarModel& out) {
+    glm::dvec3 least(std::numeric_limits<double>::max());
+    glm::dvec3 most(std::numeric_limits<double>::lowest());
+    for (const std::uint32_t vertex : model.corner_vertices) {
+        least = glm::min(least, model.vertices_m[vertex]);
+        most = glm::max(most, model.vertices_m[vertex]);
+    }
+    if (model.corner_vertices.empty()) {
+        return;
+    }
+    out.centre_m = least + (most - least) / 2.0;
+    double farthest = 0.0;
+    for (const std::uint32_t vertex : model.corner_vertices) {
+        farthest = std::max(farthest, glm::distance(model.vertices_m[vertex], out.centre_m));
+    }
+    out.radius_m = farthest > 0.0 ? farthest : 1.0;
+}
+
+glm::dvec3 in_radii(const PlanarModel& frame, const glm::dvec3& point_m) {
+    return (point_m - frame.centre_m) / frame.radius_m;
+}
+
+/// For each vertex which part it turns with: 0 for what stands still, and for vertices without a
+/// polygon.
+std::vector<std::uint32_t> pivots_of_vertices(const PolygonModel& model) {
+    std::vector<std::uint32_t> kind(model.vertices_m.size(), 0);
+    for (std::size_t i = 0; i < model.polygons.size() && !model.pivots.empty(); ++i) {
+        const auto pivot = polygons::pivot_of(model, i);
+        for (const std::uint32_t vertex : model.corners(i)) {
+            kind[vertex] = pivot ? *pivot + 1 : 0;
+        }
+    }
+    return kind;
+}
+
+/// Moves the vertices, in radii, and tells which polygons stay bent.
+std::vector<bool> move_vertices(PolygonModel& model, double precision) {
+    const double reach = std::clamp(2.0 * precision, planar_tolerance, most_reach);
+    const auto kind = pivots_of_vertices(model);
+    const auto places = one_place(model.vertices_m, kind, reach);
+    const auto incidences = incidences_of(model, model.vertices_m, places, kind, reach);
+    auto bent = planarize(model.vertices_m, incidences, moves_in_reaches * reach);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        model.vertices_m[i] = model.vertices_m[places[i]];
+    }
+    return bent;
+}
+
+/// The corners of a polygon without those in the place of the one before.
+Outline different_corners(const PolygonModel& model, std::size_t polygon) {
+    Outline out;
+    for (const std::uint32_t vertex : model.corners(polygon)) {
+        if (out.empty() || model.vertices_m[out.back()] != model.vertices_m[vertex]) {
+            out.push_back(vertex);
+        }
+    }
+    while (out.size() > 1 && model.vertices_m[out.back()] == model.vertices_m[out.front()]) {
+        out.pop_back();
+    }
+    return out;
+}
+
+std::vector<glm::dvec3> places_of(const PolygonModel& model, const Outline& outline) {
+    std::vector<glm::dvec3> places;
+    for (const std::uint32_t vertex : outline) {
+        places.push_back(model.vertices_m[vertex]);
+    }
+    return places;
+}
+
+/// Whether corners are on one line: twice the area over the longest side is a height.
+bool has_no_area(const std::vector<glm::dvec3>& places) {
+    glm::dvec3 sum(0.0);
+    double longest = 0.0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const glm::dvec3& next = places[(i + 1) % places.size()];
+        sum += glm::cross(places[i] - places[0], next - places[0]);
+        longest = std::max(longest, glm::distance(places[i], next));
+    }
+    return glm::length(sum) <= least_height * longest;
+}
+
+/// All triangles of a fan, for an outline that could not be cut otherwise.
+std::vector<Outline> fan_of(const Outline& outline) {
+    std::vector<Outline> pieces;
+    for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
+        pieces.push_back({outline[0], outline[i], outline[i + 1]});
+    }
+    return pieces;
+}
+
+/// Convex planar pieces of an outline, most often the outline itself.
+std::vector<Outline> pieces_of(const PolygonModel& model, const Outline& outline, bool bent) {
+    const auto places = places_of(model, outline);
+    if (outline.size() == 3 || (!bent && !polygons::corners_fault(places, planar_tolerance))) {
+        return {outline};
+    }
+    const auto convex = polygons::convex_pieces(places, planar_noise);
+    if (convex.pieces.empty()) {
+        return fan_of(outline);
+    }
+    std::vector<Outline> pieces;
+    for (const auto& corners : convex.pieces) {
+        Outline& piece = pieces.emplace_back();
+        for (const std::size_t corner : corners) {
+            piece.push_back(outline[corner]);
+        }
+    }
+    return pieces;
+}
+
+/// Replaces bent and dented polygons by pieces and leaves those without an area out.
+void cut_polygons(PlanarModel& planar, const std::vector<bool>& bent) {
+    PolygonModel& model = planar.model;
+    PolygonModel out;
+    std::vector<std::uint32_t> parents;
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        const Outline whole = different_corners(model, i);
+        std::vector<Outline> pieces;
+        if (whole.size() >= 3 && !has_no_area(places_of(model, whole))) {
+            pieces = pieces_of(model, whole, bent[i]);
+        }
+        std::erase_if(
+            pieces, [&](const Outline& piece) { return has_no_area(places_of(model, piece)); });
+        planar.cut_polygons += pieces.size() > 1 ? 1 : 0;
+        planar.lost_polygons += pieces.empty() ? 1 : 0;
+        for (const Outline& piece : pieces) {
+            polygons::Polygon polygon = model.polygons[i];
+            polygon.first_corner = static_cast<std::uint32_t>(out.corner_vertices.size());
+            polygon.corner_count = static_cast<std::uint32_t>(piece.size());
+            out.polygons.push_back(polygon);
+            out.corner_vertices.insert(out.corner_vertices.end(), piece.begin(), piece.end());
+            parents.push_back(model.parent_of(i));
+        }
+    }
+    if (planar.cut_polygons + planar.lost_polygons > 0 || !model.parents.empty()) {
+        model.parents = std::move(parents);
+    }
+    model.polygons = std::move(out.polygons);
+    model.corner_vertices = std::move(out.corner_vertices);
+}
+
+} // namespace
+
+PlanarModel planar_model(const PolygonModel& model) {
+    PlanarModel planar;
+    planar.model = model;
+    if (model.vertices_m.empty()) {
+        return planar;
+    }
+    find_frame(model, planar);
+    for (glm::dvec3& vertex : planar.model.vertices_m) {
+        vertex = in_radii(planar, vertex);
+    }
+    for (Pivot& pivot : planar.model.pivots) {
+        pivot.point_m = in_radii(planar, pivot.point_m);
+    }
+    const double precision = file_precision(model.vertices_m) / planar.radius_m;
+    cut_polygons(planar, move_vertices(planar.model, precision));
+    return planar;
+}
+
+PolygonModel as_given(PolygonModel changed, const PlanarModel& planar, const PolygonModel& given) {
+    for (std::size_t i = 0; i < changed.vertices_m.size(); ++i) {
+        glm::dvec3& vertex = changed.vertices_m[i];
+        const bool is_still =
+            i < given.vertices_m.size() && vertex == in_radii(planar, given.vertices_m[i]);
+        vertex = is_still ? given.vertices_m[i] : planar.in_given(vertex);
+    }
+    changed.pivots = given.pivots;
+    return changed;
+}
+
+} // namespace octant::models::planar

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "models/polygons/polygon_model.h"
+#include "sim/base/plane.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace octant::models::planar {
+
+/// What lies nearer to a plane than this lies on it, in radii of the model. Planar models keep it
+/// with ten times less noise.
+inline constexpr double planar_tolerance = 1e-9;
+
+/// A polygon model about the middle of its bounding box, in units of its radius there, with planar
+/// convex polygons.
+struct PlanarModel {
+    /// Its lengths are in radii. Vertices keep their numbers; polygons that could not become planar
+    /// are cut, which its parents tell; those without an area are missing. It may be empty.
+    polygons::PolygonModel model;
+    glm::dvec3 centre_m{0.0};
+    double radius_m = 1.0;
+
+    /// From radii to the place, size and unit of the model as given.
+    glm::dvec3 in_given(const glm::dvec3& point) const { return centre_m + point * radius_m; }
+
+    Plane in_given(const Plane& plane) const {
+        return {plane.normal, plane.offset_m * radius_m - glm::dot(plane.normal, centre_m)};
+    }
+
+    int cut_polygons = 0;  ///< How many polygons were bent or dented and are cut into pieces.
+    int lost_polygons = 0; ///< How many had no area and are left out.
+};
+
+/// Makes a model planar (README.md has the rules). The model has finite coordinates.
+PlanarModel planar_model(const polygons::PolygonModel& model);
+
+/// Back to the place, size and unit of the model as given: vertices that planar_model() did not
+/// move have the same bits as there. `changed` is the model of `planar`, or what was made of it by
+/// adding vertices and polygons.
+polygons::PolygonModel as_given(
+    polygons::PolygonModel changed, const PlanarModel& planar, const polygons::PolygonModel& given);
+
+} // namespace octant::models::planar

@@ -1,0 +1,183 @@
+#include "models/made/made_up.h"
+#include "models/planar/file_precision.h"
+#include "models/planar/planar_model.h"
+#include "models/planar/planarize.h"
+#include "models/polygons/polygon_check.h"
+#include "sim/base/dice.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+using namespace octant::models::planar;
+using octant::Dice;
+using octant::models::polygons::plane_of;
+using octant::models::polygons::PolygonModel;
+
+namespace {
+
+PolygonModel empty() {
+    PolygonModel model;
+    model.materials.resize(1);
+    model.parts = {"all"};
+    return model;
+}
+
+void add(PolygonModel& model, const std::vector<std::uint32_t>& corners) {
+    octant::models::polygons::Polygon polygon;
+    polygon.first_corner = static_cast<std::uint32_t>(model.corner_vertices.size());
+    polygon.corner_count = static_cast<std::uint32_t>(corners.size());
+    model.polygons.push_back(polygon);
+    model.corner_vertices.insert(model.corner_vertices.end(), corners.begin(), corners.end());
+}
+
+double unevenness(const PolygonModel& model) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        const octant::Plane plane = plane_of(model, i);
+        for (const std::uint32_t vertex : model.corners(i)) {
+            most = std::max(most, std::abs(distance_m(plane, model.vertices_m[vertex])));
+        }
+    }
+    return most;
+}
+
+/// A torus of planar quadrangles, turned, as a file with six decimals keeps it.
+PolygonModel written_torus() {
+    PolygonModel model = empty();
+    constexpr int around = 24;
+    constexpr int across = 12;
+    const auto turned = [](const glm::dvec3& p) {
+        const glm::dvec3 a = glm::normalize(glm::dvec3(1, 2, 3));
+        const glm::dvec3 b = glm::normalize(glm::cross(a, glm::dvec3(0, 0, 1)));
+        return p.x * a + p.y * b + p.z * glm::cross(a, b);
+    };
+    for (int i = 0; i < around; ++i) {
+        for (int j = 0; j < across; ++j) {
+            const double u = 2.0 * 3.141592653589793 * i / around;
+            const double v = 2.0 * 3.141592653589793 * j / across;
+            const double r = 3.0 + std::cos(v);
+            const glm::dvec3 at = turned({r * std::cos(u), r * std::sin(u), std::sin(v)});
+            model.vertices_m.push_back(glm::round(at * 1e6) / 1e6);
+        }
+    }
+    for (std::uint32_t i = 0; i < around; ++i) {
+        for (std::uint32_t j = 0; j < across; ++j) {
+            const std::uint32_t next = (i + 1) % around;
+            const std::uint32_t up = (j + 1) % across;
+            add(model, {i * across + j, next * across + j, next * across + up, i * across + up});
+        }
+    }
+    return model;
+}
+
+/// A square plate of one metre in the plane z = 0.
+PolygonModel plate() {
+    PolygonModel model = empty();
+    model.vertices_m = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    add(model, {0, 1, 2, 3});
+    return model;
+}
+
+} // namespace
+
+TEST_CASE("the precision of a file is the last decimal of its large coordinates") {
+    CHECK(file_precision(std::vector<glm::dvec3>{{12.5, -0.25, 3.0}}) == Approx(0.1));
+    CHECK(file_precision(std::vector<glm::dvec3>{{12.345678, 1e-9, 3.0}}) == Approx(1e-6));
+    CHECK(file_precision(std::vector<glm::dvec3>{{4, 2, 1}}) == 1.0);
+    const double third = 1.0 / 3.0;
+    CHECK(file_precision(std::vector<glm::dvec3>{{third, third, third}}) < 1e-15);
+    const auto single = static_cast<double>(static_cast<float>(third));
+    CHECK(
+        file_precision(std::vector<glm::dvec3>{{single, single, 0.0}}) ==
+        Approx(4e-8).epsilon(0.1));
+}
+
+TEST_CASE("quadrangles of a file with six decimals become planar without being cut") {
+    const PolygonModel given = written_torus();
+    REQUIRE(unevenness(given) > 1e-8);
+    const PlanarModel planar = planar_model(given);
+    CHECK(planar.cut_polygons == 0);
+    CHECK(planar.model.polygons.size() == given.polygons.size());
+    CHECK(unevenness(planar.model) < 2.0 * planar_noise);
+    const PolygonModel back = as_given(planar.model, planar, given);
+    for (std::size_t i = 0; i < given.vertices_m.size(); ++i) {
+        CHECK(glm::distance(back.vertices_m[i], given.vertices_m[i]) < 8e-6);
+    }
+}
+
+TEST_CASE("a quadrangle that is bent by more than its file's precision is cut") {
+    PolygonModel model = plate();
+    model.vertices_m[2].z = 1.0 / 3e4;
+    const PlanarModel planar = planar_model(model);
+    CHECK(planar.cut_polygons == 1);
+    REQUIRE(planar.model.polygons.size() == 2);
+    CHECK(planar.model.parents == std::vector<std::uint32_t>{0, 0});
+    CHECK(as_given(planar.model, planar, model).vertices_m == model.vertices_m);
+}
+
+TEST_CASE("a planar model keeps its bits, whatever its place and size") {
+    for (const double scale : {1e-6, 1.0, 1e6}) {
+        for (const double away : {0.0, 1e6}) {
+            PolygonModel model = plate();
+            for (glm::dvec3& vertex : model.vertices_m) {
+                vertex = vertex * scale + away * scale;
+            }
+            const PlanarModel planar = planar_model(model);
+            CHECK(planar.radius_m == Approx(std::sqrt(0.5) * scale));
+            CHECK(as_given(planar.model, planar, model).vertices_m == model.vertices_m);
+        }
+    }
+}
+
+TEST_CASE("what ends a hair beside a polygon ends on it") {
+    PolygonModel model = plate();
+    model.vertices_m.insert(
+        model.vertices_m.end(), {{0.3, 0.3, 4e-7}, {0.6, 0.3, -3e-7}, {0.5, 0.3, 0.812345}});
+    add(model, {4, 5, 6});
+    const PlanarModel planar = planar_model(model);
+    CHECK(planar.cut_polygons == 0);
+    const octant::Plane floor = plane_of(planar.model, 0);
+    CHECK(std::abs(distance_m(floor, planar.model.vertices_m[4])) < planar_noise);
+    CHECK(std::abs(distance_m(floor, planar.model.vertices_m[5])) < planar_noise);
+    CHECK(distance_m(floor, planar.model.vertices_m[6]) > 0.5);
+}
+
+TEST_CASE("corners in one place are one, and polygons without an area are left out") {
+    PolygonModel model = plate();
+    model.vertices_m.insert(model.vertices_m.end(), {{1, 1, 0}, {0.5, 0, 0}, {0.500001, 1, 0}});
+    add(model, {0, 1, 4, 3});
+    add(model, {0, 5, 1});
+    const PlanarModel planar = planar_model(model);
+    CHECK(planar.lost_polygons == 1);
+    REQUIRE(planar.model.polygons.size() == 2);
+    CHECK(planar.model.vertices_m[4] == planar.model.vertices_m[2]);
+}
+
+TEST_CASE("a polygon with a slight dent is cut into convex pieces") {
+    PolygonModel model = plate();
+    model.vertices_m.push_back({0.5, 1.0 / 3e5, 0});
+    model.corner_vertices = {0, 4, 1, 2, 3};
+    model.polygons[0].corner_count = 5;
+    const PlanarModel planar = planar_model(model);
+    CHECK(planar.cut_polygons == 1);
+    for (std::size_t i = 0; i < planar.model.polygons.size(); ++i) {
+        CHECK_FALSE(octant::models::polygons::polygon_fault(planar.model, i, planar_tolerance));
+    }
+}
+
+TEST_CASE("parts that turn do not stick to what they touch") {
+    PolygonModel model = plate();
+    model.parts = {"hull", "rotor"};
+    model.pivots = {{.part = 1, .point_m = {0.5, 0.5, 0.0}}};
+    model.vertices_m.insert(
+        model.vertices_m.end(), {{0.3, 0.3, 4e-7}, {0.6, 0.3, 4e-7}, {0.5, 0.6, 4e-7}});
+    add(model, {4, 5, 6});
+    model.polygons[1].part = 1;
+    const PlanarModel planar = planar_model(model);
+    CHECK(distance_m(plane_of(planar.model, 0), planar.model.vertices_m[4]) > 1e-7);
+}
