@@ -89,6 +89,9 @@ Orders best_tree(const models::polygons::PolygonModel& model) {
     for (const TreeSearch& search : tree_searches) {
         keep_better(best, tree_orders(work, root, search));
     }
+    if (!best->work.twins.empty()) {
+        keep_better(best, tree_orders(work, root, {.planes_first = true}));
+    }
     return std::move(*best);
 }
 

@@ -255,11 +255,17 @@ std::unique_ptr<Branch> TreeBuilder::leaf(const EyeNode& node) {
 /// cycles.
 std::optional<Fork> TreeBuilder::settle(EyeNode& node) {
     while (node.cycles.edges > 0) {
-        std::optional<Deadlock> deadlock = ring_at_eye(graphs_, node);
+        std::optional<Deadlock> deadlock;
+        if (!search_.planes_first) {
+            deadlock = ring_at_eye(graphs_, node);
+        }
         if (!deadlock) {
             if (auto fork = best_fork(node)) {
                 return fork;
             }
+            deadlock = ring_at_eye(graphs_, node);
+        }
+        if (!deadlock) {
             deadlock = Deadlock{node.cycles.components.front(), node.region, std::nullopt};
         }
         work_.resolve(*deadlock);
