@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -27,7 +28,8 @@ std::int64_t grains(double value) {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// The corners and edges of some polygons' outlines, equal ones merged.
+/// The corners and edges of some polygons' outlines, equal ones merged, in the order in which the
+/// polygons name them: a model that is turned gets the same numbers.
 struct Outlines {
     std::vector<glm::dvec3> corners; ///< Each position once.
     std::vector<Edge> edges;         ///< Each edge once, as a pair of indices into `corners`.
@@ -35,33 +37,26 @@ struct Outlines {
 
 Outlines outlines_of(const ModelFaces& model, std::span<const std::uint32_t> among) {
     using Place = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
-    const auto place_of = [](const glm::dvec3& p) {
-        return Place{grains(p.x), grains(p.y), grains(p.z)};
-    };
-    std::vector<std::pair<Place, glm::dvec3>> places;
-    for (const std::uint32_t polygon : among) {
-        for (const glm::dvec3& corner : model.faces[polygon].outline) {
-            places.emplace_back(place_of(corner), corner);
-        }
-    }
-    std::ranges::stable_sort(places, {}, &std::pair<Place, glm::dvec3>::first);
-    const auto doubles = std::ranges::unique(places, {}, &std::pair<Place, glm::dvec3>::first);
-    places.erase(doubles.begin(), doubles.end());
+    std::map<Place, std::uint32_t> numbers;
     Outlines out;
-    for (const auto& [place, corner] : places) {
-        out.corners.push_back(corner);
-    }
     const auto number_of = [&](const glm::dvec3& corner) {
-        const auto at = std::ranges::lower_bound(
-            places, place_of(corner), {}, &std::pair<Place, glm::dvec3>::first);
-        return static_cast<std::uint32_t>(at - places.begin());
+        const Place place{grains(corner.x), grains(corner.y), grains(corner.z)};
+        const auto next = static_cast<std::uint32_t>(out.corners.size());
+        const auto [at, is_new] = numbers.emplace(place, next);
+        if (is_new) {
+            out.corners.push_back(corner);
+        }
+        return at->second;
     };
     for (const std::uint32_t polygon : among) {
         const Face& face = model.faces[polygon];
-        for (std::size_t i = 0; i < face.outline.size() && face.plane && !face.pivot; ++i) {
-            const std::uint32_t from = number_of(face.outline[i]);
-            const std::uint32_t to = number_of(face.outline[(i + 1) % face.outline.size()]);
-            out.edges.emplace_back(std::min(from, to), std::max(from, to));
+        std::vector<std::uint32_t> outline;
+        for (const glm::dvec3& corner : face.outline) {
+            outline.push_back(number_of(corner));
+        }
+        for (std::size_t i = 0; i < outline.size() && face.plane && !face.pivot; ++i) {
+            const std::uint32_t next = outline[(i + 1) % outline.size()];
+            out.edges.emplace_back(std::min(outline[i], next), std::max(outline[i], next));
         }
     }
     std::ranges::sort(out.edges);

@@ -14,6 +14,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <span>
 
 namespace octant::visuals::draworder {
 
@@ -115,7 +116,25 @@ EyeRegion EyeRegion::cut_across_line(const glm::dvec4& front, std::size_t line) 
     }
     out.rays_.push_back(added);
     out.facets_.push_back(front);
+    out.straighten();
     return out;
+}
+
+/// Makes the lines perpendicular to one another and the rays to the lines: what generates a region
+/// is then the same whatever the axes are.
+void EyeRegion::straighten() {
+    const auto without = [](glm::dvec4 at, std::span<const glm::dvec4> lines) {
+        for (const glm::dvec4& line : lines) {
+            at -= line * glm::dot(line, at);
+        }
+        return glm::normalize(at);
+    };
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+        lines_[i] = without(lines_[i], std::span(lines_).first(i));
+    }
+    for (Ray& ray : rays_) {
+        ray.at = without(ray.at, lines_);
+    }
 }
 
 /// Two rays of a cone span an edge of it unless a third one lies on all facets on which both lie.

@@ -77,6 +77,7 @@ private:
     /// The part in front of a plane that all lines are parallel to; `heights` are those of the
     /// rays.
     EyeRegion cut_rays(const glm::dvec4& front, const std::vector<double>& heights) const;
+    void straighten();
     /// Whether two rays span an edge of the cone.
     bool adjacent(std::size_t a, std::size_t b) const;
 
