@@ -57,13 +57,14 @@ std::size_t left_after(
         .notes = {}};
     for (const std::uint32_t polygon : ring) {
         pieces.faces.push_back(
-            polygon == cut.polygon
-                ? outline_face(
-                      front_part(whole.outline, plane), *whole.plane, model.tolerances.inset)
-                : model.faces[polygon]);
+            polygon == cut.polygon ? outline_face(
+                                         front_part(whole.outline, plane, model.tolerances.inset),
+                                         *whole.plane,
+                                         model.tolerances.inset)
+                                   : model.faces[polygon]);
     }
     pieces.faces.push_back(outline_face(
-        front_part(whole.outline, {-plane.normal, -plane.offset_m}),
+        front_part(whole.outline, {-plane.normal, -plane.offset_m}, model.tolerances.inset),
         *whole.plane,
         model.tolerances.inset));
     Deadlock among{std::vector<std::uint32_t>(count), deadlock.region, deadlock.eye};

@@ -73,19 +73,25 @@ bool behind_or_on(const Face& face, const Plane& plane, double on_plane) {
     });
 }
 
-std::vector<glm::dvec3> front_part(const std::vector<glm::dvec3>& outline, const Plane& plane) {
+std::vector<glm::dvec3>
+front_part(const std::vector<glm::dvec3>& outline, const Plane& plane, double on_plane) {
+    const auto height_of = [&](const glm::dvec3& corner) {
+        const double height = distance_m(plane, corner);
+        return std::abs(height) <= on_plane ? 0.0 : height;
+    };
     std::vector<glm::dvec3> part;
     glm::dvec3 last = outline.back();
+    double last_height = height_of(last);
     for (const glm::dvec3& corner : outline) {
-        const double height = distance_m(plane, corner);
-        const double last_height = distance_m(plane, last);
-        if ((height >= 0.0) != (last_height >= 0.0)) {
+        const double height = height_of(corner);
+        if (height * last_height < 0.0) {
             part.push_back(last + (corner - last) * (last_height / (last_height - height)));
         }
         if (height >= 0.0) {
             part.push_back(corner);
         }
         last = corner;
+        last_height = height;
     }
     return part;
 }

@@ -42,8 +42,11 @@ struct Tolerances {
 /// least distance between a corner and the centroid.
 Face outline_face(std::span<const glm::dvec3> corners, const Plane& plane, double inset);
 
-/// The part of a convex outline in front of a plane that it straddles.
-std::vector<glm::dvec3> front_part(const std::vector<glm::dvec3>& outline, const Plane& plane);
+/// The part of a convex outline in front of a plane that it straddles. Corners within `on_plane` of
+/// the plane belong to it as they are, so that no two corners lie closer together than those of the
+/// outline.
+std::vector<glm::dvec3>
+front_part(const std::vector<glm::dvec3>& outline, const Plane& plane, double on_plane);
 
 /// Whether all corners of a face lie behind a plane or on it.
 bool behind_or_on(const Face& face, const Plane& plane, double on_plane);

@@ -137,7 +137,7 @@ bool overlap_in_plane(const Face& a, const Face& b, double on_plane) {
 void add_decals(ModelFaces& out) {
     for (std::size_t later = 1; later < out.faces.size(); ++later) {
         for (std::size_t first = 0; first < later; ++first) {
-            if (overlap_in_plane(out.faces[first], out.faces[later], out.tolerances.on_plane)) {
+            if (overlap_in_plane(out.faces[first], out.faces[later], out.tolerances.inset)) {
                 out.rigid.add(later, first);
             }
         }

@@ -37,9 +37,10 @@ void WorkingModel::resolve(const Deadlock& deadlock) {
         const Plane plane = *faces.faces[cut->along].plane;
         const double inset = faces.tolerances.inset;
         faces.faces[cut->polygon] =
-            outline_face(front_part(whole.outline, plane), *whole.plane, inset);
+            outline_face(front_part(whole.outline, plane, inset), *whole.plane, inset);
         const Plane back{-plane.normal, -plane.offset_m};
-        faces.faces.push_back(outline_face(front_part(whole.outline, back), *whole.plane, inset));
+        faces.faces.push_back(
+            outline_face(front_part(whole.outline, back, inset), *whole.plane, inset));
         faces.rigid.add_twin(cut->polygon);
         faces.ignored.add_twin(cut->polygon);
         return;
