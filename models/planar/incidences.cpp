@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <limits>
+#include <optional>
 
 namespace octant::models::planar {
 
@@ -52,22 +55,56 @@ public:
     const glm::dvec3& most() const { return most_; }
 
     bool touches(const glm::dvec3& point, double reach) const {
-        if (!has_plane_ || std::abs(glm::dot(point - at(0), normal_)) > reach) {
+        if (!is_level_with(point, reach)) {
             return false;
         }
         for (std::size_t i = 0; i < corners_.size(); ++i) {
-            const glm::dvec3& from = at(i);
-            const glm::dvec3 along = at((i + 1) % corners_.size()) - from;
-            const glm::dvec3 inward = glm::cross(normal_, along);
-            if (glm::dot(point - from, inward) < -reach * glm::length(along)) {
+            if (inside_of(i, point) < -reach) {
                 return false;
             }
         }
         return true;
     }
 
+    /// Whether two outlines lie in one plane, within the reach, and share more than their sides.
+    bool covers(const Outline& other, double reach) const {
+        return has_plane_ && other.has_plane_ && all_level(other, reach) &&
+               other.all_level(*this, reach) && !has_beside(other, reach) &&
+               !other.has_beside(*this, reach);
+    }
+
 private:
     const glm::dvec3& at(std::size_t corner) const { return vertices_[corners_[corner]]; }
+
+    bool is_level_with(const glm::dvec3& point, double reach) const {
+        return has_plane_ && std::abs(glm::dot(point - at(0), normal_)) <= reach;
+    }
+
+    bool all_level(const Outline& other, double reach) const {
+        return std::ranges::all_of(other.corners_, [&](std::uint32_t corner) {
+            return is_level_with(vertices_[corner], reach);
+        });
+    }
+
+    /// How far a point lies on the inner side of an edge's line.
+    double inside_of(std::size_t edge, const glm::dvec3& point) const {
+        const glm::dvec3& from = at(edge);
+        const glm::dvec3 along = at((edge + 1) % corners_.size()) - from;
+        return glm::dot(point - from, glm::cross(normal_, along)) / glm::length(along);
+    }
+
+    /// Whether one of the edges has all of another outline on its outer side.
+    bool has_beside(const Outline& other, double reach) const {
+        for (std::size_t i = 0; i < corners_.size(); ++i) {
+            const bool beside = std::ranges::all_of(other.corners_, [&](std::uint32_t corner) {
+                return inside_of(i, vertices_[corner]) <= reach;
+            });
+            if (beside) {
+                return true;
+            }
+        }
+        return false;
+    }
 
     std::span<const glm::dvec3> vertices_;
     std::span<const std::uint32_t> corners_;
@@ -76,6 +113,66 @@ private:
     glm::dvec3 normal_{0.0};
     bool has_plane_ = false;
 };
+
+/// Adds to a polygon's incidence the places that touch it.
+void add_touching(
+    Incidence& incidence,
+    const Outline& outline,
+    const NearVertices& near,
+    std::span<const glm::dvec3> vertices,
+    double reach,
+    const std::function<bool(std::uint32_t)>& may_touch) {
+    std::vector<std::uint32_t> found;
+    near.append_in_box(outline.least() - reach, outline.most() + reach, found);
+    for (const std::uint32_t vertex : found) {
+        if (may_touch(vertex) &&
+            std::ranges::find(incidence.corners, vertex) == incidence.corners.end() &&
+            outline.touches(vertices[vertex], reach)) {
+            incidence.touching.push_back(vertex);
+        }
+    }
+}
+
+void join(std::vector<std::uint32_t>& places, const Incidence& with, const Incidence& except) {
+    for (const std::uint32_t corner : with.corners) {
+        if (std::ranges::find(except.corners, corner) == except.corners.end()) {
+            places.push_back(corner);
+        }
+    }
+}
+
+/// Lets polygons that cover each other in one plane share it with all their corners.
+void join_planes(
+    std::vector<Incidence>& incidences,
+    const std::vector<std::optional<Outline>>& outlines,
+    std::span<const std::uint32_t> kind,
+    double reach) {
+    std::vector<std::uint32_t> by_x;
+    for (std::uint32_t i = 0; i < outlines.size(); ++i) {
+        if (outlines[i]) {
+            by_x.push_back(i);
+        }
+    }
+    std::ranges::stable_sort(by_x, {}, [&](std::uint32_t i) { return outlines[i]->least().x; });
+    for (std::size_t i = 0; i < by_x.size(); ++i) {
+        const Outline& a = *outlines[by_x[i]];
+        for (std::size_t j = i + 1; j < by_x.size(); ++j) {
+            const Outline& b = *outlines[by_x[j]];
+            if (b.least().x > a.most().x + reach) {
+                break;
+            }
+            const bool apart = b.least().y > a.most().y + reach ||
+                               a.least().y > b.most().y + reach ||
+                               b.least().z > a.most().z + reach || a.least().z > b.most().z + reach;
+            Incidence& of_a = incidences[by_x[i]];
+            Incidence& of_b = incidences[by_x[j]];
+            if (!apart && kind[of_a.corners[0]] == kind[of_b.corners[0]] && a.covers(b, reach)) {
+                join(of_a.touching, of_b, of_a);
+                join(of_b.touching, of_a, of_b);
+            }
+        }
+    }
+}
 
 } // namespace
 
@@ -91,24 +188,23 @@ std::vector<Incidence> incidences_of(
         used[places[vertex]] = true;
     }
     std::vector<Incidence> out(model.polygons.size());
-    std::vector<std::uint32_t> found;
+    std::vector<std::optional<Outline>> outlines(out.size());
     for (std::size_t i = 0; i < out.size(); ++i) {
         out[i].corners = corner_places(model.corners(i), places);
         if (out[i].corners.size() < 3) {
             continue;
         }
-        const Outline outline(vertices, out[i].corners);
-        found.clear();
-        near.append_in_box(outline.least() - reach, outline.most() + reach, found);
-        std::ranges::sort(found);
-        for (const std::uint32_t vertex : found) {
-            const bool other = places[vertex] == vertex && used[vertex] &&
-                               kind[vertex] == kind[out[i].corners[0]] &&
-                               std::ranges::find(out[i].corners, vertex) == out[i].corners.end();
-            if (other && outline.touches(vertices[vertex], reach)) {
-                out[i].touching.push_back(vertex);
-            }
-        }
+        outlines[i].emplace(vertices, out[i].corners);
+        const std::uint32_t own = kind[out[i].corners[0]];
+        add_touching(out[i], *outlines[i], near, vertices, reach, [&](std::uint32_t vertex) {
+            return places[vertex] == vertex && used[vertex] && kind[vertex] == own;
+        });
+    }
+    join_planes(out, outlines, kind, reach);
+    for (Incidence& incidence : out) {
+        std::ranges::sort(incidence.touching);
+        const auto twice = std::ranges::unique(incidence.touching);
+        incidence.touching.erase(twice.begin(), twice.end());
     }
     return out;
 }

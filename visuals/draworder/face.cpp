@@ -96,4 +96,27 @@ front_part(const std::vector<glm::dvec3>& outline, const Plane& plane, double on
     return part;
 }
 
+bool overlap_in_plane(const Face& a, const Face& b, double on_plane) {
+    const bool one_plane = a.plane && b.plane && !a.pivot && !b.pivot &&
+                           glm::dot(a.plane->normal, b.plane->normal) > 0.0 &&
+                           behind_or_on(a, *b.plane, on_plane) &&
+                           behind_or_on(b, *a.plane, on_plane) &&
+                           behind_or_on(a, {-b.plane->normal, -b.plane->offset_m}, on_plane);
+    const auto parts = [&](const Face& of, const Face& other) {
+        for (std::size_t i = 0; i < of.corners.size(); ++i) {
+            const glm::dvec3& from = of.corners[i];
+            const glm::dvec3 along = of.corners[(i + 1) % of.corners.size()] - from;
+            const glm::dvec3 inward = glm::cross(of.plane->normal, along);
+            const bool outside = std::ranges::all_of(other.corners, [&](const glm::dvec3& corner) {
+                return glm::dot(corner - from, inward) <= 0.0;
+            });
+            if (outside) {
+                return true;
+            }
+        }
+        return false;
+    };
+    return one_plane && !parts(a, b) && !parts(b, a);
+}
+
 } // namespace octant::visuals::draworder

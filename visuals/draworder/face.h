@@ -51,4 +51,8 @@ front_part(const std::vector<glm::dvec3>& outline, const Plane& plane, double on
 /// Whether all corners of a face lie behind a plane or on it.
 bool behind_or_on(const Face& face, const Plane& plane, double on_plane);
 
+/// Whether two outlines that face the same way lie in one plane, within `on_plane`, and overlap
+/// there. Not those that turn.
+bool overlap_in_plane(const Face& a, const Face& b, double on_plane);
+
 } // namespace octant::visuals::draworder

@@ -109,35 +109,13 @@ void find_meetings(
     }
 }
 
-/// Whether two polygons that face the same way lie in one plane and overlap there.
-bool overlap_in_plane(const Face& a, const Face& b, double on_plane) {
-    const bool one_plane = a.plane && b.plane && !a.pivot && !b.pivot &&
-                           glm::dot(a.plane->normal, b.plane->normal) > 0.0 &&
-                           behind_or_on(a, *b.plane, on_plane) &&
-                           behind_or_on(b, *a.plane, on_plane) &&
-                           behind_or_on(a, {-b.plane->normal, -b.plane->offset_m}, on_plane);
-    const auto parts = [&](const Face& of, const Face& other) {
-        for (std::size_t i = 0; i < of.corners.size(); ++i) {
-            const glm::dvec3& from = of.corners[i];
-            const glm::dvec3 along = of.corners[(i + 1) % of.corners.size()] - from;
-            const glm::dvec3 inward = glm::cross(of.plane->normal, along);
-            const bool outside = std::ranges::all_of(other.corners, [&](const glm::dvec3& corner) {
-                return glm::dot(corner - from, inward) <= 0.0;
-            });
-            if (outside) {
-                return true;
-            }
-        }
-        return false;
-    };
-    return one_plane && !parts(a, b) && !parts(b, a);
-}
-
-/// Of polygons that overlap in one plane the later one of the file hides the earlier one.
-void add_decals(ModelFaces& out) {
-    for (std::size_t later = 1; later < out.faces.size(); ++later) {
-        for (std::size_t first = 0; first < later; ++first) {
-            if (overlap_in_plane(out.faces[first], out.faces[later], out.tolerances.inset)) {
+/// Of polygons that overlap in one plane the later one of the file hides the earlier one. The
+/// numbers of pieces say nothing about that, their parents do.
+void add_decals(const models::polygons::PolygonModel& model, ModelFaces& out) {
+    for (std::size_t later = 0; later < out.faces.size(); ++later) {
+        for (std::size_t first = 0; first < out.faces.size(); ++first) {
+            if (model.parent_of(first) < model.parent_of(later) &&
+                overlap_in_plane(out.faces[first], out.faces[later], out.tolerances.inset)) {
                 out.rigid.add(later, first);
             }
         }
@@ -180,7 +158,7 @@ ModelFaces model_faces(const models::polygons::PolygonModel& model, const glm::d
     for (std::uint32_t pivot = 0; pivot < model.pivots.size(); ++pivot) {
         add_rigid_pairs(model, pivot, out);
     }
-    add_decals(out);
+    add_decals(model, out);
     for (std::size_t i = 0; i < count; ++i) {
         if (out.faces[i].pivot) {
             find_meetings(model, i, out);

@@ -43,6 +43,8 @@ void WorkingModel::resolve(const Deadlock& deadlock) {
             outline_face(front_part(whole.outline, back, inset), *whole.plane, inset));
         faces.rigid.add_twin(cut->polygon);
         faces.ignored.add_twin(cut->polygon);
+        end_overlaps(cut->polygon);
+        end_overlaps(faces.faces.size() - 1);
         return;
     }
     const Precedence pair = weakest_pair(graphs, deadlock);
@@ -51,6 +53,17 @@ void WorkingModel::resolve(const Deadlock& deadlock) {
         "{} and {} hide one another as they turn; no order is right at every angle",
         model.parts[model.polygons[pair.first].part],
         model.parts[model.polygons[pair.later].part]));
+}
+
+/// A piece overlaps no more polygons of its plane than the whole did, and often fewer.
+void WorkingModel::end_overlaps(std::size_t piece) {
+    const Face& face = faces.faces[piece];
+    for (std::size_t other = 0; other < faces.faces.size(); ++other) {
+        if (!overlap_in_plane(face, faces.faces[other], faces.tolerances.inset)) {
+            faces.rigid.remove(piece, other);
+            faces.rigid.remove(other, piece);
+        }
+    }
 }
 
 bool WorkingModel::catch_up(EyeNode& node) const {

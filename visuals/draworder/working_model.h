@@ -37,6 +37,8 @@ struct WorkingModel {
     /// Adds such pieces to a list that was made when there were `polygons` polygons.
     void catch_up(std::vector<std::uint32_t>& list, std::size_t polygons) const;
 
+    void end_overlaps(std::size_t piece);
+
     models::polygons::PolygonModel model;
     ModelFaces faces;
     std::uint32_t first_count = 0;
