@@ -20,6 +20,9 @@ namespace octant::visuals::draworder {
 
 namespace {
 
+/// Planes that meet at a smaller angle, about, leave too few digits of where they meet.
+constexpr double least_slope = 1e-4;
+
 /// A half-space as a vector, whose dot product with a homogeneous point is the height.
 glm::dvec4 front_of(const Plane& plane) {
     return {plane.normal, plane.offset_m};
@@ -98,6 +101,7 @@ EyeRegion EyeRegion::cut_across_line(const glm::dvec4& front, std::size_t line) 
     assert(facets_.size() <= most_planes);
     EyeRegion out = *this;
     const double slope = glm::dot(front, lines_[line]);
+    out.is_certain_ = is_certain_ && std::abs(slope) > least_slope;
     const glm::dvec4 inward = lines_[line] * (slope > 0.0 ? 1.0 : -1.0);
     const auto slid = [&](const glm::dvec4& at) {
         return glm::normalize(at - inward * (glm::dot(front, at) / std::abs(slope)));
@@ -156,6 +160,7 @@ bool EyeRegion::adjacent(std::size_t a, std::size_t b) const {
 EyeRegion EyeRegion::cut_rays(const glm::dvec4& front, const std::vector<double>& heights) const {
     assert(facets_.size() <= most_planes);
     EyeRegion out;
+    out.is_certain_ = is_certain_;
     out.lines_ = lines_;
     out.facets_ = facets_;
     out.facets_.push_back(front);
@@ -172,7 +177,10 @@ EyeRegion EyeRegion::cut_rays(const glm::dvec4& front, const std::vector<double>
         for (std::size_t j = 0; heights[i] > on_plane && j < rays_.size(); ++j) {
             if (heights[j] < -on_plane && adjacent(i, j)) {
                 const glm::dvec4 at = rays_[j].at * heights[i] - rays_[i].at * heights[j];
-                Ray added{glm::normalize(at), rays_[i].on & rays_[j].on};
+                const double length = glm::length(at);
+                out.is_certain_ =
+                    out.is_certain_ && length > least_slope * (heights[i] - heights[j]);
+                Ray added{at / length, rays_[i].on & rays_[j].on};
                 added.on.add(facets_.size());
                 out.rays_.push_back(added);
             }

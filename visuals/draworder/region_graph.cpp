@@ -26,11 +26,16 @@ bool RegionGraphs::go_before(const EyeRegion& region, const Face& a) {
     return before_a_.has_value();
 }
 
-// Asks first with those generators of the region only that are in front of B. If B hides part of A
-// for these, it does so for the region, which then need not be cut.
+// A region that is not known well enough counts as one from which B hides part of A: that costs
+// cells and splits, and never makes an order wrong. Asks first with those generators of the region
+// only that are in front of B. If B hides part of A for these, it does so for the region, which
+// then need not be cut.
 bool RegionGraphs::hides(std::size_t b, std::size_t a) {
     const Face& near_one = faces_.faces[b];
     const Face& far_one = faces_.faces[a];
+    if (!before_a_->is_certain()) {
+        return true;
+    }
     if (!near_one.plane) {
         return test_.hides(near_one, far_one, generators_of_a_);
     }
@@ -54,6 +59,9 @@ bool RegionGraphs::hides(std::size_t b, std::size_t a) {
         return false;
     }
     const EyeRegion before_both = *before_a_->cut(*near_one.plane);
+    if (!before_both.is_certain()) {
+        return true;
+    }
     generators_.clear();
     before_both.append_generators(generators_);
     return test_.hides(near_one, far_one, generators_);
