@@ -14,14 +14,13 @@ namespace octant::visuals::scene {
 
 /// What draws, for reports.
 struct RendererInfo {
-    std::string kind;          ///< "osmesa", "egl" or "window"
-    std::string device;        ///< what the driver calls the device
-    std::string version;       ///< the driver's
+    std::string description;   ///< how it draws, and by what: "osmesa, OpenGL 4.5 (...)"
+    std::string device;        ///< the GPU, or the driver's name for what stands in for one
     bool on_processor = false; ///< a processor draws, not a GPU
 };
 
 /// Makes pictures of frame plans: draws their steps in their order and decides nothing. Belongs to
-/// the thread that made it.
+/// the thread that made it, in which several may take turns.
 class Renderer {
 public:
     virtual ~Renderer() = default;

@@ -59,9 +59,8 @@ TEST_CASE("a driver without a needed function is refused by the function's name"
 
 TEST_CASE("an off-screen context says what draws") {
     const auto context = gl::make_osmesa_context();
-    CHECK(context->info().kind == "osmesa");
+    CHECK_THAT(context->info().description, Catch::StartsWith("osmesa, OpenGL 4."));
     CHECK_FALSE(context->info().device.empty());
-    CHECK_NOTHROW(gl::expect_gl_4_5(context->info().version));
 }
 
 TEST_CASE("two off-screen contexts live side by side and draw each their own picture") {
@@ -105,7 +104,7 @@ TEST_CASE("an EGL context outlives another one on the same display") {
     if (!context) {
         return;
     }
-    CHECK(context->info().kind == "egl");
+    CHECK_THAT(context->info().description, Catch::StartsWith("egl, OpenGL 4."));
     Studio stays(std::move(context));
     {
         Studio goes(gl::make_egl_context());
