@@ -63,9 +63,6 @@ public:
     /// Frames a second of simulated time, for video and stress.
     double rate_hz() const { return times_.rate_hz; }
 
-    /// Renderer::make_current: to be called before draw() when several sessions take turns.
-    void make_current() { renderer_->make_current(); }
-
     /// Flies as many frames as there are decisions, at most frames() (asserted), each as decided
     /// whatever the clock says. Before the first draw().
     void replay(std::vector<Decision> decisions);

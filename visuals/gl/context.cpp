@@ -40,6 +40,11 @@ void Context::make_current() {
     current = this;
 }
 
+const Functions& Context::current_functions() {
+    make_current();
+    return functions_;
+}
+
 void Context::leave() {
     if (current == this) {
         release();

@@ -31,11 +31,8 @@ public:
 
     virtual const RendererInfo& info() const = 0;
 
-    /// To be called before other calls when several renderers take turns in a thread. Throws Error.
-    virtual void make_current() = 0;
-
-    /// Another renderer on the same device, with nothing loaded: both are current together. Throws
-    /// Error when the driver cannot hold that size.
+    /// Another renderer on the same device, with nothing loaded. Throws Error when the driver
+    /// cannot hold that size.
     virtual std::unique_ptr<Renderer> beside(const glm::ivec2& size_px, int samples) const = 0;
 
     /// Draws pictures of another size or with other samples (1 or 4 a pixel) from now on. Throws

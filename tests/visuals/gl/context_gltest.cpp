@@ -73,6 +73,27 @@ TEST_CASE("two off-screen contexts live side by side and draw each their own pic
     CHECK(hash_of_full_scene(second) == hash);
 }
 
+TEST_CASE("renderers take turns in a thread whichever of their contexts was current") {
+    Studio first;
+    Studio second;
+    const std::uint64_t hash = hash_of_full_scene(first);
+    first.picture(plan_of(red));
+    second.renderer().resize({16, 16}, 1);
+    second.renderer().warm_up();
+    CHECK(middle(second.picture(plan_of(green))) == green_px);
+    std::unique_ptr<scene::Renderer> beside = first.renderer().beside({8, 8}, 1);
+    second.renderer().finish();
+    beside->draw(plan_of(blue));
+    scene::Picture picture;
+    beside->finish_and_read(picture);
+    CHECK(middle(picture) == blue_px);
+    second.renderer().draw(plan_of(green));
+    beside.reset(); // its objects are those of another context than the one that draws
+    CHECK(hash_of_full_scene(first) == hash);
+    second.renderer().finish_and_read(picture);
+    CHECK(middle(picture) == green_px);
+}
+
 TEST_CASE("a context made after another one was destroyed draws the same") {
     std::uint64_t hash = 0;
     {

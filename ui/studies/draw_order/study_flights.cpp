@@ -97,7 +97,6 @@ Measured measure(const PaperRow& row, const StudyOptions& options) {
     flight::Session& octant = *sessions.front();
     flight::RecordOptions record;
     record.folder = options.out / fmt::format("{}-{}", row.aircraft, row.path);
-    octant.make_current();
     flight::FlightRecorder recorder(record, settings_of(row, options, methods.front()), octant);
     Measured measured;
     const models::polygons::PolygonModel& model = octant.world().scene.models.front()->polygons;
@@ -111,7 +110,6 @@ Measured measure(const PaperRow& row, const StudyOptions& options) {
         report::FrameRecord octant_record;
         for (std::size_t turn = 0; turn < methods.size(); ++turn) {
             const std::size_t m = (turn + static_cast<std::size_t>(frame)) % methods.size();
-            sessions[m]->make_current();
             const report::FrameRecord drawn = sessions[m]->draw(frame);
             frame_ms[m].push_back(drawn.frame_ms);
             if (m == 0) {
@@ -119,12 +117,10 @@ Measured measure(const PaperRow& row, const StudyOptions& options) {
             }
         }
         // After all three, so that no method draws next to the work of recording.
-        octant.make_current();
         recorder.add(octant_record, octant);
         progress.show(frame + 1);
     }
     progress.finish();
-    octant.make_current();
     recorder.finish(octant);
     for (std::size_t m = 0; m < methods.size(); ++m) {
         frame_ms[m].erase(frame_ms[m].begin(), frame_ms[m].begin() + warm_up_frames);

@@ -66,7 +66,6 @@ Change shimmer_along(
             same_places(ground, cameras[frame], cameras[frame + 1], flown.view.size_px, radius_m);
         for (std::size_t k = 0; k < ways.size(); ++k) {
             flight::Session& session = *sessions[k];
-            session.make_current();
             session.draw(static_cast<int>(frame));
             const visuals::scene::Picture earlier = session.picture();
             session.draw(static_cast<int>(frame) + 1);
