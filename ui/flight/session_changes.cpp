@@ -20,6 +20,9 @@ void Session::apply(const settings::Settings& settings) {
     switch (settings::change_between(settings_, settings)) {
     case settings::SettingsChange::None:
         break;
+    case settings::SettingsChange::Recording:
+        settings_ = settings;
+        break;
     case settings::SettingsChange::Look:
         if (settings.view.eye_m != settings_.view.eye_m ||
             settings.view.look_m != settings_.view.look_m) {
