@@ -44,7 +44,7 @@ public:
     virtual void load_models(std::span<const ModelBuffers> models) = 0;
 
     /// Loads the ground's texture, in place of one loaded before: FramePlan::ground_texture asks
-    /// for it. Throws Error when the driver has no memory for it.
+    /// for it. Throws Error and keeps that one when the driver has no memory for it.
     virtual void load_ground_texture(const GroundTexture& texture) = 0;
 
     /// Draws once in every state that a plan can ask for, because drivers compile on first use
