@@ -44,7 +44,6 @@ public:
     Floor& operator=(Floor&&) = delete;
 
     report::FrameRecord draw() {
-        renderer_->make_current();
         report::FrameRecord record;
         const base::Stopwatch whole;
         base::Stopwatch stage;
@@ -143,7 +142,6 @@ std::vector<BenchResult> run_bench(const BenchOptions& options) {
             if (frame >= sessions[i]->frames()) {
                 continue;
             }
-            sessions[i]->make_current();
             const report::FrameRecord record = sessions[i]->draw(frame);
             if (counts) {
                 timed[i + 1].add(record, sessions[i]->picture());

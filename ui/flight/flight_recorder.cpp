@@ -54,7 +54,7 @@ report::RunInfo run_info(const settings::Settings& settings, const Session& sess
     info.settings_json = settings::settings_json(settings).dump(2);
     info.version = base::program_version();
     info.commit = base::program_commit();
-    info.gl_renderer = session.renderer().info().device;
+    info.device = session.renderer().info().device;
     info.path_offset_m = {flight.place_m.x, flight.place_m.y, flight.offset_m};
     info.machine = report::read_machine_info(std::chrono::system_clock::now());
     info.facts = {
@@ -63,9 +63,7 @@ report::RunInfo run_info(const settings::Settings& settings, const Session& sess
         {"path lifted by", fmt::format("{:.1f} m", flight.offset_m)},
         {"lowest clearance",
          fmt::format("{:.1f} m at {:.2f} s", flight.lowest_clearance_m, flight.lowest_clearance_s)},
-        {"drawn by",
-         fmt::format(
-             "{}, OpenGL {}", session.renderer().info().kind, session.renderer().info().version)}};
+        {"drawn by", session.renderer().info().description}};
     if (settings.adapt.terrain) {
         info.facts.emplace_back(
             "adaptation", adaptation_text(load_settings(settings, session.rate_hz())));

@@ -53,7 +53,8 @@ void InsetView::place(const settings::Settings& settings) {
 
 void InsetView::follow(const settings::Settings& settings) {
     std::unique_ptr<scene::GroundMesher> mesher = planner_->take_mesher();
-    settles_ = settles_ || &mesher->ground() != scene_.ground.get();
+    settles_ = settles_ || &mesher->ground() != scene_.ground.get() ||
+               !scene::same_detail_control(settings.ground, settings_.ground);
     planner_.reset();
     place(settings);
     planner_.emplace(

@@ -24,7 +24,8 @@ public:
     InsetView(InsetView&&) = delete;
     InsetView& operator=(InsetView&&) = delete;
 
-    /// Takes other settings over, and the ground that the scene has now.
+    /// Takes other settings over, and the ground that the scene has now. The ground's detail goes
+    /// on where both it and its control are the same.
     void follow(const settings::Settings& settings);
 
     /// Settings of the view alone: its camera and its size.
@@ -34,6 +35,9 @@ public:
 
     /// Planner::prepare.
     void prepare(const visuals::scene::Camera& camera) { planner_->prepare(camera); }
+
+    /// Planner::wait.
+    void wait() { planner_->wait(); }
 
     /// `smooth_share`: SmoothWish::share.
     const visuals::scene::FramePlan& plan(

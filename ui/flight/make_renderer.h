@@ -7,7 +7,7 @@
 
 namespace octant::ui::flight {
 
-/// The renderer that the settings ask for, current in this thread. Throws Error.
+/// The renderer that the settings ask for. Throws Error.
 std::unique_ptr<visuals::scene::Renderer> make_renderer(const settings::Settings& settings);
 
 } // namespace octant::ui::flight

@@ -29,7 +29,11 @@ Session::Session(
     , times_(world::frame_times_of(settings_, world_.flight))
     , ground_height_(
           [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); }) {
-    load_into_renderer(shows);
+    load_models(shows);
+    if (shows == Shows::World && world_.scene.ground_texture) {
+        renderer_->load_ground_texture(*world_.scene.ground_texture);
+        drop_texels();
+    }
     renderer_->warm_up();
     if (settings_.view.inset) {
         inset_ = std::make_unique<InsetView>(settings_, world_.scene);
@@ -41,7 +45,7 @@ world::DrawnBy Session::drawn_by() const {
     return renderer_->info().on_processor ? world::DrawnBy::Processor : world::DrawnBy::Gpu;
 }
 
-void Session::load_into_renderer(Shows shows) {
+void Session::load_models(Shows shows) {
     if (shows == Shows::PolygonNumbers) {
         ids_.emplace(world_.scene);
         renderer_->load_models(ids_->models());
@@ -52,13 +56,12 @@ void Session::load_into_renderer(Shows shows) {
         buffers.push_back(model->buffers);
     }
     renderer_->load_models(buffers);
-    load_texture();
 }
 
-void Session::load_texture() {
+/// Frees the texels of the texture, which the renderer has.
+void Session::drop_texels() {
     std::shared_ptr<const scene::GroundTexture>& texture = world_.scene.ground_texture;
     if (texture) {
-        renderer_->load_ground_texture(*texture);
         texture = std::make_shared<const scene::GroundTexture>(scene::without_texels(*texture));
     }
 }

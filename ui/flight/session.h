@@ -63,9 +63,6 @@ public:
     /// Frames a second of simulated time, for video and stress.
     double rate_hz() const { return times_.rate_hz; }
 
-    /// Renderer::make_current: to be called before draw() when several sessions take turns.
-    void make_current() { renderer_->make_current(); }
-
     /// Flies as many frames as there are decisions, at most frames() (asserted), each as decided
     /// whatever the clock says. Before the first draw().
     void replay(std::vector<Decision> decisions);
@@ -90,7 +87,7 @@ public:
 
     /// Changes what the next frames show. Loads what has to be loaded anew; the flight then starts
     /// again where its aircraft, path or ground are others. Throws Error and leaves everything as
-    /// it was.
+    /// it was; any other exception leaves a session that cannot go on.
     void apply(const settings::Settings& settings);
 
     /// To be changed between frames. Begin at another time by begin_at().
@@ -145,8 +142,8 @@ private:
     };
 
     world::DrawnBy drawn_by() const;
-    void load_into_renderer(Shows shows);
-    void load_texture();
+    void load_models(Shows shows);
+    void drop_texels();
     void start_flight();
     report::FrameRecord picture_of(int frame, double time_s, std::optional<double> next_s);
     void look(Moment& moment) const;
@@ -158,7 +155,10 @@ private:
     void fill_in(const visuals::scene::PlanCounts& counts, report::FrameRecord& record);
     void change_world(const settings::Settings& settings);
     void change_picture(const settings::Settings& settings);
-    void take_ground(world::SceneGround ground);
+    void wait_for_meshes();
+    void make_renderer_ready(
+        const visuals::scene::ViewSettings& view, const visuals::scene::GroundTexture* texture);
+    void give_size_back();
     void follow_ground(bool other_control);
     void follow_inset();
 

@@ -10,7 +10,9 @@
 #include <stdexcept>
 #include <utility>
 
-// What a session does when its settings change while a flight goes on.
+// What a session does when its settings change while a flight goes on. First comes all that may
+// fail: loading, the work of threads, the renderer's memory. What could not be taken back comes
+// after it.
 
 namespace octant::ui::flight {
 
@@ -19,6 +21,9 @@ namespace scene = visuals::scene;
 void Session::apply(const settings::Settings& settings) {
     switch (settings::change_between(settings_, settings)) {
     case settings::SettingsChange::None:
+        break;
+    case settings::SettingsChange::Recording:
+        settings_ = settings;
         break;
     case settings::SettingsChange::Look:
         if (settings.view.eye_m != settings_.view.eye_m ||
@@ -37,11 +42,49 @@ void Session::apply(const settings::Settings& settings) {
     }
 }
 
-/// Loading comes before what could not be taken back; a driver that then has no memory ends it all.
+/// Throws what the meshing threads threw.
+void Session::wait_for_meshes() {
+    planner_->wait();
+    if (inset_) {
+        inset_->wait();
+    }
+}
+
+/// Makes the renderer ready for pictures of that size over ground of that texture; null: of the one
+/// that it has, if any. Throws Error and leaves it as it was.
+void Session::make_renderer_ready(
+    const scene::ViewSettings& view, const scene::GroundTexture* texture) {
+    renderer_->resize(view.size_px, view.samples);
+    if (texture == nullptr) {
+        return;
+    }
+    try {
+        renderer_->load_ground_texture(*texture);
+    } catch (const Error&) {
+        give_size_back();
+        throw;
+    }
+}
+
+/// Gives the renderer its size back and draws the last picture once more. A driver that has no
+/// memory any more for what it held before ends it all.
+void Session::give_size_back() {
+    try {
+        renderer_->resize(settings_.view.size_px, settings_.view.samples);
+    } catch (const Error& fault) {
+        throw std::runtime_error(fault.what());
+    }
+    if (plan_ != nullptr) {
+        draw_plans();
+    }
+}
+
 void Session::change_world(const settings::Settings& settings) {
     world::World world = world::load_world(settings, drawn_by());
     world::FrameTimes times = world::frame_times_of(settings, world.flight);
-    renderer_->resize(settings.view.size_px, settings.view.samples);
+    wait_for_meshes();
+    make_renderer_ready(settings.view, world.scene.ground_texture.get());
+
     const double time_s = simulation_->time_s();
     const bool goes_on =
         settings::change_between(settings_, settings) != settings::SettingsChange::Flight &&
@@ -52,11 +95,8 @@ void Session::change_world(const settings::Settings& settings) {
     settings_ = settings;
     world_ = std::move(world);
     times_ = std::move(times);
-    try {
-        load_into_renderer(Shows::World);
-    } catch (const Error& fault) {
-        throw std::runtime_error(fault.what());
-    }
+    load_models(Shows::World);
+    drop_texels();
     follow_inset();
     start_flight();
     if (goes_on) {
@@ -79,7 +119,6 @@ kept_ground(const scene::Scene& scene, const settings::Settings& settings) {
 
 } // namespace
 
-/// All that may fail comes before what could not be taken back.
 void Session::change_picture(const settings::Settings& settings) {
     settings::check_settings(settings);
     const scene::FixedPoints points = world::fixed_points(settings, world_);
@@ -88,34 +127,24 @@ void Session::change_picture(const settings::Settings& settings) {
     if (!ground.ground) {
         ground = world::load_scene_ground(settings, drawn_by());
     }
-    renderer_->resize(settings.view.size_px, settings.view.samples);
+    wait_for_meshes();
+    make_renderer_ready(settings.view, ground.texture.get());
 
-    const bool other_control = settings.ground.detail != settings_.ground.detail ||
-                               settings.ground.resolution_c != settings_.ground.resolution_c;
+    const bool other_control = !scene::same_detail_control(settings.ground, settings_.ground);
     plan_ = nullptr;
     settings_ = settings;
     world_.points = points;
-    take_ground(std::move(ground));
+    world_.scene.ground = std::move(ground.ground);
+    if (ground.texture) { // none comes with ground that was kept, which keeps its own
+        world_.scene.ground_texture = std::move(ground.texture);
+        drop_texels();
+    }
     follow_ground(other_control);
     follow_inset();
     if (next_is_reached_) {
         look(next_);
     }
     decider_.begin(settings_, rate_hz());
-}
-
-/// The texture stays where the ground has come without one.
-void Session::take_ground(world::SceneGround ground) {
-    world_.scene.ground = std::move(ground.ground);
-    if (!ground.texture) {
-        return;
-    }
-    world_.scene.ground_texture = std::move(ground.texture);
-    try {
-        load_texture();
-    } catch (const Error& fault) {
-        throw std::runtime_error(fault.what());
-    }
 }
 
 /// Plans by the settings and over the ground that the session has now. The detail of the ground

@@ -124,15 +124,15 @@ Plot histogram_plot(std::span<const FrameRecord> records) {
 }
 
 /// A column of the stage plot: the longest of some frames in a row.
-struct Column {
+struct PlotColumn {
     FrameRecord longest;
     double x_from = 0.0;
     double x_to = 0.0;
 };
 
-std::vector<Column> stage_columns(std::span<const FrameRecord> counted) {
+std::vector<PlotColumn> stage_columns(std::span<const FrameRecord> counted) {
     constexpr std::size_t most_columns = 400; // each wide enough to be seen
-    std::vector<Column> columns;
+    std::vector<PlotColumn> columns;
     const auto at = cuts(counted.size(), most_columns);
     for (std::size_t i = 0; i + 1 < at.size(); ++i) {
         const auto piece = counted.subspan(at[i], at[i + 1] - at[i]);
@@ -158,7 +158,7 @@ Plot stage_plot(std::span<const FrameRecord> records, double ceiling_ms) {
         Stage{"draw", blue, &FrameRecord::draw_ms},
         Stage{"read", amber, &FrameRecord::read_ms}};
     const std::vector<FrameRecord> counted = chosen_by_warm_up(records, false);
-    const std::vector<Column> columns = stage_columns(counted);
+    const std::vector<PlotColumn> columns = stage_columns(counted);
     Plot plot{"Stages, stacked", "frame", "ms", {}, {}, 0.0, ceiling_ms};
     if (columns.size() < counted.size()) {
         plot.x_label = "frame (columns show the longest of their frames)";

@@ -52,7 +52,7 @@ using R = FrameRecord;
 constexpr auto seconds = 6;
 constexpr auto milliseconds = 4;
 constexpr std::size_t required_columns = 16;
-constexpr std::array columns{
+constexpr std::array frame_columns{
     column<&R::frame>("frame"),
     column<&R::sim_time_s>("sim_time_s", Kind::Number, seconds),
     column<&R::wall_s>("wall_s", Kind::Number, seconds),
@@ -96,7 +96,7 @@ constexpr std::array columns{
 
 std::string header_line() {
     std::string line;
-    for (const Column& each : columns) {
+    for (const Column& each : frame_columns) {
         line += line.empty() ? "" : ",";
         line += each.name;
     }
@@ -128,19 +128,21 @@ std::vector<const Column*> read_header(
     std::span<const std::string_view> further) {
     std::vector<const Column*> order;
     for (const std::string_view name : split_fields(line, ',')) {
-        const auto found = std::find_if(
-            columns.begin(), columns.end(), [&](const Column& each) { return each.name == name; });
-        const Column* column = found == columns.end() ? nullptr : &*found;
+        const auto found =
+            std::find_if(frame_columns.begin(), frame_columns.end(), [&](const Column& each) {
+                return each.name == name;
+            });
+        const Column* column = found == frame_columns.end() ? nullptr : &*found;
         if (column != nullptr && std::find(order.begin(), order.end(), column) != order.end()) {
             error_at(path, 1, fmt::format("expected column {} once, got it twice", name));
         }
         order.push_back(column);
     }
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-        const std::string_view name = columns[i].name;
+    for (std::size_t i = 0; i < frame_columns.size(); ++i) {
+        const std::string_view name = frame_columns[i].name;
         const bool required = i < required_columns ||
                               std::find(further.begin(), further.end(), name) != further.end();
-        if (required && std::find(order.begin(), order.end(), &columns[i]) == order.end()) {
+        if (required && std::find(order.begin(), order.end(), &frame_columns[i]) == order.end()) {
             error_at(
                 path,
                 1,
@@ -191,7 +193,7 @@ std::string frame_csv_header() {
 
 std::string frame_csv_line(const FrameRecord& record) {
     std::string line;
-    for (const Column& each : columns) {
+    for (const Column& each : frame_columns) {
         line += line.empty() ? "" : ",";
         line += field_text(each, each.get(record));
     }
@@ -200,7 +202,7 @@ std::string frame_csv_line(const FrameRecord& record) {
 
 FrameRecord as_written(const FrameRecord& record) {
     FrameRecord rounded;
-    for (const Column& each : columns) {
+    for (const Column& each : frame_columns) {
         const std::string text = field_text(each, each.get(record));
         each.set(rounded, finite_number(text).value_or(std::numeric_limits<double>::quiet_NaN()));
     }

@@ -74,7 +74,7 @@ void complete_timing_files(const LoadedRecording& recording) {
     if (!fs::exists(mangohud, ignored)) {
         write_file(
             mangohud,
-            mangohud_csv(recording.records, recording.run.machine_info, recording.run.gl_renderer));
+            mangohud_csv(recording.records, recording.run.machine_info, recording.run.device));
     }
     const fs::path trace = recording.folder / "trace.json";
     if (!fs::exists(trace, ignored)) {

@@ -122,7 +122,7 @@ void Recording::set_settings(std::string settings_json) {
 Statistics Recording::finish(const RunEnd& end) {
     frames_file_.flush();
     const Statistics statistics = statistics_of(records_);
-    write_file(folder_ / "mangohud.csv", mangohud_csv(records_, info_.machine, info_.gl_renderer));
+    write_file(folder_ / "mangohud.csv", mangohud_csv(records_, info_.machine, info_.device));
     write_file(folder_ / "trace.json", trace_json(records_));
     write_file(folder_ / "run.json", run_json(info_, end, statistics));
     return statistics;

@@ -33,7 +33,7 @@ Json machine_json(const RunInfo& info) {
         {"memory_kb", machine.memory_kb},
         {"os", machine.os},
         {"kernel", machine.kernel},
-        {"gl_renderer", info.gl_renderer},
+        {"gl_renderer", info.device},
         {"compiler", machine.compiler},
         {"LP_NUM_THREADS", machine.lp_num_threads},
         {"start_time_utc", machine.start_time_utc},
@@ -197,7 +197,7 @@ RunFile read_run_file(const std::filesystem::path& path) {
         run.facts.emplace_back("note", shown(note));
     }
     run.machine_info = machine_from(member(json, "machine"));
-    run.gl_renderer = text_in(member(json, "machine"), "gl_renderer");
+    run.device = text_in(member(json, "machine"), "gl_renderer");
     run.path_offset = text_in(json, "path_offset_m");
     const Json summary = member(json, "summary");
     run.ended = summary.is_object();

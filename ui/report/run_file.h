@@ -26,7 +26,7 @@ struct RunInfo {
     std::string settings_json = "{}"; ///< an object as JSON text; its order is kept
     std::string version;
     std::string commit;
-    std::string gl_renderer;
+    std::string device;            ///< that draws; "gl_renderer" in the file
     glm::dvec3 path_offset_m{0.0}; ///< how the path was moved to stand over the ground
     MachineInfo machine;
     Rows facts;                     ///< anything else the report should show
@@ -53,10 +53,10 @@ struct RunFile {
     Rows machine;  ///< program, machine and renderer
     Rows facts;
     MachineInfo machine_info; ///< without cpu_times
-    std::string gl_renderer;
-    std::string path_offset; ///< "0, 0, 120 m"
-    bool ended = false;      ///< there is a summary
-    std::string state_hash;  ///< 16 hex digits, empty unless ended
+    std::string device;       ///< as RunInfo::device
+    std::string path_offset;  ///< "0, 0, 120 m"
+    bool ended = false;       ///< there is a summary
+    std::string state_hash;   ///< 16 hex digits, empty unless ended
     std::string picture_hash;
     std::vector<std::string> noise; ///< see noise_reasons
 };

@@ -28,6 +28,8 @@ inline constexpr std::array enum_names<SettingGroup>{
 /// it.
 enum class SettingsChange {
     None,
+    /// What a recording and a run without a window go by: the pictures stay as they are.
+    Recording,
     /// Only the eye point or the direction of view moves.
     Look,
     /// Frames are planned and drawn in another way from now on.

@@ -72,6 +72,20 @@ void check_ground(const scene::GroundSettings& ground, const std::string& terrai
     }
 }
 
+void check_ground_texture(const scene::AirSettings& air, const std::string& terrain) {
+    const bool draped = air.drape.has_value();
+    const bool textured = draped || air.ground_shading == scene::GroundShading::Texture;
+    if (textured && is_drawn_whole(terrain)) {
+        throw Error(fmt::format(
+            "{}: expected ground with heights (hills, canyon or a file), got --terrain {}",
+            draped ? "--drape" : "--ground-shading texture",
+            printable(terrain)));
+    }
+    if (draped && air.ground_shading == scene::GroundShading::Vertex) {
+        throw Error("--drape: expected --ground-shading texture or auto beside it, got vertex");
+    }
+}
+
 } // namespace
 
 void check_eye_point(const scene::ViewSettings& view) {
@@ -100,6 +114,7 @@ void check_settings(const Settings& settings) {
     }
     check_shading(settings.shading, settings.adapt);
     check_ground(settings.ground, settings.path.terrain);
+    check_ground_texture(settings.air, settings.path.terrain);
     check_eye_point(settings.view);
 }
 

@@ -10,32 +10,32 @@ namespace octant::ui::settings {
 inline constexpr std::tuple time_rows{
     setting<&Settings::time, &TimeSettings::rate_hz>(
         {"rate", "HZ", "frames a simulated second", 0.1, 1000.0},
-        {.group = SettingGroup::Time, .change = SettingsChange::Picture}),
+        {.group = SettingGroup::Time, .change = SettingsChange::Recording}),
     setting<&Settings::time, &TimeSettings::frame_per_sample>(
         {"frame-per-sample", "", "one frame a path sample, as the 1989 tables use"},
-        {.group = SettingGroup::Time, .change = SettingsChange::Picture}),
+        {.group = SettingGroup::Time, .change = SettingsChange::Recording}),
     setting<&Settings::time, &TimeSettings::start_s>(
         {"start", "S", "begin so far into the path", 0.0, 1e6},
         {.group = SettingGroup::Time, .change = SettingsChange::Flight}),
     setting<&Settings::time, &TimeSettings::frames>(
         {"frames", "N", "stop after so many frames [the whole path]", 1, 100000000},
-        {.group = SettingGroup::Time, .change = SettingsChange::Picture, .start = 600.0}),
+        {.group = SettingGroup::Time, .change = SettingsChange::Recording, .start = 600.0}),
     setting<&Settings::time, &TimeSettings::seconds>(
         {"seconds", "S", "stop after so much simulated time [the whole path]", 0.001, 1e6},
-        {.group = SettingGroup::Time, .change = SettingsChange::Picture, .start = 60.0}),
+        {.group = SettingGroup::Time, .change = SettingsChange::Recording, .start = 60.0}),
     setting<&Settings::time, &TimeSettings::warm_up>(
         {"warm-up", "N", "first frames that statistics leave out", 0, 1000000},
-        {.group = SettingGroup::Time, .change = SettingsChange::Picture}),
+        {.group = SettingGroup::Time, .change = SettingsChange::Recording}),
     setting<&Settings::time, &TimeSettings::realtime>(
         {"realtime", "", "no faster than the clock"},
-        {.group = SettingGroup::Time, .change = SettingsChange::Picture}),
+        {.group = SettingGroup::Time, .change = SettingsChange::Recording}),
     setting<&Settings::time, &TimeSettings::pictures>(
         {"pictures",
          "N",
          "with --record: every Nth frame as PNG, 0 = none [one a simulated second]",
          0,
          100000000},
-        {.group = SettingGroup::Time, .change = SettingsChange::Picture, .start = 60.0}),
+        {.group = SettingGroup::Time, .change = SettingsChange::Recording, .start = 60.0}),
     setting<&Settings::adapt>(
         {"adapt",
          "WHAT,...",

@@ -11,7 +11,7 @@ namespace octant::ui::window {
 
 namespace {
 
-constexpr std::array<std::string_view, 10> controls{
+constexpr std::array<std::string_view, 10> aircraft_settings{
     "axes",
     "shadows",
     "aircraft-error-px",
@@ -89,7 +89,7 @@ void aircraft_panel(ViewState& state, const flight::Session& session) {
     ImGui::BeginDisabled(state.recording.has_value());
     count_slider(state.wanted.path.aircraft);
     ImGui::EndDisabled();
-    edit_settings(state.wanted, controls);
+    edit_settings(state.wanted, aircraft_settings);
 }
 
 } // namespace octant::ui::window

@@ -10,7 +10,7 @@ namespace octant::ui::window {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> controls{"hidden-surface", "order-method"};
+constexpr std::array<std::string_view, 2> order_settings{"hidden-surface", "order-method"};
 
 void show_last_frame(const report::FrameRecord& last, const visuals::draworder::DrawOrder& order) {
     show_value("cell", fmt::format("{} of 0 to {}", last.draw_cell, order.cell_count() - 1));
@@ -59,7 +59,7 @@ void draw_order_panel(ViewState& state, const flight::Session& session) {
     if (!state.history.empty()) {
         show_last_frame(state.history.last(), scene.model_of(0).order);
     }
-    edit_settings(state.wanted, controls);
+    edit_settings(state.wanted, order_settings);
     ImGui::Checkbox("painting order on the polygons", &state.order_numbers);
     show_pixel_check(state);
 }

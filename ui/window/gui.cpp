@@ -1,5 +1,7 @@
 #include "ui/window/gui.h"
 
+#include "visuals/gl/window_context.h"
+
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
 
@@ -48,20 +50,19 @@ void set_style(float scale) {
 
 } // namespace
 
-Gui::Gui(
-    GLFWwindow* window, const gl::Functions& functions, const std::filesystem::path& layout_file)
+Gui::Gui(gl::WindowContext& window, const std::filesystem::path& layout_file)
     : layout_file_(layout_file.string()) {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = layout_file_.empty() ? nullptr : layout_file_.c_str();
     io.ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
-    set_style(content_scale(window));
-    ImGui_ImplGlfw_InitForOther(window, true);
+    set_style(content_scale(window.window()));
+    ImGui_ImplGlfw_InitForOther(window.window(), true);
     unsigned char* texels = nullptr;
     glm::ivec2 size{0};
     io.Fonts->GetTexDataAsAlpha8(&texels, &size.x, &size.y);
     painter_.emplace(
-        functions,
+        window,
         std::span(texels, static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y)),
         size);
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "visuals/gl/functions.h"
 #include "visuals/gl/panel_painter.h"
 
 #include <glm/vec2.hpp>
@@ -10,18 +9,18 @@
 #include <string>
 #include <vector>
 
-struct GLFWwindow;
+namespace octant::visuals::gl {
+class WindowContext;
+}
 
 namespace octant::ui::window {
 
 /// Dear ImGui over a window: its context, input and drawing. One at a time in a process.
 class Gui {
 public:
-    /// `layout_file` keeps the places of panels from one run to the next; an empty path keeps them
-    /// nowhere. The window's context must be current in every call.
-    Gui(GLFWwindow* window,
-        const visuals::gl::Functions& gl,
-        const std::filesystem::path& layout_file);
+    /// The window must outlive it. `layout_file` keeps the places of panels from one run to the
+    /// next; an empty path keeps them nowhere.
+    Gui(visuals::gl::WindowContext& window, const std::filesystem::path& layout_file);
     ~Gui();
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;

@@ -13,7 +13,7 @@ namespace octant::ui::window {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> controls{
+constexpr std::array<std::string_view, 9> scene_settings{
     "sun-azimuth",
     "sun-elevation",
     "visibility",
@@ -65,7 +65,7 @@ void scene_panel(ViewState& state, const flight::Session& session) {
     const auto& place = session.world().ground_place;
     time_of_day(state.wanted, place ? place->latitude_deg : latitude_without_place_deg);
     ImGui::Separator();
-    edit_settings(state.wanted, controls);
+    edit_settings(state.wanted, scene_settings);
     ImGui::Separator();
     ImGui::BeginDisabled(state.recording.has_value());
     count_slider(state.wanted.path.aircraft);

@@ -67,8 +67,7 @@ Viewer::Viewer(const ViewOptions& options)
         context_->swap_buffers();
     });
     keep_layout();
-    gui_ = std::make_unique<Gui>(
-        context_->window(), context_->functions(), layout_file(options_.keeps_into));
+    gui_ = std::make_unique<Gui>(*context_, layout_file(options_.keeps_into));
     refresh_hz_ = refresh_hz_of(glfwGetPrimaryMonitor());
     state_.wanted = settings;
     state_.vsync = options.vsync;
@@ -110,7 +109,6 @@ GLFWwindow* Viewer::window() const {
 }
 
 Viewer::~Viewer() {
-    session_->make_current();
     try {
         finish_recording();
     } catch (const std::exception&) {

@@ -46,9 +46,7 @@ WindowBench bench_window(const ViewOptions& options, int frames, bool quiet) {
                 all.push_back(watch.ms());
             }
         };
-        session.make_current();
         timed(without, [&] { session.draw(frame); });
-        viewer.session().make_current();
         viewer.state().open.shown = false;
         timed(hidden, [&] { viewer.turn(); });
         viewer.state().open.shown = true;

@@ -14,12 +14,9 @@ namespace octant::ui::world {
 /// What decides whether a texture is worth its time where the settings leave it open.
 enum class DrawnBy { Processor, Gpu };
 
-/// Throws Error where the settings ask for a texture and the ground has no heights to make one of.
-void check_untextured_ground(const settings::Settings& settings);
-
 /// The texture of the ground; nothing where it is drawn by its vertices' colours. What a person
-/// should be told goes to `notes`. `area`: of the samples. Throws Error for a drape that cannot be
-/// read or laid over the ground, and for one that the settings give no texture for.
+/// should be told goes to `notes`. `area`: of the samples. The settings have passed
+/// settings::check_settings. Throws Error for a drape that cannot be read or laid over the ground.
 std::optional<visuals::scene::GroundTexture> load_ground_texture(
     const visuals::terrain::GroundSamples& ground,
     const models::heights::GroundArea& area,

@@ -81,7 +81,6 @@ SceneGround load_field(const settings::Settings& settings, DrawnBy drawn_by) {
 }
 
 SceneGround load_polygons(const settings::Settings& settings) {
-    check_untextured_ground(settings);
     SceneGround loaded;
     loaded.name = settings.path.terrain;
     loaded.ground = scene::ground_from_polygons(

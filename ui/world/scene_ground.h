@@ -27,7 +27,7 @@ struct SceneGround {
 };
 
 /// Loads the ground of a run, whose settings have passed settings::check_settings. Throws Error for
-/// what cannot be read and for a texture on ground that has none.
+/// what cannot be read.
 SceneGround load_scene_ground(const settings::Settings& settings, DrawnBy drawn_by);
 
 } // namespace octant::ui::world

@@ -40,6 +40,11 @@ void Context::make_current() {
     current = this;
 }
 
+const Functions& Context::current_functions() {
+    make_current();
+    return functions_;
+}
+
 void Context::leave() {
     if (current == this) {
         release();
@@ -51,7 +56,8 @@ void Context::start(const std::string& kind, AddressOf address_of) {
     make_current();
     functions_ = load_functions(address_of);
     const std::string device = text(functions_, GL_RENDERER);
-    info_ = {kind, device, text(functions_, GL_VERSION), is_processor(device)};
+    const std::string description = kind + ", OpenGL " + text(functions_, GL_VERSION);
+    info_ = {description, device, is_processor(device)};
     print_debug_messages(functions_);
 }
 

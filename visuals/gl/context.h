@@ -24,11 +24,15 @@ public:
     Context(Context&&) = delete;
     Context& operator=(Context&&) = delete;
 
-    /// Makes it current in this thread. Whichever context was current is released first: a maker
-    /// (GLX, EGL, OSMesa) does not notice that another one took over. Throws Error.
+    /// Makes it current in this thread, which costs nothing where it is already. Whichever context
+    /// was current is released first: a maker (GLX, EGL, OSMesa) does not notice that another one
+    /// took over. To be called first by whatever draws with the functions. Throws Error.
     void make_current();
 
     const Functions& functions() const { return functions_; }
+
+    /// make_current(), then functions().
+    const Functions& current_functions();
 
     /// What draws.
     const scene::RendererInfo& info() const { return info_; }

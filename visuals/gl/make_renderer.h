@@ -6,8 +6,8 @@
 
 #include <memory>
 
-// Renderers by OpenGL for whoever knows nothing of OpenGL. Each has a context of its own, current
-// in this thread; picture size in pixels, 1 or 4 samples a pixel. All throw Error.
+// Renderers by OpenGL for whoever knows nothing of OpenGL. Each has a context of its own; picture
+// size in pixels, 1 or 4 samples a pixel. All throw Error.
 
 namespace octant::visuals::gl {
 
@@ -23,7 +23,7 @@ std::unique_ptr<scene::Renderer> make_egl_renderer(const glm::ivec2& size_px, in
 std::unique_ptr<scene::Renderer>
 make_hidden_window_renderer(const glm::ivec2& size_px, int samples);
 
-/// With a context that was made before and is current.
+/// With a context that was made before.
 std::unique_ptr<scene::Renderer>
 make_renderer(std::shared_ptr<Context> context, const glm::ivec2& size_px, int samples);
 

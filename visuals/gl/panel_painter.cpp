@@ -47,15 +47,21 @@ Object make_array(const Functions& gl, const StreamBuffer& vertices, const Strea
 } // namespace
 
 PanelPainter::PanelPainter(
-    const Functions& gl, std::span<const std::uint8_t> atlas, const glm::ivec2& size)
-    : gl_(gl)
-    , program_(make_program(gl, "panels", {panel_vert, panel_frag}))
-    , atlas_(make_atlas(gl, atlas, size))
-    , vertices_(gl, "panel vertices", first_capacity_bytes)
-    , indices_(gl, "panel indices", first_capacity_bytes)
-    , array_(make_array(gl, vertices_, indices_)) {}
+    Context& context, std::span<const std::uint8_t> atlas, const glm::ivec2& size)
+    : context_(context)
+    , gl_(context.current_functions())
+    , program_(make_program(gl_, "panels", {panel_vert, panel_frag}))
+    , atlas_(make_atlas(gl_, atlas, size))
+    , vertices_(gl_, "panel vertices", first_capacity_bytes)
+    , indices_(gl_, "panel indices", first_capacity_bytes)
+    , array_(make_array(gl_, vertices_, indices_)) {}
+
+PanelPainter::~PanelPainter() {
+    context_.make_current();
+}
 
 void PanelPainter::begin(const PanelSurface& surface) {
+    context_.make_current();
     surface_ = surface;
     gl_.bind_framebuffer(GL_FRAMEBUFFER, surface.framebuffer);
     gl_.viewport(0, 0, surface.size_px.x, surface.size_px.y);

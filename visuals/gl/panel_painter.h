@@ -1,5 +1,6 @@
 #pragma once
 
+#include "visuals/gl/context.h"
 #include "visuals/gl/object.h"
 #include "visuals/gl/stream_buffer.h"
 
@@ -33,14 +34,20 @@ struct PanelSurface {
     glm::vec2 size{1.0F}; ///< in the window's own units
 };
 
-/// Draws user-interface triangles over a window.
+/// Draws user-interface triangles over a window. Makes the window's context current by itself.
 class PanelPainter {
 public:
     /// `atlas`: one byte a texel, `size` of them, row by row: how much is covered. Not filtered:
-    /// glyphs are to lie on whole pixels.
-    PanelPainter(const Functions& gl, std::span<const std::uint8_t> atlas, const glm::ivec2& size);
+    /// glyphs are to lie on whole pixels. The context must outlive the painter.
+    PanelPainter(Context& context, std::span<const std::uint8_t> atlas, const glm::ivec2& size);
+    ~PanelPainter();
+    PanelPainter(const PanelPainter&) = delete;
+    PanelPainter& operator=(const PanelPainter&) = delete;
+    PanelPainter(PanelPainter&&) = delete;
+    PanelPainter& operator=(PanelPainter&&) = delete;
 
-    /// Call before the draw()s of a picture and after them.
+    /// To be called before the draw()s of a picture and after them, with nothing drawn otherwise
+    /// between.
     void begin(const PanelSurface& surface);
     void end();
 
@@ -51,6 +58,7 @@ public:
         std::span<const PanelDraw> draws);
 
 private:
+    Context& context_;
     const Functions& gl_;
     Object program_;
     Object atlas_;

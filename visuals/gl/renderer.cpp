@@ -63,7 +63,7 @@ PictureValues values_of(const FramePlan& plan, const PixelRect& rect, Rows rows)
 
 Renderer::Renderer(std::shared_ptr<Context> context, const glm::ivec2& size_px, int samples)
     : context_(std::move(context))
-    , gl_(context_->functions())
+    , gl_(context_->current_functions())
     , framebuffer_(gl_, size_px.x, size_px.y, samples)
     , picture_values_(gl_, "picture values", sizeof(PictureValues))
     , state_(gl_)
@@ -84,22 +84,27 @@ void Renderer::resize(const glm::ivec2& size_px, int samples) {
     if (framebuffer_.fits(size_px, samples)) {
         return;
     }
+    context_->make_current();
     framebuffer_ = Framebuffer(gl_, size_px.x, size_px.y, samples);
 }
 
 void Renderer::copy_to_window(const glm::ivec2& size_px) {
+    context_->make_current();
     framebuffer_.copy_to(0, size_px);
 }
 
 void Renderer::load_models(std::span<const scene::ModelBuffers> models) {
+    context_->make_current();
     aircraft_.load_models(models);
 }
 
 void Renderer::load_ground_texture(const scene::GroundTexture& texture) {
+    context_->make_current();
     triangles_.load_texture(texture);
 }
 
 void Renderer::draw(const FramePlan& plan) {
+    context_->make_current();
     const bool fits =
         plan.depth_boxes.empty() && !aircraft_.has_meshes() && framebuffer_.fits(window_px_, 1);
     rows_ = fits ? Rows::FromBelow : Rows::FromTop;
@@ -113,6 +118,7 @@ void Renderer::draw_inset(const FramePlan& plan, const PixelRect& rect) {
     assert(rect.width > 0 && rect.height > 0 && rect.x >= 0 && rect.y >= 0);
     assert(rect.x + rect.width <= framebuffer_.width());
     assert(rect.y + rect.height <= framebuffer_.height());
+    context_->make_current();
     const GLuint target = target_of(plan);
     gl_.bind_framebuffer(GL_FRAMEBUFFER, target);
     const int frame = std::max(framebuffer_.height() / frame_rows, 1);
@@ -209,6 +215,7 @@ void Renderer::clear_depth(const scene::PixelBox& box, const Place& place) {
 }
 
 void Renderer::finish() {
+    context_->make_current();
     gl_.finish();
     const GLenum fault = gl_.get_error();
     if (fault != GL_NO_ERROR) {

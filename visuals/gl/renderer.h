@@ -25,10 +25,13 @@ namespace octant::visuals::gl {
 /// edge-on, which the driver must judge by the positions it draws. A flat triangle of an aircraft
 /// has the colour of its first vertex: a polygon split into a fan around its first corner keeps one
 /// colour.
+///
+/// Every call that needs it makes the context current by itself, so that renderers can take turns
+/// in a thread. A change from one context to another takes 1 or 2 us.
 class Renderer final : public scene::Renderer {
 public:
-    /// Picture size in pixels, 1 or 4 samples a pixel. The context must be current; it stays alive
-    /// as long as a renderer that draws with it. Throws Error when the driver cannot.
+    /// Picture size in pixels, 1 or 4 samples a pixel. The context stays alive as long as a
+    /// renderer that draws with it. Throws Error when the driver cannot.
     Renderer(std::shared_ptr<Context> context, const glm::ivec2& size_px, int samples);
     ~Renderer() override;
     Renderer(const Renderer&) = delete;
@@ -37,8 +40,6 @@ public:
     Renderer& operator=(Renderer&&) = delete;
 
     const scene::RendererInfo& info() const override { return context_->info(); }
-
-    void make_current() override { context_->make_current(); }
 
     std::unique_ptr<scene::Renderer> beside(const glm::ivec2& size_px, int samples) const override;
 

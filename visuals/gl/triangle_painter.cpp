@@ -43,7 +43,6 @@ TrianglePainter::TrianglePainter(const Functions& gl, DrawState& state)
     , array_(make_array(gl, vertices_, indices_)) {}
 
 void TrianglePainter::load_texture(const scene::GroundTexture& texture) {
-    texture_.reset();
     texture_ = {
         make_program_pair(gl_, "textured ground", {ground_textured_vert, ground_textured_frag}),
         make_texture(gl_, texture.albedo, TextureKind::Colours),

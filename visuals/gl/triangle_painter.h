@@ -17,8 +17,8 @@ class TrianglePainter {
 public:
     TrianglePainter(const Functions& gl, DrawState& state);
 
-    /// Uploads the ground's texture in place of one loaded before. Throws Error when the driver has
-    /// no memory for it.
+    /// Uploads the ground's texture in place of one loaded before. Throws Error and keeps that one
+    /// when the driver has no memory for it.
     void load_texture(const scene::GroundTexture& texture);
 
     bool has_texture() const { return texture_.has_value(); }

@@ -73,9 +73,15 @@ public:
 
     GLFWwindow* window() const override { return window_; }
 
-    void wait_for_refresh(bool wait) override { glfwSwapInterval(wait ? 1 : 0); }
+    void wait_for_refresh(bool wait) override {
+        make_current();
+        glfwSwapInterval(wait ? 1 : 0);
+    }
 
-    void swap_buffers() override { glfwSwapBuffers(window_); }
+    void swap_buffers() override {
+        make_current();
+        glfwSwapBuffers(window_);
+    }
 
 private:
     void bind() override { glfwMakeContextCurrent(window_); }

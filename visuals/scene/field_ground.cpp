@@ -10,7 +10,6 @@
 #include "visuals/terrain/settled_resolution.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -29,12 +28,12 @@ constexpr double midpoint_weight = 20.0;
 constexpr double printed_weight = 5.0;
 constexpr double reference_fov_rad = rad_from_deg(45.0); ///< of the lens for which C is meant
 
-terrain::QuadtreeOptions quadtree_options(const Settings& settings) {
+terrain::QuadtreeOptions quadtree_options(const GroundSettings& settings) {
     return {
-        .roughness = ground_metric(settings.ground) == GroundMetric::Printed
+        .roughness = ground_metric(settings) == GroundMetric::Printed
                          ? terrain::Roughness::Literal
                          : terrain::Roughness::Midpoint,
-        .propagation = settings.ground.propagation == Propagation::Printed
+        .propagation = settings.propagation == Propagation::Printed
                            ? terrain::Propagation::Printed
                            : terrain::Propagation::CrackFree};
 }
@@ -70,7 +69,7 @@ class FieldGround final : public Ground {
 public:
     FieldGround(std::shared_ptr<const models::heights::HeightField> field, const Settings& settings)
         : field_(std::move(field))
-        , tree_(*field_, quadtree_options(settings))
+        , tree_(*field_, quadtree_options(settings.ground))
         , air_(settings.air)
         , colours_(ground_colours(*field_, settings.air))
         , mean_colour_(scene::mean_colour(colours_)) {
@@ -99,12 +98,15 @@ public:
 
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
-    bool suits(const Settings& settings) const override {
+    bool is_meshed_as(const GroundSettings& settings) const override {
         const terrain::QuadtreeOptions wanted = quadtree_options(settings);
-        return ground_metric(settings.ground) != GroundMetric::ScreenError &&
+        return ground_metric(settings) != GroundMetric::ScreenError &&
                wanted.roughness == tree_.options().roughness &&
-               wanted.propagation == tree_.options().propagation &&
-               same_colours(settings.air, air_);
+               wanted.propagation == tree_.options().propagation;
+    }
+
+    bool is_coloured_as(const AirSettings& settings) const override {
+        return same_colours(settings, air_);
     }
 
     std::shared_ptr<const Ground> remade(const Settings& settings) const override {
@@ -114,9 +116,9 @@ public:
         return std::make_shared<FieldGround>(field_, settings);
     }
 
-    std::unique_ptr<GroundMesher> mesher(const Settings& settings) const override;
-
 private:
+    std::unique_ptr<GroundMesher> make_mesher(const Settings& settings) const override;
+
     std::shared_ptr<const models::heights::HeightField> field_;
     terrain::Quadtree tree_;
     AirSettings air_;
@@ -217,8 +219,7 @@ private:
     bool fixed_resolution_ = false;
 };
 
-std::unique_ptr<GroundMesher> FieldGround::mesher(const Settings& settings) const {
-    assert(ground_metric(settings.ground) != GroundMetric::ScreenError);
+std::unique_ptr<GroundMesher> FieldGround::make_mesher(const Settings& settings) const {
     return std::make_unique<FieldMesher>(
         std::static_pointer_cast<const FieldGround>(shared_from_this()), settings);
 }

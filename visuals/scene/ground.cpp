@@ -1,10 +1,18 @@
 #include "visuals/scene/ground.h"
 
+#include <cassert>
+
 namespace octant::visuals::scene {
+
+std::unique_ptr<GroundMesher> Ground::mesher(const Settings& settings) const {
+    assert(is_meshed_as(settings.ground));
+    return make_mesher(settings);
+}
 
 std::unique_ptr<GroundMesher>
 mesher_after(std::unique_ptr<GroundMesher> before, const Ground& ground, const Settings& settings) {
-    if (!before || &before->ground() != &ground) {
+    assert(ground.is_meshed_as(settings.ground));
+    if (!before || (&before->ground() != &ground && !before->move_to(ground.shared_from_this()))) {
         return ground.mesher(settings);
     }
     before->follow(settings);

@@ -40,8 +40,17 @@ public:
     virtual double mean_height_m() const = 0;
     virtual glm::vec3 mean_colour() const = 0;
 
+    /// Whether meshes of this ground are refined by what these settings say.
+    virtual bool is_meshed_as(const GroundSettings& /*settings*/) const { return true; }
+
+    /// Whether it has the colours that these settings give it. Their palette is that of the ground:
+    /// where none is named, temperate.
+    virtual bool is_coloured_as(const AirSettings& /*settings*/) const { return true; }
+
     /// Whether loading the same heights by these settings would give this ground.
-    virtual bool suits(const Settings& /*settings*/) const { return true; }
+    bool suits(const Settings& settings) const {
+        return is_meshed_as(settings.ground) && is_coloured_as(settings.air);
+    }
 
     /// Ground of the same heights as these settings want it, made of what is in memory; null where
     /// it must be loaded. Loading work.
@@ -49,15 +58,19 @@ public:
         return nullptr;
     }
 
-    /// The meshes of one more view by settings that suit this ground (asserted).
-    virtual std::unique_ptr<GroundMesher> mesher(const Settings& settings) const = 0;
+    /// The meshes of one more view. The ground is_meshed_as() the settings say (asserted); its
+    /// colours are its own, whatever they say of colours.
+    std::unique_ptr<GroundMesher> mesher(const Settings& settings) const;
 
 protected:
     Ground() = default;
+
+private:
+    virtual std::unique_ptr<GroundMesher> make_mesher(const Settings& settings) const = 0;
 };
 
 /// The mesher by which a view goes on under other settings: `before` where it meshes this very
-/// ground, else a new one. The ground suits() the settings (asserted).
+/// ground or the same one in other colours, else a new one. As Ground::mesher.
 std::unique_ptr<GroundMesher>
 mesher_after(std::unique_ptr<GroundMesher> before, const Ground& ground, const Settings& settings);
 

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace octant::visuals::scene {
@@ -45,13 +46,21 @@ public:
     virtual void settle(const GroundRequest& /*request*/) {}
 
     /// Meshes by other settings from the next frame on; the detail control goes on from where it
-    /// is. The ground suits() them (asserted).
+    /// is. The ground is_meshed_as() they say (asserted by mesher_after).
     virtual void follow(const Settings& /*settings*/) {}
 
+    /// Goes on over another ground from the next frame on, where that has the same heights in the
+    /// same memory and only other colours. Otherwise returns false and has changed nothing.
+    virtual bool move_to(const std::shared_ptr<const Ground>& /*ground*/) { return false; }
+
     /// Begins the work of the next triangles() beside the caller, which should then ask for the
-    /// same. Until that call nothing else may be asked about triangles; those of the last one stay
-    /// valid. May be left out: changes no mesh.
+    /// same; a second call before that one does nothing. Until that call nothing else may be asked
+    /// about triangles; those of the last one stay valid. May be left out: changes no mesh.
     virtual void prepare(const GroundRequest& /*request*/) {}
+
+    /// Returns when nothing is being prepared. Throws what that work threw; the mesh is then made
+    /// when it is asked for.
+    virtual void wait() {}
 
     /// The triangles of one frame in painting order, farthest first, valid until the next call, and
     /// what they cost. Advances the detail control by one frame.

@@ -65,7 +65,9 @@ public:
 
     int polygons() const { return polygons_; }
 
-    bool suits(const Settings& settings) const override { return same_colours(settings.air, air_); }
+    bool is_coloured_as(const AirSettings& settings) const override {
+        return same_colours(settings, air_);
+    }
 
     std::optional<double> height_at(double x_m, double y_m) const override {
         const bool inside = std::abs(x_m) <= half_extent_m_.x && std::abs(y_m) <= half_extent_m_.y;
@@ -80,9 +82,9 @@ public:
 
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
-    std::unique_ptr<GroundMesher> mesher(const Settings& settings) const override;
-
 private:
+    std::unique_ptr<GroundMesher> make_mesher(const Settings& settings) const override;
+
     void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         indices_.insert(indices_.end(), {a, b, c});
         const glm::dvec3& a_m = corners_m_[a];
@@ -137,7 +139,7 @@ private:
     std::vector<models::ColourVertex> vertices_;
 };
 
-std::unique_ptr<GroundMesher> PaintedGround::mesher(const Settings& /*settings*/) const {
+std::unique_ptr<GroundMesher> PaintedGround::make_mesher(const Settings& /*settings*/) const {
     return std::make_unique<PaintedMesher>(
         std::static_pointer_cast<const PaintedGround>(shared_from_this()));
 }

@@ -88,6 +88,10 @@ public:
     /// no plan.
     void prepare(const Camera& camera, std::optional<int> triangle_target = std::nullopt);
 
+    /// Returns when nothing is being prepared. Throws what that work threw; the plan is then made
+    /// when it is asked for.
+    void wait() { mesher_->wait(); }
+
     /// The plan of the next frame, and what it holds. No allocation once the first frames have been
     /// planned.
     PlannedFrame plan(const PlanRequest& request);

@@ -14,14 +14,13 @@ namespace octant::visuals::scene {
 
 /// What draws, for reports.
 struct RendererInfo {
-    std::string kind;          ///< "osmesa", "egl" or "window"
-    std::string device;        ///< what the driver calls the device
-    std::string version;       ///< the driver's
+    std::string description;   ///< how it draws, and by what: "osmesa, OpenGL 4.5 (...)"
+    std::string device;        ///< the GPU, or the driver's name for what stands in for one
     bool on_processor = false; ///< a processor draws, not a GPU
 };
 
 /// Makes pictures of frame plans: draws their steps in their order and decides nothing. Belongs to
-/// the thread that made it.
+/// the thread that made it, in which several may take turns.
 class Renderer {
 public:
     virtual ~Renderer() = default;
@@ -32,11 +31,8 @@ public:
 
     virtual const RendererInfo& info() const = 0;
 
-    /// To be called before other calls when several renderers take turns in a thread. Throws Error.
-    virtual void make_current() = 0;
-
-    /// Another renderer on the same device, with nothing loaded: both are current together. Throws
-    /// Error when the driver cannot hold that size.
+    /// Another renderer on the same device, with nothing loaded. Throws Error when the driver
+    /// cannot hold that size.
     virtual std::unique_ptr<Renderer> beside(const glm::ivec2& size_px, int samples) const = 0;
 
     /// Draws pictures of another size or with other samples (1 or 4 a pixel) from now on. Throws
@@ -48,7 +44,7 @@ public:
     virtual void load_models(std::span<const ModelBuffers> models) = 0;
 
     /// Loads the ground's texture, in place of one loaded before: FramePlan::ground_texture asks
-    /// for it. Throws Error when the driver has no memory for it.
+    /// for it. Throws Error and keeps that one when the driver has no memory for it.
     virtual void load_ground_texture(const GroundTexture& texture) = 0;
 
     /// Draws once in every state that a plan can ask for, because drivers compile on first use

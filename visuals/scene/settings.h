@@ -140,6 +140,11 @@ inline GroundMetric ground_metric(const GroundSettings& settings) {
         of_the_paper ? GroundMetric::Midpoint : GroundMetric::ScreenError);
 }
 
+/// Whether the detail of the ground is controlled alike, so that one goes on where the other was.
+inline bool same_detail_control(const GroundSettings& a, const GroundSettings& b) {
+    return a.detail == b.detail && a.resolution_c == b.resolution_c;
+}
+
 /// A triangle target beyond all meshes.
 inline constexpr int unlimited_triangles = 1000000000;
 

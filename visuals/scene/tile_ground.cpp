@@ -9,7 +9,6 @@
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/ground_tiles.h"
 
-#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -47,20 +46,22 @@ public:
 
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
-    bool suits(const Settings& settings) const override {
-        return ground_metric(settings.ground) == GroundMetric::ScreenError &&
-               same_colours(settings.air, air_);
+    bool is_meshed_as(const GroundSettings& settings) const override {
+        return ground_metric(settings) == GroundMetric::ScreenError;
+    }
+
+    bool is_coloured_as(const AirSettings& settings) const override {
+        return same_colours(settings, air_);
     }
 
     std::shared_ptr<const Ground> remade(const Settings& settings) const override {
-        return ground_metric(settings.ground) == GroundMetric::ScreenError
-                   ? std::make_shared<TileGround>(tiles_, settings)
-                   : nullptr;
+        return is_meshed_as(settings.ground) ? std::make_shared<TileGround>(tiles_, settings)
+                                             : nullptr;
     }
 
-    std::unique_ptr<GroundMesher> mesher(const Settings& settings) const override;
-
 private:
+    std::unique_ptr<GroundMesher> make_mesher(const Settings& settings) const override;
+
     std::shared_ptr<const terrain::GroundTiles> tiles_;
     AirSettings air_;
     glm::vec3 mean_colour_;
@@ -81,7 +82,6 @@ public:
 
     void follow(const Settings& settings) override {
         worker_.wait();
-        prepared_.reset();
         order_ = settings.surface.hidden_surface == HiddenSurface::DepthBuffer
                      ? terrain::PaintOrder::FrontToBack
                      : terrain::PaintOrder::BackToFront;
@@ -91,22 +91,38 @@ public:
         earth_radius_m_ = settings.ground.earth_curvature ? terrain::earth_radius_m : 0.0;
     }
 
-    double earth_radius_m() const override { return earth_radius_m_; }
-
-    void prepare(const GroundRequest& request) override {
-        aim_at(request.triangle_target);
-        prepared_ = view_of(request);
-        worker_.begin([this] { make(*prepared_); });
+    bool move_to(const std::shared_ptr<const Ground>& ground) override {
+        auto moved = std::dynamic_pointer_cast<const TileGround>(ground);
+        if (!moved || &moved->tiles() != &ground_->tiles()) {
+            return false;
+        }
+        worker_.wait();
+        ground_ = std::move(moved);
+        colours_.follow(ground_->air());
+        is_coloured_ = false;
+        return true;
     }
 
-    TriangleDraw triangles(const GroundRequest& request, GroundCounts& counts) override {
-        aim_at(request.triangle_target);
+    double earth_radius_m() const override { return earth_radius_m_; }
+
+    /// A second mesh ahead would take the memory of the one that is being drawn.
+    void prepare(const GroundRequest& request) override {
         worker_.wait();
-        const terrain::MeshView view = view_of(request);
-        if (prepared_ != view) {
-            make(view);
+        if (std::exchange(is_ahead_, true)) {
+            return;
         }
-        prepared_.reset();
+        aim_at(request.triangle_target);
+        next_view_ = view_of(request);
+        worker_.begin([this] { make(next_view_); });
+    }
+
+    void wait() override { worker_.wait(); }
+
+    TriangleDraw triangles(const GroundRequest& request, GroundCounts& counts) override {
+        is_ahead_ = false;
+        worker_.wait();
+        aim_at(request.triangle_target);
+        make(view_of(request));
         const glm::dvec3& eye_m = request.camera.eye_m;
         const glm::dvec3 way_m = eye_m - last_eye_m_.value_or(eye_m);
         prefetcher_.go_to(glm::dvec2(eye_m + frames_ahead * way_m));
@@ -120,20 +136,18 @@ public:
     }
 
 private:
-    /// What has been prepared for another target is made anew.
     void aim_at(int triangles) {
-        const int most = triangles >= unlimited_triangles ? terrain::any_triangles : triangles;
-        if (most != target_.most_triangles) {
-            worker_.wait();
-            prepared_.reset();
-            target_.most_triangles = most;
-        }
+        target_.most_triangles =
+            triangles >= unlimited_triangles ? terrain::any_triangles : triangles;
     }
 
+    /// Does nothing where this mesh is the last one.
     void make(const terrain::MeshView& view) {
         const terrain::GroundMesh mesh = mesher_.mesh(view, target_);
-        if (mesh.vertices.data() != mesh_.vertices.data()) {
+        if (!is_coloured_ || mesh.vertices.data() != mesh_.vertices.data()) {
+            is_coloured_ = false;
             colours_.fill(mesher_.vertices(), mesh.origins);
+            is_coloured_ = true;
             mesher_.measure_boxes();
         }
         mesh_ = mesh;
@@ -156,14 +170,15 @@ private:
     terrain::ErrorTarget target_;
     double earth_radius_m_ = 0.0;
     terrain::GroundMesh mesh_;
-    std::optional<terrain::MeshView> prepared_;
+    bool is_coloured_ = false;    ///< mesh_, in the ground's colours
+    terrain::MeshView next_view_; ///< of the mesh that is made ahead
+    bool is_ahead_ = false;       ///< a mesh has been begun that nobody has asked for yet
     std::optional<glm::dvec3> last_eye_m_;
     terrain::GroundPrefetcher prefetcher_;
     Worker worker_; ///< goes first: it uses the others
 };
 
-std::unique_ptr<GroundMesher> TileGround::mesher(const Settings& settings) const {
-    assert(ground_metric(settings.ground) == GroundMetric::ScreenError);
+std::unique_ptr<GroundMesher> TileGround::make_mesher(const Settings& settings) const {
     return std::make_unique<TileMesher>(
         std::static_pointer_cast<const TileGround>(shared_from_this()), settings);
 }

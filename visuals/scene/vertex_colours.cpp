@@ -61,6 +61,13 @@ VertexColours::VertexColours(const terrain::GroundTiles& ground, const AirSettin
     stale_.resize(least_places);
 }
 
+void VertexColours::follow(const AirSettings& settings) {
+    palette_ = GroundPalette(settings);
+    std::ranges::fill(fresh_, Entry{});
+    std::ranges::fill(stale_, Entry{});
+    fresh_count_ = 0;
+}
+
 void VertexColours::fill(
     std::span<models::ColourVertex> vertices, std::span<const terrain::VertexOrigin> origins) {
     assert(vertices.size() == origins.size());

@@ -24,6 +24,9 @@ public:
     /// The ground must outlive the colours.
     VertexColours(const terrain::GroundTiles& ground, const AirSettings& settings);
 
+    /// Gives other colours from now on.
+    void follow(const AirSettings& settings);
+
     /// Fills in ColourVertex::colour; `origins` as GroundMesh::origins.
     void
     fill(std::span<models::ColourVertex> vertices, std::span<const terrain::VertexOrigin> origins);

@@ -68,6 +68,7 @@ GroundMesh ErrorMesher::mesh(const MeshView& view, const ErrorTarget& target) {
     if (meshed_ && view == view_ && target == target_) {
         return mesh_;
     }
+    meshed_ = false;
     view_ = view;
     target_ = target;
     rule_.look_from(view);

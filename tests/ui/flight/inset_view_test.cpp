@@ -129,3 +129,18 @@ TEST_CASE("an inset follows the scene to another ground") {
     inset.follow(settings);
     CHECK(triangles_of(inset) > level);
 }
+
+TEST_CASE("an inset settles anew when the control of its ground changes") {
+    ui::world::World world = small_world();
+    ui::settings::Settings settings = with_inset();
+    settings.ground.mesh = scene::GroundMetric::Midpoint;
+    settings.ground.detail = scene::DetailControl::Damped;
+    settings.ground.resolution_c = 3.0;
+    world.scene.ground = scene::ground_from_field(rough_field(), settings);
+    InsetView inset(settings, world.scene);
+    triangles_of(inset);
+    settings.ground.resolution_c = 30.0;
+    inset.follow(settings);
+    InsetView made_so(settings, world.scene);
+    CHECK(triangles_of(inset) == triangles_of(made_so));
+}

@@ -23,7 +23,7 @@ RunInfo made_up_info() {
     info.settings_json = R"({"path":"turn","aircraft":["f15","500md"],"rate":60,"nested":{"a":1}})";
     info.version = "0.1.0";
     info.commit = "abc1234";
-    info.gl_renderer = "some, renderer";
+    info.device = "some, renderer";
     info.path_offset_m = {0, 0, 412.5};
     info.machine.cpu = "cpu, fast";
     info.machine.cores = 2;

@@ -11,6 +11,8 @@ TEST_CASE("a change of settings costs what has to be made anew for it") {
     const Settings before;
     CHECK(change_between(before, before) == SettingsChange::None);
     Settings after = before;
+    after.time.rate_hz = 30.0;
+    CHECK(change_between(before, after) == SettingsChange::Recording);
     after.view.azimuth_deg = 10.0;
     CHECK(change_between(before, after) == SettingsChange::Look);
     after.ground.triangles = 5000;

@@ -90,3 +90,24 @@ TEST_CASE("the screen error is refused beside what only the quadtree has") {
         "--mesh screen-error: expected --detail exact without --roughness-c, --fans or "
         "--propagation, got one that only --mesh midpoint or printed has");
 }
+
+TEST_CASE("a texture needs ground with heights, and a drape ground that is lit at each pixel") {
+    Settings settings;
+    settings.air.drape = "map.png";
+    CHECK_NOTHROW(ui::settings::check_settings(settings));
+    settings.air.ground_shading = scene::GroundShading::Vertex;
+    check_refused(
+        settings, "--drape: expected --ground-shading texture or auto beside it, got vertex");
+    settings.path.terrain = "background60";
+    check_refused(
+        settings,
+        "--drape: expected ground with heights (hills, canyon or a file), got --terrain "
+        "background60");
+    settings.air.drape.reset();
+    CHECK_NOTHROW(ui::settings::check_settings(settings));
+    settings.air.ground_shading = scene::GroundShading::Texture;
+    check_refused(
+        settings,
+        "--ground-shading texture: expected ground with heights (hills, canyon or a file), got "
+        "--terrain background60");
+}

@@ -127,15 +127,6 @@ TEST_CASE("a ground is loaded with what is to be said of it, and textured where 
     CHECK(textured.texture->albedo.width == 257);
     CHECK(textured.name == bare.name + ", textured");
     CHECK(textured.ground->height_at(100.0, -300.0) == bare.ground->height_at(100.0, -300.0));
-    CHECK_THROWS_AS(
-        ui::world::load_scene_ground(
-            [] {
-                Settings none = over("none");
-                none.air.ground_shading = visuals::scene::GroundShading::Texture;
-                return none;
-            }(),
-            DrawnBy::Processor),
-        Error);
 }
 
 TEST_CASE("pictures are taken at the path's samples or at a rate, as long as is asked for") {

@@ -110,7 +110,6 @@ TEST_CASE("an inset shows what a renderer of its size shows, around it nothing c
     Studio large(gl::make_osmesa_context(), 1, 200, 120);
     Studio small(gl::make_osmesa_context(), 1, rect.width, rect.height);
     for (Studio* studio : {&large, &small}) {
-        studio->context().make_current();
         studio->renderer().load_models(full.models());
     }
     for (const Way outer_way : all_ways) {
@@ -121,7 +120,6 @@ TEST_CASE("an inset shows what a renderer of its size shows, around it nothing c
             const scene::Picture alone = small.picture(inset, way, FullScene::shadow_indices);
             const scene::Picture without =
                 large.picture(plan, outer_way, FullScene::shadow_indices);
-            large.context().make_current();
             scene::Picture with;
             large.renderer().draw(framed(plan, outer_way, FullScene::shadow_indices));
             large.renderer().draw_inset(framed(inset, way, FullScene::shadow_indices), rect);
@@ -150,7 +148,6 @@ TEST_CASE("in an inset planes cut where they cut in a picture of its own") {
         {{glm::vec4(1.0F, 0.0F, 0.0F, 0.0F), glm::vec4(0.0F, 1.0F, 0.0F, 0.0F)}, 2});
     inset.steps = {{scene::PaintStep::What::Aircraft, 0, 1, 0}};
     const scene::PixelRect rect{24, 40, 20, 20};
-    studio.context().make_current();
     studio.renderer().draw(empty_plan());
     studio.renderer().draw_inset(inset, rect);
     scene::Picture picture;
@@ -169,7 +166,6 @@ TEST_CASE("an inset may lie in a corner, and the next picture is whole again") {
     green_plan.background = green;
     for (const Way way : all_ways) {
         scene::FramePlan plan = empty_plan();
-        studio.context().make_current();
         studio.renderer().draw(framed(plan, way));
         studio.renderer().draw_inset(framed(green_plan, way), {0, 44, 20, 20});
         scene::Picture picture;

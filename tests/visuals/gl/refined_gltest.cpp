@@ -66,10 +66,7 @@ public:
         }
     }
 
-    void load(Studio& studio) {
-        studio.context().make_current();
-        studio.renderer().load_models({&level_, 1});
-    }
+    void load(Studio& studio) { studio.renderer().load_models({&level_, 1}); }
 
     int triangles() const { return static_cast<int>(refined_.size() / 3); }
 

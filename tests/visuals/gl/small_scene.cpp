@@ -82,7 +82,6 @@ void load_squares(Studio& studio, bool as_meshes) {
     for (scene::ModelBuffers& model : models) {
         model.has_meshes = as_meshes;
     }
-    studio.context().make_current();
     studio.renderer().load_models(models);
 }
 
@@ -152,7 +151,6 @@ scene::FramePlan FullScene::plan() const {
 
 std::uint64_t hash_of_full_scene(Studio& studio) {
     const FullScene full;
-    studio.context().make_current();
     studio.renderer().load_models(full.models());
     Hash hash;
     for (const Way way : all_ways) {

@@ -148,7 +148,6 @@ public:
     /// Of the framed() plan.
     scene::Picture
     picture(const scene::FramePlan& plan, Way way = Way::InOrder, int shadow_indices = 0) {
-        context_->make_current();
         scene::Picture drawn;
         renderer_.draw(framed(plan, way, shadow_indices));
         renderer_.finish_and_read(drawn);

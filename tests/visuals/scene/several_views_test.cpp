@@ -2,8 +2,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -120,6 +122,62 @@ TEST_CASE("meshes made ahead and meshes made when they are asked for are the sam
         CHECK(counts_a.ground.triangles <= target);
         CHECK(a.ground.indices.size() == b.ground.indices.size());
     }
+}
+
+TEST_CASE("a mesh asked for ahead twice is begun once and leaves the drawn one as it is") {
+    const scene::Settings settings = plain_settings();
+    const scene::Scene scene =
+        scene_over(scene::ground_from_tiles(terrain::ground_of(rough_field()), settings));
+    const std::array there{state_at({0, 0, 100})};
+    scene::Planner ahead(scene, settings);
+    scene::Planner at_once(scene, settings);
+    for (int frame = 0; frame < 6; ++frame) {
+        const scene::FramePlan& drawn = ahead.plan({camera_at(frame), there, 500}).plan;
+        const std::vector<std::uint32_t> indices(
+            drawn.ground.indices.begin(), drawn.ground.indices.end());
+        ahead.prepare(camera_at(frame + 3), 500);
+        ahead.prepare(camera_at(frame + 1), 300 + 50 * frame);
+        ahead.prepare(camera_at(frame + 2), 500);
+        ahead.wait();
+        CHECK(std::ranges::equal(drawn.ground.indices, indices));
+        const scene::FramePlan& expected = at_once.plan({camera_at(frame), there, 500}).plan;
+        CHECK(std::ranges::equal(drawn.ground.indices, expected.ground.indices));
+    }
+}
+
+TEST_CASE("a mesher of tiles goes on over them in other colours, not over others") {
+    scene::Settings settings = plain_settings();
+    const auto tiles = scene::ground_from_tiles(terrain::ground_of(rough_field()), settings);
+    std::unique_ptr<scene::GroundMesher> mesher = tiles->mesher(settings);
+    const scene::GroundMesher* const before = mesher.get();
+    const scene::GroundRequest request{camera_at(0), 1.0, 500};
+    scene::GroundCounts counts;
+    mesher->triangles(request, counts);
+    mesher->prepare({camera_at(1), 1.0, 500});
+
+    settings.air.sun_elevation_deg = 70.0;
+    settings.air.palette = scene::Palette::Arid;
+    const auto lit = tiles->remade(settings);
+    mesher = scene::mesher_after(std::move(mesher), *lit, settings);
+    CHECK(mesher.get() == before);
+    CHECK(&mesher->ground() == lit.get());
+    for (const int frame : {0, 1, 1, 2}) {
+        const scene::GroundRequest next{camera_at(frame), 1.0, 500};
+        const scene::TriangleDraw drawn = mesher->triangles(next, counts);
+        const auto fresh = lit->mesher(settings);
+        const scene::TriangleDraw expected = fresh->triangles(next, counts);
+        const auto colours = [](const scene::TriangleDraw& draw) {
+            std::vector<std::uint32_t> each;
+            for (const std::uint32_t index : draw.indices) {
+                each.push_back(draw.vertices[index].colour);
+            }
+            return each;
+        };
+        CHECK(colours(drawn) == colours(expected));
+    }
+    const auto others = scene::ground_from_tiles(terrain::ground_of(rough_field()), settings);
+    CHECK_FALSE(mesher->move_to(others));
+    CHECK(&mesher->ground() == lit.get());
 }
 
 TEST_CASE("ground says which settings it suits and is made anew of its heights for others") {

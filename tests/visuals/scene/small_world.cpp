@@ -47,9 +47,10 @@ public:
 
     glm::vec3 mean_colour() const override { return glm::vec3(0.5F); }
 
-    std::unique_ptr<scene::GroundMesher> mesher(const scene::Settings& settings) const override;
-
 private:
+    std::unique_ptr<scene::GroundMesher>
+    make_mesher(const scene::Settings& settings) const override;
+
     int cells_;
     double cell_m_;
     Height height_;
@@ -135,7 +136,8 @@ private:
     std::vector<std::uint32_t> indices_;
 };
 
-std::unique_ptr<scene::GroundMesher> CellGround::mesher(const scene::Settings& /*settings*/) const {
+std::unique_ptr<scene::GroundMesher>
+CellGround::make_mesher(const scene::Settings& /*settings*/) const {
     return std::make_unique<CellMesher>(
         std::static_pointer_cast<const CellGround>(shared_from_this()));
 }
@@ -155,9 +157,10 @@ public:
 
     glm::vec3 mean_colour() const override { return glm::vec3(0.5F); }
 
-    std::unique_ptr<scene::GroundMesher> mesher(const scene::Settings& settings) const override;
-
 private:
+    std::unique_ptr<scene::GroundMesher>
+    make_mesher(const scene::Settings& settings) const override;
+
     std::vector<GroundTriangle> triangles_;
 };
 
@@ -196,7 +199,7 @@ private:
 };
 
 std::unique_ptr<scene::GroundMesher>
-TriangleGround::mesher(const scene::Settings& /*settings*/) const {
+TriangleGround::make_mesher(const scene::Settings& /*settings*/) const {
     return std::make_unique<TriangleMesher>(
         std::static_pointer_cast<const TriangleGround>(shared_from_this()));
 }

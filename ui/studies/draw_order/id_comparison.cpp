@@ -48,7 +48,6 @@ public:
         if (!session_) {
             session_ = std::make_unique<flight::Session>(settings_, flight::Shows::PolygonNumbers);
         }
-        session_->make_current();
         session_->draw(frame);
         return session_->picture();
     }
@@ -106,9 +105,7 @@ IdComparison compare_with_depth_buffer(
     IdComparison sum;
     const int frames = (painter.frames() + every - 1) / every;
     for (int frame = 0; frame < painter.frames(); frame += every) {
-        painter.make_current();
         const report::FrameRecord record = painter.draw(frame);
-        reference.make_current();
         reference.draw(frame);
         const IdDifference difference = difference_of(painter.picture(), reference.picture());
         sum.pixels += difference.pixels;

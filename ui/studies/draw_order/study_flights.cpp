@@ -25,15 +25,15 @@ namespace scene = visuals::scene;
 
 namespace {
 
-constexpr int warm_up_frames = 10; ///< first frames that the figures leave out
-constexpr std::array methods = {
+constexpr int frames_left_out = 10; ///< first frames that the figures leave out
+constexpr std::array drawn_by = {
     scene::HiddenSurface::Octant,
     scene::HiddenSurface::DepthBuffer,
     scene::HiddenSurface::BackFace};
 constexpr std::array method_names = {"octant order", "depth buffer", "back faces only"};
 
 /// Seconds that the paper printed; 0 where it printed frames a second or nothing.
-struct PaperRow {
+struct PrintedTime {
     const char* aircraft;
     const char* path; ///< "alone" = table 5
     int frames;
@@ -44,28 +44,28 @@ struct PaperRow {
 
 // E. K. Kim, J. A. Park, C. Song, J. H. Kim, "Hidden-Surface Removal in 3D Graphics for Real Time
 // Animation", 1989: section IV (frames a second by back-face removal and z-buffer), tables 5 and 6.
-constexpr std::array paper_rows = {
-    PaperRow{"f15", "alone", 100, 3.3, 5.0, 30.0},
-    PaperRow{"500md", "alone", 100, 3.5, 4.0, 29.0},
-    PaperRow{"f15", "straight", 800, 27.5, 0, 0},
-    PaperRow{"f15", "jinking", 700, 24.0, 0, 0},
-    PaperRow{"f15", "pop-up", 730, 25.0, 0, 0},
-    PaperRow{"f15", "turn", 580, 19.5, 0, 0},
-    PaperRow{"500md", "straight", 800, 29.0, 0, 0},
-    PaperRow{"500md", "jinking", 700, 25.5, 0, 0},
-    PaperRow{"500md", "pop-up", 730, 27.0, 0, 0},
-    PaperRow{"500md", "turn", 580, 20.5, 0, 0}};
+constexpr std::array printed_times = {
+    PrintedTime{"f15", "alone", 100, 3.3, 5.0, 30.0},
+    PrintedTime{"500md", "alone", 100, 3.5, 4.0, 29.0},
+    PrintedTime{"f15", "straight", 800, 27.5, 0, 0},
+    PrintedTime{"f15", "jinking", 700, 24.0, 0, 0},
+    PrintedTime{"f15", "pop-up", 730, 25.0, 0, 0},
+    PrintedTime{"f15", "turn", 580, 19.5, 0, 0},
+    PrintedTime{"500md", "straight", 800, 29.0, 0, 0},
+    PrintedTime{"500md", "jinking", 700, 25.5, 0, 0},
+    PrintedTime{"500md", "pop-up", 730, 27.0, 0, 0},
+    PrintedTime{"500md", "turn", 580, 20.5, 0, 0}};
 
 struct Measured {
     std::size_t vertices = 0; ///< of the aircraft
     std::size_t polygons = 0;
     int frames = 0;
-    std::array<double, methods.size()> seconds{};
-    std::array<double, methods.size()> median_ms{};
+    std::array<double, drawn_by.size()> seconds{};
+    std::array<double, drawn_by.size()> median_ms{};
 };
 
 settings::Settings
-settings_of(const PaperRow& row, const StudyOptions& options, scene::HiddenSurface method) {
+settings_of(const PrintedTime& row, const StudyOptions& options, scene::HiddenSurface method) {
     settings::Settings settings;
     settings.view.size_px = options.settings.view.size_px;
     settings.view.samples = options.settings.view.samples;
@@ -89,29 +89,27 @@ settings_of(const PaperRow& row, const StudyOptions& options, scene::HiddenSurfa
     return settings;
 }
 
-Measured measure(const PaperRow& row, const StudyOptions& options) {
-    std::array<std::unique_ptr<flight::Session>, methods.size()> sessions;
-    for (std::size_t m = 0; m < methods.size(); ++m) {
-        sessions[m] = std::make_unique<flight::Session>(settings_of(row, options, methods[m]));
+Measured measure(const PrintedTime& row, const StudyOptions& options) {
+    std::array<std::unique_ptr<flight::Session>, drawn_by.size()> sessions;
+    for (std::size_t m = 0; m < drawn_by.size(); ++m) {
+        sessions[m] = std::make_unique<flight::Session>(settings_of(row, options, drawn_by[m]));
     }
     flight::Session& octant = *sessions.front();
     flight::RecordOptions record;
     record.folder = options.out / fmt::format("{}-{}", row.aircraft, row.path);
-    octant.make_current();
-    flight::FlightRecorder recorder(record, settings_of(row, options, methods.front()), octant);
+    flight::FlightRecorder recorder(record, settings_of(row, options, drawn_by.front()), octant);
     Measured measured;
     const models::polygons::PolygonModel& model = octant.world().scene.models.front()->polygons;
     measured.vertices = model.vertices_m.size();
     measured.polygons = model.polygons.size();
     measured.frames = octant.frames();
-    std::array<std::vector<double>, methods.size()> frame_ms;
+    std::array<std::vector<double>, drawn_by.size()> frame_ms;
     base::Progress progress(
         fmt::format("{} {}", row.aircraft, row.path), measured.frames, options.quiet);
     for (int frame = 0; frame < measured.frames; ++frame) {
         report::FrameRecord octant_record;
-        for (std::size_t turn = 0; turn < methods.size(); ++turn) {
-            const std::size_t m = (turn + static_cast<std::size_t>(frame)) % methods.size();
-            sessions[m]->make_current();
+        for (std::size_t turn = 0; turn < drawn_by.size(); ++turn) {
+            const std::size_t m = (turn + static_cast<std::size_t>(frame)) % drawn_by.size();
             const report::FrameRecord drawn = sessions[m]->draw(frame);
             frame_ms[m].push_back(drawn.frame_ms);
             if (m == 0) {
@@ -119,15 +117,13 @@ Measured measure(const PaperRow& row, const StudyOptions& options) {
             }
         }
         // After all three, so that no method draws next to the work of recording.
-        octant.make_current();
         recorder.add(octant_record, octant);
         progress.show(frame + 1);
     }
     progress.finish();
-    octant.make_current();
     recorder.finish(octant);
-    for (std::size_t m = 0; m < methods.size(); ++m) {
-        frame_ms[m].erase(frame_ms[m].begin(), frame_ms[m].begin() + warm_up_frames);
+    for (std::size_t m = 0; m < drawn_by.size(); ++m) {
+        frame_ms[m].erase(frame_ms[m].begin(), frame_ms[m].begin() + frames_left_out);
         const double mean_ms = std::accumulate(frame_ms[m].begin(), frame_ms[m].end(), 0.0) /
                                static_cast<double>(frame_ms[m].size());
         measured.seconds[m] = mean_ms * measured.frames / 1000.0;
@@ -155,7 +151,7 @@ report::HtmlTable table_5(const std::vector<Measured>& measured) {
         table.header.push_back(fmt::format("ours frames/s, {}", method));
     }
     for (std::size_t i = 0; i < table_5_rows; ++i) {
-        const PaperRow& row = paper_rows[i];
+        const PrintedTime& row = printed_times[i];
         const Measured& m = measured[i];
         table.rows.push_back(
             {row.aircraft,
@@ -185,8 +181,8 @@ report::HtmlTable table_6(const std::vector<Measured>& measured, const StudyOpti
     }
     table.header.emplace_back("median: depth buffer / octant");
     table.header.emplace_back("median: back faces / octant");
-    for (std::size_t i = table_5_rows; i < paper_rows.size(); ++i) {
-        const PaperRow& row = paper_rows[i];
+    for (std::size_t i = table_5_rows; i < printed_times.size(); ++i) {
+        const PrintedTime& row = printed_times[i];
         const Measured& m = measured[i];
         std::vector<std::string> cells = {
             row.aircraft,
@@ -218,7 +214,7 @@ report::Plot plot_of(const std::vector<Measured>& measured) {
     plot.x_label = "row of the table";
     plot.y_label = "ms";
     plot.y_min = 0.0;
-    for (std::size_t m = 0; m < methods.size(); ++m) {
+    for (std::size_t m = 0; m < drawn_by.size(); ++m) {
         report::PlotSeries series;
         series.name = method_names[m];
         series.colour = colours[m];
@@ -244,7 +240,7 @@ void write_results(const std::vector<Measured>& measured, const StudyOptions& op
         base::say(options.quiet, "flights.svg not made: gnuplot is not installed");
     }
     std::vector<report::LoadedRecording> recordings;
-    for (const PaperRow& row : paper_rows) {
+    for (const PrintedTime& row : printed_times) {
         recordings.push_back(
             report::load_recording(options.out / fmt::format("{}-{}", row.aircraft, row.path)));
     }
@@ -262,7 +258,7 @@ void write_results(const std::vector<Measured>& measured, const StudyOptions& op
 void study_flights(const StudyOptions& options) {
     make_folder(options.out);
     std::vector<Measured> measured;
-    for (const PaperRow& row : paper_rows) {
+    for (const PrintedTime& row : printed_times) {
         measured.push_back(measure(row, options));
     }
     write_results(measured, options);

@@ -48,7 +48,6 @@ Race race(const settings::Settings& settings, int frames, bool quiet) {
     for (int frame = 0; frame < sessions[0]->frames(); ++frame) {
         for (std::size_t turn = 0; turn < raced_ways.size(); ++turn) {
             const std::size_t way = (turn + static_cast<std::size_t>(frame)) % raced_ways.size();
-            sessions[way]->make_current();
             const report::FrameRecord record = sessions[way]->draw(frame);
             if (frame >= warm_up_frames) {
                 frame_ms[way].push_back(record.frame_ms);
@@ -62,7 +61,6 @@ Race race(const settings::Settings& settings, int frames, bool quiet) {
         raced.ways[way] = figures_of(frame_ms[way], draw_calls[way]);
     }
     raced.frames = static_cast<int>(frame_ms[0].size());
-    sessions[0]->make_current();
     return raced;
 }
 

@@ -112,7 +112,7 @@ FrameMaker by_screen_error(FlickerGround& ground, const FlickerSettings& setting
     };
 }
 
-constexpr std::array ways = {
+constexpr std::array all_ways = {
     FlickerWay{"previous (4)", true, previous},
     FlickerWay{"damped (5), as printed", true, damped_as_printed},
     FlickerWay{"damped, dead band", true, damped},
@@ -132,7 +132,7 @@ FlickerGround::FlickerGround(models::heights::HeightField made)
     , error_mesher(tiles) {}
 
 std::span<const FlickerWay> flicker_ways() {
-    return ways;
+    return all_ways;
 }
 
 FlickerRun run_along(

@@ -22,21 +22,22 @@ namespace terrain = visuals::terrain;
 
 namespace {
 
-struct Way {
+struct Sampling {
     int samples;
     bool geomorphs;
 };
 
-constexpr std::array ways = {Way{1, false}, Way{1, true}, Way{4, false}, Way{4, true}};
+constexpr std::array samplings = {
+    Sampling{1, false}, Sampling{1, true}, Sampling{4, false}, Sampling{4, true}};
 
 /// Sums over pairs of frames.
 struct Change {
-    std::array<double, ways.size()> sum{};
+    std::array<double, samplings.size()> sum{};
     std::size_t pairs = 0;
     std::size_t pixels = 0;
 };
 
-void add_row(report::HtmlTable& table, const std::string& path, const Change& change) {
+void add_change(report::HtmlTable& table, const std::string& path, const Change& change) {
     std::vector<std::string> row = {
         path, fmt::format("{}", change.pairs), fmt::format("{}", change.pixels)};
     for (const double sum : change.sum) {
@@ -50,11 +51,11 @@ Change shimmer_along(
     const settings::Settings& flown,
     const terrain::GroundSamples& ground) {
     const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(flown);
-    std::array<std::unique_ptr<flight::Session>, ways.size()> sessions;
-    for (std::size_t k = 0; k < ways.size(); ++k) {
+    std::array<std::unique_ptr<flight::Session>, samplings.size()> sessions;
+    for (std::size_t k = 0; k < samplings.size(); ++k) {
         settings::Settings settings = flown;
-        settings.view.samples = ways[k].samples;
-        settings.ground.geomorphs = ways[k].geomorphs;
+        settings.view.samples = samplings[k].samples;
+        settings.ground.geomorphs = samplings[k].geomorphs;
         sessions[k] = std::make_unique<flight::Session>(settings);
     }
     const double radius_m = flown.ground.earth_curvature ? terrain::earth_radius_m : 0.0;
@@ -64,9 +65,8 @@ Change shimmer_along(
     for (std::size_t frame = 0; frame + 1 < cameras.size(); frame += step) {
         const std::vector<SamePlace> places =
             same_places(ground, cameras[frame], cameras[frame + 1], flown.view.size_px, radius_m);
-        for (std::size_t k = 0; k < ways.size(); ++k) {
+        for (std::size_t k = 0; k < samplings.size(); ++k) {
             flight::Session& session = *sessions[k];
-            session.make_current();
             session.draw(static_cast<int>(frame));
             const visuals::scene::Picture earlier = session.picture();
             session.draw(static_cast<int>(frame) + 1);
@@ -102,14 +102,14 @@ report::HtmlTable shimmer_table(const ShimmerOptions& options) {
         settings.surface.shadows = false;
         settings.ground.mesh = scene::GroundMetric::ScreenError;
         const Change change = shimmer_along(options, settings, samples);
-        add_row(table, path, change);
-        for (std::size_t k = 0; k < ways.size(); ++k) {
+        add_change(table, path, change);
+        for (std::size_t k = 0; k < samplings.size(); ++k) {
             all.sum[k] += change.sum[k];
         }
         all.pairs += change.pairs;
         all.pixels += change.pixels;
     }
-    add_row(table, "all", all);
+    add_change(table, "all", all);
     table.note = "Every fourth pixel, both ways, of the later frame that shows ground which the "
                  "earlier one shows: rays to the full-resolution ground; the earlier picture is "
                  "read between its pixels. Not near the aircraft; no shadows.";

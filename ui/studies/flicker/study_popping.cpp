@@ -30,16 +30,16 @@ namespace terrain = visuals::terrain;
 
 namespace {
 
-struct Way {
+struct Meshing {
     const char* name;
     scene::GroundMetric mesh;
     bool geomorphs;
 };
 
-constexpr std::array ways = {
-    Way{"midpoint, exact budget", scene::GroundMetric::Midpoint, false},
-    Way{"screen-error, no geomorphs", scene::GroundMetric::ScreenError, false},
-    Way{"screen-error, geomorphs", scene::GroundMetric::ScreenError, true}};
+constexpr std::array meshings = {
+    Meshing{"midpoint, exact budget", scene::GroundMetric::Midpoint, false},
+    Meshing{"screen-error, no geomorphs", scene::GroundMetric::ScreenError, false},
+    Meshing{"screen-error, geomorphs", scene::GroundMetric::ScreenError, true}};
 
 /// Jumps of a flight, one a frame after the first.
 struct Jumps {
@@ -48,7 +48,8 @@ struct Jumps {
     std::size_t largest_frame = 0;
 };
 
-ui::terrain::GroundMeshOptions mesh_options(const settings::Settings& settings, const Way& way) {
+ui::terrain::GroundMeshOptions
+mesh_options(const settings::Settings& settings, const Meshing& way) {
     constexpr double default_error_px = 0.25; // as Settings::error_px
     ui::terrain::GroundMeshOptions options;
     options.mesh = way.mesh;
@@ -90,8 +91,8 @@ double percentile_px(std::vector<double> jumps_px, int permille) {
     return report::nearest_rank(jumps_px, permille);
 }
 
-void add_row(
-    report::HtmlTable& table, const std::string& path, const Way& way, const Jumps& found) {
+void add_popping(
+    report::HtmlTable& table, const std::string& path, const Meshing& way, const Jumps& found) {
     table.rows.push_back(
         {path,
          way.name,
@@ -106,25 +107,27 @@ report::HtmlTable popping_table(const PoppingStudyOptions& options) {
     const world::LoadedGround ground =
         world::load_ground(options.settings.path.terrain, options.settings.path.terrain_spacing_m);
     std::vector<std::unique_ptr<ui::terrain::MeshMaker>> makers;
-    for (const Way& way : ways) {
+    for (const Meshing& way : meshings) {
         makers.push_back(ui::terrain::make_mesh_maker(ground, mesh_options(options.settings, way)));
     }
     report::HtmlTable table;
     table.title = "Largest jump of a vertex from frame to frame";
     table.header = {"path", "mesh", "frames", "maximum px", "in frame", "99.9 % px", "median px"};
-    std::array<Jumps, ways.size()> all;
+    std::array<Jumps, meshings.size()> all;
     for (const std::string& path : base::built_in_paths()) {
         settings::Settings settings = options.settings;
         settings.path.name = path;
         const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(settings);
         base::say(options.quiet, fmt::format("{}: {} frames", path, cameras.size()));
-        std::array<Jumps, ways.size()> found;
+        std::array<Jumps, meshings.size()> found;
         share_out(
-            ways.size(), static_cast<int>(ways.size()), [&](std::size_t way, std::size_t /*w*/) {
+            meshings.size(),
+            static_cast<int>(meshings.size()),
+            [&](std::size_t way, std::size_t /*w*/) {
                 found[way] = jumps_along(*makers[way], settings, cameras);
             });
-        for (std::size_t k = 0; k < ways.size(); ++k) {
-            add_row(table, path, ways[k], found[k]);
+        for (std::size_t k = 0; k < meshings.size(); ++k) {
+            add_popping(table, path, meshings[k], found[k]);
             const std::vector<double>& jumps_px = found[k].jumps_px;
             all[k].jumps_px.insert(all[k].jumps_px.end(), jumps_px.begin(), jumps_px.end());
             if (found[k].largest_px > all[k].largest_px) {
@@ -133,8 +136,8 @@ report::HtmlTable popping_table(const PoppingStudyOptions& options) {
             }
         }
     }
-    for (std::size_t k = 0; k < ways.size(); ++k) {
-        add_row(table, "all", ways[k], all[k]);
+    for (std::size_t k = 0; k < meshings.size(); ++k) {
+        add_popping(table, "all", meshings[k], all[k]);
     }
     table.note = fmt::format(
         "Each frame: the two meshes' surfaces at every vertex of either that both frames show "

@@ -70,7 +70,6 @@ std::array<Medians, ways.size()> measured(const std::string& aircraft, bool quie
     for (int frame = 0; frame < frames; ++frame) {
         for (std::size_t turn = 0; turn < ways.size(); ++turn) {
             const std::size_t way = (turn + static_cast<std::size_t>(frame)) % ways.size();
-            sessions[way]->make_current();
             const report::FrameRecord record = sessions[way]->draw(frame);
             if (frame >= warm_up_frames) {
                 medians[way].frame_ms.push_back(record.frame_ms);
