@@ -72,6 +72,15 @@ void add_figures(Figures& figures, const draworder::OrderedModel& ordered, std::
     figures["min_distance_m"] = ordered.min_distance_m;
 }
 
+/// How many cells a file of orders has, or parts.
+void add_size(Figures& figures, const draworder::CellOrders& orders) {
+    if (orders.parts) {
+        figures["parts"] = orders.parts->cell_count();
+    } else {
+        figures["cells"] = orders.cells.size();
+    }
+}
+
 /// Finds the orders, or reads them.
 Work prepared(const DrawOrderOptions& options, Figures& figures) {
     world::OrderInput input = world::read_order_input(options.model, options.axes);
@@ -85,7 +94,7 @@ Work prepared(const DrawOrderOptions& options, Figures& figures) {
         work.orders = draworder::read_order_file(options.check_file, faces, work.axes);
         figures["orders"] = options.check_file;
         figures["polygons"] = faces;
-        figures["cells"] = work.orders.cells.size();
+        add_size(figures, work.orders);
         return work;
     }
     figures["method"] = settings::text_of(options.order.method);
