@@ -98,7 +98,8 @@ template <>
 inline constexpr std::array enum_names<visuals::draworder::Method>{
     Named{visuals::draworder::Method::Paper, "paper"},
     Named{visuals::draworder::Method::Cells, "cells"},
-    Named{visuals::draworder::Method::Tree, "tree"}};
+    Named{visuals::draworder::Method::Tree, "tree"},
+    Named{visuals::draworder::Method::Bsp, "bsp"}};
 
 /// One thing that can follow the frame time, with the name that people write for it.
 struct NamedAdaptation {

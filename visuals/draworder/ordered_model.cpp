@@ -6,6 +6,7 @@
 
 #include "visuals/draworder/cell_centres.h"
 #include "visuals/draworder/octant_cells.h"
+#include "visuals/draworder/parted_order.h"
 #include "visuals/draworder/region_tree.h"
 #include "visuals/draworder/split.h"
 #include "visuals/draworder/working_model.h"
@@ -136,9 +137,22 @@ OrderedModel exact(models::polygons::PolygonModel model, const OrderOptions& opt
         .notes = std::move(orders.work.notes)};
 }
 
+OrderedModel by_parts(models::polygons::PolygonModel model) {
+    PartedOrder parted = parted_order(std::move(model));
+    return {
+        .model = std::move(parted.model),
+        .order = std::move(parted.order),
+        .cells = {},
+        .splits = parted.splits,
+        .notes = std::move(parted.notes)};
+}
+
 } // namespace
 
 OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& options) {
+    if (options.method == Method::Bsp) {
+        return by_parts(std::move(model));
+    }
     if (options.method == Method::Paper) {
         return by_paper(std::move(model), options);
     }

@@ -15,7 +15,8 @@ enum class Method {
     Paper, ///< 8 octants with one viewpoint each, steps 1 to 6 as printed.
     /// Octants that are divided further where a cycle remains; exact from a stated distance on.
     Cells,
-    Tree ///< A tree of planes over eye space; exact for every eye point.
+    Tree, ///< A tree of planes over eye space; exact for every eye point.
+    Bsp   ///< Polygons divided by planes; exact for every eye point, for any model at once.
 };
 
 struct OrderOptions {
