@@ -23,7 +23,7 @@ namespace draworder = visuals::draworder;
 
 namespace {
 
-constexpr std::size_t most_polygons = 20000;
+constexpr std::size_t most_polygons = 50'000;
 constexpr double nearest_radii = 0.05;
 constexpr double farthest_radii = 20.0;
 constexpr int rays_per_eye = 20;

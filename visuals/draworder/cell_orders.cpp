@@ -100,7 +100,11 @@ CellOrders cell_orders(const OrderedModel& ordered) {
     orders.centre_m = ordered.centre_m;
     if (ordered.cells.empty()) {
         if (auto cells = cells_of_parts(ordered.model, ordered.order)) {
-            orders.cells = std::move(*cells);
+            for (CellOfParts& from : *cells) {
+                ListedCell& cell = orders.cells.emplace_back();
+                cell.planes = std::move(from.planes);
+                cell.list = std::move(from.list);
+            }
         } else {
             orders.parts = ordered.order;
         }

@@ -98,6 +98,47 @@ void add_rigid_pairs(
     }
 }
 
+/// Whether a line along a side of `a` has `a` on one side and `b` on the other; both lie in one
+/// plane.
+bool side_parts(const Face& a, const Face& b) {
+    for (std::size_t i = 0; i < a.corners.size(); ++i) {
+        const glm::dvec3& from = a.corners[i];
+        const glm::dvec3& to = a.corners[(i + 1) % a.corners.size()];
+        const glm::dvec3 inward = glm::cross(a.plane->normal, to - from);
+        const bool outside = std::ranges::all_of(b.corners, [&](const glm::dvec3& corner) {
+            return glm::dot(inward, corner - from) <= 0.0;
+        });
+        if (outside) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Finds polygons that lie on others in one plane and face alike, as decals do: the later one of
+/// the file is painted later.
+void add_decals(const models::polygons::PolygonModel& model, ModelFaces& out) {
+    constexpr double alike = 1.0 - 1e-9;
+    const auto in_plane_of = [&](const Face& a, const Face& b) {
+        return std::ranges::all_of(a.corners, [&](const glm::dvec3& corner) {
+            return std::abs(distance_m(*b.plane, corner)) <= out.tolerances.on_plane;
+        });
+    };
+    for (std::size_t i = 0; i < out.faces.size(); ++i) {
+        const Face& lower = out.faces[i];
+        for (std::size_t j = 0; j < out.faces.size() && lower.plane && !lower.pivot; ++j) {
+            const Face& upper = out.faces[j];
+            const bool above = upper.plane && !upper.pivot &&
+                               model.parent_of(j) > model.parent_of(i) &&
+                               glm::dot(upper.plane->normal, lower.plane->normal) > alike;
+            if (above && in_plane_of(upper, lower) && in_plane_of(lower, upper) &&
+                !side_parts(upper, lower) && !side_parts(lower, upper)) {
+                out.rigid.add(j, i);
+            }
+        }
+    }
+}
+
 /// Marks the pairs of a turning polygon with others that it collides with at some angle.
 void find_meetings(
     const models::polygons::PolygonModel& model, std::size_t polygon, ModelFaces& out) {
@@ -157,6 +198,7 @@ ModelFaces model_faces(const models::polygons::PolygonModel& model, const glm::d
                   : outline_of(model, i, out));
         out.faces.back().pivot = pivot;
     }
+    add_decals(model, out);
     for (std::uint32_t pivot = 0; pivot < model.pivots.size(); ++pivot) {
         add_rigid_pairs(model, pivot, out);
     }

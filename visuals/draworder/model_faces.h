@@ -18,8 +18,9 @@ struct ModelFaces {
     Tolerances tolerances;
     glm::dvec3 origin_m{0.0};
     double unit_m = 1.0;
-    /// Edges within turning parts, whose polygons keep their places to each other. They hold for
-    /// every eye and have no cycles.
+    /// Edges within turning parts, whose polygons keep their places to each other, and from what
+    /// lies under another polygon in one plane to that one, which is later in the file. They hold
+    /// for every eye and have no cycles.
     HidingGraph rigid;
     /// Pairs that collide as they turn, in both directions; no order can be right for them.
     HidingGraph ignored;

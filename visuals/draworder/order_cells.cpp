@@ -26,7 +26,7 @@ public:
         : order_(order)
         , frame_(empty_frame(model)) {}
 
-    std::optional<std::vector<ListedCell>> cells() {
+    std::optional<std::vector<CellOfParts>> cells() {
         groups_.push_back({EyeRegion::everywhere(), 0, {order_.nodes().empty() ? ~0 : 0}, {}});
         while (!groups_.empty()) {
             Wanderers group = std::move(groups_.back());
@@ -110,7 +110,7 @@ private:
         if (cells_.size() == most_cells_of_parts || entries_ > most_entries_of_parts) {
             return false;
         }
-        ListedCell& cell = cells_.emplace_back();
+        CellOfParts& cell = cells_.emplace_back();
         for (const Plane& plane : group.region.planes()) {
             cell.planes.push_back(frame_.in_model(plane));
         }
@@ -121,13 +121,13 @@ private:
     const DrawOrder& order_;
     ModelFaces frame_;
     std::vector<Wanderers> groups_;
-    std::vector<ListedCell> cells_;
+    std::vector<CellOfParts> cells_;
     std::size_t entries_ = 0;
 };
 
 } // namespace
 
-std::optional<std::vector<ListedCell>>
+std::optional<std::vector<CellOfParts>>
 cells_of_parts(const models::polygons::PolygonModel& model, const DrawOrder& order) {
     return Expanding(model, order).cells();
 }

@@ -12,8 +12,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <fmt/format.h>
-#include <map>
-#include <optional>
 #include <utility>
 
 namespace octant::visuals::draworder {
@@ -22,13 +20,6 @@ namespace {
 
 using models::polygons::PolygonModel;
 using Polygons = std::vector<std::uint32_t>;
-
-/// A turning part: its polygons in an order that is right while it turns, the first of which stands
-/// for the part.
-struct TurningPart {
-    std::uint32_t pivot = 0;
-    Polygons list;
-};
 
 /// A model of one turning part alone; `polygons` are its polygons.
 PolygonModel alone(const PolygonModel& model, const Polygons& polygons, std::uint32_t pivot) {
@@ -48,15 +39,16 @@ PolygonModel alone(const PolygonModel& model, const Polygons& polygons, std::uin
 }
 
 /// Builds one order.
-class Parting {
+class PartedBuilding {
 public:
-    explicit Parting(PolygonModel model)
+    PartedBuilding(PolygonModel model, Parting way)
         : model_(std::move(model))
-        , pieces_(model_) {}
+        , pieces_(model_)
+        , way_(way) {}
 
     PartedOrder order() {
         find_turning_parts();
-        tree_ = parting::parting_tree(pieces_, items());
+        tree_ = parting::parting_tree(pieces_, items(), way_ == Parting::Clusters);
         for (const Polygons& ring : tree_.unparted) {
             add_note(ring);
         }
@@ -68,7 +60,7 @@ public:
             lists_.push_back(
                 tree_.root == parting::PartingTree::nothing
                     ? Polygons{}
-                    : listed(tree_.lists[static_cast<std::size_t>(~tree_.root)]));
+                    : tree_.lists[static_cast<std::size_t>(~tree_.root)]);
         }
         return {std::move(model_), DrawOrder(std::move(nodes_), lists_), splits, std::move(notes_)};
     }
@@ -91,31 +83,26 @@ private:
     void add_turning_part(const Polygons& polygons, std::uint32_t pivot) {
         const ModelFaces faces = model_faces(alone(model_, polygons, pivot), glm::dvec3(0.0));
         PolygonSet all(polygons.size());
-        std::vector<glm::dvec3> swept_m;
         for (std::size_t i = 0; i < polygons.size(); ++i) {
             all.add(i);
-            for (const glm::dvec3& corner : faces.faces[i].corners) {
+            std::vector<glm::dvec3> swept_m;
+            for (const glm::dvec3& corner : faces.faces[i].outline) {
                 swept_m.push_back(corner * faces.unit_m);
             }
+            pieces_.make_swept(polygons[i], pivot, swept_m, !faces.faces[i].plane);
         }
-        TurningPart part{pivot, {}};
-        for (const std::uint32_t place :
-             paint_sequence(polygons.size(), faces.rigid.precedences(all)).order) {
-            part.list.push_back(polygons[place]);
+        for (const Precedence& pair : faces.rigid.precedences(all)) {
+            pieces_.add_rigid(polygons[pair.later], polygons[pair.first]);
         }
         notes_.insert(notes_.end(), faces.notes.begin(), faces.notes.end());
-        pieces_.make_body(polygons.front(), swept_m);
-        turning_.emplace(polygons.front(), std::move(part));
     }
 
-    /// The pieces to be ordered: for each turning part only the one that stands for it.
+    /// The pieces to be ordered: all but those without area.
     Polygons items() const {
         Polygons items;
         for (std::uint32_t i = 0; i < pieces_.count(); ++i) {
-            const bool turns = models::polygons::pivot_of(model_, pieces_[i].source).has_value();
             const auto& plane = pieces_[i].plane; // not a number where there is no area
-            const bool is_seen = !plane || std::isfinite(plane->normal.x);
-            if (is_seen && (!turns || turning_.contains(i))) {
+            if (!plane || std::isfinite(plane->normal.x)) {
                 items.push_back(i);
             }
         }
@@ -124,28 +111,15 @@ private:
 
     void add_note(const Polygons& ring) {
         for (const std::uint32_t item : ring) {
-            if (const auto part = turning_.find(item); part != turning_.end()) {
+            if (const auto pivot = pieces_[item].pivot) {
                 const std::string note = fmt::format(
                     "{} meets other parts as it turns; no order is right for them",
-                    model_.parts[model_.pivots[part->second.pivot].part]);
+                    model_.parts[model_.pivots[*pivot].part]);
                 if (std::ranges::find(notes_, note) == notes_.end()) {
                     notes_.push_back(note);
                 }
             }
         }
-    }
-
-    /// A list with all polygons of turning parts.
-    Polygons listed(const Polygons& items) const {
-        Polygons list;
-        for (const std::uint32_t item : items) {
-            if (const auto part = turning_.find(item); part != turning_.end()) {
-                list.insert(list.end(), part->second.list.begin(), part->second.list.end());
-            } else {
-                list.push_back(item);
-            }
-        }
-        return list;
     }
 
     /// Writes the tree with its lists in the order of a walk from back to front, so that many eyes
@@ -172,7 +146,7 @@ private:
             if (child == nothing) {
                 child = DrawOrder::nothing;
             } else if (child < 0) {
-                lists_.push_back(listed(tree_.lists[static_cast<std::size_t>(~child)]));
+                lists_.push_back(std::move(tree_.lists[static_cast<std::size_t>(~child)]));
                 child = ~static_cast<int>(lists_.size() - 1);
             } else {
                 DrawOrder::Node& node = nodes_[static_cast<std::size_t>(child)];
@@ -188,7 +162,7 @@ private:
 
     PolygonModel model_;
     parting::Pieces pieces_;
-    std::map<std::uint32_t, TurningPart> turning_; ///< By the piece that stands for the part.
+    Parting way_;
     parting::PartingTree tree_;
     std::vector<DrawOrder::Node> nodes_;
     std::vector<Polygons> lists_;
@@ -197,8 +171,8 @@ private:
 
 } // namespace
 
-PartedOrder parted_order(PolygonModel model) {
-    return Parting(std::move(model)).order();
+PartedOrder parted_order(PolygonModel model, Parting way) {
+    return PartedBuilding(std::move(model), way).order();
 }
 
 } // namespace octant::visuals::draworder

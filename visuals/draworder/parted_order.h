@@ -8,6 +8,12 @@
 
 namespace octant::visuals::draworder {
 
+/// How far polygons are divided.
+enum class Parting {
+    Clusters, ///< Where they hide one another in rings.
+    Single    ///< Until each stands alone: a BSP tree.
+};
+
 /// A model ordered by dividing its polygons, and the pieces that they were cut into.
 struct PartedOrder {
     models::polygons::PolygonModel model;
@@ -16,9 +22,9 @@ struct PartedOrder {
     std::vector<std::string> notes;
 };
 
-/// Orders any model for every eye by partings (visuals/parting), without a search: a part that
-/// turns is taken for the body that it sweeps and painted as a whole, at every angle. Notes tell of
-/// turning parts that meet something.
-PartedOrder parted_order(models::polygons::PolygonModel model);
+/// Orders any model for every eye by partings (visuals/parting), without a search. A polygon that
+/// turns is taken for what it sweeps and never cut, so that the order holds at every angle. Notes
+/// tell of turning parts that no plane parts from others.
+PartedOrder parted_order(models::polygons::PolygonModel model, Parting way = Parting::Clusters);
 
 } // namespace octant::visuals::draworder

@@ -140,6 +140,9 @@ private:
 bool hides(const Pieces& pieces, std::uint32_t near_one, std::uint32_t far_one) {
     const Piece& b = pieces[near_one];
     const Piece& a = pieces[far_one];
+    if (a.pivot && a.pivot == b.pivot) {
+        return pieces.is_rigid(near_one, far_one);
+    }
     if (!a.plane && !b.plane) {
         return true;
     }

@@ -13,7 +13,8 @@ namespace octant::visuals::parting {
 /// reaches before the other's plane and the other reaches behind its own: let b be a point of it
 /// before plane(far_one) and a one of `far_one` behind plane(near_one); an eye on the line from a
 /// through b, a little beyond b, is before both planes and sees b in front of a. A body has no
-/// plane, and so no side on which it cannot hide or be hidden.
+/// plane, and so no side on which it cannot hide or be hidden. Pieces that turn together keep their
+/// places to one another (Pieces::add_rigid).
 ///
 /// Pieces in one plane that face alike and overlap hide one another by a rule: the later polygon of
 /// the file is painted over the earlier one, as a decal.

@@ -30,7 +30,7 @@ struct Costed {
 double cost_of(const Parted& parted) {
     const std::size_t count = parted.before + parted.behind + parted.within + parted.cut;
     const bool useless = parted.within == 0 && (parted.before == 0 || parted.behind == 0);
-    if (parted.cuts_body || (useless && parted.cut == 0) ||
+    if (parted.cuts_swept || (useless && parted.cut == 0) ||
         (parted.within == 0 && parted.cut + parted.before >= count && parted.behind == 0) ||
         (parted.within == 0 && parted.cut + parted.behind >= count && parted.before == 0)) {
         return std::numeric_limits<double>::infinity();
@@ -48,7 +48,7 @@ Parted parted_by(const Pieces& pieces, std::span<const std::uint32_t> items, con
         const Reach reach = pieces.reach(items[i], plane);
         if (reach.before && reach.behind) {
             ++parted.cut;
-            parted.cuts_body = parted.cuts_body || !pieces[items[i]].plane;
+            parted.cuts_swept = parted.cuts_swept || pieces[items[i]].pivot;
         } else if (reach.before) {
             ++parted.before;
         } else if (reach.behind) {
@@ -84,8 +84,8 @@ Costed best_own(const Pieces& pieces, std::span<const std::uint32_t> items) {
 struct Ends {
     std::vector<double> low;
     std::vector<double> high;
-    std::vector<double> body_low;
-    std::vector<double> body_high;
+    std::vector<double> swept_low;
+    std::vector<double> swept_high;
 };
 
 Ends ends_along(const Pieces& pieces, std::span<const std::uint32_t> items, int axis) {
@@ -99,12 +99,12 @@ Ends ends_along(const Pieces& pieces, std::span<const std::uint32_t> items, int 
         }
         ends.low.push_back(low);
         ends.high.push_back(high);
-        if (!pieces[item].plane) {
-            ends.body_low.push_back(low);
-            ends.body_high.push_back(high);
+        if (pieces[item].pivot) {
+            ends.swept_low.push_back(low);
+            ends.swept_high.push_back(high);
         }
     }
-    for (auto* values : {&ends.low, &ends.high, &ends.body_low, &ends.body_high}) {
+    for (auto* values : {&ends.low, &ends.high, &ends.swept_low, &ends.swept_high}) {
         std::ranges::sort(*values);
     }
     return ends;
@@ -130,8 +130,8 @@ Costed best_across(const Pieces& pieces, std::span<const std::uint32_t> items, i
         parted.behind -= std::min(parted.behind, parted.within);
         const std::size_t settled = parted.before + parted.behind + parted.within;
         parted.cut = count - std::min(count, settled);
-        parted.cuts_body = count_below(ends.body_low, at - tolerance) !=
-                           count_below(ends.body_high, at + tolerance);
+        parted.cuts_swept = count_below(ends.swept_low, at - tolerance) !=
+                            count_below(ends.swept_high, at + tolerance);
         if (parted.before == 0 || parted.behind == 0) {
             return;
         }

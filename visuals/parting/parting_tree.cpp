@@ -30,8 +30,9 @@ using Items = std::vector<std::uint32_t>;
 /// be as long as there are polygons.
 class TreeBuilding {
 public:
-    explicit TreeBuilding(Pieces& pieces)
-        : pieces_(pieces) {}
+    TreeBuilding(Pieces& pieces, bool by_clusters)
+        : pieces_(pieces)
+        , by_clusters_(by_clusters) {}
 
     PartingTree build(Items items) {
         to_do_.push_back({std::move(items), -1, nullptr, 1, false});
@@ -65,7 +66,10 @@ private:
         if (task.items.empty()) {
             return PartingTree::nothing;
         }
-        if (task.is_ring || task.items.size() > most_at_once) {
+        if (task.items.size() == 1) {
+            return list_of(std::move(task.items));
+        }
+        if (task.is_ring || !by_clusters_ || task.items.size() > most_at_once) {
             return parting_of(task);
         }
         auto components = clusters(pieces_, task.items);
@@ -137,9 +141,7 @@ private:
     int parting_of(Task& task) {
         const auto plane = parting_plane(pieces_, task.items);
         if (!plane) {
-            std::ranges::sort(task.items);
-            tree_.unparted.push_back(task.items);
-            return list_of(std::move(task.items));
+            return unparted(task);
         }
         Node node;
         node.plane = plane;
@@ -175,6 +177,24 @@ private:
         return made;
     }
 
+    /// The last resort: what stands still is parted, and what turns is painted over it.
+    int unparted(Task& task) {
+        std::ranges::sort(task.items);
+        tree_.unparted.push_back(task.items);
+        Items turning;
+        Items still;
+        for (const std::uint32_t item : task.items) {
+            (pieces_[item].pivot ? turning : still).push_back(item);
+        }
+        if (still.empty() || turning.empty()) {
+            return list_of(std::move(task.items));
+        }
+        const int node = new_node({});
+        tree_.nodes.back().back = list_of(std::move(turning));
+        to_do_.push_back({std::move(still), node, &Node::front, task.depth + 1, false});
+        return node;
+    }
+
     int list_in_file_order(Items items) {
         std::ranges::sort(
             items, {}, [&](std::uint32_t item) { return std::pair(pieces_[item].source, item); });
@@ -182,14 +202,15 @@ private:
     }
 
     Pieces& pieces_;
+    bool by_clusters_;
     std::vector<Task> to_do_;
     PartingTree tree_;
 };
 
 } // namespace
 
-PartingTree parting_tree(Pieces& pieces, std::vector<std::uint32_t> items) {
-    return TreeBuilding(pieces).build(std::move(items));
+PartingTree parting_tree(Pieces& pieces, std::vector<std::uint32_t> items, bool by_clusters) {
+    return TreeBuilding(pieces, by_clusters).build(std::move(items));
 }
 
 } // namespace octant::visuals::parting

@@ -30,12 +30,13 @@ struct PartingTree {
     int root = nothing;
     std::vector<Node> nodes;
     std::vector<std::vector<std::uint32_t>> lists; ///< Pieces, first painted first.
-    /// A ring of pieces with a body that no plane parts: no order is right for it.
+    /// Rings of pieces that turn, or turn and meet others, and that no plane parts.
     std::vector<std::vector<std::uint32_t>> unparted;
     int depth = 0; ///< The number of nodes on the longest path from the root.
 };
 
-/// Orders pieces, cutting them where they must be. The same pieces give the same tree.
-PartingTree parting_tree(Pieces& pieces, std::vector<std::uint32_t> items);
+/// Orders pieces, cutting them where they must be. The same pieces give the same tree. Without
+/// `by_clusters` every set of two or more is divided by a plane, as in a BSP tree.
+PartingTree parting_tree(Pieces& pieces, std::vector<std::uint32_t> items, bool by_clusters = true);
 
 } // namespace octant::visuals::parting

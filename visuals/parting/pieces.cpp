@@ -63,18 +63,31 @@ Pieces::Pieces(const models::polygons::PolygonModel& model) {
         for (const std::uint32_t vertex : model.corners(i)) {
             piece.corners.push_back(vertex_of[vertex]);
         }
-        const glm::dvec3 normal = models::polygons::normal_of(model, i);
-        glm::dvec3 centre(0.0);
-        for (const std::uint32_t vertex : piece.corners) {
-            centre += at(vertex) / static_cast<double>(piece.corners.size());
-        }
-        piece.plane = Plane{normal, -glm::dot(normal, centre)};
+        piece.plane = plane_of(piece);
         find_ball(piece);
     }
     for (std::uint32_t i = 0; i < model.polygons.size(); ++i) {
-        add_triangles(i);
+        if (!models::polygons::pivot_of(model, i)) { // what turns is never cut
+            add_triangles(i);
+        }
     }
     first_count_ = model.polygons.size();
+}
+
+/// The plane of a polygon by Newell's sum about its centre, so that far origins cost no digits; not
+/// a number for one without area.
+Plane Pieces::plane_of(const Piece& piece) const {
+    glm::dvec3 centre(0.0);
+    for (const std::uint32_t vertex : piece.corners) {
+        centre += at(vertex) / static_cast<double>(piece.corners.size());
+    }
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < piece.corners.size(); ++i) {
+        const glm::dvec3& next = at(piece.corners[(i + 1) % piece.corners.size()]);
+        sum += glm::cross(at(piece.corners[i]) - centre, next - centre);
+    }
+    const glm::dvec3 normal = glm::normalize(sum);
+    return {normal, -glm::dot(normal, centre)};
 }
 
 /// Cuts a polygon that is not planar into triangles.
@@ -116,14 +129,27 @@ void Pieces::find_ball(Piece& piece) const {
     }
 }
 
-void Pieces::make_body(std::uint32_t piece, std::span<const glm::dvec3> corners_m) {
-    pieces_[piece].plane.reset();
-    pieces_[piece].corners.clear();
+void Pieces::make_swept(
+    std::uint32_t piece, std::uint32_t pivot, std::span<const glm::dvec3> corners_m, bool is_body) {
+    Piece& own = pieces_[piece];
+    own.pivot = pivot;
+    own.corners.clear();
     for (const glm::dvec3& corner_m : corners_m) {
-        pieces_[piece].corners.push_back(static_cast<std::uint32_t>(vertices_.size()));
+        own.corners.push_back(static_cast<std::uint32_t>(vertices_.size()));
         vertices_.push_back({.at = (corner_m - middle_m_) / unit_m_});
     }
-    find_ball(pieces_[piece]);
+    if (is_body) {
+        own.plane.reset();
+    }
+    find_ball(own);
+}
+
+void Pieces::add_rigid(std::uint32_t near_one, std::uint32_t far_one) {
+    rigid_.emplace(near_one, far_one);
+}
+
+bool Pieces::is_rigid(std::uint32_t near_one, std::uint32_t far_one) const {
+    return rigid_.contains({near_one, far_one});
 }
 
 Reach Pieces::reach(std::uint32_t piece, const Plane& plane) const {
@@ -200,7 +226,7 @@ std::uint32_t Pieces::crossing(std::uint32_t a, std::uint32_t b, const Plane& pl
 }
 
 std::uint32_t Pieces::cut(std::uint32_t piece, const Plane& plane) {
-    assert(reach(piece, plane).before && reach(piece, plane).behind && pieces_[piece].plane);
+    assert(reach(piece, plane).before && reach(piece, plane).behind && !pieces_[piece].pivot);
     const std::vector<std::uint32_t> outline = pieces_[piece].corners;
     std::vector<double> heights;
     for (const std::uint32_t vertex : outline) {
@@ -288,7 +314,7 @@ void Pieces::write_to(models::polygons::PolygonModel& model) const {
             model.parents.push_back(model.parents[pieces_[i].source]);
         }
         const auto first = static_cast<std::uint32_t>(corners.size());
-        if (pieces_[i].plane) {
+        if (!pieces_[i].pivot) {
             for (const std::uint32_t vertex : full_outline(pieces_[i])) {
                 corners.push_back(vertex_of[vertex]);
             }

@@ -8,8 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace octant::visuals::parting {
@@ -18,13 +20,14 @@ namespace octant::visuals::parting {
 /// within this distance of a plane lies on it.
 inline constexpr double tolerance = 1e-9;
 
-/// A polygon, a piece of one, or the body that a part of turning polygons sweeps.
+/// A polygon, a piece of one, or what a turning polygon sweeps.
 struct Piece {
     std::vector<std::uint32_t> corners; ///< Vertices of Pieces; of a body in any order.
     /// That of the whole polygon, its front where it is seen from; a body has none.
     std::optional<Plane> plane;
-    std::uint32_t source = 0; ///< The polygon of the model.
-    glm::dvec3 middle{0.0};   ///< The centre of a bounding sphere.
+    std::optional<std::uint32_t> pivot; ///< What turns it. It is never cut then.
+    std::uint32_t source = 0;           ///< The polygon of the model.
+    glm::dvec3 middle{0.0};             ///< The centre of a bounding sphere.
     double radius = 0.0;
 };
 
@@ -41,8 +44,8 @@ struct Reach {
 /// and its centre is the origin.
 class Pieces {
 public:
-    /// Piece i is polygon i. A polygon that is not planar becomes triangles: the first keeps the
-    /// number, the others follow behind all polygons.
+    /// Piece i is polygon i. A polygon that is not planar becomes triangles unless it turns: the
+    /// first keeps the number, the others follow behind all polygons.
     explicit Pieces(const models::polygons::PolygonModel& model);
 
     std::size_t count() const { return pieces_.size(); }
@@ -54,8 +57,19 @@ public:
     /// How many pieces were added since the start.
     std::size_t added() const { return pieces_.size() - first_count_; }
 
-    /// Makes a piece stand for the body with these corners (body axes, metres), which is never cut.
-    void make_body(std::uint32_t piece, std::span<const glm::dvec3> corners_m);
+    /// Makes a piece stand for what its polygon sweeps: corners in body axes, metres. A body is one
+    /// that has no plane.
+    void make_swept(
+        std::uint32_t piece,
+        std::uint32_t pivot,
+        std::span<const glm::dvec3> corners_m,
+        bool is_body);
+
+    /// Says that one piece hides another of the same pivot at some angle. Others of one pivot do
+    /// not hide one another.
+    void add_rigid(std::uint32_t near_one, std::uint32_t far_one);
+
+    bool is_rigid(std::uint32_t near_one, std::uint32_t far_one) const;
 
     /// Cuts a piece that reaches to both sides of a plane (asserted), in this unit. The part in
     /// front keeps the number; that of the part behind is returned.
@@ -89,7 +103,7 @@ private:
         std::vector<std::uint32_t> between;
     };
 
-    void add_polygon(const models::polygons::PolygonModel& model, std::uint32_t polygon);
+    Plane plane_of(const Piece& piece) const;
     void add_triangles(std::uint32_t polygon);
     void find_ball(Piece& piece) const;
     /// The edge that two neighbouring corners lie on.
@@ -108,6 +122,7 @@ private:
     std::vector<Vertex> vertices_;
     std::vector<Edge> edges_;
     std::unordered_map<std::uint64_t, std::uint32_t> edge_of_ends_;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> rigid_;
 };
 
 } // namespace octant::visuals::parting

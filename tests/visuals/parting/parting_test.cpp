@@ -171,16 +171,16 @@ TEST_CASE("plates that pass through one another are cut once") {
     CHECK(tree.unparted.empty());
 }
 
-TEST_CASE("a body is never cut, and what it meets is told of") {
+TEST_CASE("what a turning polygon sweeps is never cut, and what it meets is told of") {
     PolygonModel model = model_of({square(0), square(3), square(0.5)});
     Pieces pieces(model);
     const std::vector<glm::dvec3> around{
         {-1, -1, -0.2}, {2, -1, -0.2}, {2, 2, 0.2}, {-1, 2, 0.2}, {0, 0, 0.2}, {0, 0, -0.2}};
-    pieces.make_body(0, around);
+    pieces.make_swept(0, 0, around, true);
     const PartingTree tree = parting_tree(pieces, all_of(pieces));
     CHECK(pieces.added() == 0);
     CHECK(tree.unparted.empty());
     Pieces met(model_of({square(0), upright()}));
-    met.make_body(0, around);
+    met.make_swept(0, 0, around, true);
     CHECK(parting_tree(met, all_of(met)).unparted.size() == 1);
 }
