@@ -248,7 +248,9 @@ void draw_order(const DrawOrderOptions& options) {
     const Work work = prepared(options, figures);
     export_files(work, options);
     bool good = true;
-    if (options.check) {
+    if (options.check && work.orders.parts) {
+        base::say(options.quiet, "note: parts are tried with rays; only cells are certified");
+    } else if (options.check) {
         good = certified(work, options, figures);
     }
     const int rays = options.rays.value_or(options.check ? usual_rays : 0);
