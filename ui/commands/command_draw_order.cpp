@@ -31,7 +31,8 @@ namespace {
 
 using base::Figures;
 
-constexpr int usual_rays = 200000; ///< of a check
+constexpr int usual_rays = 200000;        ///< of a check
+constexpr double shown_after_ms = 1000.0; ///< a search that takes longer shows its progress
 
 struct DrawOrderOptions {
     std::string model;
@@ -64,12 +65,25 @@ void add_figures(Figures& figures, const draworder::OrderedModel& ordered, std::
     figures["polygons"] = polygons;
     figures["polygons_after_splitting"] = ordered.model.polygons.size();
     figures["splits"] = ordered.splits;
-    figures["cells"] = ordered.order.cell_count();
+    figures["drawn_by"] = settings::text_of(ordered.drawn_by);
+    const bool has_cells = ordered.order.one_cell_an_eye();
+    figures[has_cells ? "cells" : "parts"] = ordered.order.cell_count();
     figures["lists"] = ordered.order.list_count();
     figures["cyclic_cells"] = ordered.cyclic_cells;
     figures["plane_tests_most"] = tests.most;
     figures["plane_tests_mean"] = tests.mean;
     figures["min_distance_m"] = ordered.min_distance_m;
+    figures["rays_tried"] = ordered.trial.rays;
+    figures["rays_tried_wrong"] = ordered.trial.wrong;
+}
+
+/// How many cells a file of orders has, or parts.
+void add_size(Figures& figures, const draworder::CellOrders& orders) {
+    if (orders.parts) {
+        figures["parts"] = orders.parts->cell_count();
+    } else {
+        figures["cells"] = orders.cells.size();
+    }
 }
 
 /// Finds the orders, or reads them.
@@ -85,14 +99,22 @@ Work prepared(const DrawOrderOptions& options, Figures& figures) {
         work.orders = draworder::read_order_file(options.check_file, faces, work.axes);
         figures["orders"] = options.check_file;
         figures["polygons"] = faces;
-        figures["cells"] = work.orders.cells.size();
+        add_size(figures, work.orders);
         return work;
     }
     figures["method"] = settings::text_of(options.order.method);
     const std::size_t polygons = input.model.polygons.size();
     const base::Stopwatch watch;
-    draworder::OrderedModel ordered = draworder::ordered(std::move(input.model), options.order);
+    draworder::OrderOptions order = options.order;
+    base::Progress progress("searching for cells", 100, options.quiet, "% of the budget");
+    order.progress = [&](double share) {
+        if (watch.ms() > shown_after_ms) {
+            progress.show(static_cast<int>(100.0 * share));
+        }
+    };
+    draworder::OrderedModel ordered = draworder::ordered(std::move(input.model), order);
     const double build_ms = watch.ms();
+    progress.finish();
     add_figures(figures, ordered, polygons);
     figures["build_ms"] = build_ms;
     for (const std::string& note : ordered.notes) {
@@ -226,7 +248,9 @@ void draw_order(const DrawOrderOptions& options) {
     const Work work = prepared(options, figures);
     export_files(work, options);
     bool good = true;
-    if (options.check) {
+    if (options.check && work.orders.parts) {
+        base::say(options.quiet, "note: parts are tried with rays; only cells are certified");
+    } else if (options.check) {
         good = certified(work, options, figures);
     }
     const int rays = options.rays.value_or(options.check ? usual_rays : 0);
@@ -253,8 +277,15 @@ void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
              {"method",
               "KIND",
               "paper (8 octants as printed), cells (octants divided further, exact from a distance "
-              "on) or tree (planes over eye space, exact everywhere)"},
+              "on), tree (planes over eye space, exact everywhere) or bsp (polygons divided)"},
              options.order.method),
+         read_option(
+             {"order-seconds",
+              "SECONDS",
+              "cells, tree: about so long is searched; then polygons are divided as by bsp",
+              0.001,
+              3600},
+             options.order.seconds),
          read_option(
              {"min-distance", "RADII", "cells: exact for eyes |x|+|y|+|z| away, in radii", 1, 1000},
              options.order.min_distance_radii)});

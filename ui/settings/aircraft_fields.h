@@ -19,7 +19,14 @@ inline constexpr std::tuple surface_rows{
         {"order-method",
          "METHOD",
          "painting order of octant: tree (exact for every eye), cells (octants divided further) "
-         "or paper (8 octants as printed)"},
+         "or paper (8 octants as printed); bsp divides polygons instead, exact for every eye"},
+        {.group = SettingGroup::Surface, .change = SettingsChange::World}),
+    setting<&Settings::surface, &visuals::scene::SurfaceSettings::order_seconds>(
+        {"order-seconds",
+         "SECONDS",
+         "cells, tree: about so long a model is searched; then its polygons are divided as by bsp",
+         0.001,
+         3600.0},
         {.group = SettingGroup::Surface, .change = SettingsChange::World}),
     setting<&Settings::surface, &visuals::scene::SurfaceSettings::shadows>(
         {"shadows", "", "shadows of aircraft on the ground"},

@@ -98,7 +98,16 @@ template <>
 inline constexpr std::array enum_names<visuals::draworder::Method>{
     Named{visuals::draworder::Method::Paper, "paper"},
     Named{visuals::draworder::Method::Cells, "cells"},
-    Named{visuals::draworder::Method::Tree, "tree"}};
+    Named{visuals::draworder::Method::Tree, "tree"},
+    Named{visuals::draworder::Method::Bsp, "bsp"}};
+
+template <>
+inline constexpr std::array enum_names<visuals::draworder::DrawnBy>{
+    Named{visuals::draworder::DrawnBy::Paper, "paper"},
+    Named{visuals::draworder::DrawnBy::Cells, "cells"},
+    Named{visuals::draworder::DrawnBy::Tree, "tree"},
+    Named{visuals::draworder::DrawnBy::Parts, "parts"},
+    Named{visuals::draworder::DrawnBy::Bsp, "bsp"}};
 
 /// One thing that can follow the frame time, with the name that people write for it.
 struct NamedAdaptation {

@@ -13,8 +13,13 @@ namespace {
 constexpr std::array<std::string_view, 2> order_settings{"hidden-surface", "order-method"};
 
 void show_last_frame(const report::FrameRecord& last, const visuals::draworder::DrawOrder& order) {
-    show_value("cell", fmt::format("{} of 0 to {}", last.draw_cell, order.cell_count() - 1));
-    explain("in which the eye is, of the first aircraft's");
+    if (order.one_cell_an_eye()) {
+        show_value("cell", fmt::format("{} of 0 to {}", last.draw_cell, order.cell_count() - 1));
+        explain("in which the eye is, of the first aircraft's");
+    } else {
+        show_value("parts", fmt::format("{}", order.cell_count()));
+        explain("of the first aircraft, in an order that is found anew for each eye");
+    }
     show_value("lists", fmt::format("{}", order.list_count()));
     explain("different painting orders that the cells share");
     show_value("polygons", fmt::format("{}", last.aircraft_polygons));

@@ -114,11 +114,15 @@ void write_order_numbers(const flight::Session& session) {
     placed.parts = parts;
 
     const ScreenPlaces places(camera, session.settings().view.size_px);
-    const int cell = model.order.cell_of(
-        visuals::draworder::eye_in_body(camera.eye_m, state.position_m, state.body_to_world));
+    visuals::draworder::DrawOrder::Walk walk;
+    std::vector<std::uint32_t> list;
+    model.order.append_painted(
+        visuals::draworder::eye_in_body(camera.eye_m, state.position_m, state.body_to_world),
+        walk,
+        list);
     scene::SightPolygon polygon;
     int painted = 0;
-    for (const std::uint32_t number : model.order.polygons_of(cell)) {
+    for (const std::uint32_t number : list) {
         scene::place_polygon(placed, number, polygon);
         if (!faces_eye(polygon)) {
             continue;

@@ -29,19 +29,21 @@ namespace {
 
 using Notes = std::vector<std::string>;
 
-/// More polygons could be put in order, but not in reasonable time: an OBJ file with more faces is
-/// flown as a mesh.
-constexpr std::size_t most_polygons_of_a_model = 2000;
+/// An OBJ file with more faces is flown as a mesh.
+constexpr std::size_t most_polygons_of_a_model = 50'000;
+/// Polygons that stand in for a mesh far away are put in order up to this number.
+constexpr std::size_t most_polygons_of_a_mesh = 2'000;
 
-draworder::OrderedModel
-with_order(models::polygons::PolygonModel model, const settings::Settings& settings) {
+draworder::OrderedModel with_order(
+    models::polygons::PolygonModel model, const settings::Settings& settings, std::size_t most) {
     if (settings.surface.hidden_surface != scene::HiddenSurface::Octant ||
-        model.polygons.size() > most_polygons_of_a_model) {
+        model.polygons.size() > most) {
         draworder::DrawOrder order = draworder::file_order(model);
         return {.model = std::move(model), .order = std::move(order), .cells = {}, .notes = {}};
     }
     draworder::OrderOptions options;
     options.method = settings.surface.order_method;
+    options.seconds = settings.surface.order_seconds;
     return draworder::ordered(std::move(model), options);
 }
 
@@ -61,10 +63,12 @@ scene::AircraftModel ready(
     models::polygons::PolygonModel model,
     const sim::AircraftKind* kind,
     const settings::Settings& settings,
-    Notes& notes) {
+    Notes& notes,
+    bool is_mesh = false) {
     const glm::dvec3 eye_m = kind != nullptr ? kind->pilot_eye_m : scene::pilot_eye_m(model);
     const models::polygons::PolygonModel whole = model;
-    draworder::OrderedModel ordered = with_order(std::move(model), settings);
+    draworder::OrderedModel ordered = with_order(
+        std::move(model), settings, is_mesh ? most_polygons_of_a_mesh : most_polygons_of_a_model);
     notes.insert(notes.end(), ordered.notes.begin(), ordered.notes.end());
     std::vector<glm::vec3> normals =
         shading::normals_of_pieces(whole, shading::corner_normals(whole), ordered.model);
@@ -86,8 +90,8 @@ load_model(const std::string& name, const settings::Settings& settings, Notes& n
     }
     MeshAircraft mesh = read_mesh_aircraft(file, axes);
     notes.insert(notes.end(), mesh.notes.begin(), mesh.notes.end());
-    const bool too_many = mesh.polygons.polygons.size() > most_polygons_of_a_model;
-    scene::AircraftModel model = ready(std::move(mesh.polygons), nullptr, settings, notes);
+    const bool too_many = mesh.polygons.polygons.size() > most_polygons_of_a_mesh;
+    scene::AircraftModel model = ready(std::move(mesh.polygons), nullptr, settings, notes, true);
     if (too_many) { // without a painting order they only throw shadows
         mesh.polygons_error_m = std::numeric_limits<double>::infinity();
     }

@@ -23,7 +23,7 @@ namespace draworder = visuals::draworder;
 
 namespace {
 
-constexpr std::size_t most_polygons = 20000;
+constexpr std::size_t most_polygons = 50'000;
 constexpr double nearest_radii = 0.05;
 constexpr double farthest_radii = 20.0;
 constexpr int rays_per_eye = 20;
@@ -52,6 +52,44 @@ OrderInput read(const std::string& name, const std::string& axes) {
     return {models::polygons::read_obj(name, file_axes), file_axes};
 }
 
+/// The most planes that any eye is tried against.
+int most_tests(const draworder::DrawOrder& order) {
+    using Kind = draworder::DrawOrder::Kind;
+    const auto nodes = order.nodes();
+    std::vector<int> most(nodes.size(), 0);
+    for (std::size_t i = nodes.size(); i-- > 0;) { // children are later nodes
+        const auto below = [&](int child) {
+            return child >= 0 ? most[static_cast<std::size_t>(child)] : 0;
+        };
+        const int front = below(nodes[i].front);
+        const int back = below(nodes[i].back);
+        const bool one = nodes[i].kind == Kind::Choice;
+        most[i] = (nodes[i].kind == Kind::Sequence ? 0 : 1) +
+                  (one ? std::max(front, back) : front + back);
+    }
+    return most.empty() ? 0 : most.front();
+}
+
+/// How many planes an eye is tried against. `to_do` is scratch memory.
+int tests_of(const draworder::DrawOrder& order, const glm::dvec3& eye_m, std::vector<int>& to_do) {
+    using Kind = draworder::DrawOrder::Kind;
+    int tests = 0;
+    to_do.assign(order.nodes().empty() ? 0 : 1, 0);
+    while (!to_do.empty()) {
+        const auto& node = order.nodes()[static_cast<std::size_t>(to_do.back())];
+        to_do.pop_back();
+        tests += node.kind == Kind::Sequence ? 0 : 1;
+        const bool in_front = node.kind == Kind::Choice && distance_m(node.plane, eye_m) >= 0.0;
+        if (node.front >= 0 && (node.kind != Kind::Choice || in_front)) {
+            to_do.push_back(node.front);
+        }
+        if (node.back >= 0 && !in_front) {
+            to_do.push_back(node.back);
+        }
+    }
+    return tests;
+}
+
 } // namespace
 
 OrderInput read_order_input(const std::string& name_or_file, const std::string& axes) {
@@ -68,30 +106,16 @@ OrderInput read_order_input(const std::string& name_or_file, const std::string& 
 
 PlaneTests plane_tests(const draworder::OrderedModel& ordered) {
     constexpr int eyes = 10000;
-    const auto nodes = ordered.order.nodes();
-    std::vector<int> depth(nodes.size(), 1);
     PlaneTests tests;
-    for (std::size_t i = 0; i < nodes.size(); ++i) { // children are later nodes
-        tests.most = std::max(tests.most, depth[i]);
-        for (const int child : {nodes[i].front, nodes[i].back}) {
-            if (child >= 0) {
-                depth[static_cast<std::size_t>(child)] = depth[i] + 1;
-            }
-        }
-    }
+    tests.most = most_tests(ordered.order);
     Dice dice(1989);
     const double radius_m = models::polygons::radius_m(ordered.model);
+    std::vector<int> to_do;
     long sum = 0;
     for (int i = 0; i < eyes; ++i) {
         const glm::dvec3 direction = dice.direction();
         const double radii = nearest_radii * std::pow(farthest_radii / nearest_radii, dice.next());
-        int at = nodes.empty() ? ~0 : 0;
-        while (at >= 0) {
-            const auto& node = nodes[static_cast<std::size_t>(at)];
-            at = distance_m(node.plane, direction * (radii * radius_m)) >= 0.0 ? node.front
-                                                                               : node.back;
-            ++sum;
-        }
+        sum += tests_of(ordered.order, direction * (radii * radius_m), to_do);
     }
     tests.mean = static_cast<double>(sum) / eyes;
     return tests;
@@ -103,7 +127,7 @@ draworder::RayCount cast_rays(
     if (!model.pivots.empty()) {
         angles_rad = {0.0, 0.7, 2.1, 4.4};
     }
-    double least_m = orders.cells.front().min_m;
+    double least_m = orders.cells.empty() ? 0.0 : orders.cells.front().min_m;
     for (const auto& cell : orders.cells) {
         least_m = std::min(least_m, cell.min_m);
     }

@@ -2,6 +2,8 @@
 // the 1989 paper, "divide the viewing directions further"), and regions by planes.
 #include "visuals/draworder/cell_orders.h"
 
+#include "visuals/draworder/order_cells.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -96,6 +98,18 @@ CellOrders cell_orders(const OrderedModel& ordered) {
     orders.faces = ordered.model.polygons.size();
     orders.parents = ordered.model.parents;
     orders.centre_m = ordered.centre_m;
+    if (ordered.cells.empty()) {
+        if (auto cells = cells_of_parts(ordered.model, ordered.order)) {
+            for (CellOfParts& from : *cells) {
+                ListedCell& cell = orders.cells.emplace_back();
+                cell.planes = std::move(from.planes);
+                cell.list = std::move(from.list);
+            }
+        } else {
+            orders.parts = ordered.order;
+        }
+        return orders;
+    }
     std::map<std::string, int> cells_of_path;
     for (const OrderCell& cell : ordered.cells) {
         ++cells_of_path[cell.path];

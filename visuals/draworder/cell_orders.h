@@ -2,6 +2,7 @@
 
 #include "models/polygons/polygon_model.h"
 #include "sim/base/plane.h"
+#include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/ordered_model.h"
 
 #include <glm/vec3.hpp>
@@ -47,9 +48,12 @@ struct CellOrders {
     std::vector<std::uint32_t> two_sided; ///< The polygons that are seen from both sides.
     std::vector<std::uint32_t> parents;   ///< As PolygonModel::parents.
     std::vector<ListedCell> cells;
+    /// In place of cells: an order in which polygons are divided, too. Body axes, metres.
+    std::optional<DrawOrder> parts;
 };
 
-/// Converts a model's orders to this form. Octant cells are made from their paths rather than from
+/// Converts a model's orders to this form. An order by parts is turned into cells where these are
+/// few (order_cells.h). Octant cells are made from their paths rather than from
 /// the planes that the model gives them, except where several cells share a path (an octant divided
 /// by planes). They begin at the distance from which the model's orders hold: at its
 /// min_distance_m, or for Method::Paper, which has none, at sqrt(3) times the model's radius, so

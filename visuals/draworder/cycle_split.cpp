@@ -9,7 +9,6 @@
 #include "visuals/draworder/components.h"
 
 #include <algorithm>
-#include <cassert>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -98,17 +97,16 @@ std::optional<Cut> best_cut(RegionGraphs& graphs, const Deadlock& deadlock) {
     return best;
 }
 
-Precedence weakest_pair(RegionGraphs& graphs, const Deadlock& deadlock) {
+std::optional<Precedence> weakest_pair(RegionGraphs& graphs, const Deadlock& deadlock) {
     const auto ring = shortest_ring(graph_of(graphs, deadlock), deadlock.polygons);
     const auto& faces = graphs.model().faces;
-    assert(!ring.empty());
-    std::size_t weakest = 0;
-    for (std::size_t i = ring.size(); i-- > 0;) {
-        if (faces[ring[i]].pivot || faces[ring[(i + 1) % ring.size()]].pivot) {
-            weakest = i;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const std::uint32_t next = ring[(i + 1) % ring.size()];
+        if (faces[ring[i]].pivot || faces[next].pivot) {
+            return Precedence{ring[i], next};
         }
     }
-    return {ring[weakest], ring[(weakest + 1) % ring.size()]};
+    return std::nullopt;
 }
 
 } // namespace octant::visuals::draworder

@@ -19,11 +19,13 @@ struct Cut {
 /// one polygon straddles the plane of the other, it is the cut that leaves the fewest cyclic edges,
 /// and the lowest polygon numbers among equals. Turning polygons are not cut. Returns nothing when
 /// there is no such pair. That happens only with turning polygons in the ring, because fixed ones
-/// lack an order only if one of them straddles the plane of another.
+/// lack an order only if one of them straddles the plane of another, or where the tolerances of two
+/// tests differ.
 std::optional<Cut> best_cut(RegionGraphs& graphs, const Deadlock& deadlock);
 
-/// The pair of a shortest ring of a deadlock that is given up because no order can be right: one
-/// with a turning polygon if there is any.
-Precedence weakest_pair(RegionGraphs& graphs, const Deadlock& deadlock);
+/// The first pair with a turning polygon of a shortest ring of a deadlock: it is given up because
+/// no order can be right. Returns nothing where no polygon of the ring turns, or where rounding has
+/// left no ring.
+std::optional<Precedence> weakest_pair(RegionGraphs& graphs, const Deadlock& deadlock);
 
 } // namespace octant::visuals::draworder

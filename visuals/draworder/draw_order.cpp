@@ -3,9 +3,13 @@
 // to it, so that octants, cells and trees are looked up by the same loop.
 #include "visuals/draworder/draw_order.h"
 
+#include "sim/base/hash.h"
+
 #include <algorithm>
 #include <cassert>
 #include <numeric>
+#include <span>
+#include <unordered_map>
 #include <utility>
 
 namespace octant::visuals::draworder {
@@ -20,6 +24,10 @@ std::vector<DrawOrder::Node> octant_nodes() {
     return {{z, 1, 4}, {y, 2, 3}, {x, ~0, ~1}, {x, ~2, ~3}, {y, 5, 6}, {x, ~4, ~5}, {x, ~6, ~7}};
 }
 
+bool is_in_front(const DrawOrder::Node& node, const glm::dvec3& eye_m) {
+    return distance_m(node.plane, eye_m) >= 0.0;
+}
+
 } // namespace
 
 DrawOrder::DrawOrder(const OctantOrders& orders)
@@ -32,31 +40,95 @@ DrawOrder::DrawOrder(std::vector<std::uint32_t> list)
 
 DrawOrder::DrawOrder(std::vector<Node> nodes, std::span<const std::vector<std::uint32_t>> lists)
     : nodes_(std::move(nodes)) {
-    assert(nodes_.empty() ? lists.size() == 1 : lists.size() >= 2);
-    for (const auto& list : lists) {
-        add_cell(list);
+    assert(!nodes_.empty() || lists.size() == 1);
+    add_cells(lists);
+    one_cell_an_eye_ =
+        std::ranges::all_of(nodes_, [](const Node& node) { return node.kind == Kind::Choice; });
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        for ([[maybe_unused]] const int child : {nodes_[i].front, nodes_[i].back}) {
+            assert(child == nothing || child > static_cast<int>(i) || child < 0);
+            assert(child == nothing || child >= 0 || ~child < cell_count());
+        }
     }
 }
 
-void DrawOrder::add_cell(std::span<const std::uint32_t> list) {
-    for (const Range& known : cells_) {
-        if (std::ranges::equal(std::span(polygons_).subspan(known.first, known.count), list)) {
-            cells_.push_back(Range(known));
-            return;
+void DrawOrder::add_cells(std::span<const std::vector<std::uint32_t>> lists) {
+    std::unordered_multimap<std::uint64_t, Range> known;
+    for (const std::vector<std::uint32_t>& list : lists) {
+        Hash hash;
+        hash.add(std::as_bytes(std::span(list)));
+        const auto [begin, end] = known.equal_range(hash.value());
+        const auto same = std::find_if(begin, end, [&](const auto& entry) {
+            return std::ranges::equal(
+                std::span(polygons_).subspan(entry.second.first, entry.second.count), list);
+        });
+        if (same != end) {
+            cells_.push_back(same->second);
+            continue;
         }
+        cells_.push_back({polygons_.size(), list.size()});
+        polygons_.insert(polygons_.end(), list.begin(), list.end());
+        known.emplace(hash.value(), cells_.back());
+        ++list_count_;
     }
-    cells_.push_back({polygons_.size(), list.size()});
-    polygons_.insert(polygons_.end(), list.begin(), list.end());
-    ++list_count_;
 }
 
 int DrawOrder::cell_of(const glm::dvec3& eye_in_body_m) const {
+    assert(one_cell_an_eye_);
     int at = nodes_.empty() ? ~0 : 0;
     while (at >= 0) {
         const Node& node = nodes_[static_cast<std::size_t>(at)];
-        at = distance_m(node.plane, eye_in_body_m) >= 0.0 ? node.front : node.back;
+        at = is_in_front(node, eye_in_body_m) ? node.front : node.back;
     }
     return ~at;
+}
+
+std::span<const DrawOrder::Range>
+DrawOrder::ranges_of(const glm::dvec3& eye_in_body_m, Walk& walk) const {
+    walk.ranges.clear();
+    walk.to_do.assign(1, nodes_.empty() ? ~0 : 0);
+    const auto paint = [&](const Range& range) {
+        if (range.count == 0) {
+            return;
+        }
+        if (!walk.ranges.empty() &&
+            walk.ranges.back().first + walk.ranges.back().count == range.first) {
+            walk.ranges.back().count += range.count;
+            return;
+        }
+        walk.ranges.push_back(range);
+    };
+    while (!walk.to_do.empty()) {
+        const int at = walk.to_do.back();
+        walk.to_do.pop_back();
+        if (at == nothing) {
+            continue;
+        }
+        if (at < 0) {
+            paint(cells_[static_cast<std::size_t>(~at)]);
+            continue;
+        }
+        const Node& node = nodes_[static_cast<std::size_t>(at)];
+        if (node.kind == Kind::Sequence) {
+            walk.to_do.insert(walk.to_do.end(), {node.back, node.front});
+            continue;
+        }
+        const bool in_front = is_in_front(node, eye_in_body_m);
+        walk.to_do.push_back(in_front ? node.front : node.back);
+        if (node.kind == Kind::Parting) {
+            walk.to_do.push_back(in_front ? node.along : node.against);
+            walk.to_do.push_back(in_front ? node.back : node.front);
+        }
+    }
+    return walk.ranges;
+}
+
+void DrawOrder::append_painted(
+    const glm::dvec3& eye_in_body_m, Walk& walk, std::vector<std::uint32_t>& painted) const {
+    for (const Range& range : ranges_of(eye_in_body_m, walk)) {
+        const auto list = polygons().subspan(range.first, range.count);
+        painted.insert(painted.end(), list.begin(), list.end());
+    }
 }
 
 DrawOrder::Range DrawOrder::range_of(int cell) const {

@@ -7,14 +7,22 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace octant::visuals::draworder {
 
-/// Painting orders as a renderer uploads them: one flat list of polygon numbers, and for each cell
-/// of eye space a range of that list. Cells with equal lists share a range. At run time an eye
-/// needs a few plane tests and no sorting.
+/// Painting orders as a renderer uploads them: one flat list of polygon numbers, and a tree that
+/// says for each eye which ranges of it are painted one after the other. At run time an eye needs
+/// plane tests and no sorting. Three kinds of nodes:
+/// - a choice divides eye space by a plane, and the eye's side alone says what is painted;
+/// - a parting divides the polygons by a plane (a node of a BSP tree): first what lies on the other
+///   side of it than the eye, then what lies in it and faces the eye, then what lies on the eye's
+///   side;
+/// - a sequence paints two parts one after the other, for every eye.
+/// The leaves are cells with a list each. Where all nodes are choices, each eye lies in one cell,
+/// and its list is one range.
 class DrawOrder {
 public:
     /// Polygons first to first + count - 1 of the flat list.
@@ -24,24 +32,47 @@ public:
         bool operator==(const Range&) const = default;
     };
 
-    /// A plane that divides eye space in two. A child >= 0 is another node, a child < 0 is the cell
-    /// ~child.
+    enum class Kind { Choice, Parting, Sequence };
+
+    /// A child where nothing is painted.
+    static constexpr int nothing = std::numeric_limits<int>::min();
+
+    /// A child >= 0 is another node, a child < 0 is the cell ~child or `nothing`.
     struct Node {
-        Plane plane;
-        int front = 0; ///< The child where dot(normal, eye) + offset >= 0.
-        int back = 0;
+        Plane plane;   ///< Not of a sequence.
+        int front = 0; ///< Where dot(normal, .) + offset >= 0; of a sequence what is painted first.
+        int back = 0;  ///< The other one.
+        Kind kind = Kind::Choice;
+        int along = nothing;   ///< Of a parting: the cell of what lies in it and faces as it does.
+        int against = nothing; ///< Of a parting: the cell of what lies in it and faces back.
+    };
+
+    /// The ranges that an eye paints, and memory that is used on the way to them.
+    struct Walk {
+        std::vector<Range> ranges;
+        std::vector<int> to_do;
     };
 
     /// The paper's eight cells, the octants.
     explicit DrawOrder(const OctantOrders& orders);
 
-    /// Cells below a tree of planes with node 0 as its root; without nodes there is a single cell.
-    /// lists[i] is the list of cell i, first painted first. Every child must be a later node or a
-    /// cell (asserted).
+    /// Cells below a tree with node 0 as its root; without nodes there is a single cell. lists[i]
+    /// is the list of cell i, first painted first. Every child must be a later node, a cell or
+    /// nothing (asserted).
     DrawOrder(std::vector<Node> nodes, std::span<const std::vector<std::uint32_t>> lists);
 
     /// A single cell: the same list for every eye, first painted first.
     explicit DrawOrder(std::vector<std::uint32_t> list);
+
+    /// Replaces the plane of each node.
+    template <typename Convert>
+    void convert_planes(Convert convert) {
+        for (Node& node : nodes_) {
+            if (node.kind != Kind::Sequence) {
+                node.plane = convert(node.plane);
+            }
+        }
+    }
 
     int cell_count() const { return static_cast<int>(cells_.size()); }
 
@@ -50,9 +81,21 @@ public:
 
     std::span<const Node> nodes() const { return nodes_; }
 
-    /// The cell in which an eye (body axes, metres) lies, 0 to cell_count - 1. Every eye lies in
-    /// one.
+    /// Whether all nodes are choices, so that every eye lies in one cell.
+    bool one_cell_an_eye() const { return one_cell_an_eye_; }
+
+    /// The cell in which an eye (body axes, metres) lies, 0 to cell_count - 1. Every eye must lie
+    /// in one (one_cell_an_eye, asserted).
     int cell_of(const glm::dvec3& eye_in_body_m) const;
+
+    /// What is painted for an eye (body axes, metres), first painted first: consecutive ranges of
+    /// polygons(), joined where one goes on where the other ends. They stay until the next call
+    /// with the same memory; nothing is allocated once that has grown.
+    std::span<const Range> ranges_of(const glm::dvec3& eye_in_body_m, Walk& walk) const;
+
+    /// Appends the polygons that are painted for an eye, first painted first.
+    void append_painted(
+        const glm::dvec3& eye_in_body_m, Walk& walk, std::vector<std::uint32_t>& painted) const;
 
     /// The range of a cell's list in polygons().
     Range range_of(int cell) const;
@@ -64,13 +107,14 @@ public:
     std::span<const std::uint32_t> polygons() const { return polygons_; }
 
 private:
-    /// Adds a cell; an equal list that is there already is shared.
-    void add_cell(std::span<const std::uint32_t> list);
+    /// Adds all cells; equal lists are shared.
+    void add_cells(std::span<const std::vector<std::uint32_t>> lists);
 
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> polygons_;
     std::vector<Range> cells_;
     int list_count_ = 0;
+    bool one_cell_an_eye_ = true;
 };
 
 /// A single cell that lists all polygons in file order: for painting with a depth buffer, and for

@@ -3,8 +3,8 @@
 // gives, by topological sorting, one list that is right for all of its eyes.
 #include "visuals/draworder/eye_node.h"
 
-#include "sim/base/error.h"
 #include "visuals/draworder/bit_count.h"
+#include "visuals/draworder/search_budget.h"
 
 #include <cassert>
 #include <fmt/format.h>
@@ -21,14 +21,18 @@ constexpr std::size_t most_entries = 8'000'000;
 
 } // namespace
 
-void check_entries(std::size_t entries, std::size_t polygons) {
+void check_entries(std::size_t entries) {
     if (entries > most_entries) {
-        throw Error(fmt::format(
-            "expected a model whose painting orders have at most {} entries, got more: its {} "
-            "polygons hide one another in too many ways",
-            most_entries,
-            polygons));
+        throw SearchGivenUp{
+            fmt::format("the lists of its cells have more than {} entries", most_entries)};
     }
+}
+
+std::uint64_t search_units(const EyeNode& node) {
+    constexpr std::uint64_t of_edge = 700;
+    constexpr std::uint64_t of_polygon = 2'000;
+    const std::uint64_t words = node.graph.count() * (node.graph.count() / 64 + 1);
+    return of_edge * node.cycles.edges + of_polygon * node.cycles.polygons.size() + 2 * words;
 }
 
 EyeNode eye_node(RegionGraphs& graphs, const EyeRegion& region) {

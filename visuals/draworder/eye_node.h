@@ -29,6 +29,9 @@ EyeNode eye_node(RegionGraphs& graphs, const EyeRegion& region);
 EyeNode
 part_of(RegionGraphs& graphs, const EyeNode& node, EyeRegion part, const SideSets* sides = nullptr);
 
+/// About the work of testing a node's cyclic edges (SearchBudget).
+std::uint64_t search_units(const EyeNode& node);
+
 /// Polygons that have no painting order however eye space is cut: they hide one another in a ring
 /// from a single eye point, or in all of a region that no plane makes simpler.
 struct Deadlock {
@@ -40,8 +43,8 @@ struct Deadlock {
 /// The ring that an eye in the middle of the region sees, if there is one.
 std::optional<Deadlock> ring_at_eye(RegionGraphs& graphs, const EyeNode& node);
 
-/// Throws Error when the lists of a model with so many polygons have more entries than can be held.
-void check_entries(std::size_t entries, std::size_t polygons);
+/// Throws SearchGivenUp when lists have more entries than can be held.
+void check_entries(std::size_t entries);
 
 /// The painting order of a node without cycles: the polygons that face some eye of it, first
 /// painted first, and the lowest number first where there is a choice.

@@ -100,7 +100,7 @@ std::vector<Plane> cone_of(const Triangle& corners) {
 
 int CellBuilder::add_cell(Cell cell) {
     entries_ += cell.list.size();
-    check_entries(entries_, work_.faces.faces.size());
+    check_entries(entries_);
     cells.lists.push_back(std::move(cell.list));
     cells.paths.push_back(std::move(cell.path));
     cells.cell_planes.push_back(std::move(cell.planes));
@@ -147,10 +147,12 @@ int CellBuilder::by_planes(const EyeNode& node, const Triangle& corners, const s
 }
 
 int CellBuilder::divide(EyeNode node, const Triangle& corners, const std::string& path, int level) {
+    work_.spend(search_units(node));
     if (work_.catch_up(node)) {
         node = part_of(graphs_, node, node.region);
     }
     while (const auto deadlock = ring_at_eye(graphs_, node)) {
+        work_.spend(search_units(node));
         work_.resolve(*deadlock);
         work_.catch_up(node);
         node = part_of(graphs_, node, node.region);

@@ -30,8 +30,8 @@ struct OctantCells {
 /// plane that misses the centre, however fine they are, and each further level of them makes more
 /// cells than it saves.
 ///
-/// Splits polygons of the model where there is no order otherwise. Throws Error when there are more
-/// cells than can be held.
+/// Splits polygons of the model where there is no order otherwise. Throws SearchGivenUp
+/// (search_budget.h) when there are more cells than can be held, or when a budget is spent.
 OctantCells octant_cells(WorkingModel& work, double least_distance);
 
 } // namespace octant::visuals::draworder

@@ -108,7 +108,11 @@ std::vector<OrderRow> order_table(
     const CellOrders& orders,
     const models::polygons::FileAxes& axes) {
     std::vector<OrderRow> rows;
-    bool only_octants = true;
+    for (int part = 0; orders.parts && part < orders.parts->cell_count(); ++part) {
+        rows.push_back(
+            {fmt::format("list {}", part), "", list_in_words(orders.parts->polygons_of(part))});
+    }
+    bool only_octants = orders.cells.size() > 0;
     for (std::size_t i = 0; i < orders.cells.size(); ++i) {
         const ListedCell& cell = orders.cells[i];
         OrderRow row;

@@ -31,7 +31,7 @@ std::string region_in_words(
     const models::polygons::FileAxes& axes);
 
 /// The rows of all cells: octants in the paper's order (+++, ++-, +-+, ...), other cells as they
-/// come.
+/// come; of an order by parts its lists, numbered as in its text.
 std::vector<OrderRow> order_table(
     const models::polygons::PolygonModel& model,
     const CellOrders& orders,

@@ -82,6 +82,40 @@ std::string with_axes_changed(const std::string& path, ToOther to_other) {
     return out;
 }
 
+std::string child_text(int child) {
+    if (child == DrawOrder::nothing) {
+        return " nothing";
+    }
+    return child < 0 ? fmt::format(" list {}", ~child) : fmt::format(" node {}", child);
+}
+
+std::string parts_text(const DrawOrder& order, const models::polygons::FileAxes& axes) {
+    std::string text;
+    for (int cell = 0; cell < order.cell_count(); ++cell) {
+        const auto list = order.polygons_of(cell);
+        text += fmt::format("list{}\n", indices({list.begin(), list.end()}));
+    }
+    for (const DrawOrder::Node& node : order.nodes()) {
+        const std::string children = child_text(node.front) + child_text(node.back);
+        if (node.kind == DrawOrder::Kind::Sequence) {
+            text += fmt::format("node sequence{}\n", children);
+            continue;
+        }
+        const std::string plane = fmt::format(
+            "{} {:.17g}",
+            numbers(axes.file_from_body(node.plane.normal)),
+            node.plane.offset_m + 0.0);
+        const bool parts = node.kind == DrawOrder::Kind::Parting;
+        text += fmt::format(
+            "node {} {}{}{}\n",
+            parts ? "parting" : "choice",
+            plane,
+            children,
+            parts ? child_text(node.along) + child_text(node.against) : "");
+    }
+    return text;
+}
+
 } // namespace
 
 std::string path_in_file(const std::string& path, const models::polygons::FileAxes& axes) {
@@ -114,6 +148,9 @@ std::string order_text(const CellOrders& orders, const models::polygons::FileAxe
             text += fmt::format(" max {:.17g}", cell.max_m);
         }
         text += fmt::format(" order{}\n", indices(cell.list));
+    }
+    if (orders.parts) {
+        text += parts_text(*orders.parts, axes);
     }
     return text;
 }

@@ -9,7 +9,9 @@
 
 namespace octant::visuals::draworder {
 
-/// Painting orders as text, line by line, `#` starts a comment, polygons counted from 0:
+/// Painting orders as text. Planes are absolute: N.p + D >= 0 for points p as they stand in the
+/// exported model, in the axes and from the origin of its file, not from `center`. Line by line,
+/// `#` starts a comment, polygons counted from 0:
 ///     draworder 1
 ///     center CX CY CZ          default 0 0 0
 ///     metric l1 | l2           of min and max: |eye - center|; default l2
@@ -20,6 +22,18 @@ namespace octant::visuals::draworder {
 /// REGION is an octant path (cell_orders.h), `cone K X1 Y1 Z1 ...` (non-negative sums of K
 /// directions, from the centre) or `half K NX NY NZ D ...` (points p with N.p + D >= 0 for all K;
 /// K = 0 is everywhere). The first cell that contains an eye is used.
+///
+/// In place of cells there may be parts, for models that would need too many cells; the polygons
+/// themselves are divided, too:
+///     list I0 I1 ...                                      may be empty
+///     node choice NX NY NZ D FRONT BACK                   the eye's side is painted
+///     node parting NX NY NZ D FRONT BACK ALONG AGAINST    the side without the eye, what lies in
+///                                                         the plane, then the eye's side
+///     node sequence FIRST LATER                           painted one after the other
+/// FRONT is what is painted, or lies, where N.p + D >= 0. A child is `node K` or `list K`, counted
+/// from 0 in the order of the lines, or `nothing`; the children of a node are lists or later nodes.
+/// Of what lies in a parting's plane, ALONG is painted for eyes in front and AGAINST for those
+/// behind. Node 0 is where every eye begins; without nodes it is list 0.
 ///
 /// Coordinates are in `axes`, those of the model file that the orders speak of; so the letters
 /// A, B, C of octant paths belong to that file's x, y, z. Numbers have 17 significant digits.
@@ -35,7 +49,8 @@ std::string path_in_body(const std::string& path, const models::polygons::FileAx
 /// Reads order_text for a model of `faces` polygons. Normals of any length become unit vectors.
 /// Throws Error "file:line: expected ..., got ...": no header, unknown keywords and regions,
 /// numbers that are missing, too many, not finite or too large, indices out of range, a polygon
-/// twice in one cell, another count of faces, a keyword twice or after the cells, no cells.
+/// twice in one cell, another count of faces, a keyword twice or after the cells, no cells and no
+/// parts, both of them, children that are not there.
 CellOrders read_order_file(
     const std::filesystem::path& path,
     std::size_t faces,

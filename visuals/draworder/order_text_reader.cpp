@@ -48,8 +48,11 @@ public:
         if (seen_.empty()) {
             error_in(path_, "expected 'draworder 1' first, got an empty file");
         }
-        if (orders_.cells.empty()) {
-            error_in(path_, "expected at least one cell, got none");
+        if (orders_.cells.empty() && lists_.empty()) {
+            error_in(path_, "expected at least one cell or list, got none");
+        }
+        if (!lists_.empty()) {
+            finish_parts();
         }
         return std::move(orders_);
     }
@@ -138,10 +141,16 @@ private:
             return;
         }
         if (keyword != "center" && keyword != "metric" && keyword != "faces" &&
-            keyword != "twosided" && keyword != "parents" && keyword != "cell") {
-            refuse("center, metric, faces, twosided, parents or cell");
+            keyword != "twosided" && keyword != "parents" && keyword != "cell" &&
+            keyword != "list" && keyword != "node") {
+            refuse("center, metric, faces, twosided, parents, cell, list or node");
         }
-        if (keyword != "cell" && (!seen_.insert(keyword).second || !orders_.cells.empty())) {
+        const bool is_part = keyword == "list" || keyword == "node";
+        if (is_part ? !orders_.cells.empty() : keyword == "cell" && !lists_.empty()) {
+            refuse("either cells or parts");
+        }
+        if (!is_part && keyword != "cell" &&
+            (!seen_.insert(keyword).second || !orders_.cells.empty())) {
             refuse("each keyword once and before the cells");
         }
         ++at_;
@@ -163,9 +172,93 @@ private:
             orders_.two_sided = different_faces();
         } else if (keyword == "parents") {
             take_parents();
+        } else if (keyword == "list") {
+            need_faces();
+            if (lists_.size() == most_cells) {
+                refuse(fmt::format("at most {} lists", most_cells));
+            }
+            lists_.push_back(different_faces());
+        } else if (keyword == "node") {
+            need_faces();
+            take_node();
         } else {
             take_cell();
         }
+    }
+
+    void need_faces() {
+        if (!seen_.contains("faces")) {
+            at_ = 0;
+            refuse("faces before the first cell or list");
+        }
+    }
+
+    void take_node() {
+        if (nodes_.size() == most_cells) {
+            refuse(fmt::format("at most {} nodes", most_cells));
+        }
+        DrawOrder::Node node;
+        node.kind = skip("choice")     ? DrawOrder::Kind::Choice
+                    : skip("parting")  ? DrawOrder::Kind::Parting
+                    : skip("sequence") ? DrawOrder::Kind::Sequence
+                                       : throw_kind();
+        if (node.kind != DrawOrder::Kind::Sequence) {
+            node.plane = plane();
+        }
+        node.front = child();
+        node.back = child();
+        if (node.kind == DrawOrder::Kind::Parting) {
+            node.along = child();
+            node.against = child();
+        }
+        nodes_.push_back(node);
+    }
+
+    [[noreturn]] DrawOrder::Kind throw_kind() const { refuse("choice, parting or sequence"); }
+
+    /// A child as DrawOrder::Node has it. Whether a list is there is known only at the end.
+    int child() {
+        if (skip("nothing")) {
+            return DrawOrder::nothing;
+        }
+        const auto most = static_cast<long>(most_cells);
+        if (skip("list")) {
+            return ~static_cast<int>(count("the number of a list", 0, most));
+        }
+        if (skip("node")) {
+            const auto later = static_cast<long>(nodes_.size()) + 1;
+            return static_cast<int>(count("the number of a later node", later, most));
+        }
+        refuse("a child: node K, list K or nothing");
+    }
+
+    /// Makes the order of the parts that were read.
+    void finish_parts() {
+        const auto check = [&](int child) {
+            const bool there = child == DrawOrder::nothing ||
+                               (child < 0 ? static_cast<std::size_t>(~child) < lists_.size()
+                                          : static_cast<std::size_t>(child) < nodes_.size());
+            if (!there) {
+                error_in(
+                    path_,
+                    fmt::format(
+                        "expected children among {} nodes and {} lists, got {} {}",
+                        nodes_.size(),
+                        lists_.size(),
+                        child < 0 ? "list" : "node",
+                        child < 0 ? ~child : child));
+            }
+        };
+        for (const DrawOrder::Node& node : nodes_) {
+            check(node.front);
+            check(node.back);
+            check(node.along);
+            check(node.against);
+        }
+        if (nodes_.empty() && lists_.size() > 1) {
+            error_in(path_, "expected nodes between several lists, got none");
+        }
+        orders_.parts = DrawOrder(std::move(nodes_), lists_);
     }
 
     void take_metric() {
@@ -184,10 +277,7 @@ private:
     }
 
     void take_cell() {
-        if (!seen_.contains("faces")) {
-            at_ = 0;
-            refuse("faces before the first cell");
-        }
+        need_faces();
         if (orders_.cells.size() == most_cells) {
             refuse(fmt::format("at most {} cells", most_cells));
         }
@@ -251,17 +341,24 @@ private:
     void take_planes(ListedCell& cell) {
         const long planes = count("how many planes", 0, most_planes);
         for (long i = 0; i < planes; ++i) {
-            const glm::dvec3 normal = long_vector("a normal");
-            const double length = glm::length(normal);
-            // A unit vector stays as written, bit for bit.
-            const double factor = std::abs(length - 1.0) < 1e-14 ? 1.0 : 1.0 / length;
-            cell.planes.push_back({normal * factor, number("an offset") * factor});
+            cell.planes.push_back(plane());
         }
+    }
+
+    /// A plane with a normal of any length.
+    Plane plane() {
+        const glm::dvec3 normal = long_vector("a normal");
+        const double length = glm::length(normal);
+        // A unit vector stays as written, bit for bit.
+        const double factor = std::abs(length - 1.0) < 1e-14 ? 1.0 : 1.0 / length;
+        return {normal * factor, number("an offset") * factor};
     }
 
     std::filesystem::path path_;
     models::polygons::FileAxes axes_;
     CellOrders orders_;
+    std::vector<DrawOrder::Node> nodes_;
+    std::vector<std::vector<std::uint32_t>> lists_;
     std::vector<bool> used_; ///< One flag for each polygon; all are false between lines.
     std::set<std::string> seen_;
     std::vector<std::string_view> words_;

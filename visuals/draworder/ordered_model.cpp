@@ -7,6 +7,7 @@
 #include "models/planar/planar_model.h"
 #include "visuals/draworder/cell_centres.h"
 #include "visuals/draworder/octant_cells.h"
+#include "visuals/draworder/parted_order.h"
 #include "visuals/draworder/region_tree.h"
 #include "visuals/draworder/split.h"
 #include "visuals/draworder/working_model.h"
@@ -24,13 +25,21 @@ namespace octant::visuals::draworder {
 
 namespace {
 
+using models::planar::PlanarModel;
+
 /// In larger models the octants always meet at the origin.
 constexpr std::size_t most_polygons_with_choice = 200;
+/// Larger models are divided at once: their graphs alone would take seconds.
+constexpr std::size_t most_polygons_searched = 2'000;
 /// Models with more cyclic edges get one quick search only.
 constexpr std::size_t most_edges_searched_again = 2'000;
 
-/// The searches whose results are compared.
-const std::array<TreeSearch, 3> tree_searches{{{.power = 1.0}, {.power = 0.5}, {.power = 1.5}}};
+/// About the work of testing a pair of polygons (SearchBudget).
+constexpr std::uint64_t units_of_pair = 300;
+
+/// The searches whose results are compared; the last one only where the others split polygons.
+const std::array<TreeSearch, 4> tree_searches{
+    {{.power = 1.0}, {.power = 0.5}, {.power = 1.5}, {.planes_first = true}}};
 const TreeSearch quick_search{.edge_planes = 300, .closer = 48, .exact = 2};
 
 OrderedModel by_paper(models::polygons::PolygonModel model, const OrderOptions& options) {
@@ -44,6 +53,7 @@ OrderedModel by_paper(models::polygons::PolygonModel model, const OrderOptions& 
              {{{signs.x, 0.0, 0.0}, 0.0}, {{0.0, signs.y, 0.0}, 0.0}, {{0.0, 0.0, signs.z}, 0.0}}});
     }
     out.cyclic_cells = orders.cyclic_octants;
+    out.drawn_by = DrawnBy::Paper;
     // Lists are for eyes at the radius or beyond: all with |x| + |y| + |z| of sqrt(3) radii are.
     out.min_distance_m = std::sqrt(3.0) * models::polygons::radius_m(out.model);
     return out;
@@ -78,8 +88,10 @@ Orders tree_orders(WorkingModel work, const EyeNode& root, const TreeSearch& sea
     return out;
 }
 
-Orders best_tree(const models::polygons::PolygonModel& model) {
-    const WorkingModel work(model, glm::dvec3(0.0));
+Orders best_tree(const models::polygons::PolygonModel& model, SearchBudget& budget) {
+    WorkingModel work(model, glm::dvec3(0.0));
+    work.budget = &budget;
+    work.spend(units_of_pair * model.polygons.size() * model.polygons.size());
     RegionGraphs graphs(work.faces);
     const EyeNode root = eye_node(graphs, EyeRegion::everywhere());
     if (root.cycles.edges > most_edges_searched_again) {
@@ -87,10 +99,16 @@ Orders best_tree(const models::polygons::PolygonModel& model) {
     }
     std::optional<Orders> best;
     for (const TreeSearch& search : tree_searches) {
-        keep_better(best, tree_orders(work, root, search));
-    }
-    if (!best->work.twins.empty()) {
-        keep_better(best, tree_orders(work, root, {.planes_first = true}));
+        if (best && best->work.twins.empty() && search.planes_first) {
+            break;
+        }
+        try {
+            keep_better(best, tree_orders(work, root, search));
+        } catch (const SearchGivenUp&) {
+            if (!best) {
+                throw;
+            }
+        }
     }
     return std::move(*best);
 }
@@ -104,19 +122,124 @@ Orders cell_orders(WorkingModel work, double least_distance) {
     return out;
 }
 
-Orders best_cells(const models::polygons::PolygonModel& model, double least_distance) {
+Orders best_cells(
+    const models::polygons::PolygonModel& model, double least_distance, SearchBudget& budget) {
+    budget.spend(3 * units_of_pair * model.polygons.size() * model.polygons.size());
     std::optional<Orders> best;
     const auto centres = cell_centres(WorkingModel(model, glm::dvec3(0.0)));
     for (const glm::dvec3& centre_m : centres) {
         if (best && model.polygons.size() > most_polygons_with_choice) {
             break;
         }
-        keep_better(best, cell_orders(WorkingModel(model, centre_m), least_distance));
+        WorkingModel work(model, centre_m);
+        work.budget = &budget;
+        try {
+            keep_better(best, cell_orders(std::move(work), least_distance));
+        } catch (const SearchGivenUp&) {
+            if (!best) {
+                throw;
+            }
+        }
     }
     return std::move(*best);
 }
 
-std::vector<std::string> notes_of(const models::planar::PlanarModel& planar) {
+/// Finds the orders by Cells or Tree.
+OrderedModel exact(models::polygons::PolygonModel model, const OrderOptions& options) {
+    SearchBudget budget(options.seconds, options.progress);
+    const int penetrating = split_penetrating(model, budget);
+    const bool by_cells = options.method == Method::Cells;
+    Orders orders =
+        by_cells ? best_cells(model, options.min_distance_radii, budget) : best_tree(model, budget);
+    const ModelFaces& faces = orders.work.faces;
+    for (DrawOrder::Node& node : orders.nodes) {
+        node.plane = faces.in_model(node.plane);
+    }
+    for (OrderCell& cell : orders.cells) {
+        for (Plane& plane : cell.planes) {
+            plane = faces.in_model(plane);
+        }
+    }
+    return {
+        .model = std::move(orders.work.model),
+        .order = DrawOrder(std::move(orders.nodes), orders.lists),
+        .cells = std::move(orders.cells),
+        .centre_m = faces.origin_m,
+        .min_distance_m = by_cells ? options.min_distance_radii * faces.unit_m : 0.0,
+        .splits = penetrating + static_cast<int>(orders.work.twins.size()),
+        .notes = std::move(orders.work.notes),
+        .drawn_by = by_cells ? DrawnBy::Cells : DrawnBy::Tree};
+}
+
+OrderedModel by_parts(models::polygons::PolygonModel model, Parting way) {
+    PartedOrder parted = parted_order(std::move(model), way);
+    return {
+        .model = std::move(parted.model),
+        .order = std::move(parted.order),
+        .cells = {},
+        .splits = parted.splits,
+        .notes = std::move(parted.notes),
+        .drawn_by = way == Parting::Single ? DrawnBy::Bsp : DrawnBy::Parts};
+}
+
+/// The orders of the method asked for; nothing where the search for cells is given up. `why` says
+/// why then.
+std::optional<OrderedModel> searched(
+    const models::polygons::PolygonModel& model, const OrderOptions& options, std::string& why) {
+    if (model.polygons.size() > most_polygons_searched) {
+        why = fmt::format("cells are searched for up to {} polygons", most_polygons_searched);
+        return std::nullopt;
+    }
+    try {
+        return exact(model, options);
+    } catch (const SearchGivenUp& given_up) {
+        why = given_up.why;
+        return std::nullopt;
+    }
+}
+
+/// Tries an order; whether it may be used.
+bool is_right(OrderedModel& ordered) {
+    // Where no order is right for turning parts, they say nothing about the others.
+    ordered.trial = try_order(
+        ordered.model,
+        ordered.order,
+        {.turning_parts = ordered.notes.empty(), .min_distance_m = ordered.min_distance_m});
+    return ordered.trial.wrong == 0;
+}
+
+std::string wrong_in_words(const Trial& trial) {
+    return fmt::format("{} of {} rays were wrong", trial.wrong, trial.rays);
+}
+
+/// Finds the orders of a planar model by any method but that of the paper.
+OrderedModel of_planar(models::polygons::PolygonModel model, const OrderOptions& options) {
+    std::string why;
+    if (options.method != Method::Bsp) {
+        if (auto found = searched(model, options, why)) {
+            if (is_right(*found)) {
+                return std::move(*found);
+            }
+            why = "by cells " + wrong_in_words(found->trial);
+        }
+    }
+    OrderedModel parted = by_parts(model, Parting::Clusters);
+    if (!is_right(parted)) {
+        const std::string instead = wrong_in_words(parted.trial);
+        OrderedModel single = by_parts(std::move(model), Parting::Single);
+        single.notes.push_back("drawn by a BSP tree: by parts " + instead);
+        if (!is_right(single)) {
+            single.notes.push_back("by the BSP tree " + wrong_in_words(single.trial));
+        }
+        parted = std::move(single);
+    }
+    if (!why.empty()) {
+        parted.notes.push_back("drawn by parts, not by cells: " + why);
+    }
+    return parted;
+}
+
+std::vector<std::string> notes_of(const PlanarModel& planar) {
     std::vector<std::string> notes;
     if (planar.cut_polygons > 0) {
         notes.push_back(fmt::format(
@@ -130,33 +253,21 @@ std::vector<std::string> notes_of(const models::planar::PlanarModel& planar) {
     return notes;
 }
 
-/// Finds the orders by Cells or Tree and converts them to body axes.
-OrderedModel exact(const models::polygons::PolygonModel& given, const OrderOptions& options) {
-    const models::planar::PlanarModel planar = models::planar::planar_model(given);
-    models::polygons::PolygonModel model = planar.model;
-    const int penetrating = split_penetrating(model);
-    const bool by_cells = options.method == Method::Cells;
-    Orders orders = by_cells ? best_cells(model, options.min_distance_radii) : best_tree(model);
-    const ModelFaces& faces = orders.work.faces;
-    for (DrawOrder::Node& node : orders.nodes) {
-        node.plane = planar.in_given(faces.in_model(node.plane));
-    }
-    for (OrderCell& cell : orders.cells) {
+/// Brings an order back to the place and unit of the model as given.
+OrderedModel as_given(
+    OrderedModel found, const PlanarModel& planar, const models::polygons::PolygonModel& given) {
+    found.model = models::planar::as_given(std::move(found.model), planar, given);
+    found.order.convert_planes([&](const Plane& plane) { return planar.in_given(plane); });
+    for (OrderCell& cell : found.cells) {
         for (Plane& plane : cell.planes) {
-            plane = planar.in_given(faces.in_model(plane));
+            plane = planar.in_given(plane);
         }
     }
-    std::vector<std::string> notes = notes_of(planar);
-    notes.insert(notes.end(), orders.work.notes.begin(), orders.work.notes.end());
-    return {
-        .model = models::planar::as_given(std::move(orders.work.model), planar, given),
-        .order = DrawOrder(std::move(orders.nodes), orders.lists),
-        .cells = std::move(orders.cells),
-        .centre_m = planar.in_given(faces.origin_m),
-        .min_distance_m =
-            by_cells ? options.min_distance_radii * faces.unit_m * planar.radius_m : 0.0,
-        .splits = penetrating + static_cast<int>(orders.work.twins.size()),
-        .notes = std::move(notes)};
+    found.centre_m = planar.in_given(found.centre_m);
+    found.min_distance_m *= planar.radius_m;
+    const auto notes = notes_of(planar);
+    found.notes.insert(found.notes.begin(), notes.begin(), notes.end());
+    return found;
 }
 
 } // namespace
@@ -165,7 +276,8 @@ OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& o
     if (options.method == Method::Paper) {
         return by_paper(std::move(model), options);
     }
-    return exact(model, options);
+    const PlanarModel planar = models::planar::planar_model(model);
+    return as_given(of_planar(planar.model, options), planar, model);
 }
 
 } // namespace octant::visuals::draworder

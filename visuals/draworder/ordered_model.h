@@ -4,6 +4,8 @@
 #include "sim/base/plane.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/octant_order.h"
+#include "visuals/draworder/order_trial.h"
+#include "visuals/draworder/search_budget.h"
 
 #include <string>
 #include <vector>
@@ -15,13 +17,28 @@ enum class Method {
     Paper, ///< 8 octants with one viewpoint each, steps 1 to 6 as printed.
     /// Octants that are divided further where a cycle remains; exact from a stated distance on.
     Cells,
-    Tree ///< A tree of planes over eye space; exact for every eye point.
+    Tree, ///< A tree of planes over eye space; exact for every eye point.
+    Bsp   ///< Polygons divided by planes; exact for every eye point, for any model at once.
 };
 
 struct OrderOptions {
     Method method = Method::Tree;
+    /// Cells, Tree: about how long the search may take on one core. It is counted in work, not in
+    /// time, so that the same model gives the same order everywhere.
+    double seconds = 20.0;
+    /// Cells, Tree: told how much of that is spent, 0 to 1; may be empty.
+    SearchBudget::Progress progress = {};
     double min_distance_radii = 2.0; ///< Cells: exact for eyes with |x|+|y|+|z| >= this many radii.
     PaperOptions paper;              ///< For Method::Paper.
+};
+
+/// What an order was found by in the end.
+enum class DrawnBy {
+    Paper, ///< Octants as printed.
+    Cells, ///< Octants divided further.
+    Tree,  ///< Cells of a tree of planes over eye space.
+    Parts, ///< Polygons divided where they hide one another in rings.
+    Bsp    ///< Polygons divided until each stands alone.
 };
 
 /// The eye points that share a list.
@@ -35,18 +52,24 @@ struct OrderCell {
 struct OrderedModel {
     /// The model, with polygons split where no order exists otherwise; its parents tell of what.
     models::polygons::PolygonModel model;
-    DrawOrder order; ///< Cell i is cells[i].
-    std::vector<OrderCell> cells;
-    glm::dvec3 centre_m{0.0}; ///< Paper, Cells: where the octants meet.
+    DrawOrder order;
+    std::vector<OrderCell> cells; ///< For each cell of the order; empty where it has parts.
+    glm::dvec3 centre_m{0.0};     ///< Paper, Cells: where the octants meet.
     /// Paper, Cells: the orders hold for |x|+|y|+|z| >= this, from centre_m.
     double min_distance_m = 0.0;
     int splits = 0;                 ///< How many polygons were added by splitting.
     int cyclic_cells = 0;           ///< Paper: the number of octants with broken cycles; else 0.
     std::vector<std::string> notes; ///< Messages to the user; often none.
+    DrawnBy drawn_by = DrawnBy::Tree;
+    Trial trial{}; ///< Not for Method::Paper.
 };
 
-/// Finds the painting orders of a model. Meant for loading: it may take seconds. Throws Error when
-/// the model needs more cells than can be held.
+/// Finds the painting orders of a model. Meant for loading: it may take seconds.
+///
+/// There is an answer for any model. Where the search for cells is given up, or the model has more
+/// polygons than are searched, polygons are divided instead (parted_order.h). Every order but that
+/// of Method::Paper is tried by rays before it is returned (order_trial.h); one that is wrong is
+/// replaced in the same way, and in the end by a BSP tree of single polygons. Notes say so.
 OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& options = {});
 
 } // namespace octant::visuals::draworder

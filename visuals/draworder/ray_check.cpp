@@ -159,8 +159,12 @@ RayCount count_wrong_rays(
     const models::polygons::PolygonModel& model,
     const DrawOrder& order,
     const EyeSamples& samples) {
+    DrawOrder::Walk walk;
+    std::vector<std::uint32_t> painted;
     const PaintedFrom painted_from = [&](const glm::dvec3& eye_m) {
-        return order.polygons_of(order.cell_of(eye_m));
+        painted.clear();
+        order.append_painted(eye_m, walk, painted);
+        return std::span<const std::uint32_t>(painted);
     };
     return count_wrong_rays(model, painted_from, samples);
 }
@@ -185,6 +189,18 @@ RayCount count_wrong_rays(
     const EyeSamples& samples) {
     Sampling sampling(model, samples, orders.two_sided);
     RayCount count;
+    if (orders.parts) {
+        DrawOrder::Walk walk;
+        std::vector<std::uint32_t> painted;
+        for (int eye = 0; eye < samples.eyes; ++eye) {
+            const glm::dvec3 eye_m = sampling.next_eye_m();
+            painted.clear();
+            orders.parts->append_painted(eye_m, walk, painted);
+            ++count.eyes;
+            sampling.look(eye_m, painted, count);
+        }
+        return count;
+    }
     for (int eye = 0; eye < samples.eyes; ++eye) {
         const glm::dvec3 eye_m = sampling.next_eye_m();
         if (!in_range(orders, eye_m)) {

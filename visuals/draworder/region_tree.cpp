@@ -10,11 +10,11 @@
 // split.
 #include "visuals/draworder/region_tree.h"
 
-#include "sim/base/error.h"
 #include "visuals/draworder/candidate_planes.h"
 #include "visuals/draworder/components.h"
 #include "visuals/draworder/parallel.h"
 #include "visuals/draworder/plane_judge.h"
+#include "visuals/draworder/search_budget.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +68,22 @@ Plane reversed(const Plane& plane) {
 /// Whether a node's work is worth a second thread.
 bool is_large(const EyeNode& node) {
     return node.cycles.edges > 500;
+}
+
+/// The work of judging a plane by where polygons lie to it.
+std::uint64_t units_of_plane(const Cycles& cycles) {
+    constexpr std::size_t most_rows = 192;
+    std::size_t words = 0;
+    for (const auto& component : cycles.components) {
+        words += std::min(component.size(), most_rows) * (component.size() / 64 + 1);
+    }
+    return 15 * cycles.polygons.size() + 4 * words;
+}
+
+/// The work of counting the edges that a plane leaves on cycles.
+std::uint64_t units_of_rings(const Cycles& cycles) {
+    const std::size_t words = cycles.inner.count() / 64 + 1;
+    return 2 * (30 + 4 * words) * cycles.polygons.size() + 4 * cycles.edges;
 }
 
 /// Builds one tree.
@@ -167,6 +183,7 @@ TreeBuilder::by_rings(const EyeNode& node, std::span<const Choice> choices) cons
 
 /// Both stages over many planes, on two threads; best first.
 std::vector<Choice> TreeBuilder::ranked(const EyeNode& node, std::span<const Plane> planes) const {
+    work_.spend(planes.size() * units_of_plane(node.cycles));
     const bool large = is_large(node);
     const std::size_t half = planes.size() / 2;
     auto [choices, others] = both(
@@ -176,6 +193,7 @@ std::vector<Choice> TreeBuilder::ranked(const EyeNode& node, std::span<const Pla
     choices.insert(choices.end(), others.begin(), others.end());
     std::sort(choices.begin(), choices.end());
     choices.resize(std::min(search_.closer, choices.size()));
+    work_.spend(choices.size() * units_of_rings(node.cycles));
     const std::size_t middle = choices.size() / 2;
     const std::span<const Choice> all(choices);
     auto [judged, rest] = both(
@@ -226,6 +244,7 @@ std::optional<Fork> TreeBuilder::best_fork(const EyeNode& node) const {
     }
     const std::size_t tried = cycles.edges > most_exact_edges ? 1 : search_.exact;
     choices.resize(std::min(tried, choices.size()));
+    work_.spend(2 * choices.size() * search_units(node));
     std::optional<Fork> best;
     Choice least{.plane = {}, .cost = HUGE_VAL, .number = choices.size()};
     for (const Choice& choice : choices) {
@@ -246,7 +265,7 @@ std::unique_ptr<Branch> TreeBuilder::leaf(const EyeNode& node) {
     out->planes = node.region.planes();
     out->polygons = node.graph.count();
     entries_ += out->list.size();
-    check_entries(entries_, node.graph.count());
+    check_entries(entries_);
     return out;
 }
 
@@ -268,6 +287,7 @@ std::optional<Fork> TreeBuilder::settle(EyeNode& node) {
         if (!deadlock) {
             deadlock = Deadlock{node.cycles.components.front(), node.region, std::nullopt};
         }
+        work_.spend(search_units(node));
         work_.resolve(*deadlock);
         work_.catch_up(node);
         node = part_of(graphs_, node, node.region);
@@ -278,14 +298,13 @@ std::optional<Fork> TreeBuilder::settle(EyeNode& node) {
 /// The branch of a node, recursively.
 std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
     if (depth == search_.most_depth) {
-        throw Error(fmt::format(
-            "expected a model with painting orders, got one of {} polygons that no {} planes order",
-            node.graph.count(),
-            search_.most_depth));
+        throw SearchGivenUp{
+            fmt::format("{} planes one after another make no cell", search_.most_depth)};
     }
     if (work_.catch_up(node)) {
         node = part_of(graphs_, node, node.region);
     }
+    work_.spend(search_units(node));
     std::optional<Fork> fork = settle(node);
     if (!fork) {
         return leaf(node);

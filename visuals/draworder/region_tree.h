@@ -24,7 +24,7 @@ struct TreeSearch {
     std::size_t edge_planes = 8000;
     std::size_t closer = 400;     ///< For so many planes the edges left on cycles are counted.
     std::size_t exact = 48;       ///< For so many planes both sides are tested exactly.
-    std::size_t most_depth = 100; ///< The most cuts one after another; more is an Error.
+    std::size_t most_depth = 100; ///< The most cuts one after another.
     /// Whether planes are tried before polygons are split, even where an eye in the middle of a
     /// region sees a ring: more cells, sometimes fewer splits.
     bool planes_first = false;
@@ -33,7 +33,8 @@ struct TreeSearch {
 };
 
 /// A tree over a node's region whose cells have no cycles. Splits polygons of the model where there
-/// is no order otherwise. Throws Error when it grows beyond what can be held.
+/// is no order otherwise. Throws SearchGivenUp (search_budget.h) when it grows beyond what can be
+/// held, or when a budget is spent.
 RegionTree region_tree(WorkingModel& work, const EyeNode& root, const TreeSearch& search);
 
 } // namespace octant::visuals::draworder

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -35,6 +36,14 @@ namespace {
 using models::polygons::PolygonModel;
 using Corners = std::vector<glm::dvec3>;
 using Outline = std::vector<std::uint32_t>;
+
+/// About the work of looking at a pair, and of a cut for each polygon there is (SearchBudget).
+constexpr std::uint64_t units_of_pair = 5;
+constexpr std::uint64_t units_of_cut = 100;
+
+/// With more cuts than 100 + 4 a polygon there are too many pieces for a search.
+constexpr std::size_t most_cuts_a_polygon = 4;
+constexpr std::size_t cuts_always_allowed = 100;
 
 /// A side of a polygon that a cut passes through.
 struct CutSide {
@@ -222,13 +231,19 @@ public:
         }
     }
 
-    int split_all() {
-        int added = 0;
+    int split_all(SearchBudget& budget) {
+        const std::size_t most = most_cuts_a_polygon * faces_.size() + cuts_always_allowed;
+        std::size_t added = 0;
         while (const auto polygon = best_polygon()) {
+            if (added == most) {
+                throw SearchGivenUp{
+                    fmt::format("polygons that pass through one another need {} cuts", most)};
+            }
+            budget.spend(units_of_cut * faces_.size());
             cut(*polygon, cuts_[*polygon]->along);
             ++added;
         }
-        return added;
+        return static_cast<int>(added);
     }
 
 private:
@@ -366,8 +381,9 @@ std::uint32_t split_polygon(PolygonModel& model, std::size_t polygon, const Plan
     return back;
 }
 
-int split_penetrating(PolygonModel& model) {
-    return Splitter(model).split_all();
+int split_penetrating(PolygonModel& model, SearchBudget& budget) {
+    budget.spend(units_of_pair * model.polygons.size() * model.polygons.size());
+    return Splitter(model).split_all(budget);
 }
 
 } // namespace octant::visuals::draworder

@@ -2,6 +2,7 @@
 
 #include "models/polygons/polygon_model.h"
 #include "sim/base/plane.h"
+#include "visuals/draworder/search_budget.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -34,6 +35,9 @@ split_polygon(models::polygons::PolygonModel& model, std::size_t polygon, const 
 /// (shared edges, T-joints, a corner on a face) do not; anything within split_tolerance_m is
 /// touching. A polygon that turns about a pivot is cut only
 /// against those that turn about the same one.
-int split_penetrating(models::polygons::PolygonModel& model);
+///
+/// Counts its work; throws SearchGivenUp when the budget is spent, or when a model needs more cuts
+/// than cells could be found for.
+int split_penetrating(models::polygons::PolygonModel& model, SearchBudget& budget);
 
 } // namespace octant::visuals::draworder

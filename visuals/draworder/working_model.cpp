@@ -3,7 +3,6 @@
 // to date.
 #include "visuals/draworder/working_model.h"
 
-#include "sim/base/error.h"
 #include "visuals/draworder/cycle_split.h"
 #include "visuals/draworder/split.h"
 
@@ -25,11 +24,7 @@ void WorkingModel::resolve(const Deadlock& deadlock) {
     RegionGraphs graphs(faces);
     if (const auto cut = best_cut(graphs, deadlock)) {
         if (twins.size() > splits_always_allowed + most_splits_a_polygon * first_count) {
-            throw Error(fmt::format(
-                "expected a model that painting orders suit, got one whose {} polygons need more "
-                "than {} splits",
-                first_count,
-                twins.size() - 1));
+            throw SearchGivenUp{fmt::format("cells need more than {} splits", twins.size() - 1)};
         }
         split_polygon(model, cut->polygon, models::polygons::plane_of(model, cut->along));
         twins.push_back(cut->polygon);
@@ -47,7 +42,11 @@ void WorkingModel::resolve(const Deadlock& deadlock) {
         end_overlaps(faces.faces.size() - 1);
         return;
     }
-    const Precedence pair = weakest_pair(graphs, deadlock);
+    const auto weakest = weakest_pair(graphs, deadlock);
+    if (!weakest) {
+        throw SearchGivenUp{"polygons hide one another in a ring that no cut resolves"};
+    }
+    const Precedence pair = *weakest;
     faces.ignored.add(pair.later, pair.first);
     notes.push_back(fmt::format(
         "{} and {} hide one another as they turn; no order is right at every angle",

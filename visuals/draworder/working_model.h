@@ -3,6 +3,7 @@
 #include "models/polygons/polygon_model.h"
 #include "visuals/draworder/eye_node.h"
 #include "visuals/draworder/model_faces.h"
+#include "visuals/draworder/search_budget.h"
 
 #include <glm/vec3.hpp>
 
@@ -27,8 +28,16 @@ struct WorkingModel {
         , notes(faces.notes) {}
 
     /// Splits a polygon of a deadlock, or gives up a pair where only turning polygons are in the
-    /// way. Throws Error when a model has been split beyond what is sensible.
+    /// way. Throws SearchGivenUp when there is nothing to split, or when a model has been split
+    /// beyond what is sensible.
     void resolve(const Deadlock& deadlock);
+
+    /// Counts work of the search, if there is a budget; throws SearchGivenUp when it is spent.
+    void spend(std::uint64_t units) const {
+        if (budget != nullptr) {
+            budget->spend(units);
+        }
+    }
 
     /// Adds to a node the pieces that were split off since it was made. Returns whether there were
     /// any.
@@ -45,6 +54,7 @@ struct WorkingModel {
     /// For polygon first_count + i the polygon whose other piece it is.
     std::vector<std::uint32_t> twins;
     std::vector<std::string> notes;
+    SearchBudget* budget = nullptr;
 };
 
 } // namespace octant::visuals::draworder

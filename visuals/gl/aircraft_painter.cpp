@@ -29,12 +29,15 @@ AircraftPainter::AircraftPainter(const Functions& gl, DrawState& state)
     , smooth_buffer_(gl, "smooth polygons", first_capacity_bytes)
     , instance_buffer_(gl, "aircraft instances", first_capacity_bytes)
     , command_buffer_(gl, "aircraft draws", first_capacity_bytes)
+    , gathered_buffer_(gl, "gathered model indices", first_capacity_bytes)
     , array_(make_model_array(
-          gl, model_vertices_.name(), model_indices_.name(), instance_buffer_.name())) {}
+          gl, model_vertices_.name(), model_indices_.name(), instance_buffer_.name()))
+    , gathered_array_(make_model_array(
+          gl, model_vertices_.name(), gathered_buffer_.name(), instance_buffer_.name())) {}
 
 void AircraftPainter::load_models(std::span<const scene::ModelBuffers> models) {
     std::vector<ModelVertex> vertices;
-    std::vector<std::uint32_t> indices;
+    indices_.clear();
     models_.clear();
     has_meshes_ = false;
     for (const scene::ModelBuffers& model : models) {
@@ -44,9 +47,9 @@ void AircraftPainter::load_models(std::span<const scene::ModelBuffers> models) {
             parts = std::max(parts, std::size_t{vertex.part} + 1);
         }
         models_.push_back(
-            {indices.size(), model.indices.size(), static_cast<GLint>(vertices.size()), parts});
+            {indices_.size(), model.indices.size(), static_cast<GLint>(vertices.size()), parts});
         vertices.insert(vertices.end(), model.vertices.begin(), model.vertices.end());
-        indices.insert(indices.end(), model.indices.begin(), model.indices.end());
+        indices_.insert(indices_.end(), model.indices.begin(), model.indices.end());
     }
     gl_.named_buffer_data(
         model_vertices_.name(),
@@ -55,8 +58,8 @@ void AircraftPainter::load_models(std::span<const scene::ModelBuffers> models) {
         GL_STATIC_DRAW);
     gl_.named_buffer_data(
         model_indices_.name(),
-        static_cast<GLsizeiptr>(std::span(indices).size_bytes()),
-        indices.data(),
+        static_cast<GLsizeiptr>(std::span(indices_).size_bytes()),
+        indices_.data(),
         GL_STATIC_DRAW);
 }
 
@@ -73,6 +76,8 @@ void AircraftPainter::add_any(scene::FramePlan& plan) const {
 
 void AircraftPainter::upload(const scene::FramePlan& plan) {
     commands_.clear();
+    is_gathered_.clear();
+    gathered_.clear();
     instances_.clear();
     for (const AircraftDraw& draw : plan.aircraft) {
         assert(draw.model < models_.size());
@@ -80,12 +85,17 @@ void AircraftPainter::upload(const scene::FramePlan& plan) {
         const ModelPlace& model = models_[draw.model];
         assert(std::size_t{draw.first_index} + draw.index_count <= model.index_count);
         assert(std::size_t{draw.first_part} + model.parts <= plan.parts.size());
-        commands_.push_back(
-            {.index_count = draw.index_count,
-             .instance_count = 1,
-             .first_index = static_cast<GLuint>(model.first_index) + draw.first_index,
-             .first_vertex = model.first_vertex,
-             .first_instance = static_cast<GLuint>(commands_.size())});
+        Command command{
+            .index_count = draw.index_count,
+            .instance_count = 1,
+            .first_index = static_cast<GLuint>(model.first_index) + draw.first_index,
+            .first_vertex = model.first_vertex,
+            .first_instance = static_cast<GLuint>(commands_.size())};
+        if (!draw.ranges.empty()) {
+            gather(draw, command);
+        }
+        commands_.push_back(command);
+        is_gathered_.push_back(draw.ranges.empty() ? 0 : 1);
         instances_.push_back(
             {draw.first_part, draw.first_smooth, draw.tints.smooth, draw.tints.flat});
     }
@@ -93,9 +103,25 @@ void AircraftPainter::upload(const scene::FramePlan& plan) {
     smooth_buffer_.fill({std::as_bytes(std::span(plan.smooth))});
     instance_buffer_.fill({std::as_bytes(std::span(instances_))});
     command_buffer_.fill({std::as_bytes(std::span(commands_))});
+    if (!gathered_.empty()) {
+        gathered_buffer_.fill({std::as_bytes(std::span(gathered_))});
+    }
     gl_.bind_buffer_base(GL_SHADER_STORAGE_BUFFER, parts_binding, part_buffer_.name());
     gl_.bind_buffer_base(GL_SHADER_STORAGE_BUFFER, smooth_binding, smooth_buffer_.name());
     gl_.bind_buffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_.name());
+}
+
+void AircraftPainter::gather(const AircraftDraw& draw, Command& command) {
+    const ModelPlace& model = models_[draw.model];
+    const std::size_t before = gathered_.size();
+    for (const scene::IndexRange& range : draw.ranges) {
+        assert(std::size_t{range.first_index} + range.index_count <= model.index_count);
+        const auto from =
+            std::span(indices_).subspan(model.first_index + range.first_index, range.index_count);
+        gathered_.insert(gathered_.end(), from.begin(), from.end());
+    }
+    command.first_index = static_cast<GLuint>(before);
+    command.index_count = static_cast<GLuint>(gathered_.size() - before);
 }
 
 void AircraftPainter::draw(const scene::PaintStep& step, const scene::Clip* clip) {
@@ -107,12 +133,25 @@ void AircraftPainter::draw(const scene::PaintStep& step, const scene::Clip* clip
     state_.use_depth(step.depth);
     state_.cull_back_faces(true);
     state_.use_program(programs_, clip);
-    gl_.bind_vertex_array(array_.name());
+    const std::size_t end = std::size_t{step.first} + step.count;
+    for (std::size_t first = step.first; first < end;) {
+        std::size_t next = first + 1;
+        while (next < end && is_gathered_[next] == is_gathered_[first]) {
+            ++next;
+        }
+        draw_commands(first, next - first);
+        first = next;
+    }
+}
+
+/// Draws by commands that all read the same index buffer.
+void AircraftPainter::draw_commands(std::size_t first, std::size_t count) {
+    gl_.bind_vertex_array((is_gathered_[first] != 0 ? gathered_array_ : array_).name());
     gl_.multi_draw_elements_indirect(
         GL_TRIANGLES,
         GL_UNSIGNED_INT,
-        reinterpret_cast<const void*>(step.first * sizeof(Command)),
-        static_cast<GLsizei>(step.count),
+        reinterpret_cast<const void*>(first * sizeof(Command)),
+        static_cast<GLsizei>(count),
         sizeof(Command));
     state_.count_draw_call();
 }

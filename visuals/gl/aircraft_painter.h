@@ -32,7 +32,8 @@ public:
     /// Puts an aircraft 100 m ahead into a plan without any, if a model is loaded.
     void add_any(scene::FramePlan& plan) const;
 
-    /// A step of Aircraft, by one call. No clip = not cut.
+    /// A step of Aircraft, by one call unless aircraft of one range and of several take turns. No
+    /// clip = not cut.
     void draw(const scene::PaintStep& step, const scene::Clip* clip);
 
 private:
@@ -52,6 +53,11 @@ private:
         GLuint first_instance = 0; ///< of instance_buffer_
     };
 
+    /// Appends the indices of a draw of several ranges to gathered_ and lets its command read them
+    /// there.
+    void gather(const scene::AircraftDraw& draw, Command& command);
+    void draw_commands(std::size_t first, std::size_t count);
+
     const Functions& gl_;
     DrawState& state_;
     ProgramPair programs_;
@@ -61,9 +67,14 @@ private:
     StreamBuffer smooth_buffer_;
     StreamBuffer instance_buffer_;
     StreamBuffer command_buffer_;
+    StreamBuffer gathered_buffer_;
     Object array_;
+    Object gathered_array_; ///< with gathered_buffer_ in place of model_indices_
     std::vector<ModelPlace> models_;
-    std::vector<Command> commands_; ///< one for each aircraft
+    std::vector<std::uint32_t> indices_;    ///< of all models
+    std::vector<std::uint32_t> gathered_;   ///< of the draws of several ranges, one after the other
+    std::vector<Command> commands_;         ///< one for each aircraft
+    std::vector<std::uint8_t> is_gathered_; ///< whether a command reads gathered_buffer_
     std::vector<ModelInstance> instances_;
     bool has_meshes_ = false;
 };

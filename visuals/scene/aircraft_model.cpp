@@ -72,7 +72,27 @@ private:
     ModelBuffers buffers_;
 };
 
+/// Where the triangles of each polygon of a list begin, and where those of the last one end.
+std::vector<std::uint32_t>
+first_indices_of(const models::polygons::PolygonModel& model, std::span<const std::uint32_t> list) {
+    std::vector<std::uint32_t> first{0};
+    first.reserve(list.size() + 1);
+    for (const std::uint32_t polygon : list) {
+        first.push_back(first.back() + 3 * (model.polygons[polygon].corner_count - 2));
+    }
+    return first;
+}
+
 } // namespace
+
+IndexRange index_range(const AircraftModel& model, const draworder::DrawOrder::Range& range) {
+    const std::uint32_t first = model.first_indices[range.first];
+    return {
+        first,
+        model.first_indices[range.first + range.count] - first,
+        static_cast<int>(range.count),
+        static_cast<std::uint32_t>(range.first)};
+}
 
 AircraftModel aircraft_model(
     models::polygons::PolygonModel polygons,
@@ -85,17 +105,8 @@ AircraftModel aircraft_model(
     assert(normals.size() == polygons.corner_vertices.size());
     shading::ShadedPolygons shaded = shading::shaded_polygons(polygons, normals);
     BufferMaker maker(polygons, normals);
-    std::vector<IndexRange> cells;
-    for (int cell = 0; cell < order.cell_count(); ++cell) {
-        // Cells with equal lists share a range of the order, and so of the index buffer.
-        int same = 0;
-        while (!(order.range_of(same) == order.range_of(cell))) {
-            ++same;
-        }
-        cells.push_back(
-            same < cell ? cells[static_cast<std::size_t>(same)]
-                        : maker.append(order.polygons_of(cell)));
-    }
+    std::vector<std::uint32_t> first_indices = first_indices_of(polygons, order.polygons());
+    maker.append(order.polygons());
     std::vector<std::uint32_t> file_list(polygons.polygons.size());
     std::iota(file_list.begin(), file_list.end(), 0U);
     const IndexRange all = maker.append(file_list);
@@ -106,7 +117,7 @@ AircraftModel aircraft_model(
         std::move(polygons),
         std::move(order),
         std::move(buffers),
-        std::move(cells),
+        std::move(first_indices),
         all,
         std::move(file_list),
         hull,

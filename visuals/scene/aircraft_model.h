@@ -19,13 +19,15 @@
 namespace octant::visuals::scene {
 
 /// A model as drawn. As polygons: one vertex a polygon corner, in the order of
-/// PolygonModel::corner_vertices; one index buffer that holds the list of every draw cell and,
-/// behind them, all polygons in file order. As meshes, where it has levels of detail: behind both.
+/// PolygonModel::corner_vertices; one index buffer that holds the polygons of the order's flat list
+/// and, behind them, all polygons in file order. As meshes, where it has levels of detail: behind
+/// both.
 struct AircraftModel {
     models::polygons::PolygonModel polygons;
     draworder::DrawOrder order;
     ModelBuffers buffers;
-    std::vector<IndexRange> cells; ///< one for each cell of the order
+    /// Where each polygon of order.polygons() begins in the index buffer, and the last one ends.
+    std::vector<std::uint32_t> first_indices;
     IndexRange file_order;
     std::vector<std::uint32_t> file_list; ///< 0, 1, 2, ...: what file_order draws
     HullExtent hull;                      ///< of polygons and meshes
@@ -45,6 +47,9 @@ struct AircraftModel {
         return representation < levels.size() ? levels[representation].shaded : shaded;
     }
 };
+
+/// The part of a model's index buffer that holds a range of its order.
+IndexRange index_range(const AircraftModel& model, const draworder::DrawOrder::Range& range);
 
 /// Makes a model ready to be drawn. `pilot_eye_m`: body axes. `normals`: one a corner, for smooth
 /// shading; empty = made here by crease angle, for polygons that are whole. Loading work.

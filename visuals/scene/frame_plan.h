@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/colour_vertex.h"
+#include "visuals/scene/index_range.h"
 #include "visuals/scene/model_buffers.h"
 #include "visuals/scene/paint_step.h"
 
@@ -30,7 +31,7 @@ struct Tints {
     std::uint32_t flat = 0;
 };
 
-/// One aircraft of one frame: one range of its model's index buffer.
+/// One aircraft of one frame: one range of its model's index buffer, or several.
 struct AircraftDraw {
     std::uint32_t model = 0; ///< index into the models that the renderer has loaded
     std::uint32_t first_index = 0;
@@ -38,6 +39,9 @@ struct AircraftDraw {
     std::uint32_t first_part = 0;   ///< index into FramePlan::parts
     std::uint32_t first_smooth = 0; ///< word of FramePlan::smooth whose bit 0 is polygon 0
     Tints tints{};
+    /// Drawn one after the other in place of the range above, if there are any. Memory as
+    /// TriangleDraw.
+    std::span<const IndexRange> ranges{};
 };
 
 /// A mesh that is another one in each frame. Memory stays with the maker of the plan, as that of

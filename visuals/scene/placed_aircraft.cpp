@@ -20,10 +20,21 @@ void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, SightP
 }
 
 AircraftDraw draw_of(const PlacedAircraft& aircraft) {
+    if (aircraft.ranges.size() == 1) {
+        const IndexRange& range = aircraft.ranges.front();
+        return draw_of(aircraft, range.first_index, range.index_count);
+    }
+    AircraftDraw draw = draw_of(aircraft, 0, 0);
+    draw.ranges = aircraft.ranges;
+    return draw;
+}
+
+AircraftDraw
+draw_of(const PlacedAircraft& aircraft, std::uint32_t first_index, std::uint32_t index_count) {
     AircraftDraw draw;
     draw.model = aircraft.model_index;
-    draw.first_index = aircraft.range.first_index;
-    draw.index_count = aircraft.range.index_count;
+    draw.first_index = first_index;
+    draw.index_count = index_count;
     draw.first_part = aircraft.first_part;
     draw.first_smooth = aircraft.first_smooth;
     draw.tints = aircraft.tints;

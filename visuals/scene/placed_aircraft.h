@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace octant::visuals::scene {
 
@@ -16,12 +17,16 @@ namespace octant::visuals::scene {
 struct PlacedAircraft {
     const AircraftModel* model = nullptr;
     std::uint32_t model_index = 0;
-    std::span<const std::uint32_t> polygons; ///< in painting order
-    IndexRange range;                        ///< of the index buffer: what is drawn of it
-    int cell = 0;                            ///< of the draw order, in which the eye is
-    bool is_represented = false;             ///< in the last frame, in view
-    std::size_t representation = 0;          ///< index into AircraftModel::errors_m
-    std::uint32_t first_smooth = 0;          ///< as AircraftDraw::first_smooth
+    /// Polygons in the order of the index buffer: what IndexRange::first_polygon counts in. Empty
+    /// for a mesh.
+    std::span<const std::uint32_t> list;
+    /// Of the index buffer: what is drawn of it, one range after the other. Keeps its memory.
+    std::vector<IndexRange> ranges;
+    int polygon_count = 0;       ///< of all ranges; of a refined mesh its triangles
+    int cell = 0;                ///< of the draw order, in which the eye is; 0 where it has parts
+    bool is_represented = false; ///< in the last frame, in view
+    std::size_t representation = 0; ///< index into AircraftModel::errors_m
+    std::uint32_t first_smooth = 0; ///< as AircraftDraw::first_smooth
     Tints tints{};
     std::uint32_t first_part = 0; ///< index into FramePlan::parts
     /// Body axes to world axes with the eye at the origin: the body, then each pivot turned.
@@ -42,8 +47,12 @@ inline bool is_refined(const PlacedAircraft& aircraft) {
 /// The corners of a polygon of an aircraft where it is; world axes with the eye at the origin.
 void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, SightPolygon& placed);
 
-/// What a whole aircraft is drawn by.
+/// What a whole aircraft is drawn by; valid as long as the aircraft and its ranges.
 AircraftDraw draw_of(const PlacedAircraft& aircraft);
+
+/// What a part of its index buffer is drawn by.
+AircraftDraw
+draw_of(const PlacedAircraft& aircraft, std::uint32_t first_index, std::uint32_t index_count);
 
 /// Number of indices of a polygon as a fan of triangles.
 std::uint32_t index_count_of(const models::polygons::Polygon& polygon);

@@ -147,7 +147,7 @@ void Planner::refine_meshes(const Camera& camera) {
                 refined_[i]->update(placed_[i].parts[0], look, !before);
             refine_splits_ += static_cast<int>(frame.splits);
             refine_collapses_ += static_cast<int>(frame.collapses);
-            placed_[i].range = {0, 0, refined_[i]->triangles()};
+            placed_[i].polygon_count = refined_[i]->triangles();
         }
     }
 }
@@ -234,20 +234,38 @@ void Planner::place(
         body_to_eye_world(state, eye_m),
         state.time_s,
         std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1));
-    const int cell =
-        model.order.cell_of(draworder::eye_in_body(eye_m, state.position_m, state.body_to_world));
-    aircraft.cell = cell;
+    const glm::dvec3 eye_in_body_m =
+        draworder::eye_in_body(eye_m, state.position_m, state.body_to_world);
+    aircraft.cell = model.order.one_cell_an_eye() ? model.order.cell_of(eye_in_body_m) : 0;
     represent(aircraft);
     aircraft.tints = tints_of(aircraft, settings_.shading.show_model);
+    choose_ranges(aircraft, eye_in_body_m);
+    aircraft.polygon_count = 0;
+    for (const IndexRange& range : aircraft.ranges) {
+        aircraft.polygon_count += range.polygons;
+    }
+}
+
+/// Chooses what of an aircraft's index buffer is drawn; of a refined mesh nothing.
+void Planner::choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m) {
+    const AircraftModel& model = *aircraft.model;
+    aircraft.ranges.clear();
+    aircraft.list = {};
     if (is_solid(aircraft)) {
-        aircraft.polygons = {};
-        aircraft.range =
-            is_refined(aircraft) ? IndexRange() : model.levels[aircraft.representation].range;
+        if (!is_refined(aircraft)) {
+            aircraft.ranges.push_back(model.levels[aircraft.representation].range);
+        }
         return;
     }
-    const bool by_cell = settings_.surface.hidden_surface == HiddenSurface::Octant;
-    aircraft.polygons = by_cell ? model.order.polygons_of(cell) : model.file_list;
-    aircraft.range = by_cell ? model.cells[static_cast<std::size_t>(cell)] : model.file_order;
+    if (settings_.surface.hidden_surface != HiddenSurface::Octant) {
+        aircraft.list = model.file_list;
+        aircraft.ranges.push_back(model.file_order);
+        return;
+    }
+    aircraft.list = model.order.polygons();
+    for (const auto& range : model.order.ranges_of(eye_in_body_m, walk_)) {
+        aircraft.ranges.push_back(index_range(model, range));
+    }
 }
 
 /// Chooses the coarsest representation that is as good as asked for; out of view the coarsest of
@@ -301,7 +319,7 @@ void Planner::plan_head_up_display(const Camera& camera, const sim::AircraftStat
 
 void Planner::count_aircraft(PlanCounts& counts) const {
     for (const PlacedAircraft& aircraft : placed_) {
-        counts.aircraft_polygons += aircraft.range.polygons;
+        counts.aircraft_polygons += aircraft.polygon_count;
     }
     counts.refine_splits = refine_splits_;
     counts.refine_collapses = refine_collapses_;

@@ -34,7 +34,8 @@ namespace octant::visuals::scene {
 struct PlanCounts {
     GroundCounts ground;
     int aircraft_polygons = 0;
-    int draw_cell = 0; ///< cell of the first aircraft's draw order in which the eye is
+    int draw_cell =
+        0; ///< cell of the first aircraft's draw order in which the eye is; 0 where it has parts
     int cuts = 0;      ///< ground triangles and aircraft polygons painted again, cut by planes
     int knots = 0;     ///< groups of aircraft that meet or stand in a ring, painted by polygons
     int unordered = 0; ///< polygons that should have been painted again and were too many
@@ -107,6 +108,7 @@ private:
     void place_aircraft(const Camera& camera, std::span<const sim::AircraftState> states);
     void place(PlacedAircraft& aircraft, const sim::AircraftState& state, const glm::dvec3& eye_m);
     void represent(PlacedAircraft& aircraft);
+    void choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m);
     void refine_meshes(const Camera& camera);
     void cast_shadows(const Camera& camera);
     void write_parts();
@@ -135,6 +137,7 @@ private:
     GroundFrame ground_;
     std::vector<glm::dmat4> parts_;      ///< of placed_
     std::vector<PlacedAircraft> placed_; ///< Scene::aircraft, then the cockpit
+    draworder::DrawOrder::Walk walk_;
     SmoothChoice smooth_;
     std::vector<std::unique_ptr<RefinedAircraft>> refined_; ///< of placed_, null for most
     std::vector<std::uint8_t> was_refined_;                 ///< in the last frame

@@ -14,13 +14,6 @@ constexpr double touching = 1e-9;
 /// More repaints than this in one place are not worth their time.
 constexpr std::size_t most_painted = 20000;
 
-AircraftDraw draw_of(const PlacedAircraft& aircraft, std::uint32_t first, std::uint32_t count) {
-    AircraftDraw draw = draw_of(aircraft);
-    draw.first_index = first;
-    draw.index_count = count;
-    return draw;
-}
-
 } // namespace
 
 int PolygonRepaint::paint(
@@ -58,11 +51,26 @@ int PolygonRepaint::paint_aircraft(
     std::uint32_t owner,
     double rounding_rad,
     StepWriter& steps) {
+    int again = 0;
+    for (const IndexRange& range : aircraft[owner]->ranges) {
+        again += paint_range(aircraft, owner, range, rounding_rad, steps);
+    }
+    return again;
+}
+
+int PolygonRepaint::paint_range(
+    std::span<const PlacedAircraft* const> aircraft,
+    std::uint32_t owner,
+    const IndexRange& range,
+    double rounding_rad,
+    StepWriter& steps) {
     const PlacedAircraft& own = *aircraft[owner];
-    std::uint32_t run_first = own.range.first_index;
+    std::uint32_t run_first = range.first_index;
     std::uint32_t next = run_first;
     int again = 0;
-    for (const std::uint32_t polygon : own.polygons) {
+    const auto polygons =
+        own.list.subspan(range.first_polygon, static_cast<std::size_t>(range.polygons));
+    for (const std::uint32_t polygon : polygons) {
         const std::uint32_t first = next;
         next += index_count_of(own.model->polygons.polygons[polygon]);
         place_polygon(own, polygon, polygon_);

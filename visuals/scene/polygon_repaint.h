@@ -55,6 +55,12 @@ private:
         std::uint32_t owner,
         double rounding_rad,
         StepWriter& steps);
+    int paint_range(
+        std::span<const PlacedAircraft* const> aircraft,
+        std::uint32_t owner,
+        const IndexRange& range,
+        double rounding_rad,
+        StepWriter& steps);
     void
     find_hiding(const Plane& plane, std::uint32_t owner, std::size_t before, double rounding_rad);
     void write(

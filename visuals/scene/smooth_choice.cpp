@@ -33,7 +33,7 @@ double distance_m(const PlacedAircraft& aircraft) {
 /// Those that may be flat or smooth.
 int polygons_of(const PlacedAircraft& aircraft) {
     return is_refined(aircraft)
-               ? aircraft.range.polygons
+               ? aircraft.polygon_count
                : static_cast<int>(aircraft.model->shaded_as(aircraft.representation).size());
 }
 

@@ -52,3 +52,36 @@ TEST_CASE("the example's eight lists are eight different ones") {
     const DrawOrder order(paper_orders(octant::tests::paper_example()));
     CHECK(order.polygons().size() == 6 + 6 + 5 * 4 + 4 + 4);
 }
+
+TEST_CASE("an eye paints the far side of a parting, what faces it there, then its own side") {
+    using Kind = DrawOrder::Kind;
+    constexpr int nothing = DrawOrder::nothing;
+    const std::vector<std::vector<std::uint32_t>> lists{{0}, {1}, {2}, {3, 4}, {5}};
+    const DrawOrder order(
+        {{{{0, 0, 1}, 0}, 1, ~0, Kind::Parting, ~2, ~1},
+         {{}, ~3, 2, Kind::Sequence, nothing, nothing},
+         {{{1, 0, 0}, 0}, ~4, nothing, Kind::Choice, nothing, nothing}},
+        lists);
+    CHECK_FALSE(order.one_cell_an_eye());
+    DrawOrder::Walk walk;
+    const auto painted = [&](const glm::dvec3& eye) {
+        std::vector<std::uint32_t> list;
+        order.append_painted(eye, walk, list);
+        return list;
+    };
+    CHECK(painted({1, 0, 1}) == std::vector<std::uint32_t>{0, 2, 3, 4, 5});
+    CHECK(painted({-1, 0, 1}) == std::vector<std::uint32_t>{0, 2, 3, 4});
+    CHECK(painted({1, 0, -1}) == std::vector<std::uint32_t>{3, 4, 5, 1, 0});
+    CHECK(order.ranges_of({1, 0, 1}, walk).size() == 2); // 2 to 5 lie side by side
+}
+
+TEST_CASE("where all nodes are choices each eye has one range, that of its cell") {
+    const DrawOrder order(paper_orders(octant::tests::paper_example()));
+    CHECK(order.one_cell_an_eye());
+    DrawOrder::Walk walk;
+    for (int cell = 0; cell < 8; ++cell) {
+        const auto ranges = order.ranges_of(octant_signs(cell), walk);
+        REQUIRE(ranges.size() == 1);
+        CHECK(ranges.front() == order.range_of(cell));
+    }
+}

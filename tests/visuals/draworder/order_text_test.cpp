@@ -120,12 +120,45 @@ TEST_CASE("the octant orders of a model and its exported file choose the same li
     CHECK(cell_of(orders, {10, 10, 10}) == std::nullopt);
 }
 
+TEST_CASE("parts come back from their text as they were, and paint the same") {
+    const std::string text = "draworder 1\nmetric l2\nfaces 5\n"
+                             "list 0 1\nlist\nlist 2\nlist 3 4\n"
+                             "node parting 0 0 1 -0.5 node 1 list 0 list 2 nothing\n"
+                             "node sequence list 1 node 2\n"
+                             "node choice 1 0 0 0 list 3 nothing\n";
+    const CellOrders orders = read(text, 5);
+    REQUIRE(orders.parts);
+    CHECK(orders.cells.empty());
+    CHECK(order_text(orders, plain_axes) == text);
+    DrawOrder::Walk walk;
+    std::vector<std::uint32_t> painted;
+    orders.parts->append_painted({1, 0, 1}, walk, painted);
+    CHECK(painted == std::vector<std::uint32_t>{0, 1, 2, 3, 4});
+}
+
+TEST_CASE("parts that hang together badly are refused") {
+    const std::string lists = head + "list 0\nlist 1 2\n";
+    CHECK(refusal(lists) == ": expected nodes between several lists, got none");
+    CHECK(
+        refusal(lists + "node sequence list 0 list 2\n") ==
+        ": expected children among 1 nodes and 2 lists, got list 2");
+    CHECK_THAT(
+        refusal(lists + "node sequence list 0 node 0\n"),
+        Catch::StartsWith(":5: expected the number of a later node"));
+    CHECK_THAT(
+        refusal(lists + "node either list 0 list 1\n"),
+        Catch::StartsWith(":5: expected choice, parting or sequence, got 'either'"));
+    CHECK_THAT(
+        refusal(lists + "cell half 0 order 0\n"),
+        Catch::StartsWith(":5: expected either cells or parts"));
+}
+
 TEST_CASE("whatever is wrong with a file of orders is told with its line") {
     using Catch::StartsWith;
     CHECK_THAT(refusal(""), StartsWith(": expected 'draworder 1' first"));
     CHECK_THAT(refusal("draworder 2\n"), StartsWith(":1: expected 'draworder 1' first"));
     CHECK_THAT(refusal("faces 3\n"), StartsWith(":1: expected 'draworder 1' first"));
-    CHECK(refusal(head) == ": expected at least one cell, got none");
+    CHECK(refusal(head) == ": expected at least one cell or list, got none");
     CHECK(
         refusal("draworder 1\nfaces 4\n") ==
         ":2: expected as many faces as the model has (3 to 3), got '4'");

@@ -19,6 +19,11 @@ using octant::models::polygons::PolygonModel;
 
 namespace {
 
+int cut_all(PolygonModel& model) {
+    SearchBudget budget(100.0);
+    return split_penetrating(model, budget);
+}
+
 using Outline = std::vector<std::uint32_t>;
 
 Outline corners(const PolygonModel& model, std::size_t polygon) {
@@ -172,23 +177,23 @@ TEST_CASE("both faces of a plate are cut through the same vertices") {
 
 TEST_CASE("the rectangle and the triangle of fig. 14 become three pieces, the paper's are six") {
     PolygonModel model = fig_14();
-    CHECK(split_penetrating(model) == 1);
+    CHECK(cut_all(model) == 1);
     CHECK(model.polygons.size() == 3);
-    CHECK(split_penetrating(model) == 0);
+    CHECK(cut_all(model) == 0);
     CHECK(bad_polygons(model) == 0);
 }
 
 TEST_CASE("a plane in which two faces lie cuts for both of them") {
     PolygonModel model = fig_14(true);
-    CHECK(split_penetrating(model) == 2);
-    CHECK(split_penetrating(model) == 0);
+    CHECK(cut_all(model) == 2);
+    CHECK(cut_all(model) == 0);
     CHECK(closed(model));
 }
 
 TEST_CASE("polygons that only touch are not cut") {
     for (PolygonModel model :
          {u_channel(), plate_between_boxes(), three_bars(), torus(416), pile(3, 30)}) {
-        CHECK(split_penetrating(model) == 0);
+        CHECK(cut_all(model) == 0);
         CHECK(model.parents.empty());
     }
     // Two plates in a T: the side of one lies on the other; then its corner does.
@@ -196,11 +201,11 @@ TEST_CASE("polygons that only touch are not cut") {
     joint.vertices_m.insert(joint.vertices_m.end(), {{0.5, 1, 0}, {1.5, 1, 0}, {1, 1, 1}});
     joint.polygons.push_back({.first_corner = 4, .corner_count = 3});
     joint.corner_vertices.insert(joint.corner_vertices.end(), {4, 5, 6});
-    CHECK(split_penetrating(joint) == 0);
+    CHECK(cut_all(joint) == 0);
     joint.vertices_m[4].z = 0.5;
-    CHECK(split_penetrating(joint) == 0);
+    CHECK(cut_all(joint) == 0);
     joint.vertices_m[5].z = -0.01;
-    CHECK(split_penetrating(joint) == 1);
+    CHECK(cut_all(joint) == 1);
 }
 
 TEST_CASE("a polygon beside another, though across its plane, is not cut") {
@@ -208,21 +213,21 @@ TEST_CASE("a polygon beside another, though across its plane, is not cut") {
     for (std::size_t vertex = 4; vertex < 7; ++vertex) {
         model.vertices_m[vertex].x += 2.7; // D comes to lie 0.03 outside the rectangle
     }
-    CHECK(split_penetrating(model) == 0);
+    CHECK(cut_all(model) == 0);
     for (std::size_t vertex = 4; vertex < 7; ++vertex) {
         model.vertices_m[vertex].x -= 0.1;
     }
-    CHECK(split_penetrating(model) == 1);
+    CHECK(cut_all(model) == 1);
 }
 
 TEST_CASE("bodies that pass through one another are cut apart without loss of area") {
     PolygonModel model = together(pile(5, 8), pile(6, 8), {0.1, 0.2, 0.05});
     const std::size_t polygons = model.polygons.size();
     const std::vector<double> before_m2 = areas_by_parent(model, polygons);
-    const int added = split_penetrating(model);
+    const int added = cut_all(model);
     CHECK(added > 5);
     CHECK(model.polygons.size() == polygons + static_cast<std::size_t>(added));
-    CHECK(split_penetrating(model) == 0);
+    CHECK(cut_all(model) == 0);
     CHECK(bad_polygons(model) == 0);
     CHECK(closed(model));
     const std::vector<double> after_m2 = areas_by_parent(model, polygons);
@@ -234,9 +239,9 @@ TEST_CASE("bodies that pass through one another are cut apart without loss of ar
 TEST_CASE("a turning part is cut against itself only") {
     PolygonModel model = fig_14();
     model.pivots.push_back(Pivot{.part = 1});
-    CHECK(split_penetrating(model) == 0);
+    CHECK(cut_all(model) == 0);
     model.polygons[0].part = 1;
-    CHECK(split_penetrating(model) == 1);
+    CHECK(cut_all(model) == 1);
 }
 
 TEST_CASE("the test shapes have the polygons they promise, convex, planar and facing outward") {

@@ -98,6 +98,31 @@ TEST_CASE("an aircraft is drawn from its own model and its own range of indices"
     CHECK(middle(studio.picture(plan)) == blue_px);
 }
 
+TEST_CASE("an aircraft of several ranges is drawn by them in their order") {
+    Studio studio;
+    scene::ModelBuffers model = square_model(red);
+    for (const auto& colour : {green, blue}) {
+        const scene::ModelBuffers other = square_model(colour);
+        const auto first = static_cast<std::uint32_t>(model.vertices.size());
+        model.vertices.insert(model.vertices.end(), other.vertices.begin(), other.vertices.end());
+        for (const std::uint32_t index : other.indices) {
+            model.indices.push_back(first + index);
+        }
+    }
+    const std::array<scene::ModelBuffers, 2> models{square_model(green), model};
+    studio.renderer().load_models(models);
+    scene::FramePlan plan = empty_plan();
+    add_square(plan, 1, ahead(10.0F));
+    const std::array<scene::IndexRange, 2> blue_last{{{0, 6, 1, 0}, {12, 6, 1, 2}}};
+    plan.aircraft[0].ranges = blue_last;
+    CHECK(middle(studio.picture(plan)) == blue_px);
+    const std::array<scene::IndexRange, 2> red_last{{{6, 12, 2, 1}, {0, 6, 1, 0}}};
+    plan.aircraft[0].ranges = red_last;
+    CHECK(middle(studio.picture(plan)) == red_px);
+    add_square(plan, 0, ahead(9.0F)); // beside one that has a range only
+    CHECK(middle(studio.picture(plan)) == green_px);
+}
+
 TEST_CASE("each part of an aircraft turns with its own matrix") {
     Studio studio;
     scene::ModelBuffers model = square_model(red);

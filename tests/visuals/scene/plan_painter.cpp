@@ -22,6 +22,17 @@ double side(const glm::dvec3& ray, const glm::dvec3& a, const glm::dvec3& b) {
     return size > 0.0 ? glm::dot(normal, ray) / size : 0.0;
 }
 
+/// The index of the first corner of each triangle.
+std::vector<std::size_t> first_corners(std::span<const scene::IndexRange> ranges) {
+    std::vector<std::size_t> first;
+    for (const scene::IndexRange& range : ranges) {
+        for (std::uint32_t i = 0; i < range.index_count; i += 3) {
+            first.push_back(std::size_t{range.first_index} + i);
+        }
+    }
+    return first;
+}
+
 } // namespace
 
 PlanPainter::PlanPainter(const scene::FramePlan& plan, const scene::Scene& scene) {
@@ -60,7 +71,9 @@ void PlanPainter::add_aircraft(
     for (std::size_t d = step.first; d < step.first + step.count; ++d) {
         const scene::AircraftDraw& draw = plan.aircraft[d];
         const scene::ModelBuffers& buffers = scene.models[draw.model]->buffers;
-        for (std::size_t i = draw.first_index; i < draw.first_index + draw.index_count; i += 3) {
+        const scene::IndexRange only{draw.first_index, draw.index_count};
+        for (const std::size_t i :
+             first_corners(draw.ranges.empty() ? std::span(&only, 1) : draw.ranges)) {
             const auto corner = [&](std::size_t k) {
                 const scene::ModelVertex& vertex = buffers.vertices[buffers.indices[i + k]];
                 const glm::dmat4 part(plan.parts[draw.first_part + vertex.part]);

@@ -137,6 +137,7 @@ FrameCost frame_cost(const draworder::BspTree& bsp, const draworder::OrderedMode
     }
     List painted;
     std::vector<int> to_do;
+    draworder::DrawOrder::Walk walk;
     std::size_t by_bsp = 0;
     std::size_t by_cell = 0;
     std::vector<double> bsp_ns;
@@ -150,7 +151,9 @@ FrameCost frame_cost(const draworder::BspTree& bsp, const draworder::OrderedMode
         }
         bsp_ns.push_back(watch.lap_ms() * 1e6 / eyes);
         for (const glm::dvec3& eye_m : eyes_m) {
-            by_cell += ordered.order.polygons_of(ordered.order.cell_of(eye_m)).size();
+            for (const auto& range : ordered.order.ranges_of(eye_m, walk)) {
+                by_cell += range.count;
+            }
         }
         cell_ns.push_back(watch.lap_ms() * 1e6 / eyes);
     }

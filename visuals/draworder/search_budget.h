@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace octant::visuals::draworder {
+
+/// Thrown where a search for cells ends without a result: its budget is spent, or the model has no
+/// cells that could be held. ordered() catches it and takes another way.
+struct SearchGivenUp {
+    std::string why; ///< Such as "the search took longer than 20 s".
+};
+
+/// What a search may cost. Work is counted, not timed, so that the same model gives the same order
+/// on every machine: a unit is what takes about a nanosecond of one core of 2020.
+class SearchBudget {
+public:
+    /// Told how much of the budget is spent, 0 to 1.
+    using Progress = std::function<void(double)>;
+
+    explicit SearchBudget(double seconds, Progress progress = {})
+        : seconds_(seconds)
+        , progress_(std::move(progress)) {}
+
+    /// Counts work, before it is done or after. Throws SearchGivenUp when the budget is spent.
+    void spend(std::uint64_t units);
+
+private:
+    double seconds_;
+    Progress progress_;
+    double spent_s_ = 0.0;
+};
+
+} // namespace octant::visuals::draworder
