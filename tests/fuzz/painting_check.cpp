@@ -1,0 +1,260 @@
+// The outside judge of painting orders: a ray shows the polygon that is painted last among those
+// that it meets from the front. That must be the nearest one of the ordered model, and a piece of
+// the nearest one of the model that was given; of polygons that lie in one plane the later one of
+// the file. What a margin leaves open is not held against the builder.
+#include "tests/fuzz/painting_check.h"
+
+#include "tests/fuzz/facets.h"
+#include "tests/fuzz/ray_source.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace octant::tests::fuzz {
+
+namespace {
+
+using models::polygons::PolygonModel;
+
+constexpr int rays_per_eye = 20;
+constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
+
+/// The polygons as they are painted for an eye, first painted first: the list of the eye's cell, or
+/// what the order puts together for the eye where it knows more than cells.
+template <typename Order>
+std::vector<std::uint32_t> painted_for(const Order& order, const glm::dvec3& eye_m) {
+    if constexpr (requires { typename Order::Walk; }) {
+        std::vector<std::uint32_t> painted;
+        typename Order::Walk walk;
+        order.append_painted(eye_m, walk, painted);
+        return painted;
+    } else {
+        const auto list = order.polygons_of(order.cell_of(eye_m));
+        return {list.begin(), list.end()};
+    }
+}
+
+/// A polygon and how the ray at hand meets it.
+struct Met {
+    std::uint32_t polygon = 0;
+    Hit hit;
+};
+
+class Checking {
+public:
+    Checking(
+        const PolygonModel& given,
+        const visuals::draworder::OrderedModel& ordered,
+        const RaySamples& samples)
+        : given_(given)
+        , ordered_(ordered)
+        , given_facets_(facets_of(given, picture_margin_sizes, true))
+        , facets_(facets_of(ordered.model, order_margin_sizes, false))
+        , source_(given_facets_, samples.seed)
+        , rays_(samples.rays) {}
+
+    PaintingCounts run() {
+        while (counts_.rays < rays_) {
+            look_from(source_.next_eye_m());
+        }
+        return counts_;
+    }
+
+private:
+    void look_from(const glm::dvec3& eye_m) {
+        eye_m_ = eye_m;
+        painted_ = painted_for(ordered_.order, eye_m);
+        if (!is_proper(painted_)) {
+            ++counts_.bad_sequences;
+            note("the sequence repeats a polygon or names one that is not there");
+            counts_.rays += rays_per_eye;
+            return;
+        }
+        const Vec for_given = Vec(eye_m) - given_facets_.middle_m;
+        for (int i = 0; i < rays_per_eye; ++i) {
+            ray_ = source_.next_ray(for_given);
+            look_along();
+        }
+    }
+
+    bool is_proper(std::span<const std::uint32_t> painted) {
+        used_.assign(facets_.all.size(), false);
+        for (const std::uint32_t polygon : painted) {
+            if (polygon >= used_.size() || used_[polygon]) {
+                return false;
+            }
+            used_[polygon] = true;
+        }
+        return true;
+    }
+
+    void look_along() {
+        ++counts_.rays;
+        const std::optional<std::uint32_t> seen = judge_order();
+        if (!seen) {
+            return;
+        }
+        judge_picture(*seen);
+    }
+
+    /// The polygon that is seen, `nothing`, or no answer where a margin leaves it open or the order
+    /// has been found wrong.
+    std::optional<std::uint32_t> judge_order() {
+        const Vec eye = Vec(eye_m_) - facets_.middle_m;
+        Met seen{nothing, {Meeting::Missed, std::numeric_limits<long double>::infinity(), 0.0L}};
+        bool open = false;
+        Met nearest = seen;
+        for (const std::uint32_t polygon : painted_) {
+            const Hit hit = meet(facets_.all[polygon], eye, ray_);
+            if (hit.meeting == Meeting::Hit) {
+                seen = {polygon, hit};
+                open = false;
+                nearest = hit.depth_m < nearest.hit.depth_m ? seen : nearest;
+            } else if (hit.meeting == Meeting::Doubtful) {
+                open = true;
+            }
+        }
+        for (std::uint32_t polygon = 0; polygon < used_.size(); ++polygon) {
+            const Hit hit = used_[polygon] ? Hit{} : meet(facets_.all[polygon], eye, ray_);
+            if (hit.meeting == Meeting::Hit && hit.depth_m < nearest.hit.depth_m) {
+                nearest = {polygon, hit};
+            }
+        }
+        const long double margin_m = seen.hit.margin_m + nearest.hit.margin_m;
+        if (!open && nearest.polygon != nothing &&
+            seen.hit.depth_m > nearest.hit.depth_m + margin_m) {
+            ++counts_.wrong_order;
+            note(fmt::format(
+                "{} is seen, but {} is nearer, by {:.3g} sizes",
+                piece_name(seen.polygon),
+                piece_name(nearest.polygon),
+                double((seen.hit.depth_m - nearest.hit.depth_m) / facets_.size_m)));
+            return std::nullopt;
+        }
+        counts_.open += open ? 1 : 0;
+        return open ? std::nullopt : std::optional(seen.polygon);
+    }
+
+    void judge_picture(std::uint32_t seen) {
+        const Vec eye = Vec(eye_m_) - given_facets_.middle_m;
+        met_.clear();
+        Met nearest{nothing, {Meeting::Missed, std::numeric_limits<long double>::infinity(), 0.0L}};
+        for (std::uint32_t polygon = 0; polygon < given_facets_.all.size(); ++polygon) {
+            const Hit hit = meet(given_facets_.all[polygon], eye, ray_);
+            if (hit.meeting != Meeting::Missed) {
+                met_.push_back({polygon, hit});
+            }
+            if (hit.meeting == Meeting::Hit && hit.depth_m < nearest.hit.depth_m) {
+                nearest = met_.back();
+            }
+        }
+        if (nearest.polygon == nothing) {
+            counts_.open += met_.empty() && seen == nothing ? 0 : 1;
+            if (met_.empty() && seen != nothing) {
+                ++counts_.wrong_picture;
+                note(piece_name(seen) + " is seen where nothing is");
+            }
+            return;
+        }
+        ++counts_.hits;
+        judge_parent(seen == nothing ? nothing : ordered_.model.parent_of(seen), nearest);
+    }
+
+    /// Holds the polygon of the file that is seen against those that the ray meets first.
+    void judge_parent(std::uint32_t parent, const Met& nearest) {
+        const Met* shown = nullptr;
+        bool open = false;
+        for (const Met& met : met_) {
+            const long double margin_m = met.hit.margin_m + nearest.hit.margin_m;
+            if (met.hit.depth_m > nearest.hit.depth_m + margin_m) {
+                continue;
+            }
+            if (given_.parent_of(met.polygon) == parent) {
+                shown = &met;
+            }
+            open = open || met.hit.meeting == Meeting::Doubtful;
+        }
+        if (shown != nullptr) {
+            judge_decals(*shown);
+        } else if (open) {
+            ++counts_.open;
+        } else {
+            ++counts_.wrong_picture;
+            note(fmt::format(
+                "{} is seen, nearest of the given ones is {}",
+                parent == nothing ? "nothing" : fmt::format("P{}", parent + 1),
+                given_name(nearest.polygon)));
+        }
+    }
+
+    void judge_decals(const Met& shown) {
+        const Facet& facet = given_facets_.all[shown.polygon];
+        const long double within_m =
+            0.5L * order_margin_sizes * given_facets_.size_m + 2.0L * given_facets_.noise_m;
+        for (const Met& met : met_) {
+            if (met.hit.meeting == Meeting::Hit && met.polygon != shown.polygon &&
+                given_.parent_of(met.polygon) > given_.parent_of(shown.polygon) &&
+                same_plane(facet, given_facets_.all[met.polygon], within_m)) {
+                ++counts_.wrong_decal;
+                note(fmt::format(
+                    "{} is seen, but {} in its plane comes later in the file",
+                    given_name(shown.polygon),
+                    given_name(met.polygon)));
+                return;
+            }
+        }
+    }
+
+    std::string piece_name(std::uint32_t piece) const {
+        return piece == nothing
+                   ? "nothing"
+                   : fmt::format("piece {} of P{}", piece + 1, ordered_.model.parent_of(piece) + 1);
+    }
+
+    std::string given_name(std::uint32_t polygon) const {
+        return fmt::format("P{}", given_.parent_of(polygon) + 1);
+    }
+
+    void note(const std::string& what) {
+        if (counts_.first.empty()) {
+            counts_.first = fmt::format(
+                "from ({}, {}, {}) along ({:.9g}, {:.9g}, {:.9g}): {}",
+                eye_m_.x,
+                eye_m_.y,
+                eye_m_.z,
+                double(ray_.x),
+                double(ray_.y),
+                double(ray_.z),
+                what);
+        }
+    }
+
+    const PolygonModel& given_;
+    const visuals::draworder::OrderedModel& ordered_;
+    Facets given_facets_;
+    Facets facets_; ///< of the ordered model
+    RaySource source_;
+    long rays_;
+    PaintingCounts counts_;
+    glm::dvec3 eye_m_{0.0};
+    Vec ray_{1.0L, 0.0L, 0.0L};
+    std::vector<std::uint32_t> painted_;
+    std::vector<bool> used_; ///< one a polygon of the ordered model: it is painted
+    std::vector<Met> met_;
+};
+
+} // namespace
+
+PaintingCounts check_painting(
+    const PolygonModel& given,
+    const visuals::draworder::OrderedModel& ordered,
+    const RaySamples& samples) {
+    return Checking(given, ordered, samples).run();
+}
+
+} // namespace octant::tests::fuzz
