@@ -25,7 +25,7 @@ using models::polygons::PolygonModel;
 
 /// In radii of the model: what lies nearer to a side than this is not counted, nor differences of
 /// depth below it. A little more than the inset of hiding tests (Tolerances).
-constexpr double hair = 3e-6;
+constexpr double hair = 3e-9;
 /// Polygons are compared with rays so often in all, some 10 ns each.
 constexpr std::size_t most_comparisons = 20'000'000;
 constexpr std::size_t most_eyes = 2'000;

@@ -212,13 +212,24 @@ std::string wrong_in_words(const Trial& trial) {
     return fmt::format("{} of {} rays were wrong", trial.wrong, trial.rays);
 }
 
+/// What was found by cells or, where that had to split polygons more often, by parts.
+OrderedModel with_fewer_splits(OrderedModel found, const models::polygons::PolygonModel& model) {
+    if (found.drawn_by == DrawnBy::Tree && found.splits > 0) {
+        OrderedModel parted = by_parts(model, Parting::Clusters);
+        if (parted.splits < found.splits && is_right(parted)) {
+            return parted;
+        }
+    }
+    return found;
+}
+
 /// Finds the orders of a planar model by any method but that of the paper.
 OrderedModel of_planar(models::polygons::PolygonModel model, const OrderOptions& options) {
     std::string why;
     if (options.method != Method::Bsp) {
         if (auto found = searched(model, options, why)) {
             if (is_right(*found)) {
-                return std::move(*found);
+                return with_fewer_splits(std::move(*found), model);
             }
             why = "by cells " + wrong_in_words(found->trial);
         }
