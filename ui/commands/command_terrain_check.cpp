@@ -3,9 +3,9 @@
 #include "ui/commands/command_terrain_parts.h"
 #include "ui/commands/read_option.h"
 #include "ui/commands/terrain_options.h"
+#include "ui/terrain/loaded_ground.h"
 #include "ui/terrain/mesh_maker.h"
 #include "ui/terrain/terrain_check.h"
-#include "ui/world/loaded_ground.h"
 
 #include <cstdio>
 #include <fmt/format.h>
@@ -23,8 +23,8 @@ struct CheckOptions {
 };
 
 void check(const CheckOptions& options) {
-    const world::LoadedGround ground =
-        world::load_ground(options.view.terrain, options.view.spacing_m);
+    const terrain::LoadedGround ground =
+        terrain::load_ground(options.view.terrain, options.view.spacing_m);
     const auto maker = ui::terrain::make_mesh_maker(ground, options.mesh);
     ui::terrain::TerrainCheck asked = options.check;
     asked.by_error = options.mesh.mesh == visuals::scene::GroundMetric::ScreenError;

@@ -5,7 +5,7 @@
 #include "ui/report/table_text.h"
 #include "ui/terrain/error_tables.h"
 #include "ui/terrain/eye_points.h"
-#include "ui/world/loaded_ground.h"
+#include "ui/terrain/loaded_ground.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -32,8 +32,8 @@ void show_error(const ErrorOptions& options) {
     if (options.compare && !options.solve_px) {
         throw Error("--compare: expected --solve PIXELS beside it, got none");
     }
-    const world::LoadedGround ground =
-        world::load_ground(options.view.terrain, options.view.spacing_m);
+    const terrain::LoadedGround ground =
+        terrain::load_ground(options.view.terrain, options.view.spacing_m);
     ui::terrain::ErrorRun run{options.view, options.mesh, {}, options.solve_px, options.quiet};
     if (options.eye_points.empty()) {
         run.cameras.push_back(ui::terrain::camera_of(options.view));

@@ -4,8 +4,8 @@
 #include "ui/commands/command_terrain_parts.h"
 #include "ui/commands/terrain_options.h"
 #include "ui/terrain/ground_ply.h"
+#include "ui/terrain/loaded_ground.h"
 #include "ui/terrain/mesh_maker.h"
-#include "ui/world/loaded_ground.h"
 
 #include <cstdio>
 #include <fmt/format.h>
@@ -27,8 +27,8 @@ struct MeshOptions {
 
 void write_mesh(const MeshOptions& options) {
     const visuals::scene::Camera camera = ui::terrain::camera_of(options.view);
-    const world::LoadedGround ground =
-        world::load_ground(options.view.terrain, options.view.spacing_m);
+    const terrain::LoadedGround ground =
+        terrain::load_ground(options.view.terrain, options.view.spacing_m);
     const auto maker = ui::terrain::make_mesh_maker(ground, options.mesh);
     const visuals::terrain::GroundMesh mesh = ui::terrain::mesh_as_asked(
         *maker, ui::terrain::mesh_view(camera, options.view), options.mesh);

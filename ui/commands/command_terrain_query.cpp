@@ -3,9 +3,9 @@
 #include "ui/commands/command_terrain_parts.h"
 #include "ui/commands/read_option.h"
 #include "ui/commands/terrain_options.h"
+#include "ui/terrain/loaded_ground.h"
 #include "ui/terrain/mesh_maker.h"
 #include "ui/terrain/terrain_answers.h"
-#include "ui/world/loaded_ground.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/mesh_surface.h"
 
@@ -55,8 +55,8 @@ void query(const QueryOptions& options) {
     if (points.empty() && !options.from_m) {
         throw Error("expected --at, --points or --from and --to, got none");
     }
-    const world::LoadedGround ground =
-        world::load_ground(options.view.terrain, options.view.spacing_m);
+    const terrain::LoadedGround ground =
+        terrain::load_ground(options.view.terrain, options.view.spacing_m);
     const visuals::terrain::GroundSamples samples = ground.samples();
     ui::terrain::Answers answers;
     if (options.as_drawn) {

@@ -13,8 +13,8 @@ void Decider::begin(const scene::Settings& settings, double rate_hz) {
     adapt_ = settings.adapt;
     rate_hz_ = rate_hz;
     settled_triangles_ = scene::triangle_target(settings);
-    load_settings_ = load_settings(settings, rate_hz);
-    load_ = starting_at(settled_triangles_, load_settings_);
+    stress_settings_ = stress_settings(settings, rate_hz);
+    stress_ = starting_at(settled_triangles_, stress_settings_);
     shading_.reset();
 }
 
@@ -22,10 +22,10 @@ int Decider::triangle_target(int frame) {
     if (!replayed_.empty()) {
         const auto number = static_cast<std::size_t>(frame);
         assert(number < replayed_.size());
-        load_ = with_target(load_, replayed_[number].triangle_target);
-        return load_.triangles();
+        stress_ = with_target(stress_, replayed_[number].triangle_target);
+        return stress_.triangles();
     }
-    return adapt_.terrain ? load_.triangles() : settled_triangles_;
+    return adapt_.terrain ? stress_.triangles() : settled_triangles_;
 }
 
 std::optional<int> Decider::smooth_target(int frame) const {
@@ -47,9 +47,10 @@ double Decider::learn(const FrameOutcome& outcome) {
         return outcome.frame_ms * rate_hz_ / 1000.0;
     }
     if (!outcome.warm_up) {
-        load_ = next_state(load_, load_settings_, {outcome.frame_ms, outcome.terrain_triangles});
+        stress_ =
+            next_state(stress_, stress_settings_, {outcome.frame_ms, outcome.terrain_triangles});
     }
-    return load_.stress.value_or(std::numeric_limits<double>::quiet_NaN());
+    return stress_.stress.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 void Decider::learn_shading(const FrameOutcome& outcome) {

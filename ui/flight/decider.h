@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ui/flight/decision.h"
-#include "ui/flight/load_controller.h"
+#include "ui/flight/stress_controller.h"
 #include "visuals/scene/settings.h"
 #include "visuals/shading/shading_controller.h"
 
@@ -53,8 +53,8 @@ private:
     visuals::scene::Adaptation adapt_;
     double rate_hz_ = 60.0;
     int settled_triangles_ = 0; ///< of the settings
-    LoadSettings load_settings_;
-    LoadState load_;
+    StressSettings stress_settings_;
+    StressState stress_;
     std::optional<visuals::shading::ShadingState> shading_;
     std::vector<Decision> replayed_; ///< by frame; empty = nothing is replayed
 };

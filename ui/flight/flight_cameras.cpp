@@ -1,7 +1,7 @@
 #include "ui/flight/flight_cameras.h"
 
 #include "ui/flight/simulation.h"
-#include "ui/world/frame_times.h"
+#include "ui/world/picture_times.h"
 #include "ui/world/world.h"
 #include "visuals/scene/camera_rig.h"
 
@@ -11,7 +11,7 @@ namespace scene = visuals::scene;
 
 std::vector<FlightCamera> flight_cameras(const settings::Settings& settings) {
     const world::World world = world::load_world(settings);
-    const world::FrameTimes times = world::frame_times_of(settings, world.flight);
+    const world::PictureTimes times = world::picture_times_of(settings, world.flight);
     const scene::GroundHeight ground = [&](double x_m, double y_m) {
         return world.scene.ground->height_at(x_m, y_m);
     };

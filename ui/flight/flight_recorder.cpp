@@ -26,19 +26,19 @@ namespace scene = visuals::scene;
 
 namespace {
 
-std::string adaptation_text(const LoadSettings& load) {
+std::string adaptation_text(const StressSettings& stress) {
     return fmt::format(
         "terrain: {} to {} triangles; left alone at a stress of {:.2f} to {:.2f}, else brought to "
         "the middle by at most {:.1f} % down and {:.1f} % up a frame; stress filtered over "
         "{:.1f} s, for the control with no frame above {:.1f} and carried over to each new target",
-        load.lowest,
-        load.highest,
-        load.least_stress,
-        load.most_stress,
-        100.0 * load.largest_fall,
-        100.0 * load.largest_rise,
-        load.filter_s,
-        load.most_counted_stress);
+        stress.lowest,
+        stress.highest,
+        stress.least_stress,
+        stress.most_stress,
+        100.0 * stress.largest_fall,
+        100.0 * stress.largest_rise,
+        stress.filter_s,
+        stress.most_counted_stress);
 }
 
 } // namespace
@@ -66,7 +66,7 @@ report::RunInfo run_info(const settings::Settings& settings, const Session& sess
         {"drawn by", session.renderer().info().description}};
     if (settings.adapt.terrain) {
         info.facts.emplace_back(
-            "adaptation", adaptation_text(load_settings(settings, session.rate_hz())));
+            "adaptation", adaptation_text(stress_settings(settings, session.rate_hz())));
     }
     info.notes = session.world().notes;
     info.inputs = world::input_hashes(settings);

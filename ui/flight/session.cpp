@@ -26,7 +26,7 @@ Session::Session(
     : settings_(settings)
     , renderer_(given_or_made(std::move(renderer), settings))
     , world_(world::load_world(settings, drawn_by()))
-    , times_(world::frame_times_of(settings_, world_.flight))
+    , times_(world::picture_times_of(settings_, world_.flight))
     , ground_height_(
           [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); }) {
     load_models(shows);

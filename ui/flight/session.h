@@ -6,7 +6,7 @@
 #include "ui/flight/simulation.h"
 #include "ui/report/frame_record.h"
 #include "ui/settings/settings.h"
-#include "ui/world/frame_times.h"
+#include "ui/world/picture_times.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
 #include "visuals/scene/id_plan.h"
@@ -169,7 +169,7 @@ private:
     std::unique_ptr<InsetView> inset_; ///< over world_.scene, as planner_; null = no inset
     std::optional<visuals::scene::IdPlan> ids_;
     std::optional<Simulation> simulation_;
-    world::FrameTimes times_;
+    world::PictureTimes times_;
     visuals::scene::GroundHeight ground_height_;
     Moment now_;
     Moment next_;

@@ -81,7 +81,7 @@ void Session::give_size_back() {
 
 void Session::change_world(const settings::Settings& settings) {
     world::World world = world::load_world(settings, drawn_by());
-    world::FrameTimes times = world::frame_times_of(settings, world.flight);
+    world::PictureTimes times = world::picture_times_of(settings, world.flight);
     wait_for_meshes();
     make_renderer_ready(settings.view, world.scene.ground_texture.get());
 

@@ -20,7 +20,7 @@ namespace {
 
 /// Meshes of all cameras, by one maker.
 std::vector<MeasuredMesh>
-measured_meshes(const world::LoadedGround& ground, const ErrorRun& run, const std::string& what) {
+measured_meshes(const LoadedGround& ground, const ErrorRun& run, const std::string& what) {
     const auto maker = make_mesh_maker(ground, run.mesh);
     terrain::ErrorMeter meter(maker->ground());
     base::Progress progress(what, static_cast<int>(run.cameras.size()), run.quiet, "views");
@@ -87,7 +87,7 @@ struct BestRoughness {
 };
 
 BestRoughness
-best_of_roettger(const world::LoadedGround& ground, const ErrorRun& run, scene::GroundFans fans) {
+best_of_roettger(const LoadedGround& ground, const ErrorRun& run, scene::GroundFans fans) {
     constexpr std::array<double, 5> weights = {10.0, 20.0, 40.0, 80.0, 160.0};
     BestRoughness best;
     for (const double weight : weights) {
@@ -107,7 +107,7 @@ best_of_roettger(const world::LoadedGround& ground, const ErrorRun& run, scene::
 
 } // namespace
 
-report::HtmlTable error_table(const world::LoadedGround& ground, const ErrorRun& run) {
+report::HtmlTable error_table(const LoadedGround& ground, const ErrorRun& run) {
     const bool by_error = run.mesh.mesh == scene::GroundMetric::ScreenError;
     const std::vector<MeasuredMesh> meshes =
         measured_meshes(ground, run, settings::text_of(run.mesh.mesh));
@@ -142,7 +142,7 @@ report::HtmlTable error_table(const world::LoadedGround& ground, const ErrorRun&
     return table;
 }
 
-report::HtmlTable comparison_table(const world::LoadedGround& ground, const ErrorRun& run) {
+report::HtmlTable comparison_table(const LoadedGround& ground, const ErrorRun& run) {
     const double own =
         mean_triangles_in_view(measured_meshes(ground, run, settings::text_of(run.mesh.mesh)));
     const BestRoughness full = best_of_roettger(ground, run, scene::GroundFans::Full);

@@ -2,7 +2,7 @@
 
 #include "ui/report/html_text.h"
 #include "ui/terrain/ground_view.h"
-#include "ui/world/loaded_ground.h"
+#include "ui/terrain/loaded_ground.h"
 #include "visuals/scene/camera.h"
 
 #include <optional>
@@ -21,10 +21,10 @@ struct ErrorRun {
 
 /// A row a camera, and the mean where there are several: triangles and error. Throws Error as
 /// mesh_as_asked.
-report::HtmlTable error_table(const world::LoadedGround& ground, const ErrorRun& run);
+report::HtmlTable error_table(const LoadedGround& ground, const ErrorRun& run);
 
 /// Mean triangles at the same error: the run's mesh, Roettger's rule (mid-point roughness) with
 /// full and with partial fans, its c the best for it of some. `run.solve_px` is there.
-report::HtmlTable comparison_table(const world::LoadedGround& ground, const ErrorRun& run);
+report::HtmlTable comparison_table(const LoadedGround& ground, const ErrorRun& run);
 
 } // namespace octant::ui::terrain

@@ -68,7 +68,7 @@ private:
 /// The default; coarseness is pixels.
 class ErrorMaker final : public MeshMaker {
 public:
-    ErrorMaker(const world::LoadedGround& ground, const GroundMeshOptions& options)
+    ErrorMaker(const LoadedGround& ground, const GroundMeshOptions& options)
         : tiles_(ground.tiles())
         , mesher_(tiles_)
         , finest_px_(options.error_px.value_or(0.0))
@@ -100,7 +100,7 @@ private:
 } // namespace
 
 std::unique_ptr<MeshMaker>
-make_mesh_maker(const world::LoadedGround& ground, const GroundMeshOptions& options) {
+make_mesh_maker(const LoadedGround& ground, const GroundMeshOptions& options) {
     if (options.mesh == scene::GroundMetric::ScreenError) {
         return std::make_unique<ErrorMaker>(ground, options);
     }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ui/terrain/ground_view.h"
-#include "ui/world/loaded_ground.h"
+#include "ui/terrain/loaded_ground.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/ground_samples.h"
 
@@ -43,7 +43,7 @@ protected:
 /// The ground must outlive the maker and stay where it is. Throws Error for a kind of mesh that
 /// imported grounds have not.
 std::unique_ptr<MeshMaker>
-make_mesh_maker(const world::LoadedGround& ground, const GroundMeshOptions& options);
+make_mesh_maker(const LoadedGround& ground, const GroundMeshOptions& options);
 
 /// The mesh that --error-px, --triangles or --resolution-c ask for. Throws Error when none of them
 /// is there, or one that does not go with the kind of mesh.

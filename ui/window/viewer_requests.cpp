@@ -2,9 +2,9 @@
 #include "sim/base/output_file.h"
 #include "ui/base/data_files.h"
 #include "ui/flight/flight_recorder.h"
+#include "ui/flight/id_comparison.h"
 #include "ui/report/png_file.h"
 #include "ui/settings/settings_file.h"
-#include "ui/studies/draw_order/id_comparison.h"
 #include "ui/window/look_control.h"
 #include "ui/window/view_keys.h"
 #include "ui/window/viewer.h"
@@ -305,7 +305,7 @@ void Viewer::take_screenshot() {
 
 void Viewer::count_wrong_pixels() {
     try {
-        const studies::draw_order::PixelCheck check = studies::draw_order::check_pixels(*session_);
+        const flight::PixelCheck check = flight::check_pixels(*session_);
         state_.wrong_pixels = {check.wrong, check.differing, check.pixels};
     } catch (const Error& fault) {
         say(fault.what());

@@ -36,25 +36,26 @@ Framebuffer::Framebuffer(const Functions& gl, int width, int height, int samples
     , height_(height)
     , samples_(samples) {
     check_size(gl, width, height, samples);
-    colour_ = make_storage(samples, GL_RGBA8);
-    depth_ = make_storage(samples, GL_DEPTH_COMPONENT32F);
-    with_depth_ = make_target(colour_, &depth_);
-    without_depth_ = make_target(colour_, nullptr);
+    colour_ = make_storage("picture's colour", samples, GL_RGBA8);
+    depth_ = make_storage("picture's depth", samples, GL_DEPTH_COMPONENT32F);
+    with_depth_ = make_target("picture", colour_, &depth_);
+    without_depth_ = make_target("picture without depth", colour_, nullptr);
     if (samples > 1) {
-        averaged_colour_ = make_storage(1, GL_RGBA8);
-        averaged_ = make_target(averaged_colour_, nullptr);
+        averaged_colour_ = make_storage("averaged picture's colour", 1, GL_RGBA8);
+        averaged_ = make_target("averaged picture", averaged_colour_, nullptr);
     }
 }
 
-Object Framebuffer::make_storage(int samples, GLenum format) const {
-    Object storage = make_renderbuffer(*gl_);
+Object Framebuffer::make_storage(const char* label, int samples, GLenum format) const {
+    Object storage = make_renderbuffer(*gl_, label);
     gl_->named_renderbuffer_storage_multisample(
         storage.name(), samples > 1 ? samples : 0, format, width_, height_);
     return storage;
 }
 
-Object Framebuffer::make_target(const Object& colour, const Object* depth) const {
-    Object target = make_framebuffer(*gl_);
+Object
+Framebuffer::make_target(const char* label, const Object& colour, const Object* depth) const {
+    Object target = make_framebuffer(*gl_, label);
     const auto attach = [&](GLenum place, const Object& storage) {
         gl_->named_framebuffer_renderbuffer(target.name(), place, GL_RENDERBUFFER, storage.name());
     };

@@ -40,8 +40,8 @@ public:
 
 private:
     GLuint averaged() const;
-    Object make_storage(int samples, GLenum format) const;
-    Object make_target(const Object& colour, const Object* depth) const;
+    Object make_storage(const char* label, int samples, GLenum format) const;
+    Object make_target(const char* label, const Object& colour, const Object* depth) const;
 
     const Functions* gl_;
     int width_;

@@ -15,8 +15,9 @@ constexpr GLuint instance_binding = 1;
 
 } // namespace
 
-Object make_model_array(const Functions& gl, GLuint vertices, GLuint indices, GLuint instances) {
-    Object array = make_vertex_array(gl);
+Object make_model_array(
+    const Functions& gl, GLuint vertices, GLuint indices, GLuint instances, const char* label) {
+    Object array = make_vertex_array(gl, label);
     gl.vertex_array_vertex_buffer(array.name(), vertex_binding, vertices, 0, sizeof(ModelVertex));
     gl.vertex_array_vertex_buffer(
         array.name(), instance_binding, instances, 0, sizeof(ModelInstance));

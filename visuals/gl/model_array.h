@@ -15,6 +15,11 @@ struct ModelInstance {
 };
 
 /// The vertex array of scene::ModelVertex, one ModelInstance an instance.
-Object make_model_array(const Functions& gl, GLuint vertices, GLuint indices, GLuint instances);
+Object make_model_array(
+    const Functions& gl,
+    GLuint vertices,
+    GLuint indices,
+    GLuint instances,
+    const char* label = "aircraft");
 
 } // namespace octant::visuals::gl

@@ -11,21 +11,24 @@ Object make_buffer(const Functions& gl, const char* label) {
     return {gl, name, [](const Functions& f, GLuint n) { f.delete_buffers(1, &n); }};
 }
 
-Object make_vertex_array(const Functions& gl) {
+Object make_vertex_array(const Functions& gl, const char* label) {
     GLuint name = 0;
     gl.create_vertex_arrays(1, &name);
+    label_object(gl, GL_VERTEX_ARRAY, name, label);
     return {gl, name, [](const Functions& f, GLuint n) { f.delete_vertex_arrays(1, &n); }};
 }
 
-Object make_framebuffer(const Functions& gl) {
+Object make_framebuffer(const Functions& gl, const char* label) {
     GLuint name = 0;
     gl.create_framebuffers(1, &name);
+    label_object(gl, GL_FRAMEBUFFER, name, label);
     return {gl, name, [](const Functions& f, GLuint n) { f.delete_framebuffers(1, &n); }};
 }
 
-Object make_renderbuffer(const Functions& gl) {
+Object make_renderbuffer(const Functions& gl, const char* label) {
     GLuint name = 0;
     gl.create_renderbuffers(1, &name);
+    label_object(gl, GL_RENDERBUFFER, name, label);
     return {gl, name, [](const Functions& f, GLuint n) { f.delete_renderbuffers(1, &n); }};
 }
 

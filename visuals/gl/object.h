@@ -47,14 +47,14 @@ private:
     Delete delete_ = nullptr;
 };
 
-/// `label`: what debug messages call it.
+// `label`: what debug messages call the object.
+
 Object make_buffer(const Functions& gl, const char* label);
+Object make_vertex_array(const Functions& gl, const char* label);
+Object make_framebuffer(const Functions& gl, const char* label);
+Object make_renderbuffer(const Functions& gl, const char* label);
 
-Object make_vertex_array(const Functions& gl);
-Object make_framebuffer(const Functions& gl);
-Object make_renderbuffer(const Functions& gl);
-
-/// A two-dimensional one; `label` as make_buffer.
+/// A two-dimensional one.
 Object make_texture(const Functions& gl, const char* label);
 
 } // namespace octant::visuals::gl

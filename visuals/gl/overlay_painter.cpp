@@ -21,7 +21,7 @@ constexpr GLint clip_per_px_uniform = 0; ///< place in the shader
 constexpr std::size_t first_capacity_bytes = std::size_t{1} << 12;
 
 Object make_array(const Functions& gl, const StreamBuffer& vertices, const StreamBuffer& indices) {
-    Object array = make_vertex_array(gl);
+    Object array = make_vertex_array(gl, "overlay");
     gl.vertex_array_vertex_buffer(array.name(), 0, vertices.name(), 0, sizeof(OverlayVertex));
     gl.vertex_array_element_buffer(array.name(), indices.name());
     add_place_input(gl, array, position_input, offsetof(OverlayVertex, at_px));

@@ -35,7 +35,7 @@ make_atlas(const Functions& gl, std::span<const std::uint8_t> texels, const glm:
 }
 
 Object make_array(const Functions& gl, const StreamBuffer& vertices, const StreamBuffer& indices) {
-    Object array = make_vertex_array(gl);
+    Object array = make_vertex_array(gl, "panels");
     gl.vertex_array_vertex_buffer(array.name(), 0, vertices.name(), 0, sizeof(PanelVertex));
     gl.vertex_array_element_buffer(array.name(), indices.name());
     add_place_input(gl, array, position_input, offsetof(PanelVertex, at));

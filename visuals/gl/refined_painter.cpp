@@ -15,7 +15,8 @@ RefinedPainter::RefinedPainter(const Functions& gl, DrawState& state)
     , vertices_(gl, "refined vertices", first_capacity_bytes)
     , indices_(gl, "refined indices", first_capacity_bytes)
     , instances_(gl, "refined instances", first_capacity_bytes)
-    , array_(make_model_array(gl, vertices_.name(), indices_.name(), instances_.name())) {}
+    , array_(make_model_array(
+          gl, vertices_.name(), indices_.name(), instances_.name(), "refined aircraft")) {}
 
 void RefinedPainter::upload(const scene::FramePlan& plan) {
     places_.clear();

@@ -23,7 +23,7 @@ constexpr GLint mesh_look_uniform = 8;
 constexpr std::size_t first_capacity_bytes = std::size_t{1} << 20;
 
 Object make_array(const Functions& gl, const StreamBuffer& vertices, const StreamBuffer& indices) {
-    Object array = make_vertex_array(gl);
+    Object array = make_vertex_array(gl, "ground and sky");
     gl.vertex_array_vertex_buffer(array.name(), 0, vertices.name(), 0, sizeof(ColourVertex));
     gl.vertex_array_element_buffer(array.name(), indices.name());
     add_vector_input(gl, array, position_input, offsetof(ColourVertex, position_m));

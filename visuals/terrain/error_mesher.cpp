@@ -31,19 +31,8 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-constexpr std::size_t centre_of_ring = 8;
-
-/// For each child its corners, in the order of fan_ring, as indices into its parent's ring and
-/// centre.
-constexpr std::array<std::array<std::uint8_t, 4>, 4> child_corners = {
-    {{0, 1, 8, 7}, {1, 2, 3, 8}, {7, 8, 5, 6}, {8, 3, 4, 5}}};
-
 /// The index in fan_ring of a quadrant's corner.
 constexpr std::array<std::uint8_t, 4> ring_of_quadrant = {0, 2, 6, 4};
-
-/// For each child which of its fan_edges lie inside its parent.
-constexpr std::array<std::array<std::uint8_t, 4>, 4> inner_edges = {
-    {{0, 1, 1, 0}, {0, 0, 1, 1}, {1, 1, 0, 0}, {1, 0, 0, 1}}};
 
 /// For each set of hidden quadrants the edges that have a quadrant beside them which is not hidden.
 constexpr std::array<std::uint8_t, 16> edges_beside = [] {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace octant::visuals::terrain {
 
@@ -41,6 +42,17 @@ struct RingSample {
 inline constexpr std::array<RingSample, 8> fan_ring = {
     {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 
+/// The place of a fan's centre behind those of fan_ring.
+inline constexpr std::size_t centre_of_ring = 8;
+
+/// For each child its corners, in the order of fan_ring, as places of its parent's ring and centre.
+inline constexpr std::array<std::array<std::uint8_t, 4>, 4> child_corners = {
+    {{0, 1, 8, 7}, {1, 2, 3, 8}, {7, 8, 5, 6}, {8, 3, 4, 5}}};
+
+/// For each child which of its fan_edges lie inside its parent.
+inline constexpr std::array<std::array<std::uint8_t, 4>, 4> inner_edges = {
+    {{0, 1, 1, 0}, {0, 0, 1, 1}, {1, 1, 0, 0}, {1, 0, 0, 1}}};
+
 /// A sample of the field.
 struct Sample {
     int column;
@@ -72,7 +84,16 @@ public:
             std::min(south_ + half_edges_north * half_, last_row_)};
     }
 
-    Sample ring(std::size_t place) const { return at(fan_ring[place].east, fan_ring[place].north); }
+    /// Of a place of fan_ring or of the centre.
+    Sample ring(std::size_t place) const {
+        return place == centre_of_ring ? at(1, 1) : at(fan_ring[place].east, fan_ring[place].north);
+    }
+
+    /// Whether the middle column was moved onto the eastern one.
+    bool columns_coincide() const { return west_ + half_ >= last_column_; }
+
+    /// Whether the middle row was moved onto the northern one.
+    bool rows_coincide() const { return south_ + half_ >= last_row_; }
 
     Sample corner_a(const FanEdge& edge) const {
         return at(edge.corner_a_east, edge.corner_a_north);

@@ -21,29 +21,32 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <limits>
 
 namespace octant::visuals::terrain {
+
+namespace {
+
+/// For each place of a fan's ring and centre the place whose vertex it takes, where the middle
+/// column was moved onto the eastern one (odd rows) and the middle row onto the northern one (the
+/// last two rows).
+constexpr std::array<std::array<std::uint8_t, 9>, 4> coinciding_places = {
+    {{0, 1, 2, 3, 4, 5, 6, 7, 8},
+     {0, 2, 2, 3, 4, 4, 6, 7, 3},
+     {0, 1, 2, 4, 4, 5, 6, 6, 5},
+     {0, 2, 2, 4, 4, 4, 6, 6, 4}}};
+
+} // namespace
 
 Mesher::Mesher(const Quadtree& tree, std::span<const std::uint32_t> colours)
     : tree_(&tree)
     , colours_(colours)
     , rule_(tree)
     , survey_(tree)
-    , in_mesh_(tree.nodes().size(), 0)
-    , vertex_of_sample_(colours.size(), 0) {
-    const models::heights::HeightField& field = tree.field();
+    , in_mesh_(tree.nodes().size(), 0) {
     assert(
-        colours.size() ==
-        static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()));
+        colours.size() == static_cast<std::size_t>(tree.field().columns()) *
+                              static_cast<std::size_t>(tree.field().rows()));
     assert(tree.levels() <= 16);
-    for (int level = 0; level < tree.levels(); ++level) {
-        const std::ptrdiff_t half = tree.edge_samples(level) / 2;
-        Ring& ring = rings_.emplace_back();
-        for (std::size_t k = 0; k < ring.size(); ++k) {
-            ring[k] = half * ((fan_ring[k].north - 1) * field.columns() + fan_ring[k].east - 1);
-        }
-    }
 }
 
 GroundMesh Mesher::mesh(const MeshView& view, const Detail& detail) {
@@ -106,8 +109,7 @@ std::size_t Mesher::add(const GroundFan& fan, unsigned middles) {
 /// Makes the mesh of fans_.
 GroundMesh Mesher::finished(double resolution) {
     make_room();
-    emit(0);
-    first_stamp_ += vertex_count_;
+    emit(0, nullptr, 0);
     counters_.triangles = static_cast<int>(index_count_ / 3);
     return {
         std::span(vertices_).first(vertex_count_),
@@ -174,11 +176,10 @@ void Mesher::visit(GroundFan fan, unsigned planes) {
     }
 }
 
-/// Makes room for nine vertices and eight triangles for each fan, and for the stamps of all of
-/// them.
+/// Makes room for five vertices and eight triangles for each fan, and for the root's corners.
 void Mesher::make_room() {
     const std::size_t fans = fans_.size();
-    const std::size_t most_vertices = std::min(9 * fans, vertex_of_sample_.size());
+    const std::size_t most_vertices = 5 * fans + 4;
     if (vertices_.size() < most_vertices) {
         vertices_.resize(most_vertices + most_vertices / 4);
     }
@@ -187,10 +188,6 @@ void Mesher::make_room() {
     }
     vertex_count_ = 0;
     index_count_ = 0;
-    if (std::numeric_limits<std::uint32_t>::max() - first_stamp_ < most_vertices) {
-        std::fill(vertex_of_sample_.begin(), vertex_of_sample_.end(), 0U);
-        first_stamp_ = 1;
-    }
 }
 
 /// Whether the node beyond an edge is in the mesh, or the field ends there.
@@ -222,7 +219,7 @@ unsigned Mesher::middles_of(const GroundFan& fan) const {
 }
 
 /// Puts a node's triangles, and those of all nodes below it, into the mesh.
-void Mesher::emit(std::uint32_t own) {
+void Mesher::emit(std::uint32_t own, EmittedFan* parent, unsigned quadrant) {
     const GroundFan& fan = fans_[own];
     FanPlace& place = places_[own];
     place.triangles.first = static_cast<std::uint32_t>(index_count_ / 3);
@@ -231,13 +228,18 @@ void Mesher::emit(std::uint32_t own) {
     const FanSamples samples(tree_->field(), rule_.level(fan.level).edge, fan.column, fan.row);
     const Sample centre = samples.at(1, 1);
     const glm::dvec2 eye = eye_ - glm::dvec2(centre.column, centre.row);
-    EmittedFan emitted{samples, place.child, rings_[fan.level].data(), index_of(centre)};
+    const unsigned coinciding =
+        (samples.columns_coincide() ? 1U : 0U) | (samples.rows_coincide() ? 2U : 0U);
+    EmittedFan emitted{
+        samples,
+        own,
+        quadrant,
+        parent,
+        parent == nullptr ? std::array<std::uint32_t, 4>{} : fans_beyond(*parent, quadrant),
+        coinciding_places[coinciding].data(),
+        {}};
+    emitted.vertex.fill(no_vertex);
     if (samples.is_cut()) {
-        Ring ring;
-        for (std::size_t k = 0; k < ring.size(); ++k) {
-            ring[k] = index_of(samples.ring(k)) - emitted.centre;
-        }
-        emitted.ring = ring.data();
         const PartRow row = parts_of_cut_fan(
             samples, parts_of(place.middles, covered, children), eye, rule_.view().order);
         bool any = false;
@@ -260,48 +262,73 @@ void Mesher::emit(std::uint32_t own) {
 /// Puts one part of a fan into the mesh: a triangle, or the fan of a child.
 inline void Mesher::emit_part(EmittedFan& fan, unsigned part) {
     if (part >= first_child_part) {
-        emit(fan.child[part - first_child_part]);
+        const unsigned quadrant = part - first_child_part;
+        emit(places_[fan.own].child[quadrant], &fan, quadrant);
         return;
     }
-    if (fan.centre_vertex == no_vertex) {
-        fan.centre_vertex = vertex_at(fan.centre, [&] { return fan.samples.at(1, 1); });
-    }
-    const auto ring_vertex = [&](std::size_t k) {
-        return vertex_at(fan.centre + fan.ring[k], [&] { return fan.samples.ring(k); });
-    };
     std::uint32_t* const corner = indices_.data() + index_count_;
-    corner[0] = fan.centre_vertex;
-    corner[1] = ring_vertex(part_sides[part].from);
-    corner[2] = ring_vertex(part_sides[part].to);
+    corner[0] = vertex_of(fan, centre_of_ring);
+    corner[1] = vertex_of(fan, part_sides[part].from);
+    corner[2] = vertex_of(fan, part_sides[part].to);
     index_count_ += 3;
 }
 
-std::ptrdiff_t Mesher::index_of(Sample at) const {
-    return static_cast<std::ptrdiff_t>(at.row) * tree_->field().columns() + at.column;
-}
-
-/// The vertex of a sample, given by its index; `at` returns its column and row and is called for a
-/// new vertex only.
-template <typename At>
-std::uint32_t Mesher::vertex_at(std::ptrdiff_t sample, const At& at) {
-    std::uint32_t& stamp = vertex_of_sample_[static_cast<std::size_t>(sample)];
-    if (stamp < first_stamp_) {
-        stamp = first_stamp_ + vertex_count_;
-        add_vertex(at(), colours_[static_cast<std::size_t>(sample)]);
+/// The fans beyond the edges of a child's fan: brothers, or children of those beyond the parent.
+inline std::array<std::uint32_t, 4>
+Mesher::fans_beyond(const EmittedFan& parent, unsigned quadrant) const {
+    std::array<std::uint32_t, 4> beyond{};
+    for (unsigned k = 0; k < 4; ++k) {
+        const bool is_inner = inner_edges[quadrant][k] != 0;
+        const std::uint32_t holder = is_inner ? parent.own : parent.beyond[k];
+        const unsigned across = quadrant ^ (k % 2 == 0 ? 2U : 1U);
+        beyond[k] = is_inner || holder != 0 ? places_[holder].child[across] : 0;
     }
-    return stamp - first_stamp_;
+    return beyond;
 }
 
-void Mesher::add_vertex(Sample at, std::uint32_t colour) {
+/// The vertex of a place of a fan's ring, or of its centre; a new one if the mesh has none there
+/// yet.
+std::uint32_t Mesher::vertex_of(EmittedFan& fan, std::size_t place) {
+    place = fan.place_of[place];
+    std::uint32_t& vertex = fan.vertex[place];
+    if (vertex == no_vertex) {
+        if (place == centre_of_ring) {
+            vertex = add_vertex(fan.samples.ring(place));
+        } else if (place % 2 != 0) {
+            vertex = middle_vertex(fan, place / 2);
+        } else if (fan.parent != nullptr) {
+            vertex = vertex_of(*fan.parent, child_corners[fan.quadrant][place / 2]);
+        } else {
+            vertex = add_vertex(fan.samples.ring(place));
+        }
+    }
+    return vertex;
+}
+
+/// The vertex of the mid-point of an edge, of which the fan beyond the edge is told.
+std::uint32_t Mesher::middle_vertex(const EmittedFan& fan, std::size_t edge) {
+    std::uint32_t& vertex = places_[fan.own].middle[edge];
+    if (vertex == no_vertex) {
+        vertex = add_vertex(fan.samples.ring(2 * edge + 1));
+        if (fan.beyond[edge] != 0) {
+            places_[fan.beyond[edge]].middle[(edge + 2) % 4] = vertex;
+        }
+    }
+    return vertex;
+}
+
+/// Adds the vertex of a sample.
+inline std::uint32_t Mesher::add_vertex(Sample at) {
     const models::heights::HeightField& field = tree_->field();
     const double height_m = static_cast<double>(field.height_m(at.column, at.row));
+    const std::ptrdiff_t sample = static_cast<std::ptrdiff_t>(at.row) * field.columns() + at.column;
     vertices_[vertex_count_] = {
         glm::vec3(
             static_cast<float>(rule_.west_m() + at.column * field.spacing_m()),
             static_cast<float>(rule_.south_m() + at.row * field.spacing_m()),
             static_cast<float>(height_m - rule_.view().eye_m.z)),
-        colour};
-    ++vertex_count_;
+        colours_[static_cast<std::size_t>(sample)]};
+    return vertex_count_++;
 }
 
 void Mesher::triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const {

@@ -63,26 +63,29 @@ private:
         return rule_.critical_squared(level, column, row) < limit_;
     }
 
+    static constexpr std::uint32_t no_vertex = ~std::uint32_t{0};
+
     /// Where a fan is in the mesh.
     struct FanPlace {
         /// The fan of each quadrant's child, where there is one.
         std::array<std::uint32_t, 4> child{};
+        /// The vertices of the mid-points of fan_edges; no_vertex while there are none.
+        std::array<std::uint32_t, 4> middle{no_vertex, no_vertex, no_vertex, no_vertex};
         TriangleRun triangles;    ///< Its own triangles and all of those below it.
         std::uint8_t middles = 0; ///< Bit k: edge k of fan_edges has a mid-point.
     };
 
-    /// For the samples of fan_ring their indices relative to the centre's.
-    using Ring = std::array<std::ptrdiff_t, 8>;
-
-    static constexpr std::uint32_t no_vertex = ~std::uint32_t{0};
-
-    /// A fan while it is put into the mesh.
+    /// A fan while it is put into the mesh. Corners are vertices of the parent's fan, and centres
+    /// are nobody else's; mid-points are shared with the fan of the same level beyond the edge.
     struct EmittedFan {
         const FanSamples& samples;
-        const std::array<std::uint32_t, 4>& child; ///< As FanPlace::child.
-        const std::ptrdiff_t* ring;                ///< Eight entries of a Ring.
-        std::ptrdiff_t centre;                     ///< The index of the centre's sample.
-        std::uint32_t centre_vertex = no_vertex;
+        std::uint32_t own; ///< The index in fans_.
+        unsigned quadrant; ///< The parent's, in which this fan lies.
+        EmittedFan* parent;
+        std::array<std::uint32_t, 4> beyond; ///< The fans beyond fan_edges; 0 = none in the mesh.
+        const std::uint8_t* place_of;        ///< A row of coinciding_places.
+        /// The vertices of the ring and the centre; no_vertex while they are not known.
+        std::array<std::uint32_t, 9> vertex;
     };
 
     bool is_split(int level, int column, int row) const;
@@ -91,12 +94,12 @@ private:
     void start(const MeshView& view);
     void make_room();
     GroundMesh finished(double resolution);
-    void emit(std::uint32_t fan);
+    void emit(std::uint32_t own, EmittedFan* parent, unsigned quadrant);
     void emit_part(EmittedFan& fan, unsigned part);
-    std::ptrdiff_t index_of(Sample at) const;
-    template <typename At>
-    std::uint32_t vertex_at(std::ptrdiff_t sample, const At& at);
-    void add_vertex(Sample at, std::uint32_t colour);
+    std::array<std::uint32_t, 4> fans_beyond(const EmittedFan& parent, unsigned quadrant) const;
+    std::uint32_t vertex_of(EmittedFan& fan, std::size_t place);
+    std::uint32_t middle_vertex(const EmittedFan& fan, std::size_t edge);
+    std::uint32_t add_vertex(Sample at);
     unsigned middles_of(const GroundFan& fan) const;
     bool has_neighbour(const GroundFan& fan, int east, int north) const;
     void add_triangles_in(
@@ -109,7 +112,6 @@ private:
     BudgetSurvey survey_;
     float limit_ = 0.0F; ///< SplitRule::limit_squared of the mesh.
 
-    std::vector<Ring> rings_; ///< For each level, for fans that are not cut.
     std::vector<GroundFan> fans_;
     std::vector<FanPlace> places_; ///< One for each of fans_.
     /// For each level the last fan, while they are collected.
@@ -117,9 +119,6 @@ private:
     const PartOrder* orders_ = nullptr; ///< The painting_orders of the view.
     glm::dvec2 eye_{0.0};               ///< In samples east and north of the field's first sample.
     std::vector<std::uint8_t> in_mesh_; ///< One flag for each node; all are 0 between frames.
-    /// For each sample first_stamp_ + its vertex; a smaller value means none yet.
-    std::vector<std::uint32_t> vertex_of_sample_;
-    std::uint32_t first_stamp_ = 1;
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;
     std::uint32_t vertex_count_ = 0;

@@ -1,4 +1,4 @@
-#include "ui/studies/draw_order/id_comparison.h"
+#include "ui/flight/id_comparison.h"
 #include "ui/studies/draw_order/ridge_tower.h"
 
 #include <catch2/catch.hpp>
@@ -32,21 +32,20 @@ canyon_flight(const char* path, const char* aircraft, visuals::scene::View view)
     return settings;
 }
 
-ui::studies::draw_order::IdComparison compare(const ui::settings::Settings& settings, int every) {
-    return ui::studies::draw_order::compare_with_depth_buffer(settings, every, [](int, int) {});
+ui::flight::IdComparison compare(const ui::settings::Settings& settings, int every) {
+    return ui::flight::compare_with_depth_buffer(settings, every, [](int, int) {});
 }
 
 } // namespace
 
 TEST_CASE("a polygon number is apart only when no neighbour in the reference has it") {
     const auto reference = picture_of(4, 3, {1, 1, 2, 2, 1, 1, 2, 2, 3, 3, 3, 3});
-    CHECK(ui::studies::draw_order::difference_of(reference, reference).differing == 0);
+    CHECK(ui::flight::difference_of(reference, reference).differing == 0);
     const auto shifted = picture_of(4, 3, {1, 2, 2, 2, 1, 1, 2, 2, 3, 3, 3, 3});
-    CHECK(ui::studies::draw_order::difference_of(shifted, reference).differing == 1);
-    CHECK(ui::studies::draw_order::difference_of(shifted, reference).apart.empty());
+    CHECK(ui::flight::difference_of(shifted, reference).differing == 1);
+    CHECK(ui::flight::difference_of(shifted, reference).apart.empty());
     const auto far_off = picture_of(4, 3, {1, 1, 2, 1, 1, 1, 2, 2, 3, 3, 3, 3});
-    const std::vector<glm::ivec2> apart =
-        ui::studies::draw_order::difference_of(far_off, reference).apart;
+    const std::vector<glm::ivec2> apart = ui::flight::difference_of(far_off, reference).apart;
     REQUIRE(apart.size() == 1);
     CHECK(apart[0] == glm::ivec2(3, 0));
 }
@@ -55,9 +54,9 @@ TEST_CASE("a polygon number is wrong when a larger reference does not have it th
     const auto picture = picture_of(2, 1, {5, 7});
     const std::vector<glm::ivec2> pixels = {{0, 0}, {1, 0}};
     std::vector<std::uint32_t> large(18, 5);
-    CHECK(ui::studies::draw_order::wrong_among(pixels, picture, picture_of(6, 3, large), 3) == 1);
+    CHECK(ui::flight::wrong_among(pixels, picture, picture_of(6, 3, large), 3) == 1);
     large[17] = 7;
-    CHECK(ui::studies::draw_order::wrong_among(pixels, picture, picture_of(6, 3, large), 3) == 0);
+    CHECK(ui::flight::wrong_among(pixels, picture, picture_of(6, 3, large), 3) == 0);
 }
 
 TEST_CASE("painting in order shows the polygons that the depth buffer shows, over rugged ground") {
@@ -66,7 +65,7 @@ TEST_CASE("painting in order shows the polygons that the depth buffer shows, ove
     for (const View view : {View::Chase, View::Tower, View::Orbit}) {
         for (const char* aircraft : {"f15", "500md"}) {
             INFO(aircraft << " view " << static_cast<int>(view));
-            const ui::studies::draw_order::IdComparison result =
+            const ui::flight::IdComparison result =
                 compare(canyon_flight("pop-up", aircraft, view), every);
             CHECK(result.frames > 5);
             CHECK(result.unordered == 0);
@@ -80,7 +79,7 @@ TEST_CASE("an aircraft that goes behind ridges is painted as the depth buffer sh
         canyon_flight("jinking", "500md", visuals::scene::View::Tower);
     settings.view.eye_m = ui::studies::draw_order::ridge_tower(ui::world::load_world(settings));
     constexpr int every = 30;
-    const ui::studies::draw_order::IdComparison result = compare(settings, every);
+    const ui::flight::IdComparison result = compare(settings, every);
     CHECK(result.frames_with_cuts > 0);
     CHECK(result.unordered == 0);
     CHECK(result.wrong == 0);

@@ -14,7 +14,6 @@
 
 using namespace octant;
 using namespace octant::ui::terrain;
-using namespace octant::ui::world;
 using octant::visuals::scene::GroundMetric;
 
 namespace {

@@ -3,7 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
-#include "ui/world/frame_times.h"
+#include "ui/world/picture_times.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
 
@@ -133,13 +133,13 @@ TEST_CASE("pictures are taken at the path's samples or at a rate, as long as is 
     Settings settings = over("none");
     const ui::world::Flight flight = ui::world::load_world(settings).flight;
     settings.time.seconds = 2.0;
-    CHECK(ui::world::frame_times_of(settings, flight).at_s.size() == 121);
+    CHECK(ui::world::picture_times_of(settings, flight).at_s.size() == 121);
     settings.time.frame_per_sample = true;
-    const ui::world::FrameTimes by_sample = ui::world::frame_times_of(settings, flight);
+    const ui::world::PictureTimes by_sample = ui::world::picture_times_of(settings, flight);
     CHECK(by_sample.at_s.size() == 41);
     CHECK(by_sample.rate_hz == 20.0);
     settings.time.frames = 7;
-    CHECK(ui::world::frame_times_of(settings, flight).at_s.size() == 7);
+    CHECK(ui::world::picture_times_of(settings, flight).at_s.size() == 7);
     settings.time.start_s = 1000.0;
-    CHECK_THROWS_AS(ui::world::frame_times_of(settings, flight), Error);
+    CHECK_THROWS_AS(ui::world::picture_times_of(settings, flight), Error);
 }

@@ -2,8 +2,8 @@
 
 #include "sim/base/output_file.h"
 #include "ui/base/progress.h"
+#include "ui/flight/id_comparison.h"
 #include "ui/report/table_text.h"
-#include "ui/studies/draw_order/id_comparison.h"
 #include "ui/studies/draw_order/ridge_tower.h"
 #include "ui/studies/draw_order/surface_race.h"
 #include "ui/world/world.h"
@@ -95,7 +95,7 @@ report::HtmlTable race_table(const std::vector<Race>& races) {
 
 struct Compared {
     std::vector<std::string> name; ///< path, aircraft, view
-    IdComparison result;
+    flight::IdComparison result;
 };
 
 std::vector<Compared> run_comparisons(const HiddenSurfaceStudy& study) {
@@ -112,8 +112,8 @@ std::vector<Compared> run_comparisons(const HiddenSurfaceStudy& study) {
                 }
                 Compared run{{path, aircraft, view_names[v]}, {}};
                 std::optional<base::Progress> progress;
-                run.result =
-                    compare_with_depth_buffer(settings, study.every, [&](int frame, int frames) {
+                run.result = flight::compare_with_depth_buffer(
+                    settings, study.every, [&](int frame, int frames) {
                         if (!progress) {
                             progress.emplace(
                                 fmt::format("{}", fmt::join(run.name, " ")), frames, study.quiet);
@@ -127,7 +127,8 @@ std::vector<Compared> run_comparisons(const HiddenSurfaceStudy& study) {
     return compared;
 }
 
-std::vector<std::string> cells_of(std::vector<std::string> name, const IdComparison& result) {
+std::vector<std::string>
+cells_of(std::vector<std::string> name, const flight::IdComparison& result) {
     name.push_back(fmt::format("{}", result.frames));
     name.push_back(fmt::format("{}", result.frames_with_cuts));
     name.push_back(fmt::format("{}", result.cuts));
@@ -155,7 +156,7 @@ picture_table(const std::vector<Compared>& compared, const HiddenSurfaceStudy& s
         "differing",
         "apart",
         "wrong"};
-    IdComparison sum;
+    flight::IdComparison sum;
     for (const Compared& run : compared) {
         table.rows.push_back(cells_of(run.name, run.result));
         sum.frames += run.result.frames;

@@ -5,7 +5,7 @@
 #include "ui/flight/flight_cameras.h"
 #include "ui/flight/session.h"
 #include "ui/studies/flicker/shimmer.h"
-#include "ui/world/loaded_ground.h"
+#include "ui/terrain/loaded_ground.h"
 #include "visuals/terrain/ground_query.h"
 
 #include <array>
@@ -82,8 +82,8 @@ Change shimmer_along(
 } // namespace
 
 report::HtmlTable shimmer_table(const ShimmerOptions& options) {
-    const world::LoadedGround ground =
-        world::load_ground(options.settings.path.terrain, options.settings.path.terrain_spacing_m);
+    const ui::terrain::LoadedGround ground = ui::terrain::load_ground(
+        options.settings.path.terrain, options.settings.path.terrain_spacing_m);
     const terrain::GroundSamples samples = ground.samples();
     report::HtmlTable table;
     table.title = "Shimmer: mean change of luminance (0 to 255) after the motion is taken out";

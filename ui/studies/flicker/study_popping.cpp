@@ -9,8 +9,8 @@
 #include "ui/report/statistics.h"
 #include "ui/report/table_text.h"
 #include "ui/studies/flicker/shimmer_table.h"
+#include "ui/terrain/loaded_ground.h"
 #include "ui/terrain/mesh_maker.h"
-#include "ui/world/loaded_ground.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/vertex_jump.h"
 
@@ -104,8 +104,8 @@ void add_popping(
 }
 
 report::HtmlTable popping_table(const PoppingStudyOptions& options) {
-    const world::LoadedGround ground =
-        world::load_ground(options.settings.path.terrain, options.settings.path.terrain_spacing_m);
+    const ui::terrain::LoadedGround ground = ui::terrain::load_ground(
+        options.settings.path.terrain, options.settings.path.terrain_spacing_m);
     std::vector<std::unique_ptr<ui::terrain::MeshMaker>> makers;
     for (const Meshing& way : meshings) {
         makers.push_back(ui::terrain::make_mesh_maker(ground, mesh_options(options.settings, way)));

@@ -40,7 +40,7 @@ std::string file_part(std::string name) {
 
 std::byte grey_of(float light) {
     const float part = std::clamp(light / shown_as_white, 0.0F, 1.0F);
-    return static_cast<std::byte>(std::lround(255.0F * std::pow(part, 1.0F / 2.2F)));
+    return static_cast<std::byte>(std::lround(255.0F * part));
 }
 
 /// Pictures side by side, below them their differences from the last but one.

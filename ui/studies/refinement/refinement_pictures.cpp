@@ -47,8 +47,8 @@ report::Picture picture_of(const models::TriangleMesh& original, bool y_up) {
     const models::TriangleMesh mesh = in_body_axes(original, y_up);
     shading::ShadingLight light;
     light.to_light = glm::normalize(glm::vec3(0.5F, 0.6F, -0.7F));
-    light.ambient = 0.15F;
-    light.diffuse = 0.85F;
+    light.ambient = 0.35F;
+    light.diffuse = 0.65F;
     light.specular = 0.0F;
     const std::vector<glm::vec3> normals = shading::corner_normals(mesh);
     report::Picture picture{size_px, size_px, 3, {}};
@@ -66,8 +66,7 @@ report::Picture picture_of(const models::TriangleMesh& original, bool y_up) {
         const LightPicture seen = pictures.hybrid(std::vector<std::uint8_t>(polygons.size(), 0));
         for (std::size_t at = 0; at < seen.light.size(); ++at) {
             if (pictures.covered()[at] != 0) {
-                // Brightened, so that slopes in shade are told apart in print.
-                const float shown = std::pow(glm::clamp(seen.light[at], 0.0F, 1.0F), 1.0F / 2.2F);
+                const float shown = glm::clamp(seen.light[at], 0.0F, 1.0F);
                 picture.bytes[3 * at + static_cast<std::size_t>(part)] =
                     static_cast<std::byte>(std::lround(255.0F * shown));
             }

@@ -8,7 +8,7 @@
 #include <utility>
 #include <variant>
 
-namespace octant::ui::world {
+namespace octant::ui::terrain {
 
 /// A terrain as it was given: read whole, or imported and mapped.
 class LoadedGround {
@@ -38,4 +38,4 @@ private:
 /// not say. Throws Error.
 LoadedGround load_ground(const std::string& name_or_file, double spacing_m);
 
-} // namespace octant::ui::world
+} // namespace octant::ui::terrain

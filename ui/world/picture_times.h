@@ -9,7 +9,7 @@
 namespace octant::ui::world {
 
 /// When the pictures of a run are taken.
-struct FrameTimes {
+struct PictureTimes {
     std::vector<double> at_s; ///< at least one
     double rate_hz = 0.0;
     double until_s = 0.0; ///< the last simulation step of the run
@@ -19,6 +19,6 @@ struct FrameTimes {
 };
 
 /// Throws Error when the run would start behind the path's end.
-FrameTimes frame_times_of(const settings::Settings& settings, const Flight& flight);
+PictureTimes picture_times_of(const settings::Settings& settings, const Flight& flight);
 
 } // namespace octant::ui::world

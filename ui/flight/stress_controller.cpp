@@ -9,7 +9,7 @@
 // - A new budget takes the filter's memory with it as if the whole frame were ground: without that
 //   the budget would overshoot by what it changes within the filter's time constant. What else a
 //   frame holds makes a course slower, or end early and be followed by another, never swing back.
-#include "ui/flight/load_controller.h"
+#include "ui/flight/stress_controller.h"
 
 #include <algorithm>
 #include <cassert>
@@ -19,21 +19,21 @@ namespace octant::ui::flight {
 
 namespace {
 
-using Course = LoadState::Course;
+using Course = StressState::Course;
 
-double middle_of_band(const LoadSettings& settings) {
+double middle_of_band(const StressSettings& settings) {
     return 0.5 * (settings.least_stress + settings.most_stress);
 }
 
-double time_constant_frames(const LoadSettings& settings) {
+double time_constant_frames(const StressSettings& settings) {
     return std::max(1000.0 * settings.filter_s / settings.share_ms, settings.filter_frames);
 }
 
-double filtered(double before, const LoadSettings& settings, double stress) {
+double filtered(double before, const StressSettings& settings, double stress) {
     return before + (1.0 - std::exp(-1.0 / time_constant_frames(settings))) * (stress - before);
 }
 
-Course next_course(Course course, const LoadSettings& settings, double stress, bool budget_used) {
+Course next_course(Course course, const StressSettings& settings, double stress, bool budget_used) {
     const double above_middle = stress - middle_of_band(settings);
     const bool goes_on = std::abs(above_middle) > settings.rest_stress;
     if (stress > settings.most_stress ||
@@ -46,7 +46,7 @@ Course next_course(Course course, const LoadSettings& settings, double stress, b
 }
 
 /// What the target is multiplied with.
-double change_of_target(const LoadSettings& settings, double stress) {
+double change_of_target(const StressSettings& settings, double stress) {
     const double share_of_way = 1.0 - std::exp(-2.0 / time_constant_frames(settings));
     return std::clamp(
         1.0 + share_of_way * (middle_of_band(settings) / stress - 1.0),
@@ -56,43 +56,44 @@ double change_of_target(const LoadSettings& settings, double stress) {
 
 } // namespace
 
-int LoadState::triangles() const {
+int StressState::triangles() const {
     return static_cast<int>(std::lround(target));
 }
 
-LoadSettings load_settings(const visuals::scene::Settings& settings, double rate_hz) {
+StressSettings stress_settings(const visuals::scene::Settings& settings, double rate_hz) {
     const int budget = visuals::scene::triangle_target(settings);
-    LoadSettings load;
-    load.share_ms = 1000.0 / rate_hz;
-    load.lowest = std::max(budget / 8, 1);
-    load.highest = 4 * budget;
-    return load;
+    StressSettings settings_of_run;
+    settings_of_run.share_ms = 1000.0 / rate_hz;
+    settings_of_run.lowest = std::max(budget / 8, 1);
+    settings_of_run.highest = 4 * budget;
+    return settings_of_run;
 }
 
-LoadState starting_at(double triangles, const LoadSettings& settings) {
-    LoadState state;
+StressState starting_at(double triangles, const StressSettings& settings) {
+    StressState state;
     state.target = std::clamp<double>(triangles, settings.lowest, settings.highest);
     state.expected_stress = middle_of_band(settings);
     return state;
 }
 
-LoadState with_target(const LoadState& state, int triangles) {
-    LoadState other = state;
+StressState with_target(const StressState& state, int triangles) {
+    StressState other = state;
     other.target = triangles;
     other.expected_stress = state.expected_stress * other.target / state.target;
     return other;
 }
 
-LoadState next_state(const LoadState& state, const LoadSettings& settings, const FrameLoad& load) {
+StressState
+next_state(const StressState& state, const StressSettings& settings, const FrameCost& cost) {
     assert(settings.share_ms > 0.0 && settings.lowest >= 1 && settings.highest >= settings.lowest);
     assert(settings.least_stress > 0.0 && settings.most_stress >= settings.least_stress);
     assert(settings.most_counted_stress > settings.most_stress && settings.filter_frames >= 1.0);
-    assert(load.frame_ms >= 0.0);
-    const double share_used = load.frame_ms / settings.share_ms;
+    assert(cost.frame_ms >= 0.0);
+    const double share_used = cost.frame_ms / settings.share_ms;
     const double stress = filtered(
         state.expected_stress, settings, std::min(share_used, settings.most_counted_stress));
-    const bool used = load.triangles >= settings.used_share * state.target;
-    LoadState next;
+    const bool used = cost.triangles >= settings.used_share * state.target;
+    StressState next;
     next.stress = filtered(state.stress.value_or(share_used), settings, share_used);
     next.course = next_course(state.course, settings, stress, used);
     const double factor = next.course == Course::Held ? 1.0 : change_of_target(settings, stress);

@@ -1,5 +1,5 @@
 #include "sim/base/dice.h"
-#include "ui/flight/load_controller.h"
+#include "ui/flight/stress_controller.h"
 
 #include <catch2/catch.hpp>
 
@@ -25,19 +25,20 @@ struct Machine {
     }
 };
 
-LoadSettings settings_at(double rate_hz, int budget = 20000) {
+StressSettings settings_at(double rate_hz, int budget = 20000) {
     visuals::scene::Settings settings;
     settings.ground.triangles = budget;
     settings.adapt.terrain = true;
-    return load_settings(settings, rate_hz);
+    return stress_settings(settings, rate_hz);
 }
 
 /// The targets of so many frames, each checked against the limits of the settings.
-std::vector<int> fly(LoadState& state, const LoadSettings& settings, Machine& machine, int frames) {
+std::vector<int>
+fly(StressState& state, const StressSettings& settings, Machine& machine, int frames) {
     std::vector<int> targets;
     for (int frame = 0; frame < frames; ++frame) {
         targets.push_back(state.triangles());
-        const LoadState next =
+        const StressState next =
             next_state(state, settings, {machine.frame_ms(state.triangles()), state.triangles()});
         REQUIRE(next.target >= settings.lowest);
         REQUIRE(next.target <= settings.highest);
@@ -55,7 +56,7 @@ bool all_same(const std::vector<int>& targets, std::size_t from) {
         });
 }
 
-double stress_of(const Machine& machine, const LoadSettings& settings, const LoadState& state) {
+double stress_of(const Machine& machine, const StressSettings& settings, const StressState& state) {
     return (machine.fixed_ms + machine.ms_per_triangle * state.target) / settings.share_ms;
 }
 
@@ -64,11 +65,11 @@ double stress_of(const Machine& machine, const LoadSettings& settings, const Loa
 TEST_CASE("an overload takes the budget into the band within some seconds, and it stays there") {
     for (const double rate_hz : {20.0, 60.0, 240.0}) {
         for (const double fixed_share : {0.0, 0.2, 0.4, 0.6}) {
-            const LoadSettings settings = settings_at(rate_hz);
+            const StressSettings settings = settings_at(rate_hz);
             Machine machine;
             machine.fixed_ms = fixed_share * settings.share_ms;
             machine.ms_per_triangle = (1.6 - fixed_share) * settings.share_ms / 20000.0;
-            LoadState state = starting_at(20000.0, settings);
+            StressState state = starting_at(20000.0, settings);
             const auto settle_frames = static_cast<std::size_t>(std::max(4.5 * rate_hz, 200.0));
             const auto targets = fly(state, settings, machine, static_cast<int>(settle_frames) * 5);
             INFO(rate_hz << " Hz, fixed share " << fixed_share);
@@ -81,17 +82,17 @@ TEST_CASE("an overload takes the budget into the band within some seconds, and i
 }
 
 TEST_CASE("noise moves no budget that has settled") {
-    const LoadSettings settings = settings_at(60.0);
+    const StressSettings settings = settings_at(60.0);
     Machine machine{.fixed_ms = 5.0, .ms_per_triangle = 0.001, .noise = 0.15};
-    LoadState state = starting_at(20000.0, settings);
+    StressState state = starting_at(20000.0, settings);
     CHECK(all_same(fly(state, settings, machine, 20000), 600));
     CHECK(stress_of(machine, settings, state) == Approx(0.825).margin(0.075));
 }
 
 TEST_CASE("violent noise makes a settled budget neither swing nor creep") {
-    const LoadSettings settings = settings_at(60.0);
+    const StressSettings settings = settings_at(60.0);
     Machine machine{.fixed_ms = 5.0, .ms_per_triangle = 0.001, .noise = 0.35};
-    LoadState state = starting_at(20000.0, settings);
+    StressState state = starting_at(20000.0, settings);
     fly(state, settings, machine, 600);
     const auto targets = fly(state, settings, machine, 20000);
     int changes = 0;
@@ -103,9 +104,9 @@ TEST_CASE("violent noise makes a settled budget neither swing nor creep") {
 }
 
 TEST_CASE("the budget rises slowly into free time and follows a load that comes and goes") {
-    const LoadSettings settings = settings_at(60.0);
+    const StressSettings settings = settings_at(60.0);
     Machine machine{.fixed_ms = 2.0, .ms_per_triangle = 0.0004, .noise = 0.05};
-    LoadState state = starting_at(20000.0, settings);
+    StressState state = starting_at(20000.0, settings);
     const auto rising = fly(state, settings, machine, 900);
     CHECK(rising.back() > 25000);
     CHECK(all_same(rising, 600));
@@ -123,12 +124,12 @@ TEST_CASE("the budget rises slowly into free time and follows a load that comes 
 
 TEST_CASE("one slow frame moves a settled budget hardly or not at all") {
     for (const double rate_hz : {20.0, 60.0, 240.0}) {
-        const LoadSettings settings = settings_at(rate_hz);
+        const StressSettings settings = settings_at(rate_hz);
         Machine machine;
         machine.fixed_ms = 0.3 * settings.share_ms;
         for (const double stress : {0.76, 0.82, 0.89}) {
             machine.ms_per_triangle = (stress - 0.3) * settings.share_ms / 20000.0;
-            LoadState state = starting_at(20000.0, settings);
+            StressState state = starting_at(20000.0, settings);
             fly(state, settings, machine, 2000);
             REQUIRE(state.triangles() == 20000);
             state = next_state(state, settings, {20.0 * settings.share_ms, 20000});
@@ -141,9 +142,9 @@ TEST_CASE("one slow frame moves a settled budget hardly or not at all") {
 }
 
 TEST_CASE("a machine that is too slow for the least budget holds it, and recovers") {
-    const LoadSettings settings = settings_at(60.0);
+    const StressSettings settings = settings_at(60.0);
     Machine machine{.fixed_ms = 30.0, .ms_per_triangle = 0.001, .noise = 0.1};
-    LoadState state = starting_at(20000.0, settings);
+    StressState state = starting_at(20000.0, settings);
     const auto targets = fly(state, settings, machine, 1000);
     CHECK(all_same(targets, 200));
     CHECK(targets.back() == 2500);
@@ -154,33 +155,33 @@ TEST_CASE("a machine that is too slow for the least budget holds it, and recover
 }
 
 TEST_CASE("an idle machine is given the greatest budget and no more") {
-    const LoadSettings settings = settings_at(60.0, 1000);
+    const StressSettings settings = settings_at(60.0, 1000);
     Machine machine{.fixed_ms = 0.5, .ms_per_triangle = 1e-6};
-    LoadState state = starting_at(1000.0, settings);
+    StressState state = starting_at(1000.0, settings);
     fly(state, settings, machine, 1000);
     CHECK(state.triangles() == 4000);
 }
 
 TEST_CASE("a budget that the ground does not use is not raised") {
-    const LoadSettings settings = settings_at(60.0);
-    LoadState state = starting_at(20000.0, settings);
+    const StressSettings settings = settings_at(60.0);
+    StressState state = starting_at(20000.0, settings);
     for (int frame = 0; frame < 500; ++frame) {
         state = next_state(state, settings, {2.0, 6000});
     }
     CHECK(state.triangles() == 20000);
-    CHECK(state.course == LoadState::Course::Held);
+    CHECK(state.course == StressState::Course::Held);
     CHECK(state.stress == Approx(2.0 / settings.share_ms));
 }
 
 TEST_CASE("the stress is none before a frame is measured and the filtered share afterwards") {
-    const LoadSettings settings = settings_at(60.0);
-    LoadState state = starting_at(20000.0, settings);
+    const StressSettings settings = settings_at(60.0);
+    StressState state = starting_at(20000.0, settings);
     CHECK_FALSE(state.stress.has_value());
     state = next_state(state, settings, {0.85 * settings.share_ms, 20000});
     CHECK(state.stress == Approx(0.85));
     state = next_state(state, settings, {3.85 * settings.share_ms, 20000});
     CHECK(state.stress == Approx(0.85 + (1.0 - std::exp(-1.0 / 30.0)) * 3.0));
-    const LoadState other = with_target(state, 10000);
+    const StressState other = with_target(state, 10000);
     CHECK(other.triangles() == 10000);
     CHECK(other.stress == state.stress);
     CHECK(other.expected_stress == Approx(state.expected_stress * 10000.0 / state.target));
@@ -189,8 +190,8 @@ TEST_CASE("the stress is none before a frame is measured and the filtered share 
 TEST_CASE("whatever frames take, the budget changes in small steps within its limits") {
     Dice dice(11);
     for (int run = 0; run < 50; ++run) {
-        const LoadSettings settings = settings_at(dice.between(1.0, 1000.0));
-        LoadState state = starting_at(dice.between(100.0, 1e6), settings);
+        const StressSettings settings = settings_at(dice.between(1.0, 1000.0));
+        StressState state = starting_at(dice.between(100.0, 1e6), settings);
         Machine machine{
             .fixed_ms = settings.share_ms * dice.between(0.0, 2.0),
             .ms_per_triangle = settings.share_ms * dice.between(0.0, 1e-4),

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace octant::ui::studies::draw_order {
+namespace octant::ui::flight {
 
 /// How a picture of polygon numbers differs from a reference.
 struct IdDifference {
@@ -64,6 +64,6 @@ struct PixelCheck {
 
 /// Draws the session's last moment by order and by depth, beside its renderer, and compares. Throws
 /// Error (driver).
-PixelCheck check_pixels(flight::Session& session);
+PixelCheck check_pixels(Session& session);
 
-} // namespace octant::ui::studies::draw_order
+} // namespace octant::ui::flight

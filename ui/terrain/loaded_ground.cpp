@@ -1,11 +1,11 @@
-#include "ui/world/loaded_ground.h"
+#include "ui/terrain/loaded_ground.h"
 
 #include "ui/settings/terrain_name.h"
 #include "ui/world/terrain_file.h"
 #include "visuals/terrain/ground_builder.h"
 #include "visuals/terrain/ground_file.h"
 
-namespace octant::ui::world {
+namespace octant::ui::terrain {
 
 namespace terrain = visuals::terrain;
 
@@ -22,7 +22,7 @@ LoadedGround load_ground(const std::string& name_or_file, double spacing_m) {
     if (settings::is_imported_ground(name_or_file)) {
         return LoadedGround(terrain::open_ground(name_or_file));
     }
-    return LoadedGround(load_height_field(name_or_file, spacing_m));
+    return LoadedGround(world::load_height_field(name_or_file, spacing_m));
 }
 
-} // namespace octant::ui::world
+} // namespace octant::ui::terrain

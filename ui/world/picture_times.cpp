@@ -1,4 +1,4 @@
-#include "ui/world/frame_times.h"
+#include "ui/world/picture_times.h"
 
 #include "sim/base/error.h"
 
@@ -25,17 +25,17 @@ double first_time_s(const Settings& settings, const sim::Trajectory& path) {
 
 } // namespace
 
-void FrameTimes::cut_to(std::size_t frames) {
+void PictureTimes::cut_to(std::size_t frames) {
     if (frames < at_s.size()) {
         at_s.resize(frames);
         until_s = at_s.back();
     }
 }
 
-FrameTimes frame_times_of(const Settings& settings, const Flight& flight) {
+PictureTimes picture_times_of(const Settings& settings, const Flight& flight) {
     const sim::Trajectory& path = flight.trajectory;
     const double from_s = first_time_s(settings, path);
-    FrameTimes times;
+    PictureTimes times;
     times.rate_hz = settings.time.frame_per_sample ? flight.rate_hz : settings.time.rate_hz;
     times.until_s = settings.time.seconds ? std::min(path.end_s(), from_s + *settings.time.seconds)
                                           : path.end_s();

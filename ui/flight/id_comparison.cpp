@@ -1,11 +1,11 @@
-#include "ui/studies/draw_order/id_comparison.h"
+#include "ui/flight/id_comparison.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <memory>
 
-namespace octant::ui::studies::draw_order {
+namespace octant::ui::flight {
 
 namespace {
 
@@ -46,7 +46,7 @@ public:
 
     const scene::Picture& picture(int frame) {
         if (!session_) {
-            session_ = std::make_unique<flight::Session>(settings_, flight::Shows::PolygonNumbers);
+            session_ = std::make_unique<Session>(settings_, Shows::PolygonNumbers);
         }
         session_->draw(frame);
         return session_->picture();
@@ -54,7 +54,7 @@ public:
 
 private:
     settings::Settings settings_;
-    std::unique_ptr<flight::Session> session_;
+    std::unique_ptr<Session> session_;
 };
 
 } // namespace
@@ -99,8 +99,8 @@ IdComparison compare_with_depth_buffer(
     painted.view.samples = 1;
     settings::Settings tested = painted;
     tested.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
-    flight::Session painter(painted, flight::Shows::PolygonNumbers);
-    flight::Session reference(tested, flight::Shows::PolygonNumbers);
+    Session painter(painted, Shows::PolygonNumbers);
+    Session reference(tested, Shows::PolygonNumbers);
     LargeReference large(tested);
     IdComparison sum;
     const int frames = (painter.frames() + every - 1) / every;
@@ -125,7 +125,7 @@ IdComparison compare_with_depth_buffer(
 
 namespace {
 
-scene::Picture number_picture(flight::Session& session, const settings::Settings& settings) {
+scene::Picture number_picture(Session& session, const settings::Settings& settings) {
     // Meshed by the session's settings, so that all pictures show the same triangles.
     const scene::Scene& scene = session.world().scene;
     scene::Planner planner(scene, settings, scene.ground->mesher(session.settings()));
@@ -143,7 +143,7 @@ scene::Picture number_picture(flight::Session& session, const settings::Settings
 
 } // namespace
 
-PixelCheck check_pixels(flight::Session& session) {
+PixelCheck check_pixels(Session& session) {
     settings::Settings painted = session.settings();
     painted.surface.shadows = false;
     painted.view.samples = 1;
@@ -162,4 +162,4 @@ PixelCheck check_pixels(flight::Session& session) {
     return check;
 }
 
-} // namespace octant::ui::studies::draw_order
+} // namespace octant::ui::flight

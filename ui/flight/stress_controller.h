@@ -8,7 +8,7 @@ namespace octant::ui::flight {
 
 /// Every number by which the ground's triangle budget follows the frame time. "Stress", the word of
 /// image generators, is the share of its time that a frame uses: frame_ms / share_ms.
-struct LoadSettings {
+struct StressSettings {
     double share_ms = 1000.0 / 60.0; ///< a frame's time, above zero
     int lowest = 1000;               ///< triangles; at least 1
     int highest = 100000;            ///< triangles; at least `lowest`
@@ -29,7 +29,7 @@ struct LoadSettings {
 };
 
 /// What is carried from one frame to the next: a value, so that a run can be replayed.
-struct LoadState {
+struct StressState {
     enum class Course { Held, Falling, Rising };
 
     double target = 0.0; ///< triangles of the next frame, within the settings' limits
@@ -43,22 +43,23 @@ struct LoadState {
     int triangles() const;
 };
 
-/// What a frame made with LoadState::triangles() took.
-struct FrameLoad {
+/// What a frame made with StressState::triangles() took.
+struct FrameCost {
     double frame_ms = 0.0; ///< at least 0
     int triangles = 0;     ///< of ground that were drawn
 };
 
 /// The settings of a run: from an eighth of its triangle budget to four times as many.
-LoadSettings load_settings(const visuals::scene::Settings& settings, double rate_hz);
+StressSettings stress_settings(const visuals::scene::Settings& settings, double rate_hz);
 
 /// State before the first frame, at rest in the middle of the band.
-LoadState starting_at(double triangles, const LoadSettings& settings);
+StressState starting_at(double triangles, const StressSettings& settings);
 
 /// The state where somebody else chose the next frame's target, at least 1.
-LoadState with_target(const LoadState& state, int triangles);
+StressState with_target(const StressState& state, int triangles);
 
 /// State after a frame. Settings are as their comments demand (asserted).
-LoadState next_state(const LoadState& state, const LoadSettings& settings, const FrameLoad& load);
+StressState
+next_state(const StressState& state, const StressSettings& settings, const FrameCost& cost);
 
 } // namespace octant::ui::flight
