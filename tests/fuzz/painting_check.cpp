@@ -24,19 +24,12 @@ using models::polygons::PolygonModel;
 constexpr int rays_per_eye = 20;
 constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
 
-/// The polygons as they are painted for an eye, first painted first: the list of the eye's cell, or
-/// what the order puts together for the eye where it knows more than cells.
-template <typename Order>
-std::vector<std::uint32_t> painted_for(const Order& order, const glm::dvec3& eye_m) {
-    if constexpr (requires { typename Order::Walk; }) {
-        std::vector<std::uint32_t> painted;
-        typename Order::Walk walk;
-        order.append_painted(eye_m, walk, painted);
-        return painted;
-    } else {
-        const auto list = order.polygons_of(order.cell_of(eye_m));
-        return {list.begin(), list.end()};
-    }
+std::vector<std::uint32_t>
+painted_for(const visuals::draworder::DrawOrder& order, const glm::dvec3& eye_m) {
+    std::vector<std::uint32_t> painted;
+    visuals::draworder::DrawOrder::Walk walk;
+    order.append_painted(eye_m, walk, painted);
+    return painted;
 }
 
 /// A polygon and how the ray at hand meets it.
