@@ -6,6 +6,7 @@
 
 #include <cassert>
 #include <fmt/format.h>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -36,54 +37,93 @@ public:
                 parents.push_back(static_cast<std::uint32_t>(i));
             }
         }
-        if (cut_polygons_ > 0) {
+        if (changed_polygons_ > 0) {
             model_.parents = std::move(parents);
         }
-        if (cut_polygons_ > most_notes_of_cuts) {
+        if (changed_polygons_ > most_notes_of_cuts) {
             model_.notes.push_back(fmt::format(
-                "{}: {} more polygons are dented or bent: cut into {}",
+                "{}: {} more polygons are dented, bent or without an area",
                 path_.string(),
-                cut_polygons_ - most_notes_of_cuts,
-                pieces_not_noted_));
+                changed_polygons_ - most_notes_of_cuts));
+        }
+        if (model_.polygons.empty()) {
+            error_in(path_, "expected at least one polygon with an area, got none");
         }
     }
 
 private:
     std::vector<Outline> pieces_of(std::span<const std::uint32_t> corners, int line) {
-        places_m_.clear();
-        for (const std::uint32_t vertex : corners) {
-            places_m_.push_back(model_.vertices_m[vertex]);
+        const Outline outline = different_corners(corners);
+        if (outline.size() < 3 || !has_area(outline)) {
+            note(line, corners.size(), "has no area: left out");
+            return {};
         }
         if (!corners_fault(places_m_, tolerance_m_)) {
-            return {{corners.begin(), corners.end()}};
+            return {outline};
         }
-        const ConvexPieces convex = convex_pieces(places_m_, tolerance_m_);
-        if (!convex.fault.empty()) {
-            error_at(path_, line, convex.fault);
-        }
+        const bool planar = is_planar(places_m_, tolerance_m_);
+        const std::size_t count = outline.size();
         std::vector<Outline> pieces;
+        const ConvexPieces convex = convex_pieces(places_m_, tolerance_m_);
         for (const std::vector<std::size_t>& places : convex.pieces) {
             Outline& piece = pieces.emplace_back();
             for (const std::size_t place : places) {
-                piece.push_back(corners[place]);
+                piece.push_back(outline[place]);
             }
         }
-        note(line, pieces.size());
+        const std::string_view fault = planar ? "dented" : "bent";
+        if (convex.fault.empty()) {
+            note(line, count, fmt::format("is {}: cut into {}", fault, pieces.size()));
+        } else {
+            pieces = fan_of(outline);
+            note(line, count, fmt::format("meets itself: drawn as {} triangles", pieces.size()));
+        }
         return pieces;
     }
 
-    void note(int line, std::size_t pieces) {
-        if (++cut_polygons_ > most_notes_of_cuts) {
-            pieces_not_noted_ += pieces;
-            return;
+    /// The corners without those in the place of the one before; their places in places_m_.
+    Outline different_corners(std::span<const std::uint32_t> corners) {
+        Outline outline;
+        places_m_.clear();
+        for (const std::uint32_t vertex : corners) {
+            const glm::dvec3& place_m = model_.vertices_m[vertex];
+            if (places_m_.empty() || places_m_.back() != place_m) {
+                outline.push_back(vertex);
+                places_m_.push_back(place_m);
+            }
         }
-        model_.notes.push_back(fmt::format(
-            "{}:{}: polygon of {} corners is {}: cut into {}",
-            path_.string(),
-            line,
-            places_m_.size(),
-            is_planar(places_m_, tolerance_m_) ? "dented" : "bent",
-            pieces));
+        while (places_m_.size() > 1 && places_m_.back() == places_m_.front()) {
+            outline.pop_back();
+            places_m_.pop_back();
+        }
+        return outline;
+    }
+
+    bool has_area(const Outline& outline) {
+        places_m_.clear();
+        for (const std::uint32_t vertex : outline) {
+            places_m_.push_back(model_.vertices_m[vertex]);
+        }
+        return !is_line(places_m_);
+    }
+
+    /// The triangles between the first corner and each side that have an area.
+    std::vector<Outline> fan_of(const Outline& outline) {
+        std::vector<Outline> triangles;
+        for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
+            const Outline triangle{outline[0], outline[i], outline[i + 1]};
+            if (has_area(triangle)) {
+                triangles.push_back(triangle);
+            }
+        }
+        return triangles;
+    }
+
+    void note(int line, std::size_t corners, std::string_view what) {
+        if (++changed_polygons_ <= most_notes_of_cuts) {
+            model_.notes.push_back(fmt::format(
+                "{}:{}: polygon of {} corners {}", path_.string(), line, corners, what));
+        }
     }
 
     void add(Polygon polygon, const Outline& outline) {
@@ -98,8 +138,7 @@ private:
     std::span<const int> lines_;
     double tolerance_m_;
     std::vector<glm::dvec3> places_m_; ///< corners of the polygon at hand
-    std::size_t cut_polygons_ = 0;
-    std::size_t pieces_not_noted_ = 0;
+    std::size_t changed_polygons_ = 0;
 };
 
 } // namespace

@@ -28,9 +28,10 @@ namespace octant::models::polygons {
 /// So do materials that no file knows when a material file is missing, which PolygonModel::notes
 /// says.
 ///
+/// Polygons without an area are left out, those whose sides meet become triangles, with a note.
+///
 /// Throws Error "file:line: expected ..., got ..." for anything else: other keywords, numbers that
-/// cannot be read, NaN and infinity, indices out of range, polygons without an area, with two
-/// corners in one place or with sides that cross, a material that none of the material files knows
+/// cannot be read, NaN and infinity, indices out of range, a material that none of the material files knows
 /// although all are there, a pivot of a part without polygons or without an axis, more than
 /// obj_limits.h allows; "file: ..." for binary data and a file without polygons.
 PolygonModel read_obj(const std::filesystem::path& path, const FileAxes& axes = {});

@@ -110,12 +110,16 @@ std::optional<std::string> outline_fault(std::span<const glm::dvec3> corners_m) 
     if (auto fault = repeated_corner(corners_m)) {
         return fault;
     }
-    const double extent_m = extent_of(corners_m);
-    if (glm::length(double_area_vector(corners_m)) * 0.5 <=
-        least_area_share * extent_m * extent_m) {
+    if (is_line(corners_m)) {
         return "expected a polygon with an area, got corners on one line";
     }
     return std::nullopt;
+}
+
+bool is_line(std::span<const glm::dvec3> corners_m) {
+    const double extent_m = extent_of(corners_m);
+    return glm::length(double_area_vector(corners_m)) * 0.5 <=
+           least_area_share * extent_m * extent_m;
 }
 
 bool is_planar(std::span<const glm::dvec3> corners_m, double tolerance_m) {

@@ -30,6 +30,9 @@ std::optional<std::string> corners_fault(std::span<const glm::dvec3> corners_m, 
 /// one place or no area.
 std::optional<std::string> outline_fault(std::span<const glm::dvec3> corners_m);
 
+/// True when all corners lie on one line, or in one place.
+bool is_line(std::span<const glm::dvec3> corners_m);
+
 /// True when all corners lie on the plane of Newell's sum through their middle.
 bool is_planar(std::span<const glm::dvec3> corners_m, double tolerance_m);
 

@@ -16,8 +16,8 @@ TEST_CASE("messages name the line where a continued line begins, and later lines
     CHECK(message("\nv 0 \\\n0 x1\n") == "m.obj:2: expected a number, got 'x1'");
     CHECK(message("v 0 \\\n\\\n0 0\nv 1 0\n") == "m.obj:4: expected three coordinates, got 2");
     CHECK(
-        message(square + "\nf 1 \\\n2 \\\n2\n") ==
-        "m.obj:6: expected corners in different places, got corners 2 and 3 in one");
+        message(square + "\nf 1 \\\n2 \\\n9\n") ==
+        "m.obj:6: expected a vertex 1 to 4 (or -4 to -1), got 9");
 }
 
 TEST_CASE("wrong OBJ lines are refused with file, line, expected and got") {
@@ -49,17 +49,22 @@ TEST_CASE("wrong OBJ lines are refused with file, line, expected and got") {
     CHECK(message("mtllib \n") == "m.obj:1: expected a file name, got none");
 }
 
-TEST_CASE("polygons that cannot be cut into convex ones are refused at their line") {
-    CHECK(
-        message(square + "f 1 2 3 4\nf 1 2 2\n") ==
-        "m.obj:6: expected corners in different places, got corners 2 and 3 in one");
+TEST_CASE(
+    "polygons without an area are left out, and those that meet themselves become triangles") {
+    const PolygonModel model =
+        model_of("v 0 10 0\nv -6 -8 0\nv 9 3 0\nv -9 3 0\nv 6 -8 0\nv 0 20 0\n"
+                 "f 1 2 2\nf 1 1 6\nf 1 2 3 4 5\nf 1 2 2 3\n");
+    REQUIRE(model.polygons.size() == 4);
+    CHECK(model.parents == std::vector<std::uint32_t>{2, 2, 2, 3});
+    CHECK(model.corners(3).size() == 3);
+    const auto notes = notes_of(model);
+    REQUIRE(notes.size() == 3);
+    CHECK(notes[0] == "m.obj:7: polygon of 3 corners has no area: left out");
+    CHECK(notes[1] == "m.obj:8: polygon of 3 corners has no area: left out");
+    CHECK(notes[2] == "m.obj:9: polygon of 5 corners meets itself: drawn as 3 triangles");
     CHECK(
         message("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n") ==
-        "m.obj:4: expected a polygon with an area, got corners on one line");
-    CHECK(
-        message("v 0 10 0\nv -6 -8 0\nv 9 3 0\nv -9 3 0\nv 6 -8 0\nf 1 2 3 4 5\n") ==
-        "m.obj:6: expected a polygon whose sides do not meet, got the sides from corner 1 to 2 and "
-        "3 to 4 meeting");
+        "m.obj: expected at least one polygon with an area, got none");
 }
 
 TEST_CASE("files that are no model are refused") {
