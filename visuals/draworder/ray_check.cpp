@@ -7,6 +7,7 @@
 #include "sim/base/dice.h"
 #include "sim/base/units.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -70,7 +71,7 @@ double front_hit(const Facet& facet, const glm::dvec3& eye_m, const glm::dvec3& 
     return at;
 }
 
-/// A random point on the disc of radius R around the origin that is perpendicular to the line of
+/// A random point on the disc of a radius around the origin that is perpendicular to the line of
 /// sight.
 glm::dvec3 target_on_disc(Dice& dice, const glm::dvec3& eye_m, double radius_m) {
     const glm::dvec3 ahead = glm::normalize(eye_m);
@@ -83,6 +84,25 @@ glm::dvec3 target_on_disc(Dice& dice, const glm::dvec3& eye_m, double radius_m) 
            up * (from_middle_m * std::sin(angle_rad));
 }
 
+/// A ball that holds a model: about the origin, or about the model's own middle where the origin
+/// lies outside of the model.
+struct Ball {
+    glm::dvec3 middle_m{0.0};
+    double radius_m = 0.0;
+};
+
+Ball ball_around(const models::polygons::PolygonModel& model) {
+    glm::dvec3 least(std::numeric_limits<double>::max());
+    glm::dvec3 most(std::numeric_limits<double>::lowest());
+    for (const glm::dvec3& vertex_m : model.vertices_m) {
+        least = glm::min(least, vertex_m);
+        most = glm::max(most, vertex_m);
+    }
+    const Ball own{(least + most) / 2.0, glm::distance(least, most) / 2.0};
+    const bool is_off = glm::length(own.middle_m) > own.radius_m;
+    return is_off ? own : Ball{glm::dvec3(0.0), models::polygons::radius_m(model)};
+}
+
 /// Random eyes and rays, and what they see.
 class Sampling {
 public:
@@ -91,7 +111,7 @@ public:
         const EyeSamples& samples,
         std::span<const std::uint32_t> two_sided)
         : samples_(samples)
-        , radius_m_(models::polygons::radius_m(model))
+        , ball_(ball_around(model))
         , dice_(samples.seed) {
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
             facets_.push_back(facet_of(model, i, samples.turn_rad));
@@ -110,18 +130,21 @@ public:
         }
         const double spread =
             std::log(samples_.most_distance_radii / samples_.least_distance_radii);
-        return direction *
-               (radius_m_ * samples_.least_distance_radii * std::exp(spread * dice_.next()));
+        const double away_m =
+            ball_.radius_m * samples_.least_distance_radii * std::exp(spread * dice_.next());
+        return ball_.middle_m + direction * away_m;
     }
 
     /// Sends rays from an eye and compares what is painted last with what is nearest.
     void look(const glm::dvec3& eye_m, std::span<const std::uint32_t> painted, RayCount& count) {
-        const double away_m = glm::length(eye_m);
+        const glm::dvec3 from_middle_m = eye_m - ball_.middle_m;
+        const double away_m = glm::length(from_middle_m);
         for (int i = 0; i < samples_.rays_per_eye; ++i) {
             const glm::dvec3 ray =
-                away_m < radius_m_
+                away_m < ball_.radius_m
                     ? dice_.direction()
-                    : glm::normalize(target_on_disc(dice_, eye_m, radius_m_) - eye_m);
+                    : glm::normalize(
+                          target_on_disc(dice_, from_middle_m, ball_.radius_m) - from_middle_m);
             std::ranges::transform(
                 facets_, hit_.begin(), [&](const Facet& f) { return front_hit(f, eye_m, ray); });
             const double nearest = *std::ranges::min_element(hit_);
@@ -133,13 +156,13 @@ public:
                 seen = hit_[polygon] == missed ? seen : hit_[polygon];
             }
             ++count.hits;
-            count.wrong += seen - nearest > 1e-9 * std::max(away_m, radius_m_) ? 1 : 0;
+            count.wrong += seen - nearest > 1e-9 * std::max(away_m, ball_.radius_m) ? 1 : 0;
         }
     }
 
 private:
     EyeSamples samples_;
-    double radius_m_;
+    Ball ball_;
     Dice dice_;
     std::vector<Facet> facets_;
     std::vector<double> hit_;

@@ -16,7 +16,8 @@ namespace octant::visuals::draworder {
 struct EyeSamples {
     int eyes = 1000;
     int rays_per_eye = 20;
-    /// The least distance from the origin, in radii of the model.
+    /// The least distance from the origin, in radii of the model; from the model's middle where the
+    /// origin lies outside of the model.
     double least_distance_radii = 1.0;
     /// The greatest distance; the logarithm of the distance is evenly distributed.
     double most_distance_radii = 20.0;

@@ -6,6 +6,8 @@
 #include "visuals/draworder/parted_order.h"
 
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <array>
@@ -382,4 +384,46 @@ TEST_CASE("a trial sees what is painted too early, off the origin and as a decal
     PolygonModel decal = octant::tests::fig_14();
     decal.polygons.push_back(decal.polygons[0]);
     CHECK(try_order(decal, DrawOrder(std::vector<std::uint32_t>{2, 1, 0}), {}).wrong > 0);
+}
+
+TEST_CASE("neither place nor size of a model matters to its order") {
+    const PolygonModel model = octant::tests::three_bars();
+    const OrderedModel still = by(Method::Tree, model);
+    for (const auto& [scale, away] :
+         {std::pair{1.0, 1e6}, std::pair{1e-6, 0.0}, std::pair{1e6, 0.0}}) {
+        PolygonModel other = model;
+        for (glm::dvec3& vertex_m : other.vertices_m) {
+            vertex_m = vertex_m * scale + away;
+        }
+        const OrderedModel moved = by(Method::Tree, other);
+        INFO(scale << " times, " << away << " m away");
+        CHECK(moved.splits == still.splits);
+        REQUIRE(moved.order.cell_count() == still.order.cell_count());
+        for (int cell = 0; cell < still.order.cell_count(); ++cell) {
+            CHECK(std::ranges::equal(moved.order.polygons_of(cell), still.order.polygons_of(cell)));
+        }
+        const auto count = count_wrong_rays(moved.model, moved.order, all_eyes(500));
+        CHECK(count.hits > 500);
+        CHECK(count.wrong == 0);
+    }
+}
+
+TEST_CASE("a model that is turned has the same lists") {
+    for (const PolygonModel& model :
+         {shipped("f15"), octant::tests::three_bars(), octant::tests::pile(7, 6)}) {
+        PolygonModel other = model;
+        const glm::dquat turn = glm::angleAxis(1.1, glm::normalize(glm::dvec3(1, -2, 0.5)));
+        for (glm::dvec3& vertex_m : other.vertices_m) {
+            vertex_m = turn * vertex_m;
+        }
+        const OrderedModel still = by(Method::Tree, model);
+        const OrderedModel turned = by(Method::Tree, other);
+        INFO(model.name);
+        CHECK(turned.splits == still.splits);
+        REQUIRE(turned.order.cell_count() == still.order.cell_count());
+        for (int cell = 0; cell < still.order.cell_count(); ++cell) {
+            CHECK(
+                std::ranges::equal(turned.order.polygons_of(cell), still.order.polygons_of(cell)));
+        }
+    }
 }
