@@ -22,8 +22,9 @@ inline constexpr std::tuple path_rows{
     setting<&Settings::path, &PathSettings::aircraft>(
         {"aircraft",
          "NAME|FILE",
-         "aircraft: f15, 500md, concave, an OBJ file of up to 2,000 polygons, or a mesh (.obj, "
-         ".ply, .stl, .glb, .ac, .wrl, .pm, .chain); repeat for wingmen"},
+         "aircraft: f15, 500md, concave, an OBJ file of up to 50,000 polygons (2,000 where nearly "
+         "all are triangles), or a mesh (.obj, .ply, .stl, .glb, .ac, .wrl, .pm, .chain); repeat "
+         "for wingmen"},
         {.group = SettingGroup::Path,
          .change = SettingsChange::Flight,
          .known = built_in_aircraft}),

@@ -31,6 +31,8 @@ using Notes = std::vector<std::string>;
 
 /// An OBJ file with more faces is flown as a mesh.
 constexpr std::size_t most_polygons_of_a_model = 50'000;
+/// So is one with more triangles, where there are nearly no other faces.
+constexpr std::size_t most_triangles_of_a_model = 2'000;
 /// Polygons that stand in for a mesh far away are put in order up to this number.
 constexpr std::size_t most_polygons_of_a_mesh = 2'000;
 
@@ -47,15 +49,23 @@ draworder::OrderedModel with_order(
     return draworder::ordered(std::move(model), options);
 }
 
+/// Whether an OBJ file is a polygon model, to be painted in order. Many faces that are nearly all
+/// triangles are the mesh of a surface, which refinement in flight serves better.
 bool is_polygon_model(const std::filesystem::path& file) {
     if (ending_of(file) != ".obj") {
         return false;
     }
+    std::size_t triangles = 0;
+    std::size_t others = 0;
     const std::string text = read_text_file(file);
-    const auto faces = std::ranges::count_if(split_lines(text), [](std::string_view line) {
-        return line.starts_with("f ") || line.starts_with("f\t");
-    });
-    return static_cast<std::size_t>(faces) <= most_polygons_of_a_model;
+    for (const std::string_view line : split_lines(text)) {
+        if (line.starts_with("f ") || line.starts_with("f\t")) {
+            ++(split_words(line).size() == 4 ? triangles : others);
+        }
+    }
+    const std::size_t faces = triangles + others;
+    const bool is_mesh = faces > most_triangles_of_a_model && others < faces / 10;
+    return faces <= most_polygons_of_a_model && !is_mesh;
 }
 
 /// `kind`: the row of the aircraft; null for one of which only the shape is known.
