@@ -3,6 +3,7 @@
 #include "visuals/parting/parting_plane.h"
 
 #include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ namespace {
 /// At most so many planes of pieces are tried.
 constexpr std::size_t most_own_planes = 64;
 /// Sums over more pieces than this are estimated by some of them.
-constexpr std::size_t most_looked_at = 4'000;
+constexpr std::size_t most_looked_at = 1'000;
 
 /// A cut costs as much as halves that differ by so many pieces. Of 2, 8, 30 and 200 this one makes
 /// the fewest pieces of parts of real aircraft and of made models.
@@ -44,30 +45,61 @@ double cost_of(const Parted& parted) {
     return static_cast<double>(parted.cut) * polygons_a_cut + uneven;
 }
 
-Parted parted_by(const Pieces& pieces, std::span<const std::uint32_t> items, const Plane& plane) {
-    Parted parted;
-    const std::size_t step = items.size() / most_looked_at + 1;
-    for (std::size_t i = 0; i < items.size(); i += step) {
-        const Reach reach = pieces.reach(items[i], plane);
-        if (reach.before && reach.behind) {
-            ++parted.cut;
-            parted.cuts_swept = parted.cuts_swept || pieces[items[i]].pivot;
-        } else if (reach.before) {
-            ++parted.before;
-        } else if (reach.behind) {
-            ++parted.behind;
-        } else {
-            ++parted.within;
+/// Some of many pieces, with their bounding spheres side by side in memory.
+class Sample {
+public:
+    Sample(const Pieces& pieces, std::span<const std::uint32_t> items)
+        : pieces_(pieces)
+        , step_(items.size() / most_looked_at + 1) {
+        for (std::size_t i = 0; i < items.size(); i += step_) {
+            items_.push_back(items[i]);
+            balls_.emplace_back(pieces[items[i]].middle, pieces[items[i]].radius);
         }
     }
-    parted.before *= step;
-    parted.behind *= step;
-    parted.cut *= step;
-    return parted;
-}
+
+    /// How a plane parts all pieces, by these. Ends early where that costs more than `limit`.
+    Parted parted_by(const Plane& plane, double limit) const {
+        Parted parted;
+        const auto most_cuts = static_cast<std::size_t>(
+            std::min(limit / (polygons_a_cut * static_cast<double>(step_)), 1e9));
+        for (std::size_t i = 0; i < items_.size() && parted.cut <= most_cuts; ++i) {
+            const Reach reach = reach_of(i, plane);
+            if (reach.before && reach.behind) {
+                ++parted.cut;
+                parted.cuts_swept = parted.cuts_swept || pieces_[items_[i]].pivot;
+            } else if (reach.before) {
+                ++parted.before;
+            } else if (reach.behind) {
+                ++parted.behind;
+            } else {
+                ++parted.within;
+            }
+        }
+        parted.before *= step_;
+        parted.behind *= step_;
+        parted.cut *= step_;
+        return parted;
+    }
+
+private:
+    Reach reach_of(std::size_t i, const Plane& plane) const {
+        const glm::dvec4& ball = balls_[i];
+        const double height = distance_m(plane, glm::dvec3(ball.x, ball.y, ball.z));
+        if (std::abs(height) > ball.w + tolerance) {
+            return {height > 0.0, height < 0.0};
+        }
+        return pieces_.reach(items_[i], plane);
+    }
+
+    const Pieces& pieces_;
+    std::size_t step_;
+    std::vector<std::uint32_t> items_;
+    std::vector<glm::dvec4> balls_;
+};
 
 /// The best plane of a piece.
 Costed best_own(const Pieces& pieces, std::span<const std::uint32_t> items) {
+    const Sample sample(pieces, items);
     Costed best;
     const std::size_t tried = std::min(items.size(), most_own_planes);
     for (std::size_t i = 0; i < tried; ++i) {
@@ -75,7 +107,7 @@ Costed best_own(const Pieces& pieces, std::span<const std::uint32_t> items) {
         if (!plane) {
             continue;
         }
-        const double cost = cost_of(parted_by(pieces, items, *plane));
+        const double cost = cost_of(sample.parted_by(*plane, best.cost));
         if (cost < best.cost) {
             best = {*plane, cost};
         }

@@ -22,7 +22,7 @@ namespace octant::visuals::parting {
 namespace {
 
 /// Larger sets are divided before their graph is looked at, because its time is quadratic.
-constexpr std::size_t most_at_once = 1'500;
+constexpr std::size_t most_at_once = 250;
 
 using Items = std::vector<std::uint32_t>;
 
