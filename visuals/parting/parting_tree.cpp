@@ -22,7 +22,9 @@ namespace octant::visuals::parting {
 namespace {
 
 /// Larger sets are divided before their graph is looked at, because its time is quadratic.
-constexpr std::size_t most_at_once = 250;
+constexpr std::size_t most_at_once = 1'500;
+/// Sets of more pieces that came out of a ring are looked at only once they are a quarter of it.
+constexpr std::size_t always_looked_at = 150;
 
 using Items = std::vector<std::uint32_t>;
 
@@ -60,6 +62,8 @@ private:
         int Node::*place = nullptr;
         int depth = 1;
         bool is_ring = false; ///< One component, which has to be parted.
+        /// How many pieces the last set had whose graph was looked at and out of which this came.
+        std::size_t looked_at = std::numeric_limits<std::size_t>::max();
     };
 
     int child_of(Task& task) {
@@ -69,9 +73,13 @@ private:
         if (task.items.size() == 1) {
             return list_of(std::move(task.items));
         }
-        if (task.is_ring || !by_clusters_ || task.items.size() > most_at_once) {
+        const std::size_t count = task.items.size();
+        const bool looks = by_clusters_ && !task.is_ring && count <= most_at_once &&
+                           (count <= always_looked_at || count <= task.looked_at / 4);
+        if (!looks) {
             return parting_of(task);
         }
+        task.looked_at = count;
         auto components = clusters(pieces_, task.items);
         if (components.size() == 1 && components.front().size() > 1) {
             return parting_of(task);
@@ -110,7 +118,8 @@ private:
         }
         const int node = new_node({});
         if (end - first == 1) { // a ring alone, painted last of nothing
-            to_do_.push_back({components[first], node, &Node::back, depth + 1, true});
+            to_do_.push_back(
+                {components[first], node, &Node::back, depth + 1, true, components[first].size()});
             return node;
         }
         const std::size_t middle = divided_at(components, first, end);
@@ -172,8 +181,10 @@ private:
         node.along = list_in_file_order(std::move(along));
         node.against = list_in_file_order(std::move(against));
         const int made = new_node(node);
-        to_do_.push_back({std::move(front), made, &Node::front, task.depth + 1, false});
-        to_do_.push_back({std::move(back), made, &Node::back, task.depth + 1, false});
+        to_do_.push_back(
+            {std::move(front), made, &Node::front, task.depth + 1, false, task.looked_at});
+        to_do_.push_back(
+            {std::move(back), made, &Node::back, task.depth + 1, false, task.looked_at});
         return made;
     }
 
