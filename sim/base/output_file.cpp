@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -45,7 +46,8 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
         std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
     std::filesystem::path target = path;
     if (!special) {
-        target += fmt::format(".{}.part", ::getpid());
+        static std::atomic<unsigned> files = 0; // threads may write the same file at once
+        target += fmt::format(".{}-{}.part", ::getpid(), files++);
     }
     const int descriptor = create(target);
     if (descriptor < 0) {

@@ -12,6 +12,7 @@
 #include "visuals/draworder/order_table.h"
 #include "visuals/draworder/order_text.h"
 #include "visuals/draworder/separation.h"
+#include "visuals/ordercache/order_cache.h"
 
 #include <array>
 #include <cstdio>
@@ -26,6 +27,7 @@
 namespace octant::ui::commands {
 
 namespace draworder = visuals::draworder;
+namespace ordercache = visuals::ordercache;
 
 namespace {
 
@@ -38,6 +40,7 @@ struct DrawOrderOptions {
     std::string model;
     std::string axes = "right,up,back";
     draworder::OrderOptions order;
+    std::optional<std::string> cache; ///< folder of kept orders
     bool table = false;
     std::string export_file;
     std::string export_model;
@@ -86,7 +89,18 @@ void add_size(Figures& figures, const draworder::CellOrders& orders) {
     }
 }
 
-/// Finds the orders, or reads them.
+/// Finds the orders of a model, or reads them from the cache.
+ordercache::CachedOrder found(
+    models::polygons::PolygonModel model,
+    const std::optional<std::string>& cache,
+    const draworder::OrderOptions& options) {
+    if (cache) {
+        return ordercache::cached_order(*cache, std::move(model), options);
+    }
+    return {.ordered = draworder::ordered(std::move(model), options), .notes = {}};
+}
+
+/// Finds the orders, or reads those that are to be checked.
 Work prepared(const DrawOrderOptions& options, Figures& figures) {
     world::OrderInput input = world::read_order_input(options.model, options.axes);
     for (const std::string& note : input.model.notes) {
@@ -112,10 +126,17 @@ Work prepared(const DrawOrderOptions& options, Figures& figures) {
             progress.show(static_cast<int>(100.0 * share));
         }
     };
-    draworder::OrderedModel ordered = draworder::ordered(std::move(input.model), order);
+    ordercache::CachedOrder cached = found(std::move(input.model), options.cache, order);
+    draworder::OrderedModel& ordered = cached.ordered;
     const double build_ms = watch.ms();
     progress.finish();
+    for (const std::string& note : cached.notes) {
+        base::say(options.quiet, "note: " + note);
+    }
     add_figures(figures, ordered, polygons);
+    if (options.cache) {
+        figures["from_cache"] = cached.was_kept;
+    }
     figures["build_ms"] = build_ms;
     for (const std::string& note : ordered.notes) {
         base::say(options.quiet, "note: " + note);
@@ -244,6 +265,9 @@ void draw_order(const DrawOrderOptions& options) {
             "--export-model: expected a file name that ends in .obj, got '{}'",
             printable(options.export_model)));
     }
+    if (options.cache) {
+        ordercache::make_cache_folder(*options.cache);
+    }
     Figures figures;
     const Work work = prepared(options, figures);
     export_files(work, options);
@@ -286,6 +310,11 @@ void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
               0.001,
               3600},
              options.order.seconds),
+         text_option(
+             "--order-cache",
+             "DIR",
+             "keep the orders in this folder, and read them where the same model is ordered again",
+             options.cache),
          read_option(
              {"min-distance", "RADII", "cells: exact for eyes |x|+|y|+|z| away, in radii", 1, 1000},
              options.order.min_distance_radii)});

@@ -92,7 +92,8 @@ void print_summary(
 
 /// Throws Error when the command line sets anything beside --replay that could change pictures.
 void refuse_settings_beside_replay(const FlyOptions& options) {
-    constexpr std::array<std::string_view, 3> harmless{"--realtime", "--pictures", "--warm-up"};
+    constexpr std::array<std::string_view, 4> harmless{
+        "--realtime", "--pictures", "--warm-up", "--order-cache"};
     for (const std::string& name : options.given) {
         if (std::ranges::find(harmless, name) == harmless.end()) {
             throw Error(fmt::format(

@@ -28,6 +28,12 @@ inline constexpr std::tuple surface_rows{
          0.001,
          3600.0},
         {.group = SettingGroup::Surface, .change = SettingsChange::World}),
+    setting<&Settings::surface, &visuals::scene::SurfaceSettings::order_cache>(
+        {"order-cache",
+         "DIR",
+         "painting orders are kept in this folder, and read where the same model is ordered again "
+         "[none are kept]"},
+        {.group = SettingGroup::Surface, .change = SettingsChange::Recording}),
     setting<&Settings::surface, &visuals::scene::SurfaceSettings::shadows>(
         {"shadows", "", "shadows of aircraft on the ground"},
         {.group = SettingGroup::Surface, .change = SettingsChange::Picture}),

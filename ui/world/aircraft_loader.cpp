@@ -7,6 +7,7 @@
 #include "ui/base/data_files.h"
 #include "ui/world/mesh_aircraft.h"
 #include "visuals/draworder/ordered_model.h"
+#include "visuals/ordercache/order_cache.h"
 #include "visuals/shading/piece_normals.h"
 #include "visuals/shading/vertex_normals.h"
 
@@ -23,6 +24,7 @@ namespace octant::ui::world {
 
 namespace scene = visuals::scene;
 namespace draworder = visuals::draworder;
+namespace ordercache = visuals::ordercache;
 namespace shading = visuals::shading;
 
 namespace {
@@ -37,7 +39,10 @@ constexpr std::size_t most_triangles_of_a_model = 2'000;
 constexpr std::size_t most_polygons_of_a_mesh = 2'000;
 
 draworder::OrderedModel with_order(
-    models::polygons::PolygonModel model, const settings::Settings& settings, std::size_t most) {
+    models::polygons::PolygonModel model,
+    const settings::Settings& settings,
+    std::size_t most,
+    Notes& notes) {
     if (settings.surface.hidden_surface != scene::HiddenSurface::Octant ||
         model.polygons.size() > most) {
         draworder::DrawOrder order = draworder::file_order(model);
@@ -46,7 +51,13 @@ draworder::OrderedModel with_order(
     draworder::OrderOptions options;
     options.method = settings.surface.order_method;
     options.seconds = settings.surface.order_seconds;
-    return draworder::ordered(std::move(model), options);
+    if (!settings.surface.order_cache) {
+        return draworder::ordered(std::move(model), options);
+    }
+    ordercache::CachedOrder cached =
+        ordercache::cached_order(*settings.surface.order_cache, std::move(model), options);
+    notes.insert(notes.end(), cached.notes.begin(), cached.notes.end());
+    return std::move(cached.ordered);
 }
 
 /// Whether an OBJ file is a polygon model, to be painted in order. Many faces that are nearly all
@@ -78,7 +89,10 @@ scene::AircraftModel ready(
     const glm::dvec3 eye_m = kind != nullptr ? kind->pilot_eye_m : scene::pilot_eye_m(model);
     const models::polygons::PolygonModel whole = model;
     draworder::OrderedModel ordered = with_order(
-        std::move(model), settings, is_mesh ? most_polygons_of_a_mesh : most_polygons_of_a_model);
+        std::move(model),
+        settings,
+        is_mesh ? most_polygons_of_a_mesh : most_polygons_of_a_model,
+        notes);
     notes.insert(notes.end(), ordered.notes.begin(), ordered.notes.end());
     std::vector<glm::vec3> normals =
         shading::normals_of_pieces(whole, shading::corner_normals(whole), ordered.model);
@@ -124,6 +138,9 @@ std::optional<scene::AircraftModel> load_cockpit(const std::string& aircraft) {
 } // namespace
 
 LoadedAircraft load_aircraft(const settings::Settings& settings) {
+    if (settings.surface.order_cache) {
+        ordercache::make_cache_folder(*settings.surface.order_cache);
+    }
     LoadedAircraft loaded;
     const auto add = [&](scene::AircraftModel model) {
         loaded.models.push_back(std::make_shared<const scene::AircraftModel>(std::move(model)));

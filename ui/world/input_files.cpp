@@ -62,6 +62,9 @@ settings::Settings with_absolute_files(settings::Settings settings) {
     if (settings.air.drape) {
         settings.air.drape = absolute(*settings.air.drape);
     }
+    if (settings.surface.order_cache) {
+        settings.surface.order_cache = absolute(*settings.surface.order_cache);
+    }
     return settings;
 }
 

@@ -62,8 +62,10 @@ struct SurfaceSettings {
     HiddenSurface hidden_surface = HiddenSurface::Octant;
     draworder::Method order_method = draworder::Method::Tree;
     double order_seconds =
-        20.0;            ///< About the most that the search for an order takes, on one core.
-    bool shadows = true; ///< of aircraft on the ground
+        20.0; ///< About the most that the search for an order takes, on one core.
+    /// A folder where orders are kept; the pictures are the same without it.
+    std::optional<std::string> order_cache;
+    bool shadows = true;            ///< of aircraft on the ground
     double aircraft_error_px = 1.0; ///< of meshes: what a level of detail may be wrong by
 
     bool operator==(const SurfaceSettings&) const = default;
