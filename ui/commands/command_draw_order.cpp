@@ -362,7 +362,8 @@ Command draw_order_command() {
                   "Examples:\n"
                   "  octant draw-order concave --method paper --table\n"
                   "  octant draw-order f15 --export f15-orders.txt --export-model f15-split.obj\n"
-                  "  octant draw-order f15-split.obj --check f15-orders.txt",
+                  "  octant draw-order f15-split.obj --check f15-orders.txt\n"
+                  "  octant draw-order torus --order-cache orders",
         .run = [options] { draw_order(*options); }};
     add_order_options(command.options, *options);
     add_result_options(command.options, *options);
