@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <queue>
 #include <utility>
 
@@ -37,49 +38,71 @@ bool is_inside(const TerrainGrid& grid, int column, int row) {
     return column >= 0 && row >= 0 && column < grid.side && row < grid.side;
 }
 
-/// The descent over one facet: a triangle of a cell, a side neighbour and a corner neighbour.
-struct Facet {
-    double slope = 0.0;         ///< of the steepest descent within the facet, a cell
-    double corner_chance = 0.0; ///< share of corner steps that leads in its direction
-};
+/// Heights of a cell's neighbours in a circle, NaN beyond the grid.
+std::array<double, 8> heights_around(const TerrainGrid& ground, int column, int row) {
+    constexpr double beyond = std::numeric_limits<double>::quiet_NaN();
+    const bool is_inner =
+        column > 0 && row > 0 && column + 1 < ground.side && row + 1 < ground.side;
+    std::array<double, 8> heights{};
+    for (std::size_t n = 0; n < circle.size(); ++n) {
+        const int x = column + circle[n].dx;
+        const int y = row + circle[n].dy;
+        heights[n] = is_inner || is_inside(ground, x, y) ? ground.at(x, y) : beyond;
+    }
+    return heights;
+}
 
-Facet facet_from(double to_side, double side_to_corner) {
+/// A facet is a triangle of a cell, a neighbour that shares a side with it and one at its corner.
+/// Returns the slope of the steepest descent within it, a cell; NaN where one of the drops is.
+double steepest_within(double to_side, double side_to_corner) {
+    const double between = std::sqrt(to_side * to_side + side_to_corner * side_to_corner);
+    const double by_corner = (to_side + side_to_corner) / diagonal;
+    const double inner = side_to_corner >= to_side ? by_corner : between;
+    return side_to_corner <= 0.0 ? to_side : inner;
+}
+
+/// Share of corner steps that leads in the direction of the steepest descent within a facet.
+double corner_chance(double to_side, double side_to_corner) {
     if (side_to_corner <= 0.0) {
-        return {to_side, 0.0};
+        return 0.0;
     }
-    if (side_to_corner >= to_side) {
-        return {(to_side + side_to_corner) / diagonal, 1.0};
-    }
-    return {
-        std::sqrt(to_side * to_side + side_to_corner * side_to_corner), side_to_corner / to_side};
+    return side_to_corner >= to_side ? 1.0 : side_to_corner / to_side;
+}
+
+/// Facet n lies between neighbours n and n + 1 of the circle, of which one shares a side.
+constexpr std::size_t side_of_facet(std::size_t n) {
+    return (n + 1) % circle.size() & ~std::size_t{1};
+}
+
+constexpr std::size_t corner_of_facet(std::size_t n) {
+    return n | 1U;
 }
 
 void choose_receiver(
     const TerrainGrid& ground, int column, int row, double chance, Drainage& water) {
     const std::size_t i = ground.index(column, row);
-    const double height = ground.values[i];
-    double steepest = 0.0;
+    const std::array<double, 8> around = heights_around(ground, column, row);
+    std::array<double, 8> to_side{};
+    std::array<double, 8> side_to_corner{};
+    std::array<double, 8> slopes{};
     for (std::size_t n = 0; n < circle.size(); ++n) {
-        const std::size_t corner = n | 1U;
-        const std::size_t side = (n & 1U) == 0 ? n : (n + 1) % circle.size();
-        const Step to_side = circle[side];
-        const Step to_corner = circle[corner];
-        if (!is_inside(ground, column + to_side.dx, row + to_side.dy) ||
-            !is_inside(ground, column + to_corner.dx, row + to_corner.dy)) {
-            continue;
-        }
-        const double side_height = ground.at(column + to_side.dx, row + to_side.dy);
-        const double corner_height = ground.at(column + to_corner.dx, row + to_corner.dy);
-        const Facet facet = facet_from(height - side_height, side_height - corner_height);
-        if (facet.slope <= steepest) {
-            continue;
-        }
-        steepest = facet.slope;
-        const bool by_corner = chance < facet.corner_chance;
-        const Step step = by_corner ? to_corner : to_side;
-        water.receiver[i] = static_cast<int>(ground.index(column + step.dx, row + step.dy));
-        water.length_m[i] = by_corner ? diagonal * ground.cell_m : ground.cell_m;
+        to_side[n] = ground.values[i] - around[side_of_facet(n)];
+        side_to_corner[n] = around[side_of_facet(n)] - around[corner_of_facet(n)];
+        slopes[n] = steepest_within(to_side[n], side_to_corner[n]);
     }
+    double steepest = 0.0;
+    std::size_t facet = circle.size();
+    for (std::size_t n = 0; n < circle.size(); ++n) {
+        facet = slopes[n] > steepest ? n : facet;
+        steepest = slopes[n] > steepest ? slopes[n] : steepest;
+    }
+    if (facet == circle.size()) {
+        return;
+    }
+    const bool by_corner = chance < corner_chance(to_side[facet], side_to_corner[facet]);
+    const Step step = circle[by_corner ? corner_of_facet(facet) : side_of_facet(facet)];
+    water.receiver[i] = static_cast<int>(ground.index(column + step.dx, row + step.dy));
+    water.length_m[i] = by_corner ? diagonal * ground.cell_m : ground.cell_m;
 }
 
 /// Fills `upstream` from `receiver`: outlets and pits first, then always the donors of what stands

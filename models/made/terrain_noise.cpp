@@ -6,7 +6,6 @@
 #include "models/made/terrain_noise.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace octant::models::made {
 
@@ -25,12 +24,23 @@ std::uint64_t hashed(std::uint64_t seed, std::int64_t x, std::int64_t y) {
     return mixed(seed * 0x9fb21c651e98df25ULL ^ a ^ (b + (b >> 29U)));
 }
 
-double slope_term(std::uint64_t seed, std::int64_t x, std::int64_t y, double dx, double dy) {
+/// The same as a double, of at most 63 bits: processors convert signed numbers only.
+double as_double(std::uint64_t bits) {
+    return static_cast<double>(static_cast<std::int64_t>(bits));
+}
+
+inline double slope_term(std::uint64_t seed, std::int64_t x, std::int64_t y, double dx, double dy) {
     constexpr double to_unit = 1.0 / 2147483648.0;
     const std::uint64_t bits = hashed(seed, x, y);
-    const double gx = static_cast<double>(bits & 0xffffffffU) * to_unit - 1.0;
-    const double gy = static_cast<double>(bits >> 32U) * to_unit - 1.0;
+    const double gx = as_double(bits & 0xffffffffU) * to_unit - 1.0;
+    const double gy = as_double(bits >> 32U) * to_unit - 1.0;
     return gx * dx + gy * dy;
+}
+
+/// std::floor without its call, for what fits the type.
+std::int64_t floor_of(double value) {
+    const auto whole = static_cast<std::int64_t>(value);
+    return static_cast<double>(whole) > value ? whole - 1 : whole;
 }
 
 double fade(double t) {
@@ -40,16 +50,14 @@ double fade(double t) {
 } // namespace
 
 double hashed_unit(std::uint64_t seed, std::int64_t x, std::int64_t y) {
-    return static_cast<double>(hashed(seed, x, y) >> 11U) * (1.0 / 9007199254740992.0);
+    return as_double(hashed(seed, x, y) >> 11U) * (1.0 / 9007199254740992.0);
 }
 
 double gradient_noise(std::uint64_t seed, double x, double y) {
-    const double floor_x = std::floor(x);
-    const double floor_y = std::floor(y);
-    const auto column = static_cast<std::int64_t>(floor_x);
-    const auto row = static_cast<std::int64_t>(floor_y);
-    const double dx = x - floor_x;
-    const double dy = y - floor_y;
+    const std::int64_t column = floor_of(x);
+    const std::int64_t row = floor_of(y);
+    const double dx = x - static_cast<double>(column);
+    const double dy = y - static_cast<double>(row);
     const double u = fade(dx);
     const double low = slope_term(seed, column, row, dx, dy) * (1.0 - u) +
                        slope_term(seed, column + 1, row, dx - 1.0, dy) * u;

@@ -2,18 +2,16 @@
 
 #include <catch2/catch.hpp>
 
-#include <nlohmann/json.hpp>
-
 namespace octant::tests {
 
-nlohmann::json figures_of(const std::string& command, std::vector<std::string> arguments) {
+PrintedJson figures_of(const std::string& command, std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), command);
     arguments.insert(arguments.end(), {"--json", "--quiet"});
     const ProgramRun run = run_octant(arguments);
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     CHECK(run.err.empty());
-    return nlohmann::json::parse(run.out);
+    return PrintedJson(run.out);
 }
 
 void check_refused(

@@ -1,15 +1,15 @@
 #pragma once
 
 #include "tests/ui/commands/command_line.h"
+#include "tests/ui/commands/printed_json.h"
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 namespace octant::tests {
 
 /// Runs `octant COMMAND ARGUMENTS --json --quiet`, which must say nothing but its figures.
-nlohmann::json figures_of(const std::string& command, std::vector<std::string> arguments);
+PrintedJson figures_of(const std::string& command, std::vector<std::string> arguments);
 
 /// Checks that `octant COMMAND ARGUMENTS --quiet` ends with code 2 and one line that has `expected`
 /// in it.

@@ -155,7 +155,7 @@ CommandLine shortened(CommandLine line) {
     // Large enough for the paths that fly over them.
     static const std::map<std::string, std::vector<std::pair<std::string, std::string>>> quick = {
         {"fly", {{"--frames", "12"}, {"--size", "64x36"}}},
-        {"terrain make", {{"--size", "257"}, {"--spacing", "160"}}},
+        {"terrain make", {{"--size", "129"}, {"--spacing", "160"}}},
         {"terrain error", {{"--size", "64x36"}}},
         {"terrain check", {{"--views", "2"}}},
         {"mesh-error", {{"--samples", "1000"}}}};

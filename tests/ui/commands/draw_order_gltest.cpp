@@ -1,10 +1,10 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/ui/commands/command_line.h"
+#include "tests/ui/commands/printed_json.h"
 
 #include <catch2/catch.hpp>
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 using namespace octant;
@@ -26,9 +26,9 @@ tests::ProgramRun draw_order(std::vector<std::string> arguments) {
     return run_octant(arguments);
 }
 
-nlohmann::json figures(const tests::ProgramRun& run) {
+tests::PrintedJson figures(const tests::ProgramRun& run) {
     INFO(run.err);
-    return nlohmann::json::parse(run.out);
+    return tests::PrintedJson(run.out);
 }
 
 void check_refused(const std::vector<std::string>& arguments, const std::string& expected) {
@@ -170,18 +170,18 @@ TEST_CASE("the study of draw orders writes its tables") {
     const auto run =
         run_octant({"study", "draw-order", "--out", file("study"), "--json", "--quiet"});
     CHECK(run.exit_code == 0);
-    const auto tables = nlohmann::json::parse(run.out);
+    const auto tables = tests::PrintedJson(run.out);
     REQUIRE(tables.size() == 5);
     CHECK(tables[0]["rows"].size() == 2);
     REQUIRE(tables[1]["rows"].size() == 8);
-    for (const auto& row : tables[1]["rows"]) {
+    for (const auto& row : tables[1]["rows"].elements()) {
         CHECK(row["same polygons"] == "yes");
         CHECK(row["ours keeps them"] == "yes");
     }
-    for (const auto& row : tables[2]["rows"]) {
+    for (const auto& row : tables[2]["rows"].elements()) {
         CHECK((row["method"] == "paper" || row["pairs not certified"] == 0));
     }
-    for (const auto& row : tables[3]["rows"]) {
+    for (const auto& row : tables[3]["rows"].elements()) {
         CHECK(row["tree"] == 0);
         CHECK((row["eyes"] != "2 to 20 R" || row["cells"] == 0));
         CHECK(row["back faces removed only"] > 0.1);

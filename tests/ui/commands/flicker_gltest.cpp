@@ -1,9 +1,9 @@
 #include "sim/base/text_file.h"
 #include "tests/ui/commands/command_line.h"
+#include "tests/ui/commands/printed_json.h"
 
 #include <catch2/catch.hpp>
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -51,8 +51,8 @@ tests::ProgramRun study(const std::string& out) {
          "--quiet"});
 }
 
-bool is_number_to_15(const nlohmann::json& cell) {
-    return cell.is_number() && cell.get<int>() <= 15;
+bool is_number_to_15(const tests::PrintedJson& cell) {
+    return cell.is_number() && cell.number() <= 15;
 }
 
 } // namespace
@@ -62,15 +62,15 @@ TEST_CASE("the flicker study writes its tables and figures, the same bytes each 
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     CHECK(run.err.empty());
-    const nlohmann::json tables = nlohmann::json::parse(run.out);
+    const tests::PrintedJson tables = tests::PrintedJson(run.out);
     REQUIRE(tables.size() == 5);
     CHECK(tables[0]["rows"].size() == 24); // four c, six controls
     CHECK(tables[2]["rows"].size() == 10); // two fields, five controls that hold a target
-    const nlohmann::json& by_error = tables[0]["rows"][5];
+    const tests::PrintedJson by_error = tables[0]["rows"][5];
     CHECK(by_error["control"] == "screen error (default)");
     CHECK(by_error["mean abs dn, last 50"] == 0);
     CHECK(is_number_to_15(by_error["dn = 0 for ever after, frames"]));
-    for (const nlohmann::json& row : tables[4]["rows"]) {
+    for (const tests::PrintedJson& row : tables[4]["rows"].elements()) {
         for (const char* first : {"C_0 = 2", "C_0 = 16", "C_0 = 64"}) {
             INFO(row);
             CHECK(is_number_to_15(row[first]));

@@ -1,10 +1,10 @@
 #include "sim/base/output_file.h"
 #include "tests/ui/commands/command_line.h"
+#include "tests/ui/commands/printed_json.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string>
 
 using namespace octant;
@@ -28,18 +28,15 @@ tests::ProgramRun mesh_error(std::vector<std::string> arguments) {
 }
 
 /// What it prints, less the times and the number of threads.
-nlohmann::json figures(std::vector<std::string> arguments) {
+tests::PrintedJson figures(std::vector<std::string> arguments) {
     arguments.emplace_back("--json");
     const tests::ProgramRun run = mesh_error(arguments);
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    nlohmann::json found = nlohmann::json::parse(run.out);
-    CHECK(found.at("read_ms") > 0.0);
-    CHECK(found.at("measure_ms") > 0.0);
-    for (const char* key : {"read_ms", "measure_ms", "threads"}) {
-        found.erase(key);
-    }
-    return found;
+    const tests::PrintedJson found(run.out);
+    CHECK(found["read_ms"] > 0.0);
+    CHECK(found["measure_ms"] > 0.0);
+    return found.without({"read_ms", "measure_ms", "threads"});
 }
 
 void check_refused(const std::vector<std::string>& arguments, const std::string& expected) {
@@ -63,16 +60,16 @@ constexpr std::string_view raised_obj =
 TEST_CASE("two plates are as far apart in the report as in their files") {
     const std::string a = file_with("floor.obj", floor_obj);
     const std::string b = file_with("raised.obj", raised_obj);
-    const nlohmann::json found = figures({a, b});
-    CHECK(found.at("diagonal_units") == 5.0);
-    CHECK(found.at("a_triangles") == 2);
+    const tests::PrintedJson found = figures({a, b});
+    CHECK(found["diagonal_units"] == 5.0);
+    CHECK(found["a_triangles"] == 2);
     for (const char* way : {"both", "a_to_b", "b_to_a"}) {
-        const nlohmann::json& figure = found.at(way);
-        CHECK(figure.at("hausdorff_least_units").get<double>() == Approx(0.5));
-        CHECK(figure.at("hausdorff_most_units").get<double>() >= 0.5);
-        CHECK(figure.at("hausdorff_most").get<double>() == Approx(0.1).epsilon(0.011));
-        CHECK(figure.at("rms").get<double>() == Approx(0.1));
-        CHECK(figure.at("mean_units").get<double>() == Approx(0.5));
+        const tests::PrintedJson figure = found[way];
+        CHECK(figure["hausdorff_least_units"].number() == Approx(0.5));
+        CHECK(figure["hausdorff_most_units"].number() >= 0.5);
+        CHECK(figure["hausdorff_most"].number() == Approx(0.1).epsilon(0.011));
+        CHECK(figure["rms"].number() == Approx(0.1));
+        CHECK(figure["mean_units"].number() == Approx(0.5));
         CHECK_FALSE(figure.contains("colour_rms"));
     }
 }
@@ -80,15 +77,15 @@ TEST_CASE("two plates are as far apart in the report as in their files") {
 TEST_CASE("what is wrong with B is told") {
     const std::string a = file_with("floor.obj", floor_obj);
     const std::string b = file_with("raised.obj", raised_obj);
-    const nlohmann::json found = figures({a, b});
-    const nlohmann::json& defects = found.at("defects_of_b");
-    CHECK(defects.at("turned_edges") == 1);
-    CHECK(defects.at("boundary_edges") == 4);
-    CHECK(defects.at("boundary_loops") == 1);
-    CHECK(defects.at("unreferenced_vertices") == 1);
-    CHECK(defects.at("shells") == 1);
-    CHECK(defects.at("genus").is_null());
-    CHECK(found.at("flipped_area_share").get<double>() == Approx(0.5).margin(1e-3));
+    const tests::PrintedJson found = figures({a, b});
+    const tests::PrintedJson defects = found["defects_of_b"];
+    CHECK(defects["turned_edges"] == 1);
+    CHECK(defects["boundary_edges"] == 4);
+    CHECK(defects["boundary_loops"] == 1);
+    CHECK(defects["unreferenced_vertices"] == 1);
+    CHECK(defects["shells"] == 1);
+    CHECK(defects["genus"].is_null());
+    CHECK(found["flipped_area_share"].number() == Approx(0.5).margin(1e-3));
 }
 
 TEST_CASE("the number of threads changes none of the figures") {
@@ -102,7 +99,7 @@ TEST_CASE("the difference in colour is given where both meshes have colours") {
         file_with("dark.obj", "v 0 0 0 0 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
     const std::string b =
         file_with("red.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n");
-    CHECK(figures({a, b}).at("both").at("colour_rms").get<double>() == Approx(1.0));
+    CHECK(figures({a, b})["both"]["colour_rms"].number() == Approx(1.0));
     CHECK(mesh_error({a, b}).out.find("colour rms") != std::string::npos);
 }
 

@@ -2,6 +2,7 @@
 #include "sim/base/text_file.h"
 #include "tests/ui/commands/command_checks.h"
 #include "tests/ui/commands/command_line.h"
+#include "tests/ui/commands/printed_json.h"
 
 #include <catch2/catch.hpp>
 
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <string>
@@ -111,7 +111,7 @@ Faces expected_faces(const Faces& originals, const std::string& nodes_file) {
     return sorted(faces);
 }
 
-nlohmann::json refine(const std::vector<std::string>& arguments) {
+tests::PrintedJson refine(const std::vector<std::string>& arguments) {
     return tests::figures_of("refine", arguments);
 }
 
@@ -147,7 +147,7 @@ TEST_CASE("a saved progressive mesh refined everywhere is the original, face for
 
 TEST_CASE("any active mesh is what the original file and the list of nodes say") {
     const Faces originals = write_sheet(file("sheet.obj"));
-    std::vector<int> vertices;
+    std::vector<double> vertices;
     for (const char* rule : {"selective", "hoppe", "xia"}) {
         const auto figures = refine(
             {file("sheet.obj"),
@@ -173,7 +173,7 @@ TEST_CASE("any active mesh is what the original file and the list of nodes say")
              file("part.txt")});
         CHECK(figures["turned_faces"] == 0);
         CHECK(faces_of_obj(file("part.obj")) == expected_faces(originals, file("part.txt")));
-        vertices.push_back(figures["vertices"]);
+        vertices.push_back(figures["vertices"].number());
     }
     CHECK(vertices[0] < vertices[1]);
     CHECK(vertices[1] < vertices[2]);
@@ -263,10 +263,10 @@ TEST_CASE("the study of refinement writes its tables") {
          "--quiet"});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    const auto tables = nlohmann::json::parse(run.out);
+    const auto tables = tests::PrintedJson(run.out);
     REQUIRE(tables.size() == 3);
     CHECK(tables[0]["rows"].size() == 5);
-    for (const auto& row : tables[0]["rows"]) {
+    for (const auto& row : tables[0]["rows"].elements()) {
         CHECK(row["after repair (faces)"] == 0);
         CHECK(row["selective"] <= row["Hoppe 1997"]);
     }

@@ -2,6 +2,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/ui/commands/command_line.h"
+#include "tests/ui/commands/printed_json.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/studies/hybrid_shading/shading_models.h"
@@ -12,7 +13,6 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -159,7 +159,7 @@ TEST_CASE("other targets in the rows give other pictures, and the check says so"
     const auto again = recorded().parent_path() / "again";
     const tests::ProgramRun run = replay(half, {"--record", again.string(), "--json", "--quiet"});
     CHECK(run.exit_code == 1);
-    const auto json = nlohmann::json::parse(run.out);
+    const auto json = tests::PrintedJson(run.out);
     CHECK(json["replay"]["state_hash"] == "same");
     CHECK(json["replay"]["picture_hash"] == "other");
     const Records rows = rows_of(again);
@@ -173,9 +173,8 @@ TEST_CASE("other targets in the rows give other pictures, and the check says so"
 
 TEST_CASE("what is left of a killed flight is replayed without a verdict") {
     const auto killed = changed("killed", [](Records& rows) { rows.resize(20); });
-    auto json = nlohmann::ordered_json::parse(read_text_file(killed / "run.json"));
-    json.erase("summary");
-    write_file(killed / "run.json", json.dump(2));
+    const tests::PrintedJson json(read_text_file(killed / "run.json"));
+    write_file(killed / "run.json", json.without({"summary"}).printed());
     write_file(killed / "frames.csv", read_text_file(killed / "frames.csv") + "20,0.0");
     const tests::ProgramRun run = replay(killed);
     INFO(run.err);

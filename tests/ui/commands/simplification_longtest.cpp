@@ -1,10 +1,10 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/ui/commands/command_line.h"
+#include "tests/ui/commands/printed_json.h"
 
 #include <catch2/catch.hpp>
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 using namespace octant;
@@ -30,7 +30,7 @@ TEST_CASE("the study of simplification prints the paper's tables with ours besid
     const tests::ProgramRun run = study({"--paper-only", "--json"});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    const auto tables = nlohmann::json::parse(run.out);
+    const auto tables = tests::PrintedJson(run.out);
     REQUIRE(tables.size() == 2);
     CHECK(tables[0]["rows"].size() == 6);
     CHECK(tables[1]["rows"].size() == 18);

@@ -4,13 +4,13 @@
 #include "sim/base/text_file.h"
 #include "tests/ui/commands/command_checks.h"
 #include "tests/ui/commands/command_line.h"
+#include "tests/ui/commands/printed_json.h"
 #include "ui/report/frame_csv.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -48,7 +48,7 @@ std::string waves(int side) {
     return file;
 }
 
-nlohmann::json figures(const std::vector<std::string>& arguments) {
+tests::PrintedJson figures(const std::vector<std::string>& arguments) {
     return tests::figures_of("simplify", arguments);
 }
 
@@ -89,30 +89,27 @@ TEST_CASE("a mesh is simplified to the faces asked for, and its error is that of
     const std::string in = waves(24);
     const std::string out = file_named("small.ply");
     for (const char* method : {"surface", "fast"}) {
-        const nlohmann::json found = figures({in, out, "--faces", "200", "--method", method});
-        CHECK(found.at("faces") <= 200);
-        CHECK(found.at("faces") >= 190);
+        const tests::PrintedJson found = figures({in, out, "--faces", "200", "--method", method});
+        CHECK(found["faces"] <= 200);
+        CHECK(found["faces"] >= 190);
         const models::TriangleMesh written = models::meshfile::read_mesh(out);
-        CHECK(written.triangles.size() == found.at("faces"));
+        CHECK(written.triangles.size() == found["faces"]);
         const tests::ProgramRun run = run_octant({"mesh-error", in, out, "--json", "--quiet"});
         REQUIRE(run.exit_code == 0);
-        const nlohmann::json measured = nlohmann::json::parse(run.out).at("both");
-        CHECK(
-            found.at("error").get<double>() >= measured.at("hausdorff_least_units").get<double>());
-        CHECK(
-            found.at("error").get<double>() <=
-            1.5 * measured.at("hausdorff_least_units").get<double>());
+        const tests::PrintedJson measured = tests::PrintedJson(run.out)["both"];
+        CHECK(found["error"].number() >= measured["hausdorff_least_units"].number());
+        CHECK(found["error"].number() <= 1.5 * measured["hausdorff_least_units"].number());
     }
 }
 
 TEST_CASE("an error that is asked for is certified not to be exceeded") {
     const std::string in = waves(24);
     const std::string out = file_named("within.obj");
-    const nlohmann::json found = figures({in, out, "--error", "0.05"});
-    CHECK(found.at("error") <= 0.05);
-    CHECK(found.at("faces") < 1152);
-    const nlohmann::json share = figures({in, out, "--error", "0.1%"});
-    CHECK(share.at("error_of_diagonal") <= 0.001);
+    const tests::PrintedJson found = figures({in, out, "--error", "0.05"});
+    CHECK(found["error"] <= 0.05);
+    CHECK(found["faces"] < 1152);
+    const tests::PrintedJson share = figures({in, out, "--error", "0.1%"});
+    CHECK(share["error_of_diagonal"] <= 0.001);
 }
 
 TEST_CASE("the same input gives the same file for any number of threads") {
@@ -127,33 +124,33 @@ TEST_CASE("the same input gives the same file for any number of threads") {
 TEST_CASE("the paper's methods state how the paper was read and what it prints") {
     const std::string in = waves(20);
     const std::string out = file_named("printed.obj");
-    const nlohmann::json plane = figures({in, out, "--vertices", "100", "--method", "plane"});
-    const nlohmann::json both =
+    const tests::PrintedJson plane = figures({in, out, "--vertices", "100", "--method", "plane"});
+    const tests::PrintedJson both =
         figures({in, out, "--vertices", "100", "--method", "bidirectional"});
-    CHECK(plane.at("counted_vertices") == 100);
-    CHECK(plane.at("feet") == 0);
-    CHECK(both.at("feet") > 1000);
-    CHECK(both.at("share_outside") > 0.5);
-    CHECK(both.at("error_sum_triangle") <= both.at("error_sum_bidirectional"));
-    CHECK(both.at("reading").get<std::string>().find("shortest edge first") == 0);
+    CHECK(plane["counted_vertices"] == 100);
+    CHECK(plane["feet"] == 0);
+    CHECK(both["feet"] > 1000);
+    CHECK(both["share_outside"] > 0.5);
+    CHECK(both["error_sum_triangle"] <= both["error_sum_bidirectional"]);
+    CHECK(both["reading"].text().find("shortest edge first") == 0);
 }
 
 TEST_CASE("a chain of levels has rising certified errors and is flown") {
     const std::string in = waves(30);
     const std::string chain = file_named("waves.chain");
-    const nlohmann::json found = figures({in, chain, "--chain"});
-    const nlohmann::json& levels = found.at("levels");
+    const tests::PrintedJson found = figures({in, chain, "--chain"});
+    const tests::PrintedJson levels = found["levels"];
     REQUIRE(levels.size() >= 3);
     for (std::size_t i = 1; i < levels.size(); ++i) {
-        CHECK(levels[i].at("error") > levels[i - 1].at("error"));
-        CHECK(levels[i].at("faces") < levels[i - 1].at("faces"));
+        CHECK(levels[i]["error"] > levels[i - 1]["error"]);
+        CHECK(levels[i]["faces"] < levels[i - 1]["faces"]);
     }
     const auto last_row = [&](const char* error_px) {
         return flown_frames(chain, "160x90", error_px).back();
     };
     const auto near = last_row("0.01");
     CHECK(near.aircraft_level == 0);
-    CHECK(near.aircraft_polygons == levels[0].at("faces"));
+    CHECK(near.aircraft_polygons == levels[0]["faces"]);
     const auto far = last_row("100");
     CHECK(far.aircraft_level > 0);
     CHECK(far.aircraft_polygons < near.aircraft_polygons);

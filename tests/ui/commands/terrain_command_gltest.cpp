@@ -1,12 +1,12 @@
 #include "sim/base/output_file.h"
 #include "tests/ui/commands/command_line.h"
+#include "tests/ui/commands/printed_json.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
 
 using namespace octant;
@@ -45,9 +45,9 @@ TEST_CASE("octant terrain mesh writes a PLY whose corners are the map's") {
          "--out",
          ply});
     REQUIRE(run.exit_code == 0);
-    const auto figures = nlohmann::json::parse(run.out);
-    CHECK(figures["triangles"].get<int>() <= 500);
-    CHECK(figures["triangles"].get<int>() > 300);
+    const auto figures = tests::PrintedJson(run.out);
+    CHECK(figures["triangles"].number() <= 500);
+    CHECK(figures["triangles"].number() > 300);
     std::ifstream in(ply);
     std::string word;
     while (word != "end_header") {
@@ -57,7 +57,7 @@ TEST_CASE("octant terrain mesh writes a PLY whose corners are the map's") {
     double x_m = 0.0;
     double y_m = 0.0;
     double z_m = 0.0;
-    for (int k = 0; k < figures["vertices"].get<int>(); ++k) {
+    for (int k = 0; k < figures["vertices"].number(); ++k) {
         REQUIRE(in >> x_m >> y_m >> z_m);
         west_m = std::min(west_m, x_m);
     }
@@ -86,15 +86,15 @@ TEST_CASE("octant terrain error solves for a percentile and refuses what it cann
          "--json",
          "--quiet"});
     REQUIRE(run.exit_code == 0);
-    const auto tables = nlohmann::json::parse(run.out);
+    const auto tables = tests::PrintedJson(run.out);
     const auto& rows = tables[0]["rows"];
     REQUIRE(rows.size() == 3);
-    CHECK(rows[0]["99.9 % px"].get<double>() <= 4.0);
-    CHECK(rows[0]["99.9 % px"].get<double>() > 3.5);
+    CHECK(rows[0]["99.9 % px"].number() <= 4.0);
+    CHECK(rows[0]["99.9 % px"].number() > 3.5);
     CHECK(rows[2]["view"] == "mean");
     CHECK(rows[2]["uncovered"] == 0);
     REQUIRE(tables[1]["rows"].size() == 3);
-    CHECK(tables[1]["rows"][1]["ratio"].get<double>() < 1.0);
+    CHECK(tables[1]["rows"][1]["ratio"].number() < 1.0);
 
     CHECK(run_octant({"terrain", "error", terrain}).exit_code == 2);
     CHECK(
@@ -122,9 +122,9 @@ TEST_CASE("octant terrain query tells heights, heights above ground and what hid
          "1000,0,0",
          "--json"});
     REQUIRE(run.exit_code == 0);
-    const auto answers = nlohmann::json::parse(run.out);
-    const double ground_m = answers["points"][0]["ground_m"].get<double>();
-    CHECK(answers["points"][1]["above_ground_m"].get<double>() == Approx(3000.0 - ground_m));
+    const auto answers = tests::PrintedJson(run.out);
+    const double ground_m = answers["points"][0]["ground_m"].number();
+    CHECK(answers["points"][1]["above_ground_m"].number() == Approx(3000.0 - ground_m));
     CHECK(answers["points"][2]["ground_m"].is_null());
     CHECK(answers["sight"]["visible"] == false);
     CHECK(answers["sight"]["hidden_at_m"].size() == 3);
@@ -155,7 +155,7 @@ TEST_CASE("octant terrain check says how many views it looked at") {
     const ProgramRun run = run_octant(
         {"terrain", "check", "hills", "--views", "40", "--every", "4", "--json", "--quiet"});
     REQUIRE(run.exit_code == 0);
-    const auto figures = nlohmann::json::parse(run.out);
+    const auto figures = tests::PrintedJson(run.out);
     CHECK(figures["views"] == 10);
     CHECK(figures["cracked_views"] == 0);
     CHECK(figures["drawn"] == 1);
