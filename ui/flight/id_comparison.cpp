@@ -128,7 +128,8 @@ namespace {
 scene::Picture number_picture(Session& session, const settings::Settings& settings) {
     // Meshed by the session's settings, so that all pictures show the same triangles.
     const scene::Scene& scene = session.world().scene;
-    scene::Planner planner(scene, settings, scene.ground->mesher(session.settings()));
+    scene::Planner planner(
+        scene, settings, scene.ground->mesher(scene::mesh_settings(session.settings())));
     planner.settle(session.camera());
     scene::IdPlan ids(scene);
     const auto renderer = session.renderer().beside(settings.view.size_px, 1);

@@ -58,7 +58,9 @@ void InsetView::follow(const settings::Settings& settings) {
     planner_.reset();
     place(settings);
     planner_.emplace(
-        scene_, settings_, scene::mesher_after(std::move(mesher), *scene_.ground, settings_));
+        scene_,
+        settings_,
+        scene::mesher_after(std::move(mesher), *scene_.ground, scene::mesh_settings(settings_)));
 }
 
 const scene::FramePlan& InsetView::plan(

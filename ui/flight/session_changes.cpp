@@ -110,11 +110,11 @@ namespace {
 /// it, or the texture over it, must be loaded.
 std::shared_ptr<const scene::Ground>
 kept_ground(const scene::Scene& scene, const settings::Settings& settings) {
-    const bool same = scene.ground->suits(settings);
+    const bool same = scene.ground->suits(settings.ground, settings.air);
     if (same || scene.ground_texture) {
         return same ? scene.ground : nullptr;
     }
-    return scene.ground->remade(settings);
+    return scene.ground->remade(settings.ground, settings.air);
 }
 
 } // namespace
@@ -155,7 +155,9 @@ void Session::follow_ground(bool other_control) {
     const bool settles = other_control || &mesher->ground() != &ground;
     planner_.reset();
     planner_.emplace(
-        world_.scene, settings_, scene::mesher_after(std::move(mesher), ground, settings_));
+        world_.scene,
+        settings_,
+        scene::mesher_after(std::move(mesher), ground, scene::mesh_settings(settings_)));
     if (settles) {
         planner_->settle(now_.camera);
     }

@@ -63,7 +63,7 @@ SceneGround load_imported(const settings::Settings& settings, DrawnBy drawn_by) 
     const models::heights::GroundArea area{
         facts.name, ground.half_extent_m(), ground.spacing_m(), facts.system};
     add_texture(terrain::GroundSamples(ground), area, settings, drawn_by, loaded);
-    loaded.ground = scene::ground_from_tiles(std::move(ground), settings);
+    loaded.ground = scene::ground_from_tiles(std::move(ground), settings.air);
     return loaded;
 }
 
@@ -75,8 +75,8 @@ SceneGround load_field(const settings::Settings& settings, DrawnBy drawn_by) {
     add_texture(
         terrain::GroundSamples(field), models::heights::area_of(field), own, drawn_by, loaded);
     loaded.ground = scene::ground_metric(settings.ground) == scene::GroundMetric::ScreenError
-                        ? scene::ground_from_tiles(terrain::ground_of(field), own)
-                        : scene::ground_from_field(std::move(field), own);
+                        ? scene::ground_from_tiles(terrain::ground_of(field), own.air)
+                        : scene::ground_from_field(std::move(field), own.ground, own.air);
     return loaded;
 }
 
@@ -86,7 +86,7 @@ SceneGround load_polygons(const settings::Settings& settings) {
     loaded.ground = scene::ground_from_polygons(
         settings.path.terrain == "none" ? models::polygons::PolygonModel{}
                                         : models::made::background60(),
-        settings);
+        settings.air);
     return loaded;
 }
 

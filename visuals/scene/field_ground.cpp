@@ -38,12 +38,12 @@ terrain::QuadtreeOptions quadtree_options(const GroundSettings& settings) {
                            : terrain::Propagation::CrackFree};
 }
 
-terrain::ControlSettings control_settings(const Settings& settings) {
+/// Without the target, which comes with each request.
+terrain::ControlSettings control_settings(const GroundSettings& settings) {
     terrain::ControlSettings control;
-    control.target_triangles = triangle_target(settings);
-    control.triangles_per_resolution = settings.ground.control_a;
-    control.remembered_frames = settings.ground.control_r;
-    switch (settings.ground.detail) {
+    control.triangles_per_resolution = settings.control_a;
+    control.remembered_frames = settings.control_r;
+    switch (settings.detail) {
     case DetailControl::Previous:
         control.method = terrain::ControlMethod::Previous;
         break;
@@ -67,11 +67,14 @@ bool is_same(const terrain::MeshView& a, const terrain::MeshView& b) {
 /// Heights, their quadtree and their colours.
 class FieldGround final : public Ground {
 public:
-    FieldGround(std::shared_ptr<const models::heights::HeightField> field, const Settings& settings)
+    FieldGround(
+        std::shared_ptr<const models::heights::HeightField> field,
+        const GroundSettings& ground,
+        const AirSettings& air)
         : field_(std::move(field))
-        , tree_(*field_, quadtree_options(settings.ground))
-        , air_(settings.air)
-        , colours_(ground_colours(*field_, settings.air))
+        , tree_(*field_, quadtree_options(ground))
+        , air_(air)
+        , colours_(ground_colours(*field_, air))
         , mean_colour_(scene::mean_colour(colours_)) {
         for (int row = 0; row < field_->rows(); ++row) {
             double sum_m = 0.0;
@@ -109,15 +112,16 @@ public:
         return same_colours(settings, air_);
     }
 
-    std::shared_ptr<const Ground> remade(const Settings& settings) const override {
-        if (ground_metric(settings.ground) == GroundMetric::ScreenError) {
-            return ground_from_tiles(terrain::ground_of(*field_), settings);
+    std::shared_ptr<const Ground>
+    remade(const GroundSettings& ground, const AirSettings& air) const override {
+        if (ground_metric(ground) == GroundMetric::ScreenError) {
+            return ground_from_tiles(terrain::ground_of(*field_), air);
         }
-        return std::make_shared<FieldGround>(field_, settings);
+        return std::make_shared<FieldGround>(field_, ground, air);
     }
 
 private:
-    std::unique_ptr<GroundMesher> make_mesher(const Settings& settings) const override;
+    std::unique_ptr<GroundMesher> make_mesher(const MeshSettings& settings) const override;
 
     std::shared_ptr<const models::heights::HeightField> field_;
     terrain::Quadtree tree_;
@@ -130,7 +134,7 @@ private:
 /// Meshes of the quadtree at a resolution C that holds the triangle count.
 class FieldMesher final : public GroundMesher {
 public:
-    FieldMesher(std::shared_ptr<const FieldGround> ground, const Settings& settings)
+    FieldMesher(std::shared_ptr<const FieldGround> ground, const MeshSettings& settings)
         : ground_(std::move(ground))
         , mesher_(ground_->tree(), ground_->colours()) {
         follow(settings);
@@ -138,19 +142,18 @@ public:
 
     const Ground& ground() const override { return *ground_; }
 
-    void follow(const Settings& settings) override {
-        control_ = control_settings(settings);
-        exact_ = settings.ground.detail == DetailControl::Exact;
-        fixed_resolution_ = settings.ground.detail == DetailControl::Fixed;
-        first_resolution_ = settings.ground.resolution_c;
-        order_ = settings.surface.hidden_surface == HiddenSurface::DepthBuffer
-                     ? terrain::PaintOrder::FrontToBack
-                     : terrain::PaintOrder::BackToFront;
-        detail_.roughness_weight = settings.ground.roughness_c.value_or(
-            ground_metric(settings.ground) == GroundMetric::Printed ? printed_weight
-                                                                    : midpoint_weight);
-        detail_.fans = settings.ground.fans == GroundFans::Full ? terrain::FanKind::Full
-                                                                : terrain::FanKind::Partial;
+    void follow(const MeshSettings& settings) override {
+        const GroundSettings& ground = settings.ground;
+        control_ = control_settings(ground);
+        exact_ = ground.detail == DetailControl::Exact;
+        fixed_resolution_ = ground.detail == DetailControl::Fixed;
+        first_resolution_ = ground.resolution_c;
+        order_ = settings.nearest_first ? terrain::PaintOrder::FrontToBack
+                                        : terrain::PaintOrder::BackToFront;
+        detail_.roughness_weight = ground.roughness_c.value_or(
+            ground_metric(ground) == GroundMetric::Printed ? printed_weight : midpoint_weight);
+        detail_.fans =
+            ground.fans == GroundFans::Full ? terrain::FanKind::Full : terrain::FanKind::Partial;
         if (fixed_resolution_ && first_resolution_ > 0.0) {
             state_ = terrain::starting_at(first_resolution_, control_);
         }
@@ -219,17 +222,17 @@ private:
     bool fixed_resolution_ = false;
 };
 
-std::unique_ptr<GroundMesher> FieldGround::make_mesher(const Settings& settings) const {
+std::unique_ptr<GroundMesher> FieldGround::make_mesher(const MeshSettings& settings) const {
     return std::make_unique<FieldMesher>(
         std::static_pointer_cast<const FieldGround>(shared_from_this()), settings);
 }
 
 } // namespace
 
-std::shared_ptr<const Ground>
-ground_from_field(models::heights::HeightField field, const Settings& settings) {
+std::shared_ptr<const Ground> ground_from_field(
+    models::heights::HeightField field, const GroundSettings& ground, const AirSettings& air) {
     return std::make_shared<FieldGround>(
-        std::make_shared<const models::heights::HeightField>(std::move(field)), settings);
+        std::make_shared<const models::heights::HeightField>(std::move(field)), ground, air);
 }
 
 } // namespace octant::visuals::scene

@@ -4,13 +4,20 @@
 
 namespace octant::visuals::scene {
 
-std::unique_ptr<GroundMesher> Ground::mesher(const Settings& settings) const {
+MeshSettings mesh_settings(const Settings& settings) {
+    return {
+        settings.ground,
+        settings.view.size_px.y,
+        settings.surface.hidden_surface == HiddenSurface::DepthBuffer};
+}
+
+std::unique_ptr<GroundMesher> Ground::mesher(const MeshSettings& settings) const {
     assert(is_meshed_as(settings.ground));
     return make_mesher(settings);
 }
 
-std::unique_ptr<GroundMesher>
-mesher_after(std::unique_ptr<GroundMesher> before, const Ground& ground, const Settings& settings) {
+std::unique_ptr<GroundMesher> mesher_after(
+    std::unique_ptr<GroundMesher> before, const Ground& ground, const MeshSettings& settings) {
     assert(ground.is_meshed_as(settings.ground));
     if (!before || (&before->ground() != &ground && !before->move_to(ground.shared_from_this()))) {
         return ground.mesher(settings);

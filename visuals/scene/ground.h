@@ -48,43 +48,43 @@ public:
     virtual bool is_coloured_as(const AirSettings& /*settings*/) const { return true; }
 
     /// Whether loading the same heights by these settings would give this ground.
-    bool suits(const Settings& settings) const {
-        return is_meshed_as(settings.ground) && is_coloured_as(settings.air);
+    bool suits(const GroundSettings& ground, const AirSettings& air) const {
+        return is_meshed_as(ground) && is_coloured_as(air);
     }
 
     /// Ground of the same heights as these settings want it, made of what is in memory; null where
     /// it must be loaded. Loading work.
-    virtual std::shared_ptr<const Ground> remade(const Settings& /*settings*/) const {
+    virtual std::shared_ptr<const Ground>
+    remade(const GroundSettings& /*ground*/, const AirSettings& /*air*/) const {
         return nullptr;
     }
 
-    /// The meshes of one more view. The ground is_meshed_as() the settings say (asserted); its
-    /// colours are its own, whatever they say of colours.
-    std::unique_ptr<GroundMesher> mesher(const Settings& settings) const;
+    /// The meshes of one more view. The ground is_meshed_as() the settings say (asserted).
+    std::unique_ptr<GroundMesher> mesher(const MeshSettings& settings) const;
 
 protected:
     Ground() = default;
 
 private:
-    virtual std::unique_ptr<GroundMesher> make_mesher(const Settings& settings) const = 0;
+    virtual std::unique_ptr<GroundMesher> make_mesher(const MeshSettings& settings) const = 0;
 };
 
 /// The mesher by which a view goes on under other settings: `before` where it meshes this very
 /// ground or the same one in other colours, else a new one. As Ground::mesher.
-std::unique_ptr<GroundMesher>
-mesher_after(std::unique_ptr<GroundMesher> before, const Ground& ground, const Settings& settings);
+std::unique_ptr<GroundMesher> mesher_after(
+    std::unique_ptr<GroundMesher> before, const Ground& ground, const MeshSettings& settings);
 
 /// A height field under a quadtree whose triangle count is held. Takes the field over.
-std::shared_ptr<const Ground>
-ground_from_field(models::heights::HeightField field, const Settings& settings);
+std::shared_ptr<const Ground> ground_from_field(
+    models::heights::HeightField field, const GroundSettings& ground, const AirSettings& air);
 
 /// Ground under a mesh by screen-space error.
 std::shared_ptr<const Ground>
-ground_from_tiles(terrain::GroundTiles ground, const Settings& settings);
+ground_from_tiles(terrain::GroundTiles ground, const AirSettings& air);
 
 /// Polygons painted in file order over a level datum. Body axes of the model: x north, y east, z
 /// down. Without polygons: nothing to see and a map of 2,000 km, for aircraft alone.
 std::shared_ptr<const Ground>
-ground_from_polygons(models::polygons::PolygonModel polygons, const Settings& settings);
+ground_from_polygons(models::polygons::PolygonModel polygons, const AirSettings& air);
 
 } // namespace octant::visuals::scene

@@ -15,6 +15,16 @@ namespace octant::visuals::scene {
 
 class Ground;
 
+/// How a view's ground is meshed, and for which pictures.
+struct MeshSettings {
+    GroundSettings ground;
+    int picture_height_px = 720;
+    /// Nearest triangles first, for pictures with a depth buffer; else farthest first.
+    bool nearest_first = false;
+};
+
+MeshSettings mesh_settings(const Settings& settings);
+
 /// From where the ground is meshed for one frame, and how finely.
 struct GroundRequest {
     Camera camera;
@@ -47,7 +57,7 @@ public:
 
     /// Meshes by other settings from the next frame on; the detail control goes on from where it
     /// is. The ground is_meshed_as() they say (asserted by mesher_after).
-    virtual void follow(const Settings& /*settings*/) {}
+    virtual void follow(const MeshSettings& /*settings*/) {}
 
     /// Goes on over another ground from the next frame on, where that has the same heights in the
     /// same memory and only other colours. Otherwise returns false and has changed nothing.

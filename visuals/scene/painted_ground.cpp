@@ -29,9 +29,9 @@ public:
         glm::dvec3 most_m;
     };
 
-    PaintedGround(const models::polygons::PolygonModel& model, const Settings& settings)
-        : air_(settings.air) {
-        const glm::vec3 sun = direction_to_sun(settings.air);
+    PaintedGround(const models::polygons::PolygonModel& model, const AirSettings& air)
+        : air_(air) {
+        const glm::vec3 sun = direction_to_sun(air);
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
             const glm::vec3 normal(world_from_body(models::polygons::normal_of(model, i)));
             const float light = ambient_light + sun_light * std::max(glm::dot(normal, sun), 0.0F);
@@ -83,7 +83,7 @@ public:
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
 private:
-    std::unique_ptr<GroundMesher> make_mesher(const Settings& settings) const override;
+    std::unique_ptr<GroundMesher> make_mesher(const MeshSettings& settings) const override;
 
     void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         indices_.insert(indices_.end(), {a, b, c});
@@ -139,7 +139,7 @@ private:
     std::vector<models::ColourVertex> vertices_;
 };
 
-std::unique_ptr<GroundMesher> PaintedGround::make_mesher(const Settings& /*settings*/) const {
+std::unique_ptr<GroundMesher> PaintedGround::make_mesher(const MeshSettings& /*settings*/) const {
     return std::make_unique<PaintedMesher>(
         std::static_pointer_cast<const PaintedGround>(shared_from_this()));
 }
@@ -147,8 +147,8 @@ std::unique_ptr<GroundMesher> PaintedGround::make_mesher(const Settings& /*setti
 } // namespace
 
 std::shared_ptr<const Ground>
-ground_from_polygons(models::polygons::PolygonModel polygons, const Settings& settings) {
-    return std::make_shared<PaintedGround>(polygons, settings);
+ground_from_polygons(models::polygons::PolygonModel polygons, const AirSettings& air) {
+    return std::make_shared<PaintedGround>(polygons, air);
 }
 
 } // namespace octant::visuals::scene

@@ -57,7 +57,7 @@ double distance_to_edge_m(const Ground& ground, const glm::dvec3& eye_m) {
 
 /// The aircraft of a scene, with room for their parts.
 std::vector<PlacedAircraft>
-places_for(const Scene& scene, const Settings& settings, std::vector<glm::dmat4>& parts) {
+places_for(const Scene& scene, View view, std::vector<glm::dmat4>& parts) {
     std::vector<PlacedAircraft> placed;
     const auto add = [&](std::uint32_t model) {
         PlacedAircraft& aircraft = placed.emplace_back();
@@ -69,7 +69,7 @@ places_for(const Scene& scene, const Settings& settings, std::vector<glm::dmat4>
     for (const std::uint32_t model : scene.aircraft) {
         add(model);
     }
-    if (scene.cockpit && settings.view.kind == View::Cockpit) {
+    if (scene.cockpit && view == View::Cockpit) {
         add(*scene.cockpit);
     }
     for (PlacedAircraft& aircraft : placed) {
@@ -79,17 +79,24 @@ places_for(const Scene& scene, const Settings& settings, std::vector<glm::dmat4>
     return placed;
 }
 
+refine::ViewRefinerOptions refiner_options(const Settings& settings) {
+    refine::ViewRefinerOptions options;
+    options.error_px = settings.surface.aircraft_error_px;
+    options.geomorphs = settings.ground.geomorphs;
+    return options;
+}
+
 } // namespace
 
 Planner::Planner(const Scene& scene, const Settings& settings, std::unique_ptr<GroundMesher> mesher)
     : scene_(scene)
     , settings_(settings)
-    , mesher_(mesher ? std::move(mesher) : scene.ground->mesher(settings))
+    , mesher_(mesher ? std::move(mesher) : scene.ground->mesher(mesh_settings(settings)))
     , aspect_(static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y)
     , to_sun_(direction_to_sun(settings.air))
     , shadows_(to_sun_)
-    , placed_(places_for(scene, settings, parts_))
-    , smooth_(settings, placed_)
+    , placed_(places_for(scene, settings.view.kind, parts_))
+    , smooth_(settings.shading, settings.adapt.shading, placed_)
     , steps_(plan_) {
     plan_.background = settings.air.background;
     plan_.haze = {settings.air.background, static_cast<float>(settings.air.visibility_m)};
@@ -101,7 +108,8 @@ Planner::Planner(const Scene& scene, const Settings& settings, std::unique_ptr<G
     for (const PlacedAircraft& aircraft : placed_) {
         refined_.push_back(
             aircraft.model->progressive
-                ? std::make_unique<RefinedAircraft>(aircraft.model->progressive, settings)
+                ? std::make_unique<RefinedAircraft>(
+                      aircraft.model->progressive, refiner_options(settings), settings.shading)
                 : nullptr);
     }
     was_refined_.resize(placed_.size());

@@ -15,20 +15,6 @@ namespace {
 
 constexpr std::uint32_t flat_polygon = 1; ///< RefinedDraw::first_smooth
 
-refine::ViewRefinerOptions options_of(const Settings& settings) {
-    refine::ViewRefinerOptions options;
-    options.error_px = settings.surface.aircraft_error_px;
-    options.geomorphs = settings.ground.geomorphs;
-    return options;
-}
-
-shading::ShadingRuleSettings rule_of(const Settings& settings) {
-    shading::ShadingRuleSettings rule;
-    rule.rule = settings.shading.rule == HybridRule::Paper ? shading::ShadingRule::Paper
-                                                           : shading::ShadingRule::Error;
-    return rule;
-}
-
 float part_of(std::uint32_t colour, unsigned shift) {
     return static_cast<float>(colour >> shift & 0xffU);
 }
@@ -49,11 +35,20 @@ std::uint32_t mean_colour(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 
 } // namespace
 
+shading::ShadingRuleSettings rule_of(const ShadingSettings& settings) {
+    shading::ShadingRuleSettings rule;
+    rule.rule = settings.rule == HybridRule::Paper ? shading::ShadingRule::Paper
+                                                   : shading::ShadingRule::Error;
+    return rule;
+}
+
 RefinedAircraft::RefinedAircraft(
-    std::shared_ptr<const refine::ProgressiveMesh> mesh, const Settings& settings)
-    : refiner_(std::move(mesh), options_of(settings))
-    , selector_(rule_of(settings))
-    , shows_levels_(settings.shading.show_model == ModelLook::Levels) {}
+    std::shared_ptr<const refine::ProgressiveMesh> mesh,
+    const refine::ViewRefinerOptions& options,
+    const ShadingSettings& shading)
+    : refiner_(std::move(mesh), options)
+    , selector_(rule_of(shading))
+    , shows_levels_(shading.show_model == ModelLook::Levels) {}
 
 refine::RefinedFrame
 RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const RefineLook& look, bool first) {

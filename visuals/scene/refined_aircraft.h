@@ -23,12 +23,18 @@ struct RefineLook {
     double pixel_rad = 0.001;
 };
 
+/// The rule by which polygons are chosen to be smooth.
+shading::ShadingRuleSettings rule_of(const ShadingSettings& settings);
+
 /// One aircraft's mesh, kept as fine as each frame needs it. Several share a hierarchy. Keeps its
 /// memory; what stays from frame to frame is not worked out again.
 class RefinedAircraft {
 public:
     /// The hierarchy is in body axes.
-    RefinedAircraft(std::shared_ptr<const refine::ProgressiveMesh> mesh, const Settings& settings);
+    RefinedAircraft(
+        std::shared_ptr<const refine::ProgressiveMesh> mesh,
+        const refine::ViewRefinerOptions& options,
+        const ShadingSettings& shading);
 
     /// One frame; nothing is done where nothing has moved. `first`: it was not seen in the frame
     /// before, so it is made fit at once.

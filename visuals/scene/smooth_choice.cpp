@@ -37,11 +37,11 @@ int polygons_of(const PlacedAircraft& aircraft) {
                : static_cast<int>(aircraft.model->shaded_as(aircraft.representation).size());
 }
 
-shading::ShadingRuleSettings rule_of(const Settings& settings) {
-    shading::ShadingRuleSettings rule;
-    rule.rule = settings.shading.rule == HybridRule::Paper ? shading::ShadingRule::Paper
-                                                           : shading::ShadingRule::Error;
-    return rule;
+/// Whether some polygons may be smooth while others are not.
+bool chooses_by(const ShadingSettings& settings, bool follows_clock) {
+    return settings.kind == AircraftShading::Hybrid &&
+           (settings.smooth_share < 1.0 || settings.device_ratio || follows_clock ||
+            settings.rule == HybridRule::Paper);
 }
 
 /// Of the sun, in body axes.
@@ -91,8 +91,10 @@ void share_out_smooth(std::span<const SmoothShare> aircraft, int smooth, std::sp
     }
 }
 
-SmoothChoice::SmoothChoice(const Settings& settings, std::span<PlacedAircraft> placed)
+SmoothChoice::SmoothChoice(
+    const ShadingSettings& settings, bool follows_clock, std::span<PlacedAircraft> placed)
     : settings_(settings)
+    , chooses_(chooses_by(settings, follows_clock))
     , choosers_(placed.size())
     , shares_(placed.size())
     , given_(placed.size()) {
@@ -101,19 +103,12 @@ SmoothChoice::SmoothChoice(const Settings& settings, std::span<PlacedAircraft> p
         const AircraftModel& model = *placed[i].model;
         placed[i].first_smooth = static_cast<std::uint32_t>(words);
         words += words_for(model);
-        for (std::size_t as = 0; chooses() && as <= model.levels.size(); ++as) {
+        for (std::size_t as = 0; chooses_ && as <= model.levels.size(); ++as) {
             choosers_[i].emplace_back(model.shaded_as(as), rule_of(settings));
         }
     }
-    bits_.assign(words, settings.shading.kind == AircraftShading::Flat ? 0U : ~0U);
+    bits_.assign(words, settings.kind == AircraftShading::Flat ? 0U : ~0U);
     bits_.push_back(1);
-}
-
-/// Whether some polygons may be smooth while others are not.
-bool SmoothChoice::chooses() const {
-    return settings_.shading.kind == AircraftShading::Hybrid &&
-           (settings_.shading.smooth_share < 1.0 || settings_.shading.device_ratio ||
-            settings_.adapt.shading || settings_.shading.rule == HybridRule::Paper);
 }
 
 /// Fills in given_; returns the sum of the polygons.
@@ -123,15 +118,15 @@ int SmoothChoice::wanted_of(std::span<const PlacedAircraft> placed, const Smooth
         shares_[i] = {polygons_of(placed[i]), weight_of(placed[i])};
         all += shares_[i].polygons;
     }
-    const double share = wish.share.value_or(settings_.shading.smooth_share);
+    const double share = wish.share.value_or(settings_.smooth_share);
     int wanted = static_cast<int>(std::lround(share * all));
-    if (settings_.shading.device_ratio && !wish.share) {
-        wanted = shading::device_smooth_count(*settings_.shading.device_ratio, all);
+    if (settings_.device_ratio && !wish.share) {
+        wanted = shading::device_smooth_count(*settings_.device_ratio, all);
     }
     wanted = std::min(wish.polygons.value_or(wanted), all);
     share_out_smooth(shares_, wanted, given_);
-    if (settings_.shading.rule == HybridRule::Paper) {
-        const shading::ShadingRange range{settings_.shading.near_m, settings_.shading.far_m};
+    if (settings_.rule == HybridRule::Paper) {
+        const shading::ShadingRange range{settings_.near_m, settings_.far_m};
         for (std::size_t i = 0; i < placed.size(); ++i) {
             given_[i] = std::min(
                 given_[i],
@@ -150,16 +145,16 @@ SmoothChoice::Count SmoothChoice::choose(
     std::vector<std::uint32_t>& smooth) {
     Count count{wanted_of(placed, wish), 0};
     for (std::size_t i = 0; i < placed.size(); ++i) {
-        int given = settings_.shading.kind == AircraftShading::Flat ? 0 : shares_[i].polygons;
+        int given = settings_.kind == AircraftShading::Flat ? 0 : shares_[i].polygons;
         const shading::ShadingLight sun = light_on(placed[i], to_sun, light);
         const glm::dvec3 eye_m =
             -glm::dvec3(placed[i].parts[0][3]) * glm::dmat3(placed[i].parts[0]);
-        if (chooses()) {
+        if (chooses_) {
             given = given_[i];
         }
         if (is_refined(placed[i])) {
             refined[i]->shade(eye_m, sun, given);
-        } else if (chooses()) {
+        } else if (chooses_) {
             write_bits(placed[i], chooser_of(i, placed[i]).choose(eye_m, sun, given));
         }
         count.smooth += given;

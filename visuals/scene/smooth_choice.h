@@ -38,8 +38,10 @@ struct SmoothWish {
 /// that are refined included. Keeps the choice, so that shading does not flicker, and its memory.
 class SmoothChoice {
 public:
-    /// Gives each aircraft its place in FramePlan::smooth. Loading work.
-    SmoothChoice(const Settings& settings, std::span<PlacedAircraft> placed);
+    /// Gives each aircraft its place in FramePlan::smooth. `follows_clock`: the share of smooth
+    /// polygons may be another one in each frame. Loading work.
+    SmoothChoice(
+        const ShadingSettings& settings, bool follows_clock, std::span<PlacedAircraft> placed);
 
     /// RefinedDraw::first_smooth of all that is refined.
     std::uint32_t refined_word() const { return static_cast<std::uint32_t>(bits_.size() - 1); }
@@ -66,12 +68,12 @@ private:
     /// Of one aircraft: its levels, then its polygons; empty where all polygons are alike.
     using Choosers = std::vector<shading::ShadingSelector>;
 
-    bool chooses() const;
     int wanted_of(std::span<const PlacedAircraft> placed, const SmoothWish& wish);
     shading::ShadingSelector& chooser_of(std::size_t aircraft, const PlacedAircraft& placed);
     void write_bits(const PlacedAircraft& aircraft, const shading::ShadingChoice& choice);
 
-    const Settings& settings_;
+    ShadingSettings settings_;
+    bool chooses_; ///< some polygons may be smooth while others are not
     std::vector<Choosers> choosers_;
     std::vector<std::uint32_t> bits_;
     std::vector<SmoothShare> shares_;

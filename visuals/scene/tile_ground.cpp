@@ -25,10 +25,10 @@ constexpr double least_error_px = 0.25; ///< what is finer than this nobody sees
 /// Tiles, in memory or mapped from a file, and the palette of their colours.
 class TileGround final : public Ground {
 public:
-    TileGround(std::shared_ptr<const terrain::GroundTiles> tiles, const Settings& settings)
+    TileGround(std::shared_ptr<const terrain::GroundTiles> tiles, const AirSettings& air)
         : tiles_(std::move(tiles))
-        , air_(settings.air)
-        , mean_colour_(VertexColours(*tiles_, settings.air).mean()) {}
+        , air_(air)
+        , mean_colour_(VertexColours(*tiles_, air).mean()) {}
 
     const terrain::GroundTiles& tiles() const { return *tiles_; }
 
@@ -54,13 +54,13 @@ public:
         return same_colours(settings, air_);
     }
 
-    std::shared_ptr<const Ground> remade(const Settings& settings) const override {
-        return is_meshed_as(settings.ground) ? std::make_shared<TileGround>(tiles_, settings)
-                                             : nullptr;
+    std::shared_ptr<const Ground>
+    remade(const GroundSettings& ground, const AirSettings& air) const override {
+        return is_meshed_as(ground) ? std::make_shared<TileGround>(tiles_, air) : nullptr;
     }
 
 private:
-    std::unique_ptr<GroundMesher> make_mesher(const Settings& settings) const override;
+    std::unique_ptr<GroundMesher> make_mesher(const MeshSettings& settings) const override;
 
     std::shared_ptr<const terrain::GroundTiles> tiles_;
     AirSettings air_;
@@ -70,7 +70,7 @@ private:
 /// Meshes by screen-space error with geomorphs, made ahead on a thread where that is asked for.
 class TileMesher final : public GroundMesher {
 public:
-    TileMesher(std::shared_ptr<const TileGround> ground, const Settings& settings)
+    TileMesher(std::shared_ptr<const TileGround> ground, const MeshSettings& settings)
         : ground_(std::move(ground))
         , mesher_(ground_->tiles())
         , colours_(ground_->tiles(), ground_->air())
@@ -80,12 +80,11 @@ public:
 
     const Ground& ground() const override { return *ground_; }
 
-    void follow(const Settings& settings) override {
+    void follow(const MeshSettings& settings) override {
         worker_.wait();
-        order_ = settings.surface.hidden_surface == HiddenSurface::DepthBuffer
-                     ? terrain::PaintOrder::FrontToBack
-                     : terrain::PaintOrder::BackToFront;
-        picture_height_px_ = settings.view.size_px.y;
+        order_ = settings.nearest_first ? terrain::PaintOrder::FrontToBack
+                                        : terrain::PaintOrder::BackToFront;
+        picture_height_px_ = settings.picture_height_px;
         target_.error_px = settings.ground.error_px.value_or(least_error_px);
         target_.geomorphs = settings.ground.geomorphs;
         earth_radius_m_ = settings.ground.earth_curvature ? terrain::earth_radius_m : 0.0;
@@ -178,7 +177,7 @@ private:
     Worker worker_; ///< goes first: it uses the others
 };
 
-std::unique_ptr<GroundMesher> TileGround::make_mesher(const Settings& settings) const {
+std::unique_ptr<GroundMesher> TileGround::make_mesher(const MeshSettings& settings) const {
     return std::make_unique<TileMesher>(
         std::static_pointer_cast<const TileGround>(shared_from_this()), settings);
 }
@@ -186,9 +185,9 @@ std::unique_ptr<GroundMesher> TileGround::make_mesher(const Settings& settings) 
 } // namespace
 
 std::shared_ptr<const Ground>
-ground_from_tiles(terrain::GroundTiles ground, const Settings& settings) {
+ground_from_tiles(terrain::GroundTiles ground, const AirSettings& air) {
     return std::make_shared<TileGround>(
-        std::make_shared<const terrain::GroundTiles>(std::move(ground)), settings);
+        std::make_shared<const terrain::GroundTiles>(std::move(ground)), air);
 }
 
 } // namespace octant::visuals::scene

@@ -48,11 +48,11 @@ straight_flight(const glm::dvec3& from_m, const glm::dvec3& velocity_mps, double
 ui::world::World small_world(int aircraft) {
     constexpr int side = 41;
     constexpr double spacing_m = 100.0;
-    scene::Settings by_quadtree;
-    by_quadtree.ground.mesh = scene::GroundMetric::Midpoint;
+    scene::GroundSettings by_quadtree;
+    by_quadtree.mesh = scene::GroundMetric::Midpoint;
     ui::world::World world;
     world.scene.ground = scene::ground_from_field(
-        {side, side, spacing_m, std::vector<float>(side * side, 0.0F)}, by_quadtree);
+        {side, side, spacing_m, std::vector<float>(side * side, 0.0F)}, by_quadtree, {});
     world.scene.add_model(tetrahedron());
     world.scene.aircraft.assign(static_cast<std::size_t>(aircraft), 0);
     world.flight.trajectory = straight_flight({0, -500, 300}, {0, 100, 0}, 10.0);

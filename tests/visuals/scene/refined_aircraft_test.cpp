@@ -75,14 +75,14 @@ scene::RefineLook looking_down() {
     return look;
 }
 
-scene::Settings refining() {
-    scene::Settings settings = plain_settings();
-    settings.surface.aircraft_error_px = 1.0;
-    return settings;
+refine::ViewRefinerOptions refining() {
+    refine::ViewRefinerOptions options;
+    options.error_px = 1.0;
+    return options;
 }
 
 int triangles_at(double away_m) {
-    scene::RefinedAircraft aircraft(hierarchy(), refining());
+    scene::RefinedAircraft aircraft(hierarchy(), refining(), {});
     aircraft.update(below(away_m), looking_down(), true);
     return aircraft.triangles();
 }
@@ -115,7 +115,7 @@ TEST_CASE("a nearer eye sees more triangles of a refined aircraft, up to all of 
 
 TEST_CASE(
     "a standing eye gives a refined aircraft no work, an aircraft seen first is fit at once") {
-    scene::RefinedAircraft aircraft(hierarchy(), refining());
+    scene::RefinedAircraft aircraft(hierarchy(), refining(), {});
     const auto first = aircraft.update(below(60.0), looking_down(), true);
     CHECK(first.splits + first.collapses + first.moving == 0);
     CHECK(first.settled);
@@ -132,7 +132,7 @@ TEST_CASE(
     "as many triangles are smooth as asked for; a flat one begins with a vertex of its own that "
     "has its normal and the mean of its corners' colours") {
     for (const int smooth : {0, 1, 5, 12}) {
-        scene::RefinedAircraft aircraft(hierarchy(), refining());
+        scene::RefinedAircraft aircraft(hierarchy(), refining(), {});
         aircraft.update(below(60.0), looking_down(), true);
         REQUIRE(aircraft.triangles() == 12);
         shading::ShadingLight light;
@@ -159,7 +159,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a frame in which nothing moves changes no triangle's shading") {
-    scene::RefinedAircraft aircraft(hierarchy(), refining());
+    scene::RefinedAircraft aircraft(hierarchy(), refining(), {});
     shading::ShadingLight light;
     light.to_light = glm::normalize(glm::vec3(1.0F, 0.3F, -1.0F));
     aircraft.update(below(60.0), looking_down(), true);
@@ -174,7 +174,7 @@ TEST_CASE("a frame in which nothing moves changes no triangle's shading") {
 }
 
 TEST_CASE("shading follows a mesh that is refined further, and turns all smooth and back") {
-    scene::RefinedAircraft aircraft(hierarchy(), refining());
+    scene::RefinedAircraft aircraft(hierarchy(), refining(), {});
     shading::ShadingLight light;
     light.to_light = glm::normalize(glm::vec3(1.0F, 0.3F, -1.0F));
     aircraft.update(below(60.0), looking_down(), true);
@@ -195,9 +195,9 @@ TEST_CASE("shading follows a mesh that is refined further, and turns all smooth 
 }
 
 TEST_CASE("a refined mesh shows its levels: white where it is as its file, else by its error") {
-    scene::Settings settings = refining();
-    settings.shading.show_model = scene::ModelLook::Levels;
-    scene::RefinedAircraft fine(hierarchy(), settings);
+    scene::ShadingSettings shading;
+    shading.show_model = scene::ModelLook::Levels;
+    scene::RefinedAircraft fine(hierarchy(), refining(), shading);
     fine.update(below(5.0), looking_down(), true);
     for (const scene::ModelVertex& vertex : fine.draw().vertices) {
         CHECK(vertex.colour == 0xffffffffU);
@@ -209,13 +209,13 @@ TEST_CASE("a refined mesh shows its levels: white where it is as its file, else 
 
 TEST_CASE("aircraft that share a hierarchy have fronts of their own") {
     const auto shared = hierarchy();
-    scene::RefinedAircraft near_by(shared, refining());
-    scene::RefinedAircraft far_off(shared, refining());
+    scene::RefinedAircraft near_by(shared, refining(), {});
+    scene::RefinedAircraft far_off(shared, refining(), {});
     near_by.update(below(5.0), looking_down(), true);
     far_off.update(below(1e6), looking_down(), true);
     CHECK(near_by.triangles() == 24);
     CHECK(far_off.triangles() == 3);
-    scene::RefinedAircraft alone(shared, refining());
+    scene::RefinedAircraft alone(shared, refining(), {});
     alone.update(below(5.0), looking_down(), true);
     CHECK(places(near_by.draw()) == places(alone.draw()));
     CHECK(shared.use_count() == 4);

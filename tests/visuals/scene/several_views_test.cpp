@@ -68,7 +68,8 @@ std::vector<int> flown(scene::Planner& planner, const std::function<void()>& bet
 
 TEST_CASE("a second view of the same ground does not disturb the detail control of the first") {
     const scene::Settings settings = damped();
-    const scene::Scene scene = scene_over(scene::ground_from_field(rough_field(), settings));
+    const scene::Scene scene =
+        scene_over(scene::ground_from_field(rough_field(), settings.ground, settings.air));
     scene::Planner alone(scene, settings);
     const std::vector<int> expected = flown(alone, [] {});
 
@@ -90,7 +91,8 @@ TEST_CASE("a second view of the same ground does not disturb the detail control 
 
 TEST_CASE("a planner that is given the last one's mesher goes on with its detail") {
     const scene::Settings settings = damped();
-    const scene::Scene scene = scene_over(scene::ground_from_field(rough_field(), settings));
+    const scene::Scene scene =
+        scene_over(scene::ground_from_field(rough_field(), settings.ground, settings.air));
     scene::Planner alone(scene, settings);
     const std::vector<int> expected = flown(alone, [] {});
 
@@ -101,7 +103,10 @@ TEST_CASE("a planner that is given the last one's mesher goes on with its detail
     for (int frame = 0; frame < 12; ++frame) {
         triangles.push_back(planner->plan({camera_at(frame), there}).counts.ground.triangles);
         planner = std::make_unique<scene::Planner>(
-            scene, settings, scene::mesher_after(planner->take_mesher(), *scene.ground, settings));
+            scene,
+            settings,
+            scene::mesher_after(
+                planner->take_mesher(), *scene.ground, scene::mesh_settings(settings)));
     }
     CHECK(triangles == expected);
 }
@@ -109,7 +114,7 @@ TEST_CASE("a planner that is given the last one's mesher goes on with its detail
 TEST_CASE("meshes made ahead and meshes made when they are asked for are the same") {
     const scene::Settings settings = plain_settings();
     const scene::Scene scene =
-        scene_over(scene::ground_from_tiles(terrain::ground_of(rough_field()), settings));
+        scene_over(scene::ground_from_tiles(terrain::ground_of(rough_field()), settings.air));
     const std::array there{state_at({0, 0, 100})};
     scene::Planner ahead(scene, settings);
     scene::Planner at_once(scene, settings);
@@ -127,7 +132,7 @@ TEST_CASE("meshes made ahead and meshes made when they are asked for are the sam
 TEST_CASE("a mesh asked for ahead twice is begun once and leaves the drawn one as it is") {
     const scene::Settings settings = plain_settings();
     const scene::Scene scene =
-        scene_over(scene::ground_from_tiles(terrain::ground_of(rough_field()), settings));
+        scene_over(scene::ground_from_tiles(terrain::ground_of(rough_field()), settings.air));
     const std::array there{state_at({0, 0, 100})};
     scene::Planner ahead(scene, settings);
     scene::Planner at_once(scene, settings);
@@ -147,8 +152,8 @@ TEST_CASE("a mesh asked for ahead twice is begun once and leaves the drawn one a
 
 TEST_CASE("a mesher of tiles goes on over them in other colours, not over others") {
     scene::Settings settings = plain_settings();
-    const auto tiles = scene::ground_from_tiles(terrain::ground_of(rough_field()), settings);
-    std::unique_ptr<scene::GroundMesher> mesher = tiles->mesher(settings);
+    const auto tiles = scene::ground_from_tiles(terrain::ground_of(rough_field()), settings.air);
+    std::unique_ptr<scene::GroundMesher> mesher = tiles->mesher(scene::mesh_settings(settings));
     const scene::GroundMesher* const before = mesher.get();
     const scene::GroundRequest request{camera_at(0), 1.0, 500};
     scene::GroundCounts counts;
@@ -157,14 +162,14 @@ TEST_CASE("a mesher of tiles goes on over them in other colours, not over others
 
     settings.air.sun_elevation_deg = 70.0;
     settings.air.palette = scene::Palette::Arid;
-    const auto lit = tiles->remade(settings);
-    mesher = scene::mesher_after(std::move(mesher), *lit, settings);
+    const auto lit = tiles->remade(settings.ground, settings.air);
+    mesher = scene::mesher_after(std::move(mesher), *lit, scene::mesh_settings(settings));
     CHECK(mesher.get() == before);
     CHECK(&mesher->ground() == lit.get());
     for (const int frame : {0, 1, 1, 2}) {
         const scene::GroundRequest next{camera_at(frame), 1.0, 500};
         const scene::TriangleDraw drawn = mesher->triangles(next, counts);
-        const auto fresh = lit->mesher(settings);
+        const auto fresh = lit->mesher(scene::mesh_settings(settings));
         const scene::TriangleDraw expected = fresh->triangles(next, counts);
         const auto colours = [](const scene::TriangleDraw& draw) {
             std::vector<std::uint32_t> each;
@@ -175,34 +180,34 @@ TEST_CASE("a mesher of tiles goes on over them in other colours, not over others
         };
         CHECK(colours(drawn) == colours(expected));
     }
-    const auto others = scene::ground_from_tiles(terrain::ground_of(rough_field()), settings);
+    const auto others = scene::ground_from_tiles(terrain::ground_of(rough_field()), settings.air);
     CHECK_FALSE(mesher->move_to(others));
     CHECK(&mesher->ground() == lit.get());
 }
 
 TEST_CASE("ground says which settings it suits and is made anew of its heights for others") {
     scene::Settings settings = damped();
-    const auto field = scene::ground_from_field(rough_field(), settings);
-    CHECK(field->suits(settings));
+    const auto field = scene::ground_from_field(rough_field(), settings.ground, settings.air);
+    CHECK(field->suits(settings.ground, settings.air));
     settings.ground.triangles = 50;
     settings.view.size_px = {320, 200};
-    CHECK(field->suits(settings));
+    CHECK(field->suits(settings.ground, settings.air));
 
     scene::Settings other_sun = settings;
     other_sun.air.sun_elevation_deg = 70.0;
-    CHECK_FALSE(field->suits(other_sun));
-    const auto lit = field->remade(other_sun);
+    CHECK_FALSE(field->suits(other_sun.ground, other_sun.air));
+    const auto lit = field->remade(other_sun.ground, other_sun.air);
     REQUIRE(lit);
-    CHECK(lit->suits(other_sun));
+    CHECK(lit->suits(other_sun.ground, other_sun.air));
     CHECK(lit->height_at(33.0, -210.0) == field->height_at(33.0, -210.0));
     CHECK(lit->mean_colour() != field->mean_colour());
 
     const scene::Settings by_error = plain_settings();
-    const auto tiles = field->remade(by_error);
+    const auto tiles = field->remade(by_error.ground, by_error.air);
     REQUIRE(tiles);
-    CHECK(tiles->suits(by_error));
+    CHECK(tiles->suits(by_error.ground, by_error.air));
     CHECK(*tiles->height_at(33.0, -210.0) == Approx(*field->height_at(33.0, -210.0)).margin(0.01));
-    CHECK(tiles->remade(settings) == nullptr);
+    CHECK(tiles->remade(settings.ground, settings.air) == nullptr);
 }
 
 TEST_CASE("whoever measures is called once a frame, before the ground is meshed") {

@@ -49,7 +49,7 @@ public:
 
 private:
     std::unique_ptr<scene::GroundMesher>
-    make_mesher(const scene::Settings& settings) const override;
+    make_mesher(const scene::MeshSettings& settings) const override;
 
     int cells_;
     double cell_m_;
@@ -137,7 +137,7 @@ private:
 };
 
 std::unique_ptr<scene::GroundMesher>
-CellGround::make_mesher(const scene::Settings& /*settings*/) const {
+CellGround::make_mesher(const scene::MeshSettings& /*settings*/) const {
     return std::make_unique<CellMesher>(
         std::static_pointer_cast<const CellGround>(shared_from_this()));
 }
@@ -159,7 +159,7 @@ public:
 
 private:
     std::unique_ptr<scene::GroundMesher>
-    make_mesher(const scene::Settings& settings) const override;
+    make_mesher(const scene::MeshSettings& settings) const override;
 
     std::vector<GroundTriangle> triangles_;
 };
@@ -199,7 +199,7 @@ private:
 };
 
 std::unique_ptr<scene::GroundMesher>
-TriangleGround::make_mesher(const scene::Settings& /*settings*/) const {
+TriangleGround::make_mesher(const scene::MeshSettings& /*settings*/) const {
     return std::make_unique<TriangleMesher>(
         std::static_pointer_cast<const TriangleGround>(shared_from_this()));
 }
