@@ -27,7 +27,7 @@ constexpr int warm_up_frames = 20;
 /// The platform's floor, drawn by the same renderer as everything else.
 class Floor {
 public:
-    explicit Floor(const settings::Settings& settings)
+    explicit Floor(const settings::RunSettings& settings)
         : renderer_(flight::make_renderer(settings)) {
         plan_.view_to_clip = scene::view_to_clip(
             {}, static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y);
@@ -109,7 +109,7 @@ BenchResult result_of(const Timed& timed, double floor_ms) {
         .hash = timed.hash.value()};
 }
 
-std::string name_of(const settings::Settings& settings) {
+std::string name_of(const settings::RunSettings& settings) {
     return fmt::format(
         "{}, {}",
         std::filesystem::path(settings.path.terrain).filename().string(),
@@ -124,7 +124,7 @@ std::vector<BenchResult> run_bench(const BenchOptions& options) {
     timed[0].name = fmt::format("floor: bare grid of {} triangles", floor_triangles);
     std::vector<std::unique_ptr<flight::Session>> sessions;
     for (std::size_t i = 0; i < options.terrains.size(); ++i) {
-        settings::Settings settings = options.settings;
+        settings::RunSettings settings = options.settings;
         settings.path.terrain = options.terrains[i];
         settings.time.frames = options.frames + warm_up_frames;
         base::say(options.quiet, fmt::format("loading {}", settings.path.terrain));

@@ -9,7 +9,7 @@
 namespace octant::ui::commands {
 
 struct BenchOptions {
-    settings::Settings settings;       ///< size, triangles, aircraft and context are used
+    settings::RunSettings settings;    ///< size, triangles, aircraft and context are used
     std::vector<std::string> terrains; ///< one scene each
     int frames = 300;                  ///< timed, of each scene
     bool quiet = false;

@@ -80,7 +80,7 @@ Option again(std::string name, std::string meaning, std::vector<std::string>& va
 
 std::vector<Option> options_of(BenchCommand& bench) {
     BenchOptions& options = bench.options;
-    settings::Settings& settings = options.settings;
+    settings::RunSettings& settings = options.settings;
     return {
         again("--terrain", "scenes: one for each ground", options.terrains),
         again("--aircraft", "aircraft of every scene; repeat for wingmen", settings.path.aircraft),

@@ -31,7 +31,7 @@ namespace scene = visuals::scene;
 namespace {
 
 struct FlyOptions {
-    settings::Settings settings;
+    settings::RunSettings settings;
     flight::RecordOptions record;
     std::optional<flight::Replay> replay;
     std::vector<std::string> given; ///< names of the options that stand there and set something

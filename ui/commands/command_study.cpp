@@ -33,11 +33,11 @@ study_options(std::filesystem::path& out, bool& json, bool& quiet, std::vector<O
     return own;
 }
 
-Option size_option(settings::Settings& settings, std::string_view meaning) {
+Option size_option(settings::RunSettings& settings, std::string_view meaning) {
     return read_option({"size", "WIDTHxHEIGHT", meaning, 16, 8192}, settings.view.size_px);
 }
 
-Option context_option(settings::Settings& settings) {
+Option context_option(settings::RunSettings& settings) {
     return read_option({"context", "KIND", "who draws: osmesa or egl"}, settings.drawing.context);
 }
 
@@ -147,7 +147,7 @@ Command hidden_surface_command() {
 }
 
 std::vector<Option> popping_options(studies::flicker::PoppingStudyOptions& options) {
-    settings::Settings& settings = options.settings;
+    settings::RunSettings& settings = options.settings;
     return {
         read_option({"terrain", "NAME|FILE", "the ground"}, settings.path.terrain),
         size_option(settings, "picture size in pixels"),

@@ -8,8 +8,8 @@
 
 namespace octant::ui::commands {
 
+using settings::RunSettings;
 using settings::SettingInfo;
-using settings::Settings;
 
 namespace {
 
@@ -53,7 +53,7 @@ private:
 
 } // namespace
 
-void add_setting_options(std::vector<Option>& options, Settings& settings) {
+void add_setting_options(std::vector<Option>& options, RunSettings& settings) {
     options.push_back(
         {.name = "--settings",
          .form = "FILE",

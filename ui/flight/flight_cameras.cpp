@@ -9,7 +9,7 @@ namespace octant::ui::flight {
 
 namespace scene = visuals::scene;
 
-std::vector<FlightCamera> flight_cameras(const settings::Settings& settings) {
+std::vector<FlightCamera> flight_cameras(const settings::RunSettings& settings) {
     const world::World world = world::load_world(settings);
     const world::PictureTimes times = world::picture_times_of(settings, world.flight);
     const scene::GroundHeight ground = [&](double x_m, double y_m) {

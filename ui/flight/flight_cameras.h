@@ -18,6 +18,6 @@ struct FlightCamera {
 
 /// The cameras of all frames of a run, where a session with these settings has them. Loads the
 /// world. Throws Error.
-std::vector<FlightCamera> flight_cameras(const settings::Settings& settings);
+std::vector<FlightCamera> flight_cameras(const settings::RunSettings& settings);
 
 } // namespace octant::ui::flight

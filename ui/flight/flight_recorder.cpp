@@ -47,7 +47,7 @@ report::PictureView view_of(const visuals::scene::Picture& picture) {
     return {picture.width, picture.height, 4, std::as_bytes(std::span(picture.rgba)), false};
 }
 
-report::RunInfo run_info(const settings::Settings& settings, const Session& session) {
+report::RunInfo run_info(const settings::RunSettings& settings, const Session& session) {
     const world::Flight& flight = session.world().flight;
     report::RunInfo info;
     info.title = flight.title;
@@ -73,7 +73,7 @@ report::RunInfo run_info(const settings::Settings& settings, const Session& sess
     return info;
 }
 
-bool is_recorded(const RecordOptions& options, const settings::Settings& settings) {
+bool is_recorded(const RecordOptions& options, const settings::RunSettings& settings) {
     const bool changed_checkout = base::program_commit().ends_with('+');
     if (changed_checkout || !options.folder || !report::is_run_file(*options.folder / "run.json")) {
         return false;
@@ -102,7 +102,7 @@ std::string write_report(const std::filesystem::path& folder) {
 }
 
 FlightRecorder::FlightRecorder(
-    const RecordOptions& options, const settings::Settings& settings, const Session& session)
+    const RecordOptions& options, const settings::RunSettings& settings, const Session& session)
     : options_(options)
     , picture_every_(settings.time.pictures.value_or(
           std::max(1, static_cast<int>(std::lround(session.rate_hz()))))) {

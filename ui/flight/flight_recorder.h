@@ -31,10 +31,10 @@ struct FlightEnd {
 
 /// True when the folder holds a finished recording of these settings and input files by this
 /// program. Never true for a program built from a changed checkout: two of them may differ.
-bool is_recorded(const RecordOptions& options, const settings::Settings& settings);
+bool is_recorded(const RecordOptions& options, const settings::RunSettings& settings);
 
 /// What run.json says of a flight.
-report::RunInfo run_info(const settings::Settings& settings, const Session& session);
+report::RunInfo run_info(const settings::RunSettings& settings, const Session& session);
 
 /// Makes a folder's report.html anew; gives a line that says where it is. Throws Error.
 std::string write_report(const std::filesystem::path& folder);
@@ -48,7 +48,9 @@ class FlightRecorder {
 public:
     /// Makes the folder with run.json and the track files. Throws Error.
     FlightRecorder(
-        const RecordOptions& options, const settings::Settings& settings, const Session& session);
+        const RecordOptions& options,
+        const settings::RunSettings& settings,
+        const Session& session);
 
     /// Takes the frame that the session has just drawn. Throws Error (disk full).
     void add(report::FrameRecord record, Session& session);

@@ -39,7 +39,7 @@ class LargeReference {
 public:
     static constexpr int scale = 3; // odd: the middles of the pixels are middles here too
 
-    explicit LargeReference(const settings::Settings& settings)
+    explicit LargeReference(const settings::RunSettings& settings)
         : settings_(settings) {
         settings_.view.size_px *= scale;
     }
@@ -53,7 +53,7 @@ public:
     }
 
 private:
-    settings::Settings settings_;
+    settings::RunSettings settings_;
     std::unique_ptr<Session> session_;
 };
 
@@ -91,13 +91,13 @@ long wrong_among(
 }
 
 IdComparison compare_with_depth_buffer(
-    const settings::Settings& settings,
+    const settings::RunSettings& settings,
     int every,
     const std::function<void(int compared, int frames)>& seen) {
-    settings::Settings painted = settings;
+    settings::RunSettings painted = settings;
     painted.surface.shadows = false;
     painted.view.samples = 1;
-    settings::Settings tested = painted;
+    settings::RunSettings tested = painted;
     tested.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
     Session painter(painted, Shows::PolygonNumbers);
     Session reference(tested, Shows::PolygonNumbers);
@@ -125,7 +125,7 @@ IdComparison compare_with_depth_buffer(
 
 namespace {
 
-scene::Picture number_picture(Session& session, const settings::Settings& settings) {
+scene::Picture number_picture(Session& session, const settings::RunSettings& settings) {
     // Meshed by the session's settings, so that all pictures show the same triangles.
     const scene::Scene& scene = session.world().scene;
     scene::Planner planner(
@@ -145,13 +145,13 @@ scene::Picture number_picture(Session& session, const settings::Settings& settin
 } // namespace
 
 PixelCheck check_pixels(Session& session) {
-    settings::Settings painted = session.settings();
+    settings::RunSettings painted = session.settings();
     painted.surface.shadows = false;
     painted.view.samples = 1;
     painted.view.inset.reset();
-    settings::Settings tested = painted;
+    settings::RunSettings tested = painted;
     tested.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
-    settings::Settings large = tested;
+    settings::RunSettings large = tested;
     large.view.size_px *= LargeReference::scale;
     const scene::Picture picture = number_picture(session, painted);
     const IdDifference difference = difference_of(picture, number_picture(session, tested));

@@ -51,7 +51,7 @@ struct IdComparison {
 /// missing, the reference is drawn again three times as large. Shadows are left out. `seen` is
 /// told of each frame that was compared and of how many there are. Throws Error.
 IdComparison compare_with_depth_buffer(
-    const settings::Settings& settings,
+    const settings::RunSettings& settings,
     int every,
     const std::function<void(int compared, int frames)>& seen);
 

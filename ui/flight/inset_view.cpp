@@ -18,8 +18,9 @@ constexpr int margin_share = 40; ///< of the picture's height
 constexpr int share_of_triangles = 4;
 constexpr int fewest_triangles = 1000;
 
-settings::Settings inset_settings(const settings::Settings& settings, const glm::ivec2& size_px) {
-    settings::Settings own = settings;
+settings::RunSettings
+inset_settings(const settings::RunSettings& settings, const glm::ivec2& size_px) {
+    settings::RunSettings own = settings;
     own.view.kind = *settings.view.inset;
     own.view.inset.reset();
     own.view.size_px = size_px;
@@ -33,13 +34,13 @@ settings::Settings inset_settings(const settings::Settings& settings, const glm:
 
 } // namespace
 
-InsetView::InsetView(const settings::Settings& settings, const scene::Scene& scene)
+InsetView::InsetView(const settings::RunSettings& settings, const scene::Scene& scene)
     : scene_(scene) {
     place(settings);
     planner_.emplace(scene_, settings_);
 }
 
-void InsetView::place(const settings::Settings& settings) {
+void InsetView::place(const settings::RunSettings& settings) {
     assert(settings.view.inset);
     const glm::ivec2 size_px = glm::max(settings.view.size_px / share_of_side, glm::ivec2(1));
     const int margin_px = std::min(settings.view.size_px.x, settings.view.size_px.y) / margin_share;
@@ -51,7 +52,7 @@ void InsetView::place(const settings::Settings& settings) {
     settings_ = inset_settings(settings, size_px);
 }
 
-void InsetView::follow(const settings::Settings& settings) {
+void InsetView::follow(const settings::RunSettings& settings) {
     std::unique_ptr<scene::GroundMesher> mesher = planner_->take_mesher();
     settles_ = settles_ || &mesher->ground() != scene_.ground.get() ||
                !scene::same_detail_control(settings.ground, settings_.ground);

@@ -17,7 +17,7 @@ namespace octant::ui::flight {
 class InsetView {
 public:
     /// For ViewSettings::inset (asserted). The scene must outlive it. Stays in its place.
-    InsetView(const settings::Settings& settings, const visuals::scene::Scene& scene);
+    InsetView(const settings::RunSettings& settings, const visuals::scene::Scene& scene);
     ~InsetView() = default;
     InsetView(const InsetView&) = delete;
     InsetView& operator=(const InsetView&) = delete;
@@ -26,10 +26,10 @@ public:
 
     /// Takes other settings over, and the ground that the scene has now. The ground's detail goes
     /// on where both it and its control are the same.
-    void follow(const settings::Settings& settings);
+    void follow(const settings::RunSettings& settings);
 
     /// Settings of the view alone: its camera and its size.
-    const settings::Settings& settings() const { return settings_; }
+    const settings::RunSettings& settings() const { return settings_; }
 
     visuals::scene::PixelRect rectangle() const { return rectangle_; }
 
@@ -46,10 +46,10 @@ public:
         std::optional<double> smooth_share);
 
 private:
-    void place(const settings::Settings& settings);
+    void place(const settings::RunSettings& settings);
 
     const visuals::scene::Scene& scene_;
-    settings::Settings settings_;
+    settings::RunSettings settings_;
     visuals::scene::PixelRect rectangle_;
     std::optional<visuals::scene::Planner> planner_;
     bool settles_ = true; ///< the ground's detail has not been set for a first picture

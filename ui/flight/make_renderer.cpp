@@ -6,7 +6,7 @@ namespace octant::ui::flight {
 
 namespace gl = visuals::gl;
 
-std::unique_ptr<visuals::scene::Renderer> make_renderer(const settings::Settings& settings) {
+std::unique_ptr<visuals::scene::Renderer> make_renderer(const settings::RunSettings& settings) {
     const glm::ivec2 size_px = settings.view.size_px;
     const int samples = settings.view.samples;
     switch (settings.drawing.context) {

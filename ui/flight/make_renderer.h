@@ -8,6 +8,6 @@
 namespace octant::ui::flight {
 
 /// The renderer that the settings ask for. Throws Error.
-std::unique_ptr<visuals::scene::Renderer> make_renderer(const settings::Settings& settings);
+std::unique_ptr<visuals::scene::Renderer> make_renderer(const settings::RunSettings& settings);
 
 } // namespace octant::ui::flight

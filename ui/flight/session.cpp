@@ -15,14 +15,14 @@ namespace scene = visuals::scene;
 namespace {
 
 std::unique_ptr<scene::Renderer>
-given_or_made(std::unique_ptr<scene::Renderer> given, const settings::Settings& settings) {
+given_or_made(std::unique_ptr<scene::Renderer> given, const settings::RunSettings& settings) {
     return given ? std::move(given) : make_renderer(settings);
 }
 
 } // namespace
 
 Session::Session(
-    const settings::Settings& settings, Shows shows, std::unique_ptr<scene::Renderer> renderer)
+    const settings::RunSettings& settings, Shows shows, std::unique_ptr<scene::Renderer> renderer)
     : settings_(settings)
     , renderer_(given_or_made(std::move(renderer), settings))
     , world_(world::load_world(settings, drawn_by()))
@@ -84,7 +84,7 @@ void Session::replay(std::vector<Decision> decisions) {
     decider_.replay(std::move(decisions));
 }
 
-scene::Camera Session::camera_of(const settings::Settings& settings) const {
+scene::Camera Session::camera_of(const settings::RunSettings& settings) const {
     scene::Subject subject = world_.scene.model_of(0).subject;
     subject.radius_m = simulation_->formation().framed_radius_m(subject.radius_m);
     return scene::camera_of(

@@ -42,7 +42,7 @@ public:
     /// the settings' picture size, or with one that it makes as the settings say. Throws Error.
     /// Stays in its place: parts of it point at others.
     explicit Session(
-        const settings::Settings& settings,
+        const settings::RunSettings& settings,
         Shows shows = Shows::World,
         std::unique_ptr<visuals::scene::Renderer> renderer = nullptr);
     ~Session() = default;
@@ -53,7 +53,7 @@ public:
 
     const world::World& world() const { return world_; }
 
-    const settings::Settings& settings() const { return settings_; }
+    const settings::RunSettings& settings() const { return settings_; }
 
     const visuals::scene::Renderer& renderer() const { return *renderer_; }
 
@@ -88,7 +88,7 @@ public:
     /// Changes what the next frames show. Loads what has to be loaded anew; the flight then starts
     /// again where its aircraft, path or ground are others. Throws Error and leaves everything as
     /// it was; any other exception leaves a session that cannot go on.
-    void apply(const settings::Settings& settings);
+    void apply(const settings::RunSettings& settings);
 
     /// To be changed between frames. Begin at another time by begin_at().
     Simulation& simulation() { return *simulation_; }
@@ -148,13 +148,13 @@ private:
     report::FrameRecord picture_of(int frame, double time_s, std::optional<double> next_s);
     void look(Moment& moment) const;
     void reach(double time_s, int frame, Moment& moment);
-    visuals::scene::Camera camera_of(const settings::Settings& settings) const;
+    visuals::scene::Camera camera_of(const settings::RunSettings& settings) const;
     void mesh_ahead();
     visuals::scene::PlanCounts make_plans(std::function<void()> when_refined);
     void draw_plans();
     void fill_in(const visuals::scene::PlanCounts& counts, report::FrameRecord& record);
-    void change_world(const settings::Settings& settings);
-    void change_picture(const settings::Settings& settings);
+    void change_world(const settings::RunSettings& settings);
+    void change_picture(const settings::RunSettings& settings);
     void wait_for_meshes();
     void make_renderer_ready(
         const visuals::scene::ViewSettings& view, const visuals::scene::GroundTexture* texture);
@@ -162,7 +162,7 @@ private:
     void follow_ground(bool other_control);
     void follow_inset();
 
-    settings::Settings settings_;
+    settings::RunSettings settings_;
     std::unique_ptr<visuals::scene::Renderer> renderer_;
     world::World world_;
     std::optional<visuals::scene::Planner> planner_;

@@ -18,7 +18,7 @@ namespace octant::ui::flight {
 
 namespace scene = visuals::scene;
 
-void Session::apply(const settings::Settings& settings) {
+void Session::apply(const settings::RunSettings& settings) {
     switch (settings::change_between(settings_, settings)) {
     case settings::SettingsChange::None:
         break;
@@ -79,7 +79,7 @@ void Session::give_size_back() {
     }
 }
 
-void Session::change_world(const settings::Settings& settings) {
+void Session::change_world(const settings::RunSettings& settings) {
     world::World world = world::load_world(settings, drawn_by());
     world::PictureTimes times = world::picture_times_of(settings, world.flight);
     wait_for_meshes();
@@ -109,7 +109,7 @@ namespace {
 /// The ground of a scene under other settings: itself, or made of the same heights; nothing where
 /// it, or the texture over it, must be loaded.
 std::shared_ptr<const scene::Ground>
-kept_ground(const scene::Scene& scene, const settings::Settings& settings) {
+kept_ground(const scene::Scene& scene, const settings::RunSettings& settings) {
     const bool same = scene.ground->suits(settings.ground, settings.air);
     if (same || scene.ground_texture) {
         return same ? scene.ground : nullptr;
@@ -119,7 +119,7 @@ kept_ground(const scene::Scene& scene, const settings::Settings& settings) {
 
 } // namespace
 
-void Session::change_picture(const settings::Settings& settings) {
+void Session::change_picture(const settings::RunSettings& settings) {
     settings::check_settings(settings);
     const scene::FixedPoints points = world::fixed_points(settings, world_);
     world::SceneGround ground;

@@ -8,40 +8,40 @@ namespace octant::ui::settings {
 
 /// Settings of the group Air. Sky, haze, sun and the colours of the ground.
 inline constexpr std::tuple air_rows{
-    setting<&Settings::air, &visuals::scene::AirSettings::sky>(
+    setting<&RunSettings::air, &visuals::scene::AirSettings::sky>(
         {"sky", "", "sky and the plain beyond the map's edge"},
         {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
-    setting<&Settings::air, &visuals::scene::AirSettings::visibility_m>(
+    setting<&RunSettings::air, &visuals::scene::AirSettings::visibility_m>(
         {"visibility",
          "METRES",
          "distance at which haze leaves 1/e of a colour; 0 = no haze",
          0.0,
          1e7},
         {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
-    setting<&Settings::air, &visuals::scene::AirSettings::background>(
+    setting<&RunSettings::air, &visuals::scene::AirSettings::background>(
         {"background", "RRGGBB", "colour of the empty picture, and of the haze"},
         {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
-    setting<&Settings::air, &visuals::scene::AirSettings::sun_azimuth_deg>(
+    setting<&RunSettings::air, &visuals::scene::AirSettings::sun_azimuth_deg>(
         {"sun-azimuth", "DEGREES", "sun, clockwise from north", -360.0, 360.0},
         {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
-    setting<&Settings::air, &visuals::scene::AirSettings::sun_elevation_deg>(
+    setting<&RunSettings::air, &visuals::scene::AirSettings::sun_elevation_deg>(
         {"sun-elevation", "DEGREES", "sun above the horizon", 0.0, 90.0},
         {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
-    setting<&Settings::air, &visuals::scene::AirSettings::water_level_m>(
+    setting<&RunSettings::air, &visuals::scene::AirSettings::water_level_m>(
         {"water-level", "METRES", "level ground at or below it is water", -12000.0, 9000.0},
         {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
-    setting<&Settings::air, &visuals::scene::AirSettings::palette>(
+    setting<&RunSettings::air, &visuals::scene::AirSettings::palette>(
         {"palette",
          "NAME",
          "ground colours: temperate or arid [arid for the canyon, else temperate]"},
         {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
-    setting<&Settings::air, &visuals::scene::AirSettings::ground_shading>(
+    setting<&RunSettings::air, &visuals::scene::AirSettings::ground_shading>(
         {"ground-shading",
          "KIND",
          "vertex: ground lit at each vertex; texture: at each pixel, which without a GPU takes 2 "
          "to 3 times as long a frame; auto: texture with a drape or a GPU"},
         {.group = SettingGroup::Air, .change = SettingsChange::World}),
-    setting<&Settings::air, &visuals::scene::AirSettings::drape>(
+    setting<&RunSettings::air, &visuals::scene::AirSettings::drape>(
         {"drape",
          "FILE",
          "image laid over the ground: by its coordinate system, or from edge to edge, north up, "

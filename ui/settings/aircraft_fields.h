@@ -9,35 +9,35 @@ namespace octant::ui::settings {
 /// Settings of the group Surface. How hidden surfaces of aircraft are removed, and with which
 /// detail.
 inline constexpr std::tuple surface_rows{
-    setting<&Settings::surface, &visuals::scene::SurfaceSettings::hidden_surface>(
+    setting<&RunSettings::surface, &visuals::scene::SurfaceSettings::hidden_surface>(
         {"hidden-surface",
          "METHOD",
          "octant: painted in order, no depth buffer; depth-buffer; back-face: aircraft in file "
          "order"},
         {.group = SettingGroup::Surface, .change = SettingsChange::World}),
-    setting<&Settings::surface, &visuals::scene::SurfaceSettings::order_method>(
+    setting<&RunSettings::surface, &visuals::scene::SurfaceSettings::order_method>(
         {"order-method",
          "METHOD",
          "painting order of octant: tree (exact for every eye), cells (octants divided further) "
          "or paper (8 octants as printed); bsp divides polygons instead, exact for every eye"},
         {.group = SettingGroup::Surface, .change = SettingsChange::World}),
-    setting<&Settings::surface, &visuals::scene::SurfaceSettings::order_seconds>(
+    setting<&RunSettings::surface, &visuals::scene::SurfaceSettings::order_seconds>(
         {"order-seconds",
          "SECONDS",
          "cells, tree: about so long a model is searched; then its polygons are divided as by bsp",
          0.001,
          3600.0},
         {.group = SettingGroup::Surface, .change = SettingsChange::World}),
-    setting<&Settings::surface, &visuals::scene::SurfaceSettings::order_cache>(
+    setting<&RunSettings::surface, &visuals::scene::SurfaceSettings::order_cache>(
         {"order-cache",
          "DIR",
          "painting orders are kept in this folder, and read where the same model is ordered again "
          "[none are kept]"},
         {.group = SettingGroup::Surface, .change = SettingsChange::Recording}),
-    setting<&Settings::surface, &visuals::scene::SurfaceSettings::shadows>(
+    setting<&RunSettings::surface, &visuals::scene::SurfaceSettings::shadows>(
         {"shadows", "", "shadows of aircraft on the ground"},
         {.group = SettingGroup::Surface, .change = SettingsChange::Picture}),
-    setting<&Settings::surface, &visuals::scene::SurfaceSettings::aircraft_error_px>(
+    setting<&RunSettings::surface, &visuals::scene::SurfaceSettings::aircraft_error_px>(
         {"aircraft-error-px",
          "PIXELS",
          "meshes: refined, or the coarsest level of a .chain, to be wrong by no more",
@@ -47,34 +47,34 @@ inline constexpr std::tuple surface_rows{
 
 /// Settings of the group Shading. How aircraft are shaded.
 inline constexpr std::tuple shading_rows{
-    setting<&Settings::shading, &visuals::scene::ShadingSettings::kind>(
+    setting<&RunSettings::shading, &visuals::scene::ShadingSettings::kind>(
         {"shading",
          "KIND",
          "aircraft: flat, gouraud, or hybrid (the polygons that gain most are smooth)"},
         {.group = SettingGroup::Shading, .change = SettingsChange::Picture}),
-    setting<&Settings::shading, &visuals::scene::ShadingSettings::rule>(
+    setting<&RunSettings::shading, &visuals::scene::ShadingSettings::rule>(
         {"shading-rule",
          "RULE",
          "hybrid: error (area times squared error of flat shading) or paper (distance, "
          "intensities, perimeter)"},
         {.group = SettingGroup::Shading, .change = SettingsChange::Picture}),
-    setting<&Settings::shading, &visuals::scene::ShadingSettings::smooth_share>(
+    setting<&RunSettings::shading, &visuals::scene::ShadingSettings::smooth_share>(
         {"smooth-share", "SHARE", "hybrid: share of the polygons that are smooth", 0.0, 1.0},
         {.group = SettingGroup::Shading, .change = SettingsChange::Picture}),
-    setting<&Settings::shading, &visuals::scene::ShadingSettings::device_ratio>(
+    setting<&RunSettings::shading, &visuals::scene::ShadingSettings::device_ratio>(
         {"device-ratio",
          "RATIO",
          "hybrid: the same as the paper's speed of a device, 1 = all smooth [smooth-share]",
          0.0,
          1.0},
         {.group = SettingGroup::Shading, .change = SettingsChange::Picture}),
-    setting<&Settings::shading, &visuals::scene::ShadingSettings::near_m>(
+    setting<&RunSettings::shading, &visuals::scene::ShadingSettings::near_m>(
         {"shading-near", "METRES", "paper's rule: all smooth to this distance", 0.0, 1e7},
         {.group = SettingGroup::Shading, .change = SettingsChange::Picture}),
-    setting<&Settings::shading, &visuals::scene::ShadingSettings::far_m>(
+    setting<&RunSettings::shading, &visuals::scene::ShadingSettings::far_m>(
         {"shading-far", "METRES", "paper's rule: all flat from this distance", 0.0, 1e7},
         {.group = SettingGroup::Shading, .change = SettingsChange::Picture}),
-    setting<&Settings::shading, &visuals::scene::ShadingSettings::show_model>(
+    setting<&RunSettings::shading, &visuals::scene::ShadingSettings::show_model>(
         {"show-model",
          "WHAT",
          "colours on aircraft: none, shading (smooth polygons blue, flat ones orange) or levels "

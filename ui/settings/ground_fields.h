@@ -8,80 +8,80 @@ namespace octant::ui::settings {
 
 /// Settings of the group Ground. How the ground is refined.
 inline constexpr std::tuple ground_rows{
-    setting<&Settings::ground, &visuals::scene::GroundSettings::mesh>(
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::mesh>(
         {"mesh",
          "METRIC",
          "what refines the ground: screen-error (error in pixels, bisection), or the paper's "
          "quadtree by midpoint or printed (corner slopes) roughness [screen-error; midpoint "
          "where only the quadtree has what is asked for]"},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
-    setting<&Settings::ground, &visuals::scene::GroundSettings::propagation>(
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::propagation>(
         {"propagation",
          "RULE",
          "how roughness reaches coarser nodes: crack-free, or printed (leaves cracks)"},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
-    setting<&Settings::ground, &visuals::scene::GroundSettings::fans>(
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::fans>(
         {"fans", "KIND", "partial: quadrants refine singly; full: all four at once"},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
-    setting<&Settings::ground, &visuals::scene::GroundSettings::detail>(
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::detail>(
         {"detail",
          "CONTROL",
          "triangle control: exact (counted in each frame), damped (weighted mean), previous, "
          "literal, or fixed C"},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
-    setting<&Settings::ground, &visuals::scene::GroundSettings::triangles>(
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::triangles>(
         {"triangles",
          "N",
          "triangles of ground that are held [20000; no end with error-px]",
          100,
          10000000},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture, .start = 20000.0}),
-    setting<&Settings::ground, &visuals::scene::GroundSettings::error_px>(
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::error_px>(
         {"error-px",
          "PIXELS",
          "screen-error: refine to this error and no further [0.25, within the triangles]",
          0.01,
          1000.0},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture, .start = 1.0}),
-    setting<&Settings::ground, &visuals::scene::GroundSettings::geomorphs>(
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::geomorphs>(
         {"geomorphs", "", "screen-error: vertices move into place instead of jumping"},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
-    setting<&Settings::ground, &visuals::scene::GroundSettings::mesh_ahead>(
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::mesh_ahead>(
         {"mesh-ahead",
          "",
          "screen-error: mesh the ground of the next frame while this one is drawn"},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
-    setting<&Settings::ground, &visuals::scene::GroundSettings::earth_curvature>(
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::earth_curvature>(
         {"earth-curvature", "", "screen-error: distant ground and aircraft sink by d^2 / 2R"},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
-    setting<&Settings::ground, &visuals::scene::GroundSettings::resolution_c>(
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::resolution_c>(
         {"resolution-c",
          "C",
          "C of the first frame; 0 = what meets the target; not for exact",
          0.0,
          1e6},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
-    setting<&Settings::ground, &visuals::scene::GroundSettings::roughness_c>(
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::roughness_c>(
         {"roughness-c",
          "c",
          "weight of roughness against distance [20 for midpoint, 5 for printed]",
          0.0,
          1000.0},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture, .start = 20.0}),
-    setting<&Settings::ground, &visuals::scene::GroundSettings::control_a>(
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::control_a>(
         {"control-a",
          "a",
          "triangles a unit of C in the control; 0 = from the ground's own gain",
          0.0,
          1e9},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
-    setting<&Settings::ground, &visuals::scene::GroundSettings::show_mesh>(
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::show_mesh>(
         {"show-mesh",
          "WHAT",
          "lines along the edges of the ground's triangles: none, edges, or levels (a colour for "
          "each halving of their size)"},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
-    setting<&Settings::ground, &visuals::scene::GroundSettings::control_r>(
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::control_r>(
         {"control-r", "r", "earlier frames in the damping's mean", 0, 64},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture})};
 

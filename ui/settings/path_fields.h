@@ -16,10 +16,10 @@ inline constexpr std::array<std::string_view, 4> built_in_terrains{
 
 /// Settings of the group Path. Which path, aircraft and ground.
 inline constexpr std::tuple path_rows{
-    setting<&Settings::path, &PathSettings::name>(
+    setting<&RunSettings::path, &PathSettings::name>(
         {"path", "NAME|FILE", "path: straight, jinking, pop-up, turn, a .toml or a recorded .csv"},
         {.group = SettingGroup::Path, .change = SettingsChange::Flight, .known = built_in_paths}),
-    setting<&Settings::path, &PathSettings::aircraft>(
+    setting<&RunSettings::path, &PathSettings::aircraft>(
         {"aircraft",
          "NAME|FILE",
          "aircraft: f15, 500md, concave, an OBJ file of up to 50,000 polygons (2,000 where nearly "
@@ -28,39 +28,39 @@ inline constexpr std::tuple path_rows{
         {.group = SettingGroup::Path,
          .change = SettingsChange::Flight,
          .known = built_in_aircraft}),
-    setting<&Settings::path, &PathSettings::axes>(
+    setting<&RunSettings::path, &PathSettings::axes>(
         {"axes", "X,Y,Z", "where the axes of aircraft files point"},
         {.group = SettingGroup::Path, .change = SettingsChange::Flight}),
-    setting<&Settings::path, &PathSettings::terrain>(
+    setting<&RunSettings::path, &PathSettings::terrain>(
         {"terrain",
          "NAME|FILE",
          "ground: hills, canyon, background60, none, a file that GDAL reads or an imported one"},
         {.group = SettingGroup::Path,
          .change = SettingsChange::Flight,
          .known = built_in_terrains}),
-    setting<&Settings::path, &PathSettings::terrain_spacing_m>(
+    setting<&RunSettings::path, &PathSettings::terrain_spacing_m>(
         {"terrain-spacing", "METRES", "sample spacing of terrain files that do not say", 0.01, 1e5},
         {.group = SettingGroup::Path, .change = SettingsChange::Flight}),
-    setting<&Settings::path, &PathSettings::place>(
+    setting<&RunSettings::path, &PathSettings::place>(
         {"place",
          "X,Y|LAT,LON",
          "where the path's origin lies: metres east,north of the map centre, or degrees such as "
          "49.3N,123.1W or, on the map, 49.3,-123.1 [map centre]"},
         {.group = SettingGroup::Path, .change = SettingsChange::Flight}),
-    setting<&Settings::path, &PathSettings::heading_deg>(
+    setting<&RunSettings::path, &PathSettings::heading_deg>(
         {"heading",
          "DEGREES",
          "turns the whole path, clockwise [the heading of least relief]",
          -360.0,
          360.0},
         {.group = SettingGroup::Path, .change = SettingsChange::Flight}),
-    setting<&Settings::path, &PathSettings::height_mode>(
+    setting<&RunSettings::path, &PathSettings::height_mode>(
         {"height-mode",
          "MODE",
          "clear: lift the path to its named clearance; follow: follow the ground; datum: as it "
          "is [clear; datum for a track with its own place]"},
         {.group = SettingGroup::Path, .change = SettingsChange::Flight}),
-    setting<&Settings::path, &PathSettings::lenient>(
+    setting<&RunSettings::path, &PathSettings::lenient>(
         {"lenient", "", "clip legs that ask more than the aircraft can give, and say so"},
         {.group = SettingGroup::Path, .change = SettingsChange::Flight})};
 

@@ -56,8 +56,8 @@ struct SettingFacts {
 /// Everything about a setting but where its value stands.
 struct SettingInfo : FieldInfo, SettingFacts {};
 
-/// The row of one setting. `members` lead from Settings to the value: a pointer to the part, then
-/// one to its member.
+/// The row of one setting. `members` lead from RunSettings to the value: a pointer to the part,
+/// then one to its member.
 template <auto... members>
 struct Setting : SettingInfo {
     /// Returns the value in `settings`, which is constant where they are.

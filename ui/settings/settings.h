@@ -60,15 +60,15 @@ struct DrawingSettings {
 };
 
 /// Everything that decides what a run shows: what a picture shows (the parts of scene::Settings),
-/// the flight, its frames and who draws them. A run is repeated by repeating its Settings. Each
+/// the flight, its frames and who draws them. A run is repeated by repeating its RunSettings. Each
 /// field has a row (ui/settings/README.md) from which its option, its file entry and its widget are
 /// made. What only says where results go is not here.
-struct Settings : visuals::scene::Settings {
+struct RunSettings : visuals::scene::Settings {
     PathSettings path;
     TimeSettings time;
     DrawingSettings drawing;
 
-    bool operator==(const Settings&) const = default;
+    bool operator==(const RunSettings&) const = default;
 };
 
 } // namespace octant::ui::settings

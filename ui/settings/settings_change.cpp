@@ -6,7 +6,7 @@
 
 namespace octant::ui::settings {
 
-SettingsChange change_between(const Settings& before, const Settings& after) {
+SettingsChange change_between(const RunSettings& before, const RunSettings& after) {
     SettingsChange change = SettingsChange::None;
     visit_rows([&](const auto& row) {
         if (row.of(before) != row.of(after)) {

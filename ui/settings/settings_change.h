@@ -7,6 +7,6 @@ namespace octant::ui::settings {
 
 /// Returns what must be made anew when `before` gives way to `after`: the most that is asked for by
 /// the rows whose values differ.
-SettingsChange change_between(const Settings& before, const Settings& after);
+SettingsChange change_between(const RunSettings& before, const RunSettings& after);
 
 } // namespace octant::ui::settings

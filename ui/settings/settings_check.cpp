@@ -15,7 +15,7 @@ namespace scene = visuals::scene;
 
 namespace {
 
-void check_listed_numbers(const Settings& settings) {
+void check_listed_numbers(const RunSettings& settings) {
     visit_settings(settings, []<class Value>(const SettingInfo& info, const Value& value) {
         if constexpr (std::is_same_v<Value, int>) {
             try {
@@ -104,7 +104,7 @@ void check_eye_point(const scene::ViewSettings& view) {
     }
 }
 
-void check_settings(const Settings& settings) {
+void check_settings(const RunSettings& settings) {
     check_listed_numbers(settings);
     if (settings.view.inset == scene::View::Free && settings.view.kind != scene::View::Free) {
         throw Error("--inset free: expected --view free beside it, got another view");

@@ -9,7 +9,7 @@ namespace octant::ui::settings {
 
 /// Throws Error where settings contradict each other or a number is not one of those that its
 /// setting takes. Reads the first bytes of a terrain file.
-void check_settings(const Settings& settings);
+void check_settings(const RunSettings& settings);
 
 /// Throws Error for eye points that the view does not take. check_settings() includes it.
 void check_eye_point(const visuals::scene::ViewSettings& view);

@@ -12,7 +12,7 @@
 
 namespace octant::ui::settings {
 
-/// Calls visit(row) with the Setting of every field of Settings, in the order of help and files.
+/// Calls visit(row) with the Setting of every field of RunSettings, in the order of help and files.
 template <class Visit>
 void visit_rows(Visit&& visit) {
     const auto visit_each = [&visit](const auto&... row) { (visit(row), ...); };
@@ -25,7 +25,7 @@ void visit_rows(Visit&& visit) {
     std::apply(visit_each, air_rows);
 }
 
-/// Calls visit(SettingInfo, value) for every field of Settings. Command line, settings files,
+/// Calls visit(SettingInfo, value) for every field of RunSettings. Command line, settings files,
 /// run.json, panels and the rules of reloading are all made from it.
 template <class SomeSettings, class Visit>
 void visit_settings(SomeSettings& settings, Visit&& visit) {

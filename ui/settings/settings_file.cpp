@@ -81,7 +81,7 @@ int line_of_key(const std::string& text, std::string_view key) {
 
 } // namespace
 
-ordered_json settings_json(const Settings& settings) {
+ordered_json settings_json(const RunSettings& settings) {
     ordered_json json = ordered_json::object();
     visit_settings(settings, [&](const SettingInfo& info, const auto& value) {
         json[std::string(info.name)] = json_of(value);
@@ -89,7 +89,7 @@ ordered_json settings_json(const Settings& settings) {
     return json;
 }
 
-Settings read_settings(const std::filesystem::path& path) {
+RunSettings read_settings(const std::filesystem::path& path) {
     constexpr std::size_t largest_bytes = std::size_t{16} << 20;
     const std::string text = read_text_file(path, largest_bytes);
     ordered_json json = report::parsed_json(path, text);
@@ -100,7 +100,7 @@ Settings read_settings(const std::filesystem::path& path) {
         error_at(
             path, 1, fmt::format("expected a JSON object of settings, got {}", json.type_name()));
     }
-    Settings settings;
+    RunSettings settings;
     std::set<std::string, std::less<>> known;
     visit_settings(settings, [&](const SettingInfo& info, auto& value) {
         known.insert(std::string(info.name));

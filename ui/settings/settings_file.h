@@ -8,11 +8,11 @@
 namespace octant::ui::settings {
 
 /// Returns all settings as a JSON object in the order of help. Settings that are not set are null.
-nlohmann::ordered_json settings_json(const Settings& settings);
+nlohmann::ordered_json settings_json(const RunSettings& settings);
 
 /// Reads settings from a settings file or from a recording's run.json (its "settings" object).
 /// Settings that are not there keep their defaults. Throws Error with file and line for an unknown
 /// key, a wrong type or a value out of range.
-Settings read_settings(const std::filesystem::path& path);
+RunSettings read_settings(const std::filesystem::path& path);
 
 } // namespace octant::ui::settings

@@ -15,31 +15,31 @@ inline constexpr double far_away_m = 1e7;
 
 /// Settings of the group View. From where a picture is seen, how large it is and who draws it.
 inline constexpr std::tuple view_rows{
-    setting<&Settings::view, &visuals::scene::ViewSettings::kind>(
+    setting<&RunSettings::view, &visuals::scene::ViewSettings::kind>(
         {"view", "VIEW", "chase, cockpit, tower, orbit or free"},
         {.group = SettingGroup::View, .change = SettingsChange::Picture}),
-    setting<&Settings::view, &visuals::scene::ViewSettings::eye_m>(
+    setting<&RunSettings::view, &visuals::scene::ViewSettings::eye_m>(
         {"eye",
          "X,Y,Z",
          "eye point of the tower and free views, metres east,north,up",
          -far_away_m,
          far_away_m},
         {.group = SettingGroup::View, .change = SettingsChange::Look}),
-    setting<&Settings::view, &visuals::scene::ViewSettings::look_m>(
+    setting<&RunSettings::view, &visuals::scene::ViewSettings::look_m>(
         {"look",
          "X,Y,Z",
          "what the free view looks at, metres east,north,up",
          -far_away_m,
          far_away_m},
         {.group = SettingGroup::View, .change = SettingsChange::Look}),
-    setting<&Settings::view, &visuals::scene::ViewSettings::fov_deg>(
+    setting<&RunSettings::view, &visuals::scene::ViewSettings::fov_deg>(
         {"fov",
          "DEGREES",
          "vertical field of view [45; the tower zooms in on the aircraft]",
          1.0,
          150.0},
         {.group = SettingGroup::View, .change = SettingsChange::Picture, .start = 45.0}),
-    setting<&Settings::view, &visuals::scene::ViewSettings::azimuth_deg>(
+    setting<&RunSettings::view, &visuals::scene::ViewSettings::azimuth_deg>(
         {"azimuth",
          "DEGREES",
          "chase, orbit: eye turned around the aircraft, clockwise from above; else the look "
@@ -47,33 +47,33 @@ inline constexpr std::tuple view_rows{
          -360.0,
          360.0},
         {.group = SettingGroup::View, .change = SettingsChange::Look}),
-    setting<&Settings::view, &visuals::scene::ViewSettings::elevation_deg>(
+    setting<&RunSettings::view, &visuals::scene::ViewSettings::elevation_deg>(
         {"elevation",
          "DEGREES",
          "chase, orbit: eye turned upwards around the aircraft; else the look turned up",
          -89.0,
          89.0},
         {.group = SettingGroup::View, .change = SettingsChange::Look}),
-    setting<&Settings::view, &visuals::scene::ViewSettings::zoom>(
+    setting<&RunSettings::view, &visuals::scene::ViewSettings::zoom>(
         {"zoom",
          "FACTOR",
          "chase, orbit: how many times nearer; else how many times larger",
          0.05,
          100.0},
         {.group = SettingGroup::View, .change = SettingsChange::Look}),
-    setting<&Settings::view, &visuals::scene::ViewSettings::inset>(
+    setting<&RunSettings::view, &visuals::scene::ViewSettings::inset>(
         {"inset", "VIEW", "a second view in a corner of the picture: chase, cockpit, ... [none]"},
         {.group = SettingGroup::View, .change = SettingsChange::Picture}),
-    setting<&Settings::view, &visuals::scene::ViewSettings::head_up_display>(
+    setting<&RunSettings::view, &visuals::scene::ViewSettings::head_up_display>(
         {"head-up-display", "", "speed, heading, pitch ladder and more before the cockpit view"},
         {.group = SettingGroup::View, .change = SettingsChange::Picture}),
-    setting<&Settings::view, &visuals::scene::ViewSettings::size_px>(
+    setting<&RunSettings::view, &visuals::scene::ViewSettings::size_px>(
         {"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192},
         {.group = SettingGroup::View, .change = SettingsChange::Picture, .set_by_window = true}),
-    setting<&Settings::view, &visuals::scene::ViewSettings::samples>(
+    setting<&RunSettings::view, &visuals::scene::ViewSettings::samples>(
         {"samples", "N", "samples a pixel, 1 or 4", 1, 4, sample_counts},
         {.group = SettingGroup::View, .change = SettingsChange::Picture}),
-    setting<&Settings::drawing, &DrawingSettings::context>(
+    setting<&RunSettings::drawing, &DrawingSettings::context>(
         {"context",
          "KIND",
          "who draws: osmesa (no GPU, no display), egl or window (the display's driver)"},

@@ -12,7 +12,7 @@ namespace octant::ui::window {
 
 namespace scene = visuals::scene;
 using scene::View;
-using settings::Settings;
+using settings::RunSettings;
 
 namespace {
 
@@ -32,7 +32,7 @@ bool goes_around(View view) {
 }
 
 /// Returns the direction in which the free camera looks, turned by azimuth and elevation.
-glm::dvec3 ahead_of(const Settings& settings) {
+glm::dvec3 ahead_of(const RunSettings& settings) {
     const glm::dvec3 straight = glm::normalize(*settings.view.look_m - *settings.view.eye_m);
     const double heading =
         std::atan2(straight.x, straight.y) + rad_from_deg(settings.view.azimuth_deg);
@@ -45,8 +45,8 @@ glm::dvec3 ahead_of(const Settings& settings) {
 
 } // namespace
 
-Settings dragged(const Settings& settings, const glm::vec2& share_of_height) {
-    Settings changed = settings;
+RunSettings dragged(const RunSettings& settings, const glm::vec2& share_of_height) {
+    RunSettings changed = settings;
     const double slower =
         goes_around(settings.view.kind) ? 1.0 : 1.0 / std::max(settings.view.zoom, 1.0);
     const double sense = goes_around(settings.view.kind) ? 1.0 : -1.0;
@@ -60,26 +60,26 @@ Settings dragged(const Settings& settings, const glm::vec2& share_of_height) {
     return changed;
 }
 
-Settings zoomed(const Settings& settings, double clicks) {
+RunSettings zoomed(const RunSettings& settings, double clicks) {
     constexpr double least = 0.1;
     constexpr double most = 50.0;
-    Settings changed = settings;
+    RunSettings changed = settings;
     changed.view.zoom =
         std::clamp(settings.view.zoom * std::pow(zoom_a_click, clicks), least, most);
     return changed;
 }
 
-Settings looking_straight(const Settings& settings) {
-    Settings changed = settings;
+RunSettings looking_straight(const RunSettings& settings) {
+    RunSettings changed = settings;
     changed.view.azimuth_deg = 0.0;
     changed.view.elevation_deg = 0.0;
     changed.view.zoom = 1.0;
     return changed;
 }
 
-Settings with_view(const Settings& settings, View view, const scene::Camera& camera) {
+RunSettings with_view(const RunSettings& settings, View view, const scene::Camera& camera) {
     constexpr double look_ahead_m = 1000.0;
-    Settings changed = looking_straight(settings);
+    RunSettings changed = looking_straight(settings);
     changed.view.kind = view;
     changed.view.eye_m.reset();
     changed.view.look_m.reset();
@@ -94,7 +94,7 @@ Settings with_view(const Settings& settings, View view, const scene::Camera& cam
     return changed;
 }
 
-Settings moved(const Settings& settings, const FreeMove& move, double wall_s) {
+RunSettings moved(const RunSettings& settings, const FreeMove& move, double wall_s) {
     const bool stands = move.right == 0 && move.up == 0 && move.ahead == 0;
     if (settings.view.kind != View::Free || stands) {
         return settings;
@@ -105,7 +105,7 @@ Settings moved(const Settings& settings, const FreeMove& move, double wall_s) {
         wall_s * move_mps * (move.fast ? fast_factor : 1.0) *
         (static_cast<double>(move.ahead) * ahead + static_cast<double>(move.right) * right +
          static_cast<double>(move.up) * glm::dvec3(0.0, 0.0, 1.0));
-    Settings changed = settings;
+    RunSettings changed = settings;
     *changed.view.eye_m += way_m;
     *changed.view.look_m += way_m;
     return changed;

@@ -36,7 +36,7 @@ std::string clock_text(float hour) {
 
 /// Makes sliders for time and day, which set the position of the sun. ImGui keeps time and day with
 /// the panel, because settings hold only the position.
-void time_of_day(settings::Settings& settings, double latitude_deg) {
+void time_of_day(settings::RunSettings& settings, double latitude_deg) {
     ImGuiStorage& storage = *ImGui::GetStateStorage();
     float& hour = *storage.GetFloatRef(ImGui::GetID("hour"), noon);
     int& day = *storage.GetIntRef(ImGui::GetID("day of year"), spring_equinox);

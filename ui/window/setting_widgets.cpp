@@ -14,7 +14,7 @@
 
 namespace octant::ui::window {
 
-using settings::Settings;
+using settings::RunSettings;
 
 namespace {
 
@@ -314,7 +314,7 @@ bool choose_name(
     return changed;
 }
 
-void edit_settings(Settings& settings, std::span<const std::string_view> names) {
+void edit_settings(RunSettings& settings, std::span<const std::string_view> names) {
     const RowOfWidgets row;
     for (const std::string_view name : names) {
         settings::visit_settings(settings, [&](const settings::SettingInfo& info, auto& value) {
@@ -325,7 +325,7 @@ void edit_settings(Settings& settings, std::span<const std::string_view> names) 
     }
 }
 
-void edit_group(Settings& settings, settings::SettingGroup group) {
+void edit_group(RunSettings& settings, settings::SettingGroup group) {
     const RowOfWidgets row;
     settings::visit_settings(settings, [&](const settings::SettingInfo& info, auto& value) {
         if (info.group == group) {

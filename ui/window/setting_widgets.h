@@ -14,10 +14,10 @@ namespace octant::ui::window {
 // what loads something anew. Values stay within their limits.
 
 /// Shows the settings of these names, in this order. A name that is no setting shows nothing.
-void edit_settings(settings::Settings& settings, std::span<const std::string_view> names);
+void edit_settings(settings::RunSettings& settings, std::span<const std::string_view> names);
 
 /// Shows all settings of one group, in the order of help.
-void edit_group(settings::Settings& settings, settings::SettingGroup group);
+void edit_group(settings::RunSettings& settings, settings::SettingGroup group);
 
 /// Shows a list of built-in names and a field for any other text, such as a file. Returns whether
 /// `name` was changed.

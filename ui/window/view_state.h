@@ -62,7 +62,7 @@ struct WrongPixels {
 /// What a window knows beside its session: everything that keys, mouse and panels change.
 struct ViewState {
     /// The settings of the next frame.
-    settings::Settings wanted;
+    settings::RunSettings wanted;
     Playback playback;
     OpenPanels open;
     ViewRequests requests;

@@ -52,7 +52,7 @@ Viewer::Viewer(const ViewOptions& options)
     std::shared_ptr<gl::WindowContext> context = open_window(options);
     context_ = context.get();
     input_.emplace(context_->window());
-    settings::Settings settings = options.settings;
+    settings::RunSettings settings = options.settings;
     settings.drawing.context = settings::ContextKind::Window;
     settings.view.size_px = input_->size_px();
     session_ = std::make_unique<flight::Session>(
@@ -216,7 +216,7 @@ void Viewer::fly_by_hand(double wall_s, bool typing) {
 
 void Viewer::apply_wanted() {
     using scene::View;
-    settings::Settings& wanted = state_.wanted;
+    settings::RunSettings& wanted = state_.wanted;
     if (wanted.view.kind != session_->settings().view.kind &&
         (wanted.view.kind == View::Free) != (wanted.view.eye_m && wanted.view.look_m)) {
         wanted = with_view(wanted, wanted.view.kind, session_->camera());

@@ -27,7 +27,7 @@ class Gui;
 /// How a viewer begins.
 struct ViewOptions {
     /// Their view.size_px is the size of the window in the display's units.
-    settings::Settings settings;
+    settings::RunSettings settings;
     bool full_screen = false;
     /// Pictures wait for the display's refresh; otherwise they follow each other at once.
     bool vsync = true;

@@ -28,7 +28,7 @@ namespace {
 
 constexpr double jump_s = 2.0;
 
-void next_inset(settings::Settings& settings) {
+void next_inset(settings::RunSettings& settings) {
     using scene::View;
     constexpr std::array<std::optional<View>, 4> turns{
         std::nullopt, View::Chase, View::Cockpit, View::Tower};
@@ -36,7 +36,7 @@ void next_inset(settings::Settings& settings) {
     settings.view.inset = at == turns.end() || at + 1 == turns.end() ? turns.front() : *(at + 1);
 }
 
-void next_mesh_look(settings::Settings& settings) {
+void next_mesh_look(settings::RunSettings& settings) {
     using scene::MeshLook;
     settings.ground.show_mesh = settings.ground.show_mesh == MeshLook::None    ? MeshLook::Edges
                                 : settings.ground.show_mesh == MeshLook::Edges ? MeshLook::Levels
@@ -181,7 +181,7 @@ void Viewer::take_requests() {
     }
     try {
         if (requests.save_settings) {
-            settings::Settings saved = world::with_absolute_files(session_->settings());
+            settings::RunSettings saved = world::with_absolute_files(session_->settings());
             saved.drawing.context = settings::ContextKind::OsMesa;
             write_file(*requests.save_settings, settings::settings_json(saved).dump(2) + "\n");
             say(fmt::format("settings: {}", requests.save_settings->string()));

@@ -28,7 +28,7 @@ ViewOptions unhurried(ViewOptions options) {
 
 WindowBench bench_window(const ViewOptions& options, int frames, bool quiet) {
     Viewer viewer(unhurried(options));
-    settings::Settings settings = viewer.session().settings();
+    settings::RunSettings settings = viewer.session().settings();
     settings.drawing.context = settings::ContextKind::OsMesa;
     flight::Session session(settings);
     const int count = std::min(frames + warm_up_frames, session.frames());

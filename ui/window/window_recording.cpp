@@ -25,9 +25,9 @@ constexpr double flush_every_s = 0.5;
 constexpr const char* flight_name = "flight.csv";
 
 /// Returns settings that fly without a window what a window flies from this step on.
-settings::Settings from_step(
+settings::RunSettings from_step(
     const flight::Session& session, long step, const std::filesystem::path& folder, bool by_hand) {
-    settings::Settings settings = world::with_absolute_files(session.settings());
+    settings::RunSettings settings = world::with_absolute_files(session.settings());
     settings.drawing.context = settings::ContextKind::OsMesa;
     settings.time.frames.reset();
     settings.time.seconds.reset();
@@ -54,7 +54,7 @@ long first_step_of(flight::Session& session) {
     return simulation.step();
 }
 
-report::RunInfo info_of(const flight::Session& session, const settings::Settings& to_repeat) {
+report::RunInfo info_of(const flight::Session& session, const settings::RunSettings& to_repeat) {
     report::RunInfo info =
         flight::run_info(world::with_absolute_files(session.settings()), session);
     info.settings_json = settings::settings_json(to_repeat).dump(2);
@@ -131,8 +131,8 @@ std::size_t WindowRecording::states_to_the_end(flight::Session& session) const {
     return std::min(static_cast<std::size_t>(steps), session.simulation().log().size());
 }
 
-settings::Settings WindowRecording::settings_to_repeat(flight::Session& session) const {
-    settings::Settings settings = from_step(session, first_step_, recording_.folder(), by_hand_);
+settings::RunSettings WindowRecording::settings_to_repeat(flight::Session& session) const {
+    settings::RunSettings settings = from_step(session, first_step_, recording_.folder(), by_hand_);
     const long steps = sim::step_at(last_time_s_) - first_step_;
     if (!by_hand_ && steps > 0) {
         settings.time.seconds = sim::time_of_step(steps);

@@ -35,7 +35,7 @@ public:
 
 private:
     void append_states(flight::Session& session);
-    settings::Settings settings_to_repeat(flight::Session& session) const;
+    settings::RunSettings settings_to_repeat(flight::Session& session) const;
     std::size_t states_to_the_end(flight::Session& session) const;
 
     long first_step_;

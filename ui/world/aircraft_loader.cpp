@@ -40,7 +40,7 @@ constexpr std::size_t most_polygons_of_a_mesh = 2'000;
 
 draworder::OrderedModel with_order(
     models::polygons::PolygonModel model,
-    const settings::Settings& settings,
+    const settings::RunSettings& settings,
     std::size_t most,
     Notes& notes) {
     if (settings.surface.hidden_surface != scene::HiddenSurface::Octant ||
@@ -83,7 +83,7 @@ bool is_polygon_model(const std::filesystem::path& file) {
 scene::AircraftModel ready(
     models::polygons::PolygonModel model,
     const sim::AircraftKind* kind,
-    const settings::Settings& settings,
+    const settings::RunSettings& settings,
     Notes& notes,
     bool is_mesh = false) {
     const glm::dvec3 eye_m = kind != nullptr ? kind->pilot_eye_m : scene::pilot_eye_m(model);
@@ -101,7 +101,7 @@ scene::AircraftModel ready(
 }
 
 scene::AircraftModel
-load_model(const std::string& name, const settings::Settings& settings, Notes& notes) {
+load_model(const std::string& name, const settings::RunSettings& settings, Notes& notes) {
     const std::filesystem::path file = base::aircraft_file(name);
     const bool built_in = file.parent_path() == base::data_folder() / "models";
     const models::polygons::FileAxes axes =
@@ -137,7 +137,7 @@ std::optional<scene::AircraftModel> load_cockpit(const std::string& aircraft) {
 
 } // namespace
 
-LoadedAircraft load_aircraft(const settings::Settings& settings) {
+LoadedAircraft load_aircraft(const settings::RunSettings& settings) {
     if (settings.surface.order_cache) {
         ordercache::make_cache_folder(*settings.surface.order_cache);
     }

@@ -21,6 +21,6 @@ struct LoadedAircraft {
 
 /// Loads the aircraft of a run, and the cockpit of the first one where it has one: polygon models
 /// with their painting orders, chains of levels, and meshes, which get levels here. Throws Error.
-LoadedAircraft load_aircraft(const settings::Settings& settings);
+LoadedAircraft load_aircraft(const settings::RunSettings& settings);
 
 } // namespace octant::ui::world

@@ -12,7 +12,7 @@ using scene::GroundShading;
 std::optional<scene::GroundTexture> load_ground_texture(
     const visuals::terrain::GroundSamples& ground,
     const models::heights::GroundArea& area,
-    const settings::Settings& settings,
+    const settings::RunSettings& settings,
     DrawnBy drawn_by,
     std::vector<std::string>& notes) {
     if (settings.air.drape) {

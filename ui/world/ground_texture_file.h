@@ -20,7 +20,7 @@ enum class DrawnBy { Processor, Gpu };
 std::optional<visuals::scene::GroundTexture> load_ground_texture(
     const visuals::terrain::GroundSamples& ground,
     const models::heights::GroundArea& area,
-    const settings::Settings& settings,
+    const settings::RunSettings& settings,
     DrawnBy drawn_by,
     std::vector<std::string>& notes);
 

@@ -45,7 +45,7 @@ bool is_file(const std::string& name) {
 
 } // namespace
 
-settings::Settings with_absolute_files(settings::Settings settings) {
+settings::RunSettings with_absolute_files(settings::RunSettings settings) {
     // A name that is built in comes first everywhere, also where a file of that name lies about.
     const std::string pilot = settings.path.aircraft.front();
     if (base::path_file(settings.path.name, pilot) == settings.path.name) {
@@ -68,7 +68,8 @@ settings::Settings with_absolute_files(settings::Settings settings) {
     return settings;
 }
 
-std::vector<std::pair<std::string, std::string>> input_hashes(const settings::Settings& settings) {
+std::vector<std::pair<std::string, std::string>>
+input_hashes(const settings::RunSettings& settings) {
     std::vector<fs::path> files = {
         base::path_file(settings.path.name, settings.path.aircraft.front())};
     for (const std::string& name : settings.path.aircraft) {

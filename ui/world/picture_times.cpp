@@ -8,11 +8,11 @@
 
 namespace octant::ui::world {
 
-using settings::Settings;
+using settings::RunSettings;
 
 namespace {
 
-double first_time_s(const Settings& settings, const sim::Trajectory& path) {
+double first_time_s(const RunSettings& settings, const sim::Trajectory& path) {
     const double length_s = path.end_s() - path.start_s();
     if (settings.time.start_s > 0.0 && settings.time.start_s >= length_s) {
         throw Error(fmt::format(
@@ -32,7 +32,7 @@ void PictureTimes::cut_to(std::size_t frames) {
     }
 }
 
-PictureTimes picture_times_of(const Settings& settings, const Flight& flight) {
+PictureTimes picture_times_of(const RunSettings& settings, const Flight& flight) {
     const sim::Trajectory& path = flight.trajectory;
     const double from_s = first_time_s(settings, path);
     PictureTimes times;

@@ -19,6 +19,6 @@ struct PictureTimes {
 };
 
 /// Throws Error when the run would start behind the path's end.
-PictureTimes picture_times_of(const settings::Settings& settings, const Flight& flight);
+PictureTimes picture_times_of(const settings::RunSettings& settings, const Flight& flight);
 
 } // namespace octant::ui::world

@@ -45,7 +45,7 @@ SceneGround described(
 void add_texture(
     const terrain::GroundSamples& samples,
     const models::heights::GroundArea& area,
-    const settings::Settings& settings,
+    const settings::RunSettings& settings,
     DrawnBy drawn_by,
     SceneGround& loaded) {
     std::optional<scene::GroundTexture> texture =
@@ -56,7 +56,7 @@ void add_texture(
     }
 }
 
-SceneGround load_imported(const settings::Settings& settings, DrawnBy drawn_by) {
+SceneGround load_imported(const settings::RunSettings& settings, DrawnBy drawn_by) {
     terrain::GroundTiles ground = terrain::open_ground(settings.path.terrain);
     const terrain::GroundFacts& facts = ground.facts();
     SceneGround loaded = described(ground, facts.name, facts.place, facts.filled_voids);
@@ -67,11 +67,11 @@ SceneGround load_imported(const settings::Settings& settings, DrawnBy drawn_by) 
     return loaded;
 }
 
-SceneGround load_field(const settings::Settings& settings, DrawnBy drawn_by) {
+SceneGround load_field(const settings::RunSettings& settings, DrawnBy drawn_by) {
     models::heights::HeightField field =
         load_height_field(settings.path.terrain, settings.path.terrain_spacing_m);
     SceneGround loaded = described(field, field.name, field.place, field.filled_voids);
-    const settings::Settings own = ground_settings(settings);
+    const settings::RunSettings own = ground_settings(settings);
     add_texture(
         terrain::GroundSamples(field), models::heights::area_of(field), own, drawn_by, loaded);
     loaded.ground = scene::ground_metric(settings.ground) == scene::GroundMetric::ScreenError
@@ -80,7 +80,7 @@ SceneGround load_field(const settings::Settings& settings, DrawnBy drawn_by) {
     return loaded;
 }
 
-SceneGround load_polygons(const settings::Settings& settings) {
+SceneGround load_polygons(const settings::RunSettings& settings) {
     SceneGround loaded;
     loaded.name = settings.path.terrain;
     loaded.ground = scene::ground_from_polygons(
@@ -92,15 +92,15 @@ SceneGround load_polygons(const settings::Settings& settings) {
 
 } // namespace
 
-settings::Settings ground_settings(const settings::Settings& settings) {
-    settings::Settings own = settings;
+settings::RunSettings ground_settings(const settings::RunSettings& settings) {
+    settings::RunSettings own = settings;
     if (!settings.air.palette && settings.path.terrain == "canyon") {
         own.air.palette = scene::Palette::Arid;
     }
     return own;
 }
 
-SceneGround load_scene_ground(const settings::Settings& settings, DrawnBy drawn_by) {
+SceneGround load_scene_ground(const settings::RunSettings& settings, DrawnBy drawn_by) {
     if (settings::is_drawn_whole(settings.path.terrain)) {
         return load_polygons(settings);
     }

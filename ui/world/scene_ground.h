@@ -14,7 +14,7 @@
 namespace octant::ui::world {
 
 /// The settings with what the ground decides where they leave it open: its colours.
-settings::Settings ground_settings(const settings::Settings& settings);
+settings::RunSettings ground_settings(const settings::RunSettings& settings);
 
 /// The ground of a run, ready to be shared by its views.
 struct SceneGround {
@@ -28,6 +28,6 @@ struct SceneGround {
 
 /// Loads the ground of a run, whose settings have passed settings::check_settings. Throws Error for
 /// what cannot be read.
-SceneGround load_scene_ground(const settings::Settings& settings, DrawnBy drawn_by);
+SceneGround load_scene_ground(const settings::RunSettings& settings, DrawnBy drawn_by);
 
 } // namespace octant::ui::world

@@ -62,7 +62,7 @@ void note_what_flies(
     }
 }
 
-Script load_script(const settings::Settings& settings) {
+Script load_script(const settings::RunSettings& settings) {
     const std::filesystem::path file =
         base::path_file(settings.path.name, settings.path.aircraft.front());
     if (file.extension() == ".toml") {
@@ -106,8 +106,8 @@ flightpaths::HeightMode placement_mode(settings::HeightMode mode) {
     return flightpaths::HeightMode::Datum;
 }
 
-flightpaths::Placement
-placement_of(const settings::Settings& settings, const Script& script, const SceneGround& ground) {
+flightpaths::Placement placement_of(
+    const settings::RunSettings& settings, const Script& script, const SceneGround& ground) {
     flightpaths::Placement placement;
     const glm::dvec2 half_extent_m = ground.ground->half_extent_m();
     const bool at_its_own_place = script.origin && ground.place && !settings.path.place;
@@ -139,7 +139,7 @@ void add(std::vector<std::string>& notes, const std::vector<std::string>& more) 
 }
 
 Flight place_flight(
-    const settings::Settings& settings,
+    const settings::RunSettings& settings,
     Script script,
     const SceneGround& ground,
     std::vector<std::string>& notes) {
@@ -200,7 +200,7 @@ Formation formation_of(const scene::Scene& scene) {
     return {static_cast<int>(scene.aircraft.size()), largest_m};
 }
 
-scene::FixedPoints fixed_points(const settings::Settings& settings, const World& world) {
+scene::FixedPoints fixed_points(const settings::RunSettings& settings, const World& world) {
     settings::check_eye_point(settings.view);
     scene::FixedPoints points;
     if (settings.view.kind == scene::View::Free) {
@@ -226,7 +226,7 @@ scene::FixedPoints fixed_points(const settings::Settings& settings, const World&
     return points;
 }
 
-World load_world(const settings::Settings& settings, DrawnBy drawn_by) {
+World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     settings::check_settings(settings);
     LoadedAircraft aircraft = load_aircraft(settings);
     Script script = load_script(settings);

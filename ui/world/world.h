@@ -50,9 +50,9 @@ Formation formation_of(const visuals::scene::Scene& scene);
 
 /// Where the views of these settings stand that do not follow the aircraft. Throws Error for eye
 /// points that the view does not take.
-visuals::scene::FixedPoints fixed_points(const settings::Settings& settings, const World& world);
+visuals::scene::FixedPoints fixed_points(const settings::RunSettings& settings, const World& world);
 
 /// Loads aircraft, ground and path of a run and lays the path over the ground. Throws Error.
-World load_world(const settings::Settings& settings, DrawnBy drawn_by = DrawnBy::Processor);
+World load_world(const settings::RunSettings& settings, DrawnBy drawn_by = DrawnBy::Processor);
 
 } // namespace octant::ui::world

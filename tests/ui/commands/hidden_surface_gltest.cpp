@@ -20,9 +20,9 @@ visuals::scene::Picture picture_of(int width, int height, const std::vector<std:
     return picture;
 }
 
-ui::settings::Settings
+ui::settings::RunSettings
 canyon_flight(const char* path, const char* aircraft, visuals::scene::View view) {
-    ui::settings::Settings settings;
+    ui::settings::RunSettings settings;
     settings.path.name = path;
     settings.path.aircraft = {aircraft};
     settings.view.kind = view;
@@ -32,7 +32,7 @@ canyon_flight(const char* path, const char* aircraft, visuals::scene::View view)
     return settings;
 }
 
-ui::flight::IdComparison compare(const ui::settings::Settings& settings, int every) {
+ui::flight::IdComparison compare(const ui::settings::RunSettings& settings, int every) {
     return ui::flight::compare_with_depth_buffer(settings, every, [](int, int) {});
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("painting in order shows the polygons that the depth buffer shows, ove
 }
 
 TEST_CASE("an aircraft that goes behind ridges is painted as the depth buffer shows it") {
-    ui::settings::Settings settings =
+    ui::settings::RunSettings settings =
         canyon_flight("jinking", "500md", visuals::scene::View::Tower);
     settings.view.eye_m = ui::studies::draw_order::ridge_tower(ui::world::load_world(settings));
     constexpr int every = 30;

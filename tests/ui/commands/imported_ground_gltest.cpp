@@ -15,7 +15,7 @@
 using namespace octant;
 using octant::visuals::scene::GroundShading;
 using octant::visuals::scene::View;
-using ui::settings::Settings;
+using ui::settings::RunSettings;
 
 namespace {
 
@@ -51,7 +51,7 @@ std::filesystem::path made_drape() {
     return file;
 }
 
-std::vector<std::uint8_t> drawn(Settings settings, const std::filesystem::path& terrain) {
+std::vector<std::uint8_t> drawn(RunSettings settings, const std::filesystem::path& terrain) {
     settings.path.terrain = terrain.string();
     settings.path.name = "straight";
     settings.path.aircraft = {"f15"};
@@ -78,12 +78,12 @@ void check_alike(const std::vector<std::uint8_t>& a, const std::vector<std::uint
 } // namespace
 
 TEST_CASE("an imported ground is textured and draped as the map that it was imported from") {
-    Settings textured;
+    RunSettings textured;
     textured.air.ground_shading = GroundShading::Texture;
     const auto bare = drawn(textured, map().ground);
     check_alike(bare, drawn(textured, map().file));
     CHECK(bare != drawn({}, map().ground));
-    Settings draped;
+    RunSettings draped;
     draped.air.drape = made_drape().string();
     const auto with_drape = drawn(draped, map().ground);
     check_alike(with_drape, drawn(draped, map().file));

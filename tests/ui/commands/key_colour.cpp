@@ -38,12 +38,12 @@ std::string speck_file() {
 
 } // namespace
 
-ui::settings::Settings key_colour_settings(
+ui::settings::RunSettings key_colour_settings(
     const std::string& path,
     const std::string& aircraft,
     const std::string& terrain,
     double rate_hz) {
-    ui::settings::Settings settings;
+    ui::settings::RunSettings settings;
     settings.path.name = ui::base::path_file(path, aircraft).string();
     settings.path.aircraft = {speck_file()};
     settings.path.terrain = terrain;
@@ -56,7 +56,7 @@ ui::settings::Settings key_colour_settings(
     return settings;
 }
 
-long cracks_in_flight(const ui::settings::Settings& settings) {
+long cracks_in_flight(const ui::settings::RunSettings& settings) {
     ui::flight::Session session(settings);
     long cracks = 0;
     for (int frame = 0; frame < session.frames(); ++frame) {

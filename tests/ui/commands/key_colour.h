@@ -8,7 +8,7 @@ namespace octant::tests {
 
 /// Settings that show cracks: no sky, no haze, a background colour that nothing else has, an
 /// aircraft too small to be seen that flies an aircraft's path.
-ui::settings::Settings key_colour_settings(
+ui::settings::RunSettings key_colour_settings(
     const std::string& path,
     const std::string& aircraft,
     const std::string& terrain,
@@ -16,7 +16,7 @@ ui::settings::Settings key_colour_settings(
 
 /// Crack pixels over all frames of a flight: pixels of the background's colour with a ground pixel
 /// above them in their column.
-long cracks_in_flight(const ui::settings::Settings& settings);
+long cracks_in_flight(const ui::settings::RunSettings& settings);
 
 /// The two together.
 long cracks_along(

@@ -16,7 +16,7 @@
 
 using namespace octant;
 using octant::visuals::scene::View;
-using ui::settings::Settings;
+using ui::settings::RunSettings;
 
 namespace {
 
@@ -25,7 +25,7 @@ namespace {
 constexpr int most_part_difference = 3;
 constexpr double most_outline_share = 0.002;
 
-ui::report::Picture drawn(const Settings& settings) {
+ui::report::Picture drawn(const RunSettings& settings) {
     ui::flight::Session session(settings);
     for (int frame = 0; frame < session.frames(); ++frame) {
         session.draw(frame);
@@ -36,7 +36,7 @@ ui::report::Picture drawn(const Settings& settings) {
         "drawn", ui::report::png_bytes({picture.width, picture.height, 4, bytes}));
 }
 
-void check_against_golden(const std::string& name, const Settings& settings) {
+void check_against_golden(const std::string& name, const RunSettings& settings) {
     INFO(name);
     const auto golden = std::filesystem::path(OCTANT_SOURCE_DIR) / "tests/golden" / (name + ".png");
     const ui::report::Picture actual = drawn(settings);
@@ -69,9 +69,9 @@ void check_against_golden(const std::string& name, const Settings& settings) {
     }
 }
 
-Settings
+RunSettings
 small(const std::string& path, const std::string& aircraft, const std::string& terrain, View view) {
-    Settings settings;
+    RunSettings settings;
     settings.path.name = path;
     settings.path.aircraft = {aircraft};
     settings.path.terrain = terrain;
@@ -130,7 +130,7 @@ TEST_CASE("pictures are those that were approved") {
 }
 
 TEST_CASE("pictures with a head-up display are those that were approved") {
-    Settings banked = small("pop-up", "f15", "canyon", View::Cockpit);
+    RunSettings banked = small("pop-up", "f15", "canyon", View::Cockpit);
     banked.view.size_px = {640, 360};
     banked.time.rate_hz = 1.0 / 7.0;
     check_against_golden("f15-pop-up-canyon-head-up", banked);
@@ -140,7 +140,7 @@ TEST_CASE("pictures of a refined mesh, three in ten smooth, are those that were 
     using visuals::scene::ModelLook;
     const auto file = tests::scratch_folder() / "ball.ply";
     models::meshfile::write_mesh(file, ui::studies::hybrid_shading::uneven_ball(24, 49));
-    Settings ball = small("turn", file.string(), "hills", View::Chase);
+    RunSettings ball = small("turn", file.string(), "hills", View::Chase);
     ball.shading.smooth_share = 0.3;
     ball.air.sun_azimuth_deg = 45.0; // on the side that is seen
     ball.surface.aircraft_error_px = 0.2;
@@ -152,11 +152,11 @@ TEST_CASE("pictures of a refined mesh, three in ten smooth, are those that were 
 }
 
 TEST_CASE("pictures of textured ground are those that were approved") {
-    Settings canyon = small("jinking", "f15", "canyon", View::Chase);
+    RunSettings canyon = small("jinking", "f15", "canyon", View::Chase);
     canyon.view.size_px = {320, 240};
     canyon.air.ground_shading = visuals::scene::GroundShading::Texture;
     check_against_golden("f15-jinking-canyon-textured", canyon);
-    Settings draped = small("straight", "f15", "hills", View::Free);
+    RunSettings draped = small("straight", "f15", "hills", View::Free);
     draped.view.size_px = {320, 240};
     draped.air.drape = made_drape().string();
     draped.air.visibility_m = 0.0;

@@ -16,9 +16,9 @@ using visuals::scene::View;
 namespace {
 
 /// A dozen frames from the whole path.
-ui::settings::Settings
+ui::settings::RunSettings
 small_flight(const std::string& path, const std::string& aircraft, const std::string& ground) {
-    ui::settings::Settings settings;
+    ui::settings::RunSettings settings;
     settings.path.name = path;
     settings.path.aircraft = {aircraft};
     settings.path.terrain = ground;
@@ -31,7 +31,7 @@ small_flight(const std::string& path, const std::string& aircraft, const std::st
 
 /// Flies from the start in that view; returns the last picture's pixels.
 std::vector<std::uint8_t> flown_in(Session& session, View view) {
-    ui::settings::Settings settings = session.settings();
+    ui::settings::RunSettings settings = session.settings();
     settings.view.kind = view;
     session.apply(settings);
     session.begin_at(0.0);

@@ -56,8 +56,8 @@ int mappings_of(const std::filesystem::path& file) {
     return count;
 }
 
-ui::settings::Settings with_inset() {
-    ui::settings::Settings settings;
+ui::settings::RunSettings with_inset() {
+    ui::settings::RunSettings settings;
     settings.view.inset = scene::View::Tower;
     settings.view.size_px = {640, 480};
     return settings;
@@ -73,7 +73,7 @@ std::size_t triangles_of(InsetView& inset) {
 } // namespace
 
 TEST_CASE("an inset needs no file of the ground and maps it no second time") {
-    ui::settings::Settings settings = with_inset();
+    ui::settings::RunSettings settings = with_inset();
     const std::filesystem::path file = imported("shared.ground");
     settings.path.terrain = file.string();
     ui::world::World world = small_world();
@@ -94,7 +94,7 @@ TEST_CASE("an inset needs no file of the ground and maps it no second time") {
 TEST_CASE("an inset draws the models and the ground that the scene shares and keeps none alone") {
     const ui::world::World world = small_world(2);
     const long models = world.scene.models.front().use_count();
-    ui::settings::Settings settings = with_inset();
+    ui::settings::RunSettings settings = with_inset();
     settings.ground.mesh = scene::GroundMetric::Midpoint;
     const long before = world.scene.ground.use_count();
     {
@@ -107,7 +107,7 @@ TEST_CASE("an inset draws the models and the ground that the scene shares and ke
 
 TEST_CASE("an inset lies in the lower right corner and asks for a quarter of the triangles") {
     const ui::world::World world = small_world();
-    ui::settings::Settings settings = with_inset();
+    ui::settings::RunSettings settings = with_inset();
     settings.ground.mesh = scene::GroundMetric::Midpoint;
     settings.ground.triangles = 8000;
     const InsetView inset(settings, world.scene);
@@ -121,7 +121,7 @@ TEST_CASE("an inset lies in the lower right corner and asks for a quarter of the
 
 TEST_CASE("an inset follows the scene to another ground") {
     ui::world::World world = small_world();
-    ui::settings::Settings settings = with_inset();
+    ui::settings::RunSettings settings = with_inset();
     settings.ground.mesh = scene::GroundMetric::Midpoint;
     InsetView inset(settings, world.scene);
     const std::size_t level = triangles_of(inset);
@@ -132,7 +132,7 @@ TEST_CASE("an inset follows the scene to another ground") {
 
 TEST_CASE("an inset settles anew when the control of its ground changes") {
     ui::world::World world = small_world();
-    ui::settings::Settings settings = with_inset();
+    ui::settings::RunSettings settings = with_inset();
     settings.ground.mesh = scene::GroundMetric::Midpoint;
     settings.ground.detail = scene::DetailControl::Damped;
     settings.ground.resolution_c = 3.0;

@@ -18,7 +18,7 @@
 using namespace octant;
 using namespace octant::tests;
 namespace scene = octant::visuals::scene;
-using ui::settings::Settings;
+using ui::settings::RunSettings;
 
 namespace {
 
@@ -40,8 +40,8 @@ std::filesystem::path ground_file() {
     return file;
 }
 
-Settings small_settings() {
-    Settings settings;
+RunSettings small_settings() {
+    RunSettings settings;
     settings.path.terrain = ground_file().string();
     settings.path.heading_deg = 0.0;
     settings.view.size_px = {64, 48};
@@ -55,7 +55,7 @@ constexpr double step_s = 0.05;
 /// A session without any drawing, picture by picture.
 class Flown {
 public:
-    explicit Flown(const Settings& settings)
+    explicit Flown(const RunSettings& settings)
         : session_(
               settings,
               ui::flight::Shows::World,
@@ -69,7 +69,7 @@ public:
         return session_.draw_at(time_s, time_s + step_s);
     }
 
-    void apply(const Settings& settings) {
+    void apply(const RunSettings& settings) {
         log_->calls.clear();
         session_.apply(settings);
     }
@@ -103,15 +103,15 @@ void check_same_pictures(Flown& a, Flown& b) {
 
 /// After a refused change of settings a session draws what one draws that was never asked.
 void check_refused(
-    const Settings& begun,
-    const std::function<void(Settings&)>& change,
+    const RunSettings& begun,
+    const std::function<void(RunSettings&)>& change,
     const std::string& refused_call,
     const std::vector<std::string>& calls) {
     Flown asked(begun);
     Flown never_asked(begun);
     asked.picture();
     never_asked.picture();
-    Settings changed = begun;
+    RunSettings changed = begun;
     change(changed);
     asked.log().refuses = refused_call;
     CHECK_THROWS_AS(asked.apply(changed), Error);
@@ -129,7 +129,7 @@ TEST_CASE("what only a recording goes by changes nothing of a flight that goes o
     Flown unchanged(small_settings());
     changed.picture();
     unchanged.picture();
-    Settings settings = small_settings();
+    RunSettings settings = small_settings();
     settings.time.rate_hz = 30.0;
     settings.time.frames = 7;
     settings.time.pictures = 2;
@@ -143,7 +143,7 @@ TEST_CASE("what only a recording goes by changes nothing of a flight that goes o
 TEST_CASE("settings that contradict each other or cannot be loaded leave a session as it was") {
     check_refused(
         small_settings(),
-        [](Settings& settings) {
+        [](RunSettings& settings) {
             settings.view.size_px = {32, 32};
         },
         "resize",
@@ -152,7 +152,7 @@ TEST_CASE("settings that contradict each other or cannot be loaded leave a sessi
     Flown never_asked(small_settings());
     asked.picture();
     never_asked.picture();
-    Settings wrong = small_settings();
+    RunSettings wrong = small_settings();
     wrong.ground.mesh = scene::GroundMetric::Midpoint;
     wrong.ground.error_px = 1.0;
     CHECK_THROWS_AS(asked.apply(wrong), Error);
@@ -164,7 +164,7 @@ TEST_CASE("settings that contradict each other or cannot be loaded leave a sessi
 }
 
 TEST_CASE("a texture that the renderer has no memory for leaves a session as it was") {
-    const auto texture_and_size = [](Settings& settings) {
+    const auto texture_and_size = [](RunSettings& settings) {
         settings.air.ground_shading = scene::GroundShading::Texture;
         settings.view.size_px = {32, 32};
     };
@@ -173,11 +173,11 @@ TEST_CASE("a texture that the renderer has no memory for leaves a session as it 
 }
 
 TEST_CASE("a texture in other colours that is refused leaves a session with the one it had") {
-    Settings textured = small_settings();
+    RunSettings textured = small_settings();
     textured.air.ground_shading = scene::GroundShading::Texture;
     check_refused(
         textured,
-        [](Settings& settings) { settings.air.palette = scene::Palette::Arid; },
+        [](RunSettings& settings) { settings.air.palette = scene::Palette::Arid; },
         "texture",
         {"resize 64x48", "texture", "resize 64x48"});
 }
@@ -185,7 +185,7 @@ TEST_CASE("a texture in other colours that is refused leaves a session with the 
 TEST_CASE("another world is loaded into the renderer once its ground has gone there") {
     Flown flown(small_settings());
     flown.picture();
-    Settings settings = small_settings();
+    RunSettings settings = small_settings();
     settings.air.ground_shading = scene::GroundShading::Texture;
     settings.path.aircraft = {"f15", "f15"};
     flown.apply(settings);
@@ -194,12 +194,12 @@ TEST_CASE("another world is loaded into the renderer once its ground has gone th
 }
 
 TEST_CASE("a change while ground is meshed ahead gives the pictures of ground meshed in time") {
-    Settings ahead = small_settings();
-    Settings in_time = small_settings();
+    RunSettings ahead = small_settings();
+    RunSettings in_time = small_settings();
     in_time.ground.mesh_ahead = false;
     Flown a(ahead);
     Flown b(in_time);
-    const auto change = [&](const std::function<void(Settings&)>& by) {
+    const auto change = [&](const std::function<void(RunSettings&)>& by) {
         by(ahead);
         by(in_time);
         a.apply(ahead);
@@ -212,21 +212,21 @@ TEST_CASE("a change while ground is meshed ahead gives the pictures of ground me
     b.picture();
     REQUIRE(a.last_ground() == b.last_ground());
     const std::uint64_t before = a.last_ground();
-    change([](Settings& settings) { settings.air.sun_azimuth_deg = 90.0; });
+    change([](RunSettings& settings) { settings.air.sun_azimuth_deg = 90.0; });
     CHECK(a.last_ground() != before);
-    change([](Settings& settings) { settings.air.palette = scene::Palette::Arid; });
-    change([](Settings& settings) { settings.view.size_px = {128, 96}; });
-    change([](Settings& settings) { settings.ground.error_px = 2.0; });
-    change([](Settings& settings) { settings.view.inset = scene::View::Tower; });
-    change([](Settings& settings) { settings.air.sun_elevation_deg = 60.0; });
-    change([](Settings& settings) {
+    change([](RunSettings& settings) { settings.air.palette = scene::Palette::Arid; });
+    change([](RunSettings& settings) { settings.view.size_px = {128, 96}; });
+    change([](RunSettings& settings) { settings.ground.error_px = 2.0; });
+    change([](RunSettings& settings) { settings.view.inset = scene::View::Tower; });
+    change([](RunSettings& settings) { settings.air.sun_elevation_deg = 60.0; });
+    change([](RunSettings& settings) {
         settings.ground.mesh = scene::GroundMetric::Midpoint;
         settings.ground.error_px.reset();
     });
 }
 
 TEST_CASE("ground in another light has the colours of ground that was loaded so") {
-    Settings settings = small_settings();
+    RunSettings settings = small_settings();
     Flown relit(settings);
     relit.picture();
     settings.air.sun_azimuth_deg = 100.0;

@@ -18,8 +18,8 @@
 #include <vector>
 
 using namespace octant;
+using ui::settings::RunSettings;
 using ui::settings::SettingInfo;
-using ui::settings::Settings;
 using ui::settings::SettingsChange;
 
 namespace {
@@ -88,10 +88,10 @@ std::filesystem::path written(const nlohmann::ordered_json& json) {
 } // namespace
 
 TEST_CASE("each row alone makes the file entry of its setting, and the file gives it back") {
-    const auto before = ui::settings::settings_json(Settings());
+    const auto before = ui::settings::settings_json(RunSettings());
     ui::settings::visit_rows([&](const auto& row) {
         CAPTURE(row.name);
-        Settings changed;
+        RunSettings changed;
         row.of(changed) = other_value(row, row.of(changed));
         const auto after = ui::settings::settings_json(changed);
         for (const auto& [key, value] : after.items()) {
@@ -104,17 +104,17 @@ TEST_CASE("each row alone makes the file entry of its setting, and the file give
 TEST_CASE("each row alone says what a change of its setting makes anew") {
     ui::settings::visit_rows([](const auto& row) {
         CAPTURE(row.name);
-        Settings changed;
+        RunSettings changed;
         row.of(changed) = other_value(row, row.of(changed));
         CHECK(row.change != SettingsChange::None);
-        CHECK(ui::settings::change_between(Settings(), changed) == row.change);
+        CHECK(ui::settings::change_between(RunSettings(), changed) == row.change);
         CHECK(ui::settings::change_between(changed, changed) == SettingsChange::None);
     });
 }
 
 TEST_CASE("each row has a name of its own, a meaning, and limits that hold its default") {
     std::set<std::string_view> names;
-    const Settings defaults;
+    const RunSettings defaults;
     ui::settings::visit_settings(
         defaults, [&]<class Value>(const SettingInfo& info, const Value& value) {
             CAPTURE(info.name);

@@ -4,13 +4,13 @@
 
 using namespace octant;
 using ui::settings::change_between;
-using ui::settings::Settings;
+using ui::settings::RunSettings;
 using ui::settings::SettingsChange;
 
 TEST_CASE("a change of settings costs what has to be made anew for it") {
-    const Settings before;
+    const RunSettings before;
     CHECK(change_between(before, before) == SettingsChange::None);
-    Settings after = before;
+    RunSettings after = before;
     after.time.rate_hz = 30.0;
     CHECK(change_between(before, after) == SettingsChange::Recording);
     after.view.azimuth_deg = 10.0;

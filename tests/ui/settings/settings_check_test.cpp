@@ -7,22 +7,22 @@
 
 using namespace octant;
 namespace scene = visuals::scene;
-using ui::settings::Settings;
+using ui::settings::RunSettings;
 
 namespace {
 
-void check_refused(const Settings& settings, const std::string& message) {
+void check_refused(const RunSettings& settings, const std::string& message) {
     CHECK_THROWS_WITH(ui::settings::check_settings(settings), message);
 }
 
 } // namespace
 
 TEST_CASE("the defaults contradict nothing") {
-    CHECK_NOTHROW(ui::settings::check_settings(Settings()));
+    CHECK_NOTHROW(ui::settings::check_settings(RunSettings()));
 }
 
 TEST_CASE("only the numbers of samples that renderers offer are taken") {
-    Settings settings;
+    RunSettings settings;
     settings.view.samples = 4;
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.view.samples = 2;
@@ -30,7 +30,7 @@ TEST_CASE("only the numbers of samples that renderers offer are taken") {
 }
 
 TEST_CASE("eye points are refused where the view does not take them") {
-    Settings settings;
+    RunSettings settings;
     settings.view.eye_m = glm::dvec3(1.0, 2.0, 3.0);
     check_refused(settings, "--eye: expected --view tower or free beside it, got another view");
     settings.view.kind = scene::View::Tower;
@@ -45,13 +45,13 @@ TEST_CASE("eye points are refused where the view does not take them") {
 }
 
 TEST_CASE("a free inset needs the free view") {
-    Settings settings;
+    RunSettings settings;
     settings.view.inset = scene::View::Free;
     check_refused(settings, "--inset free: expected --view free beside it, got another view");
 }
 
 TEST_CASE("a share of smooth polygons needs hybrid shading, and its distances their order") {
-    Settings settings;
+    RunSettings settings;
     settings.shading.kind = scene::AircraftShading::Flat;
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.shading.smooth_share = 0.5;
@@ -66,7 +66,7 @@ TEST_CASE("a share of smooth polygons needs hybrid shading, and its distances th
 }
 
 TEST_CASE("terrain follows the frame time only where its triangles are counted") {
-    Settings settings;
+    RunSettings settings;
     settings.adapt.terrain = true;
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.path.terrain = "none";
@@ -77,7 +77,7 @@ TEST_CASE("terrain follows the frame time only where its triangles are counted")
 }
 
 TEST_CASE("the screen error is refused beside what only the quadtree has") {
-    Settings settings;
+    RunSettings settings;
     settings.ground.mesh = scene::GroundMetric::Midpoint;
     settings.ground.error_px = 1.0;
     check_refused(
@@ -92,7 +92,7 @@ TEST_CASE("the screen error is refused beside what only the quadtree has") {
 }
 
 TEST_CASE("a texture needs ground with heights, and a drape ground that is lit at each pixel") {
-    Settings settings;
+    RunSettings settings;
     settings.air.drape = "map.png";
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.air.ground_shading = scene::GroundShading::Vertex;

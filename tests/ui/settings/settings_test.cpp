@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 using namespace octant;
-using ui::settings::Settings;
+using ui::settings::RunSettings;
 
 namespace {
 
@@ -21,7 +21,7 @@ std::filesystem::path settings_file(const std::string& text) {
 } // namespace
 
 TEST_CASE("settings survive the way to a file and back") {
-    Settings settings;
+    RunSettings settings;
     settings.path.aircraft = {"500md", "f15"};
     settings.path.heading_deg = 0.1 + 0.2;
     settings.view.eye_m = glm::dvec3(1.5, -2.25, 1e-3);
@@ -40,13 +40,13 @@ TEST_CASE("settings survive the way to a file and back") {
     CHECK(
         ui::settings::read_settings(settings_file(json.dump())).path.heading_deg ==
         settings.path.heading_deg);
-    CHECK_FALSE(ui::settings::settings_json(Settings{}) == json);
+    CHECK_FALSE(ui::settings::settings_json(RunSettings{}) == json);
 }
 
 TEST_CASE("a missing key keeps its default and a wrong one is refused with its line") {
     CHECK(
         ui::settings::read_settings(settings_file("{}")).ground.triangles ==
-        Settings{}.ground.triangles);
+        RunSettings{}.ground.triangles);
     const auto expect = [](const std::string& text, const std::string& message) {
         const auto path = settings_file(text);
         CHECK_THROWS_WITH(ui::settings::read_settings(path), path.string() + message);
@@ -62,7 +62,7 @@ TEST_CASE("a missing key keeps its default and a wrong one is refused with its l
     expect("{\n\"samples\": 2}", ":2: samples: expected 1 or 4, got 2");
     CHECK(
         ui::settings::read_settings(settings_file("{\"adapt\": \"none\"}")).adapt ==
-        Settings{}.adapt);
+        RunSettings{}.adapt);
     expect(
         "{\"adapt\": \"terrain,sound\"}",
         ":1: adapt: expected none or a list of terrain, shading, got 'terrain,sound'");

@@ -7,15 +7,15 @@ namespace octant::tests {
 
 namespace fs = std::filesystem;
 
-ui::settings::Settings small_flight() {
-    ui::settings::Settings settings;
+ui::settings::RunSettings small_flight() {
+    ui::settings::RunSettings settings;
     settings.view.size_px = {480, 360};
     settings.ground.triangles = 2000;
     settings.path.terrain = "hills";
     return settings;
 }
 
-std::unique_ptr<DrivenViewer> DrivenViewer::open(const ui::settings::Settings& settings) {
+std::unique_ptr<DrivenViewer> DrivenViewer::open(const ui::settings::RunSettings& settings) {
     std::unique_ptr<VirtualDisplay> display = VirtualDisplay::start();
     if (!display) {
         std::puts("SKIPPED: Xvfb is not installed");
@@ -25,7 +25,7 @@ std::unique_ptr<DrivenViewer> DrivenViewer::open(const ui::settings::Settings& s
 }
 
 DrivenViewer::DrivenViewer(
-    std::unique_ptr<VirtualDisplay> display, const ui::settings::Settings& settings)
+    std::unique_ptr<VirtualDisplay> display, const ui::settings::RunSettings& settings)
     : display_(std::move(display))
     , folder_(fs::temp_directory_path() / ("octant-window-" + std::to_string(getpid()))) {
     fs::create_directories(folder_);

@@ -14,13 +14,13 @@ namespace octant::tests {
 class DrivenViewer {
 public:
     /// Nothing, and a line that says so, where no display can be started.
-    static std::unique_ptr<DrivenViewer> open(const ui::settings::Settings& settings);
+    static std::unique_ptr<DrivenViewer> open(const ui::settings::RunSettings& settings);
 
     ui::window::Viewer& viewer() { return *viewer_; }
 
     ui::window::ViewState& state() { return viewer_->state(); }
 
-    const ui::settings::Settings& settings() { return viewer_->session().settings(); }
+    const ui::settings::RunSettings& settings() { return viewer_->session().settings(); }
 
     VirtualDisplay& display() { return *display_; }
 
@@ -51,7 +51,8 @@ public:
     DrivenViewer& operator=(DrivenViewer&&) = delete;
 
 private:
-    DrivenViewer(std::unique_ptr<VirtualDisplay> display, const ui::settings::Settings& settings);
+    DrivenViewer(
+        std::unique_ptr<VirtualDisplay> display, const ui::settings::RunSettings& settings);
 
     std::unique_ptr<VirtualDisplay> display_;
     std::filesystem::path folder_;
@@ -59,6 +60,6 @@ private:
 };
 
 /// A small, quick flight over hills.
-ui::settings::Settings small_flight();
+ui::settings::RunSettings small_flight();
 
 } // namespace octant::tests

@@ -14,7 +14,7 @@
 
 using namespace octant;
 using namespace octant::tests;
-using ui::settings::Settings;
+using ui::settings::RunSettings;
 namespace fs = std::filesystem;
 
 namespace {
@@ -26,7 +26,7 @@ nlohmann::json run_of(const fs::path& folder) {
 
 /// State hash of what a recording's settings fly without a window.
 std::string flown_again(const fs::path& folder) {
-    Settings settings = ui::settings::read_settings(folder / "run.json");
+    RunSettings settings = ui::settings::read_settings(folder / "run.json");
     settings.view.size_px = {64, 48};
     settings.ground.triangles = 500;
     ui::flight::Session session(settings);
@@ -71,7 +71,7 @@ TEST_CASE("a path is scrubbed by its keys, faster and slower, and begins anew at
 
 TEST_CASE(
     "a flight by hand leaves trim, turns where the stick goes, and its recording repeats it") {
-    Settings settings = small_flight();
+    RunSettings settings = small_flight();
     const auto driven = DrivenViewer::open(settings);
     if (!driven) {
         return;

@@ -75,7 +75,7 @@ TEST_CASE("every setting is to be found in one of the groups of the settings pan
             CAPTURE(info.name);
             CHECK(contains(texts, info.name));
         });
-    CHECK(state.wanted == ui::settings::Settings{});
+    CHECK(state.wanted == ui::settings::RunSettings{});
     state.open.settings = true;
     const std::string titles = gui.texts([&] { ui::window::settings_panel(state); });
     for (const auto& [group, headline] : groups) {
@@ -85,7 +85,7 @@ TEST_CASE("every setting is to be found in one of the groups of the settings pan
 
 TEST_CASE("only the settings that are asked for are shown, in that order") {
     HeadlessGui gui;
-    ui::settings::Settings settings;
+    ui::settings::RunSettings settings;
     constexpr std::array<std::string_view, 2> names{"visibility", "sky"};
     const std::string texts = gui.texts([&] { ui::window::edit_settings(settings, names); });
     CHECK(texts.find("visibility") < texts.find("sky"));
@@ -95,7 +95,7 @@ TEST_CASE("only the settings that are asked for are shown, in that order") {
 
 TEST_CASE("a check mark changes its setting, and one beside a number sets and unsets it") {
     HeadlessGui gui;
-    ui::settings::Settings settings;
+    ui::settings::RunSettings settings;
     const auto widgets = [&](std::string_view name) {
         return [&settings, name] {
             const std::array names{name};

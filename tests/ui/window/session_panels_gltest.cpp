@@ -14,8 +14,8 @@ using ui::window::ViewState;
 
 namespace {
 
-ui::settings::Settings small_settings() {
-    ui::settings::Settings settings;
+ui::settings::RunSettings small_settings() {
+    ui::settings::RunSettings settings;
     settings.path.terrain = "none";
     settings.view.size_px = {64, 64};
     settings.path.heading_deg = 0.0;

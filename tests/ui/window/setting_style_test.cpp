@@ -7,8 +7,8 @@
 #include <type_traits>
 
 using namespace octant;
+using ui::settings::RunSettings;
 using ui::settings::SettingInfo;
-using ui::settings::Settings;
 using ui::window::NumberStyle;
 
 namespace {
@@ -16,7 +16,7 @@ namespace {
 /// What the list of settings says of one.
 SettingInfo info_of(std::string_view name) {
     SettingInfo found{};
-    Settings settings;
+    RunSettings settings;
     ui::settings::visit_settings(settings, [&](const SettingInfo& info, const auto&) {
         if (info.name == name) {
             found = info;
@@ -53,7 +53,7 @@ TEST_CASE("numbers that load the world anew wait for Enter") {
 }
 
 TEST_CASE("optional numbers begin within their bounds") {
-    Settings settings;
+    RunSettings settings;
     ui::settings::visit_settings(settings, [](const SettingInfo& info, const auto& value) {
         if constexpr (OptionalNumber<std::decay_t<decltype(value)>>::value) {
             CAPTURE(info.name);

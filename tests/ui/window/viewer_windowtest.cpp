@@ -17,7 +17,7 @@
 
 using namespace octant;
 using namespace octant::tests;
-using ui::settings::Settings;
+using ui::settings::RunSettings;
 using visuals::scene::View;
 
 namespace {
@@ -110,7 +110,7 @@ TEST_CASE("the window's picture is that of a flight without a window") {
     driven->strike("space");
     driven->strike("Home");
     driven->turns(3);
-    Settings settings = driven->settings();
+    RunSettings settings = driven->settings();
     settings.drawing.context = ui::settings::ContextKind::OsMesa;
     const visuals::scene::Picture shown = driven->picture();
     ui::flight::Session session(settings);
@@ -184,7 +184,7 @@ TEST_CASE("each panel opens by its key and is seen in the window") {
 }
 
 TEST_CASE("a click on the flight panel's button pauses the flight") {
-    Settings settings = small_flight();
+    RunSettings settings = small_flight();
     settings.view.size_px = {1000, 700};
     const auto driven = DrivenViewer::open(settings);
     if (!driven) {

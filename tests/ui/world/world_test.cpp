@@ -17,7 +17,7 @@
 #include <vector>
 
 using namespace octant;
-using ui::settings::Settings;
+using ui::settings::RunSettings;
 using ui::world::DrawnBy;
 
 namespace {
@@ -37,8 +37,8 @@ std::string rolling_ground() {
     return file.string();
 }
 
-Settings over(const std::string& terrain) {
-    Settings settings;
+RunSettings over(const std::string& terrain) {
+    RunSettings settings;
     settings.path.terrain = terrain;
     return settings;
 }
@@ -47,7 +47,7 @@ Settings over(const std::string& terrain) {
 
 TEST_CASE(
     "a world has each model once, however many aircraft fly it, and the first one's cockpit") {
-    Settings settings = over("none");
+    RunSettings settings = over("none");
     settings.path.aircraft = {"500md", "f15", "500md"};
     const ui::world::World world = ui::world::load_world(settings);
     CHECK(world.scene.aircraft == std::vector<std::uint32_t>{0, 1, 0});
@@ -61,7 +61,7 @@ TEST_CASE(
 TEST_CASE("a file is no known aircraft because of its name, and says whose path it borrows") {
     const std::filesystem::path file = tests::scratch_folder() / "f15.obj";
     write_file(file, "v 0 0 -4\nv 2 0 4\nv -2 0 4\nv 0 1 4\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
-    Settings settings = over("none");
+    RunSettings settings = over("none");
     settings.path.aircraft = {file.string()};
     const ui::world::World world = ui::world::load_world(settings);
     CHECK(world.leader_kind == nullptr);
@@ -82,7 +82,7 @@ TEST_CASE("a path file of an unknown aircraft is refused with its line") {
         "title = \"a kite\"\naircraft = \"kite\"\nrate_hz = 20\nsamples = 20\n"
         "min_clearance_m = 5\n[start]\nnorth_m = 0\neast_m = 0\nheight_m = 100\n"
         "heading_deg = 0\nspeed_mps = 100\n[[leg]]\nfly = \"straight\"\nduration_s = 1\n");
-    Settings settings = over("none");
+    RunSettings settings = over("none");
     settings.path.name = file.string();
     CHECK_THROWS_WITH(
         ui::world::load_world(settings),
@@ -106,16 +106,16 @@ TEST_CASE("a path is laid over ground from a file with the clearance that it ask
 
 TEST_CASE("what cannot be loaded is said before anything is flown") {
     CHECK_THROWS_AS(ui::world::load_world(over("no-such-ground.tif")), Error);
-    Settings settings = over("none");
+    RunSettings settings = over("none");
     settings.path.aircraft = {"no-such-aircraft"};
     CHECK_THROWS_AS(ui::world::load_world(settings), Error);
-    Settings off_the_map = over(rolling_ground());
+    RunSettings off_the_map = over(rolling_ground());
     off_the_map.path.place = "12000,12000";
     CHECK_THROWS_AS(ui::world::load_world(off_the_map), Error);
 }
 
 TEST_CASE("a ground is loaded with what is to be said of it, and textured where that is asked") {
-    Settings settings = over(rolling_ground());
+    RunSettings settings = over(rolling_ground());
     const ui::world::SceneGround bare = ui::world::load_scene_ground(settings, DrawnBy::Processor);
     CHECK(bare.texture == nullptr);
     CHECK(bare.notes.empty());
@@ -130,7 +130,7 @@ TEST_CASE("a ground is loaded with what is to be said of it, and textured where 
 }
 
 TEST_CASE("pictures are taken at the path's samples or at a rate, as long as is asked for") {
-    Settings settings = over("none");
+    RunSettings settings = over("none");
     const ui::world::Flight flight = ui::world::load_world(settings).flight;
     settings.time.seconds = 2.0;
     CHECK(ui::world::picture_times_of(settings, flight).at_s.size() == 121);

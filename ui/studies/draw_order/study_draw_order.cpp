@@ -35,7 +35,7 @@ constexpr std::array paper_rows = {
 /// An aircraft on an orbit around it, without sky and ground.
 Race race_alone(const char* aircraft, bool quiet) {
     constexpr int frames = 200;
-    settings::Settings settings;
+    settings::RunSettings settings;
     settings.path.aircraft = {aircraft};
     settings.path.terrain = "none";
     settings.view.kind = scene::View::Orbit;

@@ -64,9 +64,9 @@ struct Measured {
     std::array<double, drawn_by.size()> median_ms{};
 };
 
-settings::Settings
+settings::RunSettings
 settings_of(const PrintedTime& row, const StudyOptions& options, scene::HiddenSurface method) {
-    settings::Settings settings;
+    settings::RunSettings settings;
     settings.view.size_px = options.settings.view.size_px;
     settings.view.samples = options.settings.view.samples;
     settings.drawing.context = options.settings.drawing.context;

@@ -8,8 +8,8 @@ namespace octant::ui::studies::draw_order {
 
 struct StudyOptions {
     std::filesystem::path out;
-    settings::Settings settings; ///< size, samples and context are taken from it
-    bool json = false;           ///< print the tables as JSON instead of Markdown
+    settings::RunSettings settings; ///< size, samples and context are taken from it
+    bool json = false;              ///< print the tables as JSON instead of Markdown
     bool quiet = false;
 };
 

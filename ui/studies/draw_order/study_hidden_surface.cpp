@@ -40,7 +40,7 @@ std::vector<Race> run_races(const HiddenSurfaceStudy& study) {
         for (const std::string& terrain :
              {std::string("background60"), study.settings.path.terrain}) {
             for (const std::size_t aircraft : {1U, 16U, 100U, 1000U}) {
-                settings::Settings settings = study.settings;
+                settings::RunSettings settings = study.settings;
                 settings.path.name = "straight";
                 settings.path.terrain = terrain;
                 settings.path.aircraft.assign(aircraft, "f15");
@@ -103,7 +103,7 @@ std::vector<Compared> run_comparisons(const HiddenSurfaceStudy& study) {
     for (const char* path : paths) {
         for (const char* aircraft : aircraft_names) {
             for (std::size_t v = 0; v < views.size(); ++v) {
-                settings::Settings settings = study.settings;
+                settings::RunSettings settings = study.settings;
                 settings.path.name = path;
                 settings.path.aircraft = {aircraft};
                 settings.view.kind = views[v];

@@ -8,9 +8,9 @@ namespace octant::ui::studies::draw_order {
 
 struct HiddenSurfaceStudy {
     std::filesystem::path out;
-    settings::Settings settings; ///< terrain, triangles and context are taken from it
-    bool race = true;            ///< frames a second of the three ways
-    bool pictures = true;        ///< polygon numbers against the depth buffer
+    settings::RunSettings settings; ///< terrain, triangles and context are taken from it
+    bool race = true;               ///< frames a second of the three ways
+    bool pictures = true;           ///< polygon numbers against the depth buffer
     int race_frames = 200;
     int every = 10; ///< every Nth frame is compared
     bool json = false;

@@ -25,12 +25,12 @@ RacedWay figures_of(const std::vector<double>& frame_ms, std::vector<int> draw_c
 
 } // namespace
 
-Race race(const settings::Settings& settings, int frames, bool quiet) {
+Race race(const settings::RunSettings& settings, int frames, bool quiet) {
     std::array<std::unique_ptr<flight::Session>, raced_ways.size()> sessions;
     std::array<std::vector<double>, raced_ways.size()> frame_ms;
     std::array<std::vector<int>, raced_ways.size()> draw_calls;
     for (std::size_t way = 0; way < raced_ways.size(); ++way) {
-        settings::Settings own = settings;
+        settings::RunSettings own = settings;
         own.surface.hidden_surface = raced_ways[way];
         own.time.frames = frames + warm_up_frames;
         sessions[way] = std::make_unique<flight::Session>(own);

@@ -36,6 +36,6 @@ struct Race {
 };
 
 /// Races the three ways over `frames` frames of a run after a warm-up. Throws Error.
-Race race(const settings::Settings& settings, int frames, bool quiet);
+Race race(const settings::RunSettings& settings, int frames, bool quiet);
 
 } // namespace octant::ui::studies::draw_order

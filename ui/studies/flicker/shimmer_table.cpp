@@ -48,12 +48,12 @@ void add_change(report::HtmlTable& table, const std::string& path, const Change&
 
 Change shimmer_along(
     const ShimmerOptions& options,
-    const settings::Settings& flown,
+    const settings::RunSettings& flown,
     const terrain::GroundSamples& ground) {
     const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(flown);
     std::array<std::unique_ptr<flight::Session>, samplings.size()> sessions;
     for (std::size_t k = 0; k < samplings.size(); ++k) {
-        settings::Settings settings = flown;
+        settings::RunSettings settings = flown;
         settings.view.samples = samplings[k].samples;
         settings.ground.geomorphs = samplings[k].geomorphs;
         sessions[k] = std::make_unique<flight::Session>(settings);
@@ -97,7 +97,7 @@ report::HtmlTable shimmer_table(const ShimmerOptions& options) {
         "4 samples, geomorphs"};
     Change all;
     for (const std::string& path : base::built_in_paths()) {
-        settings::Settings settings = options.settings;
+        settings::RunSettings settings = options.settings;
         settings.path.name = path;
         settings.surface.shadows = false;
         settings.ground.mesh = scene::GroundMetric::ScreenError;

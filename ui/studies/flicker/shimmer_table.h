@@ -7,8 +7,8 @@ namespace octant::ui::studies::flicker {
 
 /// How shimmer is measured.
 struct ShimmerOptions {
-    settings::Settings settings; ///< terrain, size, triangles, error_px, rate, frames, ...
-    int every = 60;              ///< a pair of consecutive frames in so many
+    settings::RunSettings settings; ///< terrain, size, triangles, error_px, rate, frames, ...
+    int every = 60;                 ///< a pair of consecutive frames in so many
     bool quiet = false;
 };
 

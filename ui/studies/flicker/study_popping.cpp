@@ -49,7 +49,7 @@ struct Jumps {
 };
 
 ui::terrain::GroundMeshOptions
-mesh_options(const settings::Settings& settings, const Meshing& way) {
+mesh_options(const settings::RunSettings& settings, const Meshing& way) {
     constexpr double default_error_px = 0.25; // as Settings::error_px
     ui::terrain::GroundMeshOptions options;
     options.mesh = way.mesh;
@@ -61,7 +61,7 @@ mesh_options(const settings::Settings& settings, const Meshing& way) {
 
 Jumps jumps_along(
     ui::terrain::MeshMaker& maker,
-    const settings::Settings& settings,
+    const settings::RunSettings& settings,
     const std::vector<flight::FlightCamera>& cameras) {
     ui::terrain::GroundViewOptions seen;
     seen.size_px = settings.view.size_px;
@@ -115,7 +115,7 @@ report::HtmlTable popping_table(const PoppingStudyOptions& options) {
     table.header = {"path", "mesh", "frames", "maximum px", "in frame", "99.9 % px", "median px"};
     std::array<Jumps, meshings.size()> all;
     for (const std::string& path : base::built_in_paths()) {
-        settings::Settings settings = options.settings;
+        settings::RunSettings settings = options.settings;
         settings.path.name = path;
         const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(settings);
         base::say(options.quiet, fmt::format("{}: {} frames", path, cameras.size()));

@@ -8,7 +8,7 @@ namespace octant::ui::studies::flicker {
 
 struct PoppingStudyOptions {
     std::filesystem::path out;
-    settings::Settings settings; ///< terrain, size, triangles, error_px, rate, frames, ...
+    settings::RunSettings settings; ///< terrain, size, triangles, error_px, rate, frames, ...
     bool shimmer = false;
     int every = 60; ///< shimmer: a pair of frames in so many
     bool json = false;

@@ -34,8 +34,8 @@ constexpr std::array ways{
     Way{"hybrid, 50 %", scene::AircraftShading::Hybrid, 0.5},
     Way{"Gouraud", scene::AircraftShading::Gouraud}};
 
-settings::Settings settings_of(const std::string& aircraft, const Way& way) {
-    settings::Settings settings;
+settings::RunSettings settings_of(const std::string& aircraft, const Way& way) {
+    settings::RunSettings settings;
     settings.path.name = "turn";
     settings.view.kind = scene::View::Orbit; // so that the choice changes
     settings.path.terrain = "none";
