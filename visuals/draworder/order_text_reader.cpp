@@ -3,10 +3,8 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "visuals/draworder/order_text.h"
+#include "visuals/draworder/order_words.h"
 
-#include <glm/geometric.hpp>
-
-#include <cmath>
 #include <fmt/format.h>
 #include <set>
 #include <string_view>
@@ -16,8 +14,6 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-constexpr double largest_number = 1e12;
-constexpr double least_length = 1e-12; ///< A normal or direction must be longer than this.
 constexpr long most_planes = 1000;
 constexpr long most_directions = 64;
 constexpr std::size_t most_cells = 1'000'000;
@@ -31,6 +27,7 @@ public:
         const models::polygons::FileAxes& axes)
         : path_(path)
         , axes_(axes)
+        , words_(path, axes)
         , used_(faces) {
         orders_.faces = faces;
     }
@@ -38,10 +35,8 @@ public:
     CellOrders read() {
         const std::string text = read_text_file(path_);
         for (const std::string_view line : split_lines(text)) {
-            ++line_;
-            words_ = split_words(line.substr(0, line.find('#')));
-            at_ = 0;
-            if (!words_.empty()) {
+            words_.begin_line(line);
+            if (words_.has_more()) {
                 take();
             }
         }
@@ -58,69 +53,19 @@ public:
     }
 
 private:
-    /// Throws Error about the word at hand.
-    [[noreturn]] void refuse(const std::string& expected) const {
-        const std::string got =
-            at_ < words_.size() ? fmt::format("'{}'", printable(std::string(words_[at_]))) : "none";
-        error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
-    }
-
-    bool next_is(std::string_view word) const { return at_ < words_.size() && words_[at_] == word; }
-
-    bool skip(std::string_view word) {
-        const bool there = next_is(word);
-        at_ += there ? 1 : 0;
-        return there;
-    }
-
-    double number(const char* what) {
-        const auto value = at_ < words_.size() ? finite_number(words_[at_]) : std::nullopt;
-        if (!value || std::abs(*value) > largest_number) {
-            refuse(fmt::format("{} (a number within {:g})", what, largest_number));
-        }
-        ++at_;
-        return *value;
-    }
-
-    glm::dvec3 vector(const char* what) {
-        const double x = number(what);
-        const double y = number(what);
-        const double z = number(what);
-        return axes_.body_from_file({x, y, z});
-    }
-
-    /// A vector that must not be zero.
-    glm::dvec3 long_vector(const char* what) {
-        const glm::dvec3 v = vector(what);
-        if (glm::length(v) < least_length) {
-            --at_;
-            refuse(fmt::format("{} with a length", what));
-        }
-        return v;
-    }
-
-    long count(const char* what, long least, long most) {
-        const auto value = at_ < words_.size() ? whole_number(words_[at_]) : std::nullopt;
-        if (!value || *value < least || *value > most) {
-            refuse(fmt::format("{} ({} to {})", what, least, most));
-        }
-        ++at_;
-        return *value;
-    }
-
     std::uint32_t face() {
         const long last = static_cast<long>(orders_.faces) - 1;
-        return static_cast<std::uint32_t>(count("a polygon of the model", 0, last));
+        return static_cast<std::uint32_t>(words_.count("a polygon of the model", 0, last));
     }
 
     /// The polygons up to the end of the line, none of them twice.
     std::vector<std::uint32_t> different_faces() {
         std::vector<std::uint32_t> list;
-        while (at_ < words_.size()) {
+        while (words_.has_more()) {
             const std::uint32_t polygon = face();
             if (used_[polygon]) {
-                --at_;
-                refuse("each polygon once");
+                words_.back();
+                words_.refuse("each polygon once");
             }
             used_[polygon] = true;
             list.push_back(polygon);
@@ -132,10 +77,10 @@ private:
     }
 
     void take() {
-        const std::string keyword(words_[0]);
+        const std::string keyword(words_.here());
         if (seen_.empty()) {
-            if (keyword != "draworder" || words_.size() != 2 || words_[1] != "1") {
-                refuse("'draworder 1' first");
+            if (words_.line() != "draworder 1") {
+                words_.refuse("'draworder 1' first");
             }
             seen_.insert(keyword);
             return;
@@ -143,31 +88,31 @@ private:
         if (keyword != "center" && keyword != "metric" && keyword != "faces" &&
             keyword != "twosided" && keyword != "parents" && keyword != "cell" &&
             keyword != "list" && keyword != "node") {
-            refuse("center, metric, faces, twosided, parents, cell, list or node");
+            words_.refuse("center, metric, faces, twosided, parents, cell, list or node");
         }
         const bool is_part = keyword == "list" || keyword == "node";
         if (is_part ? !orders_.cells.empty() : keyword == "cell" && !lists_.empty()) {
-            refuse("either cells or parts");
+            words_.refuse("either cells or parts");
         }
         if (!is_part && keyword != "cell" &&
             (!seen_.insert(keyword).second || !orders_.cells.empty())) {
-            refuse("each keyword once and before the cells");
+            words_.refuse("each keyword once and before the cells");
         }
-        ++at_;
+        words_.step();
         take(keyword);
-        if (at_ < words_.size()) {
-            refuse("the end of the line");
+        if (words_.has_more()) {
+            words_.refuse("the end of the line");
         }
     }
 
     void take(const std::string& keyword) {
         if (keyword == "center") {
-            orders_.centre_m = vector("the centre");
+            orders_.centre_m = words_.vector("the centre");
         } else if (keyword == "metric") {
             take_metric();
         } else if (keyword == "faces") {
             const long faces = static_cast<long>(orders_.faces);
-            count("as many faces as the model has", faces, faces);
+            words_.count("as many faces as the model has", faces, faces);
         } else if (keyword == "twosided") {
             orders_.two_sided = different_faces();
         } else if (keyword == "parents") {
@@ -175,7 +120,7 @@ private:
         } else if (keyword == "list") {
             need_faces();
             if (lists_.size() == most_cells) {
-                refuse(fmt::format("at most {} lists", most_cells));
+                words_.refuse(fmt::format("at most {} lists", most_cells));
             }
             lists_.push_back(different_faces());
         } else if (keyword == "node") {
@@ -188,22 +133,22 @@ private:
 
     void need_faces() {
         if (!seen_.contains("faces")) {
-            at_ = 0;
-            refuse("faces before the first cell or list");
+            words_.to_start();
+            words_.refuse("faces before the first cell or list");
         }
     }
 
     void take_node() {
         if (nodes_.size() == most_cells) {
-            refuse(fmt::format("at most {} nodes", most_cells));
+            words_.refuse(fmt::format("at most {} nodes", most_cells));
         }
         DrawOrder::Node node;
-        node.kind = skip("choice")     ? DrawOrder::Kind::Choice
-                    : skip("parting")  ? DrawOrder::Kind::Parting
-                    : skip("sequence") ? DrawOrder::Kind::Sequence
-                                       : throw_kind();
+        node.kind = words_.skip("choice")     ? DrawOrder::Kind::Choice
+                    : words_.skip("parting")  ? DrawOrder::Kind::Parting
+                    : words_.skip("sequence") ? DrawOrder::Kind::Sequence
+                                              : throw_kind();
         if (node.kind != DrawOrder::Kind::Sequence) {
-            node.plane = plane();
+            node.plane = words_.plane();
         }
         node.front = child();
         node.back = child();
@@ -214,22 +159,24 @@ private:
         nodes_.push_back(node);
     }
 
-    [[noreturn]] DrawOrder::Kind throw_kind() const { refuse("choice, parting or sequence"); }
+    [[noreturn]] DrawOrder::Kind throw_kind() const {
+        words_.refuse("choice, parting or sequence");
+    }
 
     /// A child as DrawOrder::Node has it. Whether a list is there is known only at the end.
     int child() {
-        if (skip("nothing")) {
+        if (words_.skip("nothing")) {
             return DrawOrder::nothing;
         }
         const auto most = static_cast<long>(most_cells);
-        if (skip("list")) {
-            return ~static_cast<int>(count("the number of a list", 0, most));
+        if (words_.skip("list")) {
+            return ~static_cast<int>(words_.count("the number of a list", 0, most));
         }
-        if (skip("node")) {
+        if (words_.skip("node")) {
             const auto later = static_cast<long>(nodes_.size()) + 1;
-            return static_cast<int>(count("the number of a later node", later, most));
+            return static_cast<int>(words_.count("the number of a later node", later, most));
         }
-        refuse("a child: node K, list K or nothing");
+        words_.refuse("a child: node K, list K or nothing");
     }
 
     /// Makes the order of the parts that were read.
@@ -262,108 +209,87 @@ private:
     }
 
     void take_metric() {
-        if (!next_is("l1") && !next_is("l2")) {
-            refuse("l1 or l2");
+        if (!words_.next_is("l1") && !words_.next_is("l2")) {
+            words_.refuse("l1 or l2");
         }
-        orders_.metric = next_is("l1") ? Metric::L1 : Metric::L2;
-        ++at_;
+        orders_.metric = words_.next_is("l1") ? Metric::L1 : Metric::L2;
+        words_.step();
     }
 
     void take_parents() {
         for (std::size_t i = 0; i < orders_.faces; ++i) {
-            orders_.parents.push_back(
-                static_cast<std::uint32_t>(count("a polygon of the whole model", 0, 999'999'999)));
+            orders_.parents.push_back(static_cast<std::uint32_t>(
+                words_.count("a polygon of the whole model", 0, 999'999'999)));
         }
     }
 
     void take_cell() {
         need_faces();
         if (orders_.cells.size() == most_cells) {
-            refuse(fmt::format("at most {} cells", most_cells));
+            words_.refuse(fmt::format("at most {} cells", most_cells));
         }
         ListedCell cell;
         take_region(cell);
-        if (skip("min")) {
-            cell.min_m = least_zero("the least distance");
+        if (words_.skip("min")) {
+            cell.min_m = words_.least_zero("the least distance");
         }
-        if (skip("max")) {
-            cell.max_m = least_zero("the greatest distance");
+        if (words_.skip("max")) {
+            cell.max_m = words_.least_zero("the greatest distance");
             if (cell.max_m <= cell.min_m) {
-                --at_;
-                refuse("a greatest distance above the least");
+                words_.back();
+                words_.refuse("a greatest distance above the least");
             }
         }
-        if (!skip("order")) {
-            refuse("min R, max R or order");
+        if (!words_.skip("order")) {
+            words_.refuse("min R, max R or order");
         }
         cell.list = different_faces();
         orders_.cells.push_back(std::move(cell));
     }
 
-    /// A number that must not be negative.
-    double least_zero(const char* what) {
-        const double value = number(what);
-        if (value < 0.0) {
-            --at_;
-            refuse(fmt::format("{} of 0 or more", what));
-        }
-        return value;
-    }
-
     /// Reads a cell's region and makes its planes.
     void take_region(ListedCell& cell) {
-        if (skip("cone")) {
-            const long directions = count("how many directions", 3, most_directions);
+        if (words_.skip("cone")) {
+            const long directions = words_.count("how many directions", 3, most_directions);
             for (long i = 0; i < directions; ++i) {
-                cell.directions.push_back(long_vector("a direction"));
+                cell.directions.push_back(words_.long_vector("a direction"));
             }
-        } else if (skip("half")) {
+        } else if (words_.skip("half")) {
             take_planes(cell);
             return;
-        } else if (at_ < words_.size() && is_octant_path(words_[at_])) {
-            cell.path = path_in_body(std::string(words_[at_]), axes_);
+        } else if (words_.has_more() && is_octant_path(words_.here())) {
+            cell.path = path_in_body(std::string(words_.here()), axes_);
             const auto corners = corners_of_path(cell.path);
             cell.directions.assign(corners.begin(), corners.end());
-            ++at_;
+            words_.step();
         } else {
-            refuse(fmt::format(
+            words_.refuse(fmt::format(
                 "a region: an octant path such as +-+/0/3 (at most {} levels), cone or half",
                 most_path_levels));
         }
         const auto planes = planes_of_cone(cell.directions, orders_.centre_m);
         if (!planes) {
-            --at_;
-            refuse("directions that do not lie in one plane");
+            words_.back();
+            words_.refuse("directions that do not lie in one plane");
         }
         cell.planes = *planes;
     }
 
     void take_planes(ListedCell& cell) {
-        const long planes = count("how many planes", 0, most_planes);
+        const long planes = words_.count("how many planes", 0, most_planes);
         for (long i = 0; i < planes; ++i) {
-            cell.planes.push_back(plane());
+            cell.planes.push_back(words_.plane());
         }
-    }
-
-    /// A plane with a normal of any length.
-    Plane plane() {
-        const glm::dvec3 normal = long_vector("a normal");
-        const double length = glm::length(normal);
-        // A unit vector stays as written, bit for bit.
-        const double factor = std::abs(length - 1.0) < 1e-14 ? 1.0 : 1.0 / length;
-        return {normal * factor, number("an offset") * factor};
     }
 
     std::filesystem::path path_;
     models::polygons::FileAxes axes_;
+    OrderWords words_;
     CellOrders orders_;
     std::vector<DrawOrder::Node> nodes_;
     std::vector<std::vector<std::uint32_t>> lists_;
     std::vector<bool> used_; ///< One flag for each polygon; all are false between lines.
     std::set<std::string> seen_;
-    std::vector<std::string_view> words_;
-    std::size_t at_ = 0;
-    int line_ = 0;
 };
 
 } // namespace

@@ -3,7 +3,6 @@
 #include "sim/base/units.h"
 #include "visuals/draworder/order_cells.h"
 #include "visuals/draworder/ordered_model.h"
-#include "visuals/draworder/parted_order.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -83,33 +82,6 @@ constexpr std::array<PrecedenceOfTable, 4> precedences_of_table_4{
     {{2, 1, {3, 5, 7}}, {6, 1, {3, 5, 9}}, {1, 2, {0, 4, 6}}, {5, 2, {0, 4, 8}}}};
 
 /// Two blades about the origin: one turns about z, the other about x.
-PolygonModel crossing_rotors() {
-    PolygonModel model;
-    model.name = "crossing_rotors";
-    model.materials.emplace_back();
-    model.parts = {"across", "along"};
-    model.vertices_m = {
-        {-2, -0.1, 0},
-        {2, -0.1, 0},
-        {2, 0.1, 0},
-        {-2, 0.1, 0},
-        {0, -0.1, -2},
-        {0, 0.1, -2},
-        {0, 0.1, 2},
-        {0, -0.1, 2}};
-    model.corner_vertices = {0, 1, 2, 3, 4, 5, 6, 7};
-    for (std::uint32_t part = 0; part < 2; ++part) {
-        octant::models::polygons::Polygon blade;
-        blade.first_corner = 4 * part;
-        blade.corner_count = 4;
-        blade.part = part;
-        model.polygons.push_back(blade);
-    }
-    model.pivots = {
-        {.part = 0, .point_m = {0, 0, 0}, .axis = {0, 0, 1}},
-        {.part = 1, .point_m = {0, 0, 0}, .axis = {1, 0, 0}}};
-    return model;
-}
 
 } // namespace
 
@@ -155,13 +127,6 @@ TEST_CASE("lists by cells and by the tree keep the precedences that the paper's 
     }
 }
 
-TEST_CASE("turning parts that meet are left unsplit, and a note tells of them") {
-    const OrderedModel found = by(Method::Tree, crossing_rotors());
-    CHECK(found.splits == 0);
-    REQUIRE(found.notes.size() == 1);
-    CHECK(found.notes[0] == "across and along meet as they turn; no order is right for them");
-}
-
 TEST_CASE("the shipped aircraft have a right list for every eye, and few of them") {
     check_tree(shipped("f15"), 1500, 6);
     check_tree(shipped("500md"), 1500, 10);
@@ -174,17 +139,6 @@ TEST_CASE("concave, thin and round shapes have a right list for every eye") {
     check_tree(octant::tests::plate_between_boxes(), 1500, 2);
     check_tree(octant::tests::torus(100), 600, 8);
     check_tree(octant::tests::pile(7, 6), 1000, 40);
-}
-
-TEST_CASE("rings of bars and polygons that pass through one another are split") {
-    const OrderedModel bars = by(Method::Tree, octant::tests::three_bars());
-    CHECK(bars.splits >= 2);
-    CHECK(bars.splits <= 4);
-    CHECK(bars.model.polygons.size() == 6 + static_cast<std::size_t>(bars.splits));
-    CHECK(count_wrong_rays(bars.model, bars.order, all_eyes(2000)).wrong == 0);
-    const OrderedModel crossed = by(Method::Tree, octant::tests::fig_14(true));
-    CHECK(crossed.splits >= 2);
-    CHECK(count_wrong_rays(crossed.model, crossed.order, all_eyes(2000)).wrong == 0);
 }
 
 TEST_CASE("a pile whose bodies hide one another in rings is ordered with few splits") {
@@ -279,40 +233,6 @@ TEST_CASE("the same model gives the same cells and lists") {
     }
 }
 
-TEST_CASE("a model whose rings no cut resolves is drawn by parts") {
-    PolygonModel model;
-    model.materials.emplace_back();
-    model.parts = {"all"};
-    model.vertices_m = {
-        {-0.985746, 0.859528, 1.75496},
-        {-0.311808, 0.775657, 1.758152},
-        {-0.623282, 0.800776, 1.756676},
-        {-0.617095, 0.896428, 1.756709},
-        {-0.311808, 0.908202, 1.758152}};
-    model.corner_vertices = {0, 3, 2, 4, 1, 2, 3};
-    model.polygons = {{0, 3, 0, 0}, {3, 4, 0, 0}};
-    const OrderedModel found = by(Method::Tree, model);
-    CHECK(count_wrong_rays(found.model, found.order, all_eyes(300)).wrong == 0);
-    CHECK(found.trial.rays > 1000);
-    CHECK(found.trial.wrong == 0);
-}
-
-TEST_CASE("a search that has no time left is replaced by parts, and a note tells of it") {
-    const PolygonModel pile = octant::tests::pile(7, 12);
-    OrderOptions options;
-    options.seconds = 0.001;
-    const OrderedModel found = ordered(pile, options);
-    CHECK(found.drawn_by == DrawnBy::Parts);
-    CHECK(found.cells.empty());
-    REQUIRE(found.notes.size() == 1);
-    CHECK(
-        found.notes[0] ==
-        "drawn by parts, not by cells: the search for cells took more than 0.001 s");
-    CHECK(count_wrong_rays(found.model, found.order, all_eyes(600)).wrong == 0);
-    const OrderedModel again = ordered(pile, options);
-    CHECK(std::ranges::equal(again.order.polygons(), found.order.polygons()));
-}
-
 TEST_CASE("progress rises while cells are searched for") {
     OrderOptions options;
     double last = -1.0;
@@ -325,65 +245,6 @@ TEST_CASE("progress rises while cells are searched for") {
     CHECK(rises);
     CHECK(last > 0.0);
     CHECK(last < 1.0);
-}
-
-TEST_CASE("parts and single polygons order crossing bars, rings and rotors for every eye") {
-    for (const auto& model :
-         {octant::tests::three_bars(),
-          octant::tests::fig_14(true),
-          octant::tests::pile(1989, 25),
-          octant::tests::torus(416),
-          shipped("f15")}) {
-        INFO(model.name);
-        const OrderedModel found = by(Method::Bsp, model);
-        CHECK(found.notes.empty());
-        CHECK(count_wrong_rays(found.model, found.order, all_eyes(400)).wrong == 0);
-        const PartedOrder single = parted_order(model, Parting::Single);
-        CHECK(count_wrong_rays(single.model, single.order, all_eyes(400)).wrong == 0);
-    }
-    const OrderedModel turning = by(Method::Bsp, shipped("500md"));
-    CHECK(turning.trial.wrong == 0);
-    for (int step = 0; step < 8; ++step) {
-        EyeSamples eyes = all_eyes(200);
-        eyes.turn_rad = 0.7 * step;
-        CHECK(count_wrong_rays(turning.model, turning.order, eyes).wrong == 0);
-    }
-}
-
-TEST_CASE("an order by a few parts has cells, which hold the same orders") {
-    const OrderedModel found = by(Method::Bsp, octant::tests::three_bars());
-    const auto cells = cells_of_parts(found.model, found.order);
-    REQUIRE(cells);
-    Dice dice(4);
-    DrawOrder::Walk walk;
-    for (int i = 0; i < 300; ++i) {
-        const glm::dvec3 eye_m = dice.direction() * dice.between(0.1, 9.0);
-        const auto in = std::ranges::find_if(*cells, [&](const CellOfParts& cell) {
-            return std::ranges::all_of(cell.planes, [&](const octant::Plane& plane) {
-                return octant::distance_m(plane, eye_m) >= 0.0;
-            });
-        });
-        REQUIRE(in != cells->end());
-        std::vector<std::uint32_t> painted;
-        found.order.append_painted(eye_m, walk, painted);
-        CHECK(in->list == painted);
-    }
-}
-
-TEST_CASE("a trial sees what is painted too early, off the origin and as a decal too") {
-    PolygonModel model = octant::tests::plate_between_boxes();
-    OrderedModel found = by(Method::Tree, model);
-    CHECK(try_order(found.model, found.order, {}).wrong == 0);
-    CHECK(try_order(model, file_order(model), {}).wrong > 0);
-    for (glm::dvec3& vertex_m : model.vertices_m) {
-        vertex_m += glm::dvec3(1e6, -1e6, 0.0);
-    }
-    const Trial far = try_order(model, file_order(model), {});
-    CHECK(far.rays > 1000);
-    CHECK(far.wrong > 0);
-    PolygonModel decal = octant::tests::fig_14();
-    decal.polygons.push_back(decal.polygons[0]);
-    CHECK(try_order(decal, DrawOrder(std::vector<std::uint32_t>{2, 1, 0}), {}).wrong > 0);
 }
 
 TEST_CASE("neither place nor size of a model matters to its order") {

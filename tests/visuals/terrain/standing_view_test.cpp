@@ -1,7 +1,6 @@
 #include "tests/visuals/terrain/ground_check.h"
 #include "visuals/terrain/count_series.h"
 #include "visuals/terrain/detail_controller.h"
-#include "visuals/terrain/loop_gain.h"
 #include "visuals/terrain/settled_resolution.h"
 
 #include <catch2/catch.hpp>

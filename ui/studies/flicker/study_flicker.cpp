@@ -8,7 +8,7 @@
 #include "ui/studies/flicker/flicker_tables.h"
 #include "ui/world/terrain_file.h"
 #include "visuals/terrain/count_series.h"
-#include "visuals/terrain/loop_gain.h"
+#include "visuals/terrain/settled_resolution.h"
 
 #include <algorithm>
 #include <cstdio>
