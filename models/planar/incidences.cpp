@@ -1,6 +1,7 @@
 #include "models/planar/incidences.h"
 
 #include "models/planar/near_vertices.h"
+#include "models/polygons/edge_parts.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -11,6 +12,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <ranges>
 
 namespace octant::models::planar {
 
@@ -93,17 +95,15 @@ private:
         return glm::dot(point - from, glm::cross(normal_, along)) / glm::length(along);
     }
 
+    auto places() const {
+        return std::views::transform(corners_, [this](std::uint32_t corner) -> const glm::dvec3& {
+            return vertices_[corner];
+        });
+    }
+
     /// Whether one of the edges has all of another outline on its outer side.
     bool has_beside(const Outline& other, double reach) const {
-        for (std::size_t i = 0; i < corners_.size(); ++i) {
-            const bool beside = std::ranges::all_of(other.corners_, [&](std::uint32_t corner) {
-                return inside_of(i, vertices_[corner]) <= reach;
-            });
-            if (beside) {
-                return true;
-            }
-        }
-        return false;
+        return polygons::edge_parts(places(), normal_, other.places(), reach);
     }
 
     std::span<const glm::dvec3> vertices_;

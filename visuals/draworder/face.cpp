@@ -3,6 +3,8 @@
 // than the rounding prevents that.
 #include "visuals/draworder/face.h"
 
+#include "models/polygons/edge_parts.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -102,19 +104,8 @@ bool overlap_in_plane(const Face& a, const Face& b, double on_plane) {
                            behind_or_on(a, *b.plane, on_plane) &&
                            behind_or_on(b, *a.plane, on_plane) &&
                            behind_or_on(a, {-b.plane->normal, -b.plane->offset_m}, on_plane);
-    const auto parts = [&](const Face& of, const Face& other) {
-        for (std::size_t i = 0; i < of.corners.size(); ++i) {
-            const glm::dvec3& from = of.corners[i];
-            const glm::dvec3 along = of.corners[(i + 1) % of.corners.size()] - from;
-            const glm::dvec3 inward = glm::cross(of.plane->normal, along);
-            const bool outside = std::ranges::all_of(other.corners, [&](const glm::dvec3& corner) {
-                return glm::dot(corner - from, inward) <= 0.0;
-            });
-            if (outside) {
-                return true;
-            }
-        }
-        return false;
+    const auto parts = [](const Face& of, const Face& other) {
+        return models::polygons::edge_parts(of.corners, of.plane->normal, other.corners, 0.0);
     };
     return one_plane && !parts(a, b) && !parts(b, a);
 }

@@ -1,33 +1,28 @@
 // What hides what for eyes anywhere, and which pieces have an order that is right for all of them.
 #include "visuals/parting/clusters.h"
 
+#include "models/polygons/edge_parts.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <ranges>
 #include <utility>
 
 namespace octant::visuals::parting {
 
 namespace {
 
-/// Whether a line along an edge of `a` has `a` on one side and `b` on the other; both lie in the
-/// plane of `a`.
+/// Whether a line along an edge of `a` parts it from `b`; both lie in the plane of `a`.
 bool edge_parts(const Pieces& pieces, const Piece& a, const Piece& b) {
-    for (std::size_t i = 0; i < a.corners.size(); ++i) {
-        const glm::dvec3& from = pieces.at(a.corners[i]);
-        const glm::dvec3& to = pieces.at(a.corners[(i + 1) % a.corners.size()]);
-        const glm::dvec3 inward = glm::cross(a.plane->normal, to - from);
-        const double limit = tolerance * glm::length(inward);
-        const bool outside = std::ranges::all_of(b.corners, [&](std::uint32_t vertex) {
-            return glm::dot(inward, pieces.at(vertex) - from) <= limit;
-        });
-        if (outside) {
-            return true;
-        }
-    }
-    return false;
+    const auto place = [&](std::uint32_t corner) -> const glm::dvec3& { return pieces.at(corner); };
+    return models::polygons::edge_parts(
+        std::views::transform(a.corners, place),
+        a.plane->normal,
+        std::views::transform(b.corners, place),
+        tolerance);
 }
 
 /// Whether the first one is a decal on the second one.
