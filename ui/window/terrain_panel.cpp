@@ -84,7 +84,7 @@ void terrain_panel(ViewState& state, const flight::Session& session) {
     if (!panel.is_seen()) {
         return;
     }
-    ImGui::TextUnformatted(session.world().ground_name.c_str());
+    ImGui::TextWrapped("%s", session.world().ground_name.c_str());
     if (!state.history.empty()) {
         show_counts(state.history.last());
         count_plot(state.history.records());
