@@ -79,6 +79,8 @@ void take(FuzzOptions& options, std::string_view option, Words& words) {
         options.trial.rays = static_cast<int>(words.whole(option));
     } else if (option == "--cpu-seconds") {
         options.trial.cpu_s = static_cast<int>(words.whole(option));
+    } else if (option == "--certify") {
+        options.trial.certify = true;
     } else if (option == "--keep") {
         options.keep = words.value(option);
     } else if (option == "--whole") {
@@ -107,6 +109,7 @@ std::string help_text() {
         "  --polygons N     about so many in a model; 6 to 60 at first\n"
         "  --rays N         for each case, 4000 at first\n"
         "  --cpu-seconds N  for each case, 60 at first\n"
+        "  --certify        also prove each order right, without rounding\n"
         "  --keep DIR       write failing models there, reduced\n"
         "  --whole          do not reduce them\n"
         "  --verbose        a line a case, good ones too\n"

@@ -5,7 +5,10 @@
 #include "sim/base/output_file.h"
 #include "tests/fuzz/painting_check.h"
 #include "tests/scratch.h"
+#include "visuals/certificate/order_certificate.h"
 #include "visuals/draworder/ordered_model.h"
+#include "visuals/verify/certificate_reader.h"
+#include "visuals/verify/verify.h"
 
 #include <array>
 #include <cerrno>
@@ -50,6 +53,19 @@ void set_what(Report& report, const std::string& what) {
     std::strncpy(report.what.data(), what.c_str(), report.what.size() - 1);
 }
 
+/// Why a model's order is not proved right; empty if it is.
+std::string gap_in_proof(const visuals::draworder::OrderedModel& ordered) {
+    const std::filesystem::path file = scratch_folder() / "certificate.txt";
+    write_file(
+        file, visuals::certificate::order_certificate(ordered.model, ordered.order, {}).text);
+    const auto certificate = visuals::verify::read_certificate(file);
+    const auto verdict = visuals::verify::verify(certificate);
+    if (verdict.refused) {
+        return fmt::format("line {}: {}", verdict.refused->line, verdict.refused->what);
+    }
+    return verdict.proved() ? "" : fmt::format("{} claims without proof", verdict.unproved);
+}
+
 Report order_and_check(const std::filesystem::path& file, const TrialOptions& options) {
     Report report;
     try {
@@ -68,6 +84,11 @@ Report order_and_check(const std::filesystem::path& file, const TrialOptions& op
             counts.wrong_order + counts.wrong_picture + counts.wrong_decal};
         report.build_s = spent.count();
         set_what(report, counts.first);
+        if (options.certify && report.outcome == Outcome::Right) {
+            const std::string gap = gap_in_proof(ordered);
+            report.outcome = gap.empty() ? Outcome::Right : Outcome::NotProved;
+            set_what(report, gap);
+        }
     } catch (const Error& error) {
         report.outcome = Outcome::Refused;
         set_what(report, error.what());

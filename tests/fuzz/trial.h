@@ -19,10 +19,11 @@ enum class Outcome {
     WrongOrder,   ///< the ordered model shows a farther polygon before a nearer one
     WrongPicture, ///< the picture is not that of the given model
     WrongDecal,   ///< of two polygons in one plane the earlier one of the file is seen
+    NotProved,    ///< its certificate has gaps or is refused
     Right
 };
 
-inline constexpr std::array<std::string_view, 9> outcome_names{
+inline constexpr std::array<std::string_view, 10> outcome_names{
     "crash",
     "abort",
     "timeout",
@@ -31,6 +32,7 @@ inline constexpr std::array<std::string_view, 9> outcome_names{
     "wrong-order",
     "wrong-picture",
     "wrong-decal",
+    "not-proved",
     "right"};
 
 inline std::string_view name_of(Outcome outcome) {
@@ -41,6 +43,7 @@ struct TrialOptions {
     int rays = 4000;
     int cpu_s = 60;         ///< of one trial, all threads together
     std::uint64_t seed = 1; ///< of the rays
+    bool certify = false;   ///< also write a certificate and verify it without rounding
 };
 
 struct TrialResult {

@@ -3,8 +3,9 @@
 #include "sim/base/output_file.h"
 #include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
-#include "ui/base/stopwatch.h"
+#include "ui/commands/certificate_work.h"
 #include "ui/commands/commands.h"
+#include "ui/commands/percents.h"
 #include "ui/commands/read_option.h"
 #include "ui/settings/settings_text.h"
 #include "ui/world/order_input.h"
@@ -33,8 +34,7 @@ namespace {
 
 using base::Figures;
 
-constexpr int usual_rays = 200000;        ///< of a check
-constexpr double shown_after_ms = 1000.0; ///< a search that takes longer shows its progress
+constexpr int usual_rays = 200000; ///< of a check
 
 struct DrawOrderOptions {
     std::string model;
@@ -44,6 +44,8 @@ struct DrawOrderOptions {
     bool table = false;
     std::string export_file;
     std::string export_model;
+    std::string certificate; ///< written
+    std::string verify;      ///< read; then nothing else is done
     bool check = false;
     std::string check_file;  ///< empty: what was computed
     std::optional<int> rays; ///< 0: none
@@ -56,6 +58,7 @@ struct Work {
     models::polygons::PolygonModel model;
     models::polygons::FileAxes axes;
     draworder::CellOrders orders;
+    std::optional<draworder::DrawOrder> order; ///< as found; nothing if they were read
 };
 
 std::string cell_name(const Work& work, std::size_t cell) {
@@ -109,7 +112,7 @@ Work prepared(const DrawOrderOptions& options, Figures& figures) {
     figures["model"] = input.model.name;
     if (!options.check_file.empty()) {
         const std::size_t faces = input.model.polygons.size();
-        Work work{std::move(input.model), input.axes, {}};
+        Work work{std::move(input.model), input.axes, {}, {}};
         work.orders = draworder::read_order_file(options.check_file, faces, work.axes);
         figures["orders"] = options.check_file;
         figures["polygons"] = faces;
@@ -118,18 +121,12 @@ Work prepared(const DrawOrderOptions& options, Figures& figures) {
     }
     figures["method"] = settings::text_of(options.order.method);
     const std::size_t polygons = input.model.polygons.size();
-    const base::Stopwatch watch;
     draworder::OrderOptions order = options.order;
-    base::Progress progress("searching for cells", 100, options.quiet, "% of the budget");
-    order.progress = [&](double share) {
-        if (watch.ms() > shown_after_ms) {
-            progress.show(static_cast<int>(100.0 * share));
-        }
-    };
+    Percents percents("searching for cells", options.quiet, "% of the budget");
+    order.progress = [&](double share) { percents.show(share); };
     ordercache::CachedOrder cached = found(std::move(input.model), options.cache, order);
     draworder::OrderedModel& ordered = cached.ordered;
-    const double build_ms = watch.ms();
-    progress.finish();
+    const double build_ms = percents.finish();
     for (const std::string& note : cached.notes) {
         base::say(options.quiet, "note: " + note);
     }
@@ -145,7 +142,7 @@ Work prepared(const DrawOrderOptions& options, Figures& figures) {
         figures["notes"] = ordered.notes; // else they are said
     }
     draworder::CellOrders orders = draworder::cell_orders(ordered);
-    return {std::move(ordered.model), input.axes, std::move(orders)};
+    return {std::move(ordered.model), input.axes, std::move(orders), std::move(ordered.order)};
 }
 
 /// Throws Error where one file would be written over another, or over the model.
@@ -154,16 +151,24 @@ void refuse_overwriting(const DrawOrderOptions& options) {
         return !a.empty() && !b.empty() &&
                std::filesystem::weakly_canonical(a) == std::filesystem::weakly_canonical(b);
     };
-    if (same(options.export_file, options.export_model)) {
-        throw Error(fmt::format(
-            "--export: expected another file than --export-model, got '{}' for both",
-            printable(options.export_file)));
-    }
-    for (const std::string& written : {options.export_file, options.export_model}) {
-        if (same(written, options.model) && std::filesystem::exists(options.model)) {
+    const std::array<std::pair<const char*, std::string>, 3> written{
+        {{"--export", options.export_file},
+         {"--export-model", options.export_model},
+         {"--certificate", options.certificate}}};
+    for (std::size_t i = 0; i < written.size(); ++i) {
+        const auto& [name, file] = written[i];
+        for (std::size_t other = i + 1; other < written.size(); ++other) {
+            if (same(file, written[other].second)) {
+                throw Error(fmt::format(
+                    "{}: expected another file than {}, got '{}' for both",
+                    name,
+                    written[other].first,
+                    printable(file)));
+            }
+        }
+        if (same(file, options.model) && std::filesystem::exists(options.model)) {
             throw Error(fmt::format(
-                "--export, --export-model: expected another file than the model, got '{}'",
-                printable(written)));
+                "{}: expected another file than the model, got '{}'", name, printable(file)));
         }
     }
 }
@@ -258,7 +263,39 @@ void print_results(
     }
 }
 
+/// Throws Error for options that do not go together.
+void refuse_together(const DrawOrderOptions& options) {
+    if (options.model.empty() == options.verify.empty()) {
+        throw Error(
+            options.model.empty()
+                ? "expected a model, or --verify with a certificate, got neither"
+                : "--verify: expected no model beside a certificate, which holds its own, got '" +
+                      printable(options.model) + "'");
+    }
+    const bool for_every_eye = options.order.method == draworder::Method::Tree ||
+                               options.order.method == draworder::Method::Bsp;
+    if (!options.certificate.empty() && (!for_every_eye || !options.check_file.empty())) {
+        throw Error(
+            "--certificate: expected orders found by --method tree or bsp, which hold for every "
+            "eye, got others");
+    }
+}
+
+void verify(const DrawOrderOptions& options) {
+    Figures figures;
+    const bool good = verified(options.verify, options.quiet, figures);
+    base::print_figures(figures, options.json);
+    if (!good) {
+        throw CheckSaidNo();
+    }
+}
+
 void draw_order(const DrawOrderOptions& options) {
+    refuse_together(options);
+    if (!options.verify.empty()) {
+        verify(options);
+        return;
+    }
     refuse_overwriting(options);
     if (!options.export_model.empty() && !options.export_model.ends_with(".obj")) {
         throw Error(fmt::format(
@@ -271,6 +308,10 @@ void draw_order(const DrawOrderOptions& options) {
     Figures figures;
     const Work work = prepared(options, figures);
     export_files(work, options);
+    if (!options.certificate.empty()) {
+        write_certificate(
+            options.certificate, work.model, *work.order, work.axes, options.quiet, figures);
+    }
     bool good = true;
     if (options.check && work.orders.parts) {
         base::say(options.quiet, "note: parts are tried with rays; only cells are certified");
@@ -294,8 +335,8 @@ void draw_order(const DrawOrderOptions& options) {
 void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
     table.insert(
         table.end(),
-        {required(text_option(
-             "model", "NAME|FILE", "f15, 500md, concave, torus or an OBJ file", options.model)),
+        {text_option(
+             "model", "NAME|FILE", "f15, 500md, concave, torus or an OBJ file", options.model),
          text_option("--axes", "X,Y,Z", "where x, y and z of an OBJ file point", options.axes),
          read_option(
              {"method",
@@ -330,6 +371,16 @@ void add_result_options(std::vector<Option>& table, DrawOrderOptions& options) {
              "FILE.obj",
              "write the polygons, split where they had to be, that the orders speak of",
              options.export_model),
+         text_option(
+             "--certificate",
+             "FILE",
+             "tree, bsp: write for each pair of polygons what proves that it is painted right",
+             options.certificate),
+         text_option(
+             "--verify",
+             "FILE",
+             "check a certificate without rounding, in place of all else",
+             options.verify),
          {.name = "--check",
           .form = "[FILE]",
           .meaning = "certify and try with rays: the orders of FILE for this model, without FILE "
@@ -363,7 +414,9 @@ Command draw_order_command() {
                   "  octant draw-order concave --method paper --table\n"
                   "  octant draw-order f15 --export f15-orders.txt --export-model f15-split.obj\n"
                   "  octant draw-order f15-split.obj --check f15-orders.txt\n"
-                  "  octant draw-order torus --order-cache orders",
+                  "  octant draw-order torus --order-cache orders\n"
+                  "  octant draw-order f15 --certificate f15-proof.txt\n"
+                  "  octant draw-order --verify f15-proof.txt",
         .run = [options] { draw_order(*options); }};
     add_order_options(command.options, *options);
     add_result_options(command.options, *options);

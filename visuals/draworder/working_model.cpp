@@ -26,10 +26,11 @@ void WorkingModel::resolve(const Deadlock& deadlock) {
         if (twins.size() > splits_always_allowed + most_splits_a_polygon * first_count) {
             throw SearchGivenUp{fmt::format("cells need more than {} splits", twins.size() - 1)};
         }
-        split_polygon(model, cut->polygon, models::polygons::plane_of(model, cut->along));
+        // Faces keep the planes of whole polygons. That of a sliver, from its corners, may be any.
+        const Plane plane = *faces.faces[cut->along].plane;
+        split_polygon(model, cut->polygon, faces.in_model(plane));
         twins.push_back(cut->polygon);
         const Face whole = faces.faces[cut->polygon];
-        const Plane plane = *faces.faces[cut->along].plane;
         const double inset = faces.tolerances.inset;
         faces.faces[cut->polygon] =
             outline_face(front_part(whole.outline, plane, inset), *whole.plane, inset);

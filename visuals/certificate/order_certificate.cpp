@@ -1,0 +1,455 @@
+// Writes certificates of painting orders. It need not be trusted: visuals/verify checks what it
+// writes, with none of its code.
+#include "visuals/certificate/order_certificate.h"
+
+#include "visuals/certificate/local_model.h"
+#include "visuals/certificate/pair_bits.h"
+#include "visuals/certificate/witness.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace octant::visuals::certificate {
+
+namespace {
+
+using draworder::DrawOrder;
+using Polygons = std::vector<std::uint32_t>;
+
+std::string text_of(const glm::dvec3& v) {
+    return fmt::format("{} {} {}", v.x + 0.0, v.y + 0.0, v.z + 0.0);
+}
+
+std::string text_of(const Plane& plane) {
+    return fmt::format("{} {}", text_of(plane.normal), plane.offset_m + 0.0);
+}
+
+std::string text_of_child(int child) {
+    return child == DrawOrder::nothing ? " nothing"
+           : child < 0                 ? fmt::format(" list {}", ~child)
+                                       : fmt::format(" node {}", child);
+}
+
+template <typename... Values>
+void append(std::string& text, fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
+}
+
+class Writing {
+public:
+    Writing(
+        const models::polygons::PolygonModel& model,
+        const DrawOrder& order,
+        const models::polygons::FileAxes& axes)
+        : model_(model)
+        , order_(order)
+        , axes_(axes)
+        , local_(local_model(model, axes))
+        , mark_(model.polygons.size(), 0) {}
+
+    OrderCertificate certificate(const std::function<void(std::size_t, std::size_t)>& progress) {
+        write_model();
+        write_tree();
+        Polygons all;
+        for (std::uint32_t i = 0; i < model_.polygons.size(); ++i) {
+            all.push_back(i);
+        }
+        progress_ = progress;
+        to_do_.push_back({order_.nodes().empty() ? ~0 : 0, {}, std::move(all), false});
+        while (!to_do_.empty()) {
+            const Task task = std::move(to_do_.back());
+            to_do_.pop_back();
+            write(task);
+        }
+        return std::move(made_);
+    }
+
+private:
+    /// A part of the tree, the walls of its eyes, and the polygons that have to be painted there if
+    /// they face such an eye.
+    struct Task {
+        int child = 0;
+        std::vector<Plane> walls; ///< In the unit of local_.
+        Polygons expected;
+        bool in_plane = false;
+    };
+
+    /// A child of a choice, or the first choice: a place for claims about the eyes before its walls
+    /// and all that is known for them.
+    struct Level {
+        int child = 0;
+        std::size_t walls = 0;
+        PairBits known;
+    };
+
+    void write(const Task& task) {
+        task.child < 0 ? write_list(task) : write_node(task);
+        if (progress_) {
+            progress_(
+                ++done_, order_.nodes().size() + static_cast<std::size_t>(order_.cell_count()));
+        }
+    }
+
+    Plane in_file(const Plane& in_body) const {
+        return {axes_.file_from_body(in_body.normal), in_body.offset_m};
+    }
+
+    void write_model() {
+        std::string& text = made_.text;
+        append(text, "octant-certificate 1\n");
+        append(text, "tolerance {}\n", tolerance_sizes * local_.size_m);
+        for (const glm::dvec3& vertex_m : model_.vertices_m) {
+            append(text, "vertex {}\n", text_of(axes_.file_from_body(vertex_m)));
+        }
+        for (const models::polygons::Pivot& pivot : model_.pivots) {
+            append(
+                text,
+                "axis {} {}\n",
+                text_of(axes_.file_from_body(pivot.point_m)),
+                text_of(axes_.file_from_body(pivot.axis)));
+        }
+        for (std::size_t i = 0; i < model_.polygons.size(); ++i) {
+            const LocalPolygon& polygon = local_.polygons[i];
+            append(
+                text,
+                "{} {} {}",
+                polygon.axis ? fmt::format("turning {}", *polygon.axis) : "polygon",
+                model_.parent_of(i),
+                text_of(local_.in_file(polygon.plane)));
+            append_all(model_.corners(i));
+        }
+    }
+
+    void append_all(std::span<const std::uint32_t> numbers) {
+        for (const std::uint32_t number : numbers) {
+            append(made_.text, " {}", number);
+        }
+        made_.text += '\n';
+    }
+
+    void write_tree() {
+        for (int list = 0; list < order_.cell_count(); ++list) {
+            made_.text += "list";
+            append_all(order_.polygons_of(list));
+        }
+        for (const DrawOrder::Node& node : order_.nodes()) {
+            const std::string children = text_of_child(node.front) + text_of_child(node.back);
+            if (node.kind == DrawOrder::Kind::Sequence) {
+                append(made_.text, "node sequence{}\n", children);
+                continue;
+            }
+            const bool parts = node.kind == DrawOrder::Kind::Parting;
+            append(
+                made_.text,
+                "node {} {}{}{}\n",
+                parts ? "parting" : "choice",
+                text_of(in_file(node.plane)),
+                children,
+                parts ? text_of_child(node.along) + text_of_child(node.against) : "");
+        }
+    }
+
+    void write_list(const Task& task) {
+        const auto list = order_.polygons_of(~task.child);
+        write_missing(task, {list.begin(), list.end()});
+        if (task.in_plane) {
+            return;
+        }
+        if (!levels_.empty()) {
+            write_open_pairs(task, list);
+            return;
+        }
+        for (std::size_t later = 1; later < list.size(); ++later) {
+            const Polygons open = write_row(task.child, list.first(later), list[later]);
+            for (const std::uint32_t earlier : open) {
+                write_witness(task.child, task.walls, earlier, list[later]);
+            }
+        }
+    }
+
+    /// Of a list below choices the pairs that no plane of a polygon and no wall decides.
+    void write_open_pairs(const Task& task, std::span<const std::uint32_t> list) {
+        PolygonBits painted = levels_.back().known.none();
+        for (const std::uint32_t later : list) {
+            Polygons open;
+            levels_.back().known.for_each_open(
+                painted, later, [&](std::uint32_t earlier) { open.push_back(earlier); });
+            for (const std::uint32_t earlier : open) {
+                write_for_eyes(task, earlier, later);
+            }
+            add(painted, later);
+        }
+    }
+
+    /// Writes a witness where it serves the most eyes.
+    void write_for_eyes(const Task& task, std::uint32_t earlier, std::uint32_t later) {
+        Witness witness = witness_of(local_, task.walls, earlier, later);
+        auto& walls = witness.factors.walls;
+        std::size_t level = levels_.size() - 1;
+        if (witness.kind != Witness::Kind::None) {
+            while (level > 0 && walls[levels_[level].walls - 1] == 0.0) {
+                --level;
+            }
+            walls.resize(levels_[level].walls);
+        }
+        write_witness(levels_[level].child, witness, earlier, later);
+        for (; level < levels_.size(); ++level) {
+            levels_[level].known.add(earlier, later);
+        }
+    }
+
+    void write_node(const Task& task) {
+        const DrawOrder::Node& node = order_.nodes()[static_cast<std::size_t>(task.child)];
+        if (node.kind == DrawOrder::Kind::Choice) {
+            write_choice(task, node);
+            return;
+        }
+        const std::array<int, 4> children{node.front, node.back, node.along, node.against};
+        std::array<Polygons, 4> parts;
+        Polygons all;
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            parts[i] = contents(children[i]);
+            all.insert(all.end(), parts[i].begin(), parts[i].end());
+        }
+        write_missing(task, all);
+        if (node.kind == DrawOrder::Kind::Parting) {
+            write_doubts(task.child, parts, local_.from_file(in_file(node.plane)));
+        }
+        for (const std::uint32_t later : parts[1]) {
+            if (node.kind == DrawOrder::Kind::Sequence && !parts[0].empty()) {
+                for (const std::uint32_t earlier : write_row(task.child, parts[0], later)) {
+                    write_witness(task.child, task.walls, earlier, later);
+                }
+            }
+        }
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            if (children[i] != DrawOrder::nothing) {
+                to_do_.push_back({children[i], task.walls, std::move(parts[i]), i >= 2});
+            }
+        }
+    }
+
+    /// What holds for all eyes is written at the first choice of a path, for all lists below it.
+    void write_choice(const Task& task, const DrawOrder::Node& node) {
+        const bool is_first = levels_.empty();
+        if (is_first) {
+            levels_.push_back({task.child, task.walls.size(), PairBits(model_.polygons.size())});
+            const Polygons below = contents(task.child);
+            for (const std::uint32_t later : below) {
+                write_row(task.child, below, later);
+            }
+        }
+        const Plane wall = local_.from_file(in_file(node.plane));
+        write_side(task, node.front, wall);
+        write_side(task, node.back, {-wall.normal, -wall.offset_m});
+        if (is_first) {
+            levels_.pop_back();
+        }
+    }
+
+    void write_side(const Task& task, int child, const Plane& wall) {
+        Task side{child, task.walls, task.expected, false};
+        side.walls.push_back(wall);
+        Level level{child, side.walls.size(), levels_.back().known};
+        PolygonBits behind = level.known.none();
+        Polygons before;
+        for (std::uint32_t i = 0; i < model_.polygons.size(); ++i) {
+            if (is_behind(local_, i, wall, true)) {
+                add(behind, i);
+            }
+            if (is_before(local_, i, wall, true)) {
+                before.push_back(i);
+            }
+        }
+        for (const std::uint32_t later : before) {
+            if (!local_.polygons[later].axis) {
+                level.known.add(behind, later);
+                continue;
+            }
+            for (std::uint32_t earlier = 0; earlier < model_.polygons.size(); ++earlier) {
+                // Polygons that turn together see the wall turn.
+                if (has(behind, earlier) &&
+                    local_.polygons[earlier].axis != local_.polygons[later].axis) {
+                    level.known.add(earlier, later);
+                }
+            }
+        }
+        levels_.push_back(std::move(level));
+        write(side);
+        levels_.pop_back();
+    }
+
+    /// The polygons that are painted below a child, ascending.
+    Polygons contents(int child) const {
+        Polygons found;
+        std::vector<int> to_do{child};
+        while (!to_do.empty()) {
+            const int next = to_do.back();
+            to_do.pop_back();
+            if (next == DrawOrder::nothing) {
+                continue;
+            }
+            if (next < 0) {
+                const auto list = order_.polygons_of(~next);
+                found.insert(found.end(), list.begin(), list.end());
+                continue;
+            }
+            const DrawOrder::Node& node = order_.nodes()[static_cast<std::size_t>(next)];
+            to_do.insert(to_do.end(), {node.front, node.back, node.along, node.against});
+        }
+        std::ranges::sort(found);
+        const auto rest = std::ranges::unique(found);
+        found.erase(rest.begin(), rest.end());
+        return found;
+    }
+
+    /// Writes why polygons that are expected need not be painted.
+    void write_missing(const Task& task, const Polygons& painted) {
+        for (const std::uint32_t polygon : painted) {
+            mark_[polygon] = 1;
+        }
+        for (const std::uint32_t polygon : task.expected) {
+            if (mark_[polygon] != 0) {
+                continue;
+            }
+            if (const auto factors = factors_away(local_, task.walls, polygon)) {
+                append(made_.text, "away{} {}", text_of_child(task.child), polygon);
+                append_walls(*factors);
+            } else {
+                write_doubt(task.child, polygon);
+            }
+        }
+        for (const std::uint32_t polygon : painted) {
+            mark_[polygon] = 0;
+        }
+    }
+
+    void write_doubt(int child, std::uint32_t polygon) {
+        append(made_.text, "unproved{} {}\n", text_of_child(child), polygon);
+        ++made_.unproved;
+    }
+
+    /// The factor of 1 is a length.
+    void append_walls(const Factors& factors) {
+        append(made_.text, " {}", factors.one * local_.size_m);
+        for (const double factor : factors.walls) {
+            append(made_.text, " {}", factor);
+        }
+        made_.text += '\n';
+    }
+
+    /// Writes which pairs the plane of one polygon decides; returns the earlier polygons of the
+    /// others.
+    Polygons write_row(int child, std::span<const std::uint32_t> earlier, std::uint32_t later) {
+        append(made_.text, "pairs{} {}", text_of_child(child), later);
+        Polygons open;
+        Decider last = Decider::Neither;
+        std::size_t count = 0;
+        const auto write_run = [&] {
+            if (count > 0) {
+                const char letter = last == Decider::Earlier ? 'e'
+                                    : last == Decider::Later ? 'l'
+                                                             : '-';
+                append(made_.text, " {}{}", count, letter);
+            }
+        };
+        for (const std::uint32_t polygon : earlier) {
+            const Decider by =
+                polygon == later ? Decider::Neither : decider(local_, polygon, later, last);
+            if (by == Decider::Neither) {
+                open.push_back(polygon);
+            } else if (!levels_.empty()) {
+                levels_.back().known.add(polygon, later);
+            }
+            if (by != last) {
+                write_run();
+                last = by;
+                count = 0;
+            }
+            ++count;
+        }
+        write_run();
+        made_.text += '\n';
+        return open;
+    }
+
+    void write_witness(
+        int child, std::span<const Plane> walls, std::uint32_t earlier, std::uint32_t later) {
+        write_witness(child, witness_of(local_, walls, earlier, later), earlier, later);
+    }
+
+    void
+    write_witness(int child, const Witness& witness, std::uint32_t earlier, std::uint32_t later) {
+        const std::string where = fmt::format("{} {} {}", text_of_child(child), earlier, later);
+        if (witness.kind == Witness::Kind::None) {
+            append(made_.text, "unproved{}\n", where);
+            ++made_.unproved;
+            return;
+        }
+        append(
+            made_.text,
+            "{}{} {} {}",
+            witness.kind == Witness::Kind::Sum ? "sum" : "never",
+            where,
+            witness.factors.earlier,
+            witness.factors.later);
+        append_walls(witness.factors);
+    }
+
+    /// Writes which polygons are not where a parting needs them.
+    void write_doubts(int child, const std::array<Polygons, 4>& parts, const Plane& plane) {
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            for (const std::uint32_t polygon : parts[i]) {
+                const bool before = is_before(local_, polygon, plane, true);
+                const bool behind = is_behind(local_, polygon, plane, true);
+                const bool good = i == 0   ? before
+                                  : i == 1 ? behind
+                                           : before && behind && faces(parts, i, polygon, plane);
+                if (!good) {
+                    write_doubt(child, polygon);
+                }
+            }
+        }
+    }
+
+    /// Whether a polygon in the plane of a parting is seen from the side it is painted for.
+    bool faces(
+        const std::array<Polygons, 4>& parts,
+        std::size_t part,
+        std::uint32_t polygon,
+        const Plane& plane) const {
+        const LocalPolygon& local = local_.polygons[polygon];
+        const double facing = glm::dot(local.plane.normal, plane.normal);
+        return std::ranges::binary_search(parts[part == 2 ? 3 : 2], polygon) ||
+               (local.keeps_plane && (part == 2 ? facing > 0.0 : facing < 0.0));
+    }
+
+    const models::polygons::PolygonModel& model_;
+    const DrawOrder& order_;
+    const models::polygons::FileAxes& axes_;
+    LocalModel local_;
+    std::vector<char> mark_; ///< One for each polygon; all are 0 between uses.
+    std::vector<Task> to_do_;
+    std::vector<Level> levels_; ///< Of the choices above the part at hand.
+    std::function<void(std::size_t, std::size_t)> progress_;
+    std::size_t done_ = 0;
+    OrderCertificate made_;
+};
+
+} // namespace
+
+OrderCertificate order_certificate(
+    const models::polygons::PolygonModel& model,
+    const DrawOrder& order,
+    const models::polygons::FileAxes& axes,
+    const std::function<void(std::size_t, std::size_t)>& progress) {
+    return Writing(model, order, axes).certificate(progress);
+}
+
+} // namespace octant::visuals::certificate

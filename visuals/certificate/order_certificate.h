@@ -1,0 +1,31 @@
+#pragma once
+
+#include "models/polygons/file_axes.h"
+#include "models/polygons/polygon_model.h"
+#include "visuals/draworder/draw_order.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace octant::visuals::certificate {
+
+struct OrderCertificate {
+    std::string text;           ///< visuals/verify/README.md has its format.
+    std::uint64_t unproved = 0; ///< Pairs and polygons for which no proof was found.
+};
+
+/// Writes down why an order is right for every eye: for each pair of polygons that it paints one
+/// before the other the plane that proves that nothing is hidden wrongly, and for each polygon that
+/// it leaves out that it faces away. What no proof is found for is marked as such and counted. The
+/// order is one for every eye of the model (draworder::Method::Tree or Bsp).
+///
+/// `progress(done, all)` counts nodes and lists. The time grows with the pairs.
+OrderCertificate order_certificate(
+    const models::polygons::PolygonModel& model,
+    const draworder::DrawOrder& order,
+    const models::polygons::FileAxes& axes,
+    const std::function<void(std::size_t, std::size_t)>& progress = {});
+
+} // namespace octant::visuals::certificate

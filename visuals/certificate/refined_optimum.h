@@ -1,0 +1,13 @@
+#pragma once
+
+#include "visuals/draworder/linear_programme.h"
+
+#include <optional>
+#include <vector>
+
+namespace octant::visuals::certificate {
+
+/// The variables of an optimum to nearly all of their digits; nothing where none is found.
+std::optional<std::vector<double>> refined_optimum(const draworder::LinearProgramme& programme);
+
+} // namespace octant::visuals::certificate

@@ -1,0 +1,139 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace octant::visuals::verify {
+
+/// A point or direction as a file has it.
+using Vector = std::array<double, 3>;
+
+/// A plane as a file has it: points p with normal . p + offset = 0; its front is where that is
+/// positive. The normal is about 1 long.
+struct WrittenPlane {
+    Vector normal{};
+    double offset = 0.0;
+};
+
+/// A line about which polygons turn.
+struct Axis {
+    Vector point{};
+    Vector along{};
+};
+
+struct Polygon {
+    std::uint32_t source = 0; ///< The polygon of the model's file of which it is a piece.
+    WrittenPlane plane;       ///< It is seen from the front of it.
+    std::vector<std::uint32_t> corners;
+    std::optional<std::uint32_t> axis; ///< About which it turns; it stands at angle 0.
+    int line = 0;
+};
+
+/// A part of the tree, as visuals/draworder has them.
+struct Node {
+    enum class Kind { Choice, Parting, Sequence };
+
+    /// A child where nothing is painted; else a child >= 0 is a node, one < 0 the list ~child.
+    static constexpr int nothing = std::numeric_limits<int>::min();
+
+    Kind kind = Kind::Choice;
+    WrittenPlane plane; ///< Not of a sequence.
+    int front = nothing;
+    int back = nothing;
+    int along = nothing;
+    int against = nothing;
+    int line = 0;
+};
+
+struct List {
+    std::vector<std::uint32_t> polygons; ///< First painted first.
+    int line = 0;
+};
+
+/// Factors of a sum of planes: of the earlier polygon's (or the only one's), of the later one's, of
+/// the constant 1, and of each wall of the region, the root's first.
+struct Factors {
+    double earlier = 0.0;
+    double later = 0.0;
+    double one = 0.0;
+    std::vector<double> walls;
+};
+
+/// Two polygons, of which one may be painted earlier and one later.
+struct Pair {
+    std::uint32_t earlier = 0;
+    std::uint32_t later = 0;
+};
+
+/// How several pairs in a row are decided that have the later polygon in common: by the plane of
+/// the earlier one, by that of the later one, or somewhere else.
+struct Run {
+    enum class By { Earlier, Later, Elsewhere };
+    By by = By::Elsewhere;
+    std::uint32_t count = 0;
+};
+
+/// Pairs of one later polygon.
+struct Row {
+    std::uint32_t later = 0;
+    std::vector<Run> runs;
+    int line = 0;
+};
+
+/// A pair decided by factors, or not at all.
+struct PairClaim {
+    enum class Kind { Sum, Never, Unproved };
+    Kind kind = Kind::Unproved;
+    Pair pair;
+    Factors factors;
+    int line = 0;
+};
+
+/// A polygon that is not painted because it faces away from all eyes.
+struct AwayClaim {
+    Factors factors;
+    int line = 0;
+};
+
+/// What is claimed for the eyes of a node or a list; README.md says what that means.
+struct Claims {
+    std::vector<Row> rows;
+    std::vector<PairClaim> pairs;
+    std::map<std::uint32_t, AwayClaim> away;
+    /// Polygons that are not proved to lie where they should, or to face away, and the line.
+    std::map<std::uint32_t, int> unproved;
+};
+
+/// A certificate as its file has it. What it claims need not be true, but it can be understood: all
+/// numbers lie in their ranges, and nodes and lists are a tree.
+struct Certificate {
+    std::filesystem::path path;
+    double tolerance = 0.0; ///< Lengths up to this are taken for none.
+    std::vector<Vector> vertices;
+    std::vector<Axis> axes;
+    std::vector<Polygon> polygons;
+    std::vector<Node> nodes; ///< Node 0 is the root; without nodes list 0 is.
+    std::vector<List> lists;
+    std::vector<Claims> of_nodes;
+    std::vector<Claims> of_lists;
+    std::size_t unproved = 0;          ///< How many lines say so.
+    std::optional<int> first_unproved; ///< The first of them.
+
+    const Claims& claims_of(int child) const {
+        return child < 0 ? of_lists[static_cast<std::size_t>(~child)]
+                         : of_nodes[static_cast<std::size_t>(child)];
+    }
+
+    int line_of(int child) const {
+        return child < 0 ? lists[static_cast<std::size_t>(~child)].line
+                         : nodes[static_cast<std::size_t>(child)].line;
+    }
+};
+
+} // namespace octant::visuals::verify

@@ -1,0 +1,60 @@
+#include "visuals/verify/tree_contents.h"
+
+#include <algorithm>
+
+namespace octant::visuals::verify {
+
+TreeContents::TreeContents(const Certificate& certificate)
+    : of_nodes_(certificate.nodes.size())
+    , of_lists_(certificate.lists.size()) {
+    /// A node or list, and whether all below it has been gone through.
+    struct Visit {
+        int child = 0;
+        bool leaves = false;
+    };
+
+    std::vector<Visit> to_do{{certificate.nodes.empty() ? ~0 : 0, false}};
+    while (!to_do.empty()) {
+        const Visit visit = to_do.back();
+        to_do.pop_back();
+        if (visit.child == Node::nothing) {
+            continue;
+        }
+        if (visit.child < 0) {
+            const auto list = static_cast<std::size_t>(~visit.child);
+            const auto& polygons = certificate.lists[list].polygons;
+            of_lists_[list].first = entries_.size();
+            entries_.insert(entries_.end(), polygons.begin(), polygons.end());
+            of_lists_[list].end = entries_.size();
+            continue;
+        }
+        const auto number = static_cast<std::size_t>(visit.child);
+        if (visit.leaves) {
+            of_nodes_[number].end = entries_.size();
+            continue;
+        }
+        of_nodes_[number].first = entries_.size();
+        const Node& node = certificate.nodes[number];
+        to_do.push_back({visit.child, true});
+        for (const int child : {node.front, node.back, node.along, node.against}) {
+            to_do.push_back({child, false});
+        }
+    }
+}
+
+std::vector<std::uint32_t> TreeContents::of(int child) const {
+    if (child == Node::nothing) {
+        return {};
+    }
+    const Range range = child < 0 ? of_lists_[static_cast<std::size_t>(~child)]
+                                  : of_nodes_[static_cast<std::size_t>(child)];
+    std::vector<std::uint32_t> polygons(
+        entries_.begin() + static_cast<std::ptrdiff_t>(range.first),
+        entries_.begin() + static_cast<std::ptrdiff_t>(range.end));
+    std::ranges::sort(polygons);
+    const auto rest = std::ranges::unique(polygons);
+    polygons.erase(rest.begin(), rest.end());
+    return polygons;
+}
+
+} // namespace octant::visuals::verify

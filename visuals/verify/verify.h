@@ -1,0 +1,35 @@
+#pragma once
+
+#include "visuals/verify/certificate.h"
+#include "visuals/verify/claim_counts.h"
+#include "visuals/verify/refusal.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace octant::visuals::verify {
+
+/// What a certificate proves.
+struct Verdict {
+    std::optional<Refusal> refused; ///< The first false claim; what follows is counted up to it.
+    std::uint64_t pairs = 0;        ///< Polygons that some eyes paint one before the other.
+    std::uint64_t by_partings = 0;  ///< Of these, decided by a plane that parts many from many.
+    ClaimCounts claims;
+    std::uint64_t unlisted = 0;   ///< Polygons that face away from all eyes of a list or node.
+    std::uint64_t unproved = 0;   ///< Claims that the file itself says are not proved.
+    double tolerance_sizes = 0.0; ///< The tolerance, in longest sides of the model's bounding box.
+
+    bool proved() const { return !refused && unproved == 0; }
+};
+
+/// Proves without rounding that a painting order is right for every eye (README.md says what that
+/// means), or tells the first claim that is false. `progress(done, all)` counts nodes and lists.
+///
+/// Throws Error for a tolerance of more than 1e-6 of the model's size: it would prove nothing.
+Verdict verify(
+    const Certificate& certificate,
+    const std::function<void(std::size_t, std::size_t)>& progress = {});
+
+} // namespace octant::visuals::verify
