@@ -20,6 +20,8 @@ using models::polygons::PolygonModel;
 constexpr long double half_ulp = 0x1p-53L;
 /// Planes and places of polygons narrower than this (sizes) are not known: they are not hit.
 constexpr long double least_width_sizes = 1e-12L;
+/// Of polygons with more corners not all triples are looked at.
+constexpr std::size_t most_corners_leaning = 64;
 
 void measure(Facets& facets, const PolygonModel& model) {
     glm::dvec3 least = model.vertices_m[model.corner_vertices[0]];
@@ -76,6 +78,42 @@ Facet facet_of(std::vector<Vec> corners, long double least_width_m) {
     return facet;
 }
 
+/// How far a corner lies outside an edge's line: 0 for a convex outline. What is inside of all
+/// edges' lines misses so much of a dented one.
+long double dent_of(const Facet& facet) {
+    long double dent_m = 0.0L;
+    for (std::size_t i = 0; i < facet.inward.size(); ++i) {
+        for (const Vec& corner : facet.corners) {
+            dent_m = std::max(dent_m, -glm::dot(corner - facet.corners[i], facet.inward[i]));
+        }
+    }
+    return dent_m;
+}
+
+/// The largest angle, radians, between a bent polygon's plane and that of three of its corners:
+/// pieces of it may lean so far. Three that are narrower than the slack lean as they like; what
+/// they show is within the slack of a side.
+long double lean_of(const Facet& facet) {
+    long double lean = 0.0L;
+    const auto& at = facet.corners;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        for (std::size_t j = i + 1; j < at.size(); ++j) {
+            for (std::size_t k = j + 1; k < at.size(); ++k) {
+                const Vec area = glm::cross(at[j] - at[i], at[k] - at[i]);
+                const long double round_m = glm::distance(at[i], at[j]) +
+                                            glm::distance(at[j], at[k]) +
+                                            glm::distance(at[k], at[i]);
+                const long double length = glm::length(area);
+                if (length > facet.slack_m * round_m) {
+                    const long double cosine = glm::dot(area, facet.normal) / length;
+                    lean = std::max(lean, std::acos(std::clamp(cosine, -1.0L, 1.0L)));
+                }
+            }
+        }
+    }
+    return lean;
+}
+
 /// Adds to the slack of each facet the largest bend of the facets that meet it at a corner.
 void spread_bends(Facets& facets) {
     std::map<std::array<long double, 3>, long double> at;
@@ -91,7 +129,7 @@ void spread_bends(Facets& facets) {
         for (const Vec& corner : facet.corners) {
             bend_m = std::max(bend_m, at[place(corner)]);
         }
-        facet.slack_m += bend_m;
+        facet.slack_m += bend_m + dent_of(facet);
     }
 }
 
@@ -114,6 +152,10 @@ Facets facets_of(const PolygonModel& model, long double slack_sizes, bool bends_
     }
     for (Facet& facet : facets.all) {
         facet.tilt *= facet.slack_m;
+        if (bends_spread && facet.bend_m > 2.0L * facets.noise_m &&
+            facet.corners.size() <= most_corners_leaning) {
+            facet.tilt = std::max(facet.tilt, lean_of(facet));
+        }
     }
     return facets;
 }
@@ -148,6 +190,24 @@ Hit meet(const Facet& facet, const Vec& eye, const Vec& ray) {
         return {};
     }
     return {inside_m > slant_m ? Meeting::Hit : Meeting::Doubtful, depth_m, slant_m};
+}
+
+bool passes_side(const Facet& facet, const Vec& eye, const Vec& ray) {
+    const auto beside = [&](const Vec& point) {
+        const Vec to = point - eye;
+        return to - ray * glm::dot(to, ray);
+    };
+    for (std::size_t i = 0; i < facet.corners.size(); ++i) {
+        const Vec from = beside(facet.corners[i]);
+        const Vec along = beside(facet.corners[(i + 1) % facet.corners.size()]) - from;
+        const long double length2 = glm::dot(along, along);
+        const long double share =
+            length2 > 0.0L ? std::clamp(-glm::dot(from, along) / length2, 0.0L, 1.0L) : 0.0L;
+        if (glm::length(from + along * share) <= facet.slack_m) {
+            return true;
+        }
+    }
+    return false;
 }
 
 bool same_plane(const Facet& a, const Facet& b, long double within_m) {

@@ -33,8 +33,9 @@ struct Facets {
 };
 
 /// The facets of a model. The slack of each is its own bend, its rounding and `slack_sizes` of the
-/// model's size; where `bends_spread` also the bend of polygons that share a corner's place, since
-/// making those flat may move the corner.
+/// model's size; where `bends_spread` also the depth of its dents, and the bend of polygons that
+/// share a corner's place, since making those flat may move the corner. A bent one leans then as
+/// far as its pieces may.
 Facets
 facets_of(const models::polygons::PolygonModel& model, long double slack_sizes, bool bends_spread);
 
@@ -54,6 +55,10 @@ struct Hit {
 /// Meets a ray from `eye` (from the model's middle) in the unit direction `ray` with the front of a
 /// facet. Closer to a side than the slack, seen along the ray, is doubtful.
 Hit meet(const Facet& facet, const Vec& eye, const Vec& ray);
+
+/// Whether a ray passes a side of a facet within the slack, whichever way the facet faces: slivers
+/// that a bent polygon has there may face otherwise.
+bool passes_side(const Facet& facet, const Vec& eye, const Vec& ray);
 
 /// Whether two facets lie in one plane and are seen from the same side, both within `within_m`.
 bool same_plane(const Facet& a, const Facet& b, long double within_m);

@@ -148,7 +148,7 @@ private:
         }
         if (nearest.polygon == nothing) {
             counts_.open += met_.empty() && seen == nothing ? 0 : 1;
-            if (met_.empty() && seen != nothing) {
+            if (met_.empty() && seen != nothing && !by_side_of(ordered_.model.parent_of(seen))) {
                 ++counts_.wrong_picture;
                 note(piece_name(seen) + " is seen where nothing is");
             }
@@ -156,6 +156,18 @@ private:
         }
         ++counts_.hits;
         judge_parent(seen == nothing ? nothing : ordered_.model.parent_of(seen), nearest);
+    }
+
+    /// Whether the ray passes a side of a polygon of the file within the margin.
+    bool by_side_of(std::uint32_t parent) const {
+        const Vec eye = Vec(eye_m_) - given_facets_.middle_m;
+        for (std::uint32_t polygon = 0; polygon < given_facets_.all.size(); ++polygon) {
+            if (given_.parent_of(polygon) == parent &&
+                passes_side(given_facets_.all[polygon], eye, ray_)) {
+                return true;
+            }
+        }
+        return false;
     }
 
     /// Holds the polygon of the file that is seen against those that the ray meets first.
@@ -174,7 +186,7 @@ private:
         }
         if (shown != nullptr) {
             judge_decals(*shown);
-        } else if (open) {
+        } else if (open || by_side_of(parent)) {
             ++counts_.open;
         } else {
             ++counts_.wrong_picture;
