@@ -60,8 +60,11 @@ EyeNode part_of(RegionGraphs& graphs, const EyeNode& node, EyeRegion part, const
 
 std::optional<Deadlock> ring_at_eye(RegionGraphs& graphs, const EyeNode& node) {
     const auto& among = node.cycles.polygons;
-    const glm::dvec3 eye = node.region.some_eye();
-    Cycles ring = cycles_of(graphs.at_eye(eye, node.cycles.inner, among), among);
+    const auto eye = node.region.some_eye();
+    if (!eye) {
+        throw SearchGivenUp{"a cell is too thin to hold an eye"};
+    }
+    Cycles ring = cycles_of(graphs.at_eye(*eye, node.cycles.inner, among), among);
     if (ring.edges == 0) {
         return std::nullopt;
     }

@@ -199,12 +199,14 @@ void EyeRegion::append_generators(std::vector<glm::dvec4>& generators) const {
     }
 }
 
-glm::dvec3 EyeRegion::some_eye() const {
+std::optional<glm::dvec3> EyeRegion::some_eye() const {
     glm::dvec4 sum(0.0);
     for (const Ray& ray : rays_) {
         sum += ray.at;
     }
-    assert(sum.w > 0.0);
+    if (sum.w <= 0.0) {
+        return std::nullopt;
+    }
     return glm::dvec3(sum.x, sum.y, sum.z) / sum.w;
 }
 

@@ -45,8 +45,9 @@ public:
     /// line is appended as two opposite directions.
     void append_generators(std::vector<glm::dvec4>& generators) const;
 
-    /// A point inside, always the same for the same region.
-    glm::dvec3 some_eye() const;
+    /// A point inside, always the same for the same region; nothing where cuts have left directions
+    /// only, as rounding may of a region thinner than itself.
+    std::optional<glm::dvec3> some_eye() const;
 
     /// The planes that bound the region, without redundant ones, in the order of the cuts.
     std::vector<Plane> planes() const;

@@ -51,7 +51,7 @@ TEST_CASE("six planes leave a box with eight corners") {
         CHECK(std::abs(corner.y / corner.w) == Approx(1.0));
         CHECK(std::abs(corner.z / corner.w) == Approx(1.0));
     }
-    CHECK(glm::length(box.some_eye()) == Approx(0.0).margin(1e-12));
+    CHECK(glm::length(box.some_eye().value()) == Approx(0.0).margin(1e-12));
     CHECK(box.planes() == unit_box);
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("cuts keep exactly the eyes in front of all planes") {
             }
         }
         for (const Plane& plane : planes) {
-            CHECK(octant::distance_m(plane, region.some_eye()) > 0.0);
+            CHECK(octant::distance_m(plane, region.some_eye().value()) > 0.0);
             for (const glm::dvec4& at : generators_of(region)) {
                 const glm::dvec3 point(at.x, at.y, at.z);
                 CHECK(glm::dot(plane.normal, point) + plane.offset_m * at.w > -1e-9);
