@@ -32,27 +32,39 @@ constexpr double moves_in_reaches = 4.0;
 /// A polygon whose height over its longest side is less has no area.
 constexpr double least_height = planar_tolerance;
 
+/// A point in steps of the decimals of its file, where it has a grid of them. Far from the origin,
+/// and in any unit, that gives the decimals that were written without what rounding has added.
+glm::dvec3 in_steps(const PlanarModel& frame, const glm::dvec3& point_m) {
+    return frame.grid_m > 0.0 ? glm::round(point_m / frame.grid_m) : point_m;
+}
+
 /// The middle of the box around all corners, and the distance of the farthest corner from it.
 void find_frame(const PolygonModel& model, PlanarModel& out) {
+    out.grid_m = decimal_grid(model.vertices_m);
+    const double step_m = out.step_m();
     glm::dvec3 least(std::numeric_limits<double>::max());
     glm::dvec3 most(std::numeric_limits<double>::lowest());
     for (const std::uint32_t vertex : model.corner_vertices) {
-        least = glm::min(least, model.vertices_m[vertex]);
-        most = glm::max(most, model.vertices_m[vertex]);
+        const glm::dvec3 at = in_steps(out, model.vertices_m[vertex]);
+        least = glm::min(least, at);
+        most = glm::max(most, at);
     }
     if (model.corner_vertices.empty()) {
         return;
     }
-    out.centre_m = least + (most - least) / 2.0;
+    out.centre_steps = least + (most - least) / 2.0;
     double farthest = 0.0;
     for (const std::uint32_t vertex : model.corner_vertices) {
-        farthest = std::max(farthest, glm::distance(model.vertices_m[vertex], out.centre_m));
+        const glm::dvec3 at = in_steps(out, model.vertices_m[vertex]);
+        farthest = std::max(farthest, glm::distance(at, out.centre_steps));
     }
-    out.radius_m = farthest > 0.0 ? farthest : 1.0;
+    out.radius_steps = farthest > 0.0 ? farthest : 1.0;
+    out.centre_m = out.centre_steps * step_m;
+    out.radius_m = out.radius_steps * step_m;
 }
 
 glm::dvec3 in_radii(const PlanarModel& frame, const glm::dvec3& point_m) {
-    return (point_m - frame.centre_m) / frame.radius_m;
+    return (in_steps(frame, point_m) - frame.centre_steps) / frame.radius_steps;
 }
 
 /// For each vertex which part it turns with: 0 for what stands still, and for vertices without a
@@ -188,7 +200,7 @@ PlanarModel planar_model(const PolygonModel& model) {
         vertex = in_radii(planar, vertex);
     }
     for (Pivot& pivot : planar.model.pivots) {
-        pivot.point_m = in_radii(planar, pivot.point_m);
+        pivot.point_m = (pivot.point_m - planar.centre_m) / planar.radius_m;
     }
     const double precision = file_precision(model.vertices_m) / planar.radius_m;
     cut_polygons(planar, move_vertices(planar.model, precision));

@@ -21,6 +21,15 @@ struct PlanarModel {
     glm::dvec3 centre_m{0.0};
     double radius_m = 1.0;
 
+    /// The step of the decimals of the model as given, of which all coordinates are multiples; 0
+    /// where there is none.
+    double grid_m = 0.0;
+    /// Centre and radius in these steps, in metres where there is none.
+    glm::dvec3 centre_steps{0.0};
+    double radius_steps = 1.0;
+
+    double step_m() const { return grid_m > 0.0 ? grid_m : 1.0; }
+
     /// From radii to the place, size and unit of the model as given.
     glm::dvec3 in_given(const glm::dvec3& point) const { return centre_m + point * radius_m; }
 

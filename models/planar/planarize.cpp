@@ -1,8 +1,11 @@
 // Points into planes by successive projections (S. Kaczmarz, "Angenaeherte Aufloesung von Systemen
 // linearer Gleichungen", 1937, here with planes that follow the points): polygon after polygon, all
 // that must lie on its plane is moved there, until nothing moves any more. A model of quadrangles
-// has more unknowns than conditions, so that nearby planar shapes exist; where they do not, the
-// polygons that would have to move too far give up and the rest begins again.
+// has more unknowns than conditions, so that nearby planar shapes exist; where they do not,
+// polygons give up and the rest begins again. It is not those that fail that give up: among a
+// failing one and those that share a point with it, it is the one that was least flat as given. So
+// what is planar in the file stays so, decals in one plane with it, beside neighbours that are
+// bent.
 #include "models/planar/planarize.h"
 
 #include <glm/geometric.hpp>
@@ -11,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 
 namespace octant::models::planar {
 
@@ -18,7 +22,7 @@ namespace {
 
 constexpr int most_sweeps = 400;
 constexpr std::size_t most_visits = 3'000'000; ///< Of polygons, in one round.
-constexpr int most_rounds = 6;
+constexpr int most_rounds = 8;
 constexpr double at_rest = 1e-14; ///< Smaller moves count as none.
 
 /// One run of planarize().
@@ -31,7 +35,13 @@ public:
         , incidences_(incidences)
         , most_move_(most_move)
         , bent_(incidences.size())
-        , alone_(incidences.size()) {}
+        , alone_(incidences.size()) {
+        for (std::size_t i = 0; i < incidences.size(); ++i) {
+            const auto& [corners, touching] = incidences[i];
+            const double uneven = most_height(i, corners);
+            misfits_.push_back({uneven, std::max(uneven, most_height(i, touching))});
+        }
+    }
 
     std::vector<bool> run() {
         for (int round = 0; round < most_rounds; ++round) {
@@ -79,14 +89,19 @@ private:
         return level;
     }
 
-    /// The largest distance of a corner from its polygon's plane.
-    double unevenness(std::size_t polygon) const {
+    /// How far points are from a polygon's plane at most.
+    double most_height(std::size_t polygon, std::span<const std::uint32_t> points) const {
         const Level level = level_of(polygon);
         double most = 0.0;
-        for (const std::uint32_t corner : incidences_[polygon].corners) {
-            most = std::max(most, std::abs(level.height(points_[corner])));
+        for (const std::uint32_t point : points) {
+            most = std::max(most, std::abs(level.height(points_[point])));
         }
         return most;
+    }
+
+    /// The largest distance of a corner from its polygon's plane.
+    double unevenness(std::size_t polygon) const {
+        return most_height(polygon, incidences_[polygon].corners);
     }
 
     bool has_work(std::size_t polygon) const {
@@ -151,39 +166,119 @@ private:
         return glm::distance(points_[point], given_[point]) > most_move_;
     }
 
-    /// Lets polygons give up that are not planar yet or have moved a point too far; says whether
-    /// there were any.
-    bool give_up() {
-        bool any = false;
+    /// Whether points of a polygon are off its plane or have moved too far.
+    bool fails(std::size_t polygon, std::span<const std::uint32_t> points) const {
+        return std::ranges::any_of(
+                   points, [&](std::uint32_t point) { return moved_too_far(point); }) ||
+               most_height(polygon, points) > planar_noise;
+    }
+
+    bool fails(std::size_t polygon) const {
+        const auto& [corners, touching] = incidences_[polygon];
+        return (!alone_[polygon] && fails(polygon, touching)) ||
+               (corners.size() > 3 && fails(polygon, corners));
+    }
+
+    /// How far from flat a polygon was as given, with what still has to lie on it.
+    double misfit(std::size_t polygon) const {
+        return alone_[polygon] ? misfits_[polygon].of_corners : misfits_[polygon].of_all;
+    }
+
+    template <class Visit>
+    void for_each_point(std::size_t polygon, Visit visit) const {
+        std::ranges::for_each(incidences_[polygon].corners, visit);
+        if (!alone_[polygon]) {
+            std::ranges::for_each(incidences_[polygon].touching, visit);
+        }
+    }
+
+    /// For each point the polygons on whose plane it has to lie.
+    using PolygonsOfPoints = std::vector<std::vector<std::size_t>>;
+
+    PolygonsOfPoints polygons_of_points() const {
+        PolygonsOfPoints polygons(points_.size());
         for (std::size_t i = 0; i < incidences_.size(); ++i) {
-            if (!has_work(i)) {
-                continue;
-            }
-            const auto too_far = [&](std::uint32_t point) { return moved_too_far(point); };
-            const Level level = level_of(i);
-            const auto off = [&](std::uint32_t point) {
-                return std::abs(level.height(points_[point])) > planar_noise;
-            };
-            const auto& [corners, touching] = incidences_[i];
-            if (!alone_[i] &&
-                (std::ranges::any_of(touching, too_far) || std::ranges::any_of(touching, off))) {
-                alone_[i] = any = true;
-            } else if (
-                corners.size() > 3 &&
-                (std::ranges::any_of(corners, too_far) || std::ranges::any_of(corners, off))) {
-                bool gives = alone_[i] || touching.empty();
-                alone_[i] = true;
-                bent_[i] = bent_[i] || gives;
-                any = true;
+            if (has_work(i)) {
+                for_each_point(i, [&](std::uint32_t point) { polygons[point].push_back(i); });
             }
         }
-        return any;
+        return polygons;
     }
+
+    /// Whether nothing had to move for a polygon as given.
+    bool was_flat(std::size_t polygon) const { return misfit(polygon) <= planar_noise; }
+
+    /// For each polygon the nearest one that was not flat as given, along points that have moved;
+    /// its own number where there is none.
+    std::vector<std::size_t> stirred_by(const PolygonsOfPoints& polygons_of) const {
+        std::vector<std::size_t> by(incidences_.size());
+        std::vector<std::size_t> reached;
+        std::vector<bool> known(incidences_.size());
+        for (std::size_t i = 0; i < by.size(); ++i) {
+            by[i] = i;
+            if (has_work(i) && !was_flat(i)) {
+                known[i] = true;
+                reached.push_back(i);
+            }
+        }
+        for (std::size_t next = 0; next < reached.size(); ++next) {
+            const std::size_t from = reached[next];
+            for_each_point(from, [&](std::uint32_t point) {
+                if (points_[point] == given_[point]) {
+                    return;
+                }
+                for (const std::size_t other : polygons_of[point]) {
+                    if (!known[other]) {
+                        known[other] = true;
+                        by[other] = by[from];
+                        reached.push_back(other);
+                    }
+                }
+            });
+        }
+        return by;
+    }
+
+    /// The least flat of a polygon and those that share a point with it, as given.
+    std::size_t worst_around(std::size_t polygon, const PolygonsOfPoints& polygons_of) const {
+        std::size_t worst = polygon;
+        for_each_point(polygon, [&](std::uint32_t point) {
+            for (const std::size_t other : polygons_of[point]) {
+                worst = misfit(other) > misfit(worst) ? other : worst;
+            }
+        });
+        return worst;
+    }
+
+    /// Lets polygons give up where some are not planar yet or have moved a point too far; says
+    /// whether there were any. What touches a polygon is given up first, then its own plane.
+    bool give_up() {
+        const PolygonsOfPoints polygons_of = polygons_of_points();
+        const std::vector<std::size_t> by = stirred_by(polygons_of);
+        std::set<std::size_t> giving;
+        for (std::size_t i = 0; i < incidences_.size(); ++i) {
+            if (has_work(i) && fails(i)) {
+                giving.insert(was_flat(i) ? by[i] : worst_around(i, polygons_of));
+            }
+        }
+        for (const std::size_t polygon : giving) {
+            bent_[polygon] = alone_[polygon] || incidences_[polygon].touching.empty();
+            alone_[polygon] = true;
+        }
+        return !giving.empty();
+    }
+
+    /// How far points of a polygon were from its plane as given.
+    struct Misfit {
+        double of_corners = 0.0;
+        double of_all = 0.0; ///< With what touches it.
+    };
 
     std::vector<glm::dvec3>& points_;
     const std::vector<glm::dvec3> given_;
     std::span<const Incidence> incidences_;
     double most_move_;
+    std::vector<Misfit> misfits_;
     std::vector<bool> bent_;  ///< Has given up its plane.
     std::vector<bool> alone_; ///< Has given up what touches it.
     /// Times in polygons flattened: when each point was moved last and each polygon flattened last.

@@ -89,6 +89,9 @@ TEST_CASE("the precision of a file is the last decimal of its large coordinates"
     CHECK(file_precision(std::vector<glm::dvec3>{{12.5, -0.25, 3.0}}) == Approx(0.1));
     CHECK(file_precision(std::vector<glm::dvec3>{{12.345678, 1e-9, 3.0}}) == Approx(1e-6));
     CHECK(file_precision(std::vector<glm::dvec3>{{4, 2, 1}}) == 1.0);
+    CHECK(decimal_grid(std::vector<glm::dvec3>{{12.5, -0.25, 3.0}}) == Approx(0.01));
+    CHECK(decimal_grid(std::vector<glm::dvec3>{{1e6 + 0.125, 2e-3, 0.0}}) == Approx(1e-3));
+    CHECK(decimal_grid(std::vector<glm::dvec3>{{1.0 / 3.0, 1.0, 0.0}}) == 0.0);
     const double third = 1.0 / 3.0;
     CHECK(file_precision(std::vector<glm::dvec3>{{third, third, third}}) < 1e-15);
     const auto single = static_cast<double>(static_cast<float>(third));
@@ -130,6 +133,49 @@ TEST_CASE("a planar model keeps its bits, whatever its place and size") {
             const PlanarModel planar = planar_model(model);
             CHECK(planar.radius_m == Approx(std::sqrt(0.5) * scale));
             CHECK(as_given(planar.model, planar, model).vertices_m == model.vertices_m);
+        }
+    }
+}
+
+TEST_CASE(
+    "of polygons that cannot all be planar the one that was bent gives up, whatever the order") {
+    // Three corners of the square touch a triangle at height 0, the fourth one at 2e-6.
+    const std::vector<glm::dvec3> given{
+        {-1, -1, 0},
+        {3, -1, 0},
+        {-1, 3, 0},
+        {-0.5, 0.5, 2e-6},
+        {0.5, 1.5, 2e-6},
+        {-0.5, 1.5, 2e-6},
+        {0, 0, 0},
+        {1, 0, 0},
+        {1, 1, 0},
+        {0, 1, 2e-6}};
+    const Incidence low{.corners = {0, 1, 2}, .touching = {6, 7, 8}};
+    const Incidence high{.corners = {3, 4, 5}, .touching = {9}};
+    const Incidence square{.corners = {6, 7, 8, 9}, .touching = {}};
+    std::vector<glm::dvec3> points = given;
+    CHECK(
+        planarize(points, std::vector{low, high, square}, 4e-6) ==
+        std::vector<bool>{false, false, true});
+    CHECK(points == given);
+    CHECK(
+        planarize(points, std::vector{square, low, high}, 4e-6) ==
+        std::vector<bool>{true, false, false});
+    CHECK(points == given);
+}
+
+TEST_CASE("six decimals are the same model at any place and in any unit, to the last bit") {
+    const PolygonModel given = written_torus();
+    const PlanarModel planar = planar_model(given);
+    CHECK(planar.grid_m == Approx(1e-6));
+    for (const double scale : {1e-6, 1.0, 1e6}) {
+        for (const double away : {0.0, 1e6}) {
+            PolygonModel model = given;
+            for (glm::dvec3& vertex : model.vertices_m) {
+                vertex = (vertex + away) * scale;
+            }
+            CHECK(planar_model(model).model.vertices_m == planar.model.vertices_m);
         }
     }
 }
