@@ -72,6 +72,7 @@
     X(named_renderbuffer_storage_multisample,                                                      \
       PFNGLNAMEDRENDERBUFFERSTORAGEMULTISAMPLEPROC,                                                \
       "glNamedRenderbufferStorageMultisample")                                                     \
+    X(named_framebuffer_texture, PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, "glNamedFramebufferTexture")    \
     X(object_label, PFNGLOBJECTLABELPROC, "glObjectLabel")                                         \
     X(pixel_storei, PFNGLPIXELSTOREIPROC, "glPixelStorei")                                         \
     X(polygon_offset, PFNGLPOLYGONOFFSETPROC, "glPolygonOffset")                                   \

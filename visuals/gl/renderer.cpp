@@ -80,7 +80,8 @@ std::unique_ptr<scene::Renderer> Renderer::beside(const glm::ivec2& size_px, int
     return std::make_unique<Renderer>(context_, size_px, samples);
 }
 
-void Renderer::resize(const glm::ivec2& size_px, int samples) {
+void Renderer::resize(const glm::ivec2& size_px, std::optional<int> wanted) {
+    const int samples = wanted.value_or(1);
     if (framebuffer_.fits(size_px, samples)) {
         return;
     }

@@ -13,6 +13,7 @@
 #include <glm/vec2.hpp>
 
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace octant::visuals::gl {
@@ -43,7 +44,7 @@ public:
 
     std::unique_ptr<scene::Renderer> beside(const glm::ivec2& size_px, int samples) const override;
 
-    void resize(const glm::ivec2& size_px, int samples) override;
+    void resize(const glm::ivec2& size_px, std::optional<int> samples) override;
     void load_models(std::span<const scene::ModelBuffers> models) override;
     void load_ground_texture(const scene::GroundTexture& texture) override;
     void warm_up() override;

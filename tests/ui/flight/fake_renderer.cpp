@@ -29,7 +29,7 @@ void FakeRenderer::called(const std::string& call) {
     }
 }
 
-void FakeRenderer::resize(const glm::ivec2& size_px, int /*samples*/) {
+void FakeRenderer::resize(const glm::ivec2& size_px, std::optional<int> /*samples*/) {
     called(fmt::format("resize {}x{}", size_px.x, size_px.y));
     log_->size_px = size_px;
 }

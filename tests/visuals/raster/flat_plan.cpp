@@ -1,0 +1,58 @@
+#include "tests/visuals/raster/flat_plan.h"
+
+#include <cstddef>
+#include <memory>
+
+namespace octant::visuals::raster {
+
+FlatPlan::FlatPlan(const glm::ivec2& size_px)
+    : size_px_(size_px) {
+    plan_.view_to_clip = glm::mat4(0.0F);
+    plan_.view_to_clip[0][0] = 1.0F;
+    plan_.view_to_clip[1][1] = 1.0F;
+    plan_.view_to_clip[2][3] = -1.0F;
+    plan_.view_to_clip[3][2] = 1.0F; // near plane, metres
+}
+
+void FlatPlan::paint(
+    const std::vector<FlatTriangle>& triangles, scene::DepthUse depth, std::uint32_t clip) {
+    const auto first = static_cast<std::uint32_t>(indices_.size());
+    for (const FlatTriangle& triangle : triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const float depth_m = triangle.depth_m[i];
+            const glm::vec2 share = triangle.at_px[i] / glm::vec2(size_px_) * 2.0F - 1.0F;
+            indices_.push_back(static_cast<std::uint32_t>(vertices_.size()));
+            vertices_.push_back(
+                {{share.x * depth_m, -share.y * depth_m, -depth_m}, triangle.colour[i]});
+        }
+    }
+    const auto count = static_cast<std::uint32_t>(indices_.size()) - first;
+    plan_.steps.push_back({scene::PaintStep::What::Ground, first, count, clip, depth});
+}
+
+scene::FramePlan& FlatPlan::plan() {
+    plan_.ground = {vertices_, indices_};
+    return plan_;
+}
+
+scene::Picture
+drawn(const scene::FramePlan& plan, const glm::ivec2& size_px, int samples, int threads) {
+    Renderer renderer(std::make_shared<Workers>(threads), size_px, samples);
+    scene::Picture picture;
+    renderer.draw(plan);
+    renderer.finish_and_read(picture);
+    return picture;
+}
+
+std::uint64_t below(Dice& dice, std::uint64_t most) {
+    return static_cast<std::uint64_t>(dice.next() * static_cast<double>(most));
+}
+
+glm::ivec3 pixel(const scene::Picture& picture, int x, int y) {
+    const std::size_t at =
+        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+             static_cast<std::size_t>(x));
+    return {picture.rgba[at], picture.rgba[at + 1], picture.rgba[at + 2]};
+}
+
+} // namespace octant::visuals::raster

@@ -1,0 +1,215 @@
+#include "tests/visuals/raster/flat_plan.h"
+#include "visuals/raster/projection.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+namespace octant::visuals::raster {
+
+namespace {
+
+using scene::DepthUse;
+using scene::PaintStep;
+
+constexpr glm::ivec2 size_px{64, 64};
+constexpr std::uint32_t red = 0xff0000ffU;
+constexpr std::uint32_t green = 0xff00ff00U;
+constexpr glm::ivec3 red_px{255, 0, 0};
+constexpr glm::ivec3 green_px{0, 255, 0};
+
+/// Two triangles that fill a rectangle.
+std::vector<FlatTriangle>
+rectangle(glm::vec2 least, glm::vec2 most, std::uint32_t colour, float depth_m) {
+    FlatTriangle lower;
+    lower.at_px = {least, glm::vec2(most.x, least.y), most};
+    FlatTriangle upper;
+    upper.at_px = {least, most, glm::vec2(least.x, most.y)};
+    for (FlatTriangle* const one : {&lower, &upper}) {
+        one->depth_m.fill(depth_m);
+        one->colour.fill(colour);
+    }
+    return {lower, upper};
+}
+
+void clear_depth(FlatPlan& plan) {
+    plan.plan().depth_boxes.push_back({glm::ivec2(0), size_px});
+    plan.plan().steps.push_back(
+        {PaintStep::What::ClearDepth,
+         static_cast<std::uint32_t>(plan.plan().depth_boxes.size() - 1),
+         1});
+}
+
+} // namespace
+
+TEST_CASE("the nearer one is seen where steps ask for depth, whatever their order") {
+    FlatPlan plan(size_px);
+    clear_depth(plan);
+    plan.paint(rectangle({0, 0}, {64, 64}, red, 4.0F), DepthUse::Nearest);
+    plan.paint(rectangle({0, 0}, {64, 64}, green, 8.0F), DepthUse::Nearest);
+    CHECK(pixel(drawn(plan.plan(), size_px, 16), 30, 30) == red_px);
+}
+
+TEST_CASE("what is drawn after a group by depth lies over it, what came before lies under it") {
+    FlatPlan plan(size_px);
+    plan.paint(rectangle({0, 0}, {64, 64}, green, 2.0F));
+    clear_depth(plan);
+    plan.paint(rectangle({0, 0}, {40, 64}, red, 8.0F), DepthUse::Nearest);
+    plan.paint(rectangle({0, 40}, {64, 64}, 0xffff0000U, 16.0F));
+    const scene::Picture picture = drawn(plan.plan(), size_px, 16);
+    CHECK(pixel(picture, 50, 10) == green_px);
+    CHECK(pixel(picture, 20, 10) == red_px);
+    CHECK(pixel(picture, 20, 50) == glm::ivec3(0, 0, 255));
+}
+
+TEST_CASE("cleared depth forgets the group before") {
+    FlatPlan plan(size_px);
+    clear_depth(plan);
+    plan.paint(rectangle({0, 0}, {64, 64}, red, 4.0F), DepthUse::Nearest);
+    clear_depth(plan);
+    plan.paint(rectangle({0, 0}, {64, 64}, green, 8.0F), DepthUse::Nearest);
+    CHECK(pixel(drawn(plan.plan(), size_px, 16), 30, 30) == green_px);
+}
+
+TEST_CASE("depth alone hides what comes next and keeps the colours that are there") {
+    FlatPlan plan(size_px);
+    plan.paint(rectangle({0, 0}, {64, 64}, green, 2.0F));
+    clear_depth(plan);
+    plan.paint(rectangle({0, 0}, {32, 64}, 0xffffffffU, 4.0F), DepthUse::DepthOnly);
+    plan.paint(rectangle({0, 0}, {64, 64}, red, 8.0F), DepthUse::Nearest);
+    const scene::Picture picture = drawn(plan.plan(), size_px, 16);
+    CHECK(pixel(picture, 10, 30) == green_px);
+    CHECK(pixel(picture, 50, 30) == red_px);
+}
+
+TEST_CASE("what lies infinitely far is seen where nothing else is; a shadow lies on its ground") {
+    FlatPlan plan(size_px);
+    clear_depth(plan);
+    plan.paint(rectangle({0, 0}, {32, 64}, red, 4.0F), DepthUse::Nearest);
+    plan.paint(rectangle({0, 0}, {64, 64}, green, 100.0F), DepthUse::InfinitelyFar);
+    plan.paint(rectangle({0, 0}, {10, 64}, 0xffff0000U, 4.0F), DepthUse::OnGround);
+    const scene::Picture picture = drawn(plan.plan(), size_px, 16);
+    CHECK(pixel(picture, 20, 30) == red_px);
+    CHECK(pixel(picture, 50, 30) == green_px);
+    CHECK(pixel(picture, 5, 30) == glm::ivec3(0, 0, 255));
+}
+
+TEST_CASE("both sides of a cut make the whole, through the eye or not") {
+    const float offset_m = GENERATE(0.0F, 1.5F);
+    for (const int samples : {1, 16}) {
+        FlatPlan plan(size_px);
+        for (const float side : {1.0F, -1.0F}) {
+            scene::Clip clip;
+            clip.count = 1;
+            clip.planes[0] = side * glm::vec4(0.7F, 0.4F, 0.1F, offset_m);
+            plan.plan().clips.push_back(clip);
+        }
+        plan.paint(rectangle({0, 0}, {64, 64}, red, 4.0F), DepthUse::None, 0);
+        plan.paint(rectangle({0, 0}, {64, 64}, red, 4.0F), DepthUse::None, 1);
+        const scene::Picture picture = drawn(plan.plan(), size_px, samples);
+        int whole = 0;
+        for (int y = 0; y < size_px.y; ++y) {
+            for (int x = 0; x < size_px.x; ++x) {
+                whole += pixel(picture, x, y) == red_px ? 1 : 0;
+            }
+        }
+        CHECK(whole == size_px.x * size_px.y);
+        // Each side alone is not.
+        FlatPlan half(size_px);
+        half.plan().clips = plan.plan().clips;
+        half.paint(rectangle({0, 0}, {64, 64}, red, 4.0F), DepthUse::None, 0);
+        const scene::Picture one = drawn(half.plan(), size_px, samples);
+        CHECK(pixel(one, 63, 0) == red_px);
+        CHECK(pixel(one, 0, 63) == glm::ivec3(0));
+    }
+}
+
+TEST_CASE("polygons of an aircraft are flat or smooth as their bits say, whichever are drawn") {
+    scene::ModelBuffers model;
+    for (std::uint32_t polygon = 0; polygon < 2; ++polygon) {
+        const float left = polygon == 0 ? -1.0F : 0.0F;
+        for (const glm::vec2 at :
+             {glm::vec2(left, -1.0F), glm::vec2(left + 1.0F, -1.0F), glm::vec2(left, 1.0F)}) {
+            scene::ModelVertex vertex;
+            vertex.position_m = glm::vec3(at, -1.0F);
+            vertex.normal = glm::vec3(0.0F, 0.0F, 1.0F);
+            vertex.face_normal = vertex.normal;
+            vertex.colour = green;
+            vertex.face_colour = red;
+            vertex.polygon = polygon;
+            model.vertices.push_back(vertex);
+            model.indices.push_back(static_cast<std::uint32_t>(model.indices.size()));
+        }
+    }
+    FlatPlan plan(size_px);
+    scene::FramePlan& frame = plan.plan();
+    frame.ambient = glm::vec3(1.0F);
+    frame.parts = {glm::mat4(1.0F)};
+    frame.smooth = {GENERATE(0U, 2U)};
+    frame.aircraft = {{.model = 0, .first_index = 3, .index_count = 3}}; // the second one alone
+    frame.steps.push_back({PaintStep::What::Aircraft, 0, 1});
+    Renderer renderer(std::make_shared<Workers>(1), size_px, 16);
+    renderer.load_models(std::span(&model, 1));
+    renderer.draw(frame);
+    scene::Picture picture;
+    renderer.finish_and_read(picture);
+    CHECK(pixel(picture, 36, 60) == (frame.smooth[0] == 0 ? red_px : green_px));
+    CHECK(pixel(picture, 10, 60) == glm::ivec3(0));
+}
+
+TEST_CASE("light is lost in haze as exp says, to single precision") {
+    CHECK(exp_of_minus(0.0F) == Approx(1.0).epsilon(1e-7));
+    for (float x = 0.001F; x < 80.0F; x *= 1.03F) {
+        CHECK(exp_of_minus(x) == Approx(std::exp(-static_cast<double>(x))).epsilon(4e-6));
+    }
+}
+
+TEST_CASE("neighbours of the overlay with one colour are blended as one") {
+    FlatPlan plan(size_px);
+    const std::uint32_t half_white = 0x80ffffffU;
+    const std::vector<scene::OverlayVertex> vertices{
+        {{3.3F, 4.7F}, half_white},
+        {{50.2F, 9.1F}, half_white},
+        {{60.9F, 55.5F}, half_white},
+        {{8.4F, 48.8F}, half_white}};
+    const std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3};
+    plan.plan().overlay = {vertices, indices};
+    plan.plan().steps.push_back({PaintStep::What::Overlay, 0, 6});
+    const scene::Picture picture = drawn(plan.plan(), size_px, 16);
+    for (int along = 12; along < 45; ++along) {
+        CHECK(pixel(picture, along, along) == glm::ivec3(128));
+    }
+}
+
+TEST_CASE("an inset is a picture of its own within a thin frame") {
+    FlatPlan plan(size_px);
+    plan.paint(rectangle({0, 0}, {64, 64}, red, 4.0F));
+    FlatPlan inset({20, 10});
+    FlatTriangle triangle;
+    triangle.at_px = {glm::vec2(-50, -50), glm::vec2(200, -50), glm::vec2(-50, 200)};
+    triangle.colour.fill(green);
+    inset.paint({triangle});
+    Renderer renderer(std::make_shared<Workers>(2), size_px, 16);
+    renderer.draw(plan.plan());
+    renderer.draw_inset(inset.plan(), {30, 40, 20, 10});
+    scene::Picture picture;
+    renderer.finish_and_read(picture);
+    CHECK(pixel(picture, 30, 40) == green_px);
+    CHECK(pixel(picture, 49, 49) == green_px);
+    CHECK(pixel(picture, 50, 45) == glm::ivec3(20, 23, 26));
+    CHECK(pixel(picture, 52, 45) == red_px);
+}
+
+TEST_CASE("levels between corners go straight, and correctly for perspective where that shows") {
+    FlatPlan plan(size_px);
+    FlatTriangle triangle;
+    triangle.at_px = {glm::vec2(0.5F, 0.5F), glm::vec2(0.5F, 200.0F), glm::vec2(64.5F, 0.5F)};
+    triangle.depth_m = {1.0F, 1.0F, 4.0F};
+    triangle.colour = {0xff000000U, 0xff000000U, 0xff0000ffU};
+    plan.paint({triangle});
+    const scene::Picture picture = drawn(plan.plan(), size_px, 1);
+    // Half-way across, a straight line in space has come a fifth of the way: 1 / (1 + 4).
+    CHECK(pixel(picture, 32, 0).x == Approx(255.0 / 5.0).margin(2.0));
+}
+
+} // namespace octant::visuals::raster

@@ -1,0 +1,91 @@
+#include "sim/base/dice.h"
+#include "tests/visuals/raster/flat_plan.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstddef>
+#include <hwy/targets.h>
+
+namespace octant::visuals::raster {
+
+namespace {
+
+constexpr glm::ivec2 size_px{200, 150};
+
+/// Triangles of all sizes and colours, with and without depth, cut by planes, near and far.
+void paint_much(FlatPlan& plan) {
+    Dice dice(5);
+    for (int step = 0; step < 24; ++step) {
+        std::vector<FlatTriangle> triangles;
+        for (int i = 0; i < 200; ++i) {
+            FlatTriangle triangle;
+            const glm::vec2 middle(
+                static_cast<float>(below(dice, 20000)) / 100.0F,
+                static_cast<float>(below(dice, 15000)) / 100.0F);
+            const auto reach = static_cast<float>(1 + below(dice, i % 20 == 0 ? 200 : 12));
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto part = [&] {
+                    return static_cast<float>(below(dice, 2001)) / 1000.0F - 1.0F;
+                };
+                const float x = part();
+                triangle.at_px[k] = middle + reach * glm::vec2(x, part());
+                triangle.depth_m[k] = 1.0F + static_cast<float>(below(dice, 1000)) / 10.0F;
+                triangle.colour[k] =
+                    static_cast<std::uint32_t>(below(dice, 1U << 24)) | 0xff000000U;
+            }
+            triangles.push_back(triangle);
+        }
+        const bool by_depth = step % 3 == 1;
+        const bool cut = step % 5 == 2;
+        if (cut) {
+            scene::Clip clip;
+            clip.count = 2;
+            clip.planes[0] = glm::vec4(0.6F, 0.3F, -0.1F, 0.0F);
+            clip.planes[1] = glm::vec4(-0.2F, 0.5F, 0.3F, 4.0F);
+            plan.plan().clips.push_back(clip);
+        }
+        plan.paint(
+            triangles,
+            by_depth ? scene::DepthUse::Nearest : scene::DepthUse::None,
+            cut ? static_cast<std::uint32_t>(plan.plan().clips.size() - 1)
+                : scene::PaintStep::whole);
+    }
+}
+
+} // namespace
+
+TEST_CASE("any number of threads makes the same bytes") {
+    FlatPlan plan(size_px);
+    paint_much(plan);
+    for (const int samples : {1, 4, 16}) {
+        const scene::Picture one = drawn(plan.plan(), size_px, samples, 1);
+        CHECK(drawn(plan.plan(), size_px, samples, 2).rgba == one.rgba);
+        CHECK(drawn(plan.plan(), size_px, samples, 5).rgba == one.rgba);
+    }
+}
+
+TEST_CASE("all instruction sets make the same bytes") {
+    FlatPlan plan(size_px);
+    paint_much(plan);
+    const std::int64_t all = hwy::SupportedTargets();
+    for (const int samples : {1, 4, 16}) {
+        const scene::Picture best = drawn(plan.plan(), size_px, samples);
+        int sets = 0;
+        for (int bit = 0; bit < 63; ++bit) {
+            const std::int64_t target = std::int64_t{1} << bit;
+            if ((all & target) == 0) {
+                continue;
+            }
+            hwy::SetSupportedTargetsForTest(target);
+            hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+            CAPTURE(samples, hwy::TargetName(target));
+            CHECK(drawn(plan.plan(), size_px, samples).rgba == best.rgba);
+            ++sets;
+        }
+        hwy::SetSupportedTargetsForTest(0);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        CHECK(sets >= 2);
+    }
+}
+
+} // namespace octant::visuals::raster

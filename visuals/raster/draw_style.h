@@ -1,0 +1,22 @@
+#pragma once
+
+#include "visuals/raster/triangle.h"
+#include "visuals/scene/paint_step.h"
+
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+#include <span>
+
+namespace octant::visuals::raster {
+
+/// How the triangles of one step are drawn.
+struct DrawStyle {
+    Fill fill = Fill::Levels;
+    scene::DepthUse depth = scene::DepthUse::None;
+    std::uint16_t group = 0; ///< depth group, from 1
+    bool culls_back_faces = false;
+    std::span<const glm::vec4> clip_planes{}; ///< as scene::Clip
+};
+
+} // namespace octant::visuals::raster

@@ -1,0 +1,137 @@
+#include "visuals/raster/frame_slices.h"
+
+#include "visuals/raster/depth_groups.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace octant::visuals::raster {
+
+using scene::FramePlan;
+using scene::PaintStep;
+
+/// Ground, shadows and sky have one list of corners each; their slices are the steps.
+void FrameSlices::collect(const FrameInput& input) {
+    const FramePlan& plan = input.plan;
+    blocks_.clear();
+    slices_.clear();
+    corners_ = 0;
+    flat_corners_ = 0;
+    using Kind = CornerBlock::Kind;
+    assert(!plan.ground_texture || input.ground != nullptr);
+    const Kind ground = plan.ground_texture ? Kind::Textured : Kind::Ground;
+    add_block(ground, plan.ground.vertices.size()).coloured = plan.ground.vertices;
+    add_block(ground, plan.shadow_vertices.size()).coloured = plan.shadow_vertices;
+    first_sky_ = static_cast<std::int64_t>(corners_);
+    add_block(Kind::Sky, plan.sky.vertices.size()).coloured = plan.sky.vertices;
+    const std::vector<std::uint16_t> groups = depth_groups(plan.steps);
+    for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+        const PaintStep& step = plan.steps[i];
+        DrawStyle style{.fill = Fill::Levels, .depth = step.depth, .group = groups[i]};
+        if (step.clip != PaintStep::whole) {
+            const scene::Clip& clip = plan.clips[step.clip];
+            style.clip_planes = std::span(clip.planes).first(static_cast<std::size_t>(clip.count));
+        }
+        add_step(input, step, style);
+    }
+}
+
+void FrameSlices::add_step(const FrameInput& input, const PaintStep& step, DrawStyle style) {
+    const FramePlan& plan = input.plan;
+    const auto add_ground = [&](std::span<const std::uint32_t> indices) {
+        const bool shows_mesh = plan.mesh_look != scene::MeshLook::None;
+        style.fill = shows_mesh ? Fill::Mesh : plan.ground_texture ? Fill::Texture : Fill::Levels;
+        add_slice({.indices = indices.subspan(step.first, step.count), .style = style});
+    };
+    switch (step.what) {
+    case PaintStep::What::ClearDepth:
+    case PaintStep::What::Overlay:
+        break;
+    case PaintStep::What::Sky:
+        add_slice(
+            {.indices = plan.sky.indices.subspan(step.first, step.count),
+             .style = style,
+             .first_corner = first_sky_});
+        break;
+    case PaintStep::What::Ground:
+        add_ground(plan.ground.indices);
+        break;
+    case PaintStep::What::GroundAgain:
+        add_ground(plan.repaint_indices);
+        break;
+    case PaintStep::What::Aircraft:
+        style.culls_back_faces = true;
+        for (std::uint32_t i = step.first; i < step.first + step.count; ++i) {
+            add_aircraft(input, plan.aircraft[i], style);
+        }
+        break;
+    case PaintStep::What::Refined:
+        style.culls_back_faces = true;
+        for (std::uint32_t i = step.first; i < step.first + step.count; ++i) {
+            const scene::RefinedDraw& draw = plan.refined[i];
+            const AircraftLook look{
+                std::span(plan.parts).subspan(draw.first_part),
+                std::span(plan.smooth).subspan(draw.first_smooth),
+                draw.tints};
+            add_mesh(draw.indices, draw.vertices, look, style);
+        }
+        break;
+    }
+}
+
+CornerBlock& FrameSlices::add_block(CornerBlock::Kind kind, std::size_t corners) {
+    CornerBlock& block = blocks_.emplace_back();
+    block.kind = kind;
+    block.first = corners_;
+    block.first_flat = flat_corners_;
+    corners_ += corners;
+    flat_corners_ += kind == CornerBlock::Kind::Aircraft ? corners : 0;
+    return block;
+}
+
+void FrameSlices::add_aircraft(
+    const FrameInput& input, const scene::AircraftDraw& draw, const DrawStyle& style) {
+    const scene::ModelBuffers& model = input.models[draw.model];
+    const AircraftLook look{
+        std::span(input.plan.parts).subspan(draw.first_part),
+        std::span(input.plan.smooth).subspan(draw.first_smooth),
+        draw.tints};
+    const std::span<const std::uint32_t> all(model.indices);
+    if (draw.ranges.empty()) {
+        add_mesh(all.subspan(draw.first_index, draw.index_count), model.vertices, look, style);
+    }
+    for (const scene::IndexRange& range : draw.ranges) {
+        add_mesh(all.subspan(range.first_index, range.index_count), model.vertices, look, style);
+    }
+}
+
+/// The corners between the first and the last that the triangles name are placed.
+void FrameSlices::add_mesh(
+    std::span<const std::uint32_t> indices,
+    std::span<const scene::ModelVertex> vertices,
+    const AircraftLook& look,
+    const DrawStyle& style) {
+    if (indices.empty()) {
+        return;
+    }
+    const auto [least, most] = std::ranges::minmax(indices);
+    CornerBlock& block = add_block(CornerBlock::Kind::Aircraft, most - least + 1);
+    block.of_model = vertices.subspan(least, most - least + 1);
+    block.look = look;
+    add_slice(
+        {.indices = indices,
+         .style = style,
+         .first_corner = static_cast<std::int64_t>(block.first) - least,
+         .first_flat = static_cast<std::int64_t>(block.first_flat) - least,
+         .is_aircraft = true});
+}
+
+void FrameSlices::add_slice(const FrameSlice& slice) {
+    constexpr std::size_t most = 3 * batch_triangles;
+    for (std::size_t first = 0; first < slice.indices.size(); first += most) {
+        FrameSlice& part = slices_.emplace_back(slice);
+        part.indices = slice.indices.subspan(first, std::min(most, slice.indices.size() - first));
+    }
+}
+
+} // namespace octant::visuals::raster

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "visuals/raster/ground_image.h"
+#include "visuals/raster/triangle_setup.h"
+#include "visuals/raster/vertex_stage.h"
+#include "visuals/scene/frame_plan.h"
+#include "visuals/scene/model_buffers.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::raster {
+
+/// Triangles of one slice, and so of one task, at most.
+constexpr std::size_t batch_triangles = 2048;
+
+/// What a plan's triangles are made from beside the plan itself.
+struct FrameInput {
+    const scene::FramePlan& plan;
+    std::span<const scene::ModelBuffers> models;
+    GroundImage* ground = nullptr; ///< none loaded
+    glm::ivec2 size_px{0};
+};
+
+/// Corners that are placed alike, and where they go in the list of all corners.
+struct CornerBlock {
+    enum class Kind { Ground, Textured, Sky, Aircraft } kind = Kind::Ground;
+    std::span<const models::ColourVertex> coloured;
+    std::span<const scene::ModelVertex> of_model;
+    AircraftLook look;
+    std::size_t first = 0;
+    std::size_t first_flat = 0; ///< among those of aircraft alone
+};
+
+/// Triangles of one step.
+struct FrameSlice {
+    std::span<const std::uint32_t> indices;
+    DrawStyle style;
+    // What is added to an index for its place, which may be less than nothing.
+    std::int64_t first_corner = 0; ///< among all corners
+    std::int64_t first_flat = 0;   ///< among those of aircraft
+    bool is_aircraft = false;
+};
+
+/// The steps of a plan as slices in painting order, and the corners that they name. Spans point
+/// into the plan and the models.
+class FrameSlices {
+public:
+    void collect(const FrameInput& input);
+
+    const std::vector<CornerBlock>& blocks() const { return blocks_; }
+
+    const std::vector<FrameSlice>& slices() const { return slices_; }
+
+    std::size_t corners() const { return corners_; }
+
+    std::size_t flat_corners() const { return flat_corners_; }
+
+private:
+    void add_step(const FrameInput& input, const scene::PaintStep& step, DrawStyle style);
+    CornerBlock& add_block(CornerBlock::Kind kind, std::size_t corners);
+    void
+    add_aircraft(const FrameInput& input, const scene::AircraftDraw& draw, const DrawStyle& style);
+    void add_mesh(
+        std::span<const std::uint32_t> indices,
+        std::span<const scene::ModelVertex> vertices,
+        const AircraftLook& look,
+        const DrawStyle& style);
+    void add_slice(const FrameSlice& slice);
+
+    std::vector<CornerBlock> blocks_;
+    std::vector<FrameSlice> slices_;
+    std::size_t corners_ = 0;
+    std::size_t flat_corners_ = 0;
+    std::int64_t first_sky_ = 0;
+};
+
+} // namespace octant::visuals::raster

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "visuals/raster/vertex_stage.h"
+#include "visuals/scene/ground_texture.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace octant::visuals::raster {
+
+/// The ground's texture as it looks under the light: colours, darkened by their normals, in levels
+/// of half the size each.
+class GroundImage {
+public:
+    struct Level {
+        int width = 0;
+        int height = 0;
+        std::vector<std::uint32_t> texels; ///< red in the lowest byte; rows from the south
+    };
+
+    void load(const scene::GroundTexture& texture);
+
+    /// Lights the texture anew if the light is another one than last time.
+    void light(const Light& light);
+
+    /// Takes places in shares of the texture, which has been loaded, to texels whose middles lie at
+    /// whole numbers.
+    TexelPlace texel_place(const scene::TexturePlace& place) const;
+
+    const std::vector<Level>& levels() const { return levels_; }
+
+private:
+    scene::GroundTexture texture_;
+    Light light_;
+    std::vector<Level> levels_;
+};
+
+} // namespace octant::visuals::raster

@@ -1,0 +1,199 @@
+#include "visuals/raster/pixel_colour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace octant::visuals::raster {
+
+namespace {
+
+constexpr double per_level = 16.0;
+constexpr double most_level = 255.0;
+constexpr double least_by_w = 1e-30;
+
+std::uint16_t packed(double level) {
+    return static_cast<std::uint16_t>(std::clamp(level, 0.0, most_level) * per_level + 0.5);
+}
+
+/// A level, 1/128 from the level 128, within the triangle's own.
+std::int32_t limited(const Levels& levels, std::size_t i, int column, int row) {
+    const std::uint32_t at =
+        static_cast<std::uint32_t>(levels.base[i]) +
+        static_cast<std::uint32_t>(levels.per_x[i]) * static_cast<std::uint32_t>(column) +
+        static_cast<std::uint32_t>(levels.per_y[i]) * static_cast<std::uint32_t>(row);
+    const std::int32_t value = static_cast<std::int32_t>(at + 256U) >> 9;
+    return std::clamp<std::int32_t>(value, levels.least[i], levels.most[i]);
+}
+
+PixelColour by_levels(const Triangle& triangle, int column, int row) {
+    PixelColour colour;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::int32_t level = limited(triangle.levels, i, column, row);
+        colour[i] = static_cast<std::uint16_t>((level + 128 * 128 + 4) >> 3);
+    }
+    return colour;
+}
+
+double depth_of(const TriangleExtra& extra, int column, int row) {
+    return 1.0 / std::max(extra.by_w[4].at(column, row), least_by_w);
+}
+
+PixelColour by_perspective(const TileTriangle& one, int column, int row) {
+    const double w = depth_of(*one.extra, column, row);
+    PixelColour colour;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Levels& levels = one.triangle->levels;
+        const double level = one.extra->by_w[i].at(column, row) * w;
+        colour[i] = packed(
+            std::clamp(level, levels.least[i] / 128.0 + 128.0, levels.most[i] / 128.0 + 128.0));
+    }
+    return colour;
+}
+
+/// The texture's colour between the four texels around a place of one level.
+std::array<double, 3> texel_at(const GroundImage::Level& level, double x, double y) {
+    const double within_x = std::clamp(x, 0.0, level.width - 1.0);
+    const double within_y = std::clamp(y, 0.0, level.height - 1.0);
+    const int x0 = std::min(static_cast<int>(within_x), std::max(level.width - 2, 0));
+    const int y0 = std::min(static_cast<int>(within_y), std::max(level.height - 2, 0));
+    const int x1 = std::min(x0 + 1, level.width - 1);
+    const int y1 = std::min(y0 + 1, level.height - 1);
+    const double right = within_x - x0;
+    const double up = within_y - y0;
+    const auto texel = [&](int column, int row) {
+        return level.texels
+            [static_cast<std::size_t>(row) * static_cast<std::size_t>(level.width) +
+             static_cast<std::size_t>(column)];
+    };
+    const std::array corners{texel(x0, y0), texel(x1, y0), texel(x0, y1), texel(x1, y1)};
+    const std::array weights{
+        (1.0 - right) * (1.0 - up), right * (1.0 - up), (1.0 - right) * up, right * up};
+    std::array<double, 3> sum{};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            sum[i] += weights[k] * (corners[k] >> (8 * i) & 0xffU);
+        }
+    }
+    return sum;
+}
+
+/// The logarithm to base 2, straight between whole numbers: wrong by less than 0.09.
+double coarse_log2(double x) {
+    int exponent = 0;
+    const double share = std::frexp(x, &exponent); // 1/2 .. 1
+    return exponent - 1 + (2.0 * share - 1.0);
+}
+
+PixelColour by_texture(const TileTriangle& one, const TileJob& job, int column, int row) {
+    const TriangleExtra& extra = *one.extra;
+    const double w = depth_of(extra, column, row);
+    const auto value = [&](std::size_t i) { return extra.by_w[i].at(column, row) * w; };
+    const double x = value(0);
+    const double y = value(1);
+    // How far the place moves in the texture from this pixel to the next ones.
+    const auto moves = [&](double by_column, double by_row) {
+        const double step_x =
+            (extra.by_w[0].per_x * by_column + extra.by_w[0].per_y * by_row -
+             x * (extra.by_w[4].per_x * by_column + extra.by_w[4].per_y * by_row)) *
+            w;
+        const double step_y =
+            (extra.by_w[1].per_x * by_column + extra.by_w[1].per_y * by_row -
+             y * (extra.by_w[4].per_x * by_column + extra.by_w[4].per_y * by_row)) *
+            w;
+        return step_x * step_x + step_y * step_y;
+    };
+    const double size2 = std::max(moves(1.0, 0.0), moves(0.0, 1.0));
+    const auto& levels = job.ground->levels();
+    const double most = static_cast<double>(levels.size()) - 1.0;
+    const double level = size2 > 1.0 ? std::min(0.5 * coarse_log2(size2), most) : 0.0;
+    const auto fine = static_cast<std::size_t>(level);
+    const double coarse_share = level - static_cast<double>(fine);
+    const auto at_level = [&](std::size_t k) {
+        const double scale = 1.0 / static_cast<double>(std::uint64_t{1} << k);
+        return texel_at(levels[k], (x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5);
+    };
+    std::array<double, 3> own = at_level(fine);
+    if (coarse_share > 0.0) {
+        const std::array<double, 3> coarse = at_level(std::min(fine + 1, levels.size() - 1));
+        for (std::size_t i = 0; i < 3; ++i) {
+            own[i] += coarse_share * (coarse[i] - own[i]);
+        }
+    }
+    const double light_left = std::clamp(value(2), 0.0, 1.0);
+    const double haze_share = std::clamp(value(3), 0.0, 1.0);
+    PixelColour colour;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double lit = own[i] * light_left;
+        colour[i] = packed(
+            lit +
+            haze_share * (static_cast<double>(job.haze[static_cast<glm::length_t>(i)]) - lit));
+    }
+    return colour;
+}
+
+/// Six hues around the wheel, one a level, so that neighbours are far apart; 0..1.
+std::array<double, 3> hue_of(float level) {
+    const double turn = std::floor(static_cast<double>(level) + 0.25) * 5.0 / 12.0;
+    const double sixths = (turn - std::floor(turn)) * 6.0;
+    std::array<double, 3> hue;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double from = std::fmod(sixths + std::array{0.0, 4.0, 2.0}[i], 6.0);
+        hue[i] = std::clamp(std::abs(from - 3.0) - 1.0, 0.0, 1.0);
+    }
+    return hue;
+}
+
+double smoothstep(double end, double x) {
+    const double t = std::clamp(x / end, 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+/// Levels, darkened towards the triangle's edges over about a pixel.
+PixelColour by_mesh(const TileTriangle& one, const TileJob& job, int column, int row) {
+    const TriangleExtra& extra = *one.extra;
+    const double w = depth_of(extra, column, row);
+    double inside = 1.0;
+    for (const RealPlane& edge : extra.from_edges) {
+        const double from = edge.at(column, row) * w;
+        const double across = std::abs(edge.per_x - from * extra.by_w[4].per_x) * w;
+        const double down = std::abs(edge.per_y - from * extra.by_w[4].per_y) * w;
+        inside = std::min(inside, smoothstep(std::max(1.2 * (across + down), 1e-12), from));
+    }
+    const std::array<double, 3> hue = hue_of(extra.mesh_level);
+    const double hue_share = job.tints_mesh_levels ? 0.45 : 0.0;
+    PixelColour colour = by_perspective(one, column, row);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double own = colour[i] / per_level;
+        const double filled = own + hue_share * (hue[i] * most_level - own);
+        colour[i] = packed(filled * (0.25 + 0.75 * inside));
+    }
+    return colour;
+}
+
+} // namespace
+
+PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, int row) {
+    switch (one.triangle->fill) {
+    case Fill::Perspective:
+        return by_perspective(one, column, row);
+    case Fill::Texture:
+        return by_texture(one, job, column, row);
+    case Fill::Mesh:
+        return by_mesh(one, job, column, row);
+    case Fill::Levels:
+        break;
+    }
+    return by_levels(*one.triangle, column, row);
+}
+
+std::uint32_t overlay_colour_of(const TileTriangle& one, int column, int row) {
+    std::uint32_t colour = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::int32_t level = limited(one.triangle->levels, i, column, row);
+        colour |= static_cast<std::uint32_t>((level + 128 * 128 + 64) >> 7) << (8 * i);
+    }
+    return colour;
+}
+
+} // namespace octant::visuals::raster

@@ -1,0 +1,130 @@
+#include "visuals/raster/renderer.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <fmt/format.h>
+#include <utility>
+
+namespace octant::visuals::raster {
+
+namespace {
+
+constexpr int most_samples = 16;
+constexpr std::array<std::uint8_t, 4> inset_frame{20, 23, 26, 255};
+constexpr int frame_rows = 360; ///< of the picture for each pixel of the frame's width
+
+std::uint8_t byte_of(float share) {
+    return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F);
+}
+
+std::size_t byte_at(const scene::Picture& picture, int x, int y) {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+            static_cast<std::size_t>(x)) *
+           4;
+}
+
+} // namespace
+
+Renderer::Renderer(
+    std::shared_ptr<Workers> workers, const glm::ivec2& size_px, int samples, Show show)
+    : workers_(std::move(workers))
+    , show_(std::move(show))
+    , samples_(samples)
+    , lanes_(sample_pattern(samples))
+    , work_(sample_pattern(samples), *workers_) {
+    info_.description = fmt::format("raster, {} threads", workers_->threads());
+    info_.device = "processor";
+    info_.on_processor = true;
+    for (int i = 0; i < workers_->threads(); ++i) {
+        desks_.push_back(std::make_unique<Desk>());
+    }
+    resize(size_px, samples);
+}
+
+std::unique_ptr<scene::Renderer> Renderer::beside(const glm::ivec2& size_px, int samples) const {
+    return std::make_unique<Renderer>(workers_, size_px, samples);
+}
+
+void Renderer::resize(const glm::ivec2& size_px, std::optional<int> wanted) {
+    const int samples = wanted.value_or(most_samples);
+    if (samples != samples_) {
+        samples_ = samples;
+        lanes_ = SampleLanes(sample_pattern(samples));
+        work_.use(sample_pattern(samples));
+    }
+    picture_.width = size_px.x;
+    picture_.height = size_px.y;
+    picture_.rgba.assign(
+        std::size_t{4} * static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y),
+        0);
+}
+
+void Renderer::load_models(std::span<const scene::ModelBuffers> models) {
+    models_.assign(models.begin(), models.end());
+}
+
+void Renderer::load_ground_texture(const scene::GroundTexture& texture) {
+    ground_.emplace().load(texture);
+}
+
+void Renderer::draw(const scene::FramePlan& plan) {
+    draw_calls_ = 0;
+    draw_into(plan, {0, 0, picture_.width, picture_.height});
+}
+
+void Renderer::draw_inset(const scene::FramePlan& plan, const scene::PixelRect& rect) {
+    assert(rect.width > 0 && rect.height > 0 && rect.x >= 0 && rect.y >= 0);
+    assert(rect.x + rect.width <= picture_.width && rect.y + rect.height <= picture_.height);
+    const int frame = std::max(picture_.height / frame_rows, 1);
+    const int last_x = std::min(rect.x + rect.width + frame, picture_.width);
+    const int last_y = std::min(rect.y + rect.height + frame, picture_.height);
+    for (int y = std::max(rect.y - frame, 0); y < last_y; ++y) {
+        for (int x = std::max(rect.x - frame, 0); x < last_x; ++x) {
+            std::ranges::copy(
+                inset_frame,
+                picture_.rgba.begin() + static_cast<std::ptrdiff_t>(byte_at(picture_, x, y)));
+        }
+    }
+    draw_into(plan, rect);
+}
+
+void Renderer::draw_into(const scene::FramePlan& plan, const scene::PixelRect& rect) {
+    work_.prepare({plan, models_, ground_ ? &*ground_ : nullptr, {rect.width, rect.height}});
+    draw_calls_ += static_cast<int>(plan.steps.size());
+    const glm::ivec2 tiles = work_.tiles();
+    workers_->run(tiles.x * tiles.y, [&](int tile, int thread) {
+        Desk& desk = *desks_[static_cast<std::size_t>(thread)];
+        TileJob job;
+        job.first_px =
+            glm::ivec2(tile % tiles.x, tile / tiles.x) * glm::ivec2(tile_width, tile_height);
+        job.size_px = glm::min(
+            glm::ivec2(tile_width, tile_height),
+            glm::ivec2(rect.width, rect.height) - job.first_px);
+        job.triangles = work_.triangles_of(tile, desk.triangles);
+        job.overlay = work_.overlay_of(tile, desk.overlay);
+        job.background = {
+            byte_of(plan.background.x), byte_of(plan.background.y), byte_of(plan.background.z)};
+        job.ground = ground_ ? &*ground_ : nullptr;
+        job.haze = plan.haze.colour * 255.0F;
+        job.tints_mesh_levels = plan.mesh_look == scene::MeshLook::Levels;
+        job.rgba = picture_.rgba.data() +
+                   byte_at(picture_, rect.x + job.first_px.x, rect.y + job.first_px.y);
+        job.row_bytes = std::size_t{4} * static_cast<std::size_t>(picture_.width);
+        paint_tile(job, lanes_, desk.buffer);
+    });
+}
+
+void Renderer::finish_and_read(scene::Picture& picture) {
+    picture = picture_;
+}
+
+void Renderer::copy_to_window(const glm::ivec2& size_px) {
+    assert(show_);
+    show_(picture_, size_px);
+}
+
+} // namespace octant::visuals::raster

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "visuals/raster/frame_work.h"
+#include "visuals/raster/ground_image.h"
+#include "visuals/raster/tile.h"
+#include "visuals/raster/workers.h"
+#include "visuals/scene/renderer.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::raster {
+
+/// Makes pictures of frame plans on the processor, without OpenGL: painting order walked backwards,
+/// from the nearest triangle to the farthest, so that each sample is coloured once and no depth is
+/// needed (README.md). The same plan gives the same bytes on any number of threads and any
+/// processor.
+class Renderer final : public scene::Renderer {
+public:
+    /// Shows a picture in a window of a size in pixels.
+    using Show = std::function<void(const scene::Picture&, const glm::ivec2&)>;
+
+    /// Picture size in pixels, at most 8,192 each way; 1, 4 or 16 samples a pixel. `show` is what
+    /// copy_to_window() does.
+    Renderer(
+        std::shared_ptr<Workers> workers,
+        const glm::ivec2& size_px,
+        int samples,
+        Show show = nullptr);
+
+    const scene::RendererInfo& info() const override { return info_; }
+
+    std::unique_ptr<scene::Renderer> beside(const glm::ivec2& size_px, int samples) const override;
+    void resize(const glm::ivec2& size_px, std::optional<int> samples) override;
+    void load_models(std::span<const scene::ModelBuffers> models) override;
+    void load_ground_texture(const scene::GroundTexture& texture) override;
+
+    void warm_up() override {}
+
+    void draw(const scene::FramePlan& plan) override;
+    void draw_inset(const scene::FramePlan& plan, const scene::PixelRect& rect) override;
+
+    void finish() override {}
+
+    void finish_and_read(scene::Picture& picture) override;
+
+    int draw_calls() const override { return draw_calls_; }
+
+    void aim_at_window(const glm::ivec2&) override {}
+
+    bool is_in_window() const override { return false; }
+
+    void copy_to_window(const glm::ivec2& size_px) override;
+
+private:
+    void draw_into(const scene::FramePlan& plan, const scene::PixelRect& rect);
+
+    std::shared_ptr<Workers> workers_;
+    scene::RendererInfo info_;
+    Show show_;
+    int samples_ = 0;
+    SampleLanes lanes_;
+    FrameWork work_;
+    std::vector<scene::ModelBuffers> models_;
+    std::optional<GroundImage> ground_;
+
+    /// One for each thread.
+    struct Desk {
+        TileBuffer buffer;
+        std::vector<TileTriangle> triangles;
+        std::vector<TileTriangle> overlay;
+    };
+
+    std::vector<std::unique_ptr<Desk>> desks_;
+    scene::Picture picture_;
+    int draw_calls_ = 0;
+};
+
+} // namespace octant::visuals::raster

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace octant::visuals::raster {
+
+/// A corner on its way to the picture.
+struct ScreenVertex {
+    static constexpr std::int32_t per_px = 256;
+
+    /// Right and down from the middle of the picture's upper left pixel, 1/256 pixel. Without
+    /// meaning where `outside` has the bit `unplaced`.
+    std::int32_t x = 0;
+    std::int32_t y = 0;
+    float inverse_w = 0.0F;    ///< one over the depth along the line of sight, 1/m
+    std::uint32_t outside = 0; ///< bits of Outside
+    /// Red, green and blue, 0..255; on textured ground its place in the texture's texels (x, y),
+    /// the share of light that a shadow leaves, and that of haze.
+    std::array<float, 4> value{};
+};
+
+/// Where a corner lies outside the view frustum.
+enum Outside : std::uint32_t {
+    left_of_view = 1,
+    right_of_view = 2,
+    above_view = 4,
+    below_view = 8,
+    unplaced = 16 ///< nearer than the near plane, or too far aside for a place in 1/256 pixels
+};
+
+/// Clip coordinates of a corner, which cutting needs.
+struct ClipPlace {
+    float x = 0.0F;
+    float y = 0.0F;
+    float w = 0.0F;
+};
+
+/// What a polygon of an aircraft has at its first corner.
+struct FlatColour {
+    std::array<float, 3> rgb{}; ///< 0..255
+    bool is_smooth = false;     ///< the corners' own colours count
+};
+
+} // namespace octant::visuals::raster

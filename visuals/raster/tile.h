@@ -1,0 +1,101 @@
+#pragma once
+
+#include "visuals/raster/ground_image.h"
+#include "visuals/raster/sample_pattern.h"
+#include "visuals/raster/triangle.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::raster {
+
+constexpr int tile_width = 64;
+constexpr int tile_height = 32;
+
+/// A triangle that may cover a part of a tile.
+struct TileTriangle {
+    const Triangle* triangle = nullptr;
+    const TriangleExtra* extra = nullptr; ///< none if it needs none
+};
+
+/// What a tile's picture is made of.
+struct TileJob {
+    glm::ivec2 first_px{0};                  ///< its upper left pixel
+    glm::ivec2 size_px{0};                   ///< at most a tile's
+    std::span<const TileTriangle> triangles; ///< in painting order
+    std::span<const TileTriangle> overlay;   ///< in painting order, over all others
+    std::array<std::uint8_t, 3> background{};
+    const GroundImage* ground = nullptr; ///< for Fill::Texture
+    glm::vec3 haze{0.0F};                ///< levels, for Fill::Texture
+    bool tints_mesh_levels = false;      ///< for Fill::Mesh
+    std::uint8_t* rgba = nullptr;        ///< of its upper left pixel
+    std::size_t row_bytes = 0;
+
+    /// TileBuffer::full of a row that is covered whole.
+    std::uint64_t full_row() const { return ~std::uint64_t{0} >> (tile_width - size_px.x); }
+
+    /// TileBuffer::full_rows of a tile that is.
+    std::uint32_t full_rows() const { return ~std::uint32_t{0} >> (tile_height - size_px.y); }
+};
+
+/// What all tiles of a picture know about the samples' places.
+struct SampleLanes {
+    explicit SampleLanes(const SamplePattern& pattern);
+
+    alignas(64) std::array<std::int32_t, SamplePattern::lanes> down{}; ///< 1/32 pixel
+    /// What makes a crossing, in 2^-16 pixel, the first column whose sample is not left of it, when
+    /// it is added and the fraction is dropped.
+    alignas(64) std::array<std::int32_t, SamplePattern::lanes> round_up{};
+    alignas(64) std::array<float, SamplePattern::lanes> x_px{};
+    alignas(64) std::array<float, SamplePattern::lanes> y_px{};
+    /// How many lanes lie above a place, 1/256 pixel from the row's middle: entry 128 + place.
+    std::array<std::uint8_t, 257> lanes_above{};
+};
+
+/// Pixels that TileBuffer::masks holds masks of: blocks of sixteen from the first column of each
+/// row on.
+struct Coverage {
+    struct Row {
+        int first; ///< column
+        int last;
+        int blocks;
+    };
+
+    int first_row;
+    int last_row;
+    std::array<Row, tile_height> rows;
+};
+
+/// What a thread works on: sums of colours and masks of covered samples for the pixels of a tile.
+/// Rows of sums follow each other without gaps: a block of sixteen pixels may begin anywhere, and
+/// what it reads of the next row it writes back unchanged.
+struct TileBuffer {
+    static constexpr std::size_t pixels = std::size_t{tile_width} * tile_height;
+    static constexpr std::size_t padding = 64;
+
+    alignas(64) std::array<std::uint16_t, pixels + padding> covered{};
+    std::array<std::array<std::uint16_t, pixels + padding>, 3> sums{}; ///< 1/256 level
+    std::array<std::uint64_t, tile_height> full{}; ///< a bit for each column that is covered whole
+    std::uint32_t full_rows = 0;                   ///< a bit for each row that is covered whole
+    /// Of the triangle at hand, what it covers; its rows leave room for blocks that end beyond.
+    static constexpr std::size_t mask_row = tile_width + 16;
+    alignas(64) std::array<std::uint16_t, mask_row * tile_height + padding> masks{};
+    Coverage coverage{};
+    // Of groups that are drawn by depth: a value for each sample.
+    std::vector<float> depth;
+    std::vector<std::uint32_t> seen; ///< place in the tile's list, from 1; 0: nothing
+    // Of the overlay: what waits to be blended.
+    std::vector<std::uint16_t> waiting;
+    std::vector<std::uint32_t> waiting_colour;
+};
+
+/// Makes a tile's picture: from the nearest triangle to the farthest, each colouring the samples
+/// that nothing nearer covers.
+void paint_tile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer);
+
+} // namespace octant::visuals::raster

@@ -1,0 +1,223 @@
+// Groups of triangles that are drawn by depth: sample by sample, from first to last; what is seen
+// of a group is then coloured like any triangle, where nothing nearer covers it.
+// Included once for each instruction set.
+#if defined(OCTANT_RASTER_DEPTH_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTANT_RASTER_DEPTH_INL
+#undef OCTANT_RASTER_DEPTH_INL
+#else
+#define OCTANT_RASTER_DEPTH_INL
+#endif
+
+#include "visuals/raster/pixel_colour.h"
+#include "visuals/raster/tile_coverage-inl.h"
+
+#include <bit>
+
+HWY_BEFORE_NAMESPACE();
+
+namespace octant::visuals::raster {
+namespace HWY_NAMESPACE {
+
+using Depths = hn::CappedTag<float, 16>;
+using Seen = hn::RebindToUnsigned<Depths>;
+constexpr std::size_t samples = SamplePattern::lanes;
+
+/// Pixels of a tile that a group may cover.
+struct GroupBox {
+    int left = tile_width;
+    int right = -1;
+    int first_row = tile_height;
+    int last_row = -1;
+};
+
+HWY_INLINE GroupBox box_of(std::span<const TileTriangle> group, const TileJob& job) {
+    GroupBox box;
+    for (const TileTriangle& one : group) {
+        const Triangle& triangle = *one.triangle;
+        box.left = std::min(box.left, triangle.left - job.first_px.x);
+        box.right = std::max(box.right, triangle.right - job.first_px.x);
+        box.first_row = std::min(box.first_row, triangle.first_row - job.first_px.y);
+        box.last_row = std::max(box.last_row, triangle.last_row - job.first_px.y);
+    }
+    box.left = std::max(box.left, 0);
+    box.right = std::min(box.right, job.size_px.x - 1);
+    box.first_row = std::max(box.first_row, 0);
+    box.last_row = std::min(box.last_row, job.size_px.y - 1);
+    return box;
+}
+
+HWY_INLINE void clear_group(const GroupBox& box, TileBuffer& buffer) {
+    buffer.depth.resize(TileBuffer::pixels * samples);
+    buffer.seen.resize(TileBuffer::pixels * samples);
+    for (int row = box.first_row; row <= box.last_row; ++row) {
+        const auto from = static_cast<std::size_t>(row * tile_width + box.left) * samples;
+        const auto count = static_cast<std::size_t>(box.right - box.left + 1) * samples;
+        std::fill_n(buffer.depth.data() + from, count, 0.0F);
+        std::fill_n(buffer.seen.data() + from, count, 0U);
+    }
+}
+
+/// The depths of a triangle at the samples of a pixel: its own plus one for each sample.
+struct DepthWalk {
+    RealPlane middle; ///< at pixel middles, from the tile's first: steep planes cancel much
+    alignas(64) std::array<float, samples> of_sample{};
+
+    DepthWalk(const TriangleExtra& extra, const TileJob& job, const SampleLanes& lanes) {
+        const auto share = static_cast<double>(extra.depth_share);
+        middle.base = extra.depth.at(job.first_px.x, job.first_px.y) * share;
+        middle.per_x = extra.depth.per_x * share;
+        middle.per_y = extra.depth.per_y * share;
+        const auto per_x = static_cast<float>(middle.per_x);
+        const auto per_y = static_cast<float>(middle.per_y);
+        for (std::size_t lane = 0; lane < samples; ++lane) {
+            of_sample[lane] = per_x * lanes.x_px[lane] + per_y * lanes.y_px[lane];
+        }
+    }
+
+    float at(int column, int row) const { return static_cast<float>(middle.at(column, row)); }
+};
+
+/// Draws the covered samples of a pixel by depth.
+HWY_INLINE void draw_pixel(
+    std::uint32_t mask,
+    float pixel_depth,
+    const DepthWalk& walk,
+    scene::DepthUse use,
+    std::uint32_t name,
+    float* depth,
+    std::uint32_t* seen) {
+    using Use = scene::DepthUse;
+    const Depths real;
+    const Seen whole;
+    const std::size_t at_once = hn::Lanes(real);
+    for (std::size_t lane = 0; lane < samples; lane += at_once) {
+        const auto bit =
+            hn::Shl(hn::Set(whole, 1U), hn::Iota(whole, static_cast<std::uint32_t>(lane)));
+        const auto covered =
+            hn::RebindMask(real, hn::Ne(hn::And(hn::Set(whole, mask), bit), hn::Zero(whole)));
+        const auto before = hn::LoadU(real, depth + lane);
+        const auto here =
+            hn::Add(hn::Set(real, pixel_depth), hn::Load(real, walk.of_sample.data() + lane));
+        auto passes = covered;
+        if (use == Use::OnGround || use == Use::InfinitelyFar) {
+            passes = hn::And(covered, hn::Ge(here, before));
+        } else if (use != Use::None) {
+            passes = hn::And(covered, hn::Gt(here, before));
+        }
+        if (use != Use::None && use != Use::InfinitelyFar) {
+            hn::StoreU(hn::IfThenElse(passes, here, before), real, depth + lane);
+        }
+        if (use != Use::DepthOnly) {
+            const auto last = hn::LoadU(whole, seen + lane);
+            hn::StoreU(
+                hn::IfThenElse(hn::RebindMask(whole, passes), hn::Set(whole, name), last),
+                whole,
+                seen + lane);
+        }
+    }
+}
+
+HWY_INLINE void draw_by_depth(
+    const TileTriangle& one,
+    std::uint32_t name,
+    const TileJob& job,
+    const SampleLanes& lanes,
+    TileBuffer& buffer) {
+    const DepthWalk walk(*one.extra, job, lanes);
+    const scene::DepthUse use = one.triangle->depth;
+    const Coverage& coverage = buffer.coverage;
+    for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
+        const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
+        const int end = std::min(places.first + places.blocks * 16, job.size_px.x);
+        const std::uint16_t* const masks =
+            buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
+        for (int column = places.first; column < end; ++column) {
+            const std::uint32_t mask = masks[column];
+            if (mask == 0) {
+                continue;
+            }
+            const auto sample = static_cast<std::size_t>(row * tile_width + column) * samples;
+            draw_pixel(
+                mask,
+                walk.at(column, row),
+                walk,
+                use,
+                name,
+                buffer.depth.data() + sample,
+                buffer.seen.data() + sample);
+        }
+    }
+}
+
+/// Colours what is seen of a group in a pixel where nothing nearer covers it.
+HWY_INLINE void fold_pixel(
+    std::span<const TileTriangle> group,
+    const TileJob& job,
+    int column,
+    int row,
+    TileBuffer& buffer) {
+    const auto pixel = static_cast<std::size_t>(row * tile_width + column);
+    const std::uint32_t* const seen = buffer.seen.data() + pixel * samples;
+    const Seen whole;
+    std::uint32_t left = 0;
+    const auto equal_to = [&](std::uint32_t name) HWY_ATTR {
+        std::uint32_t bits = 0;
+        for (std::size_t lane = 0; lane < samples; lane += hn::Lanes(whole)) {
+            alignas(8) std::array<std::uint8_t, 8> some{};
+            hn::StoreMaskBits(
+                whole, hn::Eq(hn::LoadU(whole, seen + lane), hn::Set(whole, name)), some.data());
+            bits |= static_cast<std::uint32_t>(some[0] | some[1] << 8) << lane;
+        }
+        return bits & 0xffffU;
+    };
+    left = ~equal_to(0U) & 0xffffU & ~static_cast<std::uint32_t>(buffer.covered[pixel]);
+    buffer.covered[pixel] = static_cast<std::uint16_t>(buffer.covered[pixel] | left);
+    if (buffer.covered[pixel] == 0xffffU) {
+        std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
+        full |= std::uint64_t{1} << column;
+        buffer.full_rows |=
+            (full & job.full_row()) == job.full_row() ? std::uint32_t{1} << row : 0U;
+    }
+    while (left != 0) {
+        const std::uint32_t name = seen[std::countr_zero(left)];
+        const std::uint32_t own = equal_to(name) & left;
+        const auto count = static_cast<std::uint32_t>(std::popcount(own));
+        const PixelColour colour =
+            colour_of(group[name - 1], job, job.first_px.x + column, job.first_px.y + row);
+        for (std::size_t k = 0; k < 3; ++k) {
+            buffer.sums[k][pixel] =
+                static_cast<std::uint16_t>(buffer.sums[k][pixel] + colour[k] * count);
+        }
+        left &= ~own;
+    }
+}
+
+/// Triangles first .. end - 1 of the job are a group.
+HWY_INLINE void paint_group(
+    const TileJob& job,
+    const std::array<std::size_t, 2>& range,
+    const SampleLanes& lanes,
+    TileBuffer& buffer) {
+    const auto group = job.triangles.subspan(range[0], range[1] - range[0]);
+    const GroupBox box = box_of(group, job);
+    if (box.left > box.right || box.first_row > box.last_row) {
+        return;
+    }
+    clear_group(box, buffer);
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        cover(group[i], job, lanes, buffer);
+        draw_by_depth(group[i], static_cast<std::uint32_t>(i + 1), job, lanes, buffer);
+    }
+    for (int row = box.first_row; row <= box.last_row; ++row) {
+        for (int column = box.left; column <= box.right; ++column) {
+            fold_pixel(group, job, column, row, buffer);
+        }
+    }
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace octant::visuals::raster
+
+HWY_AFTER_NAMESPACE();
+
+#endif

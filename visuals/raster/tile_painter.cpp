@@ -1,0 +1,78 @@
+// Paints one tile. Compiled once for each instruction set; all give the same bits, because colours
+// and crossings are whole numbers and real ones are summed and multiplied one by one.
+#include "visuals/raster/tile.h"
+
+#define HWY_DISABLED_TARGETS HWY_SSSE3
+#define HWY_BROKEN_EMU128 0 // compiled so that it is right, see CMakeLists.txt
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "visuals/raster/tile_painter.cpp"
+// clang-format off: foreach_target.h must come before all that includes highway.h
+#include <hwy/foreach_target.h>
+// clang-format on
+
+#include "visuals/raster/tile_coverage-inl.h"
+#include "visuals/raster/tile_depth-inl.h"
+#include "visuals/raster/tile_fill-inl.h"
+#include "visuals/raster/tile_picture-inl.h"
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+
+namespace octant::visuals::raster {
+namespace HWY_NAMESPACE {
+
+void PaintTile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+    clear(buffer);
+    std::size_t end = job.triangles.size();
+    while (end > 0 && buffer.full_rows != job.full_rows()) {
+        const std::uint16_t group = job.triangles[end - 1].triangle->group;
+        std::size_t first = end - 1;
+        if (group == 0) {
+            const TileTriangle& one = job.triangles[first];
+            cover(one, job, lanes, buffer);
+            fill(one, job, buffer);
+        } else {
+            while (first > 0 && job.triangles[first - 1].triangle->group == group) {
+                --first;
+            }
+            paint_group(job, {first, end}, lanes, buffer);
+        }
+        end = first;
+    }
+    resolve(job, buffer);
+    paint_overlay(job, lanes, buffer);
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace octant::visuals::raster
+
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace octant::visuals::raster {
+
+HWY_EXPORT(PaintTile);
+
+void paint_tile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+    HWY_DYNAMIC_DISPATCH(PaintTile)(job, lanes, buffer);
+}
+
+SampleLanes::SampleLanes(const SamplePattern& pattern) {
+    for (std::size_t lane = 0; lane < SamplePattern::lanes; ++lane) {
+        down[lane] = pattern.y[lane];
+        round_up[lane] = 0xffff - pattern.x[lane] * (65536 / SamplePattern::unit);
+        x_px[lane] = static_cast<float>(pattern.x[lane]) / SamplePattern::unit;
+        y_px[lane] = static_cast<float>(pattern.y[lane]) / SamplePattern::unit;
+    }
+    for (std::int32_t place = -128; place <= 128; ++place) {
+        std::uint8_t& above = lanes_above[static_cast<std::size_t>(place + 128)];
+        for (const std::int32_t y : pattern.y) {
+            above =
+                static_cast<std::uint8_t>(above + (y * 256 / SamplePattern::unit < place ? 1 : 0));
+        }
+    }
+}
+
+} // namespace octant::visuals::raster
+#endif

@@ -1,0 +1,93 @@
+#pragma once
+
+#include "visuals/scene/paint_step.h"
+
+#include <array>
+#include <cstdint>
+
+namespace octant::visuals::raster {
+
+/// Where an edge crosses the rows of pixels, from its top to its bottom whichever triangle it
+/// belongs to: two triangles that share it compute the same crossings, bit for bit. Sums and
+/// products wrap; within the edge's own rows they are right.
+struct Edge {
+    std::int64_t x = 0;     ///< at the middle of the row first_row_of(its top), 2^-32 pixel
+    std::int64_t slope = 0; ///< x a row
+};
+
+/// The first row of pixels whose middle is not above a place, 1/256 pixel.
+constexpr std::int32_t first_row_of(std::int32_t y) {
+    return (y + 255) >> 8;
+}
+
+/// Red, green, blue and alpha over the picture: base + per_x * column + per_y * row at pixel
+/// middles, wrapping. Alpha is set for what lies over the picture alone.
+struct Levels {
+    alignas(16) std::array<std::int32_t, 4> base{}; ///< 2^-16 level, from the level 128
+    alignas(16) std::array<std::int32_t, 4> per_x{};
+    alignas(16) std::array<std::int32_t, 4> per_y{};
+    // 1/128 level, from the level 128 where it is none of a difference.
+    std::array<std::int16_t, 4> per_column{}; ///< per_x
+    std::array<std::int16_t, 4> least{};      ///< within the triangle
+    std::array<std::int16_t, 4> most{};
+};
+
+/// A value over the picture: base + per_x * column + per_y * row, at pixel middles.
+struct RealPlane {
+    double base = 0.0;
+    double per_x = 0.0;
+    double per_y = 0.0;
+
+    double at(double column, double row) const { return base + per_x * column + per_y * row; }
+};
+
+/// What is drawn where a * column + b * row + c >= 0.
+struct CutLine {
+    double a = 0.0;
+    double b = 0.0;
+    double c = 0.0;
+};
+
+/// How the colour of a triangle's pixels is found.
+enum class Fill : std::uint8_t {
+    Levels,      ///< three planes of levels
+    Perspective, ///< as Levels, corrected for perspective
+    Texture,
+    Mesh ///< levels, and lines along the edges
+};
+
+/// What only some triangles need.
+struct TriangleExtra {
+    RealPlane depth;          ///< reversed: greater is nearer
+    float depth_share = 1.0F; ///< times this: nearer or farther by a share of itself
+    /// value / w of each value, then 1 / w.
+    std::array<RealPlane, 5> by_w{};
+    std::array<CutLine, scene::Clip::most_planes> cuts{};
+    int cut_count = 0;
+    std::array<RealPlane, 3> from_edges{}; ///< over w; 1 at the corner opposite the edge
+    float mesh_level = 0.0F; ///< how many times the longest edge is twice the sample spacing
+};
+
+/// A triangle on the picture.
+struct Triangle {
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+    Edge whole;           ///< from the top to the bottom corner
+    Edge upper;           ///< from the top to the middle corner
+    Edge lower;           ///< from the middle to the bottom corner
+    std::int32_t top = 0; ///< 1/256 pixel
+    std::int32_t middle = 0;
+    std::int32_t bottom = 0;
+    std::int32_t left = 0; ///< columns that may be covered: left to right
+    std::int32_t right = 0;
+    std::int32_t first_row = 0; ///< rows that may be covered: first_row to last_row
+    std::int32_t last_row = 0;
+    Levels levels;
+    std::uint32_t extra = none; ///< index into the chunk's extras
+    std::uint16_t group = 0;    ///< depth group, from 1; 0: painted without depth
+    scene::DepthUse depth = scene::DepthUse::None;
+    Fill fill = Fill::Levels;
+    bool middle_is_left = false; ///< the middle corner lies left of the whole edge
+};
+
+} // namespace octant::visuals::raster

@@ -1,0 +1,285 @@
+#include "visuals/raster/triangle_setup.h"
+
+#include "visuals/raster/level_planes.h"
+#include "visuals/raster/real_planes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace octant::visuals::raster {
+
+namespace {
+
+constexpr std::int32_t per_px = ScreenVertex::per_px;
+
+/// Levels that a straight line over the picture may be wrong by without correction.
+constexpr float least_correction = 1.0F;
+
+constexpr double any_per_px = 16000.0; ///< levels: no triangle counts as a sliver
+
+Edge edge_between(const ScreenVertex& top, const ScreenVertex& bottom) {
+    const std::int32_t height = bottom.y - top.y;
+    if (height == 0) {
+        return {};
+    }
+    constexpr double one_row = 4294967296.0; // 2^32
+    const double slope = static_cast<double>(bottom.x - top.x) / static_cast<double>(height);
+    const std::int32_t down = first_row_of(top.y) * per_px - top.y;
+    const double x_px = (static_cast<double>(top.x) + slope * static_cast<double>(down)) / per_px;
+    const auto rounded = [](double value) {
+        return static_cast<std::int64_t>(value + (value < 0.0 ? -0.5 : 0.5));
+    };
+    return {rounded(x_px * one_row), rounded(slope * one_row)};
+}
+
+bool is_above(const ScreenVertex& a, const ScreenVertex& b) {
+    return a.y != b.y ? a.y < b.y : a.x < b.x;
+}
+
+/// Twice the area, in 1/256 pixel squared; positive when the corners go round clockwise as seen
+/// (y down), which is how back faces do.
+std::int64_t doubled_area(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
+    return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{c.x - a.x} * (b.y - a.y);
+}
+
+} // namespace
+
+TriangleSetup::TriangleSetup(
+    const Projection& projection, const scene::FramePlan& plan, const SamplePattern& samples)
+    : projection_(projection)
+    , plan_(plan)
+    , reach_(samples.reach * per_px / SamplePattern::unit) {}
+
+void TriangleSetup::add(
+    const ScreenCorners& corners,
+    const std::array<std::uint32_t, 3>& triangle,
+    const FlatColour* flat,
+    TriangleList& list) {
+    const auto& vertices = corners.vertices;
+    const auto [a, b, c] = triangle;
+    constexpr std::uint32_t sides = left_of_view | right_of_view | above_view | below_view;
+    if ((vertices[a].outside & vertices[b].outside & vertices[c].outside & sides) != 0) {
+        return;
+    }
+    const bool is_cut =
+        ((vertices[a].outside | vertices[b].outside | vertices[c].outside) & unplaced) != 0;
+    if (!is_cut && style_.culls_back_faces &&
+        doubled_area(vertices[a], vertices[b], vertices[c]) >= 0) {
+        return;
+    }
+    flat_ = flat != nullptr && !flat->is_smooth ? flat : nullptr;
+    extra_ = Triangle::none;
+    fill_ = fill_of({&vertices[a], &vertices[b], &vertices[c]}, is_cut);
+    if (!is_cut && style_.group == 0 && fill_ == Fill::Levels && style_.clip_planes.empty()) {
+        add_placed(vertices[a], vertices[b], vertices[c], list);
+        return;
+    }
+    const std::array<Corner, 3> three{
+        Corner{vertices[a], corners.clip[a]},
+        Corner{vertices[b], corners.clip[b]},
+        Corner{vertices[c], corners.clip[c]}};
+    if (style_.group != 0 || fill_ != Fill::Levels || !style_.clip_planes.empty()) {
+        add_extra(three, list);
+    }
+    if (is_cut) {
+        add_cut(three, list);
+    } else {
+        add_placed(vertices[a], vertices[b], vertices[c], list);
+    }
+}
+
+void TriangleSetup::add_overlay(
+    const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list) {
+    if (((a.outside | b.outside | c.outside) & unplaced) != 0) {
+        return;
+    }
+    fill_ = Fill::Levels;
+    flat_ = nullptr;
+    extra_ = Triangle::none;
+    is_overlay_ = true;
+    add_placed(a, b, c, list);
+    is_overlay_ = false;
+}
+
+/// Whether straight lines over the picture are good enough for the levels between the corners.
+Fill TriangleSetup::fill_of(const std::array<const ScreenVertex*, 3>& corners, bool is_cut) const {
+    if (style_.fill != Fill::Levels || flat_ != nullptr) {
+        return style_.fill;
+    }
+    if (is_cut) {
+        return Fill::Perspective;
+    }
+    const auto [a, b, c] = corners;
+    const float least_by_w = std::min(std::min(a->inverse_w, b->inverse_w), c->inverse_w);
+    const float most_by_w = std::max(std::max(a->inverse_w, b->inverse_w), c->inverse_w);
+    // At the middle of an edge the line is wrong by range * correction.
+    const float correction = (most_by_w - least_by_w) / (2.0F * (most_by_w + least_by_w));
+    if (correction * 255.0F <= least_correction) {
+        return Fill::Levels;
+    }
+    float range = 0.0F;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto [least, most] = std::minmax({a->value[i], b->value[i], c->value[i]});
+        range = std::max(range, most - least);
+    }
+    return correction * range > least_correction ? Fill::Perspective : Fill::Levels;
+}
+
+void TriangleSetup::add_extra(std::span<const Corner, 3> corners, TriangleList& list) {
+    const PlaneSolver solver({corners[0].clip, corners[1].clip, corners[2].clip}, projection_);
+    TriangleExtra extra;
+    const RealPlane by_w = solver.plane({1.0, 1.0, 1.0});
+    extra.by_w[4] = by_w;
+    if (style_.group != 0) {
+        set_depth(extra, by_w, style_, projection_);
+    }
+    if (fill_ != Fill::Levels) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            extra.by_w[i] = solver.plane(
+                {static_cast<double>(corners[0].vertex.value[i]),
+                 static_cast<double>(corners[1].vertex.value[i]),
+                 static_cast<double>(corners[2].vertex.value[i])});
+        }
+    }
+    if (fill_ == Fill::Mesh) {
+        extra.from_edges = {
+            solver.plane({1.0, 0.0, 0.0}),
+            solver.plane({0.0, 1.0, 0.0}),
+            solver.plane({0.0, 0.0, 1.0})};
+        extra.mesh_level = mesh_level_;
+    }
+    for (const glm::vec4& plane : style_.clip_planes) {
+        extra.cuts[static_cast<std::size_t>(extra.cut_count++)] =
+            cut_line(plane, by_w, plan_, projection_);
+    }
+    extra_ = static_cast<std::uint32_t>(list.extras.size());
+    list.extras.push_back(extra);
+}
+
+/// Keeps what has dot(by_clip, (x, y, w)) + offset >= 0. A cut edge is cut from its kept end, so
+/// that both triangles that share it get the same corner.
+void TriangleSetup::cut(const glm::dvec3& by_clip, double offset) {
+    const auto inside = [&](const Corner& corner) {
+        return by_clip.x * static_cast<double>(corner.clip.x) +
+               by_clip.y * static_cast<double>(corner.clip.y) +
+               by_clip.z * static_cast<double>(corner.clip.w) + offset;
+    };
+    scratch_.clear();
+    for (std::size_t i = 0; i < polygon_.size(); ++i) {
+        const Corner& from = polygon_[i];
+        const Corner& to = polygon_[i + 1 < polygon_.size() ? i + 1 : 0];
+        const double from_inside = inside(from);
+        const double to_inside = inside(to);
+        if (from_inside >= 0.0) {
+            scratch_.push_back(from);
+        }
+        if ((from_inside >= 0.0) == (to_inside >= 0.0)) {
+            continue;
+        }
+        const bool keeps_from = from_inside >= 0.0;
+        const Corner& kept = keeps_from ? from : to;
+        const Corner& lost = keeps_from ? to : from;
+        const double kept_inside = keeps_from ? from_inside : to_inside;
+        const double lost_inside = keeps_from ? to_inside : from_inside;
+        const double share = kept_inside / (kept_inside - lost_inside);
+        const auto between = [&](float at_kept, float at_lost) {
+            const auto from_value = static_cast<double>(at_kept);
+            return static_cast<float>(
+                from_value + share * (static_cast<double>(at_lost) - from_value));
+        };
+        Corner corner;
+        corner.clip.x = between(kept.clip.x, lost.clip.x);
+        corner.clip.y = between(kept.clip.y, lost.clip.y);
+        corner.clip.w = between(kept.clip.w, lost.clip.w);
+        for (std::size_t k = 0; k < corner.vertex.value.size(); ++k) {
+            corner.vertex.value[k] = between(kept.vertex.value[k], lost.vertex.value[k]);
+        }
+        scratch_.push_back(corner);
+    }
+    polygon_.swap(scratch_);
+}
+
+void TriangleSetup::add_cut(std::span<const Corner> corners, TriangleList& list) {
+    polygon_.assign(corners.begin(), corners.end());
+    // A little inside the limits of place(), so that rounding leaves no corner unplaced.
+    constexpr double within = 1.0 - 1e-5;
+    cut({0.0, 0.0, 1.0}, -static_cast<double>(projection_.near_m) * (2.0 - within));
+    const double x_most = static_cast<double>(projection_.most_by_w.x) * within;
+    const double y_most = static_cast<double>(projection_.most_by_w.y) * within;
+    cut({1.0, 0.0, x_most}, 0.0);
+    cut({-1.0, 0.0, x_most}, 0.0);
+    cut({0.0, 1.0, y_most}, 0.0);
+    cut({0.0, -1.0, y_most}, 0.0);
+    for (Corner& corner : polygon_) {
+        place(projection_, corner.clip, corner.vertex);
+        assert((corner.vertex.outside & unplaced) == 0);
+    }
+    for (std::size_t i = 1; i + 1 < polygon_.size(); ++i) {
+        const auto& a = polygon_[0].vertex;
+        const auto& b = polygon_[i].vertex;
+        const auto& c = polygon_[i + 1].vertex;
+        if (!style_.culls_back_faces || doubled_area(a, b, c) < 0) {
+            add_placed(a, b, c, list);
+        }
+    }
+}
+
+void TriangleSetup::add_placed(
+    const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list) {
+    std::array<const ScreenVertex*, 3> order{&a, &b, &c};
+    if (is_above(*order[1], *order[0])) {
+        std::swap(order[0], order[1]);
+    }
+    if (is_above(*order[2], *order[1])) {
+        std::swap(order[1], order[2]);
+        if (is_above(*order[1], *order[0])) {
+            std::swap(order[0], order[1]);
+        }
+    }
+    const ScreenVertex& top = *order[0];
+    const ScreenVertex& middle = *order[1];
+    const ScreenVertex& bottom = *order[2];
+    const auto [least_x, most_x] = std::minmax({a.x, b.x, c.x});
+    const std::int32_t left = std::max(first_row_of(least_x - reach_), 0);
+    const std::int32_t right = std::min((most_x + reach_) >> 8, projection_.size_px.x - 1);
+    const std::int32_t first = std::max(first_row_of(top.y - reach_), 0);
+    const std::int32_t last = std::min((bottom.y - 1 + reach_) >> 8, projection_.size_px.y - 1);
+    const std::int64_t area = doubled_area(top, middle, bottom);
+    if (left > right || first > last || area == 0) {
+        return;
+    }
+    Triangle& triangle = list.triangles.emplace_back();
+    triangle.whole = edge_between(top, bottom);
+    triangle.upper = edge_between(top, middle);
+    triangle.lower = edge_between(middle, bottom);
+    triangle.top = top.y;
+    triangle.middle = middle.y;
+    triangle.bottom = bottom.y;
+    triangle.left = left;
+    triangle.right = right;
+    triangle.first_row = first;
+    triangle.last_row = last;
+    // Clockwise with y down: from the top the middle corner lies to the right.
+    triangle.middle_is_left = area < 0;
+    triangle.extra = extra_;
+    triangle.group = style_.group;
+    triangle.depth = style_.depth;
+    triangle.fill = fill_;
+    if (flat_ != nullptr) {
+        triangle.levels = even_levels(flat_->rgb);
+    } else if (is_overlay_) {
+        // Soft edges are as narrow as a pixel: their alpha changes fast, and is looked at only
+        // within the triangle's own.
+        triangle.levels = levels_between(order, static_cast<double>(area), 4, any_per_px);
+    } else if (fill_ != Fill::Texture) {
+        // With one sample every pixel that is coloured has its middle within the triangle.
+        const double most_per_px = reach_ == 0 ? any_per_px : sliver_per_px;
+        triangle.levels = levels_between(order, static_cast<double>(area), 3, most_per_px);
+    }
+}
+
+} // namespace octant::visuals::raster

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "visuals/raster/draw_style.h"
+#include "visuals/raster/projection.h"
+#include "visuals/raster/sample_pattern.h"
+#include "visuals/raster/triangle.h"
+#include "visuals/raster/vertex_stage.h"
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::raster {
+
+/// Triangles of a part of a plan, in painting order.
+struct TriangleList {
+    std::vector<Triangle> triangles;
+    std::vector<TriangleExtra> extras;
+};
+
+/// Makes triangles on the picture out of corners. One for each thread.
+class TriangleSetup {
+public:
+    TriangleSetup(
+        const Projection& projection, const scene::FramePlan& plan, const SamplePattern& samples);
+
+    void begin_step(const DrawStyle& style) { style_ = style; }
+
+    /// Of the triangles that are added from now on: FramePlan::mesh_look's.
+    void set_mesh_level(float level) { mesh_level_ = level; }
+
+    /// Appends a triangle, its corners by index, if any of it may be seen; several where the view
+    /// cuts it. `flat` is that of its first corner; none for what is no aircraft.
+    void
+    add(const ScreenCorners& corners,
+        const std::array<std::uint32_t, 3>& triangle,
+        const FlatColour* flat,
+        TriangleList& list);
+
+    /// Appends a triangle of the overlay, whose fourth value is its alpha.
+    void add_overlay(
+        const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list);
+
+private:
+    struct Corner {
+        ScreenVertex vertex;
+        ClipPlace clip;
+    };
+
+    void add_cut(std::span<const Corner> corners, TriangleList& list);
+    void add_placed(
+        const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list);
+    void cut(const glm::dvec3& by_clip, double offset);
+    Fill fill_of(const std::array<const ScreenVertex*, 3>& corners, bool is_cut) const;
+    void add_extra(std::span<const Corner, 3> corners, TriangleList& list);
+
+    const Projection& projection_;
+    const scene::FramePlan& plan_;
+    std::int32_t reach_ = 0; ///< of the samples from a pixel's middle, 1/256 pixel
+    DrawStyle style_;
+    float mesh_level_ = 0.0F;
+    bool is_overlay_ = false;
+    // Of the triangle at hand.
+    Fill fill_ = Fill::Levels;
+    const FlatColour* flat_ = nullptr; ///< of a flat polygon of an aircraft
+    std::uint32_t extra_ = Triangle::none;
+    // Its polygon while the view cuts it.
+    std::vector<Corner> polygon_;
+    std::vector<Corner> scratch_;
+};
+
+} // namespace octant::visuals::raster

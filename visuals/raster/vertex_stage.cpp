@@ -1,0 +1,132 @@
+#include "visuals/raster/vertex_stage.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+
+namespace octant::visuals::raster {
+
+namespace {
+
+constexpr float most_level = 255.0F;
+
+glm::vec4 unpacked(std::uint32_t colour) {
+    const auto byte = [&](unsigned shift) { return static_cast<float>(colour >> shift & 0xffU); };
+    return {byte(0), byte(8), byte(16), byte(24)};
+}
+
+/// Share of haze between the eye and a place.
+float haze_share(const glm::vec3& place_m, float per_m) {
+    const float distance_m =
+        std::sqrt(place_m.x * place_m.x + place_m.y * place_m.y + place_m.z * place_m.z);
+    return 1.0F - exp_of_minus(distance_m * per_m);
+}
+
+/// A colour under the light on a surface that faces `outwards`, levels.
+glm::vec3 lit(const glm::vec3& levels, const glm::vec3& outwards, const Light& light) {
+    const glm::vec3 sum =
+        light.ambient + light.sunlight * std::max(glm::dot(outwards, light.to_sun), 0.0F);
+    return glm::min(levels * sum, glm::vec3(most_level));
+}
+
+/// The colour over which a tint lies, if its alpha says so; levels.
+glm::vec3 tinted(std::uint32_t colour, std::uint32_t tint) {
+    const glm::vec4 own = unpacked(colour);
+    if (tint == 0) {
+        return {own.x, own.y, own.z};
+    }
+    const glm::vec4 over = unpacked(tint);
+    return glm::mix(
+        glm::vec3(own.x, own.y, own.z), glm::vec3(over.x, over.y, over.z), over.w / most_level);
+}
+
+void set_levels(const glm::vec3& levels, std::span<float> value) {
+    value[0] = levels.x;
+    value[1] = levels.y;
+    value[2] = levels.z;
+}
+
+} // namespace
+
+Light light_of(const scene::FramePlan& plan) {
+    const float visibility_m = plan.haze.visibility_m;
+    return {
+        plan.ambient,
+        plan.sunlight,
+        plan.to_sun,
+        plan.haze.colour,
+        visibility_m > 0.0F ? 1.0F / visibility_m : 0.0F};
+}
+
+void place_coloured(
+    std::span<const models::ColourVertex> from,
+    const Projection& projection,
+    const Light& light,
+    const ScreenCorners& to) {
+    assert(to.vertices.size() == from.size() && to.clip.size() == from.size());
+    const glm::vec3 haze = light.haze * most_level;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        const glm::vec3& at_m = from[i].position_m;
+        to.clip[i] = clip_place(projection, at_m);
+        place(projection, to.clip[i], to.vertices[i]);
+        const glm::vec4 own = unpacked(from[i].colour);
+        glm::vec3 levels(own.x, own.y, own.z);
+        if (light.per_m > 0.0F) {
+            levels = glm::mix(levels, haze, haze_share(at_m, light.per_m));
+        }
+        set_levels(levels, to.vertices[i].value);
+    }
+}
+
+void place_textured(
+    std::span<const models::ColourVertex> from,
+    const Projection& projection,
+    const Light& light,
+    const TexelPlace& to_texels,
+    const ScreenCorners& to) {
+    assert(to.vertices.size() == from.size() && to.clip.size() == from.size());
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        const glm::vec3& at_m = from[i].position_m;
+        to.clip[i] = clip_place(projection, at_m);
+        place(projection, to.clip[i], to.vertices[i]);
+        const glm::vec2 texel = to_texels.at_eye + glm::vec2(at_m.x, at_m.y) * to_texels.per_m;
+        const float light_left = static_cast<float>(from[i].colour >> 24U) / most_level;
+        to.vertices[i].value = {texel.x, texel.y, light_left, haze_share(at_m, light.per_m)};
+    }
+}
+
+void place_aircraft(
+    std::span<const scene::ModelVertex> from,
+    const AircraftLook& look,
+    const Projection& projection,
+    const Light& light,
+    const ScreenCorners& to) {
+    assert(to.vertices.size() == from.size() && to.flat.size() == from.size());
+    const glm::vec3 haze = light.haze * most_level;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        const scene::ModelVertex& vertex = from[i];
+        const glm::mat4& turn = look.parts[vertex.part];
+        const glm::vec3 at_m = glm::vec3(turn * glm::vec4(vertex.position_m, 1.0F));
+        to.clip[i] = clip_place(projection, at_m);
+        place(projection, to.clip[i], to.vertices[i]);
+        const std::uint32_t word = vertex.polygon / 32U;
+        const bool smooth =
+            word < look.smooth.size() && (look.smooth[word] >> (vertex.polygon % 32U) & 1U) != 0;
+        const float share = haze_share(at_m, light.per_m);
+        const auto coloured =
+            [&](std::uint32_t colour, std::uint32_t tint, const glm::vec3& normal) {
+                const glm::vec3 outwards = glm::mat3(turn) * normal;
+                return glm::mix(lit(tinted(colour, tint), outwards, light), haze, share);
+            };
+        set_levels(coloured(vertex.colour, look.tints.smooth, vertex.normal), to.vertices[i].value);
+        to.flat[i].is_smooth = smooth;
+        set_levels(
+            coloured(vertex.face_colour, look.tints.flat, vertex.face_normal), to.flat[i].rgb);
+    }
+}
+
+} // namespace octant::visuals::raster

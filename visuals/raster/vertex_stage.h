@@ -1,0 +1,68 @@
+#pragma once
+
+#include "models/colour_vertex.h"
+#include "visuals/raster/projection.h"
+#include "visuals/raster/screen_vertex.h"
+#include "visuals/scene/frame_plan.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <cstdint>
+#include <span>
+
+namespace octant::visuals::raster {
+
+/// What every corner of a picture is lit and hazed by.
+struct Light {
+    glm::vec3 ambient{0.0F};
+    glm::vec3 sunlight{0.0F};
+    glm::vec3 to_sun{0.0F};
+    glm::vec3 haze{0.0F}; ///< display values 0..1
+    float per_m = 0.0F;   ///< one over the visibility; 0: no haze
+};
+
+Light light_of(const scene::FramePlan& plan);
+
+/// Where corners go. All spans are as long as what they are made of.
+struct ScreenCorners {
+    std::span<ScreenVertex> vertices;
+    std::span<ClipPlace> clip;
+    std::span<FlatColour> flat; ///< of aircraft alone
+};
+
+/// Corners that have the colours they show, but for haze; the sky has none.
+void place_coloured(
+    std::span<const models::ColourVertex> from,
+    const Projection& projection,
+    const Light& light,
+    const ScreenCorners& to);
+
+/// Corners of ground that a texture colours: `to_texels` takes x and y in world axes with the eye
+/// subtracted to texels.
+struct TexelPlace {
+    glm::vec2 at_eye{0.0F};
+    glm::vec2 per_m{0.0F};
+};
+
+void place_textured(
+    std::span<const models::ColourVertex> from,
+    const Projection& projection,
+    const Light& light,
+    const TexelPlace& to_texels,
+    const ScreenCorners& to);
+
+/// How the corners of one aircraft are turned and coloured.
+struct AircraftLook {
+    std::span<const glm::mat4> parts;
+    std::span<const std::uint32_t> smooth; ///< words, from the aircraft's first
+    scene::Tints tints{};
+};
+
+void place_aircraft(
+    std::span<const scene::ModelVertex> from,
+    const AircraftLook& look,
+    const Projection& projection,
+    const Light& light,
+    const ScreenCorners& to);
+
+} // namespace octant::visuals::raster

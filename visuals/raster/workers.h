@@ -1,0 +1,46 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace octant::visuals::raster {
+
+/// Threads that share the tasks of one loop after the other. They sleep in between: waiting threads
+/// that spin would take time from those that plan the next frame.
+class Workers {
+public:
+    /// The thread that calls run() counts as one.
+    explicit Workers(int threads);
+    ~Workers();
+    Workers(const Workers&) = delete;
+    Workers& operator=(const Workers&) = delete;
+    Workers(Workers&&) = delete;
+    Workers& operator=(Workers&&) = delete;
+
+    int threads() const { return static_cast<int>(helpers_.size()) + 1; }
+
+    /// Calls work(task, thread) once for each task 0 .. tasks - 1, each thread taking the next one
+    /// that is left, and returns when all are done. `work` must not throw.
+    void run(int tasks, const std::function<void(int task, int thread)>& work);
+
+private:
+    void help(int thread);
+    void take_tasks(int thread);
+
+    std::vector<std::thread> helpers_;
+    std::mutex mutex_;
+    std::condition_variable begun_;
+    std::condition_variable done_;
+    const std::function<void(int, int)>* work_ = nullptr;
+    std::atomic<int> next_{0};
+    int tasks_ = 0;
+    int busy_ = 0;     ///< helpers that have not yet finished this run
+    unsigned run_ = 0; ///< counts runs
+    bool ends_ = false;
+};
+
+} // namespace octant::visuals::raster
