@@ -24,11 +24,17 @@ namespace {
 constexpr int floor_triangles = 20000;
 constexpr int warm_up_frames = 20;
 
-/// The platform's floor, drawn by the same renderer as everything else.
+settings::RunSettings by_gl(settings::RunSettings settings) {
+    settings.drawing.renderer = settings::RendererKind::Gl;
+    settings.view.samples = 1;
+    return settings;
+}
+
+/// The platform's floor, drawn by OpenGL with one sample a pixel.
 class Floor {
 public:
     explicit Floor(const settings::RunSettings& settings)
-        : renderer_(flight::make_renderer(settings)) {
+        : renderer_(flight::make_renderer(by_gl(settings))) {
         plan_.view_to_clip = scene::view_to_clip(
             {}, static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y);
         grid_ = visuals::gl::bare_grid(floor_triangles, plan_.view_to_clip);
@@ -110,26 +116,49 @@ BenchResult result_of(const Timed& timed, double floor_ms) {
 }
 
 std::string name_of(const settings::RunSettings& settings) {
+    const bool gl = settings.drawing.renderer == settings::RendererKind::Gl;
     return fmt::format(
-        "{}, {}",
+        "{}, {}, {}",
         std::filesystem::path(settings.path.terrain).filename().string(),
-        fmt::join(settings.path.aircraft, "+"));
+        fmt::join(settings.path.aircraft, "+"),
+        gl ? "OpenGL" : "raster");
+}
+
+/// A scene for each ground and renderer: both, unless one is asked for.
+std::vector<settings::RunSettings> scenes_of(const BenchOptions& options) {
+    using settings::RendererKind;
+    std::vector<settings::RunSettings> scenes;
+    for (const std::string& terrain : options.terrains) {
+        for (const RendererKind kind : {RendererKind::Raster, RendererKind::Gl}) {
+            const RendererKind asked = options.settings.drawing.renderer;
+            if (asked != RendererKind::Auto && asked != kind) {
+                continue;
+            }
+            settings::RunSettings settings = options.settings;
+            settings.path.terrain = terrain;
+            settings.time.frames = options.frames + warm_up_frames;
+            settings.drawing.renderer = kind;
+            if (kind == RendererKind::Gl && settings.view.samples == 16) {
+                settings.view.samples.reset();
+            }
+            scenes.push_back(settings);
+        }
+    }
+    return scenes;
 }
 
 } // namespace
 
 std::vector<BenchResult> run_bench(const BenchOptions& options) {
     Floor floor(options.settings);
-    std::vector<Timed> timed(options.terrains.size() + 1);
+    const std::vector<settings::RunSettings> scenes = scenes_of(options);
+    std::vector<Timed> timed(scenes.size() + 1);
     timed[0].name = fmt::format("floor: bare grid of {} triangles", floor_triangles);
     std::vector<std::unique_ptr<flight::Session>> sessions;
-    for (std::size_t i = 0; i < options.terrains.size(); ++i) {
-        settings::RunSettings settings = options.settings;
-        settings.path.terrain = options.terrains[i];
-        settings.time.frames = options.frames + warm_up_frames;
-        base::say(options.quiet, fmt::format("loading {}", settings.path.terrain));
-        sessions.push_back(std::make_unique<flight::Session>(settings));
-        timed[i + 1].name = name_of(settings);
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        timed[i + 1].name = name_of(scenes[i]);
+        base::say(options.quiet, fmt::format("loading {}", timed[i + 1].name));
+        sessions.push_back(std::make_unique<flight::Session>(scenes[i]));
     }
     base::Progress progress("bench", options.frames + warm_up_frames, options.quiet);
     for (int frame = 0; frame < options.frames + warm_up_frames; ++frame) {

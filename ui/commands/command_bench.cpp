@@ -3,6 +3,7 @@
 #include "ui/commands/commands.h"
 #include "ui/commands/read_option.h"
 
+#include <array>
 #include <cstdio>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -71,6 +72,8 @@ void print_json(const std::vector<BenchResult>& results) {
     base::print_figures({{"scenes", scenes}}, true);
 }
 
+constexpr std::array sample_counts{1, 4, 16};
+
 /// An option for one thing each time that it stands, with all defaults in help.
 Option again(std::string name, std::string meaning, std::vector<std::string>& values) {
     return showing(
@@ -91,7 +94,12 @@ std::vector<Option> options_of(BenchCommand& bench) {
             read_option(
                 {"triangles", "N", "triangles of ground", 100, 10000000},
                 settings.ground.triangles)),
-        read_option({"context", "KIND", "who draws: osmesa or egl"}, settings.drawing.context),
+        read_option(
+            {"renderer", "KIND", "raster or gl; auto: both in turn"}, settings.drawing.renderer),
+        read_option(
+            {"samples", "N", "samples a pixel [raster: 16, gl: 1]", 1, 16, sample_counts},
+            settings.view.samples),
+        read_option({"context", "KIND", "OpenGL's context: osmesa or egl"}, settings.drawing.context),
         read_option({"frames", "N", "timed frames of each scene", 1, 100000}, options.frames),
         flag("--json", "as JSON", bench.json),
         flag("--quiet", "no progress", options.quiet)};

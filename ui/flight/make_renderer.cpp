@@ -2,13 +2,21 @@
 
 #include "visuals/gl/make_renderer.h"
 
+#include <algorithm>
+#include <thread>
+#include <utility>
+
 namespace octant::ui::flight {
 
 namespace gl = visuals::gl;
+namespace raster = visuals::raster;
+using visuals::scene::Renderer;
 
-std::unique_ptr<visuals::scene::Renderer> make_renderer(const settings::RunSettings& settings) {
+namespace {
+
+std::unique_ptr<Renderer> make_gl_renderer(const settings::RunSettings& settings) {
     const glm::ivec2 size_px = settings.view.size_px;
-    const int samples = settings.view.samples;
+    const int samples = settings.view.samples.value_or(1);
     switch (settings.drawing.context) {
     case settings::ContextKind::Egl:
         return gl::make_egl_renderer(size_px, samples);
@@ -18,6 +26,32 @@ std::unique_ptr<visuals::scene::Renderer> make_renderer(const settings::RunSetti
         break;
     }
     return gl::make_osmesa_renderer(size_px, samples);
+}
+
+} // namespace
+
+std::unique_ptr<Renderer>
+make_raster_renderer(const settings::RunSettings& settings, raster::Renderer::Show show) {
+    const auto cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
+    const int threads = settings.drawing.raster_threads.value_or(cores);
+    return std::make_unique<raster::Renderer>(
+        std::make_shared<raster::Workers>(threads),
+        settings.view.size_px,
+        settings.view.samples.value_or(16),
+        std::move(show));
+}
+
+std::unique_ptr<Renderer> make_renderer(const settings::RunSettings& settings) {
+    using settings::RendererKind;
+    const RendererKind wanted = settings.drawing.renderer;
+    const bool may_be_gpu = settings.drawing.context != settings::ContextKind::OsMesa;
+    if (wanted == RendererKind::Raster || (wanted == RendererKind::Auto && !may_be_gpu)) {
+        return make_raster_renderer(settings);
+    }
+    std::unique_ptr<Renderer> renderer = make_gl_renderer(settings);
+    const bool no_gpu = renderer->info().on_processor;
+    return wanted == RendererKind::Auto && no_gpu ? make_raster_renderer(settings)
+                                                  : std::move(renderer);
 }
 
 } // namespace octant::ui::flight

@@ -25,6 +25,12 @@ inline constexpr std::array enum_names<HeightMode>{
     Named{HeightMode::Datum, "datum"}};
 
 template <>
+inline constexpr std::array enum_names<RendererKind>{
+    Named{RendererKind::Auto, "auto"},
+    Named{RendererKind::Raster, "raster"},
+    Named{RendererKind::Gl, "gl"}};
+
+template <>
 inline constexpr std::array enum_names<ContextKind>{
     Named{ContextKind::OsMesa, "osmesa"},
     Named{ContextKind::Egl, "egl"},

@@ -9,6 +9,8 @@
 namespace octant::ui::settings {
 
 enum class HeightMode { Clear, Follow, Datum };
+/// Auto: Raster where no GPU draws.
+enum class RendererKind { Auto, Raster, Gl };
 enum class ContextKind { OsMesa, Egl, Window };
 
 /// Which path is flown, by which aircraft, over which ground.
@@ -54,7 +56,10 @@ struct TimeSettings {
 
 /// Who draws the pictures.
 struct DrawingSettings {
+    RendererKind renderer = RendererKind::Auto;
     ContextKind context = ContextKind::OsMesa;
+    /// Of the raster renderer; without it one for each core.
+    std::optional<int> raster_threads;
 
     bool operator==(const DrawingSettings&) const = default;
 };

@@ -6,6 +6,7 @@
 #include "ui/settings/terrain_name.h"
 
 #include <fmt/format.h>
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -17,9 +18,12 @@ namespace {
 
 void check_listed_numbers(const RunSettings& settings) {
     visit_settings(settings, []<class Value>(const SettingInfo& info, const Value& value) {
-        if constexpr (std::is_same_v<Value, int>) {
+        if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, std::optional<int>>) {
             try {
-                check_listed(info, value);
+                const std::optional<int> number(value);
+                if (number) {
+                    check_listed(info, *number);
+                }
             } catch (const Error& fault) {
                 throw Error(fmt::format("--{}", fault.what()));
             }
@@ -116,6 +120,9 @@ void check_settings(const RunSettings& settings) {
     check_ground(settings.ground, settings.path.terrain);
     check_ground_texture(settings.air, settings.path.terrain);
     check_eye_point(settings.view);
+    if (settings.drawing.renderer == RendererKind::Gl && settings.view.samples == 16) {
+        throw Error("--samples: expected 1 or 4 beside --renderer gl, got 16");
+    }
 }
 
 } // namespace octant::ui::settings

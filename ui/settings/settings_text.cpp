@@ -176,8 +176,13 @@ void read_setting(const FieldInfo& info, std::string_view text, Adaptation& adap
 
 void check_listed(const FieldInfo& info, int value) {
     if (!info.one_of.empty() && std::ranges::find(info.one_of, value) == info.one_of.end()) {
+        const auto all = info.one_of;
         throw Error(fmt::format(
-            "{}: expected {}, got {}", info.name, fmt::join(info.one_of, " or "), value));
+            "{}: expected {} or {}, got {}",
+            info.name,
+            fmt::join(all.first(all.size() - 1), ", "),
+            all.back(),
+            value));
     }
 }
 

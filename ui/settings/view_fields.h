@@ -8,7 +8,7 @@
 namespace octant::ui::settings {
 
 /// How many samples of each pixel the renderers offer.
-inline constexpr std::array sample_counts{1, 4};
+inline constexpr std::array sample_counts{1, 4, 16};
 
 /// Bound on the coordinates of eye points: beyond every map.
 inline constexpr double far_away_m = 1e7;
@@ -71,12 +71,21 @@ inline constexpr std::tuple view_rows{
         {"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192},
         {.group = SettingGroup::View, .change = SettingsChange::Picture, .set_by_window = true}),
     setting<&RunSettings::view, &visuals::scene::ViewSettings::samples>(
-        {"samples", "N", "samples a pixel, 1 or 4", 1, 4, sample_counts},
-        {.group = SettingGroup::View, .change = SettingsChange::Picture}),
+        {"samples", "N", "samples a pixel, 1, 4 or 16 [raster: 16, gl: 1]", 1, 16, sample_counts},
+        {.group = SettingGroup::View, .change = SettingsChange::Picture, .start = 4.0}),
+    setting<&RunSettings::drawing, &DrawingSettings::renderer>(
+        {"renderer",
+         "KIND",
+         "who draws: raster (the program itself, no GPU), gl (OpenGL) or auto: raster where no GPU "
+         "draws"},
+        {.group = SettingGroup::View, .change = SettingsChange::World, .set_by_window = true}),
+    setting<&RunSettings::drawing, &DrawingSettings::raster_threads>(
+        {"raster-threads", "N", "threads of the raster renderer [one a core]", 1, 256},
+        {.group = SettingGroup::View, .change = SettingsChange::World, .set_by_window = true}),
     setting<&RunSettings::drawing, &DrawingSettings::context>(
         {"context",
          "KIND",
-         "who draws: osmesa (no GPU, no display), egl or window (the display's driver)"},
+         "OpenGL's context: osmesa (no GPU, no display), egl or window (the display's driver)"},
         {.group = SettingGroup::View, .change = SettingsChange::World, .set_by_window = true})};
 
 } // namespace octant::ui::settings

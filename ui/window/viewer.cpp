@@ -3,11 +3,13 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "ui/base/data_files.h"
+#include "ui/flight/make_renderer.h"
 #include "ui/settings/settings_change.h"
 #include "ui/window/gui.h"
 #include "ui/window/look_control.h"
 #include "ui/window/panels.h"
 #include "visuals/gl/make_renderer.h"
+#include "visuals/gl/picture_painter.h"
 #include "visuals/gl/window_context.h"
 
 #define GLFW_INCLUDE_NONE
@@ -45,6 +47,23 @@ fs::path layout_file(const fs::path& folder) {
     return folder.empty() ? fs::path() : folder / "layout.ini";
 }
 
+/// OpenGL's where the settings ask for it or a GPU draws in the window, else the raster renderer.
+std::unique_ptr<scene::Renderer>
+window_renderer(std::shared_ptr<gl::WindowContext> context, const settings::RunSettings& settings) {
+    using settings::RendererKind;
+    const RendererKind wanted = settings.drawing.renderer;
+    const bool gpu_draws = !context->info().on_processor;
+    if (wanted == RendererKind::Gl || (wanted == RendererKind::Auto && gpu_draws)) {
+        return gl::make_renderer(
+            std::move(context), settings.view.size_px, settings.view.samples.value_or(1));
+    }
+    auto painter = std::make_shared<gl::PicturePainter>(std::move(context));
+    return flight::make_raster_renderer(
+        settings, [painter](const scene::Picture& picture, const glm::ivec2& size_px) {
+            painter->show(picture, size_px);
+        });
+}
+
 } // namespace
 
 Viewer::Viewer(const ViewOptions& options)
@@ -56,9 +75,7 @@ Viewer::Viewer(const ViewOptions& options)
     settings.drawing.context = settings::ContextKind::Window;
     settings.view.size_px = input_->size_px();
     session_ = std::make_unique<flight::Session>(
-        settings,
-        flight::Shows::World,
-        gl::make_renderer(std::move(context), settings.view.size_px, settings.view.samples));
+        settings, flight::Shows::World, window_renderer(std::move(context), settings));
     session_->present_by([this](scene::Renderer& renderer) {
         if (!renderer.is_in_window()) {
             renderer.copy_to_window(input_->size_px());

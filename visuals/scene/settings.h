@@ -52,7 +52,7 @@ struct ViewSettings {
     std::optional<View> inset; ///< a second view, drawn small into a corner of the picture
     bool head_up_display = true; ///< of the cockpit view
     glm::ivec2 size_px{1280, 720};
-    int samples = 1; ///< a pixel
+    std::optional<int> samples; ///< a pixel; nothing: the renderer's own
 
     bool operator==(const ViewSettings&) const = default;
 };

@@ -178,7 +178,7 @@ TEST_CASE("wrong settings and options are refused in one line with exit code 2")
     check_refused(
         {"straight", "--video", "/nowhere/x.mp4"},
         "/nowhere/x.mp4: expected a file that can be written");
-    check_refused({"straight", "--samples", "3"}, "--samples: expected 1 or 4, got 3");
+    check_refused({"straight", "--samples", "3"}, "--samples: expected 1, 4 or 16, got 3");
     check_refused({"straight", "--no-such-option"}, "--no-such-option");
     check_refused({"straight", "--place", "1e9,0"}, "leaves the map");
     check_refused(

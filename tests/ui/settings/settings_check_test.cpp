@@ -26,7 +26,11 @@ TEST_CASE("only the numbers of samples that renderers offer are taken") {
     settings.view.samples = 4;
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.view.samples = 2;
-    check_refused(settings, "--samples: expected 1 or 4, got 2");
+    check_refused(settings, "--samples: expected 1, 4 or 16, got 2");
+    settings.view.samples = 16;
+    CHECK_NOTHROW(ui::settings::check_settings(settings));
+    settings.drawing.renderer = ui::settings::RendererKind::Gl;
+    check_refused(settings, "--samples: expected 1 or 4 beside --renderer gl, got 16");
 }
 
 TEST_CASE("eye points are refused where the view does not take them") {

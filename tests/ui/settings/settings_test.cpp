@@ -59,7 +59,7 @@ TEST_CASE("a missing key keeps its default and a wrong one is refused with its l
     expect(
         "{\"warm-up\": 1.5}", ":1: warm-up: expected a whole number from 0 to 1000000, got '1.5'");
     expect("{\"aircraft\": []}", ":1: aircraft: expected a list of names, got []");
-    expect("{\n\"samples\": 2}", ":2: samples: expected 1 or 4, got 2");
+    expect("{\n\"samples\": 2}", ":2: samples: expected 1, 4 or 16, got 2");
     CHECK(
         ui::settings::read_settings(settings_file("{\"adapt\": \"none\"}")).adapt ==
         RunSettings{}.adapt);
