@@ -70,6 +70,7 @@ settings_of(const PrintedTime& row, const StudyOptions& options, scene::HiddenSu
     settings.view.size_px = options.settings.view.size_px;
     settings.view.samples = options.settings.view.samples;
     settings.drawing.context = options.settings.drawing.context;
+    settings.drawing.renderer = settings::RendererKind::Gl; // whose depth buffer is a tuned one
     settings.path.aircraft = {row.aircraft};
     settings.surface.hidden_surface = method;
     settings.time.warm_up = 0;

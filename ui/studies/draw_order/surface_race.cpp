@@ -33,6 +33,7 @@ Race race(const settings::RunSettings& settings, int frames, bool quiet) {
         settings::RunSettings own = settings;
         own.surface.hidden_surface = raced_ways[way];
         own.time.frames = frames + warm_up_frames;
+        own.drawing.renderer = settings::RendererKind::Gl; // whose depth buffer is a tuned one
         sessions[way] = std::make_unique<flight::Session>(own);
     }
     Race raced;

@@ -42,6 +42,7 @@ settings::RunSettings settings_of(const std::string& aircraft, const Way& way) {
     settings.path.aircraft = {aircraft};
     settings.time.frames = frames;
     settings.time.warm_up = 0;
+    settings.drawing.renderer = settings::RendererKind::Gl; // where Gouraud shading has its price
     settings.shading.kind = way.shading;
     settings.shading.rule = way.rule;
     settings.shading.far_m = 1e6; // by the share alone
