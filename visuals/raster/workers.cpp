@@ -1,11 +1,20 @@
 #include "visuals/raster/workers.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace octant::visuals::raster {
 
+/// Belongs to all that may still look at it: who comes late finds no task left.
+struct Workers::Run {
+    const std::function<void(int, int)>* work = nullptr; ///< not to be used when no task is left
+    int tasks = 0;
+    std::atomic<int> next{0};
+    std::atomic<int> undone{0};
+};
+
 Workers::Workers(int threads) {
-    for (int thread = 1; thread < std::max(threads, 1); ++thread) {
+    for (int thread = 1; thread < threads; ++thread) {
         helpers_.emplace_back([this, thread] { help(thread); });
     }
 }
@@ -25,35 +34,34 @@ void Workers::run(int tasks, const std::function<void(int task, int thread)>& wo
     if (tasks <= 0) {
         return;
     }
-    const bool alone = helpers_.empty() || tasks == 1;
-    {
-        const std::lock_guard lock(mutex_);
-        work_ = &work;
-        tasks_ = tasks;
-        next_ = 0;
-        if (!alone) {
-            busy_ = static_cast<int>(helpers_.size());
-            ++run_;
+    const auto run = std::make_shared<Run>();
+    run->work = &work;
+    run->tasks = tasks;
+    run->undone = tasks;
+    if (tasks > 1 && !helpers_.empty()) {
+        {
+            const std::lock_guard lock(mutex_);
+            run_ = run;
         }
-    }
-    if (!alone) {
         begun_.notify_all();
     }
-    take_tasks(0);
-    if (!alone) {
-        std::unique_lock lock(mutex_);
-        done_.wait(lock, [&] { return busy_ == 0; });
+    take_tasks(*run, 0);
+    for (int undone = run->undone; undone > 0; undone = run->undone) {
+        run->undone.wait(undone);
     }
 }
 
-void Workers::take_tasks(int thread) {
-    for (int task = next_++; task < tasks_; task = next_++) {
-        (*work_)(task, thread);
+void Workers::take_tasks(Run& run, int thread) {
+    for (int task = run.next++; task < run.tasks; task = run.next++) {
+        (*run.work)(task, thread);
+        if (--run.undone == 0) {
+            run.undone.notify_all();
+        }
     }
 }
 
 void Workers::help(int thread) {
-    unsigned seen = 0;
+    std::shared_ptr<Run> seen;
     std::unique_lock lock(mutex_);
     while (true) {
         begun_.wait(lock, [&] { return ends_ || run_ != seen; });
@@ -62,11 +70,8 @@ void Workers::help(int thread) {
         }
         seen = run_;
         lock.unlock();
-        take_tasks(thread);
+        take_tasks(*seen, thread);
         lock.lock();
-        if (--busy_ == 0) {
-            done_.notify_one();
-        }
     }
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <atomic>
 #include <condition_variable>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -24,22 +24,20 @@ public:
     int threads() const { return static_cast<int>(helpers_.size()) + 1; }
 
     /// Calls work(task, thread) once for each task 0 .. tasks - 1, each thread taking the next one
-    /// that is left, and returns when all are done. `work` must not throw.
+    /// that is left, and returns when all are done. Threads that wake up too late are not waited
+    /// for. `work` must not throw.
     void run(int tasks, const std::function<void(int task, int thread)>& work);
 
 private:
+    struct Run;
+
     void help(int thread);
-    void take_tasks(int thread);
+    static void take_tasks(Run& run, int thread);
 
     std::vector<std::thread> helpers_;
     std::mutex mutex_;
     std::condition_variable begun_;
-    std::condition_variable done_;
-    const std::function<void(int, int)>* work_ = nullptr;
-    std::atomic<int> next_{0};
-    int tasks_ = 0;
-    int busy_ = 0;     ///< helpers that have not yet finished this run
-    unsigned run_ = 0; ///< counts runs
+    std::shared_ptr<Run> run_; ///< the last that began
     bool ends_ = false;
 };
 
