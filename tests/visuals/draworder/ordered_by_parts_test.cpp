@@ -1,4 +1,3 @@
-#include "models/polygons/obj_reader.h"
 #include "visuals/draworder/order_cells.h"
 #include "visuals/draworder/ordered_model.h"
 #include "visuals/draworder/parted_order.h"
@@ -7,32 +6,21 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <string>
-#include <utility>
 
 #include "shapes.h"
+#include "tried_models.h"
 #include "wrong_rays.h"
 
 using namespace octant::visuals::draworder;
 using octant::Dice;
 using octant::models::polygons::PolygonModel;
+using octant::tests::all_eyes;
+using octant::tests::by;
 using octant::tests::count_wrong_rays;
 using octant::tests::EyeSamples;
+using octant::tests::shipped;
 
 namespace {
-
-PolygonModel shipped(const std::string& name) {
-    return octant::models::polygons::read_obj(OCTANT_SOURCE_DIR "/models/" + name + ".obj");
-}
-
-OrderedModel by(Method method, PolygonModel model) {
-    return ordered(std::move(model), {.method = method, .paper = {}});
-}
-
-/// From inside the model outwards.
-EyeSamples all_eyes(int eyes) {
-    return {.eyes = eyes, .rays_per_eye = 30, .least_distance_radii = 0.05};
-}
 
 PolygonModel crossing_rotors() {
     PolygonModel model;

@@ -1,5 +1,4 @@
 #include "models/made/made_up.h"
-#include "models/polygons/obj_reader.h"
 #include "sim/base/units.h"
 #include "visuals/draworder/order_cells.h"
 #include "visuals/draworder/ordered_model.h"
@@ -11,33 +10,22 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <string>
-#include <utility>
 
 #include "shapes.h"
+#include "tried_models.h"
 #include "wrong_rays.h"
 
 using namespace octant::visuals::draworder;
 using octant::Dice;
 using octant::models::polygons::PolygonModel;
+using octant::tests::all_eyes;
+using octant::tests::by;
 using octant::tests::count_wrong_rays;
 using octant::tests::EyeSamples;
 using octant::tests::paper_example;
+using octant::tests::shipped;
 
 namespace {
-
-PolygonModel shipped(const std::string& name) {
-    return octant::models::polygons::read_obj(OCTANT_SOURCE_DIR "/models/" + name + ".obj");
-}
-
-OrderedModel by(Method method, PolygonModel model) {
-    return ordered(std::move(model), {.method = method, .paper = {}});
-}
-
-/// From inside the model outwards.
-EyeSamples all_eyes(int eyes) {
-    return {.eyes = eyes, .rays_per_eye = 30, .least_distance_radii = 0.05};
-}
 
 void check_tree(const PolygonModel& model, int eyes, int most_cells) {
     INFO(model.name);

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "models/polygons/polygon_model.h"
+#include "visuals/draworder/ordered_model.h"
+
+#include <string>
+
+#include "wrong_rays.h"
+
+namespace octant::tests {
+
+/// A model that comes with the program, by its file's name without ending.
+models::polygons::PolygonModel shipped(const std::string& name);
+
+visuals::draworder::OrderedModel
+by(visuals::draworder::Method method, models::polygons::PolygonModel model);
+
+/// From inside the model outwards.
+EyeSamples all_eyes(int eyes);
+
+} // namespace octant::tests
