@@ -2,6 +2,7 @@
 // writes, with none of its code.
 #include "visuals/certificate/order_certificate.h"
 
+#include "visuals/certificate/certificate_text.h"
 #include "visuals/certificate/local_model.h"
 #include "visuals/certificate/pair_bits.h"
 #include "visuals/certificate/witness.h"
@@ -9,8 +10,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <fmt/format.h>
-#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,25 +21,6 @@ namespace {
 using draworder::DrawOrder;
 using Polygons = std::vector<std::uint32_t>;
 
-std::string text_of(const glm::dvec3& v) {
-    return fmt::format("{} {} {}", v.x + 0.0, v.y + 0.0, v.z + 0.0);
-}
-
-std::string text_of(const Plane& plane) {
-    return fmt::format("{} {}", text_of(plane.normal), plane.offset_m + 0.0);
-}
-
-std::string text_of_child(int child) {
-    return child == DrawOrder::nothing ? " nothing"
-           : child < 0                 ? fmt::format(" list {}", ~child)
-                                       : fmt::format(" node {}", child);
-}
-
-template <typename... Values>
-void append(std::string& text, fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
-}
-
 class Writing {
 public:
     Writing(
@@ -51,11 +31,12 @@ public:
         , order_(order)
         , axes_(axes)
         , local_(local_model(model, axes))
-        , mark_(model.polygons.size(), 0) {}
+        , mark_(model.polygons.size(), 0)
+        , text_(local_.size_m) {}
 
     OrderCertificate certificate(const std::function<void(std::size_t, std::size_t)>& progress) {
-        write_model();
-        write_tree();
+        text_.add_model(model_, local_, axes_);
+        text_.add_tree(order_, axes_);
         Polygons all;
         for (std::uint32_t i = 0; i < model_.polygons.size(); ++i) {
             all.push_back(i);
@@ -67,7 +48,7 @@ public:
             to_do_.pop_back();
             write(task);
         }
-        return std::move(made_);
+        return text_.finished();
     }
 
 private:
@@ -93,65 +74,6 @@ private:
         if (progress_) {
             progress_(
                 ++done_, order_.nodes().size() + static_cast<std::size_t>(order_.cell_count()));
-        }
-    }
-
-    Plane in_file(const Plane& in_body) const {
-        return {axes_.file_from_body(in_body.normal), in_body.offset_m};
-    }
-
-    void write_model() {
-        std::string& text = made_.text;
-        append(text, "octant-certificate 1\n");
-        append(text, "tolerance {}\n", tolerance_sizes * local_.size_m);
-        for (const glm::dvec3& vertex_m : model_.vertices_m) {
-            append(text, "vertex {}\n", text_of(axes_.file_from_body(vertex_m)));
-        }
-        for (const models::polygons::Pivot& pivot : model_.pivots) {
-            append(
-                text,
-                "axis {} {}\n",
-                text_of(axes_.file_from_body(pivot.point_m)),
-                text_of(axes_.file_from_body(pivot.axis)));
-        }
-        for (std::size_t i = 0; i < model_.polygons.size(); ++i) {
-            const LocalPolygon& polygon = local_.polygons[i];
-            append(
-                text,
-                "{} {} {}",
-                polygon.axis ? fmt::format("turning {}", *polygon.axis) : "polygon",
-                model_.parent_of(i),
-                text_of(local_.in_file(polygon.plane)));
-            append_all(model_.corners(i));
-        }
-    }
-
-    void append_all(std::span<const std::uint32_t> numbers) {
-        for (const std::uint32_t number : numbers) {
-            append(made_.text, " {}", number);
-        }
-        made_.text += '\n';
-    }
-
-    void write_tree() {
-        for (int list = 0; list < order_.cell_count(); ++list) {
-            made_.text += "list";
-            append_all(order_.polygons_of(list));
-        }
-        for (const DrawOrder::Node& node : order_.nodes()) {
-            const std::string children = text_of_child(node.front) + text_of_child(node.back);
-            if (node.kind == DrawOrder::Kind::Sequence) {
-                append(made_.text, "node sequence{}\n", children);
-                continue;
-            }
-            const bool parts = node.kind == DrawOrder::Kind::Parting;
-            append(
-                made_.text,
-                "node {} {}{}{}\n",
-                parts ? "parting" : "choice",
-                text_of(in_file(node.plane)),
-                children,
-                parts ? text_of_child(node.along) + text_of_child(node.against) : "");
         }
     }
 
@@ -198,7 +120,7 @@ private:
             }
             walls.resize(levels_[level].walls);
         }
-        write_witness(levels_[level].child, witness, earlier, later);
+        text_.add_witness(levels_[level].child, witness, earlier, later);
         for (; level < levels_.size(); ++level) {
             levels_[level].known.add(earlier, later);
         }
@@ -219,7 +141,7 @@ private:
         }
         write_missing(task, all);
         if (node.kind == DrawOrder::Kind::Parting) {
-            write_doubts(task.child, parts, local_.from_file(in_file(node.plane)));
+            write_doubts(task.child, parts, wall_of(node));
         }
         for (const std::uint32_t later : parts[1]) {
             if (node.kind == DrawOrder::Kind::Sequence && !parts[0].empty()) {
@@ -235,6 +157,11 @@ private:
         }
     }
 
+    /// The plane of a node, in the unit of local_.
+    Plane wall_of(const DrawOrder::Node& node) const {
+        return local_.from_file({axes_.file_from_body(node.plane.normal), node.plane.offset_m});
+    }
+
     /// What holds for all eyes is written at the first choice of a path, for all lists below it.
     void write_choice(const Task& task, const DrawOrder::Node& node) {
         const bool is_first = levels_.empty();
@@ -245,7 +172,7 @@ private:
                 write_row(task.child, below, later);
             }
         }
-        const Plane wall = local_.from_file(in_file(node.plane));
+        const Plane wall = wall_of(node);
         write_side(task, node.front, wall);
         write_side(task, node.back, {-wall.normal, -wall.offset_m});
         if (is_first) {
@@ -319,10 +246,9 @@ private:
                 continue;
             }
             if (const auto factors = factors_away(local_, task.walls, polygon)) {
-                append(made_.text, "away{} {}", text_of_child(task.child), polygon);
-                append_walls(*factors);
+                text_.add_away(task.child, polygon, *factors);
             } else {
-                write_doubt(task.child, polygon);
+                text_.add_doubt(task.child, polygon);
             }
         }
         for (const std::uint32_t polygon : painted) {
@@ -330,35 +256,12 @@ private:
         }
     }
 
-    void write_doubt(int child, std::uint32_t polygon) {
-        append(made_.text, "unproved{} {}\n", text_of_child(child), polygon);
-        ++made_.unproved;
-    }
-
-    /// The factor of 1 is a length.
-    void append_walls(const Factors& factors) {
-        append(made_.text, " {}", factors.one * local_.size_m);
-        for (const double factor : factors.walls) {
-            append(made_.text, " {}", factor);
-        }
-        made_.text += '\n';
-    }
-
     /// Writes which pairs the plane of one polygon decides; returns the earlier polygons of the
     /// others.
     Polygons write_row(int child, std::span<const std::uint32_t> earlier, std::uint32_t later) {
-        append(made_.text, "pairs{} {}", text_of_child(child), later);
+        text_.begin_pairs(child, later);
         Polygons open;
         Decider last = Decider::Neither;
-        std::size_t count = 0;
-        const auto write_run = [&] {
-            if (count > 0) {
-                const char letter = last == Decider::Earlier ? 'e'
-                                    : last == Decider::Later ? 'l'
-                                                             : '-';
-                append(made_.text, " {}{}", count, letter);
-            }
-        };
         for (const std::uint32_t polygon : earlier) {
             const Decider by =
                 polygon == later ? Decider::Neither : decider(local_, polygon, later, last);
@@ -367,39 +270,16 @@ private:
             } else if (!levels_.empty()) {
                 levels_.back().known.add(polygon, later);
             }
-            if (by != last) {
-                write_run();
-                last = by;
-                count = 0;
-            }
-            ++count;
+            text_.add_pair(by);
+            last = by;
         }
-        write_run();
-        made_.text += '\n';
+        text_.end_pairs();
         return open;
     }
 
     void write_witness(
         int child, std::span<const Plane> walls, std::uint32_t earlier, std::uint32_t later) {
-        write_witness(child, witness_of(local_, walls, earlier, later), earlier, later);
-    }
-
-    void
-    write_witness(int child, const Witness& witness, std::uint32_t earlier, std::uint32_t later) {
-        const std::string where = fmt::format("{} {} {}", text_of_child(child), earlier, later);
-        if (witness.kind == Witness::Kind::None) {
-            append(made_.text, "unproved{}\n", where);
-            ++made_.unproved;
-            return;
-        }
-        append(
-            made_.text,
-            "{}{} {} {}",
-            witness.kind == Witness::Kind::Sum ? "sum" : "never",
-            where,
-            witness.factors.earlier,
-            witness.factors.later);
-        append_walls(witness.factors);
+        text_.add_witness(child, witness_of(local_, walls, earlier, later), earlier, later);
     }
 
     /// Writes which polygons are not where a parting needs them.
@@ -412,7 +292,7 @@ private:
                                   : i == 1 ? behind
                                            : before && behind && faces(parts, i, polygon, plane);
                 if (!good) {
-                    write_doubt(child, polygon);
+                    text_.add_doubt(child, polygon);
                 }
             }
         }
@@ -439,7 +319,7 @@ private:
     std::vector<Level> levels_; ///< Of the choices above the part at hand.
     std::function<void(std::size_t, std::size_t)> progress_;
     std::size_t done_ = 0;
-    OrderCertificate made_;
+    CertificateText text_;
 };
 
 } // namespace

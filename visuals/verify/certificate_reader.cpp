@@ -3,6 +3,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "visuals/verify/wall_counts.h"
 #include "visuals/verify/word_reader.h"
 
 #include <algorithm>
@@ -102,7 +103,7 @@ private:
         const std::uint32_t number = of_list ? words_.index("a list", made_.lists.size())
                                              : words_.index("a node", made_.nodes.size());
         Claims& claims = of_list ? made_.of_lists[number] : made_.of_nodes[number];
-        walls_at_hand_ = of_list ? walls_of_lists_[number] : walls_of_nodes_[number];
+        walls_at_hand_ = of_list ? walls_.of_lists[number] : walls_.of_nodes[number];
         const std::uint32_t polygon = this->polygon();
         if (kind == Pairs) {
             take_row(claims, polygon);
@@ -258,63 +259,14 @@ private:
         return static_cast<int>(number);
     }
 
-    /// Checks that nodes and lists are a tree and counts the walls of their regions.
     void finish_structure() {
         if (structure_is_done_) {
             return;
         }
         structure_is_done_ = true;
-        const auto expect_some = [&](bool some, const char* what) {
-            if (!some) {
-                error_in(made_.path, fmt::format("expected {}, got none", what));
-            }
-        };
-        expect_some(made_.tolerance > 0.0, "a tolerance");
-        expect_some(!made_.polygons.empty(), "at least one polygon");
-        expect_some(!made_.lists.empty(), "at least one list");
-        walls_of_nodes_.assign(made_.nodes.size(), unseen);
-        walls_of_lists_.assign(made_.lists.size(), unseen);
-        (made_.nodes.empty() ? walls_of_lists_ : walls_of_nodes_).front() = 0;
-        for (std::size_t i = 0; i < made_.nodes.size(); ++i) {
-            const Node& node = made_.nodes[i];
-            expect_reached(walls_of_nodes_[i], "node", i, node.line);
-            const std::size_t more = node.kind == Node::Kind::Choice ? 1 : 0;
-            for (const int child : {node.front, node.back, node.along, node.against}) {
-                reach(child, walls_of_nodes_[i] + more, node.line);
-            }
-        }
-        for (std::size_t i = 0; i < made_.lists.size(); ++i) {
-            expect_reached(walls_of_lists_[i], "list", i, made_.lists[i].line);
-        }
+        walls_ = count_walls(made_);
         made_.of_nodes.resize(made_.nodes.size());
         made_.of_lists.resize(made_.lists.size());
-    }
-
-    void expect_reached(std::size_t walls, const char* what, std::size_t number, int line) const {
-        if (walls == unseen) {
-            error_at(
-                made_.path,
-                line,
-                fmt::format(
-                    "expected {} {} to be the child of an earlier node, got none", what, number));
-        }
-    }
-
-    void reach(int child, std::size_t walls, int line) {
-        if (child == Node::nothing) {
-            return;
-        }
-        auto& all = child < 0 ? walls_of_lists_ : walls_of_nodes_;
-        const auto number = static_cast<std::size_t>(child < 0 ? ~child : child);
-        const char* what = child < 0 ? "list" : "node";
-        if (number >= all.size() || all[number] != unseen) {
-            error_at(
-                made_.path,
-                line,
-                fmt::format(
-                    "expected children that are there, each of one node, got {} {}", what, number));
-        }
-        all[number] = walls;
     }
 
     double factor() { return words_.number("a factor", 0.0, largest_number); }
@@ -376,15 +328,12 @@ private:
             static_cast<std::uint32_t>(*count)};
     }
 
-    static constexpr std::size_t unseen = std::numeric_limits<std::size_t>::max();
-
     WordReader words_;
     Certificate made_;
     bool has_header_ = false;
     bool structure_is_done_ = false;
     std::vector<bool> used_; ///< One flag for each polygon; all are false between lines.
-    std::vector<std::size_t> walls_of_nodes_;
-    std::vector<std::size_t> walls_of_lists_;
+    WallCounts walls_;
     std::size_t walls_at_hand_ = 0; ///< How many walls the region of the claim at hand has.
 };
 

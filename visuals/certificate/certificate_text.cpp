@@ -1,0 +1,163 @@
+#include "visuals/certificate/certificate_text.h"
+
+#include <fmt/format.h>
+#include <iterator>
+#include <utility>
+
+namespace octant::visuals::certificate {
+
+namespace {
+
+using draworder::DrawOrder;
+using models::polygons::FileAxes;
+
+std::string text_of(const glm::dvec3& v) {
+    return fmt::format("{} {} {}", v.x + 0.0, v.y + 0.0, v.z + 0.0); // no negative zeros
+}
+
+std::string text_of(const Plane& plane) {
+    return fmt::format("{} {}", text_of(plane.normal), plane.offset_m + 0.0);
+}
+
+std::string text_of_child(int child) {
+    return child == DrawOrder::nothing ? " nothing"
+           : child < 0                 ? fmt::format(" list {}", ~child)
+                                       : fmt::format(" node {}", child);
+}
+
+template <typename... Values>
+void append(std::string& text, fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
+}
+
+} // namespace
+
+CertificateText::CertificateText(double size_m)
+    : size_m_(size_m) {}
+
+void CertificateText::add_model(
+    const models::polygons::PolygonModel& model, const LocalModel& local, const FileAxes& axes) {
+    std::string& text = made_.text;
+    append(text, "octant-certificate 1\n");
+    append(text, "tolerance {}\n", tolerance_sizes * size_m_);
+    for (const glm::dvec3& vertex_m : model.vertices_m) {
+        append(text, "vertex {}\n", text_of(axes.file_from_body(vertex_m)));
+    }
+    for (const models::polygons::Pivot& pivot : model.pivots) {
+        append(
+            text,
+            "axis {} {}\n",
+            text_of(axes.file_from_body(pivot.point_m)),
+            text_of(axes.file_from_body(pivot.axis)));
+    }
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        const LocalPolygon& polygon = local.polygons[i];
+        append(
+            text,
+            "{} {} {}",
+            polygon.axis ? fmt::format("turning {}", *polygon.axis) : "polygon",
+            model.parent_of(i),
+            text_of(local.in_file(polygon.plane)));
+        add_numbers(model.corners(i));
+    }
+}
+
+void CertificateText::add_tree(const DrawOrder& order, const FileAxes& axes) {
+    for (int list = 0; list < order.cell_count(); ++list) {
+        made_.text += "list";
+        add_numbers(order.polygons_of(list));
+    }
+    for (const DrawOrder::Node& node : order.nodes()) {
+        const std::string children = text_of_child(node.front) + text_of_child(node.back);
+        if (node.kind == DrawOrder::Kind::Sequence) {
+            append(made_.text, "node sequence{}\n", children);
+            continue;
+        }
+        const bool parts = node.kind == DrawOrder::Kind::Parting;
+        append(
+            made_.text,
+            "node {} {}{}{}\n",
+            parts ? "parting" : "choice",
+            text_of(Plane{axes.file_from_body(node.plane.normal), node.plane.offset_m}),
+            children,
+            parts ? text_of_child(node.along) + text_of_child(node.against) : "");
+    }
+}
+
+void CertificateText::begin_pairs(int part, std::uint32_t later) {
+    append(made_.text, "pairs{} {}", text_of_child(part), later);
+    run_length_ = 0;
+}
+
+void CertificateText::add_pair(Decider by) {
+    if (by != run_by_) {
+        add_run();
+        run_by_ = by;
+    }
+    ++run_length_;
+}
+
+void CertificateText::end_pairs() {
+    add_run();
+    made_.text += '\n';
+}
+
+void CertificateText::add_run() {
+    if (run_length_ > 0) {
+        const char letter = run_by_ == Decider::Earlier ? 'e'
+                            : run_by_ == Decider::Later ? 'l'
+                                                        : '-';
+        append(made_.text, " {}{}", run_length_, letter);
+        run_length_ = 0;
+    }
+}
+
+void CertificateText::add_witness(
+    int part, const Witness& witness, std::uint32_t earlier, std::uint32_t later) {
+    const std::string where = fmt::format("{} {} {}", text_of_child(part), earlier, later);
+    if (witness.kind == Witness::Kind::None) {
+        append(made_.text, "unproved{}\n", where);
+        ++made_.unproved;
+        return;
+    }
+    append(
+        made_.text,
+        "{}{} {} {}",
+        witness.kind == Witness::Kind::Sum ? "sum" : "never",
+        where,
+        witness.factors.earlier,
+        witness.factors.later);
+    add_walls(witness.factors);
+}
+
+void CertificateText::add_away(int part, std::uint32_t polygon, const Factors& factors) {
+    append(made_.text, "away{} {}", text_of_child(part), polygon);
+    add_walls(factors);
+}
+
+void CertificateText::add_doubt(int part, std::uint32_t polygon) {
+    append(made_.text, "unproved{} {}\n", text_of_child(part), polygon);
+    ++made_.unproved;
+}
+
+OrderCertificate CertificateText::finished() {
+    return std::move(made_);
+}
+
+void CertificateText::add_numbers(std::span<const std::uint32_t> numbers) {
+    for (const std::uint32_t number : numbers) {
+        append(made_.text, " {}", number);
+    }
+    made_.text += '\n';
+}
+
+/// The factor of 1 is a length.
+void CertificateText::add_walls(const Factors& factors) {
+    append(made_.text, " {}", factors.one * size_m_);
+    for (const double factor : factors.walls) {
+        append(made_.text, " {}", factor);
+    }
+    made_.text += '\n';
+}
+
+} // namespace octant::visuals::certificate
