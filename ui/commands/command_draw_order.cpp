@@ -5,8 +5,8 @@
 #include "ui/base/progress.h"
 #include "ui/commands/certificate_work.h"
 #include "ui/commands/commands.h"
+#include "ui/commands/draw_order_options.h"
 #include "ui/commands/percents.h"
-#include "ui/commands/read_option.h"
 #include "ui/settings/settings_text.h"
 #include "ui/world/order_input.h"
 #include "visuals/draworder/order_check.h"
@@ -15,7 +15,6 @@
 #include "visuals/draworder/separation.h"
 #include "visuals/ordercache/order_cache.h"
 
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
@@ -33,25 +32,6 @@ namespace ordercache = visuals::ordercache;
 namespace {
 
 using base::Figures;
-
-constexpr int usual_rays = 200000; ///< of a check
-
-struct DrawOrderOptions {
-    std::string model;
-    std::string axes = "right,up,back";
-    draworder::OrderOptions order;
-    std::optional<std::string> cache; ///< folder of kept orders
-    bool table = false;
-    std::string export_file;
-    std::string export_model;
-    std::string certificate; ///< written
-    std::string verify;      ///< read; then nothing else is done
-    bool check = false;
-    std::string check_file;  ///< empty: what was computed
-    std::optional<int> rays; ///< 0: none
-    bool json = false;
-    bool quiet = false;
-};
 
 /// The orders that are shown, exported and checked, and the model that they speak of.
 struct Work {
@@ -145,34 +125,6 @@ Work prepared(const DrawOrderOptions& options, Figures& figures) {
     return {std::move(ordered.model), input.axes, std::move(orders), std::move(ordered.order)};
 }
 
-/// Throws Error where one file would be written over another, or over the model.
-void refuse_overwriting(const DrawOrderOptions& options) {
-    const auto same = [](const std::string& a, const std::string& b) {
-        return !a.empty() && !b.empty() &&
-               std::filesystem::weakly_canonical(a) == std::filesystem::weakly_canonical(b);
-    };
-    const std::array<std::pair<const char*, std::string>, 3> written{
-        {{"--export", options.export_file},
-         {"--export-model", options.export_model},
-         {"--certificate", options.certificate}}};
-    for (std::size_t i = 0; i < written.size(); ++i) {
-        const auto& [name, file] = written[i];
-        for (std::size_t other = i + 1; other < written.size(); ++other) {
-            if (same(file, written[other].second)) {
-                throw Error(fmt::format(
-                    "{}: expected another file than {}, got '{}' for both",
-                    name,
-                    written[other].first,
-                    printable(file)));
-            }
-        }
-        if (same(file, options.model) && std::filesystem::exists(options.model)) {
-            throw Error(fmt::format(
-                "{}: expected another file than the model, got '{}'", name, printable(file)));
-        }
-    }
-}
-
 void export_files(const Work& work, const DrawOrderOptions& options) {
     if (!options.export_model.empty()) {
         models::polygons::write_obj(options.export_model, work.model, work.axes);
@@ -263,24 +215,6 @@ void print_results(
     }
 }
 
-/// Throws Error for options that do not go together.
-void refuse_together(const DrawOrderOptions& options) {
-    if (options.model.empty() == options.verify.empty()) {
-        throw Error(
-            options.model.empty()
-                ? "expected a model, or --verify with a certificate, got neither"
-                : "--verify: expected no model beside a certificate, which holds its own, got '" +
-                      printable(options.model) + "'");
-    }
-    const bool for_every_eye = options.order.method == draworder::Method::Tree ||
-                               options.order.method == draworder::Method::Bsp;
-    if (!options.certificate.empty() && (!for_every_eye || !options.check_file.empty())) {
-        throw Error(
-            "--certificate: expected orders found by --method tree or bsp, which hold for every "
-            "eye, got others");
-    }
-}
-
 void verify(const DrawOrderOptions& options) {
     Figures figures;
     const bool good = verified(options.verify, options.quiet, figures);
@@ -291,16 +225,10 @@ void verify(const DrawOrderOptions& options) {
 }
 
 void draw_order(const DrawOrderOptions& options) {
-    refuse_together(options);
+    refuse_impossible(options);
     if (!options.verify.empty()) {
         verify(options);
         return;
-    }
-    refuse_overwriting(options);
-    if (!options.export_model.empty() && !options.export_model.ends_with(".obj")) {
-        throw Error(fmt::format(
-            "--export-model: expected a file name that ends in .obj, got '{}'",
-            printable(options.export_model)));
     }
     if (options.cache) {
         ordercache::make_cache_folder(*options.cache);
@@ -332,74 +260,6 @@ void draw_order(const DrawOrderOptions& options) {
     }
 }
 
-void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
-    table.insert(
-        table.end(),
-        {text_option(
-             "model", "NAME|FILE", "f15, 500md, concave, torus or an OBJ file", options.model),
-         text_option("--axes", "X,Y,Z", "where x, y and z of an OBJ file point", options.axes),
-         read_option(
-             {"method",
-              "KIND",
-              "paper (8 octants as printed), cells (octants divided further, exact from a distance "
-              "on), tree (planes over eye space, exact everywhere) or bsp (polygons divided)"},
-             options.order.method),
-         read_option(
-             {"order-seconds",
-              "SECONDS",
-              "cells, tree: about so long is searched; then polygons are divided as by bsp",
-              0.001,
-              3600},
-             options.order.seconds),
-         text_option(
-             "--order-cache",
-             "DIR",
-             "keep the orders in this folder, and read them where the same model is ordered again",
-             options.cache),
-         read_option(
-             {"min-distance", "RADII", "cells: exact for eyes |x|+|y|+|z| away, in radii", 1, 1000},
-             options.order.min_distance_radii)});
-}
-
-void add_result_options(std::vector<Option>& table, DrawOrderOptions& options) {
-    table.insert(
-        table.end(),
-        {flag("--table", "show every cell and its list, P1 the first polygon", options.table),
-         text_option("--export", "FILE", "write the orders as text", options.export_file),
-         text_option(
-             "--export-model",
-             "FILE.obj",
-             "write the polygons, split where they had to be, that the orders speak of",
-             options.export_model),
-         text_option(
-             "--certificate",
-             "FILE",
-             "tree, bsp: write for each pair of polygons what proves that it is painted right",
-             options.certificate),
-         text_option(
-             "--verify",
-             "FILE",
-             "check a certificate without rounding, in place of all else",
-             options.verify),
-         {.name = "--check",
-          .form = "[FILE]",
-          .meaning = "certify and try with rays: the orders of FILE for this model, without FILE "
-                     "those just found",
-          .takes = Takes::PerhapsOneWord,
-          .read =
-              [&options](const Words& words) {
-                  options.check = true;
-                  options.check_file = words.front();
-              }},
-         showing(
-             fmt::format("{}", usual_rays),
-             read_option(
-                 {"rays", "N", "try with so many rays, also without --check; 0 = none", 0, 1e9},
-                 options.rays)),
-         flag("--json", "results as JSON", options.json),
-         flag("--quiet", "no progress, no notes", options.quiet)});
-}
-
 } // namespace
 
 Command draw_order_command() {
@@ -418,8 +278,7 @@ Command draw_order_command() {
                   "  octant draw-order f15 --certificate f15-proof.txt\n"
                   "  octant draw-order --verify f15-proof.txt",
         .run = [options] { draw_order(*options); }};
-    add_order_options(command.options, *options);
-    add_result_options(command.options, *options);
+    add_draw_order_options(command.options, *options);
     return command;
 }
 
