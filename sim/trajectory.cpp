@@ -6,9 +6,7 @@
 
 namespace octant::sim {
 
-namespace {
-
-AircraftState between(const AircraftState& a, const AircraftState& b, double time_s) {
+AircraftState state_between(const AircraftState& a, const AircraftState& b, double time_s) {
     const double span_s = b.time_s - a.time_s;
     const double u = (time_s - a.time_s) / span_s;
     const double u2 = u * u;
@@ -24,8 +22,6 @@ AircraftState between(const AircraftState& a, const AircraftState& b, double tim
     state.load_factor = (1 - u) * a.load_factor + u * b.load_factor;
     return state;
 }
-
-} // namespace
 
 Trajectory::Trajectory(std::vector<AircraftState> samples)
     : samples_(std::move(samples)) {
@@ -47,7 +43,7 @@ AircraftState Trajectory::state_at(double time_s) const {
         return samples_.back();
     }
     const AircraftState& before = *(next - 1);
-    return before.time_s == time_s ? before : between(before, *next, time_s);
+    return before.time_s == time_s ? before : state_between(before, *next, time_s);
 }
 
 } // namespace octant::sim

@@ -7,6 +7,10 @@
 
 namespace octant::sim {
 
+/// The state at a time between two samples, time_s of `a` before that of `b`: position along the
+/// cubic Hermite curve through both positions and velocities, attitude turned at a constant rate.
+AircraftState state_between(const AircraftState& a, const AircraftState& b, double time_s);
+
 /// A flight as samples in time order with a state for every time between them.
 ///
 /// Positions run along cubic Hermite curves through the samples' positions and velocities, so

@@ -1,0 +1,51 @@
+#include "sim/links/fix.h"
+
+#include <cmath>
+
+namespace octant::sim::links {
+
+namespace {
+
+constexpr double highest_m = 1e6;
+constexpr double lowest_m = -12000.0;
+constexpr double fastest_mps = 20000.0;
+constexpr double fastest_turn_radps = 100.0;
+constexpr double largest_angle_rad = 100.0;
+
+bool finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool within(const glm::dvec3& v, double most) {
+    return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
+}
+
+bool is_finite(const Fix& fix) {
+    return std::isfinite(fix.latitude_deg) && std::isfinite(fix.longitude_deg) &&
+           std::isfinite(fix.altitude_m) && std::isfinite(fix.attitude.heading_rad) &&
+           std::isfinite(fix.attitude.pitch_rad) && std::isfinite(fix.attitude.roll_rad) &&
+           (!fix.above_ground_m || std::isfinite(*fix.above_ground_m)) &&
+           (!fix.velocity_ned_mps || finite(*fix.velocity_ned_mps)) &&
+           (!fix.body_rates_radps || finite(*fix.body_rates_radps)) &&
+           (!fix.sent_s || std::isfinite(*fix.sent_s));
+}
+
+} // namespace
+
+Fault fault_of(const Fix& fix) {
+    if (!is_finite(fix)) {
+        return Fault::NotFinite;
+    }
+    const glm::dvec3 angles(
+        fix.attitude.heading_rad, fix.attitude.pitch_rad, fix.attitude.roll_rad);
+    const bool in_range =
+        std::abs(fix.latitude_deg) <= 90.0 && std::abs(fix.longitude_deg) <= 360.0 &&
+        fix.altitude_m >= lowest_m && fix.altitude_m <= highest_m &&
+        within(angles, largest_angle_rad) &&
+        (!fix.above_ground_m || std::abs(*fix.above_ground_m) <= highest_m) &&
+        (!fix.velocity_ned_mps || within(*fix.velocity_ned_mps, fastest_mps)) &&
+        (!fix.body_rates_radps || within(*fix.body_rates_radps, fastest_turn_radps));
+    return in_range ? Fault::None : Fault::OutOfRange;
+}
+
+} // namespace octant::sim::links

@@ -1,0 +1,86 @@
+#include "sim/links/live_track.h"
+
+#include "sim/flight_steps.h"
+#include "sim/trajectory.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace octant::sim::links {
+
+namespace {
+
+constexpr double kept_s = 12.0;  ///< longer than any delay
+constexpr double blend_s = 0.05; ///< time constant: 95 % within 0.15 s
+constexpr double least_snap_m = 15.0;
+constexpr double snap_after_s = 0.25; ///< of flight at the sample's speed
+constexpr double snap_cosine = 0.7;   ///< of half the angle: 90 degrees
+
+} // namespace
+
+void LiveTrack::add(const LiveSample& sample) {
+    assert(samples_.empty() || samples_.back().state.time_s < sample.state.time_s);
+    samples_.push_back(sample);
+    while (samples_.size() > 2 && samples_[1].state.time_s < sample.state.time_s - kept_s) {
+        samples_.pop_front();
+    }
+}
+
+void LiveTrack::clear() {
+    samples_.clear();
+    shown_.reset();
+}
+
+AircraftState LiveTrack::beyond(double sender_s) const {
+    const LiveSample& last = samples_.back();
+    const double ahead_s = std::clamp(sender_s - last.state.time_s, 0.0, extrapolated_s);
+    AircraftState state = last.state;
+    state.position_m += ahead_s * state.velocity_mps;
+    state.body_to_world = turned(state.body_to_world, last.world_radps, ahead_s);
+    return state;
+}
+
+AircraftState LiveTrack::raw_at(double sender_s) const {
+    if (sender_s >= samples_.back().state.time_s) {
+        return beyond(sender_s);
+    }
+    const auto next = std::upper_bound(
+        samples_.begin(), samples_.end(), sender_s, [](double t, const LiveSample& sample) {
+            return t < sample.state.time_s;
+        });
+    if (next == samples_.begin()) {
+        return next->state;
+    }
+    return state_between((next - 1)->state, next->state, sender_s);
+}
+
+AircraftState LiveTrack::show(double sender_s, double passed_s) {
+    assert(!samples_.empty());
+    stale_ = sender_s > samples_.back().state.time_s + extrapolated_s;
+    AircraftState state = raw_at(sender_s);
+    if (shown_) {
+        // Where it was shown, less where it would have been shown by what is known now.
+        const AircraftState then = raw_at(sender_s - passed_s);
+        const glm::dvec3 error_m = shown_->position_m - then.position_m;
+        glm::dquat turn = shown_->body_to_world * glm::conjugate(then.body_to_world);
+        turn = turn.w < 0.0 ? -turn : turn;
+        const double far_m = std::max(least_snap_m, snap_after_s * glm::length(state.velocity_mps));
+        if (glm::length(error_m) > far_m || turn.w < snap_cosine) {
+            ++snaps_;
+        } else {
+            const double left = std::exp(-std::max(passed_s, 0.0) / blend_s);
+            const glm::dquat none(1.0, 0.0, 0.0, 0.0);
+            state.position_m += left * error_m;
+            state.body_to_world =
+                glm::normalize(glm::slerp(none, turn, left) * state.body_to_world);
+        }
+    }
+    state.time_s = sender_s;
+    shown_ = state;
+    return state;
+}
+
+} // namespace octant::sim::links

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "sim/aircraft_state.h"
+
+#include <glm/vec3.hpp>
+
+#include <deque>
+#include <optional>
+
+namespace octant::sim::links {
+
+/// One packet's motion in world axes. state.time_s is the sender's time.
+struct LiveSample {
+    AircraftState state;
+    glm::dvec3 world_radps{0.0}; ///< rate of turn in world axes
+};
+
+/// The motion of one vehicle, put together from samples that come late, in bursts or not at all.
+/// Between samples it lies on their curve; beyond the last one it goes on by velocity and rate of
+/// turn for at most extrapolated_s, then it stands. What new samples put right is blended in over
+/// about 0.15 s, unless it is too far for that.
+class LiveTrack {
+public:
+    static constexpr double extrapolated_s = 0.5;
+
+    /// A sample after all others (asserted).
+    void add(const LiveSample& sample);
+
+    bool empty() const { return samples_.empty(); }
+
+    const LiveSample& last() const { return samples_.back(); }
+
+    /// Forgets all: the next sample begins another motion.
+    void clear();
+
+    /// What is to be shown `passed_s` after what was shown last, at a time of the sender's clock.
+    /// There must be a sample (asserted). time_s of what it gives is `sender_s`.
+    AircraftState show(double sender_s, double passed_s);
+
+    /// Whether the last picture is so far beyond the last sample that the motion stands.
+    bool is_stale() const { return stale_; }
+
+    /// How often a correction was too far to be blended in.
+    long snaps() const { return snaps_; }
+
+private:
+    AircraftState raw_at(double sender_s) const;
+    AircraftState beyond(double sender_s) const;
+
+    std::deque<LiveSample> samples_;
+    std::optional<AircraftState> shown_;
+    bool stale_ = false;
+    long snaps_ = 0;
+};
+
+} // namespace octant::sim::links

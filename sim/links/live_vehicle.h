@@ -1,0 +1,68 @@
+#pragma once
+
+#include "sim/links/datagram.h"
+#include "sim/links/fix.h"
+#include "sim/links/live_track.h"
+#include "sim/links/sender_clock.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <optional>
+
+namespace octant::sim::links {
+
+/// Who sends a vehicle's motion, and which of his vehicles it is.
+struct VehicleKey {
+    Protocol protocol = Protocol::Fdm;
+    Source source;
+    std::uint64_t vehicle = 0;
+
+    auto operator<=>(const VehicleKey&) const = default;
+};
+
+/// One vehicle that somebody else flies: from fixes as they arrive to the motion that is shown.
+class LiveVehicle {
+public:
+    explicit LiveVehicle(const VehicleKey& key)
+        : key_(key) {}
+
+    const VehicleKey& key() const { return key_; }
+
+    /// Takes a fix and where it lies in the world. Returns false for one that came too late.
+    /// Arrivals are seconds on our clock and do not go back.
+    bool add(const Fix& fix, const glm::dvec3& world_m, double arrival_s);
+
+    /// What is to be shown at a time of our clock, `delay_s` behind it and `passed_s` after what
+    /// was shown last. There must be a fix (asserted).
+    AircraftState show(double now_s, double delay_s, double passed_s);
+
+    bool is_stale() const { return track_.is_stale(); }
+
+    double last_arrival_s() const { return last_arrival_s_; }
+
+    const SenderClock& clock() const { return clock_; }
+
+    long late() const { return late_; }
+
+    long snaps() const { return track_.snaps(); }
+
+    long taken() const { return taken_; }
+
+private:
+    TimeClue clue_of(const Fix& fix, const glm::dvec3& world_m);
+    glm::dvec3 velocity_of(const Fix& fix, const glm::dvec3& world_m, double step_s);
+    glm::dvec3 turn_of(const Fix& fix, const glm::dquat& body_to_world, double step_s) const;
+
+    VehicleKey key_;
+    SenderClock clock_;
+    LiveTrack track_;
+    std::optional<Fix> last_fix_;
+    double last_arrival_s_ = 0.0;
+    double velocity_error_ = 0.0; ///< share by which velocities contradict positions, filtered
+    int repeats_ = 0;             ///< fixes in a row that say the same place
+    long late_ = 0;
+    long taken_ = 0;
+};
+
+} // namespace octant::sim::links
