@@ -3,6 +3,7 @@
 #include "ui/commands/commands.h"
 #include "ui/window/view_command.h"
 #include "visuals/gl/platform_tuning.h"
+#include "visuals/groundfile/damage_tally.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -33,6 +34,10 @@ int run(int argc, char** argv) {
     try {
         commands::action_of(program, argc, argv)();
     } catch (const commands::CheckSaidNo&) {
+        code = check_said_no;
+    }
+    for (const std::string& line : octant::visuals::groundfile::damage_lines()) {
+        std::fputs(fmt::format("octant: {}\n", line).c_str(), stderr);
         code = check_said_no;
     }
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

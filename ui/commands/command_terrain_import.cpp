@@ -4,8 +4,8 @@
 #include "ui/base/stopwatch.h"
 #include "ui/commands/command_terrain_parts.h"
 #include "ui/commands/read_option.h"
-#include "visuals/terrain/ground_file.h"
-#include "visuals/terrain/ground_import.h"
+#include "visuals/groundfile/ground_file.h"
+#include "visuals/groundfile/ground_import.h"
 
 #include <array>
 #include <cstdio>
@@ -22,7 +22,7 @@ namespace {
 
 using visuals::terrain::GroundFacts;
 using visuals::terrain::GroundShape;
-using visuals::terrain::ImportStage;
+using visuals::groundfile::ImportStage;
 
 struct ImportCommand {
     std::vector<std::string> inputs;
@@ -101,12 +101,12 @@ base::Figures figures_of(const GroundShape& shape, const GroundFacts& facts, std
 }
 
 void import(const ImportCommand& command) {
-    visuals::terrain::GroundImportOptions options;
+    visuals::groundfile::GroundImportOptions options;
     options.picture = {command.spacing_m, command.height_scale};
     options.threads = command.threads;
     StageWatch watch(command.quiet);
     const base::Stopwatch whole;
-    const auto summary = visuals::terrain::import_ground(
+    const auto summary = visuals::groundfile::import_ground(
         {command.inputs.begin(), command.inputs.end()}, command.out, options, std::ref(watch));
     const double whole_s = whole.s();
     watch.finish();
@@ -143,10 +143,10 @@ void import(const ImportCommand& command) {
 
 void show_ground_file(const std::string& file, bool verify, bool json) {
     const base::Stopwatch opening;
-    const visuals::terrain::GroundTiles ground = visuals::terrain::open_ground(file);
+    const visuals::terrain::GroundTiles ground = visuals::groundfile::open_ground(file);
     const double open_ms = opening.ms();
     if (verify) {
-        visuals::terrain::verify_ground(file);
+        visuals::groundfile::verify_ground(file);
     }
     auto figures = figures_of(ground.shape(), ground.facts(), std::filesystem::file_size(file));
     figures["open_ms"] = open_ms;

@@ -13,6 +13,7 @@
 #include "ui/report/plots.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
+#include "visuals/groundfile/damage_tally.h"
 
 #include <algorithm>
 #include <chrono>
@@ -160,8 +161,11 @@ FlightEnd FlightRecorder::finish(const Session& session) {
         }
     }
     if (recording_) {
-        end.statistics =
-            recording_->finish({end.state_hash, end.picture_hash, report::read_cpu_times()});
+        end.statistics = recording_->finish(
+            {end.state_hash,
+             end.picture_hash,
+             report::read_cpu_times(),
+             visuals::groundfile::damage_lines()});
         write_tracks(*options_.folder, session.world(), flown_until_s_);
         end.notes.push_back(write_report(*options_.folder));
         if (!report::gnuplot_installed()) {

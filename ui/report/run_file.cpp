@@ -177,6 +177,9 @@ std::string run_json(const RunInfo& info) {
 
 std::string run_json(const RunInfo& info, const RunEnd& end, const Statistics& statistics) {
     Json json = start_json(info);
+    for (const std::string& note : end.notes) {
+        json["notes"].push_back(note);
+    }
     json["summary"] = summary_json(statistics, end);
     json["noise"] = noise_json(info.machine, end);
     return dumped(json);

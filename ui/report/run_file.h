@@ -39,6 +39,7 @@ struct RunEnd {
     std::uint64_t state_hash = 0;
     std::optional<std::uint64_t> picture_hash; ///< nothing where pictures follow the clock
     CpuTimes cpu_times; ///< read after the last frame (and after the video is whole)
+    std::vector<std::string> notes = {}; ///< more of them than there were at the start
 };
 
 /// run.json with `summary` and `noise` when `end` is given. `info.settings_json` must be a JSON

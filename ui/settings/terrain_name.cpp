@@ -1,7 +1,7 @@
 #include "ui/settings/terrain_name.h"
 
 #include "ui/settings/path_fields.h"
-#include "visuals/terrain/ground_file.h"
+#include "visuals/groundfile/ground_file.h"
 
 #include <algorithm>
 
@@ -12,7 +12,7 @@ bool is_built_in_ground(const std::string& name) {
 }
 
 bool is_imported_ground(const std::string& name_or_file) {
-    return !is_built_in_ground(name_or_file) && visuals::terrain::is_ground_file(name_or_file);
+    return !is_built_in_ground(name_or_file) && visuals::groundfile::is_ground_file(name_or_file);
 }
 
 bool is_drawn_whole(const std::string& terrain) {

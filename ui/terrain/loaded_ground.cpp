@@ -3,7 +3,7 @@
 #include "ui/settings/terrain_name.h"
 #include "ui/world/terrain_file.h"
 #include "visuals/terrain/ground_builder.h"
-#include "visuals/terrain/ground_file.h"
+#include "visuals/groundfile/ground_file.h"
 
 namespace octant::ui::terrain {
 
@@ -20,7 +20,7 @@ terrain::GroundTiles LoadedGround::tiles() const {
 
 LoadedGround load_ground(const std::string& name_or_file, double spacing_m) {
     if (settings::is_imported_ground(name_or_file)) {
-        return LoadedGround(terrain::open_ground(name_or_file));
+        return LoadedGround(visuals::groundfile::open_ground(name_or_file));
     }
     return LoadedGround(world::load_height_field(name_or_file, spacing_m));
 }

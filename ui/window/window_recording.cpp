@@ -8,6 +8,7 @@
 #include "ui/flight/track_files.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
+#include "visuals/groundfile/damage_tally.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -153,7 +154,8 @@ std::string WindowRecording::finish(flight::Session& session) {
         recording_.folder(),
         session.world(),
         sim::Trajectory(std::vector<sim::AircraftState>(states.begin(), states.end())));
-    recording_.finish({last_hash_, std::nullopt, report::read_cpu_times()});
+    recording_.finish(
+        {last_hash_, std::nullopt, report::read_cpu_times(), visuals::groundfile::damage_lines()});
     session.simulation().stop_log();
     return flight::write_report(recording_.folder());
 }

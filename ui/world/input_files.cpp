@@ -4,7 +4,7 @@
 #include "sim/base/hash.h"
 #include "ui/base/data_files.h"
 #include "ui/settings/terrain_name.h"
-#include "visuals/terrain/ground_file.h"
+#include "visuals/groundfile/ground_file.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -22,8 +22,8 @@ std::string absolute(const std::string& file) {
 }
 
 std::string hash_of_file(const fs::path& file) {
-    if (visuals::terrain::is_ground_file(file)) {
-        return fmt::format("{:016x}", visuals::terrain::hash_of_ground(file));
+    if (visuals::groundfile::is_ground_file(file)) {
+        return fmt::format("{:016x}", visuals::groundfile::hash_of_ground(file));
     }
     std::ifstream in(file, std::ios::binary);
     if (!in || fs::is_directory(file)) {

@@ -4,7 +4,7 @@
 #include "ui/settings/terrain_name.h"
 #include "ui/world/terrain_file.h"
 #include "visuals/terrain/ground_builder.h"
-#include "visuals/terrain/ground_file.h"
+#include "visuals/groundfile/ground_file.h"
 
 #include <cstdint>
 #include <fmt/format.h>
@@ -57,7 +57,7 @@ void add_texture(
 }
 
 SceneGround load_imported(const settings::RunSettings& settings, DrawnBy drawn_by) {
-    terrain::GroundTiles ground = terrain::open_ground(settings.path.terrain);
+    terrain::GroundTiles ground = visuals::groundfile::open_ground(settings.path.terrain);
     const terrain::GroundFacts& facts = ground.facts();
     SceneGround loaded = described(ground, facts.name, facts.place, facts.filled_voids);
     const models::heights::GroundArea area{

@@ -1,4 +1,5 @@
-// Read-ahead for mapped grounds, by madvise(MADV_WILLNEED).
+// Read-ahead for mapped grounds: the kernel is asked for all tiles at once, then each is tested as
+// it has come.
 #include "visuals/terrain/ground_prefetcher.h"
 
 #include <algorithm>
@@ -7,6 +8,18 @@
 #include <sys/mman.h>
 
 namespace octant::visuals::terrain {
+
+namespace {
+
+/// Tells the kernel what will become of some bytes. The result is ignored: it is advice only.
+void advise(std::span<const std::byte> bytes, int what) {
+    const std::byte* const begin = bytes.data();
+    const std::size_t into_page =
+        reinterpret_cast<std::uintptr_t>(begin) % GroundLayout::page_bytes;
+    ::madvise(const_cast<std::byte*>(begin - into_page), bytes.size() + into_page, what);
+}
+
+} // namespace
 
 GroundPrefetcher::GroundPrefetcher(const GroundTiles& ground)
     : ground_(ground)
@@ -37,16 +50,24 @@ void GroundPrefetcher::run(const std::stop_token& stop) {
             place_m = *wanted_m_;
             wanted_m_.reset();
         }
-        fetch(place_m);
+        fetch(place_m, stop);
     }
 }
 
-void GroundPrefetcher::fetch(glm::dvec2 place_m) {
+void GroundPrefetcher::fetch(glm::dvec2 place_m, const std::stop_token& stop) {
     for (int level = 0; level < ground_.levels(); ++level) {
         const GroundLayout::Level& at = ground_.layout().level(level);
         Window& known = asked_[static_cast<std::size_t>(level)];
         const Window window = window_about(at, place_m);
-        ask_for(at, window, known);
+        for_new_tiles(at, window, known, [](std::size_t /*tile*/, std::span<const std::byte> b) {
+            advise(b, MADV_WILLNEED);
+        });
+        for_new_tiles(at, window, known, [&](std::size_t tile, std::span<const std::byte> bytes) {
+            if (!stop.stop_requested()) {
+                advise(bytes, MADV_POPULATE_READ); // before the guard, which makes others wait
+                ground_.guard().require(level, tile);
+            }
+        });
         known = window;
     }
 }
@@ -69,9 +90,12 @@ GroundPrefetcher::window_about(const GroundLayout::Level& at, glm::dvec2 place_m
         std::min(at.tiles_up, tile_of(row + reach_nodes, at.tiles_up) + 1)};
 }
 
-/// Asks for the tiles of a window that are not in `known`.
-void GroundPrefetcher::ask_for(
-    const GroundLayout::Level& at, const Window& window, const Window& known) const {
+template <class Visit>
+void GroundPrefetcher::for_new_tiles(
+    const GroundLayout::Level& at,
+    const Window& window,
+    const Window& known,
+    const Visit& visit) const {
     for (int row = window.south; row < window.north; ++row) {
         for (int column = window.west; column < window.east; ++column) {
             if (column >= known.west && column < known.east && row >= known.south &&
@@ -81,15 +105,9 @@ void GroundPrefetcher::ask_for(
             const std::size_t tile =
                 static_cast<std::size_t>(row) * static_cast<std::size_t>(at.tiles_across) +
                 static_cast<std::size_t>(column);
-            const std::byte* const begin =
-                ground_.memory().data() + at.first_tile + tile * at.tile_bytes;
-            const std::size_t into_page =
-                reinterpret_cast<std::uintptr_t>(begin) % GroundLayout::page_bytes;
-            // The result is ignored, because this is advice only.
-            ::madvise(
-                const_cast<std::byte*>(begin - into_page),
-                at.tile_bytes + into_page,
-                MADV_WILLNEED);
+            visit(
+                tile,
+                ground_.memory().subspan(at.first_tile + tile * at.tile_bytes, at.tile_bytes));
         }
     }
 }

@@ -12,8 +12,8 @@
 
 namespace octant::visuals::terrain {
 
-/// Asks the kernel, on a thread of its own, for the tiles around a place before they are needed, so
-/// that drawing seldom waits for the disk. It changes nothing that can be read.
+/// Fetches from the disk, on a thread of its own, the tiles around a place before they are needed,
+/// and has the ground's guard test them, so that drawing seldom waits for either.
 class GroundPrefetcher {
 public:
     /// On every level tiles are asked for up to this many nodes away from the place.
@@ -42,9 +42,15 @@ private:
     };
 
     void run(const std::stop_token& stop);
-    void fetch(glm::dvec2 place_m);
+    void fetch(glm::dvec2 place_m, const std::stop_token& stop);
     Window window_about(const GroundLayout::Level& at, glm::dvec2 place_m) const;
-    void ask_for(const GroundLayout::Level& at, const Window& window, const Window& known) const;
+    /// Calls visit(tile, bytes) for the tiles of a window that are not in `known`.
+    template <class Visit>
+    void for_new_tiles(
+        const GroundLayout::Level& at,
+        const Window& window,
+        const Window& known,
+        const Visit& visit) const;
 
     const GroundTiles& ground_;
     std::vector<Window> asked_; ///< For each level what was asked for last.

@@ -15,12 +15,14 @@ GroundTiles::GroundTiles(
     const GroundShape& shape,
     GroundFacts facts,
     std::span<const std::byte> memory,
-    std::shared_ptr<const void> owner)
+    std::shared_ptr<const void> owner,
+    std::shared_ptr<const TileGuard> guard)
     : shape_(shape)
     , facts_(std::move(facts))
     , layout_(shape.columns, shape.rows)
     , memory_(memory)
     , owner_(std::move(owner))
+    , guard_(guard ? std::move(guard) : std::make_shared<const TileGuard>(layout_))
     , base_m_(shape.height_base_m)
     , unit_m_(shape.height_unit_m) {
     assert(memory.size() == layout_.total_bytes());

@@ -2,6 +2,7 @@
 
 #include "models/heights/height_field.h"
 #include "visuals/terrain/ground_layout.h"
+#include "visuals/terrain/tile_guard.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -43,12 +44,13 @@ struct GroundFacts {
 class GroundTiles {
 public:
     /// `memory` is laid out as GroundLayout(shape.columns, shape.rows) says (its size is asserted)
-    /// and kept alive by `owner`.
+    /// and kept alive by `owner`. A tile is read after `guard` has let it; null trusts all tiles.
     GroundTiles(
         const GroundShape& shape,
         GroundFacts facts,
         std::span<const std::byte> memory,
-        std::shared_ptr<const void> owner);
+        std::shared_ptr<const void> owner,
+        std::shared_ptr<const TileGuard> guard = nullptr);
 
     const GroundShape& shape() const { return shape_; }
 
@@ -56,7 +58,10 @@ public:
 
     const GroundLayout& layout() const { return layout_; }
 
+    /// What lies in tiles may be read once guard() has let them.
     std::span<const std::byte> memory() const { return memory_; }
+
+    const TileGuard& guard() const { return *guard_; }
 
     int levels() const { return layout_.levels(); }
 
@@ -74,13 +79,13 @@ public:
     /// The height of a sample by its node. South may be asked also for row rows(level), and West
     /// also for column columns(level), each one beyond the last node.
     float height_m(int level, NodePart part, int column, int row) const {
-        return height_of(*stored_height(layout_.level(level), part, column, row));
+        return height_of(stored_height(level, part, column, row));
     }
 
     /// The code of a sample's error by its node, as for height_m; error_m_of makes it metres. It is
     /// 0 only where the error is 0.
     std::uint8_t error_code(int level, NodePart part, int column, int row) const {
-        return *stored_error(layout_.level(level), part, column, row);
+        return *stored_error(level, part, column, row);
     }
 
     /// The metres of an error code: at or above every error that has this code, and at most 6 %
@@ -99,6 +104,19 @@ public:
     /// The upper bound, for the same levels.
     float highest_m(int level, int column, int row) const {
         return height_of(range(level, column, row).highest);
+    }
+
+    /// The height as it is stored; arguments as for height_m.
+    std::int16_t stored_height(int level, NodePart part, int column, int row) const {
+        const GroundLayout::Level& at = layout_.level(level);
+        if (row == at.rows) {
+            return heights_at(at.north_heights)[column];
+        }
+        if (column == at.columns) {
+            return heights_at(at.east_heights)[row];
+        }
+        const TilePlace place = place_of(level, column, row);
+        return heights_at(place.tile)[static_cast<std::size_t>(part) * at.tile_nodes + place.node];
     }
 
     /// The height of any sample (asserted to be one).
@@ -134,29 +152,19 @@ private:
         std::size_t node;
     };
 
-    static TilePlace place_of(const GroundLayout::Level& at, int column, int row) {
+    TilePlace place_of(int level, int column, int row) const {
+        const GroundLayout::Level& at = layout_.level(level);
         const int mask = (1 << at.tile_shift) - 1;
         const auto tile = static_cast<std::size_t>(
             (row >> at.tile_shift) * at.tiles_across + (column >> at.tile_shift));
+        guard_->require(level, tile);
         return {
             at.first_tile + tile * at.tile_bytes,
             static_cast<std::size_t>(((row & mask) << at.tile_shift) + (column & mask))};
     }
 
-    const std::int16_t*
-    stored_height(const GroundLayout::Level& at, NodePart part, int column, int row) const {
-        if (row == at.rows) {
-            return heights_at(at.north_heights) + column;
-        }
-        if (column == at.columns) {
-            return heights_at(at.east_heights) + row;
-        }
-        const TilePlace place = place_of(at, column, row);
-        return heights_at(place.tile) + static_cast<std::size_t>(part) * at.tile_nodes + place.node;
-    }
-
-    const std::uint8_t*
-    stored_error(const GroundLayout::Level& at, NodePart part, int column, int row) const {
+    const std::uint8_t* stored_error(int level, NodePart part, int column, int row) const {
+        const GroundLayout::Level& at = layout_.level(level);
         const auto* const bytes = reinterpret_cast<const std::uint8_t*>(memory_.data());
         if (row == at.rows) {
             return bytes + at.north_errors + column;
@@ -164,7 +172,7 @@ private:
         if (column == at.columns) {
             return bytes + at.east_errors + row;
         }
-        const TilePlace place = place_of(at, column, row);
+        const TilePlace place = place_of(level, column, row);
         return bytes + place.tile + (6 + static_cast<std::size_t>(part)) * at.tile_nodes +
                place.node;
     }
@@ -174,6 +182,7 @@ private:
     GroundLayout layout_;
     std::span<const std::byte> memory_;
     std::shared_ptr<const void> owner_;
+    std::shared_ptr<const TileGuard> guard_;
     double base_m_;
     double unit_m_;
 };

@@ -25,6 +25,8 @@ public:
         : memory_(ground.memory().data())
         , corners_(ground.layout().corners())
         , at_(ground.layout().level(level))
+        , guard_(&ground.guard())
+        , level_(level)
         , mask_((1 << at_.tile_shift) - 1) {}
 
     int edge() const { return at_.edge; }
@@ -36,6 +38,7 @@ public:
     Spot spot(int column, int row) const {
         const auto tile = static_cast<std::size_t>(
             (row >> at_.tile_shift) * at_.tiles_across + (column >> at_.tile_shift));
+        guard_->require(level_, tile);
         return {
             memory_ + at_.first_tile + tile * at_.tile_bytes,
             static_cast<std::size_t>(((row & mask_) << at_.tile_shift) + (column & mask_))};
@@ -47,9 +50,9 @@ public:
         return {
             *error(own, NodePart::South),
             *(column + 1 == at_.columns ? codes(at_.east_errors) + row
-                                        : error(east_of(own, column), NodePart::West)),
+                                        : error(east_of(own, column, row), NodePart::West)),
             *(row + 1 == at_.rows ? codes(at_.north_errors) + column
-                                  : error(north_of(own, row), NodePart::South)),
+                                  : error(north_of(own, column, row), NodePart::South)),
             *error(own, NodePart::West)};
     }
 
@@ -74,11 +77,11 @@ public:
         case 1:
             return *(
                 column + 1 == at_.columns ? heights(at_.east_heights) + row
-                                          : height(east_of(own, column), NodePart::West));
+                                          : height(east_of(own, column, row), NodePart::West));
         case 2:
             return *(
                 row + 1 == at_.rows ? heights(at_.north_heights) + column
-                                    : height(north_of(own, row), NodePart::South));
+                                    : height(north_of(own, column, row), NodePart::South));
         default:
             return *height(own, NodePart::West);
         }
@@ -103,24 +106,21 @@ private:
         return reinterpret_cast<const std::int16_t*>(spot.tile) + plane + spot.node;
     }
 
-    Spot east_of(const Spot& own, int column) const {
-        return (column & mask_) != mask_
-                   ? Spot{own.tile, own.node + 1}
-                   : Spot{own.tile + at_.tile_bytes, own.node - static_cast<std::size_t>(mask_)};
+    Spot east_of(const Spot& own, int column, int row) const {
+        return (column & mask_) != mask_ ? Spot{own.tile, own.node + 1} : spot(column + 1, row);
     }
 
-    Spot north_of(const Spot& own, int row) const {
-        const auto across = static_cast<std::size_t>(at_.tiles_across);
+    Spot north_of(const Spot& own, int column, int row) const {
         return (row & mask_) != mask_
                    ? Spot{own.tile, own.node + (std::size_t{1} << at_.tile_shift)}
-                   : Spot{
-                         own.tile + across * at_.tile_bytes,
-                         own.node - (static_cast<std::size_t>(mask_) << at_.tile_shift)};
+                   : spot(column, row + 1);
     }
 
     const std::byte* memory_;
     std::size_t corners_;
     GroundLayout::Level at_;
+    const TileGuard* guard_;
+    int level_;
     int mask_;
 };
 

@@ -3,7 +3,7 @@
 #include "tests/scratch.h"
 #include "ui/flight/session.h"
 #include "ui/report/png_file.h"
-#include "visuals/terrain/ground_import.h"
+#include "visuals/groundfile/ground_import.h"
 
 #include <catch2/catch.hpp>
 
@@ -25,8 +25,8 @@ struct Map {
         const models::heights::HeightField field = models::made::made_canyon();
         REQUIRE(field.columns() == 1025);
         models::heights::write_height_field(file, field);
-        visuals::terrain::import_ground(
-            {file}, ground, {}, [](visuals::terrain::ImportStage, double) { return false; });
+        visuals::groundfile::import_ground(
+            {file}, ground, {}, [](visuals::groundfile::ImportStage, double) { return false; });
     }
 
     std::filesystem::path file = tests::scratch_folder() / "map.tif";

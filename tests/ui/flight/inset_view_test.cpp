@@ -3,7 +3,7 @@
 #include "tests/scratch.h"
 #include "ui/flight/inset_view.h"
 #include "ui/world/scene_ground.h"
-#include "visuals/terrain/ground_import.h"
+#include "visuals/groundfile/ground_import.h"
 
 #include <catch2/catch.hpp>
 
@@ -41,8 +41,8 @@ std::filesystem::path imported(const std::string& name) {
     std::filesystem::path heights = out;
     heights += ".tif";
     models::heights::write_height_field(heights, rough_field());
-    visuals::terrain::import_ground(
-        {heights}, out, {}, [](visuals::terrain::ImportStage, double) { return false; });
+    visuals::groundfile::import_ground(
+        {heights}, out, {}, [](visuals::groundfile::ImportStage, double) { return false; });
     return out;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "models/heights/height_source.h"
-#include "visuals/terrain/ground_header.h"
+#include "visuals/groundfile/ground_header.h"
 
 #include <cstdint>
 #include <span>
 
-namespace octant::visuals::terrain {
+namespace octant::visuals::groundfile {
 
 /// Updates the lowest and highest height in `progress` by some rows.
 void scan_rows(
@@ -22,4 +22,4 @@ void read_rows(
     std::span<std::int16_t> numbers,
     GroundProgress& progress);
 
-} // namespace octant::visuals::terrain
+} // namespace octant::visuals::groundfile

@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-namespace octant::visuals::terrain {
+namespace octant::visuals::groundfile {
 
 /// Stands for a sample without data among a field's numbers.
 inline constexpr std::int16_t void_number = std::numeric_limits<std::int16_t>::min();
@@ -17,4 +17,4 @@ inline constexpr std::int16_t void_number = std::numeric_limits<std::int16_t>::m
 /// Memory: at most 80 MB beside the numbers.
 void fill_number_voids(std::span<std::int16_t> numbers, int columns, int rows);
 
-} // namespace octant::visuals::terrain
+} // namespace octant::visuals::groundfile

@@ -1,5 +1,5 @@
 // Memory-mapped files on POSIX systems, with locks against a second import into the same file.
-#include "visuals/terrain/mapped_file.h"
+#include "visuals/groundfile/mapped_file.h"
 
 #include "sim/base/error.h"
 
@@ -13,7 +13,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace octant::visuals::terrain {
+namespace octant::visuals::groundfile {
 
 namespace {
 
@@ -99,7 +99,7 @@ MappedFile::MappedFile(std::filesystem::path path, Access access)
         lock(path_, file.get());
     }
     descriptor_ = file.get();
-    map(writes ? PROT_READ | PROT_WRITE : PROT_READ);
+    map(writes ? PROT_READ | PROT_WRITE : PROT_READ, access != Access::ReadAndMend);
     file.release();
 }
 
@@ -125,15 +125,16 @@ MappedFile::MappedFile(std::filesystem::path path, std::size_t size)
                 std::strerror(fault)));
     }
     descriptor_ = file.get();
-    map(PROT_READ | PROT_WRITE);
+    map(PROT_READ | PROT_WRITE, true);
     file.release();
 }
 
-void MappedFile::map(int protection) {
+void MappedFile::map(int protection, bool shared) {
     if (size_ == 0) {
         return;
     }
-    void* const start = ::mmap(nullptr, size_, protection, MAP_SHARED, descriptor_, 0);
+    void* const start =
+        ::mmap(nullptr, size_, protection, shared ? MAP_SHARED : MAP_PRIVATE, descriptor_, 0);
     if (start == MAP_FAILED) {
         cannot(path_, "mapped");
     }
@@ -162,6 +163,20 @@ void MappedFile::write(std::size_t offset, std::span<const std::byte> bytes) {
     }
 }
 
+std::span<std::byte> MappedFile::mendable(std::size_t offset, std::size_t size) {
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    const std::size_t begin = offset / page * page;
+    if (::mprotect(start_ + begin, offset + size - begin, PROT_READ | PROT_WRITE) != 0) {
+        cannot(path_, "mended in memory");
+    }
+    return {start_ + offset, size};
+}
+
+void MappedFile::forget_pages() {
+    ::madvise(start_, size_, MADV_DONTNEED);
+    ::posix_fadvise(descriptor_, 0, 0, POSIX_FADV_DONTNEED);
+}
+
 void MappedFile::sync() {
     if (::fsync(descriptor_) != 0) {
         cannot(path_, "written");
@@ -182,4 +197,4 @@ void sync_folder_of(const std::filesystem::path& path) {
     }
 }
 
-} // namespace octant::visuals::terrain
+} // namespace octant::visuals::groundfile

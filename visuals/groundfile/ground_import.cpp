@@ -1,16 +1,17 @@
 // Imports large height fields. The heights are first read into the end of the file that is being
 // made, then the tiles are built in front of them, and at last the file is cut. The header tells
 // how far this has come, so that an import which was stopped can go on.
-#include "visuals/terrain/ground_import.h"
+#include "visuals/groundfile/ground_import.h"
 
 #include "models/heights/height_source.h"
 #include "sim/base/error.h"
+#include "visuals/groundfile/ground_file.h"
+#include "visuals/groundfile/ground_header.h"
+#include "visuals/groundfile/import_files.h"
+#include "visuals/groundfile/import_rows.h"
+#include "visuals/groundfile/mapped_file.h"
+#include "visuals/groundfile/number_voids.h"
 #include "visuals/terrain/ground_assembly.h"
-#include "visuals/terrain/ground_header.h"
-#include "visuals/terrain/import_files.h"
-#include "visuals/terrain/import_rows.h"
-#include "visuals/terrain/mapped_file.h"
-#include "visuals/terrain/number_voids.h"
 
 #include <algorithm>
 #include <cstring>
@@ -19,12 +20,15 @@
 #include <memory>
 #include <utility>
 
-namespace octant::visuals::terrain {
+namespace octant::visuals::groundfile {
 
 namespace {
 
 using std::filesystem::path;
 using Stage = GroundProgress::Stage;
+using terrain::GroundAssembly;
+using terrain::HeightFigures;
+using terrain::StoredHeights;
 
 constexpr int samples_a_band = 1 << 22;
 constexpr std::size_t tiles_a_batch = 256;
@@ -53,6 +57,8 @@ private:
     void fill();
     void build();
     void finish();
+    /// Throws Error unless the disk gives back what was written.
+    void read_back();
     void put_header();
     void drop_part();
 
@@ -112,7 +118,7 @@ Import::Import(
     , inputs_(hash_of_inputs(inputs, options.picture)) {
     part_ += ".part";
     check_out(inputs, out_, part_);
-    if (!may_be_stored(shape_of(2, 2, source_.spacing_m(), 0.0, 0.0))) {
+    if (!may_be_stored(terrain::shape_of(2, 2, source_.spacing_m(), 0.0, 0.0))) {
         error_in(
             source_.name(),
             fmt::format(
@@ -263,7 +269,7 @@ void Import::fill() {
 }
 
 void Import::build() {
-    shape_ = shape_of(
+    shape_ = terrain::shape_of(
         source_.columns(),
         source_.rows(),
         source_.spacing_m(),
@@ -312,9 +318,22 @@ void Import::finish() {
     progress_.stage = Stage::Complete;
     put_header();
     file_->sync();
+    read_back();
     put_in_place(part_, out_); // While the part is still locked.
     file_.reset();
     watch_(ImportStage::Writing, 1.0);
+}
+
+void Import::read_back() {
+    file_->forget_pages();
+    try {
+        verify_ground(part_, options_.threads);
+    } catch (const Error& fault) {
+        drop_part();
+        error_in(
+            out_,
+            fmt::format("cannot be read back as it was written, try again: {}", fault.what()));
+    }
 }
 
 } // namespace
@@ -327,4 +346,4 @@ ImportSummary import_ground(
     return Import(inputs, out, options, watch).run();
 }
 
-} // namespace octant::visuals::terrain
+} // namespace octant::visuals::groundfile

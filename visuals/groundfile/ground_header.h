@@ -9,7 +9,12 @@
 #include <filesystem>
 #include <span>
 
-namespace octant::visuals::terrain {
+namespace octant::visuals::groundfile {
+
+using terrain::GroundFacts;
+using terrain::GroundLayout;
+using terrain::GroundShape;
+using terrain::GroundTiles;
 
 /// How far the making of a ground's file has come, so that it can go on after a stop.
 struct GroundProgress {
@@ -101,4 +106,4 @@ std::array<std::byte, GroundHeader::bytes> page_of(GroundHeader header);
 /// when there is none, when it is damaged, or when it does not fit today's layout.
 GroundHeader read_header(const std::filesystem::path& path, std::span<const std::byte> file);
 
-} // namespace octant::visuals::terrain
+} // namespace octant::visuals::groundfile

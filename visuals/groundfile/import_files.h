@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace octant::visuals::terrain {
+namespace octant::visuals::groundfile {
 
 /// A hash of the inputs (names, sizes, times) and options of an import, which tells one import from
 /// another.
@@ -27,4 +27,4 @@ void check_unfinished(const std::filesystem::path& part);
 /// Renames the part to `out`; the new name is on the disk when it returns. Throws Error.
 void put_in_place(const std::filesystem::path& part, const std::filesystem::path& out);
 
-} // namespace octant::visuals::terrain
+} // namespace octant::visuals::groundfile

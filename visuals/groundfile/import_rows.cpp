@@ -1,15 +1,15 @@
-#include "visuals/terrain/import_rows.h"
+#include "visuals/groundfile/import_rows.h"
 
 #include "models/heights/height_raster.h"
+#include "visuals/groundfile/number_voids.h"
 #include "visuals/terrain/ground_assembly.h"
-#include "visuals/terrain/number_voids.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-namespace octant::visuals::terrain {
+namespace octant::visuals::groundfile {
 
 namespace {
 
@@ -48,11 +48,12 @@ void read_fractions(
     GroundProgress& progress) {
     std::vector<float> heights_m(numbers.size());
     source.read(first_row, heights_m);
-    const GroundShape shape = shape_of(1, 1, 1.0, progress.lowest_m, progress.highest_m);
+    const terrain::GroundShape shape =
+        terrain::shape_of(1, 1, 1.0, progress.lowest_m, progress.highest_m);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const bool is_void = std::isnan(heights_m[i]);
         progress.voids += is_void ? 1 : 0;
-        numbers[i] = is_void ? void_number : stored_number(heights_m[i], shape);
+        numbers[i] = is_void ? void_number : terrain::stored_number(heights_m[i], shape);
     }
 }
 
@@ -82,4 +83,4 @@ void read_rows(
     }
 }
 
-} // namespace octant::visuals::terrain
+} // namespace octant::visuals::groundfile

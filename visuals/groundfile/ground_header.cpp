@@ -1,6 +1,6 @@
 // Writes and checks the first page of a ground's file. Files come from outside: every number is
 // checked before it is used, and a hash of the layout refuses files of another release.
-#include "visuals/terrain/ground_header.h"
+#include "visuals/groundfile/ground_header.h"
 
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
@@ -15,7 +15,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace octant::visuals::terrain {
+namespace octant::visuals::groundfile {
 
 static_assert(std::is_trivially_copyable_v<GroundHeader> && sizeof(GroundHeader) <= 4096);
 static_assert(std::endian::native == std::endian::little);
@@ -239,4 +239,4 @@ GroundHeader read_header(const std::filesystem::path& path, std::span<const std:
     return header;
 }
 
-} // namespace octant::visuals::terrain
+} // namespace octant::visuals::groundfile

@@ -5,12 +5,16 @@
 #include <filesystem>
 #include <span>
 
-namespace octant::visuals::terrain {
+namespace octant::visuals::groundfile {
 
 /// A file whose content is mapped into memory, shared with whoever else maps or writes it.
 class MappedFile {
 public:
-    enum class Access { Read, ReadAndWrite };
+    enum class Access {
+        Read,
+        ReadAndMend, ///< What mendable() gives may be changed in memory; the file stays as it is.
+        ReadAndWrite
+    };
 
     /// Maps a whole regular file. For writing it locks the file against other writers (not
     /// readers), where the file system can. Throws Error when that is not possible.
@@ -36,14 +40,21 @@ public:
     /// write. Throws Error (disk full).
     void write(std::size_t offset, std::span<const std::byte> bytes);
 
+    /// Some bytes of a file that was mapped with ReadAndMend, to be changed in memory alone.
+    /// Throws Error (no memory).
+    std::span<std::byte> mendable(std::size_t offset, std::size_t size);
+
     /// Brings everything that was written to the disk. Throws Error.
     void sync();
+
+    /// After sync(): has what is read next come from the disk, where the file system can.
+    void forget_pages();
 
     /// Truncates the file; the bytes beyond must not be read any more. Throws Error.
     void cut(std::size_t size);
 
 private:
-    void map(int protection);
+    void map(int protection, bool shared);
 
     std::filesystem::path path_;
     int descriptor_ = -1;
@@ -54,4 +65,4 @@ private:
 /// Brings the entries of a file's folder to the disk, where the file system can. Throws Error.
 void sync_folder_of(const std::filesystem::path& path);
 
-} // namespace octant::visuals::terrain
+} // namespace octant::visuals::groundfile

@@ -1,13 +1,13 @@
 // Fills voids of fields that are too large to be smoothed in one piece: coarse first, then tile by
 // tile with a margin.
-#include "visuals/terrain/number_voids.h"
+#include "visuals/groundfile/number_voids.h"
 
 #include "models/heights/height_voids.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace octant::visuals::terrain {
+namespace octant::visuals::groundfile {
 
 namespace {
 
@@ -144,4 +144,4 @@ void fill_number_voids(std::span<std::int16_t> numbers, int columns, int rows) {
     }
 }
 
-} // namespace octant::visuals::terrain
+} // namespace octant::visuals::groundfile

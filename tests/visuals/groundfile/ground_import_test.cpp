@@ -1,10 +1,11 @@
 #include "models/heights/height_field_export.h"
 #include "models/heights/height_field_import.h"
 #include "sim/base/error.h"
+#include "tests/rough_heights.h"
 #include "tests/scratch.h"
+#include "visuals/groundfile/ground_file.h"
+#include "visuals/groundfile/ground_import.h"
 #include "visuals/terrain/ground_builder.h"
-#include "visuals/terrain/ground_file.h"
-#include "visuals/terrain/ground_import.h"
 #include "visuals/terrain/ground_prefetcher.h"
 
 #include <catch2/catch.hpp>
@@ -18,14 +19,17 @@
 #include <string>
 #include <vector>
 
-#include "ground_fields.h"
+#include "whole_metres_tiff.h"
 
-namespace octant::visuals::terrain {
+namespace octant::visuals::groundfile {
 
 namespace {
 
 using Catch::Matchers::Contains;
 using std::filesystem::path;
+using terrain::ground_of;
+using terrain::GroundPrefetcher;
+using terrain::NodePart;
 
 constexpr double spacing_m = 30.0;
 constexpr std::int16_t no_data = -32768;
@@ -78,7 +82,7 @@ bool same_ground(const GroundTiles& a, const GroundTiles& b) {
 
 /// 300 x 200 samples, and the same as a file.
 struct Made {
-    models::heights::HeightField field = rough_field(300, 200);
+    models::heights::HeightField field{300, 200, spacing_m, tests::rough_heights(300, 200)};
 
     std::int16_t operator()(int column, int row) const {
         return static_cast<std::int16_t>(field.height_m(column, row));
@@ -261,4 +265,4 @@ TEST_CASE("fetching ahead changes nothing and ends at once") {
     CHECK(same_ground(ground, ground_of(made.field)));
 }
 
-} // namespace octant::visuals::terrain
+} // namespace octant::visuals::groundfile

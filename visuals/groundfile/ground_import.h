@@ -9,7 +9,10 @@
 #include <string>
 #include <vector>
 
-namespace octant::visuals::terrain {
+namespace octant::visuals::groundfile {
+
+using terrain::GroundFacts;
+using terrain::GroundShape;
 
 /// What an import is doing, in this order.
 enum class ImportStage {
@@ -47,7 +50,8 @@ struct ImportSummary {
 /// (names, sizes, times, options) goes on from what was last brought to the disk; another one
 /// starts anew, and so does one that was stopped while voids were filled. OUT.part is removed when
 /// an input cannot be read. Only one import at a time works in it. Heights that are not whole
-/// metres are read twice. OUT appears when everything is done and on the disk.
+/// metres are read twice. OUT appears when everything is done, on the disk and read back from
+/// there.
 ///
 /// Memory beside the mapped file, which takes 2 more bytes a sample until it is done: 50 MB, 80
 /// more while voids are filled, GDAL's cache, and what models::heights::HeightSource holds.
@@ -60,4 +64,4 @@ ImportSummary import_ground(
     const GroundImportOptions& options,
     const ImportWatch& watch);
 
-} // namespace octant::visuals::terrain
+} // namespace octant::visuals::groundfile

@@ -1,8 +1,8 @@
 #include "sim/base/error.h"
 #include "tests/scratch.h"
-#include "visuals/terrain/ground_file.h"
-#include "visuals/terrain/ground_header.h"
-#include "visuals/terrain/ground_import.h"
+#include "visuals/groundfile/ground_file.h"
+#include "visuals/groundfile/ground_header.h"
+#include "visuals/groundfile/ground_import.h"
 
 #include <catch2/catch.hpp>
 
@@ -17,9 +17,9 @@
 #include <string>
 #include <vector>
 
-#include "ground_fields.h"
+#include "whole_metres_tiff.h"
 
-namespace octant::visuals::terrain {
+namespace octant::visuals::groundfile {
 
 namespace {
 
@@ -191,4 +191,4 @@ TEST_CASE("the hash of a ground tells one tile from another and grounds alike as
     CHECK(hash_with(8, "eight.ground") != seven);
 }
 
-} // namespace octant::visuals::terrain
+} // namespace octant::visuals::groundfile

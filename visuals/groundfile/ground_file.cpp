@@ -1,20 +1,22 @@
 // Opens imported grounds. A file of 16385 x 16385 samples is 800 MB; mapping it makes flights over
 // it start at once, and only the tiles that a mesh looks at are read.
-#include "visuals/terrain/ground_file.h"
+#include "visuals/groundfile/ground_file.h"
 
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/worker_team.h"
-#include "visuals/terrain/ground_header.h"
-#include "visuals/terrain/mapped_file.h"
+#include "visuals/groundfile/ground_header.h"
+#include "visuals/groundfile/mapped_file.h"
+#include "visuals/groundfile/tested_tiles.h"
 
 #include <atomic>
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
 #include <memory>
+#include <utility>
 
-namespace octant::visuals::terrain {
+namespace octant::visuals::groundfile {
 
 namespace {
 
@@ -64,12 +66,13 @@ bool is_ground_file(const path& path) {
 }
 
 GroundTiles open_ground(const path& path) {
-    const auto file = std::make_shared<const MappedFile>(path, MappedFile::Access::Read);
-    const GroundHeader header = read_header(path, file->bytes());
+    const auto file = std::make_shared<MappedFile>(path, MappedFile::Access::ReadAndMend);
+    const GroundHeader header = read_header(path, std::as_const(*file).bytes());
     check_before_tiles(path, *file, header);
     const GroundShape shape = shape_of(header);
     const GroundLayout layout(shape.columns, shape.rows);
-    return {shape, facts_of(header), memory_of(*file, layout), file};
+    const auto tested = std::make_shared<const TestedTiles>(path, file, header);
+    return {shape, facts_of(header), memory_of(*file, layout), file, tested};
 }
 
 std::uint64_t hash_of_ground(const path& path) {
@@ -119,4 +122,4 @@ void verify_ground(const path& path, int threads) {
     }
 }
 
-} // namespace octant::visuals::terrain
+} // namespace octant::visuals::groundfile

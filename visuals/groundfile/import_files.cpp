@@ -1,12 +1,12 @@
 // The files around an import: nothing of the user's is overwritten, and a finished file appears
 // under its name in one step.
-#include "visuals/terrain/import_files.h"
+#include "visuals/groundfile/import_files.h"
 
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
-#include "visuals/terrain/ground_file.h"
-#include "visuals/terrain/ground_header.h"
-#include "visuals/terrain/mapped_file.h"
+#include "visuals/groundfile/ground_file.h"
+#include "visuals/groundfile/ground_header.h"
+#include "visuals/groundfile/mapped_file.h"
 
 #include <bit>
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 #include <string>
 #include <system_error>
 
-namespace octant::visuals::terrain {
+namespace octant::visuals::groundfile {
 
 using std::filesystem::path;
 
@@ -69,4 +69,4 @@ void put_in_place(const path& part, const path& out) {
     sync_folder_of(out);
 }
 
-} // namespace octant::visuals::terrain
+} // namespace octant::visuals::groundfile

@@ -1,0 +1,235 @@
+#include "visuals/groundfile/tile_mender.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace octant::visuals::groundfile {
+
+namespace {
+
+using terrain::NodePart;
+
+constexpr std::array<NodePart, 3> parts = {NodePart::Centre, NodePart::South, NodePart::West};
+constexpr std::uint8_t greatest_code = 255;
+
+struct Place {
+    int column = 0;
+    int row = 0;
+
+    bool operator==(const Place&) const = default;
+};
+
+class TileMender {
+public:
+    TileMender(
+        const SoundTile& is_sound,
+        const GroundTiles& ground,
+        TileNumber number,
+        std::span<std::byte> bytes)
+        : is_sound_(is_sound)
+        , ground_(ground)
+        , level_(number.level)
+        , at_(ground.layout().level(number.level))
+        , first_{
+              static_cast<int>(number.tile % static_cast<std::size_t>(at_.tiles_across))
+                  << at_.tile_shift,
+              static_cast<int>(number.tile / static_cast<std::size_t>(at_.tiles_across))
+                  << at_.tile_shift}
+        , end_{std::min(first_.column + side(), at_.columns), std::min(first_.row + side(), at_.rows)}
+        , bytes_(bytes) {}
+
+    void mend() {
+        std::fill(bytes_.begin(), bytes_.end(), std::byte{0});
+        for (int row = first_.row; row < end_.row; ++row) {
+            for (int column = first_.column; column < end_.column; ++column) {
+                for (const NodePart part : parts) {
+                    put_height(part, {column, row}, height(part, {column, row}));
+                }
+                put_code(NodePart::Centre, {column, row}, centre_code({column, row}));
+            }
+        }
+        for (int row = first_.row; row < end_.row; ++row) {
+            for (int column = first_.column; column < end_.column; ++column) {
+                const std::uint8_t own = code_of({column, row});
+                const bool in_south = row == 0;
+                const bool in_west = column == 0;
+                put_code(
+                    NodePart::South,
+                    {column, row},
+                    in_south ? own : std::min(own, code_of({column, row - 1})));
+                put_code(
+                    NodePart::West,
+                    {column, row},
+                    in_west ? own : std::min(own, code_of({column - 1, row})));
+            }
+        }
+    }
+
+private:
+    int side() const { return 1 << at_.tile_shift; }
+
+    bool is_own(Place node) const {
+        return node.column >= first_.column && node.row >= first_.row &&
+               node.column < end_.column && node.row < end_.row;
+    }
+
+    std::size_t index_of(Place node) const {
+        return static_cast<std::size_t>(
+            ((node.row - first_.row) << at_.tile_shift) + node.column - first_.column);
+    }
+
+    void put_height(NodePart part, Place node, std::int16_t stored) {
+        reinterpret_cast<std::int16_t*>(
+            bytes_.data())[static_cast<std::size_t>(part) * at_.tile_nodes + index_of(node)] =
+            stored;
+    }
+
+    std::uint8_t& own_code(NodePart part, Place node) {
+        return reinterpret_cast<std::uint8_t*>(
+            bytes_.data())[(6 + static_cast<std::size_t>(part)) * at_.tile_nodes + index_of(node)];
+    }
+
+    void put_code(NodePart part, Place node, std::uint8_t code) { own_code(part, node) = code; }
+
+    /// The code of a node's centre, in this tile or another of its level.
+    std::uint8_t code_of(Place node) {
+        return is_own(node) ? own_code(NodePart::Centre, node)
+                            : ground_.error_code(level_, NodePart::Centre, node.column, node.row);
+    }
+
+    /// A centre needs the middles of the two edges of its parent that lie on its own.
+    std::uint8_t centre_code(Place node) const {
+        if (level_ == 0) {
+            return greatest_code;
+        }
+        const int column = node.column / 2;
+        const int row = node.row / 2;
+        return std::min(
+            ground_.error_code(level_ - 1, NodePart::South, column, row + node.row % 2),
+            ground_.error_code(level_ - 1, NodePart::West, column + node.column % 2, row));
+    }
+
+    Place clamped(Place sample) const {
+        return {
+            std::clamp(sample.column, 0, ground_.columns() - 1),
+            std::clamp(sample.row, 0, ground_.rows() - 1)};
+    }
+
+    /// The height of a sample where the tile that holds it is sound.
+    std::optional<double> sound_m(Place sample) const {
+        const auto steps = static_cast<unsigned>(sample.column | sample.row);
+        if (steps % static_cast<unsigned>(ground_.layout().level(0).edge) != 0) {
+            const int zeros = std::countr_zero(steps);
+            const int level = ground_.levels() - 1 - zeros;
+            const GroundLayout::Level& at = ground_.layout().level(level);
+            const Place node{sample.column >> (zeros + 1), sample.row >> (zeros + 1)};
+            const auto tile = static_cast<std::size_t>(
+                (node.row >> at.tile_shift) * at.tiles_across + (node.column >> at.tile_shift));
+            const bool in_tile = node.column < at.columns && node.row < at.rows;
+            if (in_tile && !is_sound_(level, tile)) {
+                return std::nullopt;
+            }
+        }
+        return static_cast<double>(ground_.height_m(sample.column, sample.row));
+    }
+
+    /// The mean of two samples where both are there and sound.
+    std::optional<double> mean_m(Place a, Place b) const {
+        const auto at_a = a == clamped(a) ? sound_m(a) : std::nullopt;
+        const auto at_b = b == clamped(b) ? sound_m(b) : std::nullopt;
+        return at_a && at_b ? std::optional(0.5 * (*at_a + *at_b)) : std::nullopt;
+    }
+
+    /// The ends of the edge that a node's sample halves.
+    std::array<Place, 2> ends_of(NodePart part, Place node) const {
+        const Place low{node.column * at_.edge, node.row * at_.edge};
+        const Place high{low.column + at_.edge, low.row + at_.edge};
+        if (part == NodePart::South) {
+            return {low, Place{high.column, low.row}};
+        }
+        if (part == NodePart::West) {
+            return {low, Place{low.column, high.row}};
+        }
+        return node.column % 2 == node.row % 2
+                   ? std::array{low, high}
+                   : std::array{Place{high.column, low.row}, Place{low.column, high.row}};
+    }
+
+    double coarser_m(NodePart part, Place node) const {
+        const auto end_m = [&](Place nominal) -> std::optional<double> {
+            const Place end = clamped(nominal);
+            return end == nominal
+                       ? std::optional(static_cast<double>(ground_.height_m(end.column, end.row)))
+                       : sound_m(end);
+        };
+        const auto [a, b] = ends_of(part, node);
+        const auto at_a = end_m(a);
+        const auto at_b = end_m(b);
+        return at_a && at_b ? 0.5 * (*at_a + *at_b)
+               : at_a       ? *at_a
+                            : at_b.value_or(static_cast<double>(ground_.facts().mean_m));
+    }
+
+    double height_m(NodePart part, Place node) const {
+        const int half = at_.edge / 2;
+        const Place nominal{
+            node.column * at_.edge + (part == NodePart::West ? 0 : half),
+            node.row * at_.edge + (part == NodePart::South ? 0 : half)};
+        const Place sample = clamped(nominal);
+        if (sample != nominal) {
+            if (const auto known_m = sound_m(sample)) {
+                return *known_m;
+            }
+        }
+        if (half > 1) {
+            const auto across_m =
+                mean_m({sample.column - 1, sample.row}, {sample.column + 1, sample.row});
+            const auto along_m =
+                mean_m({sample.column, sample.row - 1}, {sample.column, sample.row + 1});
+            if (across_m && along_m) {
+                return 0.5 * (*across_m + *along_m);
+            }
+            if (across_m || along_m) {
+                return across_m ? *across_m : *along_m;
+            }
+        }
+        return coarser_m(part, node);
+    }
+
+    std::int16_t height(NodePart part, Place node) const {
+        const GroundShape& shape = ground_.shape();
+        const int shift = std::max(level_ - ground_.layout().range_level(), 0);
+        const int level = level_ - shift;
+        const double lowest_m =
+            static_cast<double>(ground_.lowest_m(level, node.column >> shift, node.row >> shift));
+        const double highest_m =
+            static_cast<double>(ground_.highest_m(level, node.column >> shift, node.row >> shift));
+        const double own_m = std::clamp(height_m(part, node), lowest_m, highest_m);
+        return static_cast<std::int16_t>(
+            std::lround((own_m - shape.height_base_m) / shape.height_unit_m));
+    }
+
+    const SoundTile& is_sound_;
+    const GroundTiles& ground_;
+    int level_;
+    GroundLayout::Level at_;
+    Place first_;
+    Place end_;
+    std::span<std::byte> bytes_;
+};
+
+} // namespace
+
+void mend_tile(
+    const SoundTile& is_sound,
+    const GroundTiles& ground,
+    TileNumber number,
+    std::span<std::byte> bytes) {
+    TileMender(is_sound, ground, number, bytes).mend();
+}
+
+} // namespace octant::visuals::groundfile
