@@ -3,6 +3,7 @@
 #include "visuals/raster/tile.h"
 
 #define HWY_DISABLED_TARGETS HWY_SSSE3
+#define HWY_WANT_AVX3_DL
 #define HWY_BROKEN_EMU128 0 // compiled so that it is right, see CMakeLists.txt
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "visuals/raster/tile_painter.cpp"
@@ -13,9 +14,11 @@
 #include "visuals/raster/tile_coverage-inl.h"
 #include "visuals/raster/tile_depth-inl.h"
 #include "visuals/raster/tile_fill-inl.h"
+#include "visuals/raster/tile_levels-inl.h"
 #include "visuals/raster/tile_picture-inl.h"
 
 #include <hwy/highway.h>
+#include <hwy/targets.h>
 
 HWY_BEFORE_NAMESPACE();
 
@@ -30,8 +33,12 @@ void PaintTile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer)
         std::size_t first = end - 1;
         if (group == 0) {
             const TileTriangle& one = job.triangles[first];
-            cover(one, job, lanes, buffer);
-            fill(one, job, buffer);
+            if (one.triangle->fill == Fill::Levels && one.extra == nullptr) {
+                paint_levels(*one.triangle, job, lanes, buffer);
+            } else {
+                cover(one, job, lanes, buffer);
+                fill(one, job, buffer);
+            }
         } else {
             while (first > 0 && job.triangles[first - 1].triangle->group == group) {
                 --first;
@@ -54,7 +61,24 @@ namespace octant::visuals::raster {
 
 HWY_EXPORT(PaintTile);
 
+namespace {
+
+/// Highway's set AVX3_DL is used with GFNI, which all its processors have but Highway does not ask
+/// for.
+bool leave_out_sets_without_gfni() {
+#if HWY_ARCH_X86
+    if (__builtin_cpu_supports("gfni") == 0) {
+        hwy::DisableTargets(HWY_AVX3_DL);
+    }
+#endif
+    return true;
+}
+
+} // namespace
+
 void paint_tile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+    static const bool may_choose = leave_out_sets_without_gfni();
+    static_cast<void>(may_choose);
     HWY_DYNAMIC_DISPATCH(PaintTile)(job, lanes, buffer);
 }
 

@@ -12,6 +12,7 @@
 #include "visuals/raster/tile_fill-inl.h"
 
 #include <cstring>
+#include <hwy/cache_control.h>
 
 HWY_BEFORE_NAMESPACE();
 
@@ -27,43 +28,80 @@ HWY_NOINLINE void clear(TileBuffer& buffer) {
     buffer.full_rows = 0;
 }
 
-/// One row of sixteen pixels: what is left free has the background.
-HWY_INLINE void
-resolve_block(const TileJob& job, const TileBuffer& buffer, std::size_t pixel, std::uint8_t* rgba) {
-    const Pixels px;
-    const hn::Rebind<std::uint8_t, Pixels> bytes;
-    for (std::size_t i = 0; i < block_px; i += hn::Lanes(px)) {
-        const auto covered = hn::LoadU(px, buffer.covered.data() + pixel + i);
-        const auto free = hn::Sub(hn::Set(px, 16), hn::PopulationCount(covered));
-        const auto level = [&](std::size_t k) HWY_ATTR {
-            const auto background =
-                hn::Mul(free, hn::Set(px, static_cast<std::uint16_t>(job.background[k] * 16)));
-            const auto sum = hn::Add(hn::LoadU(px, buffer.sums[k].data() + pixel + i), background);
-            const auto rounded = hn::ShiftRight<8>(hn::Add(sum, hn::Set(px, 128)));
-            return hn::DemoteTo(bytes, hn::BitCast(PixelsSigned(), rounded));
-        };
-        hn::StoreInterleaved4(
-            level(0), level(1), level(2), hn::Set(bytes, 255), bytes, rgba + 4 * i);
+using Words = hn::CappedTag<std::uint32_t, 16>;
+using HalfWords = hn::Rebind<std::uint16_t, Words>;
+
+/// Pixels from their sums; what is left free has the background.
+template <bool has_free>
+HWY_INLINE hn::Vec<Words> pixels_of(
+    const std::array<std::uint16_t, 3>& background, const TileBuffer& buffer, std::size_t first) {
+    const Words words;
+    const HalfWords halves;
+    const auto half_level = hn::Set(halves, 128);
+    const auto rounded = [&](std::size_t k) HWY_ATTR {
+        const auto sum = hn::Add(hn::LoadU(halves, buffer.sums[k].data() + first), half_level);
+        if constexpr (has_free) {
+            const auto covered = hn::LoadU(halves, buffer.covered.data() + first);
+            const auto free = hn::Sub(hn::Set(halves, 16), hn::PopulationCount(covered));
+            return hn::Add(sum, hn::Mul(free, hn::Set(halves, background[k])));
+        } else {
+            return sum;
+        }
+    };
+    const auto high_byte = hn::Set(halves, 0xff00);
+    const auto red_green = hn::Or(hn::ShiftRight<8>(rounded(0)), hn::And(rounded(1), high_byte));
+    const auto blue_alpha = hn::Or(hn::ShiftRight<8>(rounded(2)), high_byte);
+    return hn::Or(
+        hn::PromoteTo(words, red_green), hn::ShiftLeft<16>(hn::PromoteTo(words, blue_alpha)));
+}
+
+using Line = std::array<std::uint32_t, tile_width>;
+
+template <bool has_free>
+HWY_INLINE void resolve_row(
+    const std::array<std::uint16_t, 3>& background,
+    const TileBuffer& buffer,
+    std::size_t first,
+    Line& line) {
+    for (std::size_t column = 0; column < tile_width; column += hn::Lanes(Words())) {
+        const auto pixels = pixels_of<has_free>(background, buffer, first + column);
+        hn::Store(pixels, Words(), line.data() + column);
+    }
+}
+
+/// Writes a whole line past the caches: the picture is too large for them, and the next tile wants
+/// them.
+HWY_INLINE void stream(const Line& line, std::uint8_t* to) {
+    const hn::FixedTag<std::uint32_t, 4> four;
+    for (std::size_t i = 0; i < tile_width; i += 4) {
+        hn::Stream(hn::Load(four, line.data() + i), four, reinterpret_cast<std::uint32_t*>(to) + i);
     }
 }
 
 HWY_NOINLINE void resolve(const TileJob& job, TileBuffer& buffer) {
-    alignas(64) std::array<std::uint8_t, std::size_t{4} * tile_width> line;
+    alignas(64) Line line;
+    std::array<std::uint16_t, 3> background;
+    for (std::size_t k = 0; k < 3; ++k) {
+        background[k] = static_cast<std::uint16_t>(job.background[k] * 16);
+    }
+    constexpr std::uintptr_t alignment = 16;
+    const bool may_stream = job.size_px.x == tile_width && job.row_bytes % alignment == 0 &&
+                            reinterpret_cast<std::uintptr_t>(job.rgba) % alignment == 0;
     for (int row = 0; row < job.size_px.y; ++row) {
         std::uint8_t* const to = job.rgba + static_cast<std::size_t>(row) * job.row_bytes;
-        const bool whole = job.size_px.x == tile_width;
-        std::uint8_t* const into = whole ? to : line.data();
-        for (std::size_t column = 0; column < tile_width; column += block_px) {
-            resolve_block(
-                job,
-                buffer,
-                static_cast<std::size_t>(row) * tile_width + column,
-                into + 4 * column);
+        const auto first = static_cast<std::size_t>(row) * tile_width;
+        if ((buffer.full_rows >> row & 1U) != 0) {
+            resolve_row<false>(background, buffer, first, line);
+        } else {
+            resolve_row<true>(background, buffer, first, line);
         }
-        if (!whole) {
+        if (may_stream) {
+            stream(line, to);
+        } else {
             std::memcpy(to, line.data(), static_cast<std::size_t>(job.size_px.x) * 4);
         }
     }
+    hwy::FlushStream();
 }
 
 /// Blends what waits at a pixel.
