@@ -55,6 +55,7 @@ struct SampleLanes {
     alignas(64) std::array<float, SamplePattern::lanes> y_px{};
     /// How many lanes lie above a place, 1/256 pixel from the row's middle: entry 128 + place.
     std::array<std::uint8_t, 257> lanes_above{};
+    bool are_one = false; ///< all lie in the pixel's middle
 };
 
 /// Pixels that TileBuffer::masks holds masks of: blocks of sixteen from the first column of each

@@ -135,6 +135,80 @@ HWY_INLINE void paint_strip(
     }
 }
 
+/// An edge in a strip where a pixel's only sample is its middle.
+struct MiddleEdge {
+    std::uint64_t x; ///< as StripEdge
+    std::uint64_t slope;
+
+    HWY_INLINE MiddleEdge(const Edge& edge, std::int32_t top, const glm::ivec2& first_px)
+        : x(strip_edge_x(edge, top, first_px))
+        , slope(static_cast<std::uint64_t>(edge.slope)) {}
+
+    /// The strip's pixels from the first on whose middle is not left of the edge.
+    HWY_INLINE std::uint32_t pixels_from() const {
+        const auto column = (static_cast<std::int32_t>(x >> 16) + 0xffff) >> 16;
+        return static_cast<std::uint32_t>(~std::uint64_t{0} << std::clamp(column, 0, strip_px));
+    }
+};
+
+/// paint_strip() where all lanes of a pixel share its middle: a triangle covers a pixel or does
+/// not.
+HWY_INLINE void paint_strip_of_middles(
+    const Triangle& triangle,
+    const TileJob& job,
+    const TileBox& box,
+    int left,
+    TileBuffer& buffer) {
+    const int width = box.right - left + 1;
+    const std::uint32_t columns = width >= strip_px ? ~0U : (1U << width) - 1U;
+    const std::uint64_t full_row = job.full_row();
+    const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
+    MiddleEdge whole(triangle.whole, triangle.top, first_px);
+    MiddleEdge upper(triangle.upper, triangle.top, first_px);
+    MiddleEdge lower(triangle.lower, triangle.middle, first_px);
+    const std::uint32_t bends_left = triangle.middle_is_left ? ~0U : 0U;
+    const int first_lower = first_row_of(triangle.middle) - job.first_px.y;
+    std::array levels{
+        StripLevel(triangle.levels, 0, first_px),
+        StripLevel(triangle.levels, 1, first_px),
+        StripLevel(triangle.levels, 2, first_px)};
+    auto pixel = static_cast<std::size_t>(box.first_row * tile_width + left);
+    for (int row = box.first_row; row <= box.last_row; ++row, pixel += tile_width) {
+        std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
+        const std::uint32_t bent = (row < first_lower ? upper : lower).pixels_from();
+        const std::uint32_t through = whole.pixels_from();
+        const std::uint32_t between =
+            (bent ^ through) & (through ^ (bends_left & (bent ^ through)));
+        const std::uint32_t fresh = between & columns & ~static_cast<std::uint32_t>(full >> left);
+        if (fresh != 0) {
+            full |= std::uint64_t{fresh} << left;
+            buffer.full_rows |= std::uint32_t{(full & full_row) == full_row} << row;
+            alignas(8) std::array<std::uint8_t, 8> bits{};
+            std::memcpy(bits.data(), &fresh, sizeof fresh);
+            for (std::size_t i = 0; i < strip_parts; ++i) {
+                const std::size_t at = pixel + i * part_px;
+                const auto is_fresh = hn::LoadMaskBits(Strip(), bits.data() + i * part_px / 8);
+                std::uint16_t* const covered = buffer.covered.data() + at;
+                const auto all = hn::Set(Strip(), 0xffff);
+                hn::StoreU(
+                    hn::IfThenElse(is_fresh, all, hn::LoadU(Strip(), covered)), Strip(), covered);
+                for (std::size_t k = 0; k < 3; ++k) {
+                    std::uint16_t* const sums = buffer.sums[k].data() + at;
+                    const auto sixteen = hn::ShiftLeft<4>(levels[k].colour(i));
+                    hn::StoreU(
+                        hn::IfThenElse(is_fresh, sixteen, hn::LoadU(Strip(), sums)), Strip(), sums);
+                }
+            }
+        }
+        whole.x += whole.slope;
+        upper.x += upper.slope;
+        lower.x += lower.slope;
+        for (StripLevel& level : levels) {
+            level.at += level.per_row;
+        }
+    }
+}
+
 /// Paints a triangle of Fill::Levels that no plane cuts.
 HWY_NOINLINE void paint_levels(
     const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
@@ -143,7 +217,11 @@ HWY_NOINLINE void paint_levels(
         return;
     }
     for (int left = box.left; left <= box.right; left += strip_px) {
-        paint_strip(triangle, job, lanes, box, left, buffer);
+        if (lanes.are_one) {
+            paint_strip_of_middles(triangle, job, box, left, buffer);
+        } else {
+            paint_strip(triangle, job, lanes, box, left, buffer);
+        }
     }
 }
 

@@ -82,7 +82,8 @@ void paint_tile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer
     HWY_DYNAMIC_DISPATCH(PaintTile)(job, lanes, buffer);
 }
 
-SampleLanes::SampleLanes(const SamplePattern& pattern) {
+SampleLanes::SampleLanes(const SamplePattern& pattern)
+    : are_one(pattern.reach == 0) {
     for (std::size_t lane = 0; lane < SamplePattern::lanes; ++lane) {
         down[lane] = pattern.y[lane];
         round_up[lane] = 0xffff - pattern.x[lane] * (65536 / SamplePattern::unit);

@@ -1,7 +1,7 @@
 #include "visuals/raster/triangle_setup.h"
 
-#include "visuals/raster/level_planes.h"
 #include "visuals/raster/real_planes.h"
+#include "visuals/raster/triangle_planes.h"
 
 #include <algorithm>
 #include <bit>
@@ -18,23 +18,6 @@ constexpr std::int32_t per_px = ScreenVertex::per_px;
 
 /// Levels that a straight line over the picture may be wrong by without correction.
 constexpr float least_correction = 1.0F;
-
-constexpr double any_per_px = 16000.0; ///< levels: no triangle counts as a sliver
-
-Edge edge_between(const ScreenVertex& top, const ScreenVertex& bottom) {
-    const std::int32_t height = bottom.y - top.y;
-    if (height == 0) {
-        return {};
-    }
-    constexpr double one_row = 4294967296.0; // 2^32
-    const double slope = static_cast<double>(bottom.x - top.x) / static_cast<double>(height);
-    const std::int32_t down = first_row_of(top.y) * per_px - top.y;
-    const double x_px = (static_cast<double>(top.x) + slope * static_cast<double>(down)) / per_px;
-    const auto rounded = [](double value) {
-        return static_cast<std::int64_t>(value + (value < 0.0 ? -0.5 : 0.5));
-    };
-    return {rounded(x_px * one_row), rounded(slope * one_row)};
-}
 
 bool is_above(const ScreenVertex& a, const ScreenVertex& b) {
     return a.y != b.y ? a.y < b.y : a.x < b.x;
@@ -253,9 +236,6 @@ void TriangleSetup::add_placed(
         return;
     }
     Triangle& triangle = list.triangles.emplace_back();
-    triangle.whole = edge_between(top, bottom);
-    triangle.upper = edge_between(top, middle);
-    triangle.lower = edge_between(middle, bottom);
     triangle.top = top.y;
     triangle.middle = middle.y;
     triangle.bottom = bottom.y;
@@ -269,16 +249,18 @@ void TriangleSetup::add_placed(
     triangle.group = style_.group;
     triangle.depth = style_.depth;
     triangle.fill = fill_;
+    const FallingCorners corners{top, middle, bottom, area};
     if (flat_ != nullptr) {
+        set_edges(corners, triangle);
         triangle.levels = even_levels(flat_->rgb);
-    } else if (is_overlay_) {
-        // Soft edges are as narrow as a pixel: their alpha changes fast, and is looked at only
-        // within the triangle's own.
-        triangle.levels = levels_between(order, static_cast<double>(area), 4, any_per_px);
-    } else if (fill_ != Fill::Texture) {
-        // With one sample every pixel that is coloured has its middle within the triangle.
-        const double most_per_px = reach_ == 0 ? any_per_px : sliver_per_px;
-        triangle.levels = levels_between(order, static_cast<double>(area), 3, most_per_px);
+    } else if (fill_ == Fill::Texture) {
+        set_edges(corners, triangle);
+    } else {
+        // With one sample every pixel that is coloured has its middle within the triangle. Soft
+        // edges of what lies over the picture are as narrow as a pixel: their alpha changes fast,
+        // and is looked at only within the triangle's own.
+        const bool has_slivers = reach_ > 0 && !is_overlay_;
+        set_edges_and_levels(corners, has_slivers ? sliver_per_px : any_per_px, triangle);
     }
 }
 

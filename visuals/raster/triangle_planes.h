@@ -1,0 +1,36 @@
+#pragma once
+
+#include "visuals/raster/screen_vertex.h"
+#include "visuals/raster/triangle.h"
+
+#include <array>
+#include <cstdint>
+
+namespace octant::visuals::raster {
+
+/// Levels a pixel above which a triangle counts as a sliver, whose colours beyond its edges mean
+/// nothing.
+constexpr double sliver_per_px = 64.0;
+
+constexpr double any_per_px = 16000.0; ///< no triangle counts as a sliver
+
+/// Three corners from top to bottom.
+struct FallingCorners {
+    const ScreenVertex& top;
+    const ScreenVertex& middle;
+    const ScreenVertex& bottom;
+    /// Twice the area, 1/256 pixel squared; not 0. Its sign says on which side the middle lies.
+    std::int64_t doubled_area;
+};
+
+/// Fills in the edges of a triangle.
+void set_edges(const FallingCorners& corners, Triangle& triangle);
+
+/// Fills in the edges, and the four values at the corners as planes of levels. Where a level would
+/// change by more than `most_per_px` it is the corners' mean.
+void set_edges_and_levels(const FallingCorners& corners, double most_per_px, Triangle& triangle);
+
+/// One colour everywhere.
+Levels even_levels(const std::array<float, 3>& rgb);
+
+} // namespace octant::visuals::raster
