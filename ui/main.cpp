@@ -1,16 +1,16 @@
-#include "sim/base/error.h"
+#include "sim/base/utf8.h"
 #include "ui/commands/command_line.h"
 #include "ui/commands/commands.h"
 #include "ui/window/view_command.h"
 #include "visuals/gl/platform_tuning.h"
 #include "visuals/groundfile/damage_tally.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <fmt/format.h>
 #include <new>
 #include <string>
@@ -20,9 +20,8 @@ namespace {
 constexpr int check_said_no = 1;
 constexpr int wrong_input = 2;
 
-int fail(std::string line) {
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    std::fputs(fmt::format("octant: {}\n", line).c_str(), stderr);
+int fail(const std::string& line) {
+    std::fputs(fmt::format("octant: {}\n", octant::one_line(line)).c_str(), stderr);
     return wrong_input;
 }
 
@@ -56,6 +55,8 @@ int main(int argc, char** argv) {
         return run(argc, argv);
     } catch (const std::bad_alloc&) {
         return fail("expected enough memory for this input, got none");
+    } catch (const std::filesystem::filesystem_error& fault) {
+        return fail(fmt::format("{}: {}", fault.path1().string(), fault.code().message()));
     } catch (const std::exception& fault) {
         return fail(fault.what());
     }

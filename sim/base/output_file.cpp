@@ -1,6 +1,7 @@
 #include "sim/base/output_file.h"
 
 #include "sim/base/error.h"
+#include "sim/base/file_status.h"
 
 #include <atomic>
 #include <cerrno>
@@ -13,6 +14,10 @@
 namespace octant {
 
 namespace {
+
+// Of their own, not made of the target's name, which may be as long as names can be.
+constexpr std::string_view temporary_start = ".octant-";
+constexpr std::string_view temporary_end = ".part";
 
 [[noreturn]] void cannot_write(const std::filesystem::path& path) {
     error_in(path, fmt::format("cannot be written: {}", std::strerror(errno)));
@@ -40,14 +45,12 @@ int create(const std::filesystem::path& path) {
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
     // A device or a pipe cannot be renamed over; it is written directly.
-    std::error_code ignored;
-    const auto status = std::filesystem::status(path, ignored);
-    const bool special =
-        std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+    const bool special = is_there(path) && !is_file(path);
     std::filesystem::path target = path;
     if (!special) {
         static std::atomic<unsigned> files = 0; // threads may write the same file at once
-        target += fmt::format(".{}-{}.part", ::getpid(), files++);
+        target.replace_filename(
+            fmt::format("{}{}-{}{}", temporary_start, ::getpid(), files++, temporary_end));
     }
     const int descriptor = create(target);
     if (descriptor < 0) {
@@ -70,13 +73,18 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
     cannot_write(path);
 }
 
+bool is_unfinished(const std::filesystem::path& path) {
+    const std::string name = path.filename().string();
+    return name.starts_with(temporary_start) && name.ends_with(temporary_end);
+}
+
 void check_can_write(const std::filesystem::path& path) {
-    if (std::filesystem::is_directory(path)) {
+    if (is_folder(path)) {
         errno = EISDIR;
         cannot_write(path);
     }
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    if (::access(std::filesystem::exists(path) ? path.c_str() : folder.c_str(), W_OK) != 0) {
+    if (::access(is_there(path) ? path.c_str() : folder.c_str(), W_OK) != 0) {
         cannot_write(path);
     }
 }

@@ -6,9 +6,12 @@
 
 namespace octant {
 
-/// Writes the whole file or nothing: into a temporary file beside it, flushed, then renamed over
+/// Writes the whole file or nothing: into a temporary file in its folder, then renamed over
 /// `path`. Throws Error (no permission, no such folder, disk full) and leaves no temporary behind.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Whether a file of that name is what a kill left of write_file.
+bool is_unfinished(const std::filesystem::path& path);
 
 /// Before long work: throws Error where write_file would find no folder, none that it may write in,
 /// or a folder in the file's place. Writes nothing.

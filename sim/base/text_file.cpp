@@ -25,18 +25,25 @@ std::string read_file(const std::filesystem::path& path, std::size_t largest_byt
     if (!std::filesystem::is_regular_file(status)) {
         error_in(path, "expected a regular file, got a device or pipe");
     }
+    const auto size = std::filesystem::file_size(path, code);
+    const auto refuse_size = [&] {
+        error_in(path, fmt::format("expected at most {} bytes, got more", largest_bytes));
+    };
+    if (!code && size > largest_bytes) {
+        refuse_size();
+    }
     std::ifstream in(path, std::ios::binary);
     if (!in) {
         error_in(path, fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
     }
-    // Read in pieces: a file that is too large costs no more memory than the largest allowed.
+    // Read in pieces: a file that grows meanwhile costs no more memory than the largest allowed.
     std::string bytes;
     std::string piece(std::size_t{1} << 16, '\0');
     while (in) {
         in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
         bytes.append(piece, 0, static_cast<std::size_t>(in.gcount()));
         if (bytes.size() > largest_bytes) {
-            error_in(path, fmt::format("expected at most {} bytes, got more", largest_bytes));
+            refuse_size();
         }
     }
     if (in.bad()) {

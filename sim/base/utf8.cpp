@@ -31,4 +31,24 @@ std::size_t utf8_length(std::string_view text) {
     return bad ? 0 : length;
 }
 
+std::string one_line(std::string_view text) {
+    std::string line;
+    while (!text.empty()) {
+        const std::size_t length = utf8_length(text);
+        const auto first = static_cast<unsigned char>(text.front());
+        // U+0080 to U+009F are control characters too, some of which begin sequences.
+        const bool second_block =
+            length == 2 && first == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0;
+        if (first == '\n' || first == '\r' || first == '\t') {
+            line += ' ';
+        } else if (length == 0 || first < 0x20 || first == 0x7F || second_block) {
+            line += '?';
+        } else {
+            line += text.substr(0, length);
+        }
+        text.remove_prefix(length == 0 ? 1 : length);
+    }
+    return line;
+}
+
 } // namespace octant

@@ -1,5 +1,7 @@
 #include "ui/base/progress.h"
 
+#include "sim/base/utf8.h"
+
 #include <cstdio>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -29,7 +31,7 @@ void Progress::show(int done, const std::string& note) {
     const double left_s = done > 0 ? (total_ - done) / per_s : 0.0;
     const std::string line = fmt::format(
         "{}: {} of {}, {:.0f} {}/s, {:.0f} s left{}{}",
-        what_,
+        one_line(what_),
         done,
         total_,
         per_s,
@@ -53,7 +55,7 @@ void Progress::finish() {
 
 void say(bool quiet, const std::string& line) {
     if (!quiet) {
-        std::fputs(fmt::format("{}\n", line).c_str(), stderr);
+        std::fputs(fmt::format("{}\n", one_line(line)).c_str(), stderr);
     }
 }
 

@@ -99,7 +99,8 @@ std::vector<Option> options_of(BenchCommand& bench) {
         read_option(
             {"samples", "N", "samples a pixel [raster: 16, gl: 1]", 1, 16, sample_counts},
             settings.view.samples),
-        read_option({"context", "KIND", "OpenGL's context: osmesa or egl"}, settings.drawing.context),
+        read_option(
+            {"context", "KIND", "OpenGL's context: osmesa or egl"}, settings.drawing.context),
         read_option({"frames", "N", "timed frames of each scene", 1, 100000}, options.frames),
         flag("--json", "as JSON", bench.json),
         flag("--quiet", "no progress", options.quiet)};

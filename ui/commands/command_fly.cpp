@@ -1,4 +1,5 @@
 #include "sim/base/error.h"
+#include "sim/base/file_status.h"
 #include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
 #include "ui/commands/commands.h"
@@ -8,6 +9,7 @@
 #include "ui/flight/replay.h"
 #include "ui/flight/session.h"
 #include "ui/report/statistics.h"
+#include "ui/report/video_pipe.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
 
@@ -107,6 +109,9 @@ void check_options(const FlyOptions& options) {
     if (options.if_new && !options.record.folder) {
         throw Error("--if-new: expected --record DIR beside it, got none");
     }
+    if (options.record.video) {
+        report::check_video(*options.record.video);
+    }
     if (!options.replay) {
         return;
     }
@@ -114,9 +119,7 @@ void check_options(const FlyOptions& options) {
     if (options.if_new) {
         throw Error("--if-new: expected no --replay beside it, got one");
     }
-    std::error_code ignored;
-    if (options.record.folder &&
-        std::filesystem::equivalent(*options.record.folder, options.replay->folder, ignored)) {
+    if (options.record.folder && is_same_file(*options.record.folder, options.replay->folder)) {
         throw Error(fmt::format(
             "--record: expected another folder than that of --replay, got {}",
             options.record.folder->string()));
@@ -215,7 +218,7 @@ void fly(FlyOptions options) {
     if (!end.fault.empty()) {
         throw Error(end.fault);
     }
-    if (verdict && verdict->differs) {
+    if (verdict && !verdict->is_same) {
         throw CheckSaidNo();
     }
 }
@@ -245,8 +248,10 @@ std::vector<Option> options_of(FlyOptions& options) {
             options.record.video),
         {.name = "--replay",
          .form = "DIR",
-         .meaning = "fly the recording in DIR again by its rows, as far as they go, and check that "
-                    "states and pictures are the same (exit code 1 when not)",
+         .meaning =
+             "fly the recording in DIR again by its rows, as far as they go, and check that "
+             "states and pictures are the same (exit code 1 when not, or when it was cut short "
+             "and has none to compare with)",
          .read =
              [&options](const Words& words) {
                  const std::filesystem::path folder = words.front();

@@ -1,13 +1,16 @@
 #include "ui/commands/command_line.h"
 
 #include "sim/base/error.h"
+#include "ui/commands/nearest_word.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -59,7 +62,8 @@ Words words_of(const CLI::Option& option, const Option& row) {
 class Parser {
 public:
     explicit Parser(const Program& program)
-        : app_(program.about) {
+        : program_(program)
+        , app_(program.about) {
         app_.set_version_flag("--version", program.version);
         app_.get_formatter()->column_width(column_width);
         app_.footer(program.footer);
@@ -82,11 +86,37 @@ public:
         return with_single_gaps(text);
     }
 
-    bool names_a_command() const { return !app_.get_subcommands().empty(); }
+    /// What is wrong with the line, where parse() found `fault`.
+    std::string fault_text(const CLI::ParseError& fault, const Words& line) const {
+        const Parsed* const parsed = named();
+        const std::vector<Command>& commands =
+            parsed == nullptr ? program_.commands : parsed->command->commands;
+        if (!commands.empty()) {
+            const std::string name = parsed == nullptr ? "" : full_name(*parsed) + ": ";
+            return name + text_of_other_command(commands, first_extra(line));
+        }
+        if (is(fault, CLI::ExitCodes::ExtrasError)) {
+            return fmt::format("{}: {}", full_name(*parsed), text_of_extra(*parsed, line));
+        }
+        if (is(fault, CLI::ExitCodes::RequiredError)) {
+            for (std::size_t i = 0; i < parsed->options.size(); ++i) {
+                if (parsed->options[i]->get_required() && parsed->options[i]->count() == 0) {
+                    return text_of_words(parsed->command->options[i], {});
+                }
+            }
+        }
+        const std::string text = fault.what();
+        for (std::size_t i = 0; i < parsed->options.size(); ++i) {
+            if (is_about(text, parsed->options[i]->get_name())) {
+                return text_of_words(parsed->command->options[i], parsed->options[i]->results());
+            }
+        }
+        return text;
+    }
 
     /// Options of the command that the line names, read; then what is to be done.
     std::function<void()> action() const {
-        const Parsed& parsed = named();
+        const Parsed& parsed = *named();
         std::vector<std::pair<const Option*, Words>> readings;
         for (std::size_t i = 0; i < parsed.options.size(); ++i) {
             if (parsed.options[i]->count() > 0) {
@@ -130,15 +160,88 @@ private:
         }
     }
 
-    /// The innermost command that the line names.
-    const Parsed& named() const {
+    /// The innermost command that the line names; null where it names none.
+    const Parsed* named() const {
         const CLI::App* app = &app_;
         while (!app->get_subcommands().empty()) {
             app = app->get_subcommands().front();
         }
-        return *std::ranges::find(parsed_, app, &Parsed::app);
+        const auto found = std::ranges::find(parsed_, app, &Parsed::app);
+        return found == parsed_.end() ? nullptr : &*found;
     }
 
+    /// As a person types it after the program's name.
+    static std::string full_name(const Parsed& parsed) {
+        const std::string before = parsed.before.substr(std::string_view("octant").size());
+        return before.empty() ? parsed.command->name
+                              : fmt::format("{} {}", before.substr(1), parsed.command->name);
+    }
+
+    static bool is(const CLI::ParseError& fault, CLI::ExitCodes code) {
+        return fault.get_exit_code() == static_cast<int>(code);
+    }
+
+    /// Whether a text of the library's is about the option of that name.
+    static bool is_about(const std::string& text, const std::string& name) {
+        return text.starts_with(name + ":") || text.find(": " + name + " =") != std::string::npos;
+    }
+
+    /// The first word of the line that no option or command took; empty where there is none.
+    std::string first_extra(const Words& line) const {
+        const Words extra = app_.remaining(true);
+        const auto found = std::ranges::find_first_of(line, extra);
+        return found == line.end() ? std::string() : *found;
+    }
+
+    static std::string
+    text_of_other_command(const std::vector<Command>& commands, const std::string& got) {
+        Words names;
+        for (const Command& command : commands) {
+            names.push_back(command.name);
+        }
+        return fmt::format(
+            "expected a command ({}), got {}{}",
+            fmt::join(names, ", "),
+            got.empty() ? "none" : printable(got),
+            perhaps_meant(got, names));
+    }
+
+    std::string text_of_extra(const Parsed& parsed, const Words& line) const {
+        const std::string got = first_extra(line);
+        if (!got.starts_with('-')) {
+            return fmt::format("expected no further argument, got '{}'", printable(got));
+        }
+        Words names{"--help"};
+        for (const CLI::Option* const option : parsed.options) {
+            for (const std::string& name : option->get_lnames()) {
+                names.push_back("--" + name);
+            }
+        }
+        const std::string name = got.substr(0, got.find('='));
+        return fmt::format(
+            "expected one of its options, got {}{}", printable(got), perhaps_meant(name, names));
+    }
+
+    /// The option's words are too few or too many.
+    static std::string text_of_words(const Option& row, const Words& got) {
+        std::string name = row.name.substr(0, row.name.find(','));
+        if (!name.starts_with('-')) {
+            std::ranges::transform(name, name.begin(), [](unsigned char c) {
+                return static_cast<char>(std::toupper(c));
+            });
+        }
+        const std::string form = row.takes == Takes::Nothing            ? "nothing after it"
+                                 : row.form.empty() || row.form == name ? "a word"
+                                                                        : row.form;
+        return fmt::format(
+            "{}: expected {}{}, got {}",
+            name,
+            form,
+            row.takes == Takes::OneWord && got.size() > 1 ? " once" : "",
+            got.empty() ? "none" : printable(fmt::format("{}", fmt::join(got, " "))));
+    }
+
+    const Program& program_;
     CLI::App app_;
     std::vector<Parsed> parsed_; ///< all commands, each before those below it
 };
@@ -162,17 +265,7 @@ action_of(const Program& program, int argument_count, const char* const* argumen
     } catch (const CLI::CallForVersion& version) {
         return printing(fmt::format("{}\n", version.what()));
     } catch (const CLI::ParseError& fault) {
-        if (parser.names_a_command()) {
-            throw Error(fault.what());
-        }
-        std::vector<std::string> names;
-        for (const Command& command : program.commands) {
-            names.push_back(command.name);
-        }
-        throw Error(fmt::format(
-            "expected a command ({}), got {}",
-            fmt::join(names, ", "),
-            argument_count > 1 ? arguments[1] : "none"));
+        throw Error(parser.fault_text(fault, Words(arguments + 1, arguments + argument_count)));
     }
 }
 

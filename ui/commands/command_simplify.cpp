@@ -1,6 +1,7 @@
 #include "models/meshfile/level_chain.h"
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/error.h"
+#include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
 #include "ui/base/figures_text.h"
 #include "ui/commands/commands.h"
@@ -21,11 +22,8 @@ namespace {
 
 void refuse_faults(const SimplifyCommand& command) {
     const std::filesystem::path out = command.out;
-    std::error_code ignored;
     for (const std::string& input : {command.in, command.polygons}) {
-        if (!input.empty() && (std::filesystem::weakly_canonical(input, ignored) ==
-                                   std::filesystem::weakly_canonical(out, ignored) ||
-                               std::filesystem::equivalent(input, out, ignored))) {
+        if (is_same_file(input, out)) {
             throw Error(fmt::format(
                 "OUT: expected another file than the input, got '{}'", printable(command.out)));
         }

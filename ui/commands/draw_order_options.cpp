@@ -1,12 +1,12 @@
 #include "ui/commands/draw_order_options.h"
 
 #include "sim/base/error.h"
+#include "sim/base/file_status.h"
 #include "ui/commands/read_option.h"
 #include "ui/settings/settings_text.h"
 
 #include <array>
 #include <cstddef>
-#include <filesystem>
 #include <fmt/format.h>
 #include <utility>
 
@@ -18,10 +18,6 @@ namespace {
 
 /// Throws Error where one file would be written over another, or over the model.
 void refuse_overwriting(const DrawOrderOptions& options) {
-    const auto same = [](const std::string& a, const std::string& b) {
-        return !a.empty() && !b.empty() &&
-               std::filesystem::weakly_canonical(a) == std::filesystem::weakly_canonical(b);
-    };
     const std::array<std::pair<const char*, std::string>, 3> written{
         {{"--export", options.export_file},
          {"--export-model", options.export_model},
@@ -29,7 +25,7 @@ void refuse_overwriting(const DrawOrderOptions& options) {
     for (std::size_t i = 0; i < written.size(); ++i) {
         const auto& [name, file] = written[i];
         for (std::size_t other = i + 1; other < written.size(); ++other) {
-            if (same(file, written[other].second)) {
+            if (is_same_file(file, written[other].second)) {
                 throw Error(fmt::format(
                     "{}: expected another file than {}, got '{}' for both",
                     name,
@@ -37,7 +33,7 @@ void refuse_overwriting(const DrawOrderOptions& options) {
                     printable(file)));
             }
         }
-        if (same(file, options.model) && std::filesystem::exists(options.model)) {
+        if (is_same_file(file, options.model) && is_there(options.model)) {
             throw Error(fmt::format(
                 "{}: expected another file than the model, got '{}'", name, printable(file)));
         }

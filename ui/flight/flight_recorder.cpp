@@ -147,17 +147,10 @@ FlightEnd FlightRecorder::finish(const Session& session) {
     end.state_hash = session.state_hash();
     end.picture_hash = session.picture_hash();
     if (video_) {
-        const report::VideoResult result = video_->finish();
-        switch (result.outcome) {
-        case report::VideoResult::Outcome::Made:
+        if (const auto fault = video_->finish()) {
+            end.fault = fmt::format("{}: {}", options_.video->string(), *fault);
+        } else {
             end.notes.push_back(fmt::format("video: {}", options_.video->string()));
-            break;
-        case report::VideoResult::Outcome::NoFfmpeg:
-            end.missing.push_back(fmt::format("video {}", result.text));
-            break;
-        case report::VideoResult::Outcome::Failed:
-            end.fault = fmt::format("{}: {}", options_.video->string(), result.text);
-            break;
         }
     }
     if (recording_) {

@@ -76,7 +76,7 @@ verdict_on(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture
     verdict.state_hash = compared(replay, replay.state_hash, fmt::format("{:016x}", state_hash));
     verdict.picture_hash =
         compared(replay, replay.picture_hash, fmt::format("{:016x}", picture_hash));
-    verdict.differs = verdict.state_hash == "other" || verdict.picture_hash == "other";
+    verdict.is_same = verdict.state_hash == "same" && verdict.picture_hash == "same";
     const std::string name = replay.folder.string();
     verdict.line =
         replay.ended

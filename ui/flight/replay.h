@@ -30,7 +30,7 @@ void check_frames(const Replay& replay, int frames);
 struct ReplayVerdict {
     std::string state_hash;   ///< "same", "other" or "unknown" (the recording was killed)
     std::string picture_hash; ///< "same", "other" or "unknown", as state_hash
-    bool differs = false;     ///< whether one of the two hashes is known to be another
+    bool is_same = false;     ///< whether both hashes are known to be the same
     std::string line;         ///< all of it for people
 };
 

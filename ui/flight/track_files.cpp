@@ -1,6 +1,7 @@
 #include "ui/flight/track_files.h"
 
 #include "flightpaths/track_writer.h"
+#include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 
@@ -59,7 +60,7 @@ void write_tracks(const std::filesystem::path& folder, const world::World& world
 
 void cut_tracks(const std::filesystem::path& folder, double until_s) {
     for (const char* name : {"track.csv", "track.acmi"}) {
-        if (!std::filesystem::exists(folder / name)) {
+        if (!is_there(folder / name)) {
             continue;
         }
         const std::string text = read_text_file(folder / name);

@@ -29,12 +29,8 @@ bool is_recording_name(std::string_view name) {
         "track.csv",
         "flight.csv",
         "report.html"};
-    if (name.starts_with("picture-")) {
-        return name.ends_with(".png") || name.ends_with(".part");
-    }
-    return std::any_of(names.begin(), names.end(), [&](std::string_view ours) {
-        return name.starts_with(ours) && (name.size() == ours.size() || name.ends_with(".part"));
-    });
+    return is_unfinished(name) || (name.starts_with("picture-") && name.ends_with(".png")) ||
+           std::find(names.begin(), names.end(), name) != names.end();
 }
 
 /// The folder's entries; throws Error when it cannot be read.
@@ -56,8 +52,7 @@ fs::path prepared(fs::path folder) {
     make_folder(folder);
     const std::vector<fs::path> entries = entries_of(folder);
     const auto foreign = std::find_if(entries.begin(), entries.end(), [](const fs::path& entry) {
-        const std::string name = entry.filename().string();
-        return !(is_recording_name(name) && name.ends_with(".part"));
+        return !is_unfinished(entry);
     });
     if (foreign != entries.end() && !is_run_file(folder / "run.json")) {
         error_in(

@@ -4,7 +4,6 @@
 #include "sim/base/text_file.h"
 #include "ui/report/json_text.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
@@ -138,22 +137,24 @@ std::string text_in(const Json& json, const char* name) {
     return value.is_null() ? std::string() : shown(value);
 }
 
-double number_in(const Json& json, const char* name) {
+/// The number of that name from 0 to `largest`, or 0 where there is none such.
+double number_in(const Json& json, const char* name, double largest) {
     const Json value = member(json, name);
-    return value.is_number() ? value.get<double>() : 0.0;
+    const double number = value.is_number() ? value.get<double>() : 0.0;
+    return number >= 0.0 && number <= largest ? number : 0.0;
 }
 
 MachineInfo machine_from(const Json& json) {
     MachineInfo machine;
     machine.cpu = text_in(json, "cpu");
-    machine.cores = static_cast<int>(number_in(json, "cores"));
-    machine.memory_kb = static_cast<std::uint64_t>(std::max(0.0, number_in(json, "memory_kb")));
+    machine.cores = static_cast<int>(number_in(json, "cores", 1e6));
+    machine.memory_kb = static_cast<std::uint64_t>(number_in(json, "memory_kb", 1e15));
     machine.os = text_in(json, "os");
     machine.kernel = text_in(json, "kernel");
     machine.compiler = text_in(json, "compiler");
     machine.lp_num_threads = text_in(json, "LP_NUM_THREADS");
     machine.start_time_utc = text_in(json, "start_time_utc");
-    machine.load_average_1min = number_in(json, "load_average_1min");
+    machine.load_average_1min = number_in(json, "load_average_1min", 1e6);
     return machine;
 }
 

@@ -1,12 +1,16 @@
 #include "ui/report/video_pipe.h"
 
 #include "sim/base/error.h"
+#include "sim/base/file_status.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
+#include <system_error>
 #include <unistd.h>
+#include <utility>
+#include <vector>
 
 namespace octant::ui::report {
 
@@ -71,38 +75,61 @@ std::vector<std::string> command(const std::filesystem::path& file, const VideoF
 /// Finds out before the flight what ffmpeg would find out after it.
 const std::filesystem::path& writable(const std::filesystem::path& file) {
     const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-    if (::access(folder.c_str(), W_OK) != 0 || std::filesystem::is_directory(file) ||
-        (std::filesystem::exists(file) && ::access(file.c_str(), W_OK) != 0)) {
+    if (::access(folder.c_str(), W_OK) != 0 || is_folder(file) ||
+        (is_there(file) && ::access(file.c_str(), W_OK) != 0)) {
         error_in(file, "expected a file that can be written, got one that cannot");
     }
     return file;
 }
 
+[[noreturn]] void refuse_without_ffmpeg(const std::filesystem::path& file) {
+    error_in(file, "expected ffmpeg to make a video with, found none on PATH");
+}
+
+ChildProgram started(const std::filesystem::path& file, const VideoFormat& format) {
+    std::optional<ChildProgram> program = ChildProgram::start(command(writable(file), format));
+    if (!program) {
+        refuse_without_ffmpeg(file);
+    }
+    return std::move(*program);
+}
+
 } // namespace
 
+void check_video(const std::filesystem::path& file) {
+    auto program = ChildProgram::start({"ffmpeg", "-version"});
+    if (!program) {
+        refuse_without_ffmpeg(file);
+    }
+    program->finish();
+    writable(file);
+}
+
 VideoPipe::VideoPipe(const std::filesystem::path& file, const VideoFormat& format)
-    : format_(format)
-    , program_(ChildProgram::start(command(writable(file), format))) {}
+    : file_(file)
+    , format_(format)
+    , program_(started(file, format)) {}
 
 void VideoPipe::add(const PictureView& picture) {
     assert(picture.is_whole() && picture.width_px == format_.width_px);
     assert(picture.height_px == format_.height_px && picture.channels == format_.channels);
     assert(picture.bottom_row_first == format_.bottom_row_first);
     if (running()) {
-        broken_ = !program_->send(
+        broken_ = !program_.send(
             {reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size()});
     }
 }
 
-VideoResult VideoPipe::finish() {
-    if (!program_) {
-        return {VideoResult::Outcome::NoFfmpeg, "not made: ffmpeg is not installed"};
+std::optional<std::string> VideoPipe::finish() {
+    const ProgramEnding ending = program_.finish();
+    if (ending.succeeded && !broken_) {
+        return std::nullopt;
     }
-    const ProgramEnding ending = program_->finish();
-    if (!ending.succeeded || broken_) {
-        return {VideoResult::Outcome::Failed, "not made: ffmpeg: " + ending.last_complaint};
+    std::error_code ignored;
+    if (is_file(file_) && std::filesystem::file_size(file_, ignored) == 0) {
+        std::filesystem::remove(file_, ignored);
     }
-    return {};
+    return "not made: ffmpeg: " + ending.last_complaint;
 }
 
 } // namespace octant::ui::report

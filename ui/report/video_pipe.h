@@ -18,39 +18,31 @@ struct VideoFormat {
     double frames_per_s = 60.0;
 };
 
-/// How a video came out. `text` is one line: empty when made, else "not made: ...".
-struct VideoResult {
-    enum class Outcome {
-        Made,
-        NoFfmpeg, ///< not installed: a flight goes on without its video
-        Failed    ///< ffmpeg's last line is in `text`
-    };
-
-    Outcome outcome = Outcome::Made;
-    std::string text;
-};
+/// Before long work: throws Error where a VideoPipe would.
+void check_video(const std::filesystem::path& file);
 
 /// Frames piped raw to ffmpeg (H.264, crf 20, yuv420p, fragments of about a second): the file plays
 /// even when the program is killed in mid-flight.
 class VideoPipe {
 public:
-    /// Starts ffmpeg, found on PATH, which replaces the file. Without ffmpeg nothing is started and
-    /// finish() says so. Throws Error when the file cannot be written there or the system cannot
-    /// start a program.
+    /// Starts ffmpeg, which replaces the file. Throws Error when the file cannot be written there,
+    /// or when there is no ffmpeg on PATH or the system cannot start it.
     VideoPipe(const std::filesystem::path& file, const VideoFormat& format);
 
-    /// True while frames are taken: false without ffmpeg and after it failed.
-    bool running() const { return program_.has_value() && !broken_; }
+    /// True while frames are taken: false after ffmpeg failed.
+    bool running() const { return !broken_; }
 
     /// Hands on one frame, `picture` of the video's format; does nothing when not running().
     void add(const PictureView& picture);
 
-    /// Waits until the file is whole. Once only.
-    VideoResult finish();
+    /// Waits until the file is whole. Returns nothing where it was made, else one line that ends in
+    /// ffmpeg's last one; what it left is then removed where it is empty. Once only.
+    std::optional<std::string> finish();
 
 private:
+    std::filesystem::path file_;
     VideoFormat format_;
-    std::optional<ChildProgram> program_;
+    ChildProgram program_;
     bool broken_ = false;
 };
 

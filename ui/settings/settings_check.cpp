@@ -1,5 +1,6 @@
 #include "ui/settings/settings_check.h"
 
+#include "models/polygons/file_axes.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/settings/settings_fields.h"
@@ -110,6 +111,8 @@ void check_eye_point(const scene::ViewSettings& view) {
 
 void check_settings(const RunSettings& settings) {
     check_listed_numbers(settings);
+    models::polygons::FileAxes::from_text(
+        settings.path.axes); // also where a built-in model needs none
     if (settings.view.inset == scene::View::Free && settings.view.kind != scene::View::Free) {
         throw Error("--inset free: expected --view free beside it, got another view");
     }

@@ -1,6 +1,7 @@
 #include "ui/world/input_files.h"
 
 #include "sim/base/error.h"
+#include "sim/base/file_status.h"
 #include "sim/base/hash.h"
 #include "ui/base/data_files.h"
 #include "ui/settings/terrain_name.h"
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string absolute(const std::string& file) {
-    return fs::absolute(file).lexically_normal().string();
+    return absolute_path(file).string();
 }
 
 std::string hash_of_file(const fs::path& file) {
@@ -26,7 +27,7 @@ std::string hash_of_file(const fs::path& file) {
         return fmt::format("{:016x}", visuals::groundfile::hash_of_ground(file));
     }
     std::ifstream in(file, std::ios::binary);
-    if (!in || fs::is_directory(file)) {
+    if (!in || is_folder(file)) {
         error_in(file, "expected a file that can be read, got none");
     }
     Hash hash;
@@ -36,11 +37,6 @@ std::string hash_of_file(const fs::path& file) {
         hash.add(std::as_bytes(std::span(piece.data(), static_cast<std::size_t>(in.gcount()))));
     }
     return fmt::format("{:016x}", hash.value());
-}
-
-bool is_file(const std::string& name) {
-    std::error_code ignored;
-    return fs::is_regular_file(name, ignored);
 }
 
 } // namespace
@@ -75,7 +71,7 @@ input_hashes(const settings::RunSettings& settings) {
     for (const std::string& name : settings.path.aircraft) {
         files.push_back(base::aircraft_file(name));
         const fs::path materials = fs::path(files.back()).replace_extension(".mtl");
-        if (is_file(materials.string())) {
+        if (is_file(materials)) {
             files.push_back(materials);
         }
     }

@@ -5,17 +5,17 @@
 #include "models/made/made_up.h"
 #include "models/meshfile/mesh_file.h"
 #include "models/polygons/mesh_polygons.h"
+#include "sim/base/file_status.h"
 #include "ui/base/data_files.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace octant::ui::world {
 
 models::TriangleMesh read_mesh_input(const std::string& name_or_file) {
-    if (!std::filesystem::exists(name_or_file)) {
+    if (!is_there(name_or_file)) {
         if (name_or_file == "globe") {
             return models::made::globe();
         }

@@ -35,6 +35,7 @@ bool is_file_name(const std::string& name) {
 }
 
 OrderInput read(const std::string& name, const std::string& axes) {
+    const auto file_axes = models::polygons::FileAxes::from_text(axes);
     const std::vector<std::string> built_in = base::built_in_models();
     if (std::ranges::find(built_in, name) != built_in.end()) {
         return {models::polygons::read_obj(base::aircraft_file(name)), {}};
@@ -48,7 +49,6 @@ OrderInput read(const std::string& name, const std::string& axes) {
             fmt::join(built_in, ", "),
             printable(name)));
     }
-    const auto file_axes = models::polygons::FileAxes::from_text(axes);
     return {models::polygons::read_obj(name, file_axes), file_axes};
 }
 

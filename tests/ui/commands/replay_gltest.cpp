@@ -171,14 +171,14 @@ TEST_CASE("other targets in the rows give other pictures, and the check says so"
     CHECK_THAT(read_text_file(again / "run.json"), Contains("\"replay of\": \"" + half.string()));
 }
 
-TEST_CASE("what is left of a killed flight is replayed without a verdict") {
+TEST_CASE("what is left of a killed flight is replayed, and nothing says that it is the same") {
     const auto killed = changed("killed", [](Records& rows) { rows.resize(20); });
     const tests::PrintedJson json(read_text_file(killed / "run.json"));
     write_file(killed / "run.json", json.without({"summary"}).printed());
     write_file(killed / "frames.csv", read_text_file(killed / "frames.csv") + "20,0.0");
     const tests::ProgramRun run = replay(killed);
     INFO(run.err);
-    CHECK(run.exit_code == 0);
+    CHECK(run.exit_code == 1);
     CHECK_THAT(run.err, Contains("has 20 of 60 frames"));
     CHECK_THAT(run.out, Contains("cut short after 20 frames and has no hashes"));
 }

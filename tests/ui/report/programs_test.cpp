@@ -63,16 +63,33 @@ TEST_CASE("a program that is not there is nothing, and arguments meet no shell")
     CHECK(echo->finish().output == "a b|$(id)|'\";*|");
 }
 
-TEST_CASE("without ffmpeg a video is not made, and that is no error") {
+TEST_CASE("without ffmpeg a video is refused before anything is flown") {
     const ScratchFolder scratch;
     const SearchPath nothing(scratch.path().string());
-    const Picture picture = made_up_picture(4, 4, 3);
-    VideoPipe video(scratch / "a.mp4", {4, 4, 3, false, 60.0});
-    CHECK_FALSE(video.running());
-    video.add(picture.view());
-    const VideoResult result = video.finish();
-    CHECK(result.outcome == VideoResult::Outcome::NoFfmpeg);
-    CHECK(result.text == "not made: ffmpeg is not installed");
+    const auto file = scratch / "a.mp4";
+    const std::string refused =
+        file.string() + ": expected ffmpeg to make a video with, found none on PATH";
+    CHECK_THROWS_WITH(check_video(file), refused);
+    CHECK_THROWS_WITH(VideoPipe(file, {4, 4, 3, false, 60.0}), refused);
+    CHECK_FALSE(std::filesystem::exists(file));
+}
+
+TEST_CASE("what an ffmpeg that fails leaves is removed where it is empty") {
+    const ScratchFolder scratch;
+    make_program(
+        scratch / "bin",
+        "ffmpeg",
+        "for file; do :; done; printf \"$OCTANT_LEFT\" > \"${file#file:}\"; exit 1");
+    const SearchPath only((scratch / "bin").string());
+    const auto left = [&](const char* bytes) {
+        ::setenv("OCTANT_LEFT", bytes, 1);
+        VideoPipe video(scratch / "a.mp4", {4, 4, 3, false, 60.0});
+        CHECK(video.finish());
+        return std::filesystem::exists(scratch / "a.mp4");
+    };
+    CHECK_FALSE(left(""));
+    CHECK(left("a fragment"));
+    ::unsetenv("OCTANT_LEFT");
 }
 
 TEST_CASE("an ffmpeg that fails is reported with its last line and stops nobody") {
@@ -85,9 +102,7 @@ TEST_CASE("an ffmpeg that fails is reported with its last line and stops nobody"
         video.add(picture.view()); // more than the channel holds: would be SIGPIPE
     }
     CHECK_FALSE(video.running());
-    const VideoResult result = video.finish();
-    CHECK(result.outcome == VideoResult::Outcome::Failed);
-    CHECK(result.text == "not made: ffmpeg: no such codec");
+    CHECK(video.finish() == "not made: ffmpeg: no such codec");
 }
 
 TEST_CASE("ffmpeg is asked for a file that plays after a kill, by a name nobody misreads") {
@@ -95,7 +110,7 @@ TEST_CASE("ffmpeg is asked for a file that plays after a kill, by a name nobody 
     make_program(scratch / "bin", "ffmpeg", "for word; do echo \"$word\"; done > \"$0.words\"");
     const SearchPath only((scratch / "bin").string());
     VideoPipe video("-a: b.mp4", {5, 4, 4, true, 20.0});
-    CHECK(video.finish().outcome == VideoResult::Outcome::Made);
+    CHECK_FALSE(video.finish());
     const std::string words = read_file(scratch / "bin/ffmpeg.words");
     CHECK_THAT(words, Catch::Contains("-video_size\n5x4\n-framerate\n20\n-i\npipe:0\n"));
     CHECK_THAT(words, Catch::Contains("-pix_fmt\nrgba\n"));
@@ -122,9 +137,7 @@ TEST_CASE("ffmpeg makes a fragmented video of odd size and odd name") {
     for (int i = 0; i < 25; ++i) {
         video.add(view);
     }
-    const VideoResult result = video.finish();
-    CHECK(result.text.empty());
-    REQUIRE(result.outcome == VideoResult::Outcome::Made);
+    REQUIRE_FALSE(video.finish());
     const std::string bytes = read_file(path);
     CHECK(bytes.substr(4, 4) == "ftyp");
     std::size_t fragments = 0;

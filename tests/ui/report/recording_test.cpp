@@ -245,6 +245,21 @@ TEST_CASE("what is no recording is refused by name") {
         folder + "/run.json: expected \"format\": \"octant recording\", got none");
 }
 
+TEST_CASE("numbers of a machine that no machine has count as not told") {
+    const ScratchFolder scratch;
+    const auto file = scratch / "run.json";
+    for (const std::string number : {"1e308", "-4", "1e19", "\"many\"", "null"}) {
+        write_file(
+            file,
+            R"({"format": "octant recording", "machine": {"cores": )" + number +
+                R"(, "memory_kb": )" + number + R"(, "load_average_1min": )" + number + "}}");
+        const RunFile run = read_run_file(file);
+        CHECK(run.machine_info.cores == 0);
+        CHECK(run.machine_info.memory_kb == 0);
+        CHECK(run.machine_info.load_average_1min == 0.0);
+    }
+}
+
 TEST_CASE("the MangoHud log has its exact headers and leaves out the warm-up") {
     const ScratchFolder scratch;
     Recording recording(scratch / "rec", made_up_info());

@@ -1,0 +1,88 @@
+#include "ui/commands/command_line.h"
+
+#include <catch2/catch.hpp>
+
+#include <string>
+#include <vector>
+
+using namespace octant::ui::commands;
+
+namespace {
+
+/// A program of two commands, one of which has commands below it.
+Program small_program() {
+    const auto read = [](const Words&) {};
+    const Option out{.name = "--out", .form = "FILE", .read = read, .required = true};
+    const Option frames{.name = "--frames", .form = "N", .read = read};
+    const Option region{
+        .name = "--region",
+        .form = "X Y RADIUS",
+        .takes = Takes::SomeWords,
+        .read = read,
+        .together = 3};
+    const Option quiet{
+        .name = "--quiet", .takes = Takes::Nothing, .read = read, .shown_default = {}};
+    const Option input{.name = "in", .form = "FILE", .read = read, .required = true};
+    const auto run = [] {};
+    return {
+        .about = "small",
+        .version = "1",
+        .footer = {},
+        .commands = {
+            {.name = "fly", .summary = "flies", .options = {frames, quiet, region}, .run = run},
+            {.name = "terrain",
+             .summary = "ground",
+             .commands = {
+                 {.name = "make", .summary = "makes", .options = {input, out}, .run = run}}}}};
+}
+
+std::string refusal_of(std::vector<std::string> words) {
+    words.insert(words.begin(), "octant");
+    std::vector<const char*> arguments;
+    for (const std::string& word : words) {
+        arguments.push_back(word.c_str());
+    }
+    try {
+        action_of(small_program(), static_cast<int>(arguments.size()), arguments.data());
+    } catch (const std::exception& fault) {
+        return fault.what();
+    }
+    return "accepted";
+}
+
+} // namespace
+
+TEST_CASE("what is wrong with a command line is said as what was expected and what came") {
+    CHECK(refusal_of({"fly", "--frames", "3", "--quiet"}) == "accepted");
+    CHECK(refusal_of({}) == "expected a command (fly, terrain), got none");
+    CHECK(
+        refusal_of({"terain"}) ==
+        "expected a command (fly, terrain), got terain; perhaps terrain is meant");
+    CHECK(refusal_of({"terrain"}) == "terrain: expected a command (make), got none");
+    CHECK(
+        refusal_of({"terrain", "maek"}) ==
+        "terrain: expected a command (make), got maek; perhaps make is meant");
+    CHECK(
+        refusal_of({"fly", "--frams", "3"}) ==
+        "fly: expected one of its options, got --frams; perhaps --frames is meant");
+    CHECK(
+        refusal_of({"fly", "--frams=3"}) ==
+        "fly: expected one of its options, got --frams=3; perhaps --frames is meant");
+    CHECK(refusal_of({"fly", "-x"}) == "fly: expected one of its options, got -x");
+    CHECK(refusal_of({"fly", "there"}) == "fly: expected no further argument, got 'there'");
+    CHECK(refusal_of({"fly", "--frames"}) == "--frames: expected N, got none");
+    CHECK(
+        refusal_of({"fly", "--frames", "3", "--frames", "4"}) ==
+        "--frames: expected N once, got 3 4");
+    CHECK(refusal_of({"fly", "--region", "1", "2"}) == "--region: expected X Y RADIUS, got 1 2");
+    CHECK(
+        refusal_of({"fly", "--quiet=perhaps"}) ==
+        "--quiet: expected nothing after it, got perhaps");
+    CHECK(refusal_of({"terrain", "make"}) == "IN: expected FILE, got none");
+    CHECK(refusal_of({"terrain", "make", "a.tif"}) == "--out: expected FILE, got none");
+}
+
+TEST_CASE("bytes of the command line that a terminal would obey are not handed on") {
+    const std::string text = refusal_of({"fly", "\x1b[31m"});
+    CHECK(text.find('\x1b') == std::string::npos);
+}
