@@ -42,6 +42,19 @@ constexpr double beyond_stall_rad = rad_from_deg(4.0);
 constexpr double centred_beyond_rad = rad_from_deg(4.0);
 constexpr double pulled_beyond_rad = rad_from_deg(12.0);
 
+// After a stall.
+/// The wing has to have this much lift before the nose comes all the way up.
+constexpr double safe_load_factor = 2.5;
+constexpr double dive_rad_per_g = rad_from_deg(25.0);
+constexpr double steepest_recovery_rad = rad_from_deg(40.0);
+constexpr double recovery_lag_s = 2.0;
+constexpr double fastest_recovery_radps = rad_from_deg(8.0);
+/// Of the wing's lift; the rest is the margin to the next stall.
+constexpr double recovery_share = 0.7;
+constexpr double least_upright = 0.4;
+constexpr double moved_stick = 0.05;
+constexpr double level_again_rad = rad_from_deg(0.2);
+
 const glm::dvec3 body_forward(1.0, 0.0, 0.0);
 const glm::dvec3 body_right(0.0, 1.0, 0.0);
 const glm::dvec3 body_down(0.0, 0.0, 1.0);
@@ -190,12 +203,43 @@ glm::dvec3 FixedWingFlight::turn_radps(
                    yaw_radps * (attitude * body_down));
 }
 
+/// The load factor at which the wing stalls.
+double FixedWingFlight::most_load_factor() const {
+    return lift_scale_n(air_, now_.speed_mps) * f15::most_lift_coefficient / weight_n;
+}
+
+bool FixedWingFlight::is_safe(double climb_rad) const {
+    return std::abs(climb_rad) < level_again_rad && most_load_factor() > safe_load_factor;
+}
+
+/// The load factor of a centred stick after a stall: it brings the climb angle to one at which the
+/// aircraft gathers the speed it lacks, and to level flight once it has that.
+double FixedWingFlight::recovering_load_factor(double climb_rad, double centred) const {
+    const double most = most_load_factor();
+    const double wanted_rad =
+        -std::clamp((safe_load_factor - most) * dive_rad_per_g, 0.0, steepest_recovery_rad);
+    const double up = -glm::dot(state_.body_to_world * body_down, glm::dvec3(0.0, 0.0, 1.0));
+    if (up < least_upright) {
+        return centred;
+    }
+    const double turning_radps = std::clamp(
+        (wanted_rad - climb_rad) / recovery_lag_s, -fastest_recovery_radps, fastest_recovery_radps);
+    const double wanted = centred + now_.speed_mps * turning_radps / gravity_mps2 / up;
+    return std::clamp(wanted, 0.3, std::max(centred, recovery_share * most));
+}
+
 /// Moves what the flight controls ask for one step towards what the pilot's controls command.
 void FixedWingFlight::ask(const PilotControls& controls) {
     const glm::dvec3& velocity = state_.velocity_mps;
     const double speed_mps = now_.speed_mps;
     const double level = std::hypot(velocity.x, velocity.y);
-    const double centred = speed_mps > no_authority_mps ? level / speed_mps : 1.0;
+    const double climb_rad = std::atan2(velocity.z, level);
+    double centred = speed_mps > no_authority_mps ? level / speed_mps : 1.0;
+    recovers_ = warnings_.stalled ||
+                (recovers_ && std::abs(controls.pitch) < moved_stick && !is_safe(climb_rad));
+    if (recovers_ && !warnings_.stalled) {
+        centred = recovering_load_factor(climb_rad, centred);
+    }
     const double range = controls.pitch >= 0.0 ? limits_.most_load_factor - centred
                                                : centred - limits_.least_load_factor;
     asked_load_factor_ = lagged(

@@ -9,7 +9,9 @@ namespace octant::sim {
 
 /// The F-15 by hand. The stick asks for load factor and roll rate, as a control augmentation system
 /// has it: centred it keeps the climb angle (cos of it, in g), so that in a bank the pilot pulls.
-/// The rudder asks for sideslip.
+/// After a stall it is stable in pitch until the pilot pulls or pushes: centred, it lets the nose
+/// down to gather speed and brings it up to level flight at that speed. The rudder asks for
+/// sideslip.
 class FixedWingFlight final : public HandFlight {
 public:
     FixedWingFlight(const AircraftLimits& limits, const AircraftState& start);
@@ -48,6 +50,9 @@ private:
     glm::dvec3 turn_radps(
         const Flow& flow, const glm::dquat& attitude, const Pitching& pitching, double share) const;
     void ask(const PilotControls& controls);
+    double most_load_factor() const;
+    bool is_safe(double climb_rad) const;
+    double recovering_load_factor(double climb_rad, double centred) const;
     double wanted_alpha_rad(double load_factor, double speed_mps, double pull);
     void move(const Pitching& pitching);
 
@@ -57,6 +62,7 @@ private:
     Air air_;
     Flow now_;
     FlightWarnings warnings_;
+    bool recovers_ = false; ///< has stalled and is not yet back in level flight
     double trim_lever_ = 0.0;
     double lever_ = 0.0;             ///< what the engines run at; lags behind the pilot's lever
     double asked_load_factor_ = 1.0; ///< lags behind what the stick commands
