@@ -34,6 +34,13 @@ inset_settings(const settings::RunSettings& settings, const glm::ivec2& size_px)
 
 } // namespace
 
+scene::PixelRect inset_rectangle(const glm::ivec2& picture_px) {
+    const glm::ivec2 size_px = glm::max(picture_px / share_of_side, glm::ivec2(1));
+    const int margin_px = std::min(picture_px.x, picture_px.y) / margin_share;
+    const glm::ivec2 at_px = picture_px - size_px - margin_px;
+    return {at_px.x, at_px.y, size_px.x, size_px.y};
+}
+
 InsetView::InsetView(const settings::RunSettings& settings, const scene::Scene& scene)
     : scene_(scene) {
     place(settings);
@@ -42,14 +49,8 @@ InsetView::InsetView(const settings::RunSettings& settings, const scene::Scene& 
 
 void InsetView::place(const settings::RunSettings& settings) {
     assert(settings.view.inset);
-    const glm::ivec2 size_px = glm::max(settings.view.size_px / share_of_side, glm::ivec2(1));
-    const int margin_px = std::min(settings.view.size_px.x, settings.view.size_px.y) / margin_share;
-    rectangle_ = {
-        settings.view.size_px.x - size_px.x - margin_px,
-        settings.view.size_px.y - size_px.y - margin_px,
-        size_px.x,
-        size_px.y};
-    settings_ = inset_settings(settings, size_px);
+    rectangle_ = inset_rectangle(settings.view.size_px);
+    settings_ = inset_settings(settings, {rectangle_.width, rectangle_.height});
 }
 
 void InsetView::follow(const settings::RunSettings& settings) {

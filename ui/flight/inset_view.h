@@ -11,6 +11,9 @@
 
 namespace octant::ui::flight {
 
+/// Where the second view lies in a picture of that size.
+visuals::scene::PixelRect inset_rectangle(const glm::ivec2& picture_px);
+
 /// A second view of a scene, in the lower right corner of the picture: ground meshed for it alone,
 /// with a quarter of the picture's triangles on a ninth of its area. Loads nothing and copies
 /// nothing of the scene.

@@ -56,6 +56,7 @@ Simulation::Simulation(const world::World& world)
 
 void Simulation::begin_at(double time_s) {
     pilot_.reset();
+    levelling_.reset();
     end_.reset();
     hash_ = {};
     log_.clear();
@@ -89,12 +90,19 @@ void Simulation::take_step() {
 
 /// A step into the ground or off the map is not taken: the flight ends before it.
 void Simulation::take_step_by_hand() {
+    if (levelling_) {
+        controls_ = levelling_->controls(last_two_.back());
+        if (levelling_->is_done()) {
+            levelling_.reset();
+        }
+    }
     pilot_->step(controls_);
     sim::AircraftState state = pilot_->state();
     state.time_s = sim::time_of_step(next_step_);
     states_from(state);
     end_ = end_among(states_);
     if (end_) {
+        levelling_.reset();
         states_from(last_two_.back());
         return;
     }
@@ -163,8 +171,18 @@ void Simulation::take_over(const sim::AircraftKind& kind) {
     hand_to_pilot(kind, start);
 }
 
-void Simulation::level_off(const sim::AircraftKind& kind) {
+void Simulation::level_off() {
     assert(by_hand());
+    if (end_) {
+        start_level();
+    } else {
+        levelling_.emplace(*kind_, last_two_.back());
+    }
+}
+
+void Simulation::start_level() {
+    assert(by_hand());
+    const sim::AircraftKind& kind = *kind_;
     constexpr double off_the_ground_m = 200.0;
     glm::dvec3 position_m = last_two_.back().position_m;
     position_m.z += end_ == End::OnTheGround ? off_the_ground_m : 0.0;
@@ -179,6 +197,8 @@ void Simulation::level_off(const sim::AircraftKind& kind) {
 
 void Simulation::hand_to_pilot(const sim::AircraftKind& kind, const sim::AircraftState& start) {
     pilot_ = sim::hand_flight(kind, start);
+    kind_ = &kind;
+    levelling_.reset();
     controls_ = {.throttle = pilot_->trim_throttle()};
     last_two_ = {start, start};
     end_.reset();
@@ -191,6 +211,7 @@ sim::AircraftState Simulation::at_last_step() const {
 
 void Simulation::set_controls(const sim::PilotControls& controls) {
     assert(by_hand());
+    levelling_.reset();
     controls_ = controls;
 }
 

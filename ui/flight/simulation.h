@@ -4,6 +4,7 @@
 #include "sim/aircraft_state.h"
 #include "sim/base/hash.h"
 #include "sim/hand_flight.h"
+#include "sim/levelling.h"
 #include "ui/world/formation.h"
 #include "ui/world/world.h"
 #include "visuals/scene/camera_rig.h"
@@ -60,13 +61,20 @@ public:
     /// the state it is in.
     void take_over(const sim::AircraftKind& kind);
 
-    /// By hand only (asserted): on from where it is, level and in trim, on the same course and at
-    /// the same speed, unless that is too slow to fly; after its end on the ground 200 m above it.
-    void level_off(const sim::AircraftKind& kind);
+    /// By hand only (asserted): on from where it is, at once level and in trim, on the same course
+    /// and at the same speed, unless that is too slow to fly; after its end on the ground 200 m
+    /// above it.
+    void start_level();
+
+    /// By hand only (asserted): flies on by sim::Levelling until the aircraft is level or its
+    /// controls are set. After its end on the ground as start_level().
+    void level_off();
+
+    bool is_levelling() const { return levelling_.has_value(); }
 
     bool by_hand() const { return pilot_ != nullptr; }
 
-    /// For the steps to come. By hand only (asserted).
+    /// For the steps to come; ends levelling. By hand only (asserted).
     void set_controls(const sim::PilotControls& controls);
 
     const sim::PilotControls& controls() const { return controls_; }
@@ -100,6 +108,8 @@ private:
     bool logs_ = false;
     std::vector<sim::AircraftState> log_;
     std::unique_ptr<sim::HandFlight> pilot_;
+    const sim::AircraftKind* kind_ = nullptr; ///< by hand
+    std::optional<sim::Levelling> levelling_;
     sim::PilotControls controls_;
     std::array<sim::AircraftState, 2> last_two_; ///< by hand: of the first aircraft, at steps
     std::optional<End> end_;

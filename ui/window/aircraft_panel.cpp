@@ -63,8 +63,7 @@ void show_models(const visuals::scene::Scene& scene) {
 } // namespace
 
 void aircraft_panel(ViewState& state, const flight::Session& session) {
-    const Panel panel(
-        "Aircraft", {{1.0F, 1.0F}, {360.0F, 10.0F}, {300.0F, 190.0F}}, state.open.aircraft);
+    const Panel panel("Aircraft", state.columns, state.open.aircraft);
     if (!panel.is_seen()) {
         return;
     }

@@ -52,8 +52,7 @@ void show_pixel_check(ViewState& state) {
 } // namespace
 
 void draw_order_panel(ViewState& state, const flight::Session& session) {
-    const Panel panel(
-        "Draw order", {{1.0F, 1.0F}, {10.0F, 10.0F}, {340.0F, 300.0F}}, state.open.draw_order);
+    const Panel panel("Draw order", state.columns, state.open.draw_order);
     if (!panel.is_seen()) {
         return;
     }

@@ -1,14 +1,14 @@
-#include "sim/base/units.h"
+#include "sim/base/utf8.h"
 #include "sim/fixed_step.h"
+#include "ui/base/data_files.h"
 #include "ui/settings/path_fields.h"
 #include "ui/window/aircraft_list.h"
+#include "ui/window/control_display.h"
 #include "ui/window/look_control.h"
 #include "ui/window/panel_parts.h"
 #include "ui/window/panels.h"
 #include "ui/window/setting_style.h"
 #include "ui/window/setting_widgets.h"
-
-#include <glm/geometric.hpp>
 
 #include <array>
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ void choose_flight(ViewState& state) {
     edit_settings(state.wanted, path);
     std::string leader = state.wanted.path.aircraft.front();
     ImGui::PushID("leader");
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * value_share);
+    ImGui::SetNextItemWidth(value_width());
     if (choose_name(leader_info, leader, settings::built_in_aircraft)) {
         state.wanted.path.aircraft = with_leader(state.wanted.path.aircraft, leader);
     }
@@ -51,27 +51,26 @@ void play_buttons(ViewState& state) {
     if (ImGui::Button(playback.playing ? "Pause###play" : "Play###play")) {
         playback.playing = !playback.playing;
     }
-    explain(key_of(ViewCommand::PlayOrPause));
-    ImGui::SameLine();
-    if (ImGui::Button("One frame")) {
+    explain(state.keys.name_of(ViewCommand::PlayOrPause));
+    if (next_button("One frame")) {
         state.requests.step_frame = true;
     }
-    explain(key_of(ViewCommand::StepFrame));
-    ImGui::SameLine();
-    if (ImGui::Button("To beginning")) {
+    explain(state.keys.name_of(ViewCommand::StepFrame));
+    if (next_button("To beginning")) {
         state.requests.go_to_s = playback.begin_s;
     }
-    explain(key_of(ViewCommand::ToBeginning));
-    ImGui::SameLine();
+    explain(state.keys.name_of(ViewCommand::ToBeginning));
+    same_line_for(checkbox_width("loop"));
     ImGui::Checkbox("loop", &playback.loops);
-    explain(with_key("begin again at the path's end", ViewCommand::Loop));
+    explain(
+        fmt::format("begin again at the path's end ({})", state.keys.name_of(ViewCommand::Loop)));
 }
 
 void time_sliders(ViewState& state, bool by_hand) {
     Playback& playback = state.playback;
     double time_s = playback.time_s;
     ImGui::BeginDisabled(by_hand || state.recording.has_value());
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * wide_share);
+    ImGui::SetNextItemWidth(value_width());
     if (ImGui::SliderScalar(
             "time",
             ImGuiDataType_Double,
@@ -90,7 +89,7 @@ void time_sliders(ViewState& state, bool by_hand) {
     } else {
         explain("where on the path it is; drag to go there");
     }
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * wide_share);
+    ImGui::SetNextItemWidth(value_width());
     ImGui::SliderScalar(
         "speed",
         ImGuiDataType_Double,
@@ -101,8 +100,8 @@ void time_sliders(ViewState& state, bool by_hand) {
         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     explain(fmt::format(
         "simulated seconds a second; keys {} and {}",
-        key_of(ViewCommand::Slower),
-        key_of(ViewCommand::Faster)));
+        state.keys.name_of(ViewCommand::Slower),
+        state.keys.name_of(ViewCommand::Faster)));
 }
 
 void choose_view(ViewState& state, const flight::Session& session) {
@@ -118,11 +117,11 @@ void choose_view(ViewState& state, const flight::Session& session) {
         Choice{scene::View::Orbit, ViewCommand::Orbit},
         Choice{scene::View::Free, ViewCommand::Free}};
     for (const Choice& choice : choices) {
+        const std::string label = fmt::format(
+            "{} {}", state.keys.name_of(choice.command), settings::text_of(choice.view));
         if (choice.view != choices.front().view) {
-            ImGui::SameLine(0.0F, 4.0F * gui_scale());
+            same_line_for(checkbox_width(label.c_str()));
         }
-        const std::string label =
-            fmt::format("{} {}", key_of(choice.command), settings::text_of(choice.view));
         const bool is_it = state.wanted.view.kind == choice.view;
         if (ImGui::RadioButton(label.c_str(), is_it) && !is_it) {
             state.wanted = with_view(state.wanted, choice.view, session.camera());
@@ -132,36 +131,26 @@ void choose_view(ViewState& state, const flight::Session& session) {
     edit_settings(state.wanted, inset);
 }
 
-void show_hand_flight(const flight::Simulation& simulation) {
+void show_hand_flight(const ViewState& state, const flight::Simulation& simulation) {
     const sim::HandFlight& pilot = simulation.pilot();
-    const sim::AircraftState& at = pilot.state();
-    const auto throttle = static_cast<float>(simulation.controls().throttle);
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * value_share);
-    ImGui::ProgressBar(
-        throttle,
-        {ImGui::CalcItemWidth(), 0.0F},
-        fmt::format("{:.0f} %", 100.0F * throttle).c_str());
-    ImGui::SameLine();
-    ImGui::TextUnformatted("throttle");
-    ImGui::Text(
-        "%.0f kt  %.0f ft  %.1f g",
-        kt_from_mps(glm::length(at.velocity_mps)),
-        ft_from_m(at.position_m.z),
-        at.load_factor);
-    const ImVec4 warning{1.0F, 0.35F, 0.25F, 1.0F};
+    show_controls(
+        base::flown_as(state.wanted.path.aircraft.front()), pilot.state(), simulation.controls());
+    const char* warning = "";
+    ImVec4 colour{1.0F, 0.35F, 0.25F, 1.0F};
     if (simulation.end_of_flight()) {
-        ImGui::SameLine();
-        ImGui::TextColored(
-            warning,
-            simulation.end_of_flight() == flight::Simulation::End::OffTheMap ? "left the map"
-                                                                             : "met the ground");
+        warning = simulation.end_of_flight() == flight::Simulation::End::OffTheMap
+                      ? "left the map"
+                      : "met the ground";
+    } else if (simulation.is_levelling()) {
+        warning = "levelling off";
+        colour = ImGui::GetStyleColorVec4(ImGuiCol_Text);
     } else if (pilot.warnings().stalled) {
-        ImGui::SameLine();
-        ImGui::TextColored(warning, "STALL");
+        warning = "STALL";
     } else if (pilot.warnings().at_a_limit) {
-        ImGui::SameLine();
-        ImGui::TextColored(warning, "limit");
+        warning = "limit";
     }
+    // Always a line, so that what lies below does not jump.
+    ImGui::TextColored(colour, "%s", warning);
 }
 
 void hand_buttons(ViewState& state, const flight::Simulation& simulation) {
@@ -169,42 +158,40 @@ void hand_buttons(ViewState& state, const flight::Simulation& simulation) {
     if (ImGui::Button(by_hand ? "Back to the path###hand" : "Fly by hand###hand")) {
         state.requests.toggle_hand = true;
     }
-    explain(key_of(ViewCommand::ByHand));
+    explain(state.keys.name_of(ViewCommand::ByHand));
     if (!by_hand) {
         return;
     }
-    ImGui::SameLine();
-    if (ImGui::Button("Level off")) {
+    if (next_button("Level off")) {
         state.requests.level_off = true;
     }
-    explain(key_of(ViewCommand::LevelOff));
-    show_hand_flight(simulation);
+    explain(state.keys.name_of(ViewCommand::LevelOff));
+    show_hand_flight(state, simulation);
 }
 
 void recording_buttons(ViewState& state, const flight::Simulation& simulation) {
     if (ImGui::Button(state.recording ? "Stop recording###record" : "Record###record")) {
         state.requests.toggle_recording = true;
     }
-    explain(key_of(ViewCommand::Record));
-    ImGui::SameLine();
-    if (ImGui::Button("Screenshot")) {
+    explain(state.keys.name_of(ViewCommand::Record));
+    if (next_button("Screenshot")) {
         state.requests.screenshot = true;
     }
-    explain(key_of(ViewCommand::Screenshot));
+    explain(state.keys.name_of(ViewCommand::Screenshot));
     if (state.recording) {
-        ImGui::TextColored(
-            {1.0F, 0.35F, 0.25F, 1.0F},
+        ImGui::PushStyleColor(ImGuiCol_Text, {1.0F, 0.35F, 0.25F, 1.0F});
+        ImGui::TextWrapped(
             "%.1f s in %s",
             static_cast<double>(simulation.log().size()) * sim::step_s,
-            state.recording->c_str());
+            one_line(state.recording->string()).c_str());
+        ImGui::PopStyleColor();
     }
 }
 
 } // namespace
 
 void flight_panel(ViewState& state, flight::Session& session) {
-    const Panel panel(
-        "Flight", {{0.0F, 1.0F}, {10.0F, 10.0F}, {430.0F, 330.0F}}, state.open.flight);
+    const Panel panel("Flight", state.columns, state.open.flight);
     if (!panel.is_seen()) {
         return;
     }

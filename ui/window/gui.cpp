@@ -42,6 +42,10 @@ void set_style(float scale) {
     style.AntiAliasedFill = false;
     style.WindowBorderSize = 0.0F;
     style.Colors[ImGuiCol_WindowBg].w = 0.82F;
+    // Values are written over the grabs of their sliders.
+    constexpr float grab_alpha = 0.45F;
+    style.Colors[ImGuiCol_SliderGrab].w = grab_alpha;
+    style.Colors[ImGuiCol_SliderGrabActive].w = grab_alpha;
     style.ScaleAllSizes(scale);
     ImFontConfig font;
     font.SizePixels = std::floor(13.0F * scale);
@@ -50,11 +54,10 @@ void set_style(float scale) {
 
 } // namespace
 
-Gui::Gui(gl::WindowContext& window, const std::filesystem::path& layout_file)
-    : layout_file_(layout_file.string()) {
+Gui::Gui(gl::WindowContext& window) {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = layout_file_.empty() ? nullptr : layout_file_.c_str();
+    io.IniFilename = nullptr; // its reader trusts the file; panel_layout reads and writes ours
     io.ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
     set_style(content_scale(window.window()));
     ImGui_ImplGlfw_InitForOther(window.window(), true);

@@ -4,9 +4,7 @@
 
 #include <glm/vec2.hpp>
 
-#include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace octant::visuals::gl {
@@ -18,9 +16,8 @@ namespace octant::ui::window {
 /// Dear ImGui over a window: its context, input and drawing. One at a time in a process.
 class Gui {
 public:
-    /// The window must outlive it. `layout_file` keeps the places of panels from one run to the
-    /// next; an empty path keeps them nowhere.
-    Gui(visuals::gl::WindowContext& window, const std::filesystem::path& layout_file);
+    /// The window must outlive it.
+    explicit Gui(visuals::gl::WindowContext& window);
     ~Gui();
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
@@ -44,7 +41,6 @@ public:
     bool wants_keys() const;
 
 private:
-    std::string layout_file_;
     std::optional<visuals::gl::PanelPainter> painter_;
     std::vector<visuals::gl::PanelDraw> draws_;
 };

@@ -9,29 +9,58 @@
 
 namespace octant::ui::window {
 
-Panel::Panel(const char* title, const PanelPlace& place, bool& open) {
+Panel::Panel(const char* title, PanelColumns& columns, bool& open)
+    : title_(title)
+    , columns_(columns) {
     if (!open) {
         return;
     }
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const float scale = gui_scale();
-    const auto along = [scale](float corner, float inset, float extent) {
-        return corner * extent + (1.0F - 2.0F * corner) * inset * scale;
-    };
-    ImGui::SetNextWindowPos(
-        {along(place.corner.x, place.inset.x, display.x),
-         along(place.corner.y, place.inset.y, display.y)},
-        ImGuiCond_FirstUseEver,
-        place.corner);
-    ImGui::SetNextWindowSize({place.size.x * scale, place.size.y * scale}, ImGuiCond_FirstUseEver);
+    if (const auto rect = columns.put(title)) {
+        ImGui::SetNextWindowPos({rect->at.x, rect->at.y});
+        ImGui::SetNextWindowSize({rect->size.x, rect->size.y});
+    }
     begun_ = true;
-    seen_ = ImGui::Begin(title, &open);
+    seen_ = ImGui::Begin(title, &open, ImGuiWindowFlags_NoCollapse);
+    const ImVec2 at = ImGui::GetWindowPos();
+    const ImVec2 size = ImGui::GetWindowSize();
+    columns.lies(title, {{at.x, at.y}, {size.x, size.y}});
 }
 
 Panel::~Panel() {
+    if (seen_) {
+        const ImGuiStyle& style = ImGui::GetStyle();
+        columns_.wants(
+            title_, ImGui::GetCursorPosY() - style.ItemSpacing.y + style.WindowPadding.y);
+    }
     if (begun_) {
         ImGui::End();
     }
+}
+
+float value_width() {
+    constexpr float widest_name_letters = 18.0F;
+    constexpr float least_share = 0.4F;
+    const float all = ImGui::GetContentRegionAvail().x;
+    const float name = widest_name_letters * ImGui::CalcTextSize("n").x;
+    return std::max(least_share * all, all - name);
+}
+
+void same_line_for(float width) {
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    if (ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width <= right) {
+        ImGui::SameLine();
+    }
+}
+
+float checkbox_width(const char* label) {
+    return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x +
+           ImGui::CalcTextSize(label, nullptr, true).x;
+}
+
+bool next_button(const char* label) {
+    const float text = ImGui::CalcTextSize(label, nullptr, true).x;
+    same_line_for(text + 2.0F * ImGui::GetStyle().FramePadding.x);
+    return ImGui::Button(label);
 }
 
 float gui_scale() {
@@ -52,16 +81,6 @@ void explain(std::string_view text) {
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
         show_tooltip(std::string(text));
     }
-}
-
-std::string_view key_of(ViewCommand command) {
-    const auto keys = view_keys();
-    const auto found = std::ranges::find(keys, command, &ViewKey::command);
-    return found == keys.end() ? std::string_view() : found->name;
-}
-
-std::string with_key(std::string_view text, ViewCommand command) {
-    return fmt::format("{} ({})", text, key_of(command));
 }
 
 std::optional<std::string>
@@ -87,6 +106,7 @@ void count_slider(std::vector<std::string>& aircraft) {
     constexpr int most = 100;
     const int count = static_cast<int>(aircraft.size());
     int& wanted = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("wanted count"), count);
+    ImGui::SetNextItemWidth(value_width());
     ImGui::SliderInt(
         "aircraft", &wanted, 1, std::max(most, count), "%d", ImGuiSliderFlags_AlwaysClamp);
     explain("the leader and wingmen of the same kind beside it");

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/window/view_keys.h"
+#include "ui/window/panel_columns.h"
 
 #include <imgui.h>
 
@@ -11,21 +11,11 @@
 
 namespace octant::ui::window {
 
-/// Where a panel lies before a person moves it. Sizes are those at a font of 13 pixels.
-struct PanelPlace {
-    /// The corner of the panel that lies in the same corner of the window, from 0,0 (upper left) to
-    /// 1,1 (lower right).
-    ImVec2 corner;
-    /// Distance of the panel from that corner, towards the middle of the window.
-    ImVec2 inset;
-    ImVec2 size;
-};
-
 /// A panel, whose widgets are made while this object lives. The cross in its title closes it and
-/// sets `open` to false.
+/// sets `open` to false. It lies where the columns have it, which are told how high it would be.
 class Panel {
 public:
-    Panel(const char* title, const PanelPlace& place, bool& open);
+    Panel(const char* title, PanelColumns& columns, bool& open);
     ~Panel();
     Panel(const Panel&) = delete;
     Panel& operator=(const Panel&) = delete;
@@ -36,13 +26,24 @@ public:
     bool is_seen() const { return seen_; }
 
 private:
+    const char* title_;
+    PanelColumns& columns_;
     bool begun_ = false;
     bool seen_ = false;
 };
 
-/// Shares of a panel's width that the widget of a value takes; its name stands beside it.
-inline constexpr float value_share = 0.55F;
-inline constexpr float wide_share = 0.85F;
+/// Returns the width of the widget of a value whose name stands beside it.
+float value_width();
+
+/// Makes what comes next stand in the same line, where `width` more fits there.
+void same_line_for(float width);
+
+/// Returns the width of a check box or radio button with its name.
+float checkbox_width(const char* label);
+
+/// Makes a button in the same line as what stands before it, or in the next one where it does not
+/// fit. Returns whether it was pressed.
+bool next_button(const char* label);
 
 /// Returns how many times larger everything is than at a font of 13 pixels.
 float gui_scale();
@@ -51,12 +52,6 @@ void show_tooltip(const std::string& text);
 
 /// Shows a tooltip while the pointer is over the widget made last, which may be disabled.
 void explain(std::string_view text);
-
-/// Returns the name of the key that gives a command, as written on it, such as "Space".
-std::string_view key_of(ViewCommand command);
-
-/// Returns "text (key)" for labels of buttons.
-std::string with_key(std::string_view text, ViewCommand command);
 
 /// Makes a field of text. Returns what was typed when Enter is pressed, else nothing.
 std::optional<std::string>

@@ -18,9 +18,11 @@ void scene_panel(ViewState& state, const flight::Session& session);
 void settings_panel(ViewState& state);
 void help_panel(ViewState& state);
 void first_steps_panel(ViewState& state);
+void leave_question(ViewState& state);
 
-/// Makes the line of status marks (recording, paused, by hand) and the line of the last message.
-void status_line(const ViewState& state, flight::Session& session, double now_s);
+/// Makes the line of status marks (recording, paused, by hand) and the line of the last message,
+/// between the columns of panels. Returns how much of the window's height they take.
+float status_line(const ViewState& state, flight::Session& session, double now_s);
 
 /// Writes the painting order of the first aircraft's polygons on those that face the eye.
 void write_order_numbers(const flight::Session& session);

@@ -98,6 +98,19 @@ double throttle_after(double before, const PilotDevices& devices, double passed_
 
 } // namespace
 
+bool moves_controls(const PilotDevices& devices) {
+    const PilotKeys& keys = devices.keys;
+    const bool by_keys = keys.pull || keys.push || keys.roll_left || keys.roll_right ||
+                         keys.yaw_left || keys.yaw_right || keys.throttle_up || keys.throttle_down;
+    const Stick stick = stick_of(devices);
+    const bool by_stick = stick.pitch != 0.0 || stick.roll != 0.0 || stick.yaw != 0.0;
+    const bool by_pad = devices.gamepad && (devices.gamepad->buttons[left_bumper] != 0 ||
+                                            devices.gamepad->buttons[right_bumper] != 0 ||
+                                            shaped_axis(trigger(devices.gamepad->axes[4])) != 0.0 ||
+                                            shaped_axis(trigger(devices.gamepad->axes[5])) != 0.0);
+    return by_keys || by_stick || by_pad;
+}
+
 double shaped_axis(double axis) {
     const double size = std::min(std::isnan(axis) ? 0.0 : std::abs(axis), 1.0);
     if (size <= dead_zone) {

@@ -65,6 +65,10 @@ struct PilotDevices {
 sim::PilotControls
 controls_after(const sim::PilotControls& before, const PilotDevices& devices, double passed_s);
 
+/// Whether a pilot's hand is on any of the devices: a key held, or a stick or trigger out of its
+/// dead zone.
+bool moves_controls(const PilotDevices& devices);
+
 /// Returns an axis of a stick without its dead zone and finer about the centre: an odd, rising
 /// function that is 0 within the dead zone and 1 at 1. NaN gives 0.
 double shaped_axis(double axis);

@@ -1,9 +1,12 @@
 #include "ui/window/plot.h"
 
 #include "ui/window/frame_history.h"
+#include "ui/window/panel_parts.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <string>
 
 namespace octant::ui::window {
 
@@ -76,15 +79,11 @@ void stacked_bar(std::span<const BarPart> parts, double whole, const char* unit)
     }
     ImGui::Dummy(size);
     for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::string text = fmt::format("{} {:.2f} {}", parts[i].name, parts[i].value, unit);
         if (i > 0) {
-            ImGui::SameLine();
+            same_line_for(ImGui::CalcTextSize(text.c_str()).x);
         }
-        ImGui::TextColored(
-            ImGui::ColorConvertU32ToFloat4(parts[i].colour),
-            "%s %.2f %s",
-            parts[i].name,
-            parts[i].value,
-            unit);
+        ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(parts[i].colour), "%s", text.c_str());
     }
 }
 

@@ -40,11 +40,13 @@ void time_of_day(settings::RunSettings& settings, double latitude_deg) {
     ImGuiStorage& storage = *ImGui::GetStateStorage();
     float& hour = *storage.GetFloatRef(ImGui::GetID("hour"), noon);
     int& day = *storage.GetIntRef(ImGui::GetID("day of year"), spring_equinox);
+    ImGui::SetNextItemWidth(value_width());
     bool changed = ImGui::SliderFloat("time of day", &hour, 0.0F, 24.0F, clock_text(hour).c_str());
     explain(fmt::format(
         "the sun's own time at latitude {:.1f}; sets its azimuth and elevation. At night it stays "
         "on the horizon.",
         latitude_deg));
+    ImGui::SetNextItemWidth(value_width());
     changed = ImGui::SliderInt("day of year", &day, 1, 365) || changed;
     explain("80: spring equinox, 172: midsummer, 355: midwinter of the northern half");
     if (changed) {
@@ -58,7 +60,7 @@ void time_of_day(settings::RunSettings& settings, double latitude_deg) {
 } // namespace
 
 void scene_panel(ViewState& state, const flight::Session& session) {
-    const Panel panel("Scene", {{1.0F, 0.0F}, {360.0F, 60.0F}, {330.0F, 340.0F}}, state.open.scene);
+    const Panel panel("Scene", state.columns, state.open.scene);
     if (!panel.is_seen()) {
         return;
     }

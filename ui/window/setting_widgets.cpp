@@ -26,7 +26,7 @@ public:
         : info_(info) {
         ImGui::PushID(info.name.data(), info.name.data() + info.name.size());
         ImGui::BeginGroup();
-        width_ = ImGui::GetContentRegionAvail().x * value_share;
+        width_ = value_width();
         ImGui::SetNextItemWidth(width_);
     }
 

@@ -33,8 +33,7 @@ void save_and_load(ViewState& state) {
 } // namespace
 
 void settings_panel(ViewState& state) {
-    const Panel panel(
-        "Settings", {{0.0F, 0.0F}, {450.0F, 60.0F}, {360.0F, 420.0F}}, state.open.settings);
+    const Panel panel("Settings", state.columns, state.open.settings);
     if (!panel.is_seen()) {
         return;
     }

@@ -1,9 +1,14 @@
+#include "sim/base/utf8.h"
+#include "ui/flight/inset_view.h"
 #include "ui/window/panel_parts.h"
 #include "ui/window/panels.h"
 #include "ui/window/status_marks.h"
 
-#include <cstddef>
+#include <glm/common.hpp>
+
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace octant::ui::window {
 
@@ -17,25 +22,68 @@ std::optional<HandStatus> hand_status(const flight::Simulation& simulation) {
     return HandStatus{
         simulation.pilot().warnings(),
         end.has_value(),
-        end.has_value() && *end == flight::Simulation::End::OffTheMap};
+        end.has_value() && *end == flight::Simulation::End::OffTheMap,
+        simulation.is_levelling()};
 }
 
 const ImVec4 warning_colour{1.0F, 0.35F, 0.25F, 1.0F};
 const ImVec4 mark_colour{1.0F, 0.95F, 0.7F, 1.0F};
 
+/// Makes a text that is broken where it is wider than `most`.
+void show_wrapped(const std::string& text, float most) {
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + most);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+}
+
+/// Makes the marks in a line, or in lines no wider than `most`.
+void show_marks(const std::vector<StatusMark>& marks, float most) {
+    const float gap = ImGui::GetFontSize();
+    float used = 0.0F;
+    for (const StatusMark& mark : marks) {
+        const std::string text = one_line(mark.text);
+        const float width = ImGui::CalcTextSize(text.c_str()).x;
+        if (used > 0.0F && used + gap + width <= most) {
+            ImGui::SameLine(0.0F, gap);
+            used += gap + width;
+        } else {
+            used = width;
+        }
+        ImGui::PushStyleColor(ImGuiCol_Text, mark.warns ? warning_colour : mark_colour);
+        show_wrapped(text, most);
+        ImGui::PopStyleColor();
+    }
+}
+
+/// What the panels have to lie in.
+PanelRoom room_of(const ViewState& state, float status_height) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    PanelRoom room{{size.x, size.y}, gui_scale(), status_height, glm::vec2(0.0F)};
+    if (state.wanted.view.inset) {
+        const glm::ivec2& picture_px = state.wanted.view.size_px;
+        const auto inset = flight::inset_rectangle(picture_px);
+        const glm::vec2 share = glm::vec2(picture_px - glm::ivec2(inset.x, inset.y)) /
+                                glm::max(glm::vec2(picture_px), glm::vec2(1.0F));
+        constexpr float frame = 4.0F;
+        room.inset = share * room.size + frame;
+    }
+    return room;
+}
+
 } // namespace
 
-void status_line(const ViewState& state, flight::Session& session, double now_s) {
+float status_line(const ViewState& state, flight::Session& session, double now_s) {
     const auto marks = status_marks(state, hand_status(session.simulation()));
     const bool speaks = now_s < state.message.until_s && !state.message.text.empty();
     if (marks.empty() && !speaks) {
-        return;
+        return 0.0F;
     }
     constexpr float from_top = 6.0F;
     constexpr float ground_alpha = 0.45F;
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos(
-        {display.x * 0.5F, from_top * gui_scale()}, ImGuiCond_Always, {0.5F, 0.0F});
+    const float top = from_top * gui_scale();
+    const float display = ImGui::GetIO().DisplaySize.x;
+    const auto [left, width] = state.columns.middle().value_or(Middle{0.0F, display});
+    ImGui::SetNextWindowPos({left + 0.5F * width, top}, ImGuiCond_Always, {0.5F, 0.0F});
     ImGui::SetNextWindowBgAlpha(ground_alpha);
     ImGui::Begin(
         "##status",
@@ -43,24 +91,23 @@ void status_line(const ViewState& state, flight::Session& session, double now_s)
         ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
             ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
             ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
-    for (std::size_t i = 0; i < marks.size(); ++i) {
-        if (i > 0) {
-            ImGui::SameLine(0.0F, ImGui::GetFontSize());
-        }
-        ImGui::TextColored(
-            marks[i].warns ? warning_colour : mark_colour, "%s", marks[i].text.c_str());
-    }
+    const float most = width - 2.0F * ImGui::GetStyle().WindowPadding.x;
+    show_marks(marks, most);
     if (speaks) {
-        ImGui::TextUnformatted(state.message.text.c_str());
+        show_wrapped(one_line(state.message.text), most);
     }
+    const float height = ImGui::GetWindowSize().y;
     ImGui::End();
+    return top + height;
 }
 
 void all_panels(ViewState& state, flight::Session& session, double now_s) {
     if (state.order_numbers) {
         write_order_numbers(session);
     }
-    status_line(state, session, now_s);
+    const float status_height = status_line(state, session, now_s);
+    state.columns.lay_out(state.open, room_of(state, status_height));
+    leave_question(state);
     if (!state.open.shown) {
         return;
     }

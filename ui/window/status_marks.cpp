@@ -10,11 +10,15 @@ status_marks(const ViewState& state, const std::optional<HandStatus>& hand) {
     if (state.recording) {
         marks.push_back({fmt::format("REC {}", state.recording->string()), true});
     }
-    if (!state.playback.playing) {
+    if (!state.playback.playing && !(hand && hand->ended)) {
         marks.push_back({"paused"});
     }
-    if (state.playback.speed != 1.0) {
-        marks.push_back({fmt::format("x{:.3g}", state.playback.speed)});
+    const double speed = state.playback.speed;
+    if (speed != 1.0) {
+        marks.push_back({fmt::format("x{:.3g}", speed)});
+    }
+    if (state.playback.playing && state.pace.share() < full_pace) {
+        marks.push_back({fmt::format("x{:.2f} of real time", speed * state.pace.share()), true});
     }
     if (!hand) {
         return marks;
@@ -23,6 +27,9 @@ status_marks(const ViewState& state, const std::optional<HandStatus>& hand) {
     if (hand->ended) {
         marks.push_back({hand->off_the_map ? "LEFT THE MAP" : "MET THE GROUND", true});
         return marks;
+    }
+    if (hand->levelling) {
+        marks.push_back({"levelling off"});
     }
     if (hand->warnings.stalled) {
         marks.push_back({"STALL", true});

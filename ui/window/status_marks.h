@@ -22,10 +22,12 @@ struct HandStatus {
     bool ended = false;
     /// The flight ended because the aircraft left the map.
     bool off_the_map = false;
+    /// It is being flown level (Simulation::level_off).
+    bool levelling = false;
 };
 
-/// Returns those of the marks "REC folder", "paused", "x0.5", "by hand", "STALL", ... that hold
-/// now, in this order.
+/// Returns those of the marks "REC folder", "paused", "x0.5", "x0.67 of real time", "by hand",
+/// "STALL", ... that hold now, in this order.
 std::vector<StatusMark> status_marks(const ViewState& state, const std::optional<HandStatus>& hand);
 
 } // namespace octant::ui::window

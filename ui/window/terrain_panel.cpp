@@ -79,8 +79,7 @@ void show_counts(const FrameRecord& last) {
 } // namespace
 
 void terrain_panel(ViewState& state, const flight::Session& session) {
-    const Panel panel(
-        "Terrain", {{1.0F, 0.0F}, {10.0F, 10.0F}, {340.0F, 390.0F}}, state.open.terrain);
+    const Panel panel("Terrain", state.columns, state.open.terrain);
     if (!panel.is_seen()) {
         return;
     }

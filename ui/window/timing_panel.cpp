@@ -133,8 +133,7 @@ void show_clock(std::span<const FrameRecord> records) {
 } // namespace
 
 void timing_panel(ViewState& state) {
-    const Panel panel(
-        "Frame times", {{0.0F, 0.0F}, {10.0F, 10.0F}, {380.0F, 260.0F}}, state.open.timing);
+    const Panel panel("Frame times", state.columns, state.open.timing);
     if (!panel.is_seen()) {
         return;
     }

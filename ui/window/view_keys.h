@@ -40,29 +40,50 @@ enum class ViewCommand {
     Leave
 };
 
-/// A key and the command that it gives.
+/// A command, the key that gives it unless a person chose another, and its line in the help.
 struct ViewKey {
+    ViewCommand command = ViewCommand::Leave;
     /// One of GLFW_KEY_...
     int key = 0;
-    ViewCommand command = ViewCommand::Leave;
-    /// The name as written on the key.
-    std::string_view name;
-    /// One line for the help.
+    /// The command in the file of keys.
+    std::string_view id;
     std::string_view meaning;
     /// The command is given again and again while the key is held.
     bool repeats = false;
 };
 
-/// Returns all keys that give commands, in the order of the help.
+/// Returns all commands, in the order of the help.
 std::span<const ViewKey> view_keys();
 
-/// Keys and mouse buttons that act as long as they are held.
+/// What keys do as long as they are held.
+enum class HeldAction {
+    Pull,
+    Push,
+    RollLeft,
+    RollRight,
+    ThrottleUp,
+    ThrottleDown,
+    YawLeft,
+    YawRight,
+    CameraAhead,
+    CameraBack,
+    CameraLeft,
+    CameraRight,
+    CameraDown,
+    CameraUp,
+    CameraFast
+};
+
+/// An action and the key that does it unless a person chose another.
 struct HeldKey {
-    std::string_view name;
+    HeldAction action = HeldAction::Pull;
+    int key = 0;
+    std::string_view id;
+    /// What this key and those before it without one do; empty where the next line tells it.
     std::string_view meaning;
 };
 
-/// Returns all keys and mouse buttons that act while they are held, in the order of the help.
+/// Returns all actions, in the order of the help.
 std::span<const HeldKey> held_keys();
 
 } // namespace octant::ui::window

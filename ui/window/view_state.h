@@ -2,29 +2,18 @@
 
 #include "ui/settings/settings.h"
 #include "ui/window/frame_history.h"
+#include "ui/window/key_map.h"
+#include "ui/window/open_panels.h"
+#include "ui/window/pace.h"
+#include "ui/window/panel_columns.h"
 #include "ui/window/playback.h"
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace octant::ui::window {
-
-/// Which panels are open.
-struct OpenPanels {
-    /// While this is false, no panel is shown.
-    bool shown = true;
-    bool flight = true;
-    bool timing = false;
-    bool terrain = false;
-    bool draw_order = false;
-    bool aircraft = false;
-    bool scene = false;
-    bool settings = false;
-    bool help = false;
-    /// A panel of three lines on how to begin.
-    bool first_steps = false;
-};
 
 /// What panels and keys ask for beside settings. The viewer fulfils requests before the next frame
 /// and clears them.
@@ -37,7 +26,10 @@ struct ViewRequests {
     bool toggle_recording = false;
     bool screenshot = false;
     bool toggle_full_screen = false;
+    bool write_keys = false;
     bool leave = false;
+    /// Leave although a recording is being made, which is ended whole.
+    bool leave_recording = false;
     /// Compare the picture once with one that a depth buffer gives.
     bool count_wrong_pixels = false;
     std::optional<std::filesystem::path> save_settings;
@@ -65,6 +57,13 @@ struct ViewState {
     settings::RunSettings wanted;
     Playback playback;
     OpenPanels open;
+    PanelColumns columns;
+    KeyMap keys;
+    /// Where a person's own keys are read from, and what was wrong in it; empty where nothing is
+    /// kept.
+    std::filesystem::path keys_file;
+    bool keys_file_is_there = false;
+    std::vector<std::string> key_faults;
     ViewRequests requests;
     FrameHistory history;
     ViewMessage message;
@@ -72,6 +71,7 @@ struct ViewState {
     bool order_numbers = false;
     std::optional<WrongPixels> wrong_pixels;
     bool vsync = true;
+    Pace pace;
     /// The file in which the settings panel saves settings and from which it loads them.
     std::string settings_file = "settings.json";
     /// The folder of the recording that is being made, if any.

@@ -1,8 +1,11 @@
 #include "ui/window/viewer.h"
 
 #include "sim/base/error.h"
+#include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
+#include "ui/base/progress.h"
 #include "ui/flight/make_renderer.h"
 #include "ui/settings/settings_change.h"
 #include "ui/window/gui.h"
@@ -33,6 +36,8 @@ namespace {
 /// Longer turns count as this long, so that the flight does not jump.
 constexpr double longest_turn_s = 0.25;
 constexpr double message_s = 5.0;
+constexpr double save_layout_every_s = 5.0;
+constexpr std::size_t largest_layout_bytes = std::size_t{64} << 10;
 
 std::unique_ptr<gl::WindowContext> open_window(const ViewOptions& options) {
     return gl::make_window_context({.size = options.settings.view.size_px, .title = "Octant"});
@@ -83,8 +88,9 @@ Viewer::Viewer(const ViewOptions& options)
         gui_->draw(input_->size_px());
         context_->swap_buffers();
     });
-    keep_layout();
-    gui_ = std::make_unique<Gui>(*context_, layout_file(options_.keeps_into));
+    read_layout();
+    read_keys();
+    gui_ = std::make_unique<Gui>(*context_);
     refresh_hz_ = refresh_hz_of(glfwGetPrimaryMonitor());
     state_.wanted = settings;
     state_.vsync = options.vsync;
@@ -92,7 +98,7 @@ Viewer::Viewer(const ViewOptions& options)
     restart_playback();
     if (options.by_hand) {
         toggle_hand();
-        session_->simulation().level_off(base::flown_as(settings.path.aircraft.front()));
+        session_->simulation().start_level();
     }
     if (options.full_screen) {
         toggle_full_screen();
@@ -108,15 +114,48 @@ Viewer::Viewer(const ViewOptions& options)
 
 /// Shows the first steps once for each user. Where the user's folder cannot be written, nothing is
 /// kept and the viewer works all the same.
-void Viewer::keep_layout() {
+void Viewer::read_layout() {
+    if (options_.keeps_into.empty()) {
+        return;
+    }
+    const fs::path file = layout_file(options_.keeps_into);
+    try {
+        make_folder(options_.keeps_into);
+        state_.open.first_steps = !is_there(file);
+        if (!state_.open.first_steps) {
+            saved_layout_ = layout_from(read_text_file(file, largest_layout_bytes));
+            state_.columns.choose(*saved_layout_);
+        }
+    } catch (const Error&) {
+        // Panels lie where they lie for a new user; the file is written anew.
+    }
+}
+
+/// Lines of the file of keys that are wrong are told and left out.
+void Viewer::read_keys() {
+    if (options_.keeps_into.empty()) {
+        return;
+    }
+    state_.keys_file = options_.keeps_into / "keys";
+    state_.keys_file_is_there = is_there(state_.keys_file);
+    KeyMapFile read = read_key_map(state_.keys_file);
+    state_.keys = std::move(read.keys);
+    state_.key_faults = std::move(read.faults);
+    input_->look_by(state_.keys.look_button);
+    for (const std::string& fault : state_.key_faults) {
+        base::say(false, fault);
+    }
+}
+
+void Viewer::save_layout() noexcept {
+    layout_saved_s_ = last_turn_s_;
     if (options_.keeps_into.empty()) {
         return;
     }
     try {
-        make_folder(options_.keeps_into);
-        std::error_code ignored;
-        state_.open.first_steps = !fs::exists(layout_file(options_.keeps_into), ignored);
-    } catch (const Error&) {
+        saved_layout_ = state_.columns.chosen();
+        write_file(layout_file(options_.keeps_into), text_of_layout(*saved_layout_));
+    } catch (const std::exception&) {
         options_.keeps_into.clear();
     }
 }
@@ -126,6 +165,7 @@ GLFWwindow* Viewer::window() const {
 }
 
 Viewer::~Viewer() {
+    save_layout();
     try {
         finish_recording();
     } catch (const std::exception&) {
@@ -148,7 +188,11 @@ void Viewer::restart_playback() {
 
 bool Viewer::turn() {
     const double now_s = clock_.s();
-    const double wall_s = std::min(now_s - last_turn_s_, longest_turn_s);
+    const double passed_s = now_s - last_turn_s_;
+    const double wall_s = std::min(passed_s, longest_turn_s);
+    if (state_.playback.playing) {
+        state_.pace.add(passed_s, wall_s);
+    }
     last_turn_s_ = now_s;
     if (std::exchange(waits_, state_.vsync) != state_.vsync) {
         context_->wait_for_refresh(state_.vsync);
@@ -173,7 +217,26 @@ bool Viewer::turn() {
     }
     draw();
     wait_for_display(now_s);
-    return !state_.requests.leave && glfwWindowShouldClose(context_->window()) == GLFW_FALSE;
+    if (now_s - layout_saved_s_ > save_layout_every_s && state_.columns.chosen() != saved_layout_) {
+        save_layout();
+    }
+    return !is_to_close();
+}
+
+/// Whether the window was told to close. While a recording is being made, the first time only asks.
+bool Viewer::is_to_close() {
+    const bool by_display = glfwWindowShouldClose(window()) != GLFW_FALSE;
+    if (!by_display && !state_.requests.leave && !state_.requests.leave_recording) {
+        return false;
+    }
+    const bool asked = state_.open.leave_question && by_display;
+    if (!recording_ || asked || state_.requests.leave_recording) {
+        return true;
+    }
+    state_.requests.leave = false;
+    state_.open.leave_question = true;
+    glfwSetWindowShouldClose(window(), GLFW_FALSE);
+    return false;
 }
 
 /// Makes the picture as large as the window. Nothing changes while the window is minimised.
@@ -208,14 +271,16 @@ void Viewer::take_events(double wall_s) {
 }
 
 void Viewer::move_free_camera(double wall_s) {
-    const auto sense = [&](int more, int less) {
-        return static_cast<int>(input_->is_down(more)) - static_cast<int>(input_->is_down(less));
+    using A = HeldAction;
+    const auto is_down = [&](A action) { return input_->is_down(state_.keys.key_of(action)); };
+    const auto sense = [&](A more, A less) {
+        return static_cast<int>(is_down(more)) - static_cast<int>(is_down(less));
     };
     const FreeMove move{
-        .right = sense(GLFW_KEY_D, GLFW_KEY_A),
-        .up = sense(GLFW_KEY_E, GLFW_KEY_Q),
-        .ahead = sense(GLFW_KEY_W, GLFW_KEY_S),
-        .fast = input_->is_down(GLFW_KEY_LEFT_SHIFT)};
+        .right = sense(A::CameraRight, A::CameraLeft),
+        .up = sense(A::CameraUp, A::CameraDown),
+        .ahead = sense(A::CameraAhead, A::CameraBack),
+        .fast = is_down(A::CameraFast)};
     state_.wanted = moved(state_.wanted, move, wall_s);
 }
 
@@ -224,9 +289,12 @@ void Viewer::fly_by_hand(double wall_s, bool typing) {
     if (!simulation.by_hand()) {
         return;
     }
-    PilotDevices devices = input_->pilot_devices();
+    PilotDevices devices = input_->pilot_devices(state_.keys);
     if (typing) {
         devices.keys = {};
+    }
+    if (simulation.is_levelling() && !moves_controls(devices)) {
+        return;
     }
     simulation.set_controls(controls_after(simulation.controls(), devices, wall_s));
 }

@@ -3,6 +3,7 @@
 #include "ui/base/stopwatch.h"
 #include "ui/flight/session.h"
 #include "ui/settings/settings.h"
+#include "ui/window/panel_layout.h"
 #include "ui/window/pilot_input.h"
 #include "ui/window/view_keys.h"
 #include "ui/window/view_state.h"
@@ -73,7 +74,10 @@ public:
 
 private:
     void take_events(double wall_s);
-    void keep_layout();
+    void read_layout();
+    void read_keys();
+    void save_layout() noexcept;
+    bool is_to_close();
     void press(const WindowEvents::Key& key);
     void command(ViewCommand what);
     bool view_command(ViewCommand what);
@@ -119,6 +123,9 @@ private:
     /// When the last picture was shown.
     double presented_s_ = 0.0;
     double refresh_hz_ = 60.0;
+    /// What the file has; nothing where there is none yet.
+    std::optional<PanelLayout> saved_layout_;
+    double layout_saved_s_ = 0.0;
     /// The driver waits for the display's refresh.
     bool waits_ = false;
     /// Place and size of the window before it filled the screen.

@@ -1,4 +1,5 @@
 #include "sim/base/error.h"
+#include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
 #include "ui/base/data_files.h"
 #include "ui/flight/flight_recorder.h"
@@ -46,9 +47,8 @@ void next_mesh_look(settings::RunSettings& settings) {
 } // namespace
 
 void Viewer::press(const WindowEvents::Key& key) {
-    const auto found = std::ranges::find(view_keys(), key.key, &ViewKey::key);
-    if (found != view_keys().end() && (found->repeats || !key.repeats)) {
-        command(found->command);
+    if (const auto what = state_.keys.command_of(key.key, key.repeats)) {
+        command(*what);
     }
 }
 
@@ -156,7 +156,8 @@ void Viewer::flight_command(ViewCommand what) {
         requests.toggle_full_screen = true;
         return;
     case C::Leave:
-        requests.leave = !std::exchange(state_.open.help, false);
+        requests.leave = !std::exchange(state_.open.leave_question, false) &&
+                         !std::exchange(state_.open.help, false);
         return;
     default:
         return;
@@ -166,6 +167,7 @@ void Viewer::flight_command(ViewCommand what) {
 void Viewer::take_requests() {
     const ViewRequests requests = std::exchange(state_.requests, ViewRequests());
     state_.requests.leave = requests.leave;
+    state_.requests.leave_recording = requests.leave_recording;
     take_flight_requests(requests);
     if (requests.toggle_recording) {
         toggle_recording();
@@ -180,6 +182,11 @@ void Viewer::take_requests() {
         count_wrong_pixels();
     }
     try {
+        if (requests.write_keys) {
+            write_file(state_.keys_file, text_of_key_map(state_.keys));
+            state_.keys_file_is_there = true;
+            say(fmt::format("keys: {}", state_.keys_file.string()));
+        }
         if (requests.save_settings) {
             settings::RunSettings saved = world::with_absolute_files(session_->settings());
             saved.drawing.context = settings::ContextKind::OsMesa;
@@ -202,7 +209,7 @@ void Viewer::take_flight_requests(const ViewRequests& requests) {
     }
     flight::Simulation& simulation = session_->simulation();
     if (requests.level_off && simulation.by_hand()) {
-        simulation.level_off(base::flown_as(session_->settings().path.aircraft.front()));
+        simulation.level_off();
         state_.playback.playing = true;
     }
     if (requests.step_frame) {
@@ -237,9 +244,17 @@ void Viewer::toggle_hand() {
         const sim::AircraftKind& kind = base::flown_as(aircraft);
         simulation.take_over(kind);
         state_.playback.playing = true;
+        const KeyMap& keys = state_.keys;
         say(fmt::format(
-            "by hand{}: arrows fly, Page Up and Page Down are the throttle, H gives it back",
-            aircraft == kind.name ? "" : fmt::format(" as an {}", kind.name)));
+            "by hand{}: {}, {}, {} and {} are the stick, {} and {} the throttle, {} gives it back",
+            aircraft == kind.name ? "" : fmt::format(" as an {}", kind.name),
+            keys.name_of(HeldAction::Pull),
+            keys.name_of(HeldAction::Push),
+            keys.name_of(HeldAction::RollLeft),
+            keys.name_of(HeldAction::RollRight),
+            keys.name_of(HeldAction::ThrottleUp),
+            keys.name_of(HeldAction::ThrottleDown),
+            keys.name_of(ViewCommand::ByHand)));
         return;
     }
     go_to(state_.playback.time_s);
@@ -249,8 +264,7 @@ void Viewer::toggle_hand() {
 fs::path Viewer::unused_path(const std::string& stem, const std::string& ending) const {
     for (int number = 1;; ++number) {
         const fs::path path = options_.records_into / fmt::format("{}-{}{}", stem, number, ending);
-        std::error_code ignored;
-        if (!fs::exists(path, ignored)) {
+        if (!is_there(path)) {
             return path;
         }
     }

@@ -4,6 +4,8 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
 #include <utility>
 
 namespace octant::ui::window {
@@ -37,7 +39,7 @@ WindowInput::WindowInput(GLFWwindow* window)
 }
 
 void WindowInput::move_pointer(const glm::vec2& to) {
-    if (glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS) {
+    if (glfwGetMouseButton(window_, look_button_) == GLFW_PRESS) {
         events_.dragged += to - pointer_;
     }
     pointer_ = to;
@@ -48,21 +50,22 @@ WindowEvents WindowInput::take() {
 }
 
 bool WindowInput::is_down(int key) const {
-    return glfwGetKey(window_, key) == GLFW_PRESS;
+    return key != GLFW_KEY_UNKNOWN && glfwGetKey(window_, key) == GLFW_PRESS;
 }
 
-PilotDevices WindowInput::pilot_devices() const {
+PilotDevices WindowInput::pilot_devices(const KeyMap& keys) const {
     PilotDevices devices;
+    const auto is_held = [&](HeldAction action) { return is_down(keys.key_of(action)); };
     devices.keys = {
-        .pull = is_down(GLFW_KEY_DOWN),
-        .push = is_down(GLFW_KEY_UP),
-        .roll_left = is_down(GLFW_KEY_LEFT),
-        .roll_right = is_down(GLFW_KEY_RIGHT),
-        .yaw_left = is_down(GLFW_KEY_Z),
-        .yaw_right = is_down(GLFW_KEY_X),
-        .throttle_up = is_down(GLFW_KEY_PAGE_UP),
-        .throttle_down = is_down(GLFW_KEY_PAGE_DOWN)};
-    if (glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS) {
+        .pull = is_held(HeldAction::Pull),
+        .push = is_held(HeldAction::Push),
+        .roll_left = is_held(HeldAction::RollLeft),
+        .roll_right = is_held(HeldAction::RollRight),
+        .yaw_left = is_held(HeldAction::YawLeft),
+        .yaw_right = is_held(HeldAction::YawRight),
+        .throttle_up = is_held(HeldAction::ThrottleUp),
+        .throttle_down = is_held(HeldAction::ThrottleDown)};
+    if (glfwGetMouseButton(window_, keys.stick_button) == GLFW_PRESS) {
         constexpr double full_share = 0.4;
         const glm::dvec2 window(size());
         devices.cursor = {
@@ -72,15 +75,13 @@ PilotDevices WindowInput::pilot_devices() const {
         GLFWgamepadstate gamepad;
         if (!devices.gamepad && glfwGetGamepadState(id, &gamepad) == GLFW_TRUE) {
             devices.gamepad.emplace();
-            std::ranges::copy(gamepad.axes, devices.gamepad->axes.begin());
+            devices.gamepad->axes = gamepad_axes(keys, gamepad.axes);
             std::ranges::copy(gamepad.buttons, devices.gamepad->buttons.begin());
         } else if (!devices.joystick && glfwJoystickPresent(id) == GLFW_TRUE) {
             int axes = 0;
             const float* const values = glfwGetJoystickAxes(id, &axes);
-            devices.joystick.emplace();
-            devices.joystick->axis_count =
-                std::min(axes, static_cast<int>(devices.joystick->axes.size()));
-            std::copy_n(values, devices.joystick->axis_count, devices.joystick->axes.begin());
+            devices.joystick =
+                joystick_of(keys, std::span(values, static_cast<std::size_t>(std::max(axes, 0))));
         }
     }
     return devices;

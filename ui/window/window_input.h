@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ui/window/key_map.h"
 #include "ui/window/pilot_input.h"
 
 #include <glm/vec2.hpp>
@@ -21,7 +22,7 @@ struct WindowEvents {
 
     /// Keys in the order in which they were pressed.
     std::vector<Key> keys;
-    /// How far the pointer was dragged with the left button, in the window's units.
+    /// How far the pointer was dragged, in the window's units.
     glm::vec2 dragged{0.0F};
     /// How far the wheel was turned towards the screen.
     double wheel_clicks = 0.0;
@@ -41,10 +42,15 @@ public:
     /// Returns the events since the last call.
     WindowEvents take();
 
+    /// The pointer drags the view while this button, GLFW_MOUSE_BUTTON_..., is held.
+    void look_by(int button) { look_button_ = button; }
+
+    /// False for a key that there is not.
     bool is_down(int key) const;
 
-    /// Returns the state of the keys that fly, and of the first gamepad or joystick.
-    PilotDevices pilot_devices() const;
+    /// Returns the state of the keys that fly, and of the first gamepad or joystick, whose axes
+    /// stand where those of the usual ones do.
+    PilotDevices pilot_devices(const KeyMap& keys) const;
 
     /// Returns the size of the window's picture in pixels, which is 0 while it is minimised.
     glm::ivec2 size_px() const;
@@ -57,6 +63,7 @@ private:
     GLFWwindow* window_;
     WindowEvents events_;
     glm::vec2 pointer_{0.0F};
+    int look_button_ = 0;
 
     friend struct WindowCallbacks;
 };

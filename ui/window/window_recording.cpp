@@ -2,6 +2,7 @@
 
 #include "flightpaths/track_writer.h"
 #include "sim/base/error.h"
+#include "sim/base/file_status.h"
 #include "sim/fixed_step.h"
 #include "ui/base/stopwatch.h"
 #include "ui/flight/flight_recorder.h"
@@ -35,7 +36,7 @@ settings::RunSettings from_step(
     const sim::Trajectory& path = session.world().flight.trajectory;
     settings.time.start_s = std::max(0.0, sim::time_of_step(step) - path.start_s());
     if (by_hand) {
-        settings.path.name = std::filesystem::absolute(folder / flight_name).string();
+        settings.path.name = absolute_path(folder / flight_name).string();
         settings.path.place = "0,0";
         settings.path.heading_deg = 0.0;
         settings.path.height_mode = settings::HeightMode::Datum;

@@ -1,8 +1,12 @@
 #include "sim/aircraft_kind.h"
+#include "sim/base/axes.h"
+#include "sim/base/units.h"
 #include "ui/flight/simulation.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
+
+#include <cmath>
 
 #include "small_flight.h"
 
@@ -73,17 +77,59 @@ TEST_CASE("a dive by hand ends on the ground, and levelling off goes on above it
     simulation.advance_to(15.0);
     CHECK(simulation.end_of_flight() == Simulation::End::OnTheGround);
     CHECK(simulation.states().front().position_m.z > 0.0);
-    simulation.level_off(sim::aircraft_kind("f15"));
+    simulation.level_off();
     CHECK_FALSE(simulation.end_of_flight());
     simulation.advance_to(15.5);
     CHECK(simulation.states().front().position_m.z > 150.0);
+}
+
+TEST_CASE("levelling off flies there, step by step, and ends where the stick is moved") {
+    const ui::world::World world = small_world();
+    Simulation simulation(world);
+    simulation.take_over(sim::aircraft_kind("f15"));
+    sim::PilotControls roll = simulation.controls();
+    roll.roll = -0.3;
+    simulation.set_controls(roll);
+    simulation.advance_to(1.5);
+    const auto bank_deg = [&] {
+        return deg_from_rad(
+            euler_from_body_to_world(simulation.states().front().body_to_world).roll_rad);
+    };
+    const double banked = bank_deg();
+    REQUIRE(banked < -40.0);
+    simulation.level_off();
+    CHECK(simulation.is_levelling());
+    simulation.advance_to(1.55);
+    CHECK(std::abs(bank_deg() - banked) < 15.0);
+    simulation.advance_to(9.0);
+    CHECK(std::abs(bank_deg()) < 1.0);
+    CHECK(std::abs(simulation.states().front().velocity_mps.z) < 6.0);
+    simulation.level_off();
+    simulation.set_controls(roll);
+    CHECK_FALSE(simulation.is_levelling());
+}
+
+TEST_CASE("both aircraft end on the ground in the same way") {
+    for (const char* const name : {"f15", "500md"}) {
+        CAPTURE(name);
+        const ui::world::World world = small_world();
+        Simulation simulation(world);
+        simulation.take_over(sim::aircraft_kind(name));
+        simulation.set_controls({.pitch = -0.5});
+        simulation.advance_to(30.0);
+        CHECK(simulation.end_of_flight() == Simulation::End::OnTheGround);
+        const glm::dvec3 at_m = simulation.states().front().position_m;
+        CHECK(at_m.z > 0.0);
+        simulation.advance_to(31.0);
+        CHECK(simulation.states().front().position_m == at_m);
+    }
 }
 
 TEST_CASE("a flight by hand straight ahead ends at the border of the map") {
     const ui::world::World world = small_world();
     Simulation simulation(world);
     simulation.take_over(sim::aircraft_kind("f15"));
-    simulation.level_off(sim::aircraft_kind("f15"));
+    simulation.start_level();
     simulation.advance_to(60.0);
     CHECK(simulation.end_of_flight() == Simulation::End::OffTheMap);
     CHECK(simulation.states().front().position_m.y > 1900.0);

@@ -163,6 +163,29 @@ TEST_CASE("a flight by hand into the ground stops with a message, and its record
     CHECK(flown_again(folder) == run_of(folder)["summary"]["state_hash"].get<std::string>());
 }
 
+TEST_CASE("Esc asks while a recording is made, and leaves at once where none is") {
+    const auto driven = DrivenViewer::open(small_flight());
+    if (!driven) {
+        return;
+    }
+    driven->strike("F9");
+    REQUIRE(driven->state().recording.has_value());
+    driven->strike("Escape");
+    CHECK(driven->state().open.leave_question);
+    CHECK(driven->viewer().turn());
+    driven->strike("Escape");
+    CHECK_FALSE(driven->state().open.leave_question);
+    CHECK(driven->viewer().turn());
+    driven->strike("Escape");
+    driven->state().requests.leave_recording = true;
+    CHECK_FALSE(driven->viewer().turn());
+    CHECK(driven->viewer().finish_recording().has_value());
+    driven->state().requests.leave_recording = false;
+    driven->state().open.leave_question = false;
+    driven->display().strike("Escape");
+    CHECK(driven->until([&] { return driven->state().requests.leave; }));
+}
+
 TEST_CASE("another way to remove hidden surfaces keeps the flight's time") {
     const auto driven = DrivenViewer::open(small_flight());
     if (!driven) {

@@ -122,6 +122,7 @@ TEST_CASE("the help names every key") {
     }
     for (const ui::window::HeldKey& key : ui::window::held_keys()) {
         CHECK(contains(texts, key.meaning));
+        CHECK(contains(texts, state.keys.name_of(key.action)));
     }
 }
 

@@ -42,6 +42,28 @@ PilotDevices joystick(std::array<float, 4> axes, int count) {
 
 } // namespace
 
+TEST_CASE("a hand on any device is noticed, one that only lies there is not") {
+    using namespace octant::ui::window;
+    PilotDevices devices;
+    CHECK_FALSE(moves_controls(devices));
+    devices.gamepad.emplace();
+    devices.joystick.emplace();
+    devices.joystick->axis_count = 4;
+    devices.joystick->axes[3] = -0.7F; // its lever
+    CHECK_FALSE(moves_controls(devices));
+    devices.gamepad->axes[0] = 0.05F;
+    CHECK_FALSE(moves_controls(devices));
+    devices.gamepad->axes[0] = 0.5F;
+    CHECK(moves_controls(devices));
+    devices.gamepad.emplace().axes[5] = 0.0F; // half pressed
+    CHECK(moves_controls(devices));
+    devices.gamepad.emplace().buttons[4] = 1;
+    CHECK(moves_controls(devices));
+    devices.gamepad.reset();
+    devices.keys.throttle_up = true;
+    CHECK(moves_controls(devices));
+}
+
 TEST_CASE("an axis has a dead zone, is fine about the centre and reaches its stops") {
     CHECK(shaped_axis(0.0) == 0.0);
     CHECK(shaped_axis(0.09) == 0.0);

@@ -1,0 +1,83 @@
+#include "sim/base/output_file.h"
+#include "tests/scratch.h"
+#include "ui/window/key_map.h"
+#include "ui/window/key_names.h"
+
+#include <catch2/catch.hpp>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <array>
+#include <string>
+
+using namespace octant;
+using namespace octant::ui::window;
+
+namespace {
+
+KeyMapFile read(const std::string& text) {
+    const auto file = tests::scratch_folder() / "keys";
+    write_file(file, text);
+    return read_key_map(file);
+}
+
+} // namespace
+
+TEST_CASE("without a file keys are as the help has them, and every key has a name and a place") {
+    const KeyMapFile none = read_key_map(tests::scratch_folder() / "no keys");
+    CHECK(none.faults.empty());
+    for (const ViewKey& each : view_keys()) {
+        CAPTURE(each.id);
+        CHECK(none.keys.command_of(each.key, false) == each.command);
+        CHECK(none.keys.command_of(each.key, true).has_value() == each.repeats);
+        CHECK(key_of_name(none.keys.name_of(each.command)) == each.key);
+    }
+    for (const HeldKey& each : held_keys()) {
+        CHECK(none.keys.key_of(each.action) == each.key);
+        CHECK(key_of_name(none.keys.name_of(each.action)) == each.key);
+    }
+}
+
+TEST_CASE(
+    "a file of keys changes what it names, takes keys away where they are and leaves the rest") {
+    const KeyMapFile changed =
+        read("# mine\n\nplay = P\r\nstick back=keypad -\n  loop = space \nrecord = none\n"
+             "mouse look = middle\ngamepad pitch = -right y\njoystick throttle = -2\n");
+    CHECK(changed.faults.empty());
+    const KeyMap& keys = changed.keys;
+    CHECK(keys.command_of(GLFW_KEY_P, false) == ViewCommand::PlayOrPause);
+    CHECK(keys.command_of(GLFW_KEY_SPACE, false) == ViewCommand::Loop);
+    CHECK_FALSE(keys.command_of(GLFW_KEY_L, false));
+    CHECK_FALSE(keys.command_of(GLFW_KEY_F9, false));
+    CHECK(keys.name_of(ViewCommand::Record) == "none");
+    CHECK(keys.key_of(HeldAction::Pull) == GLFW_KEY_KP_SUBTRACT);
+    CHECK(keys.key_of(HeldAction::Push) == GLFW_KEY_UP);
+    CHECK(keys.look_button == GLFW_MOUSE_BUTTON_MIDDLE);
+    const std::array<float, 6> pad{0.1F, 0.2F, 0.3F, 0.4F, -1.0F, 0.6F};
+    CHECK(gamepad_axes(keys, pad) == std::array<float, 6>{0.1F, -0.4F, 0.3F, 0.0F, -1.0F, 0.6F});
+    const JoystickState stick = joystick_of(keys, std::array{0.1F, 0.2F});
+    CHECK(stick.axes == std::array<float, 4>{0.1F, 0.2F, 0.0F, -0.2F});
+    CHECK(joystick_of(KeyMap(), std::array{0.1F, 0.2F}).axis_count == 2);
+
+    const KeyMapFile again = read(text_of_key_map(keys));
+    CHECK(again.faults.empty());
+    CHECK(text_of_key_map(again.keys) == text_of_key_map(keys));
+}
+
+TEST_CASE("lines that are wrong are told with their numbers, and count for nothing") {
+    const KeyMapFile wrong = read(
+        "play\nfly = F\nplay = Any\nmouse look = wheel\ngamepad pitch = up\njoystick roll = 17\n"
+        "gamepad nose = left x\nloop = O\n\x1b[31m = A\n");
+    REQUIRE(wrong.faults.size() == 8);
+    CHECK_THAT(wrong.faults[0], Catch::Contains("keys:1: expected a line \"what = key\""));
+    CHECK_THAT(wrong.faults[1], Catch::Contains("keys:2: expected something that keys"));
+    CHECK_THAT(wrong.faults[2], Catch::Contains("keys:3: expected the name of a key"));
+    CHECK_THAT(wrong.faults[3], Catch::Contains("keys:4: expected left, right or middle"));
+    CHECK_THAT(wrong.faults[4], Catch::Contains("keys:5: expected left x"));
+    CHECK_THAT(wrong.faults[5], Catch::Contains("keys:6: expected an axis of the joystick"));
+    CHECK_THAT(wrong.faults[6], Catch::Contains("keys:7: expected something that keys"));
+    CHECK(wrong.faults[7].find('\x1b') == std::string::npos);
+    CHECK(wrong.keys.command_of(GLFW_KEY_O, false) == ViewCommand::Loop);
+    CHECK(wrong.keys.command_of(GLFW_KEY_SPACE, false) == ViewCommand::PlayOrPause);
+}

@@ -1,0 +1,270 @@
+#include "ui/window/key_map.h"
+
+#include "sim/base/error.h"
+#include "sim/base/file_status.h"
+#include "sim/base/text_file.h"
+#include "ui/window/key_names.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <fmt/format.h>
+
+namespace octant::ui::window {
+
+namespace {
+
+constexpr std::size_t largest_file_bytes = std::size_t{64} << 10;
+constexpr int most_joystick_axes = 16;
+constexpr const char* joystick_form = "an axis of the joystick from 1 to 16, perhaps after -";
+constexpr const char* pad_form =
+    "left x, left y, right x, right y, left trigger or right trigger, perhaps after -";
+
+std::string expected(std::string_view what, std::string_view got) {
+    return fmt::format("expected {}, got '{}'", what, printable(std::string(got)));
+}
+
+/// "-left y": the axis of a name, reversed.
+template <class Number>
+std::optional<AxisChoice> axis_from(std::string_view input, const Number& number_of) {
+    AxisChoice choice;
+    if (input.starts_with('-')) {
+        choice.reversed = true;
+        input.remove_prefix(1);
+    }
+    const std::optional<int> axis = number_of(input);
+    if (!axis) {
+        return std::nullopt;
+    }
+    choice.axis = *axis;
+    return choice;
+}
+
+std::optional<int> joystick_axis(std::string_view name) {
+    const auto number = whole_number(name);
+    return number && *number >= 1 && *number <= most_joystick_axes
+               ? std::optional(static_cast<int>(*number) - 1)
+               : std::nullopt;
+}
+
+std::string text_of(const AxisChoice& choice, const std::string& name) {
+    return (choice.reversed ? "-" : "") + name;
+}
+
+/// The axis as it stands; 0 where the device has none such.
+float value_of(const AxisChoice& choice, std::span<const float> axes) {
+    const auto axis = static_cast<std::size_t>(choice.axis);
+    const float value = axis < axes.size() ? axes[axis] : 0.0F;
+    return choice.reversed ? -value : value;
+}
+
+} // namespace
+
+KeyMap::KeyMap()
+    : look_button(GLFW_MOUSE_BUTTON_LEFT)
+    , stick_button(GLFW_MOUSE_BUTTON_RIGHT)
+    , gamepad{{GLFW_GAMEPAD_AXIS_LEFT_X}, {GLFW_GAMEPAD_AXIS_LEFT_Y}, {GLFW_GAMEPAD_AXIS_RIGHT_X}}
+    , throttle_up{GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER}
+    , throttle_down{GLFW_GAMEPAD_AXIS_LEFT_TRIGGER}
+    , joystick_throttle{3} {
+    for (const ViewKey& each : view_keys()) {
+        commands_.push_back(each.key);
+    }
+    for (const HeldKey& each : held_keys()) {
+        held_.push_back(each.key);
+    }
+}
+
+std::optional<ViewCommand> KeyMap::command_of(int key, bool repeats) const {
+    for (std::size_t i = 0; i < commands_.size(); ++i) {
+        if (commands_[i] == key && (view_keys()[i].repeats || !repeats)) {
+            return view_keys()[i].command;
+        }
+    }
+    return std::nullopt;
+}
+
+std::string KeyMap::name_of(ViewCommand command) const {
+    const auto found = std::ranges::find(view_keys(), command, &ViewKey::command);
+    const int key = commands_[static_cast<std::size_t>(found - view_keys().begin())];
+    return key == GLFW_KEY_UNKNOWN ? "none" : name_of_key(key);
+}
+
+int KeyMap::key_of(HeldAction action) const {
+    const auto found = std::ranges::find(held_keys(), action, &HeldKey::action);
+    return held_[static_cast<std::size_t>(found - held_keys().begin())];
+}
+
+std::string KeyMap::name_of(HeldAction action) const {
+    const int key = key_of(action);
+    return key == GLFW_KEY_UNKNOWN ? "none" : name_of_key(key);
+}
+
+/// A key that did something else does that no more.
+std::optional<std::string> KeyMap::choose_key(int& chosen, std::string_view input) {
+    if (input == "none") {
+        chosen = GLFW_KEY_UNKNOWN;
+        return std::nullopt;
+    }
+    const auto key = key_of_name(input);
+    if (!key) {
+        return expected("the name of a key, or none", input);
+    }
+    std::ranges::replace(commands_, *key, GLFW_KEY_UNKNOWN);
+    std::ranges::replace(held_, *key, GLFW_KEY_UNKNOWN);
+    chosen = *key;
+    return std::nullopt;
+}
+
+std::optional<std::string> KeyMap::choose_axis(std::string_view id, std::string_view input) {
+    const bool of_pad = id.starts_with("gamepad ");
+    const auto choice = of_pad ? axis_from(input, axis_of_name) : axis_from(input, joystick_axis);
+    const std::string_view what = id.substr(id.find(' ') + 1);
+    AxisMap map = of_pad ? gamepad : joystick.value_or(AxisMap{{0}, {1}, {2}});
+    AxisChoice* chosen = what == "roll"     ? &map.roll
+                         : what == "pitch"  ? &map.pitch
+                         : what == "rudder" ? &map.rudder
+                                            : nullptr;
+    if (of_pad && what == "throttle up") {
+        chosen = &throttle_up;
+    } else if (of_pad && what == "throttle down") {
+        chosen = &throttle_down;
+    } else if (!of_pad && what == "throttle") {
+        chosen = &joystick_throttle;
+    }
+    if (chosen == nullptr) {
+        return expected("something that keys, mouse or sticks do", id);
+    }
+    if (!choice) {
+        return expected(of_pad ? pad_form : joystick_form, input);
+    }
+    *chosen = *choice;
+    if (of_pad) {
+        gamepad = map;
+    } else {
+        joystick = map;
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> KeyMap::choose(std::string_view id, std::string_view input) {
+    const auto command = std::ranges::find(view_keys(), id, &ViewKey::id);
+    if (command != view_keys().end()) {
+        return choose_key(
+            commands_[static_cast<std::size_t>(command - view_keys().begin())], input);
+    }
+    const auto action = std::ranges::find(held_keys(), id, &HeldKey::id);
+    if (action != held_keys().end()) {
+        return choose_key(held_[static_cast<std::size_t>(action - held_keys().begin())], input);
+    }
+    if (id == "mouse look" || id == "mouse stick") {
+        const auto button = button_of_name(input);
+        if (!button) {
+            return expected("left, right or middle", input);
+        }
+        (id == "mouse look" ? look_button : stick_button) = *button;
+        return std::nullopt;
+    }
+    if (id.starts_with("gamepad ") || id.starts_with("joystick ")) {
+        return choose_axis(id, input);
+    }
+    return expected("something that keys, mouse or sticks do", id);
+}
+
+KeyMapFile read_key_map(const std::filesystem::path& file) {
+    KeyMapFile read;
+    if (!is_there(file)) {
+        return read;
+    }
+    std::string text;
+    try {
+        text = read_text_file(file, largest_file_bytes);
+    } catch (const Error& fault) {
+        read.faults.emplace_back(fault.what());
+        return read;
+    }
+    int number = 0;
+    for (const std::string_view line : split_lines(text)) {
+        ++number;
+        if (line.empty() || line.front() == '#') {
+            continue;
+        }
+        const std::size_t sign = line.find('=');
+        const auto trimmed = [](std::string_view part) { return split_fields(part, '\n').front(); };
+        const std::optional<std::string> fault =
+            sign == std::string_view::npos
+                ? expected("a line \"what = key\"", line)
+                : read.keys.choose(trimmed(line.substr(0, sign)), trimmed(line.substr(sign + 1)));
+        if (fault) {
+            read.faults.push_back(fmt::format("{}:{}: {}", file.string(), number, *fault));
+        }
+    }
+    return read;
+}
+
+std::array<float, 6> gamepad_axes(const KeyMap& keys, std::span<const float, 6> axes) {
+    return {
+        value_of(keys.gamepad.roll, axes),
+        value_of(keys.gamepad.pitch, axes),
+        value_of(keys.gamepad.rudder, axes),
+        0.0F,
+        value_of(keys.throttle_down, axes),
+        value_of(keys.throttle_up, axes)};
+}
+
+JoystickState joystick_of(const KeyMap& keys, std::span<const float> axes) {
+    JoystickState joystick;
+    if (keys.joystick) {
+        joystick.axes = {
+            value_of(keys.joystick->roll, axes),
+            value_of(keys.joystick->pitch, axes),
+            value_of(keys.joystick->rudder, axes),
+            value_of(keys.joystick_throttle, axes)};
+        joystick.axis_count = 4;
+        return joystick;
+    }
+    joystick.axis_count = static_cast<int>(std::min(axes.size(), joystick.axes.size()));
+    std::copy_n(axes.begin(), joystick.axis_count, joystick.axes.begin());
+    return joystick;
+}
+
+std::string text_of_key_map(const KeyMap& keys) {
+    std::string text =
+        "# Keys, mouse and sticks of octant view. What is left out is as usual.\n"
+        "# A key that is given twice does what its last line says; none is no key.\n";
+    for (const ViewKey& each : view_keys()) {
+        text += fmt::format("{} = {}\n", each.id, keys.name_of(each.command));
+    }
+    for (const HeldKey& each : held_keys()) {
+        text += fmt::format("{} = {}\n", each.id, keys.name_of(each.action));
+    }
+    text += fmt::format(
+        "mouse look = {}\nmouse stick = {}\n",
+        name_of_button(keys.look_button),
+        name_of_button(keys.stick_button));
+    const auto pad = [&](const char* id, const AxisChoice& choice) {
+        text += fmt::format("gamepad {} = {}\n", id, text_of(choice, name_of_axis(choice.axis)));
+    };
+    pad("roll", keys.gamepad.roll);
+    pad("pitch", keys.gamepad.pitch);
+    pad("rudder", keys.gamepad.rudder);
+    pad("throttle up", keys.throttle_up);
+    pad("throttle down", keys.throttle_down);
+    if (!keys.joystick) {
+        return text + "# joystick roll = 1\n# joystick pitch = 2\n# joystick rudder = 3\n"
+                      "# joystick throttle = 4\n";
+    }
+    const auto stick = [&](const char* id, const AxisChoice& choice) {
+        text +=
+            fmt::format("joystick {} = {}\n", id, text_of(choice, std::to_string(choice.axis + 1)));
+    };
+    stick("roll", keys.joystick->roll);
+    stick("pitch", keys.joystick->pitch);
+    stick("rudder", keys.joystick->rudder);
+    stick("throttle", keys.joystick_throttle);
+    return text;
+}
+
+} // namespace octant::ui::window

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "ui/window/pilot_input.h"
+#include "ui/window/view_keys.h"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace octant::ui::window {
+
+/// An axis of a device, and whether it counts the other way round.
+struct AxisChoice {
+    int axis = 0;
+    bool reversed = false;
+};
+
+/// What each axis of a gamepad or joystick does in a flight by hand.
+struct AxisMap {
+    AxisChoice roll;
+    AxisChoice pitch;
+    AxisChoice rudder;
+};
+
+/// Which keys, mouse buttons and axes do what. Made as the program has it; a person's file changes
+/// some of it.
+class KeyMap {
+public:
+    KeyMap();
+
+    /// Returns what the key commands, when it is pressed or, for some, while it repeats.
+    std::optional<ViewCommand> command_of(int key, bool repeats) const;
+
+    /// Returns the name of the key that gives a command, such as "Space"; "none" where none does.
+    std::string name_of(ViewCommand command) const;
+
+    int key_of(HeldAction action) const;
+    std::string name_of(HeldAction action) const;
+
+    /// Changes what the line "id = input" of a file says. Returns nothing, or what was expected and
+    /// what came; then nothing is changed.
+    std::optional<std::string> choose(std::string_view id, std::string_view input);
+
+    /// The buttons of the mouse, GLFW_MOUSE_BUTTON_..., that turn the look and that make the
+    /// pointer the stick.
+    int look_button = 0;
+    int stick_button = 1;
+    AxisMap gamepad;
+    /// Of the gamepad.
+    AxisChoice throttle_up;
+    AxisChoice throttle_down;
+    /// Of a joystick; unset where its axes are those that its kind usually has.
+    std::optional<AxisMap> joystick;
+    AxisChoice joystick_throttle;
+
+private:
+    std::optional<std::string> choose_key(int& chosen, std::string_view input);
+    std::optional<std::string> choose_axis(std::string_view id, std::string_view input);
+
+    std::vector<int> commands_; ///< keys, in the order of view_keys()
+    std::vector<int> held_;     ///< keys, in the order of held_keys()
+};
+
+/// What a file of keys says.
+struct KeyMapFile {
+    KeyMap keys;
+    /// "file:line: expected ..., got ...", for lines that were left out.
+    std::vector<std::string> faults;
+};
+
+/// Reads a file of keys; where there is none, keys are as the program has them.
+KeyMapFile read_key_map(const std::filesystem::path& file);
+
+/// Returns the axes of a gamepad, in the order of GLFWgamepadstate, where the usual ones stand:
+/// roll, pitch, rudder, nothing, throttle down, throttle up.
+std::array<float, 6> gamepad_axes(const KeyMap& keys, std::span<const float, 6> axes);
+
+/// Returns the axes of a joystick where the usual ones stand. An axis that it does not have is 0.
+JoystickState joystick_of(const KeyMap& keys, std::span<const float> axes);
+
+/// Returns the text of a file that says what `keys` say, with a line for everything.
+std::string text_of_key_map(const KeyMap& keys);
+
+} // namespace octant::ui::window

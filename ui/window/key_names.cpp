@@ -1,0 +1,129 @@
+#include "ui/window/key_names.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace octant::ui::window {
+
+namespace {
+
+struct Named {
+    int number;
+    std::string_view name;
+};
+
+constexpr std::array named_keys{
+    Named{GLFW_KEY_SPACE, "Space"},
+    Named{GLFW_KEY_APOSTROPHE, "'"},
+    Named{GLFW_KEY_COMMA, ","},
+    Named{GLFW_KEY_MINUS, "-"},
+    Named{GLFW_KEY_PERIOD, "."},
+    Named{GLFW_KEY_SLASH, "/"},
+    Named{GLFW_KEY_SEMICOLON, ";"},
+    Named{GLFW_KEY_LEFT_BRACKET, "["},
+    Named{GLFW_KEY_BACKSLASH, "\\"},
+    Named{GLFW_KEY_RIGHT_BRACKET, "]"},
+    Named{GLFW_KEY_GRAVE_ACCENT, "`"},
+    Named{GLFW_KEY_ESCAPE, "Esc"},
+    Named{GLFW_KEY_ENTER, "Enter"},
+    Named{GLFW_KEY_TAB, "Tab"},
+    Named{GLFW_KEY_BACKSPACE, "Backspace"},
+    Named{GLFW_KEY_INSERT, "Insert"},
+    Named{GLFW_KEY_DELETE, "Delete"},
+    Named{GLFW_KEY_RIGHT, "Right"},
+    Named{GLFW_KEY_LEFT, "Left"},
+    Named{GLFW_KEY_DOWN, "Down"},
+    Named{GLFW_KEY_UP, "Up"},
+    Named{GLFW_KEY_PAGE_UP, "Page Up"},
+    Named{GLFW_KEY_PAGE_DOWN, "Page Down"},
+    Named{GLFW_KEY_HOME, "Home"},
+    Named{GLFW_KEY_END, "End"},
+    Named{GLFW_KEY_PAUSE, "Pause"},
+    Named{GLFW_KEY_LEFT_SHIFT, "Shift"},
+    Named{GLFW_KEY_RIGHT_SHIFT, "Right Shift"},
+    Named{GLFW_KEY_LEFT_CONTROL, "Ctrl"},
+    Named{GLFW_KEY_RIGHT_CONTROL, "Right Ctrl"},
+    Named{GLFW_KEY_LEFT_ALT, "Alt"},
+    Named{GLFW_KEY_RIGHT_ALT, "Right Alt"},
+    Named{GLFW_KEY_KP_ADD, "Keypad +"},
+    Named{GLFW_KEY_KP_SUBTRACT, "Keypad -"},
+    Named{GLFW_KEY_KP_ENTER, "Keypad Enter"}};
+
+constexpr std::array buttons{
+    Named{GLFW_MOUSE_BUTTON_LEFT, "left"},
+    Named{GLFW_MOUSE_BUTTON_RIGHT, "right"},
+    Named{GLFW_MOUSE_BUTTON_MIDDLE, "middle"}};
+
+constexpr std::array axes{
+    Named{GLFW_GAMEPAD_AXIS_LEFT_X, "left x"},
+    Named{GLFW_GAMEPAD_AXIS_LEFT_Y, "left y"},
+    Named{GLFW_GAMEPAD_AXIS_RIGHT_X, "right x"},
+    Named{GLFW_GAMEPAD_AXIS_RIGHT_Y, "right y"},
+    Named{GLFW_GAMEPAD_AXIS_LEFT_TRIGGER, "left trigger"},
+    Named{GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER, "right trigger"}};
+
+bool same_letters(std::string_view a, std::string_view b) {
+    const auto small = [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    };
+    return std::ranges::equal(a, b, {}, small, small);
+}
+
+std::string name_in(std::span<const Named> table, int number) {
+    const auto found = std::ranges::find(table, number, &Named::number);
+    return found == table.end() ? std::string() : std::string(found->name);
+}
+
+std::optional<int> number_in(std::span<const Named> table, std::string_view name) {
+    const auto found = std::ranges::find_if(
+        table, [name](const Named& each) { return same_letters(each.name, name); });
+    return found == table.end() ? std::nullopt : std::optional(found->number);
+}
+
+constexpr bool is_letter_or_digit(int key) {
+    return (key >= GLFW_KEY_A && key <= GLFW_KEY_Z) || (key >= GLFW_KEY_0 && key <= GLFW_KEY_9);
+}
+
+} // namespace
+
+std::string name_of_key(int key) {
+    if (is_letter_or_digit(key)) {
+        return std::string(1, static_cast<char>(key)); // GLFW numbers them as ASCII does
+    }
+    if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F25) {
+        return "F" + std::to_string(key - GLFW_KEY_F1 + 1);
+    }
+    return name_in(named_keys, key);
+}
+
+std::optional<int> key_of_name(std::string_view name) {
+    for (int key = GLFW_KEY_0; key <= GLFW_KEY_F25; ++key) {
+        const std::string each = name_of_key(key);
+        if (!each.empty() && same_letters(each, name)) {
+            return key;
+        }
+    }
+    return number_in(named_keys, name);
+}
+
+std::string name_of_button(int button) {
+    return name_in(buttons, button);
+}
+
+std::optional<int> button_of_name(std::string_view name) {
+    return number_in(buttons, name);
+}
+
+std::string name_of_axis(int axis) {
+    return name_in(axes, axis);
+}
+
+std::optional<int> axis_of_name(std::string_view name) {
+    return number_in(axes, name);
+}
+
+} // namespace octant::ui::window
