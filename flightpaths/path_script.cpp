@@ -204,12 +204,11 @@ PathScript read_path_script(const std::filesystem::path& file) {
                 script.rate_hz));
     }
     script.samples = fields.required_whole("samples", 2, 200000);
-    const double duration_s = static_cast<double>(script.samples - 1) / script.rate_hz;
-    if (duration_s > longest_s) {
+    const double flown_s = static_cast<double>(script.samples - 1) / script.rate_hz;
+    if (flown_s > longest_s) {
         fields.refuse(
             line_of(*root.get("samples")),
-            fmt::format(
-                "expected samples for at most {:.0f} s, got {:.0f} s", longest_s, duration_s));
+            fmt::format("expected samples for at most {:.0f} s, got {:.0f} s", longest_s, flown_s));
     }
     script.min_clearance_m = fields.required_number("min_clearance", "m", {1.0, 40000.0});
     script.angle_of_attack_rad_per_g =

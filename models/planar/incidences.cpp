@@ -12,7 +12,6 @@
 #include <functional>
 #include <limits>
 #include <optional>
-#include <ranges>
 
 namespace octant::models::planar {
 
@@ -95,15 +94,12 @@ private:
         return glm::dot(point - from, glm::cross(normal_, along)) / glm::length(along);
     }
 
-    auto places() const {
-        return std::views::transform(corners_, [this](std::uint32_t corner) -> const glm::dvec3& {
-            return vertices_[corner];
-        });
-    }
-
     /// Whether one of the edges has all of another outline on its outer side.
     bool has_beside(const Outline& other, double reach) const {
-        return polygons::edge_parts(places(), normal_, other.places(), reach);
+        const auto place = [&](std::uint32_t corner) -> const glm::dvec3& {
+            return vertices_[corner];
+        };
+        return polygons::edge_parts(corners_, normal_, other.corners_, reach, place);
     }
 
     std::span<const glm::dvec3> vertices_;
@@ -203,8 +199,8 @@ std::vector<Incidence> incidences_of(
     join_planes(out, outlines, kind, reach);
     for (Incidence& incidence : out) {
         std::ranges::sort(incidence.touching);
-        const auto twice = std::ranges::unique(incidence.touching);
-        incidence.touching.erase(twice.begin(), twice.end());
+        auto& touching = incidence.touching;
+        touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
     }
     return out;
 }

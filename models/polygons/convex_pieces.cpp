@@ -245,7 +245,7 @@ std::vector<Piece> merged(Corners corners_m, std::vector<Piece> pieces, double t
 /// Each piece from its lowest place on, the pieces by that place.
 void put_in_order(std::vector<Piece>& pieces) {
     for (Piece& piece : pieces) {
-        std::ranges::rotate(piece, std::ranges::min_element(piece));
+        std::rotate(piece.begin(), std::ranges::min_element(piece), piece.end());
     }
     std::ranges::sort(pieces);
 }

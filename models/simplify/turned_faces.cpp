@@ -258,8 +258,7 @@ void TurningBack::round() {
         }
     }
     std::ranges::sort(vertices);
-    const auto repeated = std::ranges::unique(vertices);
-    vertices.erase(repeated.begin(), repeated.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     for (const std::uint32_t vertex : vertices) {
         if (!tried_vertices_[vertex] && around_.looks() < most_looks_) {
             move(vertex);

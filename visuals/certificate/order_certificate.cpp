@@ -231,8 +231,7 @@ private:
             to_do.insert(to_do.end(), {node.front, node.back, node.along, node.against});
         }
         std::ranges::sort(found);
-        const auto rest = std::ranges::unique(found);
-        found.erase(rest.begin(), rest.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
         return found;
     }
 

@@ -60,8 +60,7 @@ Outlines outlines_of(const ModelFaces& model, std::span<const std::uint32_t> amo
         }
     }
     std::ranges::sort(out.edges);
-    const auto twice = std::ranges::unique(out.edges);
-    out.edges.erase(twice.begin(), twice.end());
+    out.edges.erase(std::unique(out.edges.begin(), out.edges.end()), out.edges.end());
     return out;
 }
 

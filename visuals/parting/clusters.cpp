@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <ranges>
 #include <utility>
 
 namespace octant::visuals::parting {
@@ -18,11 +17,7 @@ namespace {
 /// Whether a line along an edge of `a` parts it from `b`; both lie in the plane of `a`.
 bool edge_parts(const Pieces& pieces, const Piece& a, const Piece& b) {
     const auto place = [&](std::uint32_t corner) -> const glm::dvec3& { return pieces.at(corner); };
-    return models::polygons::edge_parts(
-        std::views::transform(a.corners, place),
-        a.plane->normal,
-        std::views::transform(b.corners, place),
-        tolerance);
+    return models::polygons::edge_parts(a.corners, a.plane->normal, b.corners, tolerance, place);
 }
 
 /// Whether the first one is a decal on the second one.

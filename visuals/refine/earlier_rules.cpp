@@ -83,7 +83,7 @@ EarlierRules::EarlierRules(const ProgressiveMesh& mesh)
             ring.push_back(faces.vertex(FaceLists::before_in_face(corner)));
         });
         std::ranges::sort(ring);
-        ring.erase(std::ranges::unique(ring).begin(), ring.end());
+        ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
     }
 }
 

@@ -114,8 +114,9 @@ public:
     /// The label of a face; `none` for a place without a face.
     std::uint32_t label(std::uint32_t face) const {
         const Link* links = &links_[3 * std::size_t{face}];
-        const std::uint32_t label =
-            links[0].label_part | links[1].label_part << 8U | links[2].label_part << 16U;
+        const std::uint32_t label = std::uint32_t{links[0].label_part} |
+                                    std::uint32_t{links[1].label_part} << 8U |
+                                    std::uint32_t{links[2].label_part} << 16U;
         return label == no_corner ? none : label;
     }
 

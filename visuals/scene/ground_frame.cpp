@@ -6,8 +6,10 @@
 namespace octant::visuals::scene {
 
 std::span<const ShadowPieces> shadows_on(const GroundFrame& ground, std::uint32_t triangle) {
-    const auto [first, last] =
-        std::ranges::equal_range(ground.shadows, triangle, {}, &ShadowPieces::triangle);
+    const auto first =
+        std::ranges::lower_bound(ground.shadows, triangle, {}, &ShadowPieces::triangle);
+    const auto last =
+        std::ranges::upper_bound(ground.shadows, triangle, {}, &ShadowPieces::triangle);
     return {first, last};
 }
 

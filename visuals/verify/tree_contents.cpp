@@ -52,8 +52,7 @@ std::vector<std::uint32_t> TreeContents::of(int child) const {
         entries_.begin() + static_cast<std::ptrdiff_t>(range.first),
         entries_.begin() + static_cast<std::ptrdiff_t>(range.end));
     std::ranges::sort(polygons);
-    const auto rest = std::ranges::unique(polygons);
-    polygons.erase(rest.begin(), rest.end());
+    polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
     return polygons;
 }
 

@@ -57,7 +57,7 @@ Faces write_sheet(const std::string& path) {
 }
 
 std::array<int, 3> turned(std::array<int, 3> face) {
-    std::ranges::rotate(face, std::ranges::min_element(face));
+    std::rotate(face.begin(), std::ranges::min_element(face), face.end());
     return face;
 }
 

@@ -9,7 +9,7 @@ namespace octant::visuals::refine::test {
 namespace {
 
 std::array<std::uint32_t, 3> turned_to_smallest(std::array<std::uint32_t, 3> face) {
-    std::ranges::rotate(face, std::ranges::min_element(face));
+    std::rotate(face.begin(), std::ranges::min_element(face), face.end());
     return face;
 }
 

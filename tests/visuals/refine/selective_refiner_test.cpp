@@ -118,7 +118,7 @@ TEST_CASE("everything split is the original, face for face") {
             CHECK(refiner.counts().forced_by_rule == 0);
             NamedFaces original;
             for (models::Triangle face : made.triangles) {
-                std::ranges::rotate(face, std::ranges::min_element(face));
+                std::rotate(face.begin(), std::ranges::min_element(face), face.end());
                 original.push_back(face);
             }
             std::ranges::sort(original);
