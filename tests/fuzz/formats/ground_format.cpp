@@ -1,0 +1,89 @@
+#include "models/heights/height_field_export.h"
+#include "tests/fuzz/formats/target.h"
+#include "visuals/terrain/ground_file.h"
+#include "visuals/terrain/ground_header.h"
+#include "visuals/terrain/ground_import.h"
+#include "visuals/terrain/ground_query.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace octant::tests::formats {
+
+namespace {
+
+namespace terrain = visuals::terrain;
+using terrain::GroundHeader;
+
+std::string imported(int columns, int rows, bool placed) {
+    std::vector<float> heights_m;
+    for (int i = 0; i < columns * rows; ++i) {
+        heights_m.push_back(static_cast<float>(100.0 * std::sin(0.3 * i)));
+    }
+    models::heights::HeightField field(columns, rows, 30.0, heights_m);
+    if (placed) {
+        field.place = models::heights::GeoPlace{49.3, -123.1};
+    }
+    const std::filesystem::path map = input_folder() / "map.tif";
+    models::heights::write_height_field(map, field);
+    return bytes_written("seed.ground", [&](const auto& file) {
+        terrain::import_ground({map}, file, {}, [](auto, double) { return false; });
+    });
+}
+
+/// The checksums of the header, of what lies before the tiles and of the checksums, and the
+/// layout's; the tiles' own stay as they are.
+void seal(std::string& bytes) {
+    if (bytes.size() < GroundHeader::bytes) {
+        return;
+    }
+    GroundHeader header;
+    std::memcpy(static_cast<void*>(&header), bytes.data(), sizeof header);
+    if (header.columns >= 2 && header.columns <= 65536 && header.rows >= 2 &&
+        header.rows <= 65536) {
+        const terrain::GroundLayout layout(header.columns, header.rows);
+        const terrain::GroundFilePlan plan(layout);
+        header.layout = terrain::hash_of(layout);
+        if (bytes.size() == plan.file_bytes) {
+            const auto all = std::as_bytes(std::span(bytes));
+            const std::uint64_t before_tiles =
+                terrain::hash_of(all.subspan(GroundHeader::bytes, layout.first_tile()));
+            std::memcpy(bytes.data() + plan.checksums, &before_tiles, sizeof before_tiles);
+            header.checksums = terrain::hash_of(all.subspan(plan.checksums));
+        }
+    }
+    const auto page = terrain::page_of(header);
+    std::memcpy(bytes.data(), page.data(), page.size());
+}
+
+/// Looks at every sample and a line of sight, and checks the tiles.
+void use(const std::filesystem::path& file) {
+    const terrain::GroundTiles ground = terrain::open_ground(file);
+    for (int row = 0; row < ground.rows(); ++row) {
+        for (int column = 0; column < ground.columns(); ++column) {
+            expect(std::isfinite(ground.height_m(column, row)), "a height");
+        }
+    }
+    const terrain::GroundSamples samples(ground);
+    terrain::ground_height_m(samples, 1.0, -1.0);
+    const glm::dvec3 end_m(samples.half_extent_m(), 200.0);
+    terrain::sight_between(samples, -end_m, end_m, terrain::earth_radius_m);
+    terrain::hash_of_ground(file);
+    terrain::verify_ground(file, 1);
+}
+
+const Registered target({
+    .name = "ground",
+    .file = "input.ground",
+    .use = use,
+    .seeds =
+        [] {
+            return std::vector<std::string>{
+                imported(5, 5, false), imported(9, 33, true), imported(2, 2, false)};
+        },
+    .seal = seal,
+});
+
+} // namespace
+
+} // namespace octant::tests::formats

@@ -1,0 +1,69 @@
+#include "flightpaths/recorded_track.h"
+#include "flightpaths/track_writer.h"
+#include "sim/base/output_file.h"
+#include "tests/fuzz/formats/target.h"
+
+#include <cmath>
+
+namespace octant::tests::formats {
+
+namespace {
+
+/// Asks for states between the samples, and writes and reads the track again to the last bit.
+void use(const std::filesystem::path& file) {
+    const flightpaths::RecordedTrack track = flightpaths::read_recorded_track(file);
+    const sim::Trajectory& flight = track.trajectory;
+    for (int step = 0; step <= 20; ++step) {
+        const double time_s = flight.start_s() + step / 20.0 * (flight.end_s() - flight.start_s());
+        const sim::AircraftState state = flight.state_at(time_s);
+        for (int part = 0; part < 3; ++part) {
+            expect(std::isfinite(state.position_m[part]), "a place");
+            expect(std::isfinite(state.velocity_mps[part]), "a velocity");
+        }
+        expect(std::abs(glm::length(state.body_to_world) - 1.0) < 1e-5, "a unit attitude");
+    }
+    const std::string text = flightpaths::exact_track_csv(flight);
+    const std::filesystem::path written = file.parent_path() / "again.csv";
+    write_file(written, text);
+    const flightpaths::RecordedTrack again = flightpaths::read_recorded_track(written);
+    expect(flightpaths::exact_track_csv(again.trajectory) == text, "the same track again");
+}
+
+std::vector<std::string> seeds() {
+    return {
+        "t_s,north_m,east_m,alt_m\n0,0,0,300\n0.5,60,0,300\n1,120,2,301\n2,240,9,300\n",
+        "t_s,north_m,east_m,alt_m,roll_deg,pitch_deg,yaw_deg,v_north_mps,v_east_mps,v_up_mps,n_g\n"
+        "0,0,0,300,0,1,2,100,0,0,1\n0.05,5,0,300,3,1,2,100,0,0,1.1\n0.1,10,0,300,6,1,2,100,0,0,1."
+        "2\n",
+        "t_s,north_m,east_m,alt_m,v_north_mps,v_east_mps,v_up_mps,n_g,q_w,q_x,q_y,q_z\n"
+        "0,0,0,300,100,0,0,1,1,0,0,0\n0.1,10,0,300,100,0,0,1,0.6,0.8,0,0\n",
+        "Time\tLatitude Geodetic (deg)\tLongitude (deg)\tAltitude ASL (ft)\tPhi (deg)\tTheta "
+        "(deg)\t"
+        "Psi (deg)\tV_{North} (ft/s)\tV_{East} (ft/s)\tV_{Down} (ft/s)\n"
+        "0\t49.3\t-123.1\t1000\t0\t0\t90\t0\t200\t0\n1\t49.3\t-123."
+        "0992\t1000\t0\t0\t90\t0\t200\t0\n"};
+}
+
+const Registered target({
+    .name = "track",
+    .file = "input.csv",
+    .use = use,
+    .seeds = seeds,
+    .words =
+        {"t_s,",
+         "q_w,",
+         "n_g,",
+         "Time\t",
+         "Longitude (deg)\t",
+         "Latitude (deg)\t",
+         ",,",
+         "\r\n",
+         "1e7",
+         "90",
+         "180",
+         "-180"},
+});
+
+} // namespace
+
+} // namespace octant::tests::formats
