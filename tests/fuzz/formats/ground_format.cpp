@@ -1,8 +1,8 @@
 #include "models/heights/height_field_export.h"
 #include "tests/fuzz/formats/target.h"
-#include "visuals/terrain/ground_file.h"
-#include "visuals/terrain/ground_header.h"
-#include "visuals/terrain/ground_import.h"
+#include "visuals/groundfile/ground_file.h"
+#include "visuals/groundfile/ground_header.h"
+#include "visuals/groundfile/ground_import.h"
 #include "visuals/terrain/ground_query.h"
 
 #include <cmath>
@@ -12,8 +12,9 @@ namespace octant::tests::formats {
 
 namespace {
 
+namespace groundfile = visuals::groundfile;
 namespace terrain = visuals::terrain;
-using terrain::GroundHeader;
+using groundfile::GroundHeader;
 
 std::string imported(int columns, int rows, bool placed) {
     std::vector<float> heights_m;
@@ -27,7 +28,7 @@ std::string imported(int columns, int rows, bool placed) {
     const std::filesystem::path map = input_folder() / "map.tif";
     models::heights::write_height_field(map, field);
     return bytes_written("seed.ground", [&](const auto& file) {
-        terrain::import_ground({map}, file, {}, [](auto, double) { return false; });
+        groundfile::import_ground({map}, file, {}, [](auto, double) { return false; });
     });
 }
 
@@ -42,23 +43,23 @@ void seal(std::string& bytes) {
     if (header.columns >= 2 && header.columns <= 65536 && header.rows >= 2 &&
         header.rows <= 65536) {
         const terrain::GroundLayout layout(header.columns, header.rows);
-        const terrain::GroundFilePlan plan(layout);
-        header.layout = terrain::hash_of(layout);
+        const groundfile::GroundFilePlan plan(layout);
+        header.layout = groundfile::hash_of(layout);
         if (bytes.size() == plan.file_bytes) {
             const auto all = std::as_bytes(std::span(bytes));
             const std::uint64_t before_tiles =
-                terrain::hash_of(all.subspan(GroundHeader::bytes, layout.first_tile()));
+                groundfile::hash_of(all.subspan(GroundHeader::bytes, layout.first_tile()));
             std::memcpy(bytes.data() + plan.checksums, &before_tiles, sizeof before_tiles);
-            header.checksums = terrain::hash_of(all.subspan(plan.checksums));
+            header.checksums = groundfile::hash_of(all.subspan(plan.checksums));
         }
     }
-    const auto page = terrain::page_of(header);
+    const auto page = groundfile::page_of(header);
     std::memcpy(bytes.data(), page.data(), page.size());
 }
 
 /// Looks at every sample and a line of sight, and checks the tiles.
 void use(const std::filesystem::path& file) {
-    const terrain::GroundTiles ground = terrain::open_ground(file);
+    const terrain::GroundTiles ground = groundfile::open_ground(file);
     for (int row = 0; row < ground.rows(); ++row) {
         for (int column = 0; column < ground.columns(); ++column) {
             expect(std::isfinite(ground.height_m(column, row)), "a height");
@@ -68,8 +69,8 @@ void use(const std::filesystem::path& file) {
     terrain::ground_height_m(samples, 1.0, -1.0);
     const glm::dvec3 end_m(samples.half_extent_m(), 200.0);
     terrain::sight_between(samples, -end_m, end_m, terrain::earth_radius_m);
-    terrain::hash_of_ground(file);
-    terrain::verify_ground(file, 1);
+    groundfile::hash_of_ground(file);
+    groundfile::verify_ground(file, 1);
 }
 
 const Registered target({
