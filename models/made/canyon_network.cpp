@@ -1,6 +1,7 @@
 // Source: see made_canyon.cpp.
 #include "models/made/canyon_network.h"
 
+#include "models/made/by_rows.h"
 #include "models/made/drainage.h"
 #include "models/made/terrain_grid.h"
 #include "models/made/terrain_noise.h"
@@ -56,7 +57,7 @@ Network first_network(double extent_m, std::uint64_t seed) {
     network.places.resize(ground.values.size());
     const Fractal plateau = {seed + 311, 5200.0, 5, 0.55};
     const Warp warp = {seed + 313, 28.0 * ground.cell_m, 4};
-    for (int row = 0; row < side; ++row) {
+    by_rows(side, [&](int row) {
         for (int column = 0; column < side; ++column) {
             const std::size_t i = ground.index(column, row);
             const double x_m = column * ground.cell_m;
@@ -65,7 +66,7 @@ Network first_network(double extent_m, std::uint64_t seed) {
             network.places[i] = {
                 x_m + bend * warp.east_m(x_m, y_m), y_m + bend * warp.north_m(x_m, y_m)};
         }
-    }
+    });
     for (const glm::dvec2& point : winding_river(extent_m, seed)) {
         const int column = static_cast<int>(std::floor(point.x / ground.cell_m + 0.5));
         const int row = static_cast<int>(std::floor(point.y / ground.cell_m + 0.5));

@@ -9,6 +9,7 @@
 // Rho8, 1991): streams do not run along the grid. The stack order is built breadth first.
 #include "models/made/drainage.h"
 
+#include "models/made/by_rows.h"
 #include "models/made/terrain_noise.h"
 
 #include <algorithm>
@@ -174,7 +175,7 @@ drained(const TerrainGrid& ground, const std::vector<char>& is_outlet, std::uint
     water.receiver.resize(count);
     water.length_m.assign(count, ground.cell_m);
     water.area_m2.assign(count, ground.cell_m * ground.cell_m);
-    for (int row = 0; row < ground.side; ++row) {
+    by_rows(ground.side, [&](int row) {
         for (int column = 0; column < ground.side; ++column) {
             const std::size_t i = ground.index(column, row);
             water.receiver[i] = static_cast<int>(i);
@@ -182,7 +183,7 @@ drained(const TerrainGrid& ground, const std::vector<char>& is_outlet, std::uint
                 choose_receiver(ground, column, row, hashed_unit(seed, column, row), water);
             }
         }
-    }
+    });
     order_upstream(water);
     for (std::size_t at = count; at-- > 0;) {
         const auto i = static_cast<std::size_t>(water.upstream[at]);

@@ -6,6 +6,7 @@
 // result u is the height that even rock would have; layers of hard and soft rock turn it into
 // cliffs and benches, as in the Grand Canyon (order and thickness after its strata, Vishnu to
 // Kaibab). Deviations: two rounds of sweeps instead of a test for convergence.
+#include "models/made/by_rows.h"
 #include "models/made/canyon_network.h"
 #include "models/made/made_terrain.h"
 #include "models/made/terrain_grid.h"
@@ -81,7 +82,7 @@ EvenRock unlimited(double field_m, double spacing_m, std::uint64_t seed) {
     EvenRock rock = {TerrainGrid(side, cell_m), TerrainGrid(side, cell_m), margin * cell_m};
     std::fill(rock.height_m.values.begin(), rock.height_m.values.end(), 1e9);
     const Fractal weathering = {seed + 101, 1100.0, 4, 0.6};
-    for (int row = 0; row < side; ++row) {
+    by_rows(side, [&](int row) {
         for (int column = 0; column < side; ++column) {
             const double n = weathering.at(
                 column * cell_m - rock.margin_m - 0.5 * field_m,
@@ -89,7 +90,7 @@ EvenRock unlimited(double field_m, double spacing_m, std::uint64_t seed) {
             rock.slope.values[rock.slope.index(column, row)] =
                 wall_slope * std::clamp(1.0 + 1.4 * n, 0.5, 1.9);
         }
-    }
+    });
     return rock;
 }
 
@@ -213,16 +214,16 @@ heights::HeightField made_canyon(const MadeOptions& options) {
     }
     limit_slopes(rock);
     const Surface surface(rock, half_m, seed);
-    std::vector<float> heights_m;
-    heights_m.reserve(
-        static_cast<std::size_t>(options.size) * static_cast<std::size_t>(options.size));
-    for (int row = 0; row < options.size; ++row) {
+    const auto size = static_cast<std::size_t>(options.size);
+    std::vector<float> heights_m(size * size);
+    by_rows(options.size, [&](int row) {
+        float* const line = heights_m.data() + static_cast<std::size_t>(row) * size;
         for (int column = 0; column < options.size; ++column) {
             const double x_m = column * options.spacing_m - half_m;
             const double y_m = row * options.spacing_m - half_m;
-            heights_m.push_back(static_cast<float>(surface.at(x_m, y_m)));
+            line[column] = static_cast<float>(surface.at(x_m, y_m));
         }
-    }
+    });
     heights::HeightField field(options.size, options.size, options.spacing_m, std::move(heights_m));
     field.name = "canyon";
     return field;

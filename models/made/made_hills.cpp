@@ -4,6 +4,7 @@
 // rounds the tops.
 // Deviations: a regular grid with hashed receivers and warped sampling instead of an irregular
 // mesh; valley floors are flattened by the height above the nearest stream.
+#include "models/made/by_rows.h"
 #include "models/made/drainage.h"
 #include "models/made/made_terrain.h"
 #include "models/made/terrain_noise.h"
@@ -40,13 +41,13 @@ TerrainGrid first_ground(double extent_m, std::uint64_t seed) {
     const int side = std::clamp(static_cast<int>(extent_m / coarse_cell_m) + 1, 33, 513);
     TerrainGrid ground(side, extent_m / (side - 1));
     const Fractal lowland = {seed + 11, 7000.0, 3, 0.5};
-    for (int row = 0; row < side; ++row) {
+    by_rows(side, [&](int row) {
         for (int column = 0; column < side; ++column) {
             const double x_m = column * ground.cell_m;
             const double y_m = row * ground.cell_m;
             ground.values[ground.index(column, row)] = 130.0 + 120.0 * lowland.at(x_m, y_m);
         }
-    }
+    });
     return ground;
 }
 
@@ -54,12 +55,12 @@ TerrainGrid first_ground(double extent_m, std::uint64_t seed) {
 std::vector<double> uplift_of(const TerrainGrid& ground, std::uint64_t seed) {
     const Fractal ranges = {seed + 23, 6500.0, 3, 0.45};
     std::vector<double> uplift(ground.values.size());
-    for (int row = 0; row < ground.side; ++row) {
+    by_rows(ground.side, [&](int row) {
         for (int column = 0; column < ground.side; ++column) {
             const double n = ranges.at(column * ground.cell_m, row * ground.cell_m);
             uplift[ground.index(column, row)] = 0.22 + 0.95 * smooth_step(-0.35, 0.5, n);
         }
-    }
+    });
     return uplift;
 }
 
@@ -126,10 +127,10 @@ heights::HeightField made_hills(const MadeOptions& options) {
     }
     const Warp warp = {seed + 41, 10.0 * ground.cell_m, 3};
     const Fractal detail = {seed + 47, 500.0, 5, 0.5};
-    std::vector<float> heights_m;
-    heights_m.reserve(
-        static_cast<std::size_t>(options.size) * static_cast<std::size_t>(options.size));
-    for (int row = 0; row < options.size; ++row) {
+    const auto size = static_cast<std::size_t>(options.size);
+    std::vector<float> heights_m(size * size);
+    by_rows(options.size, [&](int row) {
+        float* const line = heights_m.data() + static_cast<std::size_t>(row) * size;
         for (int column = 0; column < options.size; ++column) {
             const double east_m = column * options.spacing_m - 0.5 * field_m;
             const double north_m = row * options.spacing_m - 0.5 * field_m;
@@ -139,9 +140,9 @@ heights::HeightField made_hills(const MadeOptions& options) {
             const double warped_y_m = y_m + warp.north_m(x_m, y_m);
             const double height_m =
                 ground.smooth_at(warped_x_m, warped_y_m) + 9.0 * detail.at(x_m, y_m);
-            heights_m.push_back(static_cast<float>(height_m));
+            line[column] = static_cast<float>(height_m);
         }
-    }
+    });
     heights::HeightField field(options.size, options.size, options.spacing_m, std::move(heights_m));
     field.name = "hills";
     return field;

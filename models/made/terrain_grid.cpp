@@ -1,5 +1,7 @@
 #include "models/made/terrain_grid.h"
 
+#include "models/made/by_rows.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,14 +42,14 @@ double TerrainGrid::smooth_at(double x_m, double y_m) const {
 
 TerrainGrid refined(const TerrainGrid& grid, const Warp& warp) {
     TerrainGrid fine(2 * grid.side - 1, grid.cell_m / 2.0);
-    for (int row = 0; row < fine.side; ++row) {
+    by_rows(fine.side, [&](int row) {
         for (int column = 0; column < fine.side; ++column) {
             const double x_m = column * fine.cell_m;
             const double y_m = row * fine.cell_m;
             fine.values[fine.index(column, row)] =
                 grid.smooth_at(x_m + warp.east_m(x_m, y_m), y_m + warp.north_m(x_m, y_m));
         }
-    }
+    });
     return fine;
 }
 
