@@ -2,9 +2,9 @@
 
 #include "sim/base/error.h"
 
+#include <array>
 #include <cpl_conv.h>
 #include <gdal.h>
-#include <gdal_frmts.h>
 #include <mutex>
 #include <ogr_srs_api.h>
 
@@ -12,17 +12,29 @@ namespace octant::models::heights {
 
 namespace {
 
-/// Only the drivers that read local rasters of heights or colours: no plug-in is searched for, and
-/// none that follows references to other files or hosts is ever there.
+/// All drivers but those that speak to other computers.
 void register_drivers() {
-    GDALRegister_GTiff();
-    GDALRegister_SRTMHGT();
-    GDALRegister_USGSDEM();
-    GDALRegister_PNG();
-    GDALRegister_JPEG();
-    GDALRegister_MEM();
-    GDALRegister_PNM();
-    GDALRegister_AAIGrid();
+    constexpr std::array<const char*, 14> remote = {
+        "WMS",
+        "WCS",
+        "WMTS",
+        "HTTP",
+        "DAAS",
+        "EEDA",
+        "EEDAI",
+        "PLMOSAIC",
+        "PLSCENES",
+        "NGW",
+        "OGCAPI",
+        "STACTA",
+        "STACIT",
+        "PostGISRaster"};
+    GDALAllRegister();
+    for (const char* const name : remote) {
+        if (const GDALDriverH driver = GDALGetDriverByName(name)) {
+            GDALDeregisterDriver(driver);
+        }
+    }
     OSRSetPROJEnableNetwork(0);
 }
 

@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,13 @@ struct MapSystem {
     double centre_x = 0.0; ///< of the field, in the system's units
     double centre_y = 0.0;
     double unit_m = 1.0;
+};
+
+/// How far a ground lies from the surface it was made from, as measured at some places.
+struct Deviation {
+    double rms_m = 0.0;
+    double worst_m = 0.0;
+    std::int64_t places = 0;
 };
 
 /// Ground heights on a square grid. World: x east, y north, z up, metres, origin at the field's

@@ -24,9 +24,4 @@ struct HeightGrid {
 /// 2 x 2 samples (asserted).
 float interpolated(const HeightGrid& grid, double column, double row);
 
-/// A grid whose samples are `step_east_m` and `step_north_m` apart, resampled to square cells of
-/// `spacing_m` about the same centre; nothing beyond the old rim.
-HeightGrid
-squared(const HeightGrid& grid, double step_east_m, double step_north_m, double spacing_m);
-
 } // namespace octant::models::heights

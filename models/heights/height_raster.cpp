@@ -1,20 +1,19 @@
 #include "models/heights/height_raster.h"
 
 #include "models/heights/import_options.h"
+#include "models/heights/raster_file.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
 #include <gdal.h>
 #include <limits>
+#include <ogr_srs_api.h>
 #include <string>
 #include <string_view>
-#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -29,28 +28,10 @@ using GeoTransform = std::array<double, 6>;
     error_in(file, fmt::format("expected a height field that GDAL can read, got {}", got));
 }
 
-Dataset open(const path& file, const GdalSession& gdal) {
-    constexpr std::array<const char*, 7> drivers = {
-        "GTiff", "SRTMHGT", "USGSDEM", "PNG", "PNM", "AAIGrid", nullptr};
-    constexpr unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
-    Dataset dataset(GDALOpenEx(file.c_str(), flags, drivers.data(), nullptr, nullptr));
-    if (dataset) {
-        return dataset;
-    }
-    if (gdal.names_no_format()) {
-        error_unreadable(
-            file,
-            "another kind of file (GeoTIFF, SRTM .hgt, USGS DEM, PNG, PGM and ASCII grid are "
-            "read)");
-    }
-    error_unreadable(file, gdal.reason(file));
-}
-
-/// Metres of the unit a band names; nothing for one that is no known length.
+/// Metres of a unit by its name; nothing for one that is no known length.
 std::optional<double> metres_from_unit(std::string_view unit) {
     constexpr double survey_foot_m = 1200.0 / 3937.0;
-    constexpr std::array<std::pair<std::string_view, double>, 14> known = {{
-        {"", 1.0},
+    constexpr std::array<std::pair<std::string_view, double>, 26> known = {{
         {"m", 1.0},
         {"metre", 1.0},
         {"meter", 1.0},
@@ -60,10 +41,23 @@ std::optional<double> metres_from_unit(std::string_view unit) {
         {"foot", 0.3048},
         {"feet", 0.3048},
         {"international foot", 0.3048},
+        {"international feet", 0.3048},
         {"us-ft", survey_foot_m},
         {"sfoot", survey_foot_m},
         {"ftUS", survey_foot_m},
         {"US survey foot", survey_foot_m},
+        {"Foot_US", survey_foot_m},
+        {"dm", 0.1},
+        {"decimetre", 0.1},
+        {"decimeter", 0.1},
+        {"decimeters", 0.1},
+        {"cm", 0.01},
+        {"centimetre", 0.01},
+        {"centimeter", 0.01},
+        {"mm", 0.001},
+        {"km", 1000.0},
+        {"yard", 0.9144},
+        {"fathom", 1.8288},
     }};
     for (const auto& [name, metres] : known) {
         if (name == unit) {
@@ -89,8 +83,35 @@ std::optional<double> declared_no_data(GDALRasterBandH band) {
     return declared != 0 ? std::optional(value) : std::nullopt;
 }
 
+/// The unit of heights that a coordinate system names, in metres.
+std::optional<double> vertical_unit_m(SystemHandle system) {
+    if (system == nullptr || OSRGetAttrValue(system, "VERT_CS", 0) == nullptr) {
+        return std::nullopt;
+    }
+    return OSRGetTargetLinearUnits(system, "VERT_CS", nullptr);
+}
+
+/// Metres a unit of the band: as it says, else as its system says, else as `given`, else 1.
+double unit_m_of(const path& file, const OpenRaster& raster, const std::optional<double>& given) {
+    std::string unit = GDALGetRasterUnitType(raster.band);
+    if (unit == "unspecified" || unit == "unknown") {
+        unit.clear();
+    }
+    const auto named = unit.empty() ? vertical_unit_m(raster.system) : metres_from_unit(unit);
+    if (named || given || unit.empty()) {
+        return named ? *named : given.value_or(1.0);
+    }
+    error_in(
+        file,
+        fmt::format(
+            "expected heights in metres or feet, got '{}': --height-scale says how many metres "
+            "that is",
+            printable(unit)));
+}
+
 /// Reads what describes the first band: no-data value, scale, offset and unit.
-void take_first_band(const path& file, OpenRaster& raster) {
+void take_first_band(
+    const path& file, OpenRaster& raster, const std::optional<double>& height_scale) {
     GDALDatasetH dataset = raster.dataset.get();
     if (GDALGetRasterCount(dataset) < 1) {
         error_unreadable(file, "no band");
@@ -104,15 +125,10 @@ void take_first_band(const path& file, OpenRaster& raster) {
     if (GDALDataTypeIsComplex(GDALGetRasterDataType(raster.band)) != 0) {
         error_in(file, "expected real heights, got complex numbers");
     }
-    const std::string unit = GDALGetRasterUnitType(raster.band);
-    const auto metres = metres_from_unit(unit);
-    if (!metres) {
-        error_in(
-            file, fmt::format("expected heights in metres or feet, got '{}'", printable(unit)));
-    }
+    const double unit_m = unit_m_of(file, raster, height_scale);
     raster.no_data = declared_no_data(raster.band);
-    raster.scale_m = GDALGetRasterScale(raster.band, nullptr) * *metres;
-    raster.offset_m = GDALGetRasterOffset(raster.band, nullptr) * *metres;
+    raster.scale_m = GDALGetRasterScale(raster.band, nullptr) * unit_m;
+    raster.offset_m = GDALGetRasterOffset(raster.band, nullptr) * unit_m;
 }
 
 bool is_void(double raw, const std::optional<double>& no_data) {
@@ -143,54 +159,63 @@ std::optional<GeoTransform> transform_of(const path& file, GDALDatasetH dataset)
     if (GDALGetGeoTransform(dataset, t.data()) != CE_None) {
         return std::nullopt;
     }
-    if (std::abs(t[2]) > 1e-9 * std::abs(t[1]) || std::abs(t[4]) > 1e-9 * std::abs(t[5])) {
-        error_in(
-            file, "expected columns that run north and rows that run east, got a rotated grid");
-    }
-    const bool sound =
-        std::isfinite(t[0]) && std::isfinite(t[3]) && std::isnormal(t[1]) && std::isnormal(t[5]);
-    if (!sound) {
+    // What is left of a rotation by 0 or 180 degrees.
+    t[2] = std::abs(t[2]) <= 1e-9 * std::abs(t[1]) ? 0.0 : t[2];
+    t[4] = std::abs(t[4]) <= 1e-9 * std::abs(t[5]) ? 0.0 : t[4];
+    const double area = t[1] * t[5] - t[2] * t[4];
+    if (!std::isfinite(t[0]) || !std::isfinite(t[3]) || !std::isnormal(area)) {
         error_in(
             file, fmt::format("expected a cell size that is a number, got {} x {}", t[1], t[5]));
     }
     return t;
 }
 
-GridFrame frame_from(const GeoTransform& t, const OpenRaster& grid) {
-    const double first_x = t[0] + 0.5 * t[1];
-    const double first_y = t[3] + 0.5 * t[5];
-    return {
-        t[1] > 0.0 ? first_x : first_x + (grid.columns - 1) * t[1],
-        t[5] > 0.0 ? first_y : first_y + (grid.rows - 1) * t[5],
-        std::abs(t[1]),
-        std::abs(t[5])};
+/// Turns an upright raster so that it runs from the south-west; a rotated one stays from the south.
+void take_transform(const GeoTransform& t, OpenRaster& raster) {
+    const bool upright = t[2] == 0.0 && t[4] == 0.0;
+    raster.from_east = upright && t[1] < 0.0;
+    raster.from_south = upright && t[5] > 0.0;
+    const double first_line = raster.from_south ? 0.5 : raster.rows - 0.5;
+    const double first_pixel = raster.from_east ? raster.columns - 0.5 : 0.5;
+    const double right = raster.from_east ? -1.0 : 1.0;
+    const double up = raster.from_south ? 1.0 : -1.0;
+    raster.map = MapFromGrid{
+        t[0] + first_pixel * t[1] + first_line * t[2],
+        right * t[1],
+        up * t[2],
+        t[3] + first_pixel * t[4] + first_line * t[5],
+        right * t[4],
+        up * t[5]};
 }
 
-/// Reads rows, counted from the south, into a buffer row after row from the south.
+/// Reads a window into a buffer row after row from the south.
 template <typename Number>
-void read_rows(
+void read_window(
     const path& file,
     const OpenRaster& raster,
-    RowBand rows,
+    const GridWindow& window,
     GDALDataType type,
     Number* numbers,
     const GdalSession& gdal) {
-    const int line = raster.from_south ? rows.first : raster.rows - rows.first - rows.count;
+    const int line =
+        raster.from_south ? window.first_row : raster.rows - window.first_row - window.rows;
+    const int pixel = raster.from_east ? raster.columns - window.first_column - window.columns
+                                       : window.first_column;
     const auto size = static_cast<GSpacing>(sizeof(Number));
-    const GSpacing line_size = size * raster.columns;
+    const GSpacing line_size = size * window.columns;
     Number* const start =
-        numbers + (raster.from_east ? raster.columns - 1 : 0) +
-        (raster.from_south ? std::ptrdiff_t{0} : std::ptrdiff_t{rows.count - 1} * raster.columns);
+        numbers + (raster.from_east ? window.columns - 1 : 0) +
+        (raster.from_south ? std::ptrdiff_t{0} : std::ptrdiff_t{window.rows - 1} * window.columns);
     const CPLErr result = GDALRasterIOEx(
         raster.band,
         GF_Read,
-        0,
+        pixel,
         line,
-        raster.columns,
-        rows.count,
+        window.columns,
+        window.rows,
         start,
-        raster.columns,
-        rows.count,
+        window.columns,
+        window.rows,
         type,
         raster.from_east ? -size : size,
         raster.from_south ? line_size : -line_size,
@@ -201,30 +226,6 @@ void read_rows(
 }
 
 } // namespace
-
-void check_local_file(const path& file) {
-    if (file.string().starts_with("/vsi")) {
-        error_in(file, "expected a file on this computer, got a virtual path of GDAL");
-    }
-    std::error_code code;
-    const auto status = std::filesystem::status(file, code);
-    if (!std::filesystem::exists(status)) {
-        const bool odd = code && code.value() != ENOENT;
-        error_in(file, odd ? code.message() : "expected a file, found none");
-    }
-    if (std::filesystem::is_directory(status)) {
-        error_in(file, "expected a file, got a folder");
-    }
-    if (!std::filesystem::is_regular_file(status)) {
-        error_in(file, "expected a regular file, got a device or pipe");
-    }
-    if (::access(file.c_str(), R_OK) != 0) {
-        error_in(file, fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
-    }
-    if (std::filesystem::file_size(file, code) == 0) {
-        error_unreadable(file, "an empty file");
-    }
-}
 
 void check_import_size(const path& file, int columns, int rows) {
     const auto fits = [](int n) { return n >= 2 && n <= largest_import_samples; };
@@ -252,41 +253,38 @@ void check_height(const path& file, double height_m) {
     }
 }
 
-OpenRaster open_height_raster(const path& file, double picture_scale, GdalSession& gdal) {
+OpenRaster
+open_height_raster(const path& file, const std::optional<double>& height_scale, GdalSession& gdal) {
     OpenRaster raster;
-    raster.dataset = open(file, gdal);
+    raster.dataset = open_raster_file(file, gdal);
     GDALDatasetH dataset = raster.dataset.get();
-    gdal.forget();
     raster.columns = GDALGetRasterXSize(dataset);
     raster.rows = GDALGetRasterYSize(dataset);
-    take_first_band(file, raster);
     if (const auto transform = transform_of(file, dataset)) {
-        raster.frame = frame_from(*transform, raster);
+        take_transform(*transform, raster);
         raster.system = GDALGetSpatialRef(dataset);
-        raster.from_east = (*transform)[1] < 0.0;
-        raster.from_south = (*transform)[5] > 0.0;
-    } else {
-        raster.scale_m *= picture_scale;
-        raster.offset_m *= picture_scale;
     }
+    take_first_band(file, raster, height_scale);
     const GDALDataType type = GDALGetRasterDataType(raster.band);
     raster.whole_metres =
         (type == GDT_Byte || type == GDT_Int16) && raster.scale_m == 1.0 && raster.offset_m == 0.0;
+    gdal.forget();
     return raster;
 }
 
 void read_heights(
     const path& file,
     const OpenRaster& raster,
-    RowBand rows,
+    const GridWindow& window,
     std::span<float> heights_m,
     const GdalSession& gdal) {
-    const auto columns = static_cast<std::size_t>(raster.columns);
-    assert(heights_m.size() == columns * static_cast<std::size_t>(rows.count));
+    const auto columns = static_cast<std::size_t>(window.columns);
+    assert(heights_m.size() == columns * static_cast<std::size_t>(window.rows));
     std::vector<double> line(columns);
-    for (int line_in_file = 0; line_in_file < rows.count; ++line_in_file) {
-        const int row = raster.from_south ? line_in_file : rows.count - 1 - line_in_file;
-        read_rows(file, raster, {rows.first + row, 1}, GDT_Float64, line.data(), gdal);
+    for (int line_in_file = 0; line_in_file < window.rows; ++line_in_file) {
+        const int row = raster.from_south ? line_in_file : window.rows - 1 - line_in_file;
+        const GridWindow one{window.first_column, window.columns, window.first_row + row, 1};
+        read_window(file, raster, one, GDT_Float64, line.data(), gdal);
         float* const out = heights_m.data() + static_cast<std::size_t>(row) * columns;
         for (std::size_t x = 0; x < columns; ++x) {
             out[x] = height_from_raw(file, line[x], raster);
@@ -297,11 +295,11 @@ void read_heights(
 void read_whole_metres(
     const path& file,
     const OpenRaster& raster,
-    RowBand rows,
+    const GridWindow& window,
     std::span<std::int16_t> heights_m,
     const GdalSession& gdal) {
     assert(raster.whole_metres);
-    read_rows(file, raster, rows, GDT_Int16, heights_m.data(), gdal);
+    read_window(file, raster, window, GDT_Int16, heights_m.data(), gdal);
     constexpr int nothing = 1 << 20;
     std::array<int, 3> voids = {void_metres, -32767, -9999};
     if (raster.no_data) {
@@ -321,22 +319,6 @@ void read_whole_metres(
     }
     check_height(file, lowest_m);
     check_height(file, highest_m);
-}
-
-HeightRaster read_height_raster(const path& file, double picture_scale, GdalSession& gdal) {
-    OpenRaster open_raster = open_height_raster(file, picture_scale, gdal);
-    check_import_size(file, open_raster.columns, open_raster.rows);
-    HeightRaster raster;
-    HeightGrid& grid = raster.grid;
-    grid.columns = open_raster.columns;
-    grid.rows = open_raster.rows;
-    grid.heights_m.resize(
-        static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
-    read_heights(file, open_raster, {0, grid.rows}, grid.heights_m, gdal);
-    raster.dataset = std::move(open_raster.dataset);
-    raster.frame = open_raster.frame;
-    raster.system = open_raster.system;
-    return raster;
 }
 
 } // namespace octant::models::heights

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "models/heights/gdal_session.h"
-#include "models/heights/height_grid.h"
 #include "models/heights/local_frame.h"
 
 #include <cstdint>
@@ -12,16 +11,8 @@
 
 namespace octant::models::heights {
 
-/// A file of heights as GDAL gives it, turned so that row 0 is the south and column 0 the west.
-struct HeightRaster {
-    Dataset dataset;                ///< still open: owner of `system`
-    HeightGrid grid;                ///< metres, NaN where the file has no data
-    std::optional<GridFrame> frame; ///< nothing for a file without georeference
-    SystemHandle system = nullptr;  ///< null when the file names none
-};
-
 /// A file of heights, open to be read piece by piece: its first band and how raw numbers become
-/// metres.
+/// metres. Row 0 is the south and column 0 the west, where it is upright.
 struct OpenRaster {
     Dataset dataset;
     void* band = nullptr; ///< GDALRasterBandH of the dataset
@@ -33,21 +24,20 @@ struct OpenRaster {
     bool from_east = false;         ///< its lines run westward
     bool from_south = false;        ///< its first line is the southernmost
     bool whole_metres = false;      ///< its numbers are metres that fit 16 bits
-    std::optional<GridFrame> frame; ///< nothing for a file without georeference
+    std::optional<MapFromGrid> map; ///< nothing for a file without georeference
     SystemHandle system = nullptr;  ///< owned by the dataset; null when the file names none
 };
 
-/// Consecutive rows of a grid, counted from the south.
-struct RowBand {
-    int first = 0;
-    int count = 0;
+/// A rectangle of a grid.
+struct GridWindow {
+    int first_column = 0;
+    int columns = 0;
+    int first_row = 0; ///< counted from the south
+    int rows = 0;
 };
 
 /// Stands for a sample without data among whole metres.
 inline constexpr std::int16_t void_metres = std::numeric_limits<std::int16_t>::min();
-
-/// Throws Error unless the path is a readable, regular file with content on this computer.
-void check_local_file(const std::filesystem::path& file);
 
 /// Throws Error unless both are from 2 to largest_import_samples.
 void check_import_size(const std::filesystem::path& file, int columns, int rows);
@@ -55,16 +45,19 @@ void check_import_size(const std::filesystem::path& file, int columns, int rows)
 /// Throws Error unless the height is within the bounds of read_height_field.
 void check_height(const std::filesystem::path& file, double height_m);
 
-/// Opens a file; the contract is read_height_field's, but for the size, which is not checked.
-OpenRaster
-open_height_raster(const std::filesystem::path& file, double picture_scale, GdalSession& gdal);
+/// Opens a file by any of GDAL's drivers; the contract is read_height_field's, but for the size,
+/// which is not checked. `height_scale` as ImportOptions::height_scale.
+OpenRaster open_height_raster(
+    const std::filesystem::path& file,
+    const std::optional<double>& height_scale,
+    GdalSession& gdal);
 
-/// Heights of rows, row after row from the south, NaN without data. Throws Error as
-/// read_height_field.
+/// Heights of a window of the raster, row after row from the south, NaN without data. Throws Error
+/// as read_height_field.
 void read_heights(
     const std::filesystem::path& file,
     const OpenRaster& raster,
-    RowBand rows,
+    const GridWindow& window,
     std::span<float> heights_m,
     const GdalSession& gdal);
 
@@ -72,13 +65,8 @@ void read_heights(
 void read_whole_metres(
     const std::filesystem::path& file,
     const OpenRaster& raster,
-    RowBand rows,
+    const GridWindow& window,
     std::span<std::int16_t> heights_m,
     const GdalSession& gdal);
-
-/// Reads the first band; the contract is read_height_field's. `picture_scale`: metres a unit of a
-/// file without georeference.
-HeightRaster
-read_height_raster(const std::filesystem::path& file, double picture_scale, GdalSession& gdal);
 
 } // namespace octant::models::heights

@@ -1,16 +1,17 @@
 #include "models/heights/height_source.h"
 
-#include "models/heights/height_field_import.h"
 #include "models/heights/height_raster.h"
 #include "models/heights/plain_pgm.h"
+#include "models/heights/raster_file.h"
+#include "models/heights/resampler.h"
+#include "models/heights/source_grid.h"
+#include "models/heights/target_lattice.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
-#include <ogr_srs_api.h>
 #include <utility>
 
 namespace octant::models::heights {
@@ -19,57 +20,33 @@ namespace {
 
 using std::filesystem::path;
 
-constexpr double square_tolerance = 1e-6;
-constexpr double scale_tolerance = 0.01;
-constexpr double grid_tolerance = 0.01; ///< of a cell: how far off the common grid a file may lie
-
-/// A file and where its south-west sample lies on the common grid.
-struct Piece {
-    path file;
-    OpenRaster raster;
-    int column = 0;
-    int row = 0;
-};
-
-/// The call that makes one file which needs no resampling.
-std::string warp_call(const std::vector<path>& files, const std::optional<LocalFrame>& local) {
-    std::string system = "EPSG:...";
-    std::string spacing = "METRES METRES";
-    if (local) {
-        const GeoPlace place = local->place();
-        const int zone =
-            std::clamp(static_cast<int>((place.longitude_deg + 180.0) / 6.0) + 1, 1, 60);
-        system = fmt::format("EPSG:{}", (place.latitude_deg < 0.0 ? 32700 : 32600) + zone);
-        const double step_m = std::sqrt(local->step_east_m() * local->step_north_m());
-        spacing = fmt::format("{0:.6g} {0:.6g}", step_m);
+/// A plain PGM's heights in metres.
+HeightGrid plain_heights(const path& file, double height_scale) {
+    HeightGrid grid = read_plain_pgm(
+        file, [&file](int columns, int rows) { check_import_size(file, columns, rows); });
+    for (float& height : grid.heights_m) {
+        const double height_m = static_cast<double>(height) * height_scale;
+        check_height(file, height_m);
+        height = static_cast<float>(height_m);
     }
-    return fmt::format(
-        "gdalwarp -t_srs {} -tr {} -r bilinear {}{} OUT.tif",
-        system,
-        spacing,
-        files.front().filename().string(),
-        files.size() > 1 ? " ..." : "");
+    return grid;
 }
 
-bool is_true_to_scale(const LocalFrame& local, double step_east_m, double step_north_m) {
-    return std::abs(local.step_east_m() / step_east_m - 1.0) <= scale_tolerance &&
-           std::abs(local.step_north_m() / step_north_m - 1.0) <= scale_tolerance;
-}
-
-/// Metres a unit of the coordinate system; nothing for degrees and other systems.
-std::optional<double> unit_m_of(const OpenRaster& raster) {
-    if (raster.system == nullptr) {
-        constexpr double coarsest_degrees = 0.02;
-        return raster.frame->step_east < coarsest_degrees ? std::nullopt : std::optional(1.0);
+std::vector<SourceGrid>
+open_grids(const std::vector<path>& files, const ImportOptions& options, GdalSession& gdal) {
+    std::vector<SourceGrid> grids;
+    for (const path& file : files) {
+        SourcePiece piece{file, open_height_raster(file, options.height_scale, gdal)};
+        if (files.size() > 1 && !piece.raster.map) {
+            error_in(file, "expected a file that knows its place, beside others, got a picture");
+        }
+        const bool taken =
+            std::ranges::any_of(grids, [&piece](SourceGrid& grid) { return grid.take(piece); });
+        if (!taken) {
+            grids.emplace_back(std::move(piece));
+        }
     }
-    if (OSRIsProjected(raster.system) == 0 && OSRIsLocal(raster.system) == 0) {
-        return std::nullopt;
-    }
-    return OSRGetLinearUnits(raster.system, nullptr);
-}
-
-bool same_system(SystemHandle a, SystemHandle b) {
-    return a == nullptr || b == nullptr ? a == b : OSRIsSame(a, b) != 0;
+    return grids;
 }
 
 } // namespace
@@ -77,199 +54,76 @@ bool same_system(SystemHandle a, SystemHandle b) {
 struct HeightSource::Content {
     std::vector<path> files;
     std::unique_ptr<GdalSession> gdal;
-    std::vector<Piece> pieces;
-    std::optional<HeightField> whole; ///< set instead of pieces where one file had to be resampled
-    int columns = 0;
-    int rows = 0;
+    std::vector<SourceGrid> grids;
+    std::optional<HeightGrid> whole; ///< a plain PGM
+    TargetLattice lattice;
+    std::optional<Resampler> resampler; ///< where heights are not the files' own
     double spacing_m = 0.0;
     std::optional<GeoPlace> place;
     std::optional<MapSystem> system;
-    bool whole_metres = true;
 
     void open(const ImportOptions& options);
-    void put_together();
-    void settle(const ImportOptions& options);
-    void take_whole(const ImportOptions& options, const std::optional<LocalFrame>& local);
-
-    template <typename Height, typename ReadRows>
-    void read(int first_row, std::span<Height> heights, Height no_height, const ReadRows& rows_of);
+    void take_picture(int columns, int rows, double spacing);
+    void find_place();
 };
 
 void HeightSource::Content::open(const ImportOptions& options) {
     for (const path& file : files) {
         check_local_file(file);
-        if (is_plain_pgm(file)) {
-            take_whole(options, std::nullopt);
-            return;
-        }
-    }
-    gdal = std::make_unique<GdalSession>();
-    for (const path& file : files) {
-        Piece& piece = pieces.emplace_back();
-        piece.file = file;
-        piece.raster = open_height_raster(file, options.height_scale, *gdal);
-        whole_metres = whole_metres && piece.raster.whole_metres;
-        if (files.size() > 1 && !piece.raster.frame) {
-            error_in(file, "expected a file that knows its place, beside others, got a picture");
-        }
-    }
-    put_together();
-    settle(options);
-    if (gdal) {
-        gdal->forget(); // a system without a place on the earth is no fault
-    }
-}
-
-/// Lays all files on the grid of the first and finds how large the ground is.
-void HeightSource::Content::put_together() {
-    const OpenRaster& first = pieces.front().raster;
-    int west = 0;
-    int south = 0;
-    std::int64_t east = first.columns;
-    std::int64_t north = first.rows;
-    for (Piece& piece : pieces) {
-        const OpenRaster& raster = piece.raster;
-        if (!raster.frame) {
+        if (!is_plain_pgm(file)) {
             continue;
         }
-        const GridFrame& own = *raster.frame;
-        const GridFrame& frame = *first.frame;
-        if (!same_system(raster.system, first.system)) {
-            error_in(
-                piece.file,
-                fmt::format(
-                    "expected the coordinate system of {}, got another",
-                    files.front().filename().string()));
+        if (files.size() > 1) {
+            error_in(file, "expected a file that knows its place, beside others, got a picture");
         }
-        const double column = (own.west - frame.west) / frame.step_east;
-        const double row = (own.south - frame.south) / frame.step_north;
-        const bool same_step =
-            std::abs(own.step_east / frame.step_east - 1.0) <= square_tolerance &&
-            std::abs(own.step_north / frame.step_north - 1.0) <= square_tolerance;
-        if (!same_step || !(std::abs(column - std::round(column)) <= grid_tolerance) ||
-            !(std::abs(row - std::round(row)) <= grid_tolerance) ||
-            std::max(std::abs(column), std::abs(row)) > largest_samples) {
-            error_in(
-                piece.file,
-                fmt::format(
-                    "expected samples on the grid of {} and at most {} cells from it, got cells of "
-                    "{:g} x {:g} at {:.3f}, {:.3f}",
-                    files.front().filename().string(),
-                    static_cast<int>(largest_samples),
-                    own.step_east,
-                    own.step_north,
-                    column,
-                    row));
-        }
-        piece.column = static_cast<int>(std::lround(column));
-        piece.row = static_cast<int>(std::lround(row));
-        west = std::min(west, piece.column);
-        south = std::min(south, piece.row);
-        east = std::max<std::int64_t>(east, std::int64_t{piece.column} + raster.columns);
-        north = std::max<std::int64_t>(north, std::int64_t{piece.row} + raster.rows);
+        whole = plain_heights(file, options.height_scale.value_or(1.0));
+        take_picture(whole->columns, whole->rows, options.spacing_m);
+        return;
     }
-    for (Piece& piece : pieces) {
-        piece.column -= west;
-        piece.row -= south;
+    gdal = std::make_unique<GdalSession>();
+    grids = open_grids(files, options, *gdal);
+    if (!grids.front().map()) {
+        take_picture(grids.front().columns(), grids.front().rows(), options.spacing_m);
+        return;
     }
-    const auto fits = [](std::int64_t n) { return n >= 2 && n <= largest_samples; };
-    if (!fits(east - west) || !fits(north - south)) {
+    lattice = lattice_for(files.front(), grids);
+    spacing_m = lattice.step * lattice.unit_m;
+    if (!lattice.is_source) {
+        resampler.emplace(grids, lattice);
+    }
+    find_place();
+    gdal->forget(); // a system without a place on the earth is no fault
+}
+
+/// A ground without a place.
+void HeightSource::Content::take_picture(int columns, int rows, double spacing) {
+    const auto fits = [](int n) { return n >= 2 && n <= largest_samples; };
+    if (!fits(columns) || !fits(rows)) {
         error_in(
             files.front(),
             fmt::format(
                 "expected 2 x 2 to {0} x {0} samples, got {1} x {2}",
                 static_cast<int>(largest_samples),
-                east - west,
-                north - south));
+                columns,
+                rows));
     }
-    columns = static_cast<int>(east - west);
-    rows = static_cast<int>(north - south);
+    lattice.columns = columns;
+    lattice.rows = rows;
+    lattice.is_source = true;
+    spacing_m = spacing;
 }
 
-/// Finds spacing and place, or that the ground must be resampled.
-void HeightSource::Content::settle(const ImportOptions& options) {
-    const OpenRaster& first = pieces.front().raster;
-    if (!first.frame) {
-        spacing_m = options.spacing_m;
+void HeightSource::Content::find_place() {
+    if (!lattice.frame) {
         return;
     }
-    GridFrame frame = *first.frame;
-    frame.west -= pieces.front().column * frame.step_east;
-    frame.south -= pieces.front().row * frame.step_north;
-    const auto local = first.system == nullptr
-                           ? std::nullopt
-                           : LocalFrame::around(first.system, frame, columns, rows);
-    const auto unit_m = unit_m_of(first);
-    const bool square = std::abs(frame.step_east / frame.step_north - 1.0) <= square_tolerance;
-    if (!unit_m || !square ||
-        (local &&
-         !is_true_to_scale(*local, frame.step_east * *unit_m, frame.step_north * *unit_m))) {
-        take_whole(options, local);
-        return;
-    }
-    spacing_m = frame.step_east * *unit_m;
-    if (local) {
-        place = local->place();
-    }
-    if (first.system != nullptr) {
-        system = map_system(first.system, frame, columns, rows);
-    }
-}
-
-void HeightSource::Content::take_whole(
-    const ImportOptions& options, const std::optional<LocalFrame>& local) {
-    if (files.size() > 1 || columns > largest_import_samples || rows > largest_import_samples) {
-        error_in(
-            files.front(),
-            "expected square cells in metres to read piece by piece, got others: make them with " +
-                warp_call(files, local));
-    }
-    pieces.clear();
-    gdal.reset();
-    whole = read_height_field(files.front(), options);
-    columns = whole->columns();
-    rows = whole->rows();
-    spacing_m = whole->spacing_m();
-    place = whole->place;
-    system = whole->system;
-    whole_metres = false;
-}
-
-template <typename Height, typename ReadRows>
-void HeightSource::Content::read(
-    int first_row, std::span<Height> heights, Height no_height, const ReadRows& rows_of) {
-    const auto width = static_cast<std::size_t>(columns);
-    const int count = static_cast<int>(heights.size() / width);
-    assert(heights.size() % width == 0 && first_row >= 0 && first_row + count <= rows);
-    const bool alone = pieces.size() == 1;
-    if (!alone) {
-        std::fill(heights.begin(), heights.end(), no_height);
-    }
-    std::vector<Height> own;
-    for (const Piece& piece : pieces) {
-        const int begin = std::max(first_row, piece.row);
-        const int end = std::min(first_row + count, piece.row + piece.raster.rows);
-        if (begin >= end) {
-            continue;
-        }
-        const RowBand band{begin - piece.row, end - begin};
-        if (alone) {
-            rows_of(piece, band, heights);
-            continue;
-        }
-        const auto own_width = static_cast<std::size_t>(piece.raster.columns);
-        own.resize(own_width * static_cast<std::size_t>(band.count));
-        rows_of(piece, band, std::span<Height>(own));
-        for (int row = begin; row < end; ++row) {
-            const Height* const from = &own[static_cast<std::size_t>(row - begin) * own_width];
-            Height* const to = &heights
-                                   [static_cast<std::size_t>(row - first_row) * width +
-                                    static_cast<std::size_t>(piece.column)];
-            for (std::size_t x = 0; x < own_width; ++x) {
-                const bool free = to[x] == no_height || to[x] != to[x];
-                to[x] = free ? from[x] : to[x];
-            }
-        }
+    system = lattice.system();
+    const Reference globe = wgs84();
+    const Transformation to_globe = between(lattice.frame.get(), globe.get());
+    const auto middle =
+        to_globe ? moved(to_globe, {system->centre_x, system->centre_y}) : std::nullopt;
+    if (middle && std::abs(middle->y) <= 90.0) {
+        place = GeoPlace{middle->y, middle->x};
     }
 }
 
@@ -283,11 +137,11 @@ HeightSource::HeightSource(std::vector<path> files, const ImportOptions& options
 HeightSource::~HeightSource() = default;
 
 int HeightSource::columns() const {
-    return content_->columns;
+    return content_->lattice.columns;
 }
 
 int HeightSource::rows() const {
-    return content_->rows;
+    return content_->lattice.rows;
 }
 
 double HeightSource::spacing_m() const {
@@ -308,42 +162,48 @@ std::string HeightSource::name() const {
     return more == 0 ? first : fmt::format("{} and {} more", first, more);
 }
 
-std::int64_t HeightSource::filled_voids() const {
-    return content_->whole ? content_->whole->filled_voids : 0;
+bool HeightSource::whole_metres() const {
+    return has_own_samples() && !content_->whole && content_->grids.front().whole_metres();
 }
 
-bool HeightSource::whole_metres() const {
-    return content_->whole_metres;
+bool HeightSource::has_own_samples() const {
+    return content_->lattice.is_source;
+}
+
+std::optional<double> HeightSource::height_at(double x_m, double y_m) const {
+    assert(!content_->grids.empty() && content_->grids.front().map());
+    return source_height_m(content_->grids, content_->lattice, x_m, y_m, *content_->gdal);
+}
+
+std::optional<Deviation> HeightSource::deviation_of(const GroundAt& ground) const {
+    if (content_->grids.empty() || !content_->grids.front().map()) {
+        return std::nullopt;
+    }
+    return deviation_from_source(content_->grids, content_->lattice, ground, *content_->gdal);
 }
 
 void HeightSource::read(int first_row, std::span<float> heights_m) {
     if (content_->whole) {
-        const int columns = content_->columns;
-        for (std::size_t i = 0; i < heights_m.size(); ++i) {
-            const auto width = static_cast<std::size_t>(columns);
-            heights_m[i] = content_->whole->height_m(
-                static_cast<int>(i % width), first_row + static_cast<int>(i / width));
-        }
+        const std::size_t first =
+            static_cast<std::size_t>(first_row) * static_cast<std::size_t>(columns());
+        std::copy_n(
+            content_->whole->heights_m.begin() + static_cast<std::ptrdiff_t>(first),
+            heights_m.size(),
+            heights_m.begin());
         return;
     }
-    content_->read(
-        first_row,
-        heights_m,
-        std::numeric_limits<float>::quiet_NaN(),
-        [this](const Piece& piece, RowBand band, std::span<float> heights) {
-            read_heights(piece.file, piece.raster, band, heights, *content_->gdal);
-        });
+    if (content_->resampler) {
+        content_->resampler->read(first_row, heights_m, *content_->gdal);
+        return;
+    }
+    const int count = static_cast<int>(heights_m.size() / static_cast<std::size_t>(columns()));
+    content_->grids.front().read({0, columns(), first_row, count}, heights_m, *content_->gdal);
 }
 
 void HeightSource::read(int first_row, std::span<std::int16_t> heights_m) {
     assert(whole_metres());
-    content_->read(
-        first_row,
-        heights_m,
-        void_metres,
-        [this](const Piece& piece, RowBand band, std::span<std::int16_t> heights) {
-            read_whole_metres(piece.file, piece.raster, band, heights, *content_->gdal);
-        });
+    const int count = static_cast<int>(heights_m.size() / static_cast<std::size_t>(columns()));
+    content_->grids.front().read({0, columns(), first_row, count}, heights_m, *content_->gdal);
 }
 
 } // namespace octant::models::heights

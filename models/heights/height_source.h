@@ -2,6 +2,7 @@
 
 #include "models/heights/height_field.h"
 #include "models/heights/import_options.h"
+#include "models/heights/source_surface.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -13,17 +14,14 @@
 
 namespace octant::models::heights {
 
-/// Heights of one or several files that form one ground, read in bands of rows: none is held as a
+/// Heights of one or several rasters that form one ground, read in bands of rows: none is held as a
 /// whole. Row 0 is the south, column 0 the west. For one thread, on which no other GDAL session
 /// lives.
 ///
-/// Several files have the same coordinate system and spacing, their samples lie on one grid, and
-/// each knows its place. Where files overlap, the first named that has data counts; gaps between
-/// them are without data.
-///
-/// What read_height_field would have to resample (degrees, oblong cells, a projection untrue to
-/// scale) is read by it, as a whole, if it is a single file within its size limit; else an Error
-/// names the call of gdalwarp that makes a file which can be streamed. So is a plain PGM.
+/// Any raster that GDAL reads will do, and rasters of several systems, resolutions and places
+/// beside each other: target_lattice.h tells which ground they make and where it has their own
+/// samples. Where files overlap, the first named that has data counts; gaps between them are
+/// without data. Several files each know their place. A plain PGM is read as a whole.
 class HeightSource {
 public:
     static constexpr int largest_samples = 65536; ///< of width and of height
@@ -45,11 +43,19 @@ public:
     /// Name of the first file, and how many more there are.
     std::string name() const;
 
-    /// How many voids were filled before heights are read.
-    std::int64_t filled_voids() const;
-
     /// Whether all heights are whole metres that fit 16 bits.
     bool whole_metres() const;
+
+    /// Whether all samples are the files' own, none computed between them.
+    bool has_own_samples() const;
+
+    /// The files' bilinear height at a place in metres east and north of the ground's centre;
+    /// nothing where there is none. Not for files without georeference. Throws Error.
+    std::optional<double> height_at(double x_m, double y_m) const;
+
+    /// How far some ground on these samples lies from the files; nothing for files without
+    /// georeference, whose samples are the ground's. Throws Error.
+    std::optional<Deviation> deviation_of(const GroundAt& ground) const;
 
     /// Heights of rows from `first_row` on, as many as fill the span, row after row from the south,
     /// NaN without data. Throws Error (damaged file, heights not believed).

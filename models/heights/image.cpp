@@ -1,8 +1,8 @@
 #include "models/heights/image.h"
 
 #include "models/heights/gdal_session.h"
-#include "models/heights/height_raster.h"
 #include "models/heights/local_frame.h"
+#include "models/heights/raster_file.h"
 #include "sim/base/error.h"
 
 #include <algorithm>

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <optional>
+
 namespace octant::models::heights {
 
-/// What a picture of heights (PNG, PGM and the like without a place on the earth) does not say
-/// itself. Both above zero and finite (asserted).
+/// What files of heights do not say themselves. Numbers above zero and finite (asserted).
 struct ImportOptions {
-    double spacing_m = 30.0;   ///< between samples
-    double height_scale = 1.0; ///< metres a unit of the picture
+    double spacing_m = 30.0; ///< between samples, where a file has no place (PNG, PGM and the like)
+    /// Metres a unit of heights, where a file names no unit or one that is not known; 1 if nothing.
+    std::optional<double> height_scale = {};
 };
 
 /// Largest width and height that is read, samples.

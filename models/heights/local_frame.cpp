@@ -1,39 +1,28 @@
 #include "models/heights/local_frame.h"
 
-#include "sim/base/error.h"
+#include "models/heights/gdal_session.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cpl_conv.h>
 #include <fmt/format.h>
+#include <limits>
+#include <numbers>
 #include <ogr_srs_api.h>
-#include <string>
-#include <utility>
+#include <vector>
 
 namespace octant::models::heights {
 
 namespace {
 
-constexpr double widest_m = 1.0e6;
-/// Points looked at along each edge of a grid when its rectangle is searched.
-constexpr int edge_points = 257;
-/// Between lattice points so many samples apart source coordinates run linearly: at 100 m spacing
-/// the error is 0.05 m, far below a sample.
-constexpr int lattice_step = 16;
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-struct ReleaseReference {
-    void operator()(void* reference) const { OSRRelease(reference); }
-};
-
-using Reference = std::unique_ptr<void, ReleaseReference>;
-
-struct Point {
-    double x = 0.0;
-    double y = 0.0;
-};
+Reference counted(OGRSpatialReferenceH system) {
+    return {system, [](void* own) { OSRRelease(own); }};
+}
 
 Reference reference_from_proj(const std::string& text) {
-    Reference reference(OSRNewSpatialReference(nullptr));
+    Reference reference = counted(OSRNewSpatialReference(nullptr));
     if (OSRImportFromProj4(reference.get(), text.c_str()) != OGRERR_NONE) {
         return nullptr;
     }
@@ -41,26 +30,41 @@ Reference reference_from_proj(const std::string& text) {
     return reference;
 }
 
-Transformation between(OGRSpatialReferenceH from, OGRSpatialReferenceH to) {
-    return Transformation(OCTNewCoordinateTransformation(from, to));
-}
-
-std::optional<Point> moved(const Transformation& transformation, Point point) {
-    const bool worked = OCTTransform(transformation.get(), 1, &point.x, &point.y, nullptr) != 0;
-    if (!worked || !std::isfinite(point.x) || !std::isfinite(point.y)) {
-        return std::nullopt;
-    }
-    return point;
-}
-
-double distance(Point a, Point b) {
-    return std::hypot(a.x - b.x, a.y - b.y);
+/// The way on the ground between two places that lie close together, metres east and north.
+glm::dvec2 way_m(const glm::dvec2& from_deg, const glm::dvec2& to_deg) {
+    constexpr double equator_m = 6378137.0;
+    constexpr double flattening = 1.0 / 298.257223563;
+    constexpr double e2 = flattening * (2.0 - flattening);
+    constexpr double rad = std::numbers::pi / 180.0;
+    const double latitude = 0.5 * (from_deg.y + to_deg.y) * rad;
+    const double root = std::sqrt(1.0 - e2 * std::sin(latitude) * std::sin(latitude));
+    const double across_m = equator_m / root;
+    const double along_m = equator_m * (1.0 - e2) / (root * root * root);
+    const double east_deg = std::remainder(to_deg.x - from_deg.x, 360.0);
+    return {
+        east_deg * rad * across_m * std::cos(latitude), (to_deg.y - from_deg.y) * rad * along_m};
 }
 
 } // namespace
 
 void CloseTransformation::operator()(void* transformation) const {
     OCTDestroyCoordinateTransformation(transformation);
+}
+
+glm::dvec2 MapFromGrid::steps() const {
+    return {std::hypot(x_column, y_column), std::hypot(x_row, y_row)};
+}
+
+MapFromGrid MapFromGrid::inverse() const {
+    const double area = x_column * y_row - x_row * y_column;
+    MapFromGrid back;
+    back.x_column = y_row / area;
+    back.x_row = -x_row / area;
+    back.y_column = -y_column / area;
+    back.y_row = x_column / area;
+    back.x0 = -(back.x_column * x0 + back.x_row * y0);
+    back.y0 = -(back.y_column * x0 + back.y_row * y0);
+    return back;
 }
 
 std::string wkt_of(SystemHandle system) {
@@ -71,152 +75,82 @@ std::string wkt_of(SystemHandle system) {
     return wkt;
 }
 
-MapSystem map_system(SystemHandle system, const GridFrame& frame, int columns, int rows) {
-    return {
-        wkt_of(system),
-        frame.west + 0.5 * (columns - 1) * frame.step_east,
-        frame.south + 0.5 * (rows - 1) * frame.step_north,
-        OSRGetLinearUnits(system, nullptr)};
+Reference wgs84() {
+    return reference_from_proj("+proj=longlat +datum=WGS84 +no_defs");
 }
 
-std::optional<LocalFrame>
-LocalFrame::around(SystemHandle system, const GridFrame& frame, int columns, int rows) {
-    const Point centre = {
-        frame.west + 0.5 * (columns - 1) * frame.step_east,
-        frame.south + 0.5 * (rows - 1) * frame.step_north};
-    const Reference wgs84 = reference_from_proj("+proj=longlat +datum=WGS84 +no_defs");
-    const Transformation to_wgs84 = wgs84 ? between(system, wgs84.get()) : nullptr;
-    const std::optional<Point> place = to_wgs84 ? moved(to_wgs84, centre) : std::nullopt;
-    if (!place || std::abs(place->y) > 90.0) {
-        return std::nullopt;
-    }
-    const Reference local = reference_from_proj(fmt::format(
+Reference reference_of(SystemHandle system) {
+    return system == nullptr ? nullptr : counted(OSRClone(system));
+}
+
+Reference system_about(const GeoPlace& place) {
+    return reference_from_proj(fmt::format(
         "+proj=tmerc +lat_0={:.17g} +lon_0={:.17g} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m "
         "+no_defs",
-        place->y,
-        place->x));
-    LocalFrame result;
-    result.frame_ = frame;
-    result.place_ = {place->y, place->x};
-    if (!local) {
-        return std::nullopt;
-    }
-    result.wkt_ = wkt_of(local.get());
-    result.to_local_ = between(system, local.get());
-    result.from_local_ = between(local.get(), system);
-    result.local_to_wgs84_ = between(local.get(), wgs84.get());
-    if (!result.to_local_ || !result.from_local_ || !result.local_to_wgs84_) {
-        return std::nullopt;
-    }
-    const double half_east = 0.5 * frame.step_east;
-    const double half_north = 0.5 * frame.step_north;
-    const auto west = moved(result.to_local_, {centre.x - half_east, centre.y});
-    const auto east = moved(result.to_local_, {centre.x + half_east, centre.y});
-    const auto south = moved(result.to_local_, {centre.x, centre.y - half_north});
-    const auto north = moved(result.to_local_, {centre.x, centre.y + half_north});
-    if (!west || !east || !south || !north) {
-        return std::nullopt;
-    }
-    result.step_east_m_ = distance(*west, *east);
-    result.step_north_m_ = distance(*south, *north);
-    return result;
+        place.latitude_deg,
+        place.longitude_deg));
 }
 
-std::optional<LocalFrame::Rectangle> LocalFrame::rectangle_within(const HeightGrid& grid) const {
-    const double width = (grid.columns - 1) * frame_.step_east;
-    const double height = (grid.rows - 1) * frame_.step_north;
-    Rectangle inside = {-widest_m, widest_m, -widest_m, widest_m};
-    for (int i = 0; i < edge_points; ++i) {
-        const double part = static_cast<double>(i) / (edge_points - 1);
-        const double x = frame_.west + part * width;
-        const double y = frame_.south + part * height;
-        const auto west = moved(to_local_, {frame_.west, y});
-        const auto east = moved(to_local_, {frame_.west + width, y});
-        const auto south = moved(to_local_, {x, frame_.south});
-        const auto north = moved(to_local_, {x, frame_.south + height});
-        if (!west || !east || !south || !north || distance(*west, *east) > widest_m ||
-            distance(*south, *north) > widest_m) {
-            return std::nullopt;
-        }
-        inside.west_m = std::max(inside.west_m, west->x);
-        inside.east_m = std::min(inside.east_m, east->x);
-        inside.south_m = std::max(inside.south_m, south->y);
-        inside.north_m = std::min(inside.north_m, north->y);
-    }
-    return inside;
+Transformation between(SystemHandle from, SystemHandle to) {
+    return Transformation(OCTNewCoordinateTransformation(from, to));
 }
 
-/// Heights row by row, source coordinates interpolated between exact ones on a lattice.
-bool LocalFrame::fill(
-    LocalGrid& local, double west_m, double south_m, const HeightGrid& grid) const {
-    const int across = (local.grid.columns - 1) / lattice_step + 2;
-    const auto lattice_row = [&](int row, std::vector<Point>& points) {
-        std::vector<double> x(static_cast<std::size_t>(across));
-        std::vector<double> y(x.size(), south_m + row * lattice_step * local.spacing_m);
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            x[i] = west_m + static_cast<double>(i) * lattice_step * local.spacing_m;
+void move_points(const Transformation& by, std::span<double> x, std::span<double> y) {
+    if (!by || x.empty()) {
+        return;
+    }
+    std::vector<int> worked(x.size(), 0);
+    OCTTransformEx(
+        by.get(), static_cast<int>(x.size()), x.data(), y.data(), nullptr, worked.data());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (worked[i] == 0 || !std::isfinite(x[i]) || !std::isfinite(y[i])) {
+            x[i] = no_number;
+            y[i] = no_number;
         }
-        const bool worked =
-            OCTTransform(from_local_.get(), across, x.data(), y.data(), nullptr) != 0;
-        points.resize(x.size());
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            points[i] = {
-                (x[i] - frame_.west) / frame_.step_east, (y[i] - frame_.south) / frame_.step_north};
-        }
-        return worked;
-    };
-    std::vector<Point> low;
-    std::vector<Point> high;
-    for (int row = 0; row < local.grid.rows; ++row) {
-        if (row % lattice_step == 0) {
-            std::swap(low, high);
-            if ((row == 0 && !lattice_row(0, low)) || !lattice_row(row / lattice_step + 1, high)) {
-                return false;
+    }
+}
+
+std::optional<glm::dvec2> moved(const Transformation& by, glm::dvec2 point) {
+    move_points(by, {&point.x, 1}, {&point.y, 1});
+    return std::isnan(point.x) ? std::nullopt : std::optional(point);
+}
+
+std::optional<Distortion>
+distortion_at_corners(const MapSystem& system, const glm::dvec2& half_extent_m) {
+    const GdalSession gdal;
+    const Reference own = counted(OSRNewSpatialReference(nullptr));
+    if (OSRSetFromUserInput(own.get(), system.wkt.c_str()) != OGRERR_NONE) {
+        return std::nullopt;
+    }
+    OSRSetAxisMappingStrategy(own.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    const Reference globe = wgs84();
+    const Transformation to_globe = between(own.get(), globe.get());
+    if (!to_globe) {
+        return std::nullopt;
+    }
+    constexpr double step_m = 50.0;
+    Distortion worst;
+    for (const double side : {-1.0, 1.0}) {
+        for (const double end : {-1.0, 1.0}) {
+            const glm::dvec2 corner = glm::dvec2(system.centre_x, system.centre_y) +
+                                      glm::dvec2(side, end) * half_extent_m / system.unit_m;
+            const auto at = moved(to_globe, corner);
+            const auto east = moved(to_globe, corner + glm::dvec2(step_m / system.unit_m, 0.0));
+            const auto north = moved(to_globe, corner + glm::dvec2(0.0, step_m / system.unit_m));
+            if (!at || !east || !north) {
+                return std::nullopt;
             }
-        }
-        const double v = static_cast<double>(row % lattice_step) / lattice_step;
-        for (int column = 0; column < local.grid.columns; ++column) {
-            const auto i = static_cast<std::size_t>(column / lattice_step);
-            const double u = static_cast<double>(column % lattice_step) / lattice_step;
-            const auto mixed = [u, v](double a, double b, double c, double d) {
-                return (a * (1.0 - u) + b * u) * (1.0 - v) + (c * (1.0 - u) + d * u) * v;
-            };
-            local.grid.heights_m.push_back(interpolated(
-                grid,
-                mixed(low[i].x, low[i + 1].x, high[i].x, high[i + 1].x),
-                mixed(low[i].y, low[i + 1].y, high[i].y, high[i + 1].y)));
+            for (const auto& to : {*east, *north}) {
+                const glm::dvec2 way = way_m(*at, to);
+                worst.scale_percent = std::max(
+                    worst.scale_percent, 100.0 * std::abs(step_m / std::hypot(way.x, way.y) - 1.0));
+            }
+            const glm::dvec2 up = way_m(*at, *north);
+            worst.turn_deg = std::max(
+                worst.turn_deg, std::abs(std::atan2(up.x, up.y)) * 180.0 / std::numbers::pi);
         }
     }
-    return true;
-}
-
-std::optional<LocalGrid> LocalFrame::resampled(const HeightGrid& grid) const {
-    const auto inside = rectangle_within(grid);
-    if (!inside) {
-        return std::nullopt;
-    }
-    LocalGrid local;
-    local.spacing_m = std::sqrt(step_east_m_ * step_north_m_);
-    const double width_m = inside->east_m - inside->west_m;
-    const double height_m = inside->north_m - inside->south_m;
-    if (!(width_m >= local.spacing_m && height_m >= local.spacing_m)) {
-        return std::nullopt;
-    }
-    local.grid.columns = static_cast<int>(width_m / local.spacing_m) + 1;
-    local.grid.rows = static_cast<int>(height_m / local.spacing_m) + 1;
-    local.grid.heights_m.reserve(
-        static_cast<std::size_t>(local.grid.columns) * static_cast<std::size_t>(local.grid.rows));
-    const Point centre = {
-        0.5 * (inside->west_m + inside->east_m), 0.5 * (inside->south_m + inside->north_m)};
-    const auto place = moved(local_to_wgs84_, centre);
-    const double west_m = centre.x - 0.5 * (local.grid.columns - 1) * local.spacing_m;
-    const double south_m = centre.y - 0.5 * (local.grid.rows - 1) * local.spacing_m;
-    if (!place || !fill(local, west_m, south_m, grid)) {
-        return std::nullopt;
-    }
-    local.place = {place->y, place->x};
-    local.system = {wkt_, centre.x, centre.y, 1.0};
-    return local;
+    return worst;
 }
 
 } // namespace octant::models::heights

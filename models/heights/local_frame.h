@@ -1,10 +1,12 @@
 #pragma once
 
 #include "models/heights/height_field.h"
-#include "models/heights/height_grid.h"
+
+#include <glm/vec2.hpp>
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace octant::models::heights {
@@ -19,71 +21,65 @@ using Transformation = std::unique_ptr<void, CloseTransformation>;
 /// An OGRSpatialReferenceH, owned elsewhere.
 using SystemHandle = void*;
 
+/// A counted OGRSpatialReferenceH of our own.
+using Reference = std::shared_ptr<void>;
+
+/// Where a grid's sample of a column and row lies in its coordinate system, in the system's units:
+/// x = x0 + x_column * column + x_row * row, and y alike.
+struct MapFromGrid {
+    double x0 = 0.0;
+    double x_column = 1.0;
+    double x_row = 0.0;
+    double y0 = 0.0;
+    double y_column = 0.0;
+    double y_row = 1.0;
+
+    glm::dvec2 at(double column, double row) const {
+        return {x0 + x_column * column + x_row * row, y0 + y_column * column + y_row * row};
+    }
+
+    /// Columns run east and rows north, or against that.
+    bool is_upright() const { return x_row == 0.0 && y_column == 0.0; }
+
+    /// The lengths of a column's and a row's step.
+    glm::dvec2 steps() const;
+
+    /// Column and row as x and y of a place. The grid has an area.
+    MapFromGrid inverse() const;
+};
+
 /// A system as well-known text; empty when it cannot be written.
 std::string wkt_of(SystemHandle system);
 
-/// Where the samples of a grid lie in a coordinate system: sample (0, 0) and the steps, both above
-/// zero, in the system's own units.
-struct GridFrame {
-    double west = 0.0;
-    double south = 0.0;
-    double step_east = 1.0;
-    double step_north = 1.0;
+/// WGS 84 in degrees, longitude first.
+Reference wgs84();
+
+/// A copy of a system that lives as long as it is wanted.
+Reference reference_of(SystemHandle system);
+
+/// The transverse Mercator projection of scale 1 that touches WGS 84 at a place: x is east and y is
+/// north of it, in metres. Null where there is none.
+Reference system_about(const GeoPlace& place);
+
+/// Null when one system cannot be brought to the other.
+Transformation between(SystemHandle from, SystemHandle to);
+
+/// Moves points, each x and y in their place; those that cannot be moved become NaN. Does nothing
+/// with a null transformation.
+void move_points(const Transformation& by, std::span<double> x, std::span<double> y);
+
+/// Nothing when the point cannot be moved.
+std::optional<glm::dvec2> moved(const Transformation& by, glm::dvec2 point);
+
+/// How far a system is from being true to the ground.
+struct Distortion {
+    double scale_percent = 0.0; ///< how much too long or short a length is drawn, at most
+    double turn_deg = 0.0;      ///< how far its north lies off true north, at most
 };
 
-/// A grid's system, which has a linear unit, about the grid's centre.
-MapSystem map_system(SystemHandle system, const GridFrame& frame, int columns, int rows);
-
-/// A grid on the ground around its centre.
-struct LocalGrid {
-    HeightGrid grid;
-    double spacing_m = 0.0;
-    GeoPlace place;
-    MapSystem system; ///< that of the local frame
-};
-
-/// The ground about the centre of a grid in some coordinate system: a transverse Mercator
-/// projection of scale 1 that touches WGS 84 at that centre, so x is east, y north, in metres.
-class LocalFrame {
-public:
-    /// Nothing when the system cannot be brought to WGS 84.
-    static std::optional<LocalFrame>
-    around(SystemHandle system, const GridFrame& frame, int columns, int rows);
-
-    GeoPlace place() const { return place_; }
-
-    /// Length on the ground of one step of the grid at its centre.
-    double step_east_m() const { return step_east_m_; }
-
-    double step_north_m() const { return step_north_m_; }
-
-    /// The grid resampled (bilinear) to square cells of sqrt(step_east_m * step_north_m), which
-    /// keeps the number of samples about the same, over the upright rectangle that lies within all
-    /// four of its edges. Nothing when fewer than 2 x 2 samples fit in or the ground is wider than
-    /// 1,000 km.
-    std::optional<LocalGrid> resampled(const HeightGrid& grid) const;
-
-private:
-    LocalFrame() = default;
-
-    struct Rectangle {
-        double west_m = 0.0;
-        double east_m = 0.0;
-        double south_m = 0.0;
-        double north_m = 0.0;
-    };
-
-    std::optional<Rectangle> rectangle_within(const HeightGrid& grid) const;
-    bool fill(LocalGrid& local, double west_m, double south_m, const HeightGrid& grid) const;
-
-    GridFrame frame_;
-    GeoPlace place_;
-    std::string wkt_; ///< of the frame's projection
-    double step_east_m_ = 0.0;
-    double step_north_m_ = 0.0;
-    Transformation to_local_;
-    Transformation from_local_;
-    Transformation local_to_wgs84_;
-};
+/// At the four corners of a field that lies so in a system. Nothing where the system does not know
+/// its place on the earth.
+std::optional<Distortion>
+distortion_at_corners(const MapSystem& system, const glm::dvec2& half_extent_m);
 
 } // namespace octant::models::heights

@@ -1,5 +1,7 @@
 #include "models/heights/height_field_export.h"
-#include "models/heights/height_field_import.h"
+#include "models/heights/height_source.h"
+#include "models/heights/local_frame.h"
+#include "models/heights/map_inputs.h"
 #include "models/made/made_terrain.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
@@ -8,6 +10,7 @@
 #include "ui/commands/command_terrain_parts.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/read_option.h"
+#include "ui/commands/terrain_options.h"
 #include "ui/settings/terrain_name.h"
 #include "ui/world/terrain_file.h"
 
@@ -25,7 +28,7 @@ namespace {
 
 struct TerrainOptions {
     std::string terrain;
-    double spacing_m = 30.0;
+    models::heights::ImportOptions files;
     bool json = false;
     bool quiet = false;
     bool verify = false;
@@ -66,13 +69,28 @@ base::Figures figures_of(const models::heights::HeightField& field) {
     return figures;
 }
 
+/// Of ground from files; nothing for made ground.
+std::optional<models::heights::Deviation>
+deviation_of(const models::heights::HeightField& field, const TerrainOptions& options) {
+    if (settings::is_built_in_ground(options.terrain)) {
+        return std::nullopt;
+    }
+    const models::heights::HeightSource source(
+        models::heights::map_inputs({options.terrain}), options.files);
+    return source.deviation_of(
+        [&field](double x_m, double y_m) { return field.height_at(x_m, y_m); });
+}
+
 void show(const TerrainOptions& options) {
     if (settings::is_imported_ground(options.terrain)) {
         show_ground_file(options.terrain, options.verify, options.json);
         return;
     }
-    base::print_figures(
-        figures_of(world::load_height_field(options.terrain, options.spacing_m)), options.json);
+    const models::heights::HeightField field =
+        world::load_height_field(options.terrain, options.files);
+    base::Figures figures = figures_of(field);
+    add_trust(field.system, field.half_extent_m(), deviation_of(field, options), figures);
+    base::print_figures(figures, options.json);
 }
 
 void make(TerrainOptions options) {
@@ -97,26 +115,23 @@ void make(TerrainOptions options) {
 
 Command info_command() {
     auto options = std::make_shared<TerrainOptions>();
-    return {
+    Command command{
         .name = "info",
-        .summary = "Shows size, heights, slopes, voids and place of a terrain",
+        .summary =
+            "Shows size, heights, slopes, voids and place of a terrain, how far its system is "
+            "from true and its heights from the file's",
         .options =
             {required(text_option(
                  "terrain",
                  "NAME|FILE",
-                 "hills, canyon or a file that GDAL reads",
+                 "hills, canyon, an imported ground, or maps that GDAL reads",
                  options->terrain)),
-             read_option(
-                 {"terrain-spacing",
-                  "METRES",
-                  "sample spacing of files that do not say",
-                  0.01,
-                  1e5},
-                 options->spacing_m),
              flag("--json", "as JSON", options->json),
              flag("--verify", "check all of an imported ground", options->verify)},
         .footer = "Example:\n  octant terrain info map.tif --json",
         .run = [options] { show(*options); }};
+    add_file_options(command.options, options->files);
+    return command;
 }
 
 Command make_command() {
@@ -138,6 +153,24 @@ Command make_command() {
 }
 
 } // namespace
+
+void add_trust(
+    const std::optional<models::heights::MapSystem>& system,
+    const glm::dvec2& half_extent_m,
+    const std::optional<models::heights::Deviation>& deviation,
+    base::Figures& figures) {
+    const auto distortion =
+        system ? models::heights::distortion_at_corners(*system, half_extent_m) : std::nullopt;
+    if (distortion) {
+        figures["corner_scale_off_percent"] = distortion->scale_percent;
+        figures["corner_north_off_deg"] = distortion->turn_deg;
+    }
+    if (deviation) {
+        figures["source_rms_m"] = deviation->rms_m;
+        figures["source_worst_m"] = deviation->worst_m;
+        figures["source_places"] = deviation->places;
+    }
+}
 
 Command terrain_command() {
     return {

@@ -24,7 +24,7 @@ struct CheckOptions {
 
 void check(const CheckOptions& options) {
     const terrain::LoadedGround ground =
-        terrain::load_ground(options.view.terrain, options.view.spacing_m);
+        terrain::load_ground(options.view.terrain, options.view.files);
     const auto maker = ui::terrain::make_mesh_maker(ground, options.mesh);
     ui::terrain::TerrainCheck asked = options.check;
     asked.by_error = options.mesh.mesh == visuals::scene::GroundMetric::ScreenError;

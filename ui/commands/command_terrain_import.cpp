@@ -1,9 +1,11 @@
+#include "models/heights/map_inputs.h"
 #include "sim/base/error.h"
 #include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/command_terrain_parts.h"
 #include "ui/commands/read_option.h"
+#include "ui/commands/terrain_options.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_import.h"
 
@@ -20,15 +22,14 @@ namespace octant::ui::commands {
 
 namespace {
 
+using visuals::groundfile::ImportStage;
 using visuals::terrain::GroundFacts;
 using visuals::terrain::GroundShape;
-using visuals::groundfile::ImportStage;
 
 struct ImportCommand {
     std::vector<std::string> inputs;
     std::string out;
-    double spacing_m = 30.0;
-    double height_scale = 1.0;
+    models::heights::ImportOptions files;
     int threads = 2;
     bool json = false;
     bool quiet = false;
@@ -77,6 +78,8 @@ private:
 };
 
 base::Figures figures_of(const GroundShape& shape, const GroundFacts& facts, std::uintmax_t bytes) {
+    const glm::dvec2 half_m(
+        0.5 * (shape.columns - 1) * shape.spacing_m, 0.5 * (shape.rows - 1) * shape.spacing_m);
     base::Figures figures;
     figures["name"] = facts.name;
     figures["columns"] = shape.columns;
@@ -93,6 +96,7 @@ base::Figures figures_of(const GroundShape& shape, const GroundFacts& facts, std
         figures["latitude_deg"] = facts.place->latitude_deg;
         figures["longitude_deg"] = facts.place->longitude_deg;
     }
+    add_trust(facts.system, half_m, facts.deviation, figures);
     const double samples = static_cast<double>(shape.columns) * shape.rows;
     figures["samples"] = static_cast<std::int64_t>(samples);
     figures["bytes"] = bytes;
@@ -100,14 +104,35 @@ base::Figures figures_of(const GroundShape& shape, const GroundFacts& facts, std
     return figures;
 }
 
+/// How the import is told of in one line.
+std::string line_of(const visuals::groundfile::ImportSummary& summary) {
+    const auto& deviation = summary.facts.deviation;
+    const std::string off =
+        deviation ? fmt::format(
+                        ", {:.2g} m off its source (root mean square; at most {:.3g} m)",
+                        deviation->rms_m,
+                        deviation->worst_m)
+                  : "";
+    return fmt::format(
+        "{} x {} samples, {:.6g} m apart, {:.0f} to {:.0f} m{}, {} voids filled, {:.1f} MB",
+        summary.shape.columns,
+        summary.shape.rows,
+        summary.shape.spacing_m,
+        summary.facts.lowest_m,
+        summary.facts.highest_m,
+        off,
+        summary.facts.filled_voids,
+        static_cast<double>(summary.bytes) / 1e6);
+}
+
 void import(const ImportCommand& command) {
     visuals::groundfile::GroundImportOptions options;
-    options.picture = {command.spacing_m, command.height_scale};
+    options.picture = command.files;
     options.threads = command.threads;
     StageWatch watch(command.quiet);
     const base::Stopwatch whole;
     const auto summary = visuals::groundfile::import_ground(
-        {command.inputs.begin(), command.inputs.end()}, command.out, options, std::ref(watch));
+        models::heights::map_inputs(command.inputs), command.out, options, std::ref(watch));
     const double whole_s = whole.s();
     watch.finish();
     if (!summary.note.empty()) {
@@ -115,19 +140,7 @@ void import(const ImportCommand& command) {
     }
     if (!command.json) {
         base::say(
-            command.quiet,
-            fmt::format(
-                "{}: {} x {} samples, {:.6g} m apart, {:.0f} to {:.0f} m, {} voids filled, {:.1f} "
-                "MB, {:.2f} s",
-                command.out,
-                summary.shape.columns,
-                summary.shape.rows,
-                summary.shape.spacing_m,
-                summary.facts.lowest_m,
-                summary.facts.highest_m,
-                summary.facts.filled_voids,
-                static_cast<double>(summary.bytes) / 1e6,
-                whole_s));
+            command.quiet, fmt::format("{}: {}, {:.2f} s", command.out, line_of(summary), whole_s));
         return;
     }
     auto figures = figures_of(summary.shape, summary.facts, summary.bytes);
@@ -157,37 +170,29 @@ void show_ground_file(const std::string& file, bool verify, bool json) {
 Command terrain_import_command() {
     auto import_options = std::make_shared<ImportCommand>();
     ImportCommand& options = *import_options;
-    return {
+    Command command{
         .name = "import",
         .summary = "Makes one file that is mapped, not read, of one or several height files",
         .options =
             {required(list_option(
                  "files",
                  "FILE",
-                 "what GDAL reads; the first counts where they overlap",
+                 "what GDAL reads, folders, patterns and archives of it; the first counts where "
+                 "they "
+                 "overlap",
                  Takes::SomeWords,
                  options.inputs)),
              required(text_option("--out", "FILE.ground", "the file to write", options.out)),
-             read_option(
-                 {"terrain-spacing",
-                  "METRES",
-                  "sample spacing of files that do not say",
-                  0.01,
-                  1e5},
-                 options.spacing_m),
-             read_option(
-                 {"height-scale",
-                  "METRES",
-                  "a unit of heights of files that do not say",
-                  1e-6,
-                  1e4},
-                 options.height_scale),
              read_option({"threads", "N", "that build", 1, 256}, options.threads),
              flag("--json", "figures as JSON on stdout", options.json),
              flag("--quiet", "no notes", options.quiet)},
-        .footer = "A stopped import goes on from FILE.ground.part when it is called again.\n"
-                  "Example:\n  octant terrain import west.tif east.tif --out both.ground",
+        .footer =
+            "A stopped import goes on from FILE.ground.part when it is called again.\n"
+            "Examples:\n  octant terrain import west.tif east.tif --out both.ground\n  octant "
+            "terrain import tiles/ --out region.ground",
         .run = [import_options] { import(*import_options); }};
+    add_file_options(command.options, options.files);
+    return command;
 }
 
 } // namespace octant::ui::commands

@@ -1,7 +1,12 @@
 #pragma once
 
+#include "models/heights/height_field.h"
+#include "ui/base/figures.h"
 #include "ui/commands/command.h"
 
+#include <glm/vec2.hpp>
+
+#include <optional>
 #include <string>
 
 namespace octant::ui::commands {
@@ -13,6 +18,14 @@ Command terrain_mesh_command();
 Command terrain_error_command();
 Command terrain_query_command();
 Command terrain_check_command();
+
+/// Adds how far a ground's system is from true at its corners, and how far the ground lies from the
+/// files it was made of, as far as either is known.
+void add_trust(
+    const std::optional<models::heights::MapSystem>& system,
+    const glm::dvec2& half_extent_m,
+    const std::optional<models::heights::Deviation>& deviation,
+    base::Figures& figures);
 
 /// Shows the figures of a file made by import, after checking all of it where `verify`. Throws
 /// Error for a damaged one.

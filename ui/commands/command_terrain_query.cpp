@@ -1,3 +1,5 @@
+#include "models/heights/height_source.h"
+#include "models/heights/map_inputs.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/commands/command_terrain_parts.h"
@@ -24,6 +26,7 @@ struct QueryOptions {
     ui::terrain::GroundMeshOptions mesh;
     std::vector<std::string> at;
     std::string points;
+    std::vector<std::string> source;
     std::optional<glm::dvec3> from_m;
     std::optional<glm::dvec3> to_m;
     bool flat = false;
@@ -47,6 +50,26 @@ std::vector<ui::terrain::AskedPoint> asked_points(const QueryOptions& options) {
     return points;
 }
 
+/// Answers from the files that a ground was made of.
+std::vector<ui::terrain::PointAnswer> answers_of_source(
+    const QueryOptions& options,
+    const visuals::terrain::GroundSamples& ground,
+    const std::vector<ui::terrain::AskedPoint>& points) {
+    const models::heights::HeightSource source(
+        models::heights::map_inputs(options.source), options.view.files);
+    if (!source.system() || source.columns() != ground.columns() ||
+        source.rows() != ground.rows() || source.spacing_m() != ground.spacing_m()) {
+        throw Error(fmt::format(
+            "--source: expected the maps, with a coordinate system, that {} is made of, got others",
+            options.view.terrain));
+    }
+    std::vector<ui::terrain::PointAnswer> answers;
+    for (const ui::terrain::AskedPoint& point : points) {
+        answers.push_back({point, source.height_at(point.x_m, point.y_m)});
+    }
+    return answers;
+}
+
 void query(const QueryOptions& options) {
     if (options.from_m.has_value() != options.to_m.has_value()) {
         throw Error("expected --from X,Y,Z and --to X,Y,Z, got only one of them");
@@ -56,7 +79,7 @@ void query(const QueryOptions& options) {
         throw Error("expected --at, --points or --from and --to, got none");
     }
     const terrain::LoadedGround ground =
-        terrain::load_ground(options.view.terrain, options.view.spacing_m);
+        terrain::load_ground(options.view.terrain, options.view.files);
     const visuals::terrain::GroundSamples samples = ground.samples();
     ui::terrain::Answers answers;
     if (options.as_drawn) {
@@ -70,7 +93,8 @@ void query(const QueryOptions& options) {
             answers.sight = ui::terrain::sight_as_drawn(drawn, *options.from_m, *options.to_m);
         }
     } else {
-        answers.points = ui::terrain::answers_of(samples, points);
+        answers.points = options.source.empty() ? ui::terrain::answers_of(samples, points)
+                                                : answers_of_source(options, samples, points);
         if (options.from_m) {
             answers.sight = ui::terrain::sight_over(
                 samples,
@@ -96,6 +120,13 @@ std::vector<Option> options_of(QueryOptions& options) {
              options.at),
          text_option(
              "--points", "FILE", "the same for each line of a CSV file x,y[,z]", options.points),
+         list_option(
+             "--source",
+             "FILE",
+             "heights of points from these maps, of which the terrain is made, between their own "
+             "samples",
+             Takes::SomeWords,
+             options.source),
          read_option(
              {"from", "X,Y,Z", "where a line of sight begins", -far_m, far_m}, options.from_m),
          read_option({"to", "X,Y,Z", "where it ends", -far_m, far_m}, options.to_m),
@@ -124,7 +155,9 @@ Command terrain_query_command() {
         .options = options_of(*options),
         .footer =
             "Metres, x east, y north of the map centre, z up from datum. The ground between four "
-            "samples is bilinear; the mesh's is flat triangles.\n"
+            "samples is bilinear; the mesh's is flat triangles. How far the samples of a resampled "
+            "map lie "
+            "from it says octant terrain info; --source asks the map itself.\n"
             "Example:\n  octant terrain query canyon --at 1200,-800\n  octant terrain query canyon "
             "--from 0,0,900 --to 5000,3000,250 --json",
         .run = [options] { query(*options); }};

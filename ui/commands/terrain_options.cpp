@@ -9,10 +9,26 @@ void add_terrain_options(std::vector<Option>& table, terrain::GroundViewOptions&
     table.insert(
         table.end(),
         {required(text_option(
-             "terrain", "NAME|FILE", "hills, canyon or a file that GDAL reads", options.terrain)),
-         read_option(
+            "terrain",
+            "NAME|FILE",
+            "hills, canyon, an imported ground, or maps that GDAL reads",
+            options.terrain))});
+    add_file_options(table, options.files);
+}
+
+void add_file_options(std::vector<Option>& table, models::heights::ImportOptions& files) {
+    table.insert(
+        table.end(),
+        {read_option(
              {"terrain-spacing", "METRES", "sample spacing of files that do not say", 0.01, 1e5},
-             options.spacing_m)});
+             files.spacing_m),
+         read_option(
+             {"height-scale",
+              "METRES",
+              "metres a unit of heights, of files that name no unit [1]",
+              1e-6,
+              1e4},
+             files.height_scale)});
 }
 
 void add_view_options(std::vector<Option>& table, terrain::GroundViewOptions& options) {

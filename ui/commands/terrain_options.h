@@ -9,7 +9,10 @@ namespace octant::ui::commands {
 
 // Rows that commands about one mesh of a terrain share. Each adds to a command's table.
 
-/// The terrain, and --terrain-spacing.
+/// --terrain-spacing and --height-scale.
+void add_file_options(std::vector<Option>& table, models::heights::ImportOptions& files);
+
+/// The terrain, and what its files do not say.
 void add_terrain_options(std::vector<Option>& table, terrain::GroundViewOptions& options);
 
 /// Eye, look, size and field of view, and --curved.

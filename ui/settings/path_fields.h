@@ -34,13 +34,22 @@ inline constexpr std::tuple path_rows{
     setting<&RunSettings::path, &PathSettings::terrain>(
         {"terrain",
          "NAME|FILE",
-         "ground: hills, canyon, background60, none, a file that GDAL reads or an imported one"},
+         "ground: hills, canyon, background60, none, an imported ground, or any map that GDAL "
+         "reads: a "
+         "file, a folder or pattern of tiles, an archive"},
         {.group = SettingGroup::Path,
          .change = SettingsChange::Flight,
          .known = built_in_terrains}),
     setting<&RunSettings::path, &PathSettings::terrain_spacing_m>(
         {"terrain-spacing", "METRES", "sample spacing of terrain files that do not say", 0.01, 1e5},
         {.group = SettingGroup::Path, .change = SettingsChange::Flight}),
+    setting<&RunSettings::path, &PathSettings::terrain_height_scale>(
+        {"height-scale",
+         "METRES",
+         "metres a unit of heights, of terrain files that name no unit, such as 0.3048 for feet",
+         1e-6,
+         1e4},
+        {.group = SettingGroup::Path, .change = SettingsChange::Flight, .start = 1.0}),
     setting<&RunSettings::path, &PathSettings::place>(
         {"place",
          "X,Y|LAT,LON",

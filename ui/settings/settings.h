@@ -24,6 +24,8 @@ struct PathSettings {
     std::string terrain = "hills";
     /// Sample spacing of terrain files that do not give one.
     double terrain_spacing_m = 30.0;
+    /// Metres a unit of heights, of terrain files that name none; 1 if not set.
+    std::optional<double> terrain_height_scale;
     /// Where the path's origin lies, as "X,Y" in metres or "LAT,LON" in degrees; without it the
     /// centre of the map.
     std::optional<std::string> place;

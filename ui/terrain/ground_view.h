@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/heights/import_options.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_mesh.h"
@@ -16,7 +17,7 @@ namespace octant::ui::terrain {
 /// Which terrain, seen from where and how large: what every command about one mesh is told.
 struct GroundViewOptions {
     std::string terrain;
-    double spacing_m = 30.0; ///< of files that do not say
+    models::heights::ImportOptions files; ///< what files do not say
     std::optional<glm::dvec3> eye_m;
     std::optional<glm::dvec3> look_m;
     glm::ivec2 size_px{1280, 720};

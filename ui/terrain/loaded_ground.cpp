@@ -2,8 +2,8 @@
 
 #include "ui/settings/terrain_name.h"
 #include "ui/world/terrain_file.h"
-#include "visuals/terrain/ground_builder.h"
 #include "visuals/groundfile/ground_file.h"
+#include "visuals/terrain/ground_builder.h"
 
 namespace octant::ui::terrain {
 
@@ -18,11 +18,12 @@ terrain::GroundTiles LoadedGround::tiles() const {
     return read != nullptr ? terrain::ground_of(*read) : std::get<terrain::GroundTiles>(ground_);
 }
 
-LoadedGround load_ground(const std::string& name_or_file, double spacing_m) {
+LoadedGround
+load_ground(const std::string& name_or_file, const models::heights::ImportOptions& options) {
     if (settings::is_imported_ground(name_or_file)) {
         return LoadedGround(visuals::groundfile::open_ground(name_or_file));
     }
-    return LoadedGround(world::load_height_field(name_or_file, spacing_m));
+    return LoadedGround(world::load_height_field(name_or_file, options));
 }
 
 } // namespace octant::ui::terrain

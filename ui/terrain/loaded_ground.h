@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/heights/height_field.h"
+#include "models/heights/import_options.h"
 #include "visuals/terrain/ground_samples.h"
 #include "visuals/terrain/ground_tiles.h"
 
@@ -34,8 +35,8 @@ private:
     std::variant<models::heights::HeightField, visuals::terrain::GroundTiles> ground_;
 };
 
-/// By name (hills, canyon), imported or any file that GDAL reads. `spacing_m`: of files that do
-/// not say. Throws Error.
-LoadedGround load_ground(const std::string& name_or_file, double spacing_m);
+/// By name (hills, canyon), imported, or maps as world::load_height_field takes them. Throws Error.
+LoadedGround
+load_ground(const std::string& name_or_file, const models::heights::ImportOptions& options);
 
 } // namespace octant::ui::terrain

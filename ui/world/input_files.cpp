@@ -1,5 +1,7 @@
 #include "ui/world/input_files.h"
 
+#include "models/heights/map_inputs.h"
+#include "models/heights/raster_file.h"
 #include "sim/base/error.h"
 #include "sim/base/file_status.h"
 #include "sim/base/hash.h"
@@ -7,6 +9,7 @@
 #include "ui/settings/terrain_name.h"
 #include "visuals/groundfile/ground_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -39,6 +42,29 @@ std::string hash_of_file(const fs::path& file) {
     return fmt::format("{:016x}", hash.value());
 }
 
+bool is_folder_or_pattern(const std::string& name) {
+    return models::heights::is_many(name) && !models::heights::is_name_within_file(name);
+}
+
+/// All files of this computer that the heights of a terrain come from.
+std::vector<fs::path> ground_files(const std::string& terrain) {
+    if (settings::is_built_in_ground(terrain)) {
+        return {};
+    }
+    if (settings::is_imported_ground(terrain)) {
+        return {terrain};
+    }
+    std::vector<fs::path> files;
+    for (const fs::path& map : models::heights::map_inputs({terrain})) {
+        for (const fs::path& file : models::heights::files_behind(map)) {
+            if (is_file(file) && std::ranges::find(files, file) == files.end()) {
+                files.push_back(file);
+            }
+        }
+    }
+    return files;
+}
+
 } // namespace
 
 settings::RunSettings with_absolute_files(settings::RunSettings settings) {
@@ -52,7 +78,8 @@ settings::RunSettings with_absolute_files(settings::RunSettings settings) {
             name = absolute(name);
         }
     }
-    if (!settings::is_built_in_ground(settings.path.terrain) && is_file(settings.path.terrain)) {
+    if (!settings::is_built_in_ground(settings.path.terrain) &&
+        (is_file(settings.path.terrain) || is_folder_or_pattern(settings.path.terrain))) {
         settings.path.terrain = absolute(settings.path.terrain);
     }
     if (settings.air.drape) {
@@ -75,9 +102,8 @@ input_hashes(const settings::RunSettings& settings) {
             files.push_back(materials);
         }
     }
-    if (is_file(settings.path.terrain)) {
-        files.emplace_back(settings.path.terrain);
-    }
+    const std::vector<fs::path> ground = ground_files(settings.path.terrain);
+    files.insert(files.end(), ground.begin(), ground.end());
     if (settings.air.drape) {
         files.emplace_back(*settings.air.drape);
     }

@@ -3,8 +3,8 @@
 #include "models/made/made_up.h"
 #include "ui/settings/terrain_name.h"
 #include "ui/world/terrain_file.h"
-#include "visuals/terrain/ground_builder.h"
 #include "visuals/groundfile/ground_file.h"
+#include "visuals/terrain/ground_builder.h"
 
 #include <cstdint>
 #include <fmt/format.h>
@@ -69,7 +69,7 @@ SceneGround load_imported(const settings::RunSettings& settings, DrawnBy drawn_b
 
 SceneGround load_field(const settings::RunSettings& settings, DrawnBy drawn_by) {
     models::heights::HeightField field =
-        load_height_field(settings.path.terrain, settings.path.terrain_spacing_m);
+        load_height_field(settings.path.terrain, import_options(settings.path));
     SceneGround loaded = described(field, field.name, field.place, field.filled_voids);
     const settings::RunSettings own = ground_settings(settings);
     add_texture(

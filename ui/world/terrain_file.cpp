@@ -1,6 +1,7 @@
 #include "ui/world/terrain_file.h"
 
 #include "models/heights/height_field_import.h"
+#include "models/heights/map_inputs.h"
 #include "models/made/made_terrain.h"
 #include "sim/base/error.h"
 
@@ -10,21 +11,30 @@
 
 namespace octant::ui::world {
 
-models::heights::HeightField load_height_field(const std::string& name_or_file, double spacing_m) {
+models::heights::HeightField
+load_height_field(const std::string& name_or_file, const models::heights::ImportOptions& options) {
     if (auto made = models::made::made_terrain(name_or_file, {})) {
         return std::move(*made);
     }
     std::error_code ignored;
     const bool is_file = name_or_file.find('/') != std::string::npos ||
                          name_or_file.find('.') != std::string::npos ||
-                         std::filesystem::exists(name_or_file, ignored);
+                         std::filesystem::exists(name_or_file, ignored) ||
+                         models::heights::is_many(name_or_file);
     if (!is_file) {
         throw Error(fmt::format(
             "terrain: expected hills, canyon or a file, got '{}'", printable(name_or_file)));
     }
-    models::heights::ImportOptions options;
-    options.spacing_m = spacing_m;
-    return models::heights::read_height_field(name_or_file, options);
+    models::heights::HeightField field =
+        models::heights::read_height_field(models::heights::map_inputs({name_or_file}), options);
+    if (models::heights::is_many(name_or_file)) {
+        field.name = std::filesystem::path(name_or_file).filename().string();
+    }
+    return field;
+}
+
+models::heights::ImportOptions import_options(const settings::PathSettings& settings) {
+    return {settings.terrain_spacing_m, settings.terrain_height_scale};
 }
 
 } // namespace octant::ui::world

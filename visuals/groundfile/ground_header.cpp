@@ -29,8 +29,9 @@ std::uint64_t own_checksum(const GroundHeader& header) {
     return hash_of(std::as_bytes(std::span(&header, 1)).first(offsetof(GroundHeader, checksum)));
 }
 
-std::uint64_t checksum_of(const GroundSystem& system) {
-    return hash_of(std::as_bytes(std::span(&system, 1)));
+template <class Part>
+std::uint64_t checksum_of(const Part& part) {
+    return hash_of(std::as_bytes(std::span(&part, 1)));
 }
 
 GroundSystem stored(const models::heights::MapSystem& system) {
@@ -60,6 +61,10 @@ bool is_sound(const GroundSystem& s) {
            (s.wkt_length == 0 || (s.unit_m > 0.0 && std::isfinite(s.unit_m)));
 }
 
+bool is_sound(const GroundDeviation& d) {
+    return std::isfinite(d.rms_m) && std::isfinite(d.worst_m) && d.places >= 0;
+}
+
 bool is_sound(const GroundHeader& h) {
     const auto fits = [](std::int32_t n) { return n >= 2 && n <= 65536; };
     const bool has_numbers = std::isfinite(h.lowest_m) && std::isfinite(h.highest_m) &&
@@ -68,8 +73,8 @@ bool is_sound(const GroundHeader& h) {
     const bool lies_on_earth = h.has_place == 0 || (lies_within(h.latitude_deg, 90.0) &&
                                                     lies_within(h.longitude_deg, 360.0));
     return fits(h.columns) && fits(h.rows) && may_be_stored(shape_of(h)) && has_numbers &&
-           lies_on_earth && is_sound(h.system) && h.name_length <= h.name.size() &&
-           h.progress.stage <= GroundProgress::Stage::Complete;
+           lies_on_earth && is_sound(h.system) && is_sound(h.deviation) &&
+           h.name_length <= h.name.size() && h.progress.stage <= GroundProgress::Stage::Complete;
 }
 
 /// The length of the longest beginning of a text that has at most `longest` bytes and ends with a
@@ -157,6 +162,10 @@ GroundHeader header_of(const GroundShape& shape, const GroundFacts& facts) {
     if (facts.system) {
         header.system = stored(*facts.system);
     }
+    if (facts.deviation) {
+        header.deviation = {
+            facts.deviation->rms_m, facts.deviation->worst_m, facts.deviation->places};
+    }
     header.filled_voids = facts.filled_voids;
     header.lowest_m = facts.lowest_m;
     header.highest_m = facts.highest_m;
@@ -184,6 +193,10 @@ GroundFacts facts_of(const GroundHeader& h) {
             h.system.centre_y,
             h.system.unit_m};
     }
+    if (h.deviation.places > 0) {
+        facts.deviation =
+            models::heights::Deviation{h.deviation.rms_m, h.deviation.worst_m, h.deviation.places};
+    }
     facts.filled_voids = h.filled_voids;
     facts.lowest_m = h.lowest_m;
     facts.highest_m = h.highest_m;
@@ -201,6 +214,7 @@ bool may_be_stored(const GroundShape& shape) {
 std::array<std::byte, GroundHeader::bytes> page_of(GroundHeader header) {
     header.checksum = own_checksum(header);
     header.system_checksum = checksum_of(header.system);
+    header.deviation_checksum = checksum_of(header.deviation);
     std::array<std::byte, GroundHeader::bytes> page = {};
     std::memcpy(page.data(), &header, sizeof header);
     return page;
@@ -229,8 +243,13 @@ GroundHeader read_header(const std::filesystem::path& path, std::span<const std:
         header.system = {};
         header.system_checksum = checksum_of(header.system);
     }
+    if (header.version <= GroundHeader::second_version) {
+        header.deviation = {};
+        header.deviation_checksum = checksum_of(header.deviation);
+    }
     if (header.checksum != own_checksum(header) ||
-        header.system_checksum != checksum_of(header.system) || !is_sound(header)) {
+        header.system_checksum != checksum_of(header.system) ||
+        header.deviation_checksum != checksum_of(header.deviation) || !is_sound(header)) {
         error_in(path, "expected a sound header, got a damaged one: import it again");
     }
     if (header.layout != hash_of(GroundLayout(header.columns, header.rows))) {

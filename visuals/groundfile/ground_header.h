@@ -40,6 +40,13 @@ struct GroundSystem {
     std::array<char, 3072> wkt = {};
 };
 
+/// A models::heights::Deviation in a file; without places it was not measured.
+struct GroundDeviation {
+    double rms_m = 0.0;
+    double worst_m = 0.0;
+    std::int64_t places = 0;
+};
+
 /// The first page of a ground's file. After it come GroundLayout memory and then the checksums
 /// (sim/base/hash.h), 8 bytes each: one of what lies before the tiles and one of every tile in
 /// memory order. Little endian.
@@ -47,7 +54,9 @@ struct GroundHeader {
     static constexpr std::size_t bytes = GroundLayout::page_bytes;
     static constexpr std::array<char, 16> right_magic = {
         'o', 'c', 't', 'a', 'n', 't', ' ', 'g', 'r', 'o', 'u', 'n', 'd', '\r', '\n', '\x1a'};
-    static constexpr std::uint32_t right_version = 2;
+    static constexpr std::uint32_t right_version = 3;
+    /// The same as version 3, but without a deviation.
+    static constexpr std::uint32_t second_version = 2;
     /// The same as version 2, but without a system.
     static constexpr std::uint32_t first_version = 1;
 
@@ -73,6 +82,8 @@ struct GroundHeader {
     std::uint64_t checksum = 0; ///< The checksum of all members above.
     GroundSystem system;
     std::uint64_t system_checksum = 0; ///< The checksum of the system.
+    GroundDeviation deviation;
+    std::uint64_t deviation_checksum = 0; ///< The checksum of the deviation.
 };
 
 /// The sizes and offsets in a file of a given layout.

@@ -290,7 +290,7 @@ void Import::build() {
         source_.name(),
         source_.place(),
         source_.system(),
-        source_.filled_voids() + progress_.voids,
+        progress_.voids,
         figures.lowest_m,
         figures.highest_m,
         figures.mean_m};
@@ -308,6 +308,11 @@ void Import::build() {
     const std::uint64_t checksum = hash_of(memory.first(layout_.first_tile()));
     std::memcpy(table.data(), &checksum, 8);
     checksums_ = hash_of(table);
+    const GroundTiles made(shape_, facts_, memory, nullptr);
+    from_inputs([&] {
+        facts_.deviation = source_.deviation_of(
+            [&made](double x_m, double y_m) { return made.height_at(x_m, y_m); });
+    });
 }
 
 void Import::finish() {

@@ -27,6 +27,8 @@ struct GroundFacts {
     float lowest_m = 0.0F;
     float highest_m = 0.0F;
     float mean_m = 0.0F;
+    /// From the files that it was imported from; nothing where it was not measured.
+    std::optional<models::heights::Deviation> deviation = {};
 };
 
 /// The heights of a ground and, for each sample that a mesh may leave out, the error of leaving it

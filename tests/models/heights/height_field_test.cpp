@@ -109,21 +109,3 @@ TEST_CASE("a grid of voids alone is left as it is, a full one too") {
     CHECK(fill_voids(full) == 0);
     CHECK(full.heights_m == std::vector<float>{1, 2, 3, 4});
 }
-
-TEST_CASE("oblong cells become square ones about the same centre") {
-    // 5 x 3 samples of 10 x 40 m on the plane z = x + 2 y (metres from the south-west corner).
-    HeightGrid grid = {5, 3, {}};
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 5; ++column) {
-            grid.heights_m.push_back(static_cast<float>(10 * column + 2 * 40 * row));
-        }
-    }
-    const HeightGrid square = squared(grid, 10.0, 40.0, 20.0);
-    REQUIRE(square.columns == 3);
-    REQUIRE(square.rows == 5);
-    for (int row = 0; row < 5; ++row) {
-        for (int column = 0; column < 3; ++column) {
-            CHECK(square.at(column, row) == Approx(20 * column + 2 * 20 * row));
-        }
-    }
-}

@@ -219,10 +219,10 @@ TEST_CASE("an input that ends too early is refused and leaves nothing behind") {
 TEST_CASE("files that do not fit together are refused by name") {
     const Made made;
     const path west = write_tiff("fits.tif", {0, 100, 0, 80}, made);
-    const path picture = scratch("picture.asc");
-    std::ofstream(picture) << "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 7\n1 2\n3 4\n";
+    const path picture = scratch("picture.pgm");
+    std::ofstream(picture) << "P2 2 2 9 1 2 3 4\n";
     CHECK_THROWS_WITH(
-        imported({west, picture}, "unfit.ground"), Contains("picture.asc") && Contains("fits.tif"));
+        imported({west, picture}, "unfit.ground"), Contains("picture.pgm") && Contains("knows its place"));
     CHECK_FALSE(std::filesystem::exists(scratch("unfit.ground.part")));
 }
 

@@ -166,8 +166,8 @@ TEST_CASE("a header keeps the coordinate system, and one of the first version ha
     auto page = page_of(first);
     std::fill(page.begin() + offsetof(GroundHeader, system), page.end(), std::byte{0});
     CHECK_FALSE(facts_of(read_header("header", page)).system);
-    first.version = 3;
-    CHECK_THROWS_WITH(read_header("header", page_of(first)), Contains("got version 3"));
+    first.version = 4;
+    CHECK_THROWS_WITH(read_header("header", page_of(first)), Contains("got version 4"));
 
     facts.system->wkt.assign(4000, 'x');
     CHECK_FALSE(facts_of(header_of({40, 30, 30.0, 7.0, 1.0}, facts)).system);

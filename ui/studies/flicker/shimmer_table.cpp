@@ -6,6 +6,7 @@
 #include "ui/flight/session.h"
 #include "ui/studies/flicker/shimmer.h"
 #include "ui/terrain/loaded_ground.h"
+#include "ui/world/terrain_file.h"
 #include "visuals/terrain/ground_query.h"
 
 #include <array>
@@ -83,7 +84,7 @@ Change shimmer_along(
 
 report::HtmlTable shimmer_table(const ShimmerOptions& options) {
     const ui::terrain::LoadedGround ground = ui::terrain::load_ground(
-        options.settings.path.terrain, options.settings.path.terrain_spacing_m);
+        options.settings.path.terrain, world::import_options(options.settings.path));
     const terrain::GroundSamples samples = ground.samples();
     report::HtmlTable table;
     table.title = "Shimmer: mean change of luminance (0 to 255) after the motion is taken out";

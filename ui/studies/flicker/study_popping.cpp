@@ -11,6 +11,7 @@
 #include "ui/studies/flicker/shimmer_table.h"
 #include "ui/terrain/loaded_ground.h"
 #include "ui/terrain/mesh_maker.h"
+#include "ui/world/terrain_file.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/vertex_jump.h"
 
@@ -105,7 +106,7 @@ void add_popping(
 
 report::HtmlTable popping_table(const PoppingStudyOptions& options) {
     const ui::terrain::LoadedGround ground = ui::terrain::load_ground(
-        options.settings.path.terrain, options.settings.path.terrain_spacing_m);
+        options.settings.path.terrain, world::import_options(options.settings.path));
     std::vector<std::unique_ptr<ui::terrain::MeshMaker>> makers;
     for (const Meshing& way : meshings) {
         makers.push_back(ui::terrain::make_mesh_maker(ground, mesh_options(options.settings, way)));

@@ -1,0 +1,178 @@
+#include "models/heights/raster_file.h"
+
+#include "sim/base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cpl_string.h>
+#include <cstring>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gdal.h>
+#include <string_view>
+#include <unistd.h>
+
+namespace octant::models::heights {
+
+namespace {
+
+using std::filesystem::path;
+
+constexpr std::array<std::string_view, 4> archives = {
+    "/vsizip/", "/vsitar/", "/vsigzip/", "/vsi7z/"};
+constexpr unsigned open_flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
+constexpr std::size_t most_named = 6; ///< sub-datasets in a message
+
+[[noreturn]] void error_unreadable(const path& file, const std::string& got) {
+    error_in(file, fmt::format("expected a height field that GDAL can read, got {}", got));
+}
+
+/// Strings that GDAL owns, as ours; they are released.
+std::vector<std::string> taken(char** list) {
+    std::vector<std::string> texts;
+    for (int i = 0; i < CSLCount(list); ++i) {
+        texts.emplace_back(list[i]);
+    }
+    CSLDestroy(list);
+    return texts;
+}
+
+bool is_virtual(std::string_view name) {
+    return name.starts_with("/vsi");
+}
+
+bool is_in_archive(std::string_view name) {
+    for (const std::string_view archive : archives) {
+        if (name.starts_with(archive)) {
+            const std::string_view rest = name.substr(archive.size());
+            return !is_virtual(rest) || is_in_archive(rest);
+        }
+    }
+    return false;
+}
+
+/// The names of a dataset's raster sub-datasets.
+std::vector<std::string> subdatasets_of(GDALDatasetH dataset) {
+    std::vector<std::string> names;
+    char** const list = GDALGetMetadata(dataset, "SUBDATASETS");
+    for (int i = 1;; ++i) {
+        const char* const name =
+            CSLFetchNameValue(list, fmt::format("SUBDATASET_{}_NAME", i).c_str());
+        if (name == nullptr) {
+            return names;
+        }
+        names.emplace_back(name);
+    }
+}
+
+/// Throws Error when the raster's values would come from elsewhere.
+void check_sources(const path& file, GDALDatasetH dataset) {
+    for (const std::string& name : taken(GDALGetFileList(dataset))) {
+        const bool is_far =
+            name.find("://") != std::string::npos || (is_virtual(name) && !is_in_archive(name));
+        if (is_far) {
+            error_in(
+                file,
+                fmt::format(
+                    "expected heights on this computer, got a reference to '{}'", printable(name)));
+        }
+    }
+}
+
+Dataset open_named(const std::string& name) {
+    return Dataset(GDALOpenEx(name.c_str(), open_flags, nullptr, nullptr, nullptr));
+}
+
+} // namespace
+
+bool is_name_within_file(const std::string& name) {
+    if (is_virtual(name)) {
+        return is_in_archive(name);
+    }
+    // DRIVER:..., unless a file is called that.
+    const std::size_t colon = name.find(':');
+    std::error_code code;
+    return colon != std::string::npos && colon > 1 && name.find('/') > colon &&
+           name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == colon &&
+           name.find("://") == std::string::npos && name.find("/vsi") == std::string::npos &&
+           !std::filesystem::exists(name, code);
+}
+
+void check_local_file(const path& file) {
+    if (is_name_within_file(file.string())) {
+        return;
+    }
+    if (is_virtual(file.string())) {
+        error_in(file, "expected a file on this computer, got a virtual path of GDAL");
+    }
+    std::error_code code;
+    const auto status = std::filesystem::status(file, code);
+    if (!std::filesystem::exists(status)) {
+        const bool odd = code && code.value() != ENOENT;
+        error_in(file, odd ? code.message() : "expected a file, found none");
+    }
+    if (std::filesystem::is_directory(status)) {
+        return; // some formats are folders
+    }
+    if (!std::filesystem::is_regular_file(status)) {
+        error_in(file, "expected a regular file, got a device or pipe");
+    }
+    if (::access(file.c_str(), R_OK) != 0) {
+        error_in(file, fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
+    }
+    if (std::filesystem::file_size(file, code) == 0) {
+        error_unreadable(file, "an empty file");
+    }
+}
+
+Dataset open_raster_file(const path& file, GdalSession& gdal) {
+    Dataset dataset = open_named(file.string());
+    if (!dataset) {
+        error_unreadable(
+            file,
+            gdal.names_no_format() ? "another kind of file (any raster format of GDAL's is read)"
+                                   : gdal.reason(file));
+    }
+    if (GDALGetRasterCount(dataset.get()) == 0) {
+        std::vector<std::string> names = subdatasets_of(dataset.get());
+        if (names.size() == 1) {
+            dataset = open_named(names.front());
+            if (!dataset) {
+                error_unreadable(file, gdal.reason(file));
+            }
+        } else if (!names.empty()) {
+            const std::size_t count = names.size();
+            names.resize(std::min(count, most_named));
+            error_in(
+                file,
+                fmt::format(
+                    "expected one raster, got {}: name one of them: {}{}",
+                    count,
+                    fmt::join(names, ", "),
+                    count > most_named ? ", ..." : ""));
+        }
+    }
+    check_sources(file, dataset.get());
+    gdal.forget();
+    return dataset;
+}
+
+std::vector<path> files_behind(const path& file) {
+    std::vector<path> files;
+    const GdalSession gdal;
+    if (const Dataset dataset = open_named(file.string())) {
+        std::error_code code;
+        for (const std::string& name : taken(GDALGetFileList(dataset.get()))) {
+            if (std::filesystem::is_regular_file(name, code)) {
+                files.emplace_back(name);
+            }
+        }
+    }
+    if (files.empty()) {
+        files.push_back(file);
+    }
+    return files;
+}
+
+} // namespace octant::models::heights

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "models/heights/gdal_session.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace octant::models::heights {
+
+/// Whether a name is one of GDAL's that leads into a file of this computer: an archive (/vsizip/,
+/// /vsitar/, /vsigzip/) or a part of a file (NETCDF:"a.nc":height).
+bool is_name_within_file(const std::string& name);
+
+/// Throws Error unless the path is a readable, regular file with content on this computer, or a
+/// name within one.
+void check_local_file(const std::filesystem::path& file);
+
+/// Opens a raster by whichever of GDAL's drivers knows it; of a file with one sub-dataset, that.
+/// Throws Error: another kind of file, several sub-datasets (they are named), a file that refers to
+/// others that are not on this computer.
+Dataset open_raster_file(const std::filesystem::path& file, GdalSession& gdal);
+
+/// The files of this computer that a raster is read from: itself, and those it refers to. Only
+/// itself where it cannot be opened.
+std::vector<std::filesystem::path> files_behind(const std::filesystem::path& file);
+
+} // namespace octant::models::heights
