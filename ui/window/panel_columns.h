@@ -4,6 +4,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>

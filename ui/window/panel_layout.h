@@ -2,6 +2,7 @@
 
 #include "ui/window/panel_columns.h"
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>

@@ -1,11 +1,7 @@
 #include "ui/window/viewer.h"
 
 #include "sim/base/error.h"
-#include "sim/base/file_status.h"
-#include "sim/base/output_file.h"
-#include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
-#include "ui/base/progress.h"
 #include "ui/flight/make_renderer.h"
 #include "ui/settings/settings_change.h"
 #include "ui/window/gui.h"
@@ -27,7 +23,6 @@
 
 namespace octant::ui::window {
 
-namespace fs = std::filesystem;
 namespace scene = visuals::scene;
 namespace gl = visuals::gl;
 
@@ -37,7 +32,6 @@ namespace {
 constexpr double longest_turn_s = 0.25;
 constexpr double message_s = 5.0;
 constexpr double save_layout_every_s = 5.0;
-constexpr std::size_t largest_layout_bytes = std::size_t{64} << 10;
 
 std::unique_ptr<gl::WindowContext> open_window(const ViewOptions& options) {
     return gl::make_window_context({.size = options.settings.view.size_px, .title = "Octant"});
@@ -46,10 +40,6 @@ std::unique_ptr<gl::WindowContext> open_window(const ViewOptions& options) {
 double refresh_hz_of(GLFWmonitor* monitor) {
     const GLFWvidmode* const mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
     return mode == nullptr || mode->refreshRate <= 0 ? 60.0 : mode->refreshRate;
-}
-
-fs::path layout_file(const fs::path& folder) {
-    return folder.empty() ? fs::path() : folder / "layout.ini";
 }
 
 /// OpenGL's where the settings ask for it or a GPU draws in the window, else the raster renderer.
@@ -110,54 +100,6 @@ Viewer::Viewer(const ViewOptions& options)
         start_recording(*options.record);
     }
     clock_ = base::Stopwatch();
-}
-
-/// Shows the first steps once for each user. Where the user's folder cannot be written, nothing is
-/// kept and the viewer works all the same.
-void Viewer::read_layout() {
-    if (options_.keeps_into.empty()) {
-        return;
-    }
-    const fs::path file = layout_file(options_.keeps_into);
-    try {
-        make_folder(options_.keeps_into);
-        state_.open.first_steps = !is_there(file);
-        if (!state_.open.first_steps) {
-            saved_layout_ = layout_from(read_text_file(file, largest_layout_bytes));
-            state_.columns.choose(*saved_layout_);
-        }
-    } catch (const Error&) {
-        // Panels lie where they lie for a new user; the file is written anew.
-    }
-}
-
-/// Lines of the file of keys that are wrong are told and left out.
-void Viewer::read_keys() {
-    if (options_.keeps_into.empty()) {
-        return;
-    }
-    state_.keys_file = options_.keeps_into / "keys";
-    state_.keys_file_is_there = is_there(state_.keys_file);
-    KeyMapFile read = read_key_map(state_.keys_file);
-    state_.keys = std::move(read.keys);
-    state_.key_faults = std::move(read.faults);
-    input_->look_by(state_.keys.look_button);
-    for (const std::string& fault : state_.key_faults) {
-        base::say(false, fault);
-    }
-}
-
-void Viewer::save_layout() noexcept {
-    layout_saved_s_ = last_turn_s_;
-    if (options_.keeps_into.empty()) {
-        return;
-    }
-    try {
-        saved_layout_ = state_.columns.chosen();
-        write_file(layout_file(options_.keeps_into), text_of_layout(*saved_layout_));
-    } catch (const std::exception&) {
-        options_.keeps_into.clear();
-    }
 }
 
 GLFWwindow* Viewer::window() const {

@@ -88,6 +88,7 @@ private:
     void fit_to_window();
     void take_requests();
     void take_flight_requests(const ViewRequests& requests);
+    void take_file_requests(const ViewRequests& requests);
     void count_wrong_pixels();
     void toggle_hand();
     void go_to(double time_s);

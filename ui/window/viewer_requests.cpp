@@ -1,15 +1,12 @@
 #include "sim/base/error.h"
 #include "sim/base/file_status.h"
-#include "sim/base/output_file.h"
 #include "ui/base/data_files.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/id_comparison.h"
 #include "ui/report/png_file.h"
-#include "ui/settings/settings_file.h"
 #include "ui/window/look_control.h"
 #include "ui/window/view_keys.h"
 #include "ui/window/viewer.h"
-#include "ui/world/input_files.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -17,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace octant::ui::window {
@@ -181,26 +177,7 @@ void Viewer::take_requests() {
     if (requests.count_wrong_pixels) {
         count_wrong_pixels();
     }
-    try {
-        if (requests.write_keys) {
-            write_file(state_.keys_file, text_of_key_map(state_.keys));
-            state_.keys_file_is_there = true;
-            say(fmt::format("keys: {}", state_.keys_file.string()));
-        }
-        if (requests.save_settings) {
-            settings::RunSettings saved = world::with_absolute_files(session_->settings());
-            saved.drawing.context = settings::ContextKind::OsMesa;
-            write_file(*requests.save_settings, settings::settings_json(saved).dump(2) + "\n");
-            say(fmt::format("settings: {}", requests.save_settings->string()));
-        }
-        if (requests.load_settings) {
-            state_.wanted = settings::read_settings(*requests.load_settings);
-            state_.wanted.drawing.context = settings::ContextKind::Window;
-            fit_to_window();
-        }
-    } catch (const Error& fault) {
-        say(fault.what());
-    }
+    take_file_requests(requests);
 }
 
 void Viewer::take_flight_requests(const ViewRequests& requests) {
