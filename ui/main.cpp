@@ -54,7 +54,8 @@ int main(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const std::bad_alloc&) {
-        return fail("expected enough memory for this input, got none");
+        std::fputs("octant: expected enough memory for this input, got none\n", stderr);
+        return wrong_input;
     } catch (const std::filesystem::filesystem_error& fault) {
         return fail(fmt::format("{}: {}", fault.path1().string(), fault.code().message()));
     } catch (const std::exception& fault) {
