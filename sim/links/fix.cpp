@@ -7,8 +7,10 @@ namespace octant::sim::links {
 namespace {
 
 constexpr double highest_m = 1e6;
+constexpr double furthest_m = 1e7;
 constexpr double lowest_m = -12000.0;
 constexpr double fastest_mps = 20000.0;
+constexpr double most_acceleration_mps2 = 2000.0;
 constexpr double fastest_turn_radps = 100.0;
 constexpr double largest_angle_rad = 100.0;
 
@@ -26,7 +28,9 @@ bool is_finite(const Fix& fix) {
            std::isfinite(fix.attitude.pitch_rad) && std::isfinite(fix.attitude.roll_rad) &&
            (!fix.above_ground_m || std::isfinite(*fix.above_ground_m)) &&
            (!fix.velocity_ned_mps || finite(*fix.velocity_ned_mps)) &&
+           finite(fix.acceleration_ned_mps2) &&
            (!fix.body_rates_radps || finite(*fix.body_rates_radps)) &&
+           (!fix.local_m || (std::isfinite(fix.local_m->x) && std::isfinite(fix.local_m->y))) &&
            (!fix.sent_s || std::isfinite(*fix.sent_s));
 }
 
@@ -41,9 +45,12 @@ Fault fault_of(const Fix& fix) {
     const bool in_range =
         std::abs(fix.latitude_deg) <= 90.0 && std::abs(fix.longitude_deg) <= 360.0 &&
         fix.altitude_m >= lowest_m && fix.altitude_m <= highest_m &&
+        (!fix.local_m ||
+         (std::abs(fix.local_m->x) <= furthest_m && std::abs(fix.local_m->y) <= furthest_m)) &&
         within(angles, largest_angle_rad) &&
         (!fix.above_ground_m || std::abs(*fix.above_ground_m) <= highest_m) &&
         (!fix.velocity_ned_mps || within(*fix.velocity_ned_mps, fastest_mps)) &&
+        within(fix.acceleration_ned_mps2, most_acceleration_mps2) &&
         (!fix.body_rates_radps || within(*fix.body_rates_radps, fastest_turn_radps));
     return in_range ? Fault::None : Fault::OutOfRange;
 }

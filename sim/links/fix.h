@@ -2,6 +2,7 @@
 
 #include "sim/base/axes.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
@@ -16,15 +17,22 @@ struct Fix {
     double latitude_deg = 0.0;  ///< geodetic, -90 .. 90
     double longitude_deg = 0.0; ///< -360 .. 360
     double altitude_m = 0.0;    ///< above mean sea level
+    /// East and north of the flight's place, in metres, in place of latitude and longitude.
+    std::optional<glm::dvec2> local_m;
     /// Above the sender's own ground, where it says so.
     std::optional<double> above_ground_m;
     EulerAngles attitude;
     /// North, east, down over the ground, where the protocol has it. Some senders leave it zero.
     std::optional<glm::dvec3> velocity_ned_mps;
+    /// The velocity is how it is to go on, zero too.
+    bool velocity_is_meant = false;
+    /// North, east, down; zero where the protocol has none.
+    glm::dvec3 acceleration_ned_mps2{0.0};
     /// About the body's axes, where the protocol has it.
     std::optional<glm::dvec3> body_rates_radps;
     /// The sender's clock in a unit that the protocol does not tell; it wraps around.
     std::optional<std::uint32_t> ticks;
+    double tick_s = 0.0; ///< the unit of the ticks where the protocol does tell it, else 0
     /// The sender's clock in seconds.
     std::optional<double> sent_s;
 };

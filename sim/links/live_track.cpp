@@ -38,7 +38,8 @@ AircraftState LiveTrack::beyond(double sender_s) const {
     const LiveSample& last = samples_.back();
     const double ahead_s = std::clamp(sender_s - last.state.time_s, 0.0, extrapolated_s);
     AircraftState state = last.state;
-    state.position_m += ahead_s * state.velocity_mps;
+    state.position_m += ahead_s * (state.velocity_mps + 0.5 * ahead_s * last.world_mps2);
+    state.velocity_mps += ahead_s * last.world_mps2;
     state.body_to_world = turned(state.body_to_world, last.world_radps, ahead_s);
     return state;
 }

@@ -13,6 +13,7 @@ namespace octant::sim::links {
 struct LiveSample {
     AircraftState state;
     glm::dvec3 world_radps{0.0}; ///< rate of turn in world axes
+    glm::dvec3 world_mps2{0.0};  ///< acceleration
 };
 
 /// The motion of one vehicle, put together from samples that come late, in bursts or not at all.

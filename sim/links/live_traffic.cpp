@@ -1,9 +1,11 @@
 #include "sim/links/live_traffic.h"
 
+#include "sim/links/dis_entity.h"
 #include "sim/links/flightgear_fdm.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace octant::sim::links {
 
@@ -26,6 +28,23 @@ std::string motion_text(const LiveVehicle& vehicle, bool is_shown) {
         is_shown ? "" : ", not shown: no --aircraft left for it");
 }
 
+constexpr std::size_t most_streams = 64;
+
+std::string verdict_text(Protocol protocol, const Verdict& verdict) {
+    switch (protocol) {
+    case Protocol::Lines:
+        return NamedColumns::text_of(verdict);
+    case Protocol::MavLink:
+        return mavlink_text(verdict);
+    case Protocol::Dis:
+        return dis_text(verdict);
+    case Protocol::Cigi:
+        return cigi_text(verdict);
+    default:
+        return fdm_text(verdict);
+    }
+}
+
 } // namespace
 
 LiveVehicle* LiveTraffic::vehicle_of(const VehicleKey& key, double arrival_s) {
@@ -46,43 +65,139 @@ LiveVehicle* LiveTraffic::vehicle_of(const VehicleKey& key, double arrival_s) {
     return &vehicles_.emplace_back(key);
 }
 
-bool LiveTraffic::move(const VehicleKey& key, const Fix& fix, double arrival_s) {
-    LiveVehicle* const vehicle = vehicle_of(key, arrival_s);
+LiveTraffic::Taken LiveTraffic::move(const Datagram& datagram, const Fix& fix) {
+    const VehicleKey key{datagram.protocol, datagram.source, fix.vehicle};
+    LiveVehicle* const vehicle = vehicle_of(key, datagram.arrival_s);
     if (vehicle == nullptr) {
         ++counts_.unused;
-        return false;
+        return Taken::Right;
     }
     const long lost = vehicle->clock().lost();
-    const bool taken = vehicle->add(fix, world_from_fix_(key, fix), arrival_s);
+    const bool taken = vehicle->add(fix, world_from_fix_(key, fix), datagram.arrival_s);
     counts_.lost += vehicle->clock().lost() - lost;
-    counts_.late += taken ? 0 : 1;
-    counts_.accepted += taken ? 1 : 0;
-    newest_s_ = taken ? arrival_s : newest_s_;
+    if (!taken) {
+        ++counts_.late;
+        return Taken::Right;
+    }
+    ++counts_.accepted;
+    newest_s_ = datagram.arrival_s;
+    return Taken::Moved;
+}
+
+/// Counts and remembers what is to be said of a packet. Never Moved.
+LiveTraffic::Taken LiveTraffic::count(const Datagram& datagram, const Verdict& verdict) {
+    const bool wrong = verdict.fault != Fault::None && verdict.fault != Fault::Unused;
+    if (verdict.fault == Fault::Unused) {
+        ++counts_.unused;
+    } else {
+        (wrong ? wrong_
+               : fine_) = {datagram.protocol, datagram.source, verdict, datagram.arrival_s};
+    }
+    counts_.wrong += wrong ? 1 : 0;
+    constexpr std::size_t most_kinds = 50;
+    if (heard_.size() < most_kinds &&
+        heard_.emplace(datagram.protocol, datagram.source, verdict.fault, verdict.got, verdict.size)
+            .second) {
+        news_.push_back(fmt::format(
+            "{}: {}", text_of(datagram.source), verdict_text(datagram.protocol, verdict)));
+    }
+    return wrong ? Taken::Wrong : Taken::Right;
+}
+
+LiveTraffic::Taken LiveTraffic::take_fdm(const Datagram& datagram) {
+    Fix fix;
+    const Verdict verdict = decode_fdm(datagram.bytes, fix);
+    const Taken counted = count(datagram, verdict);
+    return verdict.fault == Fault::None ? move(datagram, fix) : counted;
+}
+
+LiveTraffic::Taken LiveTraffic::take_line(const Datagram& datagram) {
+    if (columns_.size() >= most_streams && !columns_.contains(datagram.source)) {
+        columns_.erase(columns_.begin());
+    }
+    Fix fix;
+    Verdict verdict = columns_[datagram.source].take(datagram.bytes, fix);
+    Verdict said = verdict;
+    said.size = 0; // Lines differ in length and are told once.
+    const Taken counted = count(datagram, said);
+    return verdict.fault == Fault::None ? move(datagram, fix) : counted;
+}
+
+LiveTraffic::Taken LiveTraffic::take_mavlink(const Datagram& datagram) {
+    Taken taken = Taken::Wrong;
+    for (Bytes rest = datagram.bytes; !rest.empty();) {
+        const MavLinkParse parse = parse_mavlink(rest);
+        Verdict said = parse.verdict;
+        said.size = said.fault == Fault::NotOurs ? said.size : 0;
+        taken = std::max(taken, count(datagram, said));
+        if (parse.frame && (poses_.size() < most_streams ||
+                            poses_.contains({datagram.source, parse.frame->system}))) {
+            MavLinkPose& pose = poses_[{datagram.source, parse.frame->system}];
+            if (const std::optional<Fix> fix = pose.take(*parse.frame)) {
+                taken = std::max(taken, move(datagram, *fix));
+            }
+        }
+        rest = rest.subspan(parse.length);
+    }
     return taken;
 }
 
-void LiveTraffic::count(const Datagram& datagram, const Verdict& verdict) {
-    Said& said = verdict.fault == Fault::None ? fine_ : wrong_;
-    said = {datagram.source, verdict, datagram.arrival_s};
-    counts_.wrong += verdict.fault == Fault::None ? 0 : 1;
+LiveTraffic::Taken LiveTraffic::take_dis(const Datagram& datagram) {
+    DisEntity entity;
+    const Verdict verdict = decode_dis(datagram.bytes, entity);
+    const Taken counted = count(datagram, verdict);
+    return verdict.fault == Fault::None ? move(datagram, entity.fix) : counted;
 }
 
-bool LiveTraffic::take_fdm(const Datagram& datagram) {
-    Fix fix;
-    const Verdict verdict = decode_fdm(datagram.bytes, fix);
-    count(datagram, verdict);
-    return verdict.fault == Fault::None &&
-           move({datagram.protocol, datagram.source, 0}, fix, datagram.arrival_s);
+LiveTraffic::Taken LiveTraffic::take_cigi(const Datagram& datagram) {
+    std::vector<Fix> moved;
+    Verdict verdict = cigi_.take(datagram.bytes, moved);
+    if (verdict.fault == Fault::None) {
+        verdict.size = 0; // Messages differ in length and are told once.
+    }
+    const Taken counted = count(datagram, verdict);
+    if (verdict.fault != Fault::None) {
+        return counted;
+    }
+    for (const Fix& fix : moved) {
+        move(datagram, fix);
+    }
+    for (const std::uint16_t entity : cigi_.take_removed()) {
+        const VehicleKey key{Protocol::Cigi, datagram.source, entity};
+        const auto known = std::ranges::find(vehicles_, key, &LiveVehicle::key);
+        if (known != vehicles_.end()) {
+            known->hide();
+        }
+    }
+    return Taken::Moved; // A host's message is a frame, whatever moves in it.
 }
 
-bool LiveTraffic::take(const Datagram& datagram) {
+LiveTraffic::Taken LiveTraffic::take(const Datagram& datagram) {
     switch (datagram.protocol) {
     case Protocol::Fdm:
         return take_fdm(datagram);
+    case Protocol::Lines:
+        return take_line(datagram);
+    case Protocol::MavLink:
+        return take_mavlink(datagram);
+    case Protocol::Dis:
+        return take_dis(datagram);
+    case Protocol::Cigi:
+        return take_cigi(datagram);
     default:
         ++counts_.unused;
-        return false;
+        return Taken::Wrong;
     }
+}
+
+std::size_t LiveTraffic::show_newest(double now_s, std::span<AircraftState> states) {
+    shown_ = std::min(states.size(), vehicles_.size());
+    for (std::size_t i = 0; i < shown_; ++i) {
+        states[i] = vehicles_[i].newest();
+    }
+    put_away_hidden(states.first(shown_));
+    shown_s_ = now_s;
+    return shown_;
 }
 
 std::size_t LiveTraffic::show(double now_s, double delay_s, std::span<AircraftState> states) {
@@ -93,22 +208,36 @@ std::size_t LiveTraffic::show(double now_s, double delay_s, std::span<AircraftSt
         states[i] = vehicles_[i].show(now_s, delay_s, passed_s);
         counts_.snaps += vehicles_[i].snaps();
     }
+    put_away_hidden(states.first(shown_));
     shown_s_ = now_s;
     shown_once_ = true;
     return shown_;
+}
+
+void LiveTraffic::put_away_hidden(std::span<AircraftState> states) const {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        if (vehicles_[i].is_hidden()) {
+            states[i].position_m.z = hidden_m;
+        }
+    }
 }
 
 bool LiveTraffic::is_stale() const {
     return std::any_of(
         vehicles_.begin(),
         vehicles_.begin() + static_cast<std::ptrdiff_t>(shown_),
-        [](const LiveVehicle& vehicle) { return vehicle.is_stale(); });
+        [](const LiveVehicle& vehicle) { return vehicle.is_stale() && !vehicle.is_hidden(); });
+}
+
+std::vector<std::string> LiveTraffic::take_news() {
+    return std::exchange(news_, {});
 }
 
 std::vector<std::string> LiveTraffic::lines() const {
     std::vector<std::string> lines;
     if (fine_.at_s >= 0.0) {
-        lines.push_back(fmt::format("{}: {}", text_of(fine_.source), fdm_text(fine_.verdict)));
+        lines.push_back(fmt::format(
+            "{}: {}", text_of(fine_.source), verdict_text(fine_.protocol, fine_.verdict)));
     }
     constexpr std::size_t most_lines = 4;
     for (std::size_t i = 0; i < std::min(vehicles_.size(), most_lines); ++i) {
@@ -121,7 +250,7 @@ std::vector<std::string> LiveTraffic::lines() const {
         lines.push_back(fmt::format(
             "{}: {}; {} wrong packets so far",
             text_of(wrong_.source),
-            fdm_text(wrong_.verdict),
+            verdict_text(wrong_.protocol, wrong_.verdict),
             counts_.wrong));
     }
     return lines;

@@ -1,12 +1,20 @@
 #pragma once
 
 #include "sim/aircraft_state.h"
+#include "sim/links/cigi_image_generator.h"
 #include "sim/links/datagram.h"
 #include "sim/links/live_vehicle.h"
+#include "sim/links/mavlink.h"
+#include "sim/links/named_columns.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <map>
+#include <set>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -33,14 +41,32 @@ public:
     /// Silence after which a vehicle gives its place to another one.
     static constexpr double gone_after_s = 10.0;
 
-    explicit LiveTraffic(WorldFromFix world_from_fix)
-        : world_from_fix_(std::move(world_from_fix)) {}
+    /// Hosts of CIGI are answered over `ground`, which must outlive this; null: all is outside.
+    explicit LiveTraffic(WorldFromFix world_from_fix, const CigiGround* ground = nullptr)
+        : world_from_fix_(std::move(world_from_fix))
+        , cigi_(ground) {}
 
-    /// Decodes one packet. Never throws for what it holds. Returns whether something moved.
-    bool take(const Datagram& datagram);
+    CigiImageGenerator& cigi() { return cigi_; }
+
+    const CigiImageGenerator& cigi() const { return cigi_; }
+
+    /// The height at which vehicles are put that are not to be seen.
+    static constexpr double hidden_m = -1e5;
+
+    enum class Taken {
+        Wrong, ///< no decoder knows it; it changed nothing but counts
+        Right, ///< it may matter for later ones
+        Moved
+    };
+
+    /// Decodes one packet. Never throws for what it holds.
+    Taken take(const Datagram& datagram);
 
     /// In the order in which they came first.
     std::span<const LiveVehicle> vehicles() const { return vehicles_; }
+
+    /// States of the first vehicles as their newest packets say, neither smoothed nor carried on.
+    std::size_t show_newest(double now_s, std::span<AircraftState> states);
 
     /// States of the first vehicles at a time of our clock, not before that of the last call.
     /// Returns how many of `states` were filled in.
@@ -54,24 +80,39 @@ public:
     /// When the newest packet came that moved something, on our clock.
     double newest_s() const { return newest_s_; }
 
+    /// What was told for the first time since the last call: each sender with each kind of packet
+    /// once, a line each; after many of them no more.
+    std::vector<std::string> take_news();
+
     /// What a person should be told, a line each: senders and what is wrong with them.
     std::vector<std::string> lines() const;
 
 private:
     struct Said {
+        Protocol protocol = Protocol::Fdm;
         Source source;
         Verdict verdict;
         double at_s = -1.0;
     };
 
-    bool take_fdm(const Datagram& datagram);
-    bool move(const VehicleKey& key, const Fix& fix, double arrival_s);
+    Taken take_fdm(const Datagram& datagram);
+    Taken take_line(const Datagram& datagram);
+    Taken take_mavlink(const Datagram& datagram);
+    Taken take_dis(const Datagram& datagram);
+    Taken take_cigi(const Datagram& datagram);
+    void put_away_hidden(std::span<AircraftState> states) const;
+    Taken move(const Datagram& datagram, const Fix& fix);
     LiveVehicle* vehicle_of(const VehicleKey& key, double arrival_s);
-    void count(const Datagram& datagram, const Verdict& verdict);
+    Taken count(const Datagram& datagram, const Verdict& verdict);
 
     WorldFromFix world_from_fix_;
     std::vector<LiveVehicle> vehicles_;
+    std::map<Source, NamedColumns> columns_;
+    std::map<std::pair<Source, std::uint8_t>, MavLinkPose> poses_;
+    CigiImageGenerator cigi_;
     TrafficCounts counts_;
+    std::set<std::tuple<Protocol, Source, Fault, std::uint32_t, std::uint32_t>> heard_;
+    std::vector<std::string> news_;
     Said fine_;
     Said wrong_;
     double newest_s_ = 0.0;

@@ -40,7 +40,7 @@ bool moves(const glm::dvec3& velocity) {
 } // namespace
 
 TimeClue LiveVehicle::clue_of(const Fix& fix, const glm::dvec3& world_m) {
-    TimeClue clue{.sent_s = fix.sent_s, .ticks = fix.ticks, .moved_s = {}};
+    TimeClue clue{.sent_s = fix.sent_s, .ticks = fix.ticks, .tick_s = fix.tick_s, .moved_s = {}};
     if (track_.empty()) {
         return clue;
     }
@@ -67,6 +67,9 @@ glm::dvec3 LiveVehicle::velocity_of(const Fix& fix, const glm::dvec3& world_m, d
     const glm::dvec3 told_mps =
         fix.velocity_ned_mps ? world_from_ned(*fix.velocity_ned_mps) : glm::dvec3(0.0);
     if (track_.empty() || step_s <= 0.0) {
+        return told_mps;
+    }
+    if (fix.velocity_is_meant) {
         return told_mps;
     }
     const glm::dvec3 moved_mps = (world_m - track_.last().state.position_m) / step_s;
@@ -127,8 +130,10 @@ bool LiveVehicle::add(const Fix& fix, const glm::dvec3& world_m, double arrival_
     sample.state.body_to_world = body_to_world_from_euler(fix.attitude);
     sample.state.velocity_mps = velocity_of(fix, world_m, step_s);
     sample.world_radps = turn_of(fix, sample.state.body_to_world, step_s);
+    sample.world_mps2 = world_from_ned(fix.acceleration_ned_mps2);
     track_.add(sample);
     last_fix_ = fix;
+    hidden_ = false;
     ++taken_;
     return true;
 }

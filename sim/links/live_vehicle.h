@@ -37,6 +37,14 @@ public:
     /// was shown last. There must be a fix (asserted).
     AircraftState show(double now_s, double delay_s, double passed_s);
 
+    /// The motion of the newest fix. There must be one (asserted).
+    const AircraftState& newest() const { return track_.last().state; }
+
+    /// Not to be seen until it is moved again.
+    void hide() { hidden_ = true; }
+
+    bool is_hidden() const { return hidden_; }
+
     bool is_stale() const { return track_.is_stale(); }
 
     double last_arrival_s() const { return last_arrival_s_; }
@@ -61,6 +69,7 @@ private:
     double last_arrival_s_ = 0.0;
     double velocity_error_ = 0.0; ///< share by which velocities contradict positions, filtered
     int repeats_ = 0;             ///< fixes in a row that say the same place
+    bool hidden_ = false;
     long late_ = 0;
     long taken_ = 0;
 };

@@ -42,8 +42,8 @@ void SenderClock::begin(double arrival_s, const TimeClue& clue) {
 
 /// Time by a clock whose unit nobody told, once it is known: the power of ten that fits the
 /// arrivals of a second.
-std::optional<double> SenderClock::by_ticks(double arrival_s, std::uint32_t ticks) {
-    const auto change = static_cast<std::int32_t>(ticks - last_ticks_);
+std::optional<double> SenderClock::by_ticks(double arrival_s, const TimeClue& clue) {
+    const auto change = static_cast<std::int32_t>(*clue.ticks - last_ticks_);
     ++ticks_seen_;
     ticks_changed_ += change != 0 ? 1 : 0;
     ticks_passed_ += std::max(change, 0);
@@ -51,7 +51,9 @@ std::optional<double> SenderClock::by_ticks(double arrival_s, std::uint32_t tick
     if (seconds_a_tick_ == 0.0 && since_s >= unit_after_s && ticks_passed_ > 0.0) {
         // A clock that stands still for most packets is too coarse to tell them apart.
         const bool fine = 10 * ticks_changed_ >= 9 * ticks_seen_;
-        const double unit_s = std::pow(10.0, std::round(std::log10(since_s / ticks_passed_)));
+        const double unit_s = clue.tick_s > 0.0
+                                  ? clue.tick_s
+                                  : std::pow(10.0, std::round(std::log10(since_s / ticks_passed_)));
         const double error = std::abs(unit_s * ticks_passed_ / since_s - 1.0);
         constexpr double most_error = 0.3;
         seconds_a_tick_ = fine && error < most_error ? unit_s : -1.0;
@@ -61,8 +63,7 @@ std::optional<double> SenderClock::by_ticks(double arrival_s, std::uint32_t tick
 
 /// Seconds that passed at the sender since the last packet; nothing where the clues do not say.
 std::optional<double> SenderClock::passed_s(double arrival_s, const TimeClue& clue) {
-    const std::optional<double> ticked =
-        clue.ticks ? by_ticks(arrival_s, *clue.ticks) : std::nullopt;
+    const std::optional<double> ticked = clue.ticks ? by_ticks(arrival_s, clue) : std::nullopt;
     if (clue.sent_s) {
         return *clue.sent_s - last_sent_s_;
     }

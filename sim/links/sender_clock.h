@@ -10,7 +10,8 @@ namespace octant::sim::links {
 /// What a packet tells of the time that has passed at its sender since the packet before.
 struct TimeClue {
     std::optional<double> sent_s;       ///< the sender's clock
-    std::optional<std::uint32_t> ticks; ///< a clock of unknown unit; it wraps around
+    std::optional<std::uint32_t> ticks; ///< a clock that wraps around
+    double tick_s = 0.0;                ///< its unit; 0 = to be found out
     /// How long the way from the last place takes at the speed that the packet says.
     std::optional<double> moved_s;
 };
@@ -50,7 +51,7 @@ private:
     static constexpr std::size_t buckets = 12;
 
     std::optional<double> passed_s(double arrival_s, const TimeClue& clue);
-    std::optional<double> by_ticks(double arrival_s, std::uint32_t ticks);
+    std::optional<double> by_ticks(double arrival_s, const TimeClue& clue);
     void learn_period(double step_s, double arrival_s);
     void follow(double arrival_s);
     void begin(double arrival_s, const TimeClue& clue);

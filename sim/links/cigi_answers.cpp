@@ -1,0 +1,112 @@
+#include "sim/links/cigi_answers.h"
+
+#include "sim/base/units.h"
+
+namespace octant::sim::links {
+
+namespace {
+
+constexpr std::uint16_t magic = 0x8000;
+
+/// Adds a packet of zeros with its opcode and size; says where it begins.
+std::size_t begin_packet(WireWriter& message, std::uint8_t opcode, std::uint8_t size) {
+    const std::size_t at = message.size();
+    message.add_zeros(size);
+    message.set(at, opcode);
+    message.set(at + 1, size);
+    return at;
+}
+
+void set_angle(WireWriter& message, std::size_t at, double angle_rad) {
+    message.set(at, static_cast<float>(deg_from_rad(angle_rad)));
+}
+
+std::uint8_t flags_of(const CigiAnswerHead& head, unsigned more) {
+    constexpr unsigned nibble = 4;
+    return static_cast<std::uint8_t>(
+        (head.valid ? 1U : 0U) | more | (static_cast<unsigned>(head.host_frame) & 0xfU) << nibble);
+}
+
+void set_surface_angles(WireWriter& message, std::size_t at, const CigiSurface& surface) {
+    set_angle(message, at, surface.azimuth_rad);
+    set_angle(message, at + 4, surface.elevation_rad);
+}
+
+} // namespace
+
+void add_start_of_frame(WireWriter& message, const CigiStartOfFrame& frame) {
+    constexpr std::uint8_t major = 3;
+    constexpr unsigned minor = 3;
+    constexpr unsigned timestamp_valid = 1U << 2U;
+    const std::size_t at = begin_packet(message, 101, 24);
+    message.set(at + 2, major);
+    message.set(at + 3, frame.database);
+    message.set(
+        at + 5,
+        static_cast<std::uint8_t>(
+            static_cast<unsigned>(frame.mode) | timestamp_valid | minor << 4U));
+    message.set(at + 6, magic);
+    message.set(at + 8, frame.ig_frame);
+    message.set(at + 12, frame.timestamp);
+    message.set(at + 16, frame.host_frame);
+}
+
+void add_height(WireWriter& message, const CigiAnswerHead& head, CigiHeight kind, double height_m) {
+    const std::size_t at = begin_packet(message, 102, 16);
+    message.set(at + 2, head.id);
+    message.set(at + 4, flags_of(head, kind == CigiHeight::Hot ? 2U : 0U));
+    message.set(at + 8, head.valid ? height_m : 0.0);
+}
+
+void add_heights(
+    WireWriter& message, const CigiAnswerHead& head, double hat_m, const CigiSurface& surface) {
+    const std::size_t at = begin_packet(message, 103, 40);
+    message.set(at + 2, head.id);
+    message.set(at + 4, flags_of(head, 0));
+    if (head.valid) {
+        message.set(at + 8, hat_m);
+        message.set(at + 16, surface.place.z);
+        set_surface_angles(message, at + 28, surface);
+    }
+}
+
+void add_sight(
+    WireWriter& message, const CigiAnswerHead& head, bool extended, const CigiSight& sight) {
+    const unsigned visible = sight.visible ? 1U : 0U;
+    const auto count = static_cast<std::uint8_t>(1);
+    const double range_m = sight.range_m.value_or(0.0);
+    if (!extended) {
+        const std::size_t at = begin_packet(message, 104, 16);
+        message.set(at + 2, head.id);
+        message.set(at + 4, flags_of(head, visible << 2U));
+        message.set(at + 5, count);
+        message.set(at + 8, range_m);
+        return;
+    }
+    const unsigned range_valid = sight.range_m ? 1U << 2U : 0U;
+    const std::size_t at = begin_packet(message, 105, 56);
+    message.set(at + 2, head.id);
+    message.set(at + 4, flags_of(head, range_valid | visible << 3U));
+    message.set(at + 5, count);
+    message.set(at + 8, range_m);
+    if (sight.met) {
+        message.set(at + 16, sight.met->place.x);
+        message.set(at + 24, sight.met->place.y);
+        message.set(at + 32, sight.met->place.z);
+        set_surface_angles(message, at + 48, *sight.met);
+    }
+}
+
+void add_position(
+    WireWriter& message, std::uint16_t entity, const glm::dvec3& place, const EulerAngles& angles) {
+    const std::size_t at = begin_packet(message, 108, 48);
+    message.set(at + 2, entity);
+    message.set(at + 8, place.x);
+    message.set(at + 16, place.y);
+    message.set(at + 24, place.z);
+    set_angle(message, at + 32, angles.roll_rad);
+    set_angle(message, at + 36, angles.pitch_rad);
+    set_angle(message, at + 40, angles.heading_rad);
+}
+
+} // namespace octant::sim::links

@@ -1,0 +1,321 @@
+#include "sim/links/cigi_image_generator.h"
+
+#include "sim/links/earth.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace octant::sim::links {
+
+namespace {
+
+constexpr std::uint8_t low_bits(std::uint32_t frame) {
+    return static_cast<std::uint8_t>(frame & 0xfU);
+}
+
+/// Keeps no more than a cap of numbered things; those that are there may always change.
+template <class Value>
+bool keep(std::map<std::uint16_t, Value>& kept, std::uint16_t id, Value value, std::size_t most) {
+    if (kept.size() >= most && !kept.contains(id)) {
+        return false;
+    }
+    kept.insert_or_assign(id, std::move(value));
+    return true;
+}
+
+} // namespace
+
+Verdict CigiImageGenerator::take(Bytes message, std::vector<Fix>& moved) {
+    moved.clear();
+    std::vector<CigiPacket> packets;
+    const Verdict verdict = decode_cigi(message, packets);
+    if (verdict.fault != Fault::None) {
+        return verdict;
+    }
+    has_host_ = true;
+    std::vector<std::uint16_t> touched;
+    for (const CigiPacket& packet : packets) {
+        take(packet, touched);
+    }
+    std::ranges::sort(touched);
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    for (const std::uint16_t number : touched) {
+        const auto entity = entities_.find(number);
+        if (entity == entities_.end()) {
+            continue;
+        }
+        const Fix fix = fix_of(number, entity->second);
+        if (fault_of(fix) == Fault::None) {
+            moved.push_back(fix);
+        }
+    }
+    return verdict;
+}
+
+void CigiImageGenerator::take(const CigiPacket& packet, std::vector<std::uint16_t>& touched) {
+    if (const auto* control = std::get_if<CigiIgControl>(&packet)) {
+        control_ = *control;
+    } else if (const auto* entity = std::get_if<CigiEntityControl>(&packet)) {
+        take_entity(*entity);
+        touched.push_back(entity->entity);
+    } else if (const auto* clamped = std::get_if<CigiClamped>(&packet)) {
+        CigiEntityControl placed;
+        if (const auto known = entities_.find(clamped->entity); known != entities_.end()) {
+            placed = known->second.control;
+        }
+        placed.entity = clamped->entity;
+        placed.state = 1;
+        placed.clamp = 1;
+        placed.attitude = {clamped->heading_rad, 0.0, 0.0};
+        placed.place = clamped->place;
+        take_entity(placed);
+        touched.push_back(clamped->entity);
+    } else if (const auto* rate = std::get_if<CigiRate>(&packet)) {
+        const auto known = entities_.find(rate->entity);
+        if (known != entities_.end() && !rate->of_part) {
+            known->second.rate = *rate;
+            touched.push_back(rate->entity);
+        }
+    } else if (const auto* atmosphere = std::get_if<CigiAtmosphere>(&packet)) {
+        atmosphere_ = *atmosphere;
+    } else if (const auto* celestial = std::get_if<CigiCelestial>(&packet)) {
+        celestial_ = *celestial;
+    } else if (const auto* view = std::get_if<CigiViewControl>(&packet)) {
+        keep(views_, view->view, *view, most_views);
+    } else if (const auto* definition = std::get_if<CigiViewDefinition>(&packet)) {
+        keep(definitions_, definition->view, *definition, most_views);
+    } else if (const auto* height = std::get_if<CigiHeightRequest>(&packet)) {
+        ask(*height);
+    } else if (const auto* sight = std::get_if<CigiSightRequest>(&packet)) {
+        ask(*sight);
+    } else if (const auto* position = std::get_if<CigiPositionRequest>(&packet)) {
+        ask(*position);
+    } else if (const auto* unknown = std::get_if<CigiUnknown>(&packet)) {
+        ++unknown_[unknown->opcode];
+    }
+}
+
+void CigiImageGenerator::take_entity(const CigiEntityControl& control) {
+    if (control.state != 1) {
+        if (entities_.erase(control.entity) > 0) {
+            removed_.push_back(control.entity);
+        }
+        return;
+    }
+    const auto known = entities_.find(control.entity);
+    if (known != entities_.end()) {
+        known->second.control = control;
+    } else {
+        keep(entities_, control.entity, Entity{control, {}}, most_entities);
+    }
+}
+
+void CigiImageGenerator::wait(Answer answer) {
+    if (waiting_.size() < most_waiting) {
+        waiting_.push_back(std::move(answer));
+    }
+}
+
+// A period of 0 asks once and ends what was asked periodically under the same number.
+void CigiImageGenerator::ask(const CigiHeightRequest& request) {
+    heights_.erase(request.id);
+    if (request.period == 0 || !keep(heights_, request.id, request, most_periodic)) {
+        wait({request, low_bits(control_.host_frame)});
+    }
+}
+
+void CigiImageGenerator::ask(const CigiSightRequest& request) {
+    sights_.erase(request.id);
+    if (request.period == 0 || !keep(sights_, request.id, request, most_periodic)) {
+        wait({request, low_bits(control_.host_frame)});
+    }
+}
+
+void CigiImageGenerator::ask(const CigiPositionRequest& request) {
+    positions_.erase(request.object);
+    if (!request.continuous || !keep(positions_, request.object, request, most_periodic)) {
+        wait({request, low_bits(control_.host_frame)});
+    }
+}
+
+/// Asks anew what is due in this frame, with the host frame of the last IG Control.
+void CigiImageGenerator::ask_periodic() {
+    const std::uint8_t host_frame = low_bits(control_.host_frame);
+    for (const auto& [id, request] : heights_) {
+        if (frames_ % request.period == 0) {
+            wait({request, host_frame});
+        }
+    }
+    for (const auto& [id, request] : sights_) {
+        if (frames_ % request.period == 0) {
+            wait({request, host_frame});
+        }
+    }
+    for (const auto& [id, request] : positions_) {
+        wait({request, host_frame});
+    }
+    ++frames_;
+}
+
+/// Where an entity is, its parents counted; nothing where one of them is unknown or there are too
+/// many.
+std::optional<glm::dvec3> CigiImageGenerator::place_of(std::uint16_t entity, int depth) const {
+    constexpr int most_parents = 8;
+    const auto known = entities_.find(entity);
+    if (known == entities_.end() || depth > most_parents) {
+        return std::nullopt;
+    }
+    const CigiEntityControl& control = known->second.control;
+    glm::dvec3 place = control.place;
+    if (control.attached) {
+        const auto parent = place_of(control.parent, depth + 1);
+        if (!parent || ground_ == nullptr) {
+            return std::nullopt;
+        }
+        return ground_->moved(*parent, ned_from_body(attitude_of(control.parent)) * control.place);
+    }
+    if (control.clamp != 0 && ground_ != nullptr) {
+        if (const auto surface = ground_->below(place)) {
+            place.z += surface->place.z;
+        }
+    }
+    return place;
+}
+
+EulerAngles CigiImageGenerator::attitude_of(std::uint16_t entity) const {
+    glm::dmat3 turn(1.0);
+    constexpr int most_parents = 8;
+    for (int depth = 0; depth <= most_parents; ++depth) {
+        const auto known = entities_.find(entity);
+        if (known == entities_.end()) {
+            break;
+        }
+        turn = ned_from_body(known->second.control.attitude) * turn;
+        if (!known->second.control.attached) {
+            break;
+        }
+        entity = known->second.control.parent;
+    }
+    return euler_from_ned_from_body(turn);
+}
+
+std::optional<glm::dvec3> CigiImageGenerator::place_from(
+    bool of_entity, std::uint16_t entity, const glm::dvec3& place) const {
+    if (!of_entity) {
+        return place;
+    }
+    const auto from = place_of(entity);
+    if (!from || ground_ == nullptr) {
+        return std::nullopt;
+    }
+    return ground_->moved(*from, ned_from_body(attitude_of(entity)) * place);
+}
+
+Fix CigiImageGenerator::fix_of(std::uint16_t number, const Entity& entity) const {
+    Fix fix;
+    const auto place = place_of(number);
+    constexpr double nowhere_deg = 1000.0;
+    const glm::dvec3 at = place.value_or(glm::dvec3(nowhere_deg));
+    fix.vehicle = number;
+    fix.latitude_deg = at.x;
+    fix.longitude_deg = at.y;
+    fix.altitude_m = at.z;
+    fix.attitude = attitude_of(number);
+    if (entity.rate) {
+        const glm::dmat3 turn = ned_from_body(fix.attitude);
+        fix.velocity_ned_mps = entity.rate->local ? turn * entity.rate->mps : entity.rate->mps;
+        fix.body_rates_radps = entity.rate->radps;
+        fix.velocity_is_meant = true;
+    }
+    if (control_.timestamp_valid) {
+        constexpr double second_in_ticks = 1e5;
+        fix.ticks = control_.timestamp;
+        fix.tick_s = 1.0 / second_in_ticks;
+    }
+    return fix;
+}
+
+void CigiImageGenerator::answer_height(
+    const CigiHeightRequest& request, std::uint8_t host_frame, WireWriter& message) const {
+    const auto place = place_from(request.from_entity, request.entity, request.place);
+    const auto surface = place && ground_ != nullptr ? ground_->below(*place) : std::nullopt;
+    const CigiAnswerHead head{request.id, surface.has_value(), host_frame};
+    const double hat_m = surface ? place->z - surface->place.z : 0.0;
+    if (request.kind == CigiHeight::Extended) {
+        add_heights(message, head, hat_m, surface.value_or(CigiSurface{}));
+        return;
+    }
+    const double hot_m = surface ? surface->place.z : 0.0;
+    add_height(message, head, request.kind, request.kind == CigiHeight::Hat ? hat_m : hot_m);
+}
+
+void CigiImageGenerator::answer_sight(
+    const CigiSightRequest& request, std::uint8_t host_frame, WireWriter& message) const {
+    const auto from = place_from(request.from_entity, request.entity, request.source);
+    std::optional<glm::dvec3> to;
+    if (from && ground_ != nullptr && request.is_vector) {
+        const EulerAngles direction{request.azimuth_rad, request.elevation_rad, 0.0};
+        glm::dmat3 turn = ned_from_body(direction);
+        if (request.from_entity) {
+            turn = ned_from_body(attitude_of(request.entity)) * turn;
+        }
+        to = ground_->moved(*from, turn * glm::dvec3(request.most_m, 0.0, 0.0));
+    } else {
+        const std::uint16_t entity = request.to_is_given ? request.to : request.entity;
+        to = place_from(request.to_entity, entity, request.destination);
+    }
+    const bool known = from && to && ground_ != nullptr && ground_->below(*from);
+    CigiSight sight;
+    if (known) {
+        const auto met = ground_->first_met(*from, *to);
+        const bool counts = met && (!request.is_vector || met->range_m >= request.least_m);
+        sight.visible = !counts;
+        if (counts) {
+            sight.range_m = met->range_m;
+            sight.met = met->surface;
+        } else if (!request.is_vector) {
+            sight.range_m = ground_->distance_m(*from, *to);
+            sight.met = CigiSurface{*to, 0.0, 0.0};
+        }
+    }
+    add_sight(message, {request.id, known, host_frame}, request.extended, sight);
+}
+
+/// Nothing is answered for what is no entity or not known.
+void CigiImageGenerator::answer_position(
+    const CigiPositionRequest& request, WireWriter& message) const {
+    const auto place = place_of(request.object);
+    if (request.object_class == 0 && place) {
+        add_position(message, request.object, *place, attitude_of(request.object));
+    }
+}
+
+void CigiImageGenerator::answer(const Answer& answer, WireWriter& message) const {
+    if (const auto* height = std::get_if<CigiHeightRequest>(&answer.request)) {
+        answer_height(*height, answer.host_frame, message);
+    } else if (const auto* sight = std::get_if<CigiSightRequest>(&answer.request)) {
+        answer_sight(*sight, answer.host_frame, message);
+    } else {
+        answer_position(std::get<CigiPositionRequest>(answer.request), message);
+    }
+}
+
+std::vector<std::byte> CigiImageGenerator::message_for(std::uint32_t ig_frame, double time_s) {
+    ask_periodic();
+    constexpr double second_in_ticks = 1e5;
+    WireWriter message(ByteOrder::Big);
+    add_start_of_frame(
+        message,
+        {ig_frame,
+         control_.host_frame,
+         static_cast<std::uint32_t>(std::llround(time_s * second_in_ticks) & 0xffffffffLL),
+         has_host_ ? control_.mode : CigiMode::Standby,
+         control_.database});
+    while (!waiting_.empty() && message.size() + cigi_largest_answer <= most_message_bytes) {
+        answer(waiting_.front(), message);
+        waiting_.pop_front();
+    }
+    return message.take();
+}
+
+} // namespace octant::sim::links

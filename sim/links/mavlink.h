@@ -1,0 +1,65 @@
+#pragma once
+
+#include "sim/links/fix.h"
+#include "sim/links/wire_bytes.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace octant::sim::links {
+
+inline constexpr std::uint16_t mavlink_port = 14550;
+
+/// The messages that hold a pose.
+enum class MavLinkKind : std::uint32_t {
+    Heartbeat = 0,
+    Attitude = 30,
+    GlobalPositionInt = 33,
+    HilStateQuaternion = 115
+};
+
+/// One frame of MAVLink 1 or 2 whose check sum is right.
+struct MavLinkFrame {
+    MavLinkKind kind = MavLinkKind::Heartbeat;
+    std::uint8_t system = 0;
+    /// As long as its kind says: zeros that version 2 cuts off stand there again.
+    std::vector<std::byte> payload;
+};
+
+/// Reads the frame at the beginning of `bytes` and says how long it is; where none begins there,
+/// the length is that of what is to be skipped, at least 1. Frames of other kinds are Unused with
+/// their number as Verdict::got; their check sums cannot be told.
+struct MavLinkParse {
+    Verdict verdict;
+    std::size_t length = 0;
+    std::optional<MavLinkFrame> frame;
+};
+
+MavLinkParse parse_mavlink(Bytes bytes);
+
+/// The pose of one system, from one kind of message: HIL_STATE_QUATERNION where that ever comes,
+/// else ATTITUDE over the positions of GLOBAL_POSITION_INT.
+class MavLinkPose {
+public:
+    /// A fix where the message completes one.
+    std::optional<Fix> take(const MavLinkFrame& frame);
+
+private:
+    std::optional<Fix> take_hil(const MavLinkFrame& frame);
+    std::optional<Fix> take_position(const MavLinkFrame& frame);
+    std::optional<Fix> take_attitude(const MavLinkFrame& frame);
+
+    bool hil_ = false;
+    std::optional<Fix> position_;
+    std::optional<double> attitude_s_;
+};
+
+std::string mavlink_text(const Verdict& verdict);
+
+/// A frame of version 2. The payload must be as long as its kind says.
+std::vector<std::byte> encode_mavlink(const MavLinkFrame& frame, std::uint8_t sequence);
+
+} // namespace octant::sim::links

@@ -1,0 +1,117 @@
+#include "sim/base/dice.h"
+#include "sim/base/text_file.h"
+#include "sim/links/flightgear_fdm.h"
+#include "sim/links/line_input.h"
+#include "sim/links/live_traffic.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+using namespace octant;
+using namespace octant::sim;
+using namespace octant::sim::links;
+
+namespace {
+
+using Taken = LiveTraffic::Taken;
+
+glm::dvec3 flat(const VehicleKey&, const Fix& fix) {
+    if (fix.local_m) {
+        return {*fix.local_m, fix.altitude_m};
+    }
+    return {fix.longitude_deg * 1e5, fix.latitude_deg * 1e5, fix.altitude_m};
+}
+
+Datagram line(std::string_view text, double arrival_s = 0.0) {
+    const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
+    return {Protocol::Lines, {}, arrival_s, {bytes.begin(), bytes.end()}};
+}
+
+} // namespace
+
+TEST_CASE("lines of named columns move aircraft, each by its id") {
+    LiveTraffic traffic(flat);
+    CHECK(traffic.take(line("t_s,id,north_m,east_m,alt_m,yaw_deg")) == Taken::Right);
+    CHECK(traffic.take(line("0,1,100,200,300,90")) == Taken::Moved);
+    CHECK(traffic.take(line("0,2,5,6,7,0")) == Taken::Moved);
+    CHECK(traffic.take(line("0.1,1,110,200,300,90", 0.1)) == Taken::Moved);
+    std::vector<AircraftState> states(3);
+    REQUIRE(traffic.show_newest(0.1, states) == 2);
+    CHECK(states[0].position_m == glm::dvec3(200.0, 110.0, 300.0));
+    CHECK(states[1].position_m == glm::dvec3(6.0, 5.0, 7.0));
+}
+
+TEST_CASE("lines that are wrong are refused with the reason and change nothing") {
+    LiveTraffic traffic(flat);
+    CHECK(traffic.take(line("1,2,3")) == Taken::Wrong);
+    CHECK(traffic.take(line("t_s,north_m,alt_m")) == Taken::Wrong);
+    traffic.take(line("t_s\tlat_deg\tlon_deg\talt_m\twhatever"));
+    CHECK(traffic.take(line("0\t1\t2")) == Taken::Wrong);
+    CHECK(traffic.take(line("0\t1\tx\t3\ty")) == Taken::Wrong);
+    CHECK(traffic.take(line("0\t91\t2\t3\t4")) == Taken::Wrong);
+    CHECK(traffic.counts().accepted == 0);
+    CHECK(traffic.counts().wrong == 5);
+    const std::vector<std::string> news = traffic.take_news();
+    CHECK(news.size() == 5);
+    CHECK(news[0].find("expected a line of names") != std::string::npos);
+    CHECK(traffic.take(line("0\t1\t2\t3\ty")) == Taken::Moved);
+}
+
+TEST_CASE("a stream is cut into lines, whatever pieces it comes in") {
+    const std::string stream = "one\r\ntwo\n\nthree";
+    for (std::size_t piece = 1; piece < stream.size(); ++piece) {
+        LineSplitter splitter;
+        std::vector<std::string> lines;
+        const auto take = [&](const std::vector<std::byte>& bytes) {
+            std::string text;
+            for (const std::byte byte : bytes) {
+                text += std::to_integer<char>(byte);
+            }
+            lines.push_back(text);
+        };
+        for (std::size_t at = 0; at < stream.size(); at += piece) {
+            const std::string part = stream.substr(at, piece);
+            splitter.add(std::as_bytes(std::span(part.data(), part.size())), take);
+        }
+        splitter.finish(take);
+        CHECK(lines == std::vector<std::string>{"one", "two", "three"});
+    }
+}
+
+TEST_CASE("any bytes on any port leave what flies as it is, and memory bounded") {
+    LiveTraffic traffic(flat);
+    Dice dice(3);
+    for (int i = 0; i < 20000; ++i) {
+        Datagram packet;
+        packet.protocol = static_cast<Protocol>(1 + i % 5);
+        packet.source = {static_cast<std::uint32_t>(i), 1};
+        packet.arrival_s = i * 1e-4;
+        packet.bytes.resize(static_cast<std::size_t>(dice.between(0.0, 600.0)));
+        for (std::byte& byte : packet.bytes) {
+            byte = static_cast<std::byte>(dice.between(0.0, 256.0));
+        }
+        traffic.take(packet);
+    }
+    CHECK(traffic.vehicles().empty());
+    CHECK(traffic.counts().accepted == 0);
+    CHECK(traffic.take_news().size() <= 50);
+}
+
+TEST_CASE("no more vehicles are kept than the cap, and silent ones make room") {
+    LiveTraffic traffic(flat);
+    Fix fix;
+    fix.altitude_m = 100.0;
+    const auto bytes = encode_fdm(fix);
+    for (std::uint16_t i = 0; i < 400; ++i) {
+        traffic.take({Protocol::Fdm, {1, i}, 0.0, {bytes.begin(), bytes.end()}});
+    }
+    CHECK(traffic.vehicles().size() == LiveTraffic::most_vehicles);
+    CHECK(traffic.counts().unused == 400 - static_cast<long>(LiveTraffic::most_vehicles));
+    const Datagram later{Protocol::Fdm, {2, 9}, 20.0, {bytes.begin(), bytes.end()}};
+    CHECK(traffic.take(later) == Taken::Moved);
+    CHECK(traffic.vehicles().size() == LiveTraffic::most_vehicles);
+}
