@@ -1,6 +1,7 @@
 #include "sim/base/utf8.h"
 #include "ui/commands/command_line.h"
 #include "ui/commands/commands.h"
+#include "ui/window/listen_command.h"
 #include "ui/window/view_command.h"
 #include "visuals/gl/platform_tuning.h"
 #include "visuals/groundfile/damage_tally.h"
@@ -28,7 +29,8 @@ int fail(const std::string& line) {
 /// Does what the command line asks for; the exit code.
 int run(int argc, char** argv) {
     using namespace octant::ui;
-    const commands::Program program = commands::octant_program(window::view_command());
+    const commands::Program program =
+        commands::octant_program({window::view_command(), window::listen_command()});
     int code = 0;
     try {
         commands::action_of(program, argc, argv)();

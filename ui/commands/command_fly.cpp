@@ -1,14 +1,15 @@
 #include "sim/base/error.h"
 #include "sim/base/file_status.h"
-#include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
 #include "ui/commands/commands.h"
+#include "ui/commands/flight_summary.h"
 #include "ui/commands/read_option.h"
+#include "ui/commands/replay_packets.h"
 #include "ui/commands/settings_options.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/replay.h"
+#include "ui/flight/sender.h"
 #include "ui/flight/session.h"
-#include "ui/report/statistics.h"
 #include "ui/report/video_pipe.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
@@ -36,6 +37,7 @@ struct FlyOptions {
     settings::RunSettings settings;
     flight::RecordOptions record;
     std::optional<flight::Replay> replay;
+    std::vector<std::string> send;  ///< to whom
     std::vector<std::string> given; ///< names of the options that stand there and set something
     bool json = false;
     bool quiet = false;
@@ -47,48 +49,6 @@ void wait_for(const base::Stopwatch& since_start, double time_s) {
     const double left_s = time_s - since_start.s();
     if (left_s > 0.0) {
         std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
-    }
-}
-
-void print_summary(
-    const flight::FlightEnd& end, const std::optional<flight::ReplayVerdict>& verdict, bool json) {
-    if (json) {
-        base::Figures object;
-        for (const report::Figure& figure : report::figures()) {
-            const double value = figure.value(end.statistics);
-            if (figure.decimals == 0) {
-                object[figure.key] = static_cast<int>(value);
-            } else {
-                object[figure.key] = value;
-            }
-        }
-        object["state_hash"] = fmt::format("{:016x}", end.state_hash);
-        object["picture_hash"] = fmt::format("{:016x}", end.picture_hash);
-        if (verdict) {
-            object["replay"] = {
-                {"state_hash", verdict->state_hash}, {"picture_hash", verdict->picture_hash}};
-        }
-        base::print_figures(object, true);
-        return;
-    }
-    for (const report::Figure& figure : report::figures()) {
-        std::fputs(
-            fmt::format(
-                "{:<28} {:.{}f}\n", figure.name, figure.value(end.statistics), figure.decimals)
-                .c_str(),
-            stdout);
-    }
-    std::fputs(
-        fmt::format(
-            "{:<28} {:016x}\n{:<28} {:016x}\n",
-            "state hash",
-            end.state_hash,
-            "picture hash",
-            end.picture_hash)
-            .c_str(),
-        stdout);
-    if (verdict) {
-        std::fputs(fmt::format("{:<28} {}\n", "replay", verdict->line).c_str(), stdout);
     }
 }
 
@@ -144,6 +104,7 @@ void start_replay(const flight::Replay& replay, flight::Session& session, bool q
 /// Every frame of the session, recorded.
 void fly_frames(
     const FlyOptions& options, flight::Session& session, flight::FlightRecorder& recorder) {
+    flight::Sender sender(options.send);
     base::Progress progress(session.world().flight.title, session.frames(), options.quiet);
     const base::Stopwatch since_start;
     for (int frame = 0; frame < session.frames(); ++frame) {
@@ -156,6 +117,7 @@ void fly_frames(
             record.latency_ms = 1000.0 * late_s;
             record.missed = late_s > 1.0 / session.rate_hz() ? 1 : 0;
         }
+        sender.send(session);
         recorder.add(record, session);
         progress.show(frame + 1, fmt::format("{:.1f} ms", record.frame_ms));
     }
@@ -178,6 +140,12 @@ std::string shading_note(const visuals::shading::ShadingState& shading) {
 
 void fly(FlyOptions options) {
     check_options(options);
+    options.settings.time.realtime = options.settings.time.realtime || !options.send.empty();
+    const bool live = options.settings.path.name == settings::live_path;
+    if (live && !options.replay) {
+        throw Error(
+            "path: expected a path or a track, got 'live', which others fly: octant listen");
+    }
     options.settings = world::with_absolute_files(options.settings);
     if (options.if_new && flight::is_recorded(options.record, options.settings)) {
         base::say(
@@ -188,11 +156,16 @@ void fly(FlyOptions options) {
     for (const std::string& note : session.world().notes) {
         base::say(options.quiet, fmt::format("note: {}", note));
     }
-    if (options.replay) {
+    if (options.replay && !live) {
         start_replay(*options.replay, session, options.quiet);
     }
     flight::FlightRecorder recorder(options.record, options.settings, session);
-    fly_frames(options, session, recorder);
+    std::unique_ptr<flight::LiveFlight> packets;
+    if (live) {
+        packets = fly_packets(*options.replay, session, recorder, options.quiet);
+    } else {
+        fly_frames(options, session, recorder);
+    }
     const flight::FlightEnd end = recorder.finish(session);
     if (session.shading() && !options.replay) {
         base::say(options.quiet, shading_note(*session.shading()));
@@ -259,6 +232,14 @@ std::vector<Option> options_of(FlyOptions& options) {
                  options.record.replay_of = folder;
                  options.settings = settings::read_settings(folder / "run.json");
              }},
+        list_option(
+            "--send",
+            "fdm|dis|tacview:HOST:PORT",
+            "send each picture's aircraft to another program, as fast as the clock goes: "
+            "fdm: the first one as FlightGear's native FDM; dis: all as DIS entity states; "
+            "tacview:PORT: for readers of Tacview's telemetry",
+            Takes::OneWordAgain,
+            options.send),
         flag("--if-new", "do nothing when DIR holds this very run already", options.if_new),
         flag("--json", "summary as JSON", options.json),
         flag("--quiet", "no progress, no notes", options.quiet)};
@@ -285,7 +266,8 @@ Command fly_command() {
             "  octant fly --settings my-flight/run.json --record the-same\n"
             "  octant fly turn --adapt terrain --rate 120 --record fitted\n"
             "  octant fly jinking --aircraft my-aircraft.ply --aircraft-error-px 0.5\n"
-            "  octant fly --replay fitted",
+            "  octant fly --replay fitted\n"
+            "  octant fly turn --send fdm:127.0.0.1:5550",
         .run = [options] { fly(*options); }};
 }
 

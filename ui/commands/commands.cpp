@@ -2,13 +2,16 @@
 
 #include "ui/base/version.h"
 
+#include <cstddef>
 #include <fmt/format.h>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 namespace octant::ui::commands {
 
-Program octant_program(Command view) {
-    return {
+Program octant_program(std::vector<Command> of_windows) {
+    Program program{
         .about = "Octant: flies polygon aircraft along scripted paths over level-of-detail "
                  "terrain, and times it.",
         .version = fmt::format("octant {} ({})", base::program_version(), base::program_commit()),
@@ -24,7 +27,6 @@ Program octant_program(Command view) {
                   "All of them: octant --help-all.",
         .commands = {
             fly_command(),
-            std::move(view),
             report_command(),
             terrain_command(),
             draw_order_command(),
@@ -33,6 +35,12 @@ Program octant_program(Command view) {
             simplify_command(),
             study_command(),
             bench_command()}};
+    constexpr std::ptrdiff_t after_fly = 1;
+    program.commands.insert(
+        program.commands.begin() + after_fly,
+        std::make_move_iterator(of_windows.begin()),
+        std::make_move_iterator(of_windows.end()));
+    return program;
 }
 
 } // namespace octant::ui::commands

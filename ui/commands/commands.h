@@ -2,6 +2,8 @@
 
 #include "ui/commands/command.h"
 
+#include <vector>
+
 namespace octant::ui::commands {
 
 Command fly_command();
@@ -14,7 +16,7 @@ Command simplify_command();
 Command study_command();
 Command bench_command();
 
-/// All commands. `view`, the one that opens windows, is made by ui/window.
-Program octant_program(Command view);
+/// All commands. Those that open windows are made by ui/window.
+Program octant_program(std::vector<Command> of_windows);
 
 } // namespace octant::ui::commands

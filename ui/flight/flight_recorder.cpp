@@ -142,6 +142,23 @@ void FlightRecorder::add(report::FrameRecord record, Session& session) {
     }
 }
 
+/// Writes the tracks of what was flown: by the path, or by others.
+void FlightRecorder::write_flown(const Session& session) const {
+    const Simulation& simulation = session.simulation();
+    if (!simulation.is_live()) {
+        write_tracks(*options_.folder, session.world(), flown_until_s_);
+        return;
+    }
+    const auto states = simulation.log();
+    if (!states.empty()) {
+        write_tracks(
+            *options_.folder,
+            session.world(),
+            sim::Trajectory({states.begin(), states.end()}),
+            simulation.source().origin());
+    }
+}
+
 FlightEnd FlightRecorder::finish(const Session& session) {
     FlightEnd end;
     end.state_hash = session.state_hash();
@@ -159,7 +176,7 @@ FlightEnd FlightRecorder::finish(const Session& session) {
              end.picture_hash,
              report::read_cpu_times(),
              visuals::groundfile::damage_lines()});
-        write_tracks(*options_.folder, session.world(), flown_until_s_);
+        write_flown(session);
         end.notes.push_back(write_report(*options_.folder));
         if (!report::gnuplot_installed()) {
             end.missing.emplace_back("plots not made: gnuplot is not installed");

@@ -59,6 +59,8 @@ public:
     FlightEnd finish(const Session& session);
 
 private:
+    void write_flown(const Session& session) const;
+
     RecordOptions options_;
     int picture_every_ = 0;
     std::optional<report::Recording> recording_;

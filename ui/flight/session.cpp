@@ -72,6 +72,14 @@ void Session::start_flight() {
     decider_.begin(settings_, rate_hz());
     begin_at(times_.at_s.front());
     planner_->settle(camera_of(settings_));
+    if (source_ != nullptr) {
+        simulation_->follow(*source_);
+    }
+}
+
+void Session::follow(StateSource& source) {
+    source_ = &source;
+    simulation_->follow(source);
 }
 
 void Session::begin_at(double time_s) {
@@ -86,7 +94,9 @@ void Session::replay(std::vector<Decision> decisions) {
 
 scene::Camera Session::camera_of(const settings::RunSettings& settings) const {
     scene::Subject subject = world_.scene.model_of(0).subject;
-    subject.radius_m = simulation_->formation().framed_radius_m(subject.radius_m);
+    if (!simulation_->is_live()) {
+        subject.radius_m = simulation_->formation().framed_radius_m(subject.radius_m);
+    }
     return scene::camera_of(
         settings.view,
         simulation_->states().front(),
@@ -99,6 +109,9 @@ scene::Camera Session::camera_of(const settings::RunSettings& settings) const {
 /// Chooses the cameras for the time that the simulation has reached.
 void Session::look(Moment& moment) const {
     moment.camera = camera_of(settings_);
+    if (source_ != nullptr) {
+        moment.camera = source_->camera(simulation_->states()).value_or(moment.camera);
+    }
     if (inset_) {
         moment.inset_camera = camera_of(inset_->settings());
     }
@@ -142,7 +155,8 @@ scene::PlanCounts Session::make_plans(std::function<void()> when_refined) {
          .states = now_.states,
          .triangle_target = now_.triangle_target,
          .smooth = {.polygons = smooth_target_, .share = std::nullopt},
-         .when_refined = std::move(when_refined)});
+         .when_refined = std::move(when_refined),
+         .words = words_});
     plan_ = ids_ ? &ids_->of(frame.plan) : &frame.plan;
     std::optional<double> share; // of the picture's polygons, and so of the inset's
     if (smooth_target_ && frame.counts.may_be_smooth > 0) {

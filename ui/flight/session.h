@@ -20,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -67,6 +68,13 @@ public:
     /// whatever the clock says. Before the first draw().
     void replay(std::vector<Decision> decisions);
 
+    /// The source flies all aircraft from now on, whatever is loaded anew. It must outlive the
+    /// session.
+    void follow(StateSource& source);
+
+    /// Lines that the next pictures show in their upper left corner.
+    void set_words(std::vector<std::string> words) { words_ = std::move(words); }
+
     /// Simulates up to the frame's time, plans, draws and reads the picture. Frames come in order.
     report::FrameRecord draw(int frame);
 
@@ -92,6 +100,8 @@ public:
 
     /// To be changed between frames. Begin at another time by begin_at().
     Simulation& simulation() { return *simulation_; }
+
+    const Simulation& simulation() const { return *simulation_; }
 
     /// Goes to a time of the path.
     void begin_at(double time_s);
@@ -178,6 +188,8 @@ private:
     const visuals::scene::FramePlan* plan_ = nullptr;
     const visuals::scene::FramePlan* inset_plan_ = nullptr;
     Presenter presenter_;
+    StateSource* source_ = nullptr;
+    std::vector<std::string> words_;
     visuals::scene::Picture picture_;
     int last_triangles_ = 0;
     Decider decider_;

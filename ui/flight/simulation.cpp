@@ -134,8 +134,24 @@ Simulation::end_among(std::span<const sim::AircraftState> states) const {
     return std::nullopt;
 }
 
+void Simulation::advance_live(double time_s) {
+    time_s_ = time_s;
+    source_->states_at(time_s, states_);
+    for (; next_step_ <= sim::step_at(time_s); ++next_step_) {
+        rig_ = scene::advanced(rig_, states_.front());
+    }
+    add_to_hash();
+    if (logs_) {
+        log_.push_back(states_.front());
+    }
+}
+
 void Simulation::advance_to(double time_s) {
     assert(time_s >= time_s_);
+    if (is_live()) {
+        advance_live(time_s);
+        return;
+    }
     time_s_ = time_s;
     while (next_step_ <= sim::step_at(time_s) && !end_) {
         if (by_hand()) {
@@ -154,6 +170,11 @@ void Simulation::advance_to(double time_s) {
 }
 
 void Simulation::start_log() {
+    if (is_live()) {
+        logs_ = true;
+        log_.clear();
+        return;
+    }
     assert(next_step_ > sim::step_at(time_s_));
     const std::vector<sim::AircraftState> shown = states_;
     const sim::AircraftState leader = at_last_step();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/heights/height_field.h"
 #include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/hash.h"
@@ -7,6 +8,7 @@
 #include "sim/levelling.h"
 #include "ui/world/formation.h"
 #include "ui/world/world.h"
+#include "visuals/scene/camera.h"
 #include "visuals/scene/camera_rig.h"
 
 #include <array>
@@ -17,6 +19,29 @@
 #include <vector>
 
 namespace octant::ui::flight {
+
+/// Who flies the aircraft in place of their path.
+class StateSource {
+public:
+    StateSource() = default;
+    virtual ~StateSource() = default;
+    StateSource(const StateSource&) = delete;
+    StateSource& operator=(const StateSource&) = delete;
+    StateSource(StateSource&&) = delete;
+    StateSource& operator=(StateSource&&) = delete;
+
+    /// The states at a time, not before that of the last call. `states` hold those of the last
+    /// call, or where the aircraft stand at the beginning.
+    virtual void states_at(double time_s, std::span<sim::AircraftState> states) = 0;
+
+    /// Where the next picture is to be taken from, for aircraft in these states; nothing where the
+    /// settings say that.
+    virtual std::optional<visuals::scene::Camera>
+    camera(std::span<const sim::AircraftState> states) const = 0;
+
+    /// Where the world's origin lies on the earth, once that is known.
+    virtual std::optional<models::heights::GeoPlace> origin() const = 0;
+};
 
 /// The aircraft of a run in fixed simulation steps, along its path or, from a takeover on, by a
 /// pilot's hands. What it gives depends on the steps alone, not on the times it is asked for.
@@ -33,6 +58,15 @@ public:
     /// Begins anew at a time of the path, as if it started there. By hand no longer.
     void begin_at(double time_s);
 
+    /// From now on the source flies all aircraft: states and their hash are those of the very times
+    /// that are asked for. It must outlive the simulation.
+    void follow(StateSource& source) { source_ = &source; }
+
+    bool is_live() const { return source_ != nullptr; }
+
+    /// Who flies the aircraft; there must be a source.
+    const StateSource& source() const { return *source_; }
+
     double time_s() const { return time_s_; }
 
     const world::Formation& formation() const { return formation_; }
@@ -46,7 +80,8 @@ public:
     /// start_log(), the step that was the last one then among them.
     std::uint64_t state_hash() const { return hash_.value(); }
 
-    /// Begins the hash anew and keeps the first aircraft's states from the last step on.
+    /// Begins the hash anew and keeps the first aircraft's states from the last step on; where
+    /// others fly it, keeps those of the times that are asked for, and the hash goes on.
     void start_log();
 
     void stop_log() { logs_ = false; }
@@ -89,6 +124,7 @@ public:
 
 private:
     void take_step();
+    void advance_live(double time_s);
     void take_step_by_hand();
     void step_done();
     std::optional<End> end_among(std::span<const sim::AircraftState> states) const;
@@ -113,6 +149,7 @@ private:
     sim::PilotControls controls_;
     std::array<sim::AircraftState, 2> last_two_; ///< by hand: of the first aircraft, at steps
     std::optional<End> end_;
+    StateSource* source_ = nullptr;
 };
 
 } // namespace octant::ui::flight

@@ -37,7 +37,10 @@ std::optional<double> time_of(std::string_view line) {
 } // namespace
 
 void write_tracks(
-    const std::filesystem::path& folder, const world::World& world, const sim::Trajectory& flight) {
+    const std::filesystem::path& folder,
+    const world::World& world,
+    const sim::Trajectory& flight,
+    const std::optional<models::heights::GeoPlace>& origin) {
     write_file(folder / "track.csv", flightpaths::track_csv(flight));
     flightpaths::AcmiHeader header;
     header.title = world.flight.title;
@@ -48,14 +51,14 @@ void write_tracks(
             header.bookmarks.push_back(leg);
         }
     }
-    if (world.ground_place) {
-        header.origin = {world.ground_place->latitude_deg, world.ground_place->longitude_deg};
+    if (origin) {
+        header.origin = {origin->latitude_deg, origin->longitude_deg};
     }
     write_file(folder / "track.acmi", flightpaths::track_acmi(flight, header));
 }
 
 void write_tracks(const std::filesystem::path& folder, const world::World& world, double until_s) {
-    write_tracks(folder, world, flown(world.flight.trajectory, until_s));
+    write_tracks(folder, world, flown(world.flight.trajectory, until_s), world.ground_place);
 }
 
 void cut_tracks(const std::filesystem::path& folder, double until_s) {

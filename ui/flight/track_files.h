@@ -3,6 +3,7 @@
 #include "ui/world/world.h"
 
 #include <filesystem>
+#include <optional>
 
 namespace octant::ui::flight {
 
@@ -10,10 +11,13 @@ namespace octant::ui::flight {
 /// Error.
 void write_tracks(const std::filesystem::path& folder, const world::World& world, double until_s);
 
-/// Writes the tracks of a flight that left the world's path: `flight` holds its samples. Throws
-/// Error.
+/// Writes the tracks of a flight that left the world's path: `flight` holds its samples,
+/// `origin` says where the world's origin lies on the earth. Throws Error.
 void write_tracks(
-    const std::filesystem::path& folder, const world::World& world, const sim::Trajectory& flight);
+    const std::filesystem::path& folder,
+    const world::World& world,
+    const sim::Trajectory& flight,
+    const std::optional<models::heights::GeoPlace>& origin);
 
 /// Shortens the tracks of a flight that was killed to what was flown. Files that are not there are
 /// left alone. Throws Error.

@@ -11,4 +11,7 @@ namespace octant::ui::report {
 /// No rows where it did not follow the clock.
 Rows clock_rows(std::span<const FrameRecord> records);
 
+/// What came from outside: packets, losses, jitter, of all frames. No rows where nothing came.
+Rows link_rows(std::span<const FrameRecord> records);
+
 } // namespace octant::ui::report

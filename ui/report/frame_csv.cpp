@@ -92,6 +92,12 @@ constexpr std::array frame_columns{
     column<&R::refine_splits>("refine_splits"),
     column<&R::refine_collapses>("refine_collapses"),
     column<&R::refine_ms>("refine_ms", Kind::Number, milliseconds),
+    column<&R::packets>("packets"),
+    column<&R::packets_lost>("packets_lost"),
+    column<&R::packets_late>("packets_late"),
+    column<&R::packets_wrong>("packets_wrong"),
+    column<&R::stale>("stale"),
+    column<&R::jitter_ms>("jitter_ms", Kind::Number, milliseconds),
 };
 
 std::string header_line() {

@@ -45,6 +45,13 @@ struct FrameRecord {
     int refine_collapses = 0; ///< of meshes that are refined in each frame
     double refine_ms = 0.0;   ///< of plan_ms: placing the aircraft and refining their meshes
     int aircraft_level = 0;   ///< level of detail of the first aircraft, 0 = the finest
+    // Of motion from outside, since the frame before:
+    int packets = 0;        ///< that moved something
+    int packets_lost = 0;   ///< as the senders' clocks say
+    int packets_late = 0;   ///< dropped
+    int packets_wrong = 0;  ///< that were none of the protocol's
+    int stale = 0;          ///< 1 when an aircraft stands for want of packets
+    double jitter_ms = 0.0; ///< how much later than the quickest packets come, mean
     int missed = 0; ///< by the clock: 1 when the picture came later than the next one was due
 };
 

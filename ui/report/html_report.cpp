@@ -191,6 +191,8 @@ Rows result_rows(const LoadedRecording& recording) {
     rows.insert(rows.end(), recording.run.facts.begin(), recording.run.facts.end());
     const Rows clock = clock_rows(recording.records);
     rows.insert(rows.end(), clock.begin(), clock.end());
+    const Rows link = link_rows(recording.records);
+    rows.insert(rows.end(), link.begin(), link.end());
     return rows;
 }
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace octant::ui::settings {
@@ -12,6 +13,9 @@ enum class HeightMode { Clear, Follow, Datum };
 /// Auto: Raster where no GPU draws.
 enum class RendererKind { Auto, Raster, Gl };
 enum class ContextKind { OsMesa, Egl, Window };
+
+/// The name of a path that others fly: aircraft stand at its place until somebody moves them.
+inline constexpr std::string_view live_path = "live";
 
 /// Which path is flown, by which aircraft, over which ground.
 struct PathSettings {

@@ -1,5 +1,6 @@
 #include "ui/window/view_command.h"
 
+#include "sim/base/error.h"
 #include "ui/base/progress.h"
 #include "ui/commands/read_option.h"
 #include "ui/commands/settings_options.h"
@@ -21,9 +22,6 @@ namespace octant::ui::window {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-/// The user's own folder for what windows keep; empty where there is none.
 fs::path configuration_folder() {
     const char* const own = std::getenv("XDG_CONFIG_HOME");
     if (own != nullptr && fs::path(own).is_absolute()) {
@@ -32,6 +30,8 @@ fs::path configuration_folder() {
     const char* const home = std::getenv("HOME");
     return home == nullptr || *home == '\0' ? fs::path() : fs::path(home) / ".config" / "octant";
 }
+
+namespace {
 
 void print_bench(const WindowBench& bench) {
     const auto line = [](std::string_view name, const WindowTimes& times, const std::string& rest) {
@@ -75,6 +75,10 @@ struct ViewWork {
 };
 
 void view_or_bench(ViewWork work) {
+    if (work.view.settings.path.name == settings::live_path) {
+        throw Error(
+            "path: expected a path or a track, got 'live', which others fly: octant listen");
+    }
     work.view.keeps_into = configuration_folder();
     work.view.settings = world::with_absolute_files(work.view.settings);
     if (work.bench) {
@@ -111,6 +115,12 @@ std::vector<commands::Option> options_of(ViewWork& work) {
              1,
              100000},
             work.bench),
+        list_option(
+            "--send",
+            "fdm|dis|tacview:HOST:PORT",
+            "send each picture's aircraft to another program, as octant fly --send",
+            Takes::OneWordAgain,
+            view.send),
         flag("--quiet", "no notes", work.quiet)};
     add_setting_options(table, view.settings);
     return table;

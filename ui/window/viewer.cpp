@@ -62,12 +62,17 @@ window_renderer(std::shared_ptr<gl::WindowContext> context, const settings::RunS
 } // namespace
 
 Viewer::Viewer(const ViewOptions& options)
-    : options_(options) {
+    : options_(options)
+    , sender_(options.send) {
     std::shared_ptr<gl::WindowContext> context = open_window(options);
     context_ = context.get();
     input_.emplace(context_->window());
     settings::RunSettings settings = options.settings;
     settings.drawing.context = settings::ContextKind::Window;
+    if (options.listener) {
+        listener_ = std::make_unique<flight::Listener>(*options.listener);
+        settings.path.name = settings::live_path;
+    }
     settings.view.size_px = input_->size_px();
     session_ = std::make_unique<flight::Session>(
         settings, flight::Shows::World, window_renderer(std::move(context), settings));
@@ -85,7 +90,9 @@ Viewer::Viewer(const ViewOptions& options)
     state_.wanted = settings;
     state_.vsync = options.vsync;
     state_.open.shown = options.panels;
+    state_.open.flight = !options.listener;
     restart_playback();
+    follow_others();
     if (options.by_hand) {
         toggle_hand();
         session_->simulation().start_level();
@@ -157,7 +164,11 @@ bool Viewer::turn() {
     if (state_.playback.pass(wall_s, by_hand) == Playback::Moved::Restarts) {
         go_to(state_.playback.begin_s);
     }
-    draw();
+    if (listener_) {
+        draw_live();
+    } else {
+        draw();
+    }
     wait_for_display(now_s);
     if (now_s - layout_saved_s_ > save_layout_every_s && state_.columns.chosen() != saved_layout_) {
         save_layout();
@@ -248,6 +259,9 @@ void Viewer::apply_wanted() {
         (wanted.view.kind == View::Free) != (wanted.view.eye_m && wanted.view.look_m)) {
         wanted = with_view(wanted, wanted.view.kind, session_->camera());
     }
+    if (listener_) {
+        wanted.path.name = settings::live_path;
+    }
     if (wanted == session_->settings()) {
         return;
     }
@@ -267,6 +281,7 @@ void Viewer::apply_wanted() {
     }
     if (other_flight) {
         restart_playback();
+        follow_others();
     }
 }
 
@@ -284,10 +299,32 @@ void Viewer::draw() {
     record.latency_ms = 1000.0 * (now_s - (ahead ? shown_input_s_ : input_of_next_s));
     record.missed = presented_s_ > 0.0 && now_s - presented_s_ > 1.5 / refresh_hz_ ? 1 : 0;
     presented_s_ = now_s;
+    sender_.send(*session_);
     shown_s_ = next_s;
     shown_input_s_ = input_of_next_s;
     state_.history.add(record);
     record_frame(record);
+}
+
+/// Lets others fly what is loaded now, where there are others.
+void Viewer::follow_others() {
+    if (listener_) {
+        listener_->attach(*session_);
+        state_.playback.playing = false;
+    }
+}
+
+/// Shows what has come up to now.
+void Viewer::draw_live() {
+    const double time_s = *listener_->take(*session_); // not in steps: always a picture
+    session_->aim_at_window(input_->size_px());
+    report::FrameRecord record = session_->draw_at(time_s, std::nullopt);
+    listener_->finish_picture(record);
+    const double now_s = clock_.s();
+    record.missed = presented_s_ > 0.0 && now_s - presented_s_ > 1.5 / refresh_hz_ ? 1 : 0;
+    presented_s_ = now_s;
+    sender_.send(*session_);
+    state_.history.add(record);
 }
 
 void Viewer::record_frame(const report::FrameRecord& record) {

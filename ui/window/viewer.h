@@ -1,6 +1,8 @@
 #pragma once
 
 #include "ui/base/stopwatch.h"
+#include "ui/flight/listener.h"
+#include "ui/flight/sender.h"
 #include "ui/flight/session.h"
 #include "ui/settings/settings.h"
 #include "ui/window/panel_layout.h"
@@ -14,6 +16,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 struct GLFWwindow;
 
@@ -42,6 +45,10 @@ struct ViewOptions {
     /// The user's own folder for the layout of panels and the mark that the first steps were shown;
     /// an empty path keeps nothing.
     std::filesystem::path keeps_into;
+    /// Others fly, by packets.
+    std::optional<flight::ListenerOptions> listener;
+    /// To whom pictures' aircraft are sent, as flight::Sender has it.
+    std::vector<std::string> send;
 };
 
 /// A window in which a flight is seen and flown: keys, mouse and panels change a ViewState, the
@@ -99,6 +106,8 @@ private:
     void apply_wanted();
     void restart_playback();
     void draw();
+    void draw_live();
+    void follow_others();
     void record_frame(const report::FrameRecord& record);
     void drop_recording();
     void say(const std::string& text);
@@ -109,6 +118,9 @@ private:
     /// The session owns it.
     visuals::gl::WindowContext* context_ = nullptr;
     std::unique_ptr<flight::Session> session_;
+    /// Null where nobody else flies.
+    std::unique_ptr<flight::Listener> listener_;
+    flight::Sender sender_;
     std::optional<WindowInput> input_;
     std::unique_ptr<Gui> gui_;
     ViewState state_;

@@ -181,6 +181,12 @@ void Viewer::take_requests() {
 }
 
 void Viewer::take_flight_requests(const ViewRequests& requests) {
+    if (listener_) {
+        if (requests.toggle_hand || requests.go_to_s) {
+            say("others fly this aircraft");
+        }
+        return;
+    }
     if (requests.toggle_hand) {
         toggle_hand();
     }
@@ -264,6 +270,10 @@ std::optional<std::string> Viewer::finish_recording() {
 }
 
 void Viewer::toggle_recording() {
+    if (listener_) {
+        say("flights of others are recorded by octant listen --headless --record");
+        return;
+    }
     try {
         if (const auto report = finish_recording()) {
             say(*report);

@@ -154,7 +154,8 @@ std::string WindowRecording::finish(flight::Session& session) {
     flight::write_tracks(
         recording_.folder(),
         session.world(),
-        sim::Trajectory(std::vector<sim::AircraftState>(states.begin(), states.end())));
+        sim::Trajectory(std::vector<sim::AircraftState>(states.begin(), states.end())),
+        session.world().ground_place);
     recording_.finish(
         {last_hash_, std::nullopt, report::read_cpu_times(), visuals::groundfile::damage_lines()});
     session.simulation().stop_log();

@@ -42,6 +42,10 @@ std::string hash_of_file(const fs::path& file) {
     return fmt::format("{:016x}", hash.value());
 }
 
+bool is_live(const settings::RunSettings& settings) {
+    return settings.path.name == settings::live_path;
+}
+
 bool is_folder_or_pattern(const std::string& name) {
     return models::heights::is_many(name) && !models::heights::is_name_within_file(name);
 }
@@ -70,7 +74,7 @@ std::vector<fs::path> ground_files(const std::string& terrain) {
 settings::RunSettings with_absolute_files(settings::RunSettings settings) {
     // A name that is built in comes first everywhere, also where a file of that name lies about.
     const std::string pilot = settings.path.aircraft.front();
-    if (base::path_file(settings.path.name, pilot) == settings.path.name) {
+    if (!is_live(settings) && base::path_file(settings.path.name, pilot) == settings.path.name) {
         settings.path.name = absolute(settings.path.name);
     }
     for (std::string& name : settings.path.aircraft) {
@@ -93,8 +97,10 @@ settings::RunSettings with_absolute_files(settings::RunSettings settings) {
 
 std::vector<std::pair<std::string, std::string>>
 input_hashes(const settings::RunSettings& settings) {
-    std::vector<fs::path> files = {
-        base::path_file(settings.path.name, settings.path.aircraft.front())};
+    std::vector<fs::path> files;
+    if (!is_live(settings)) {
+        files.push_back(base::path_file(settings.path.name, settings.path.aircraft.front()));
+    }
     for (const std::string& name : settings.path.aircraft) {
         files.push_back(base::aircraft_file(name));
         const fs::path materials = fs::path(files.back()).replace_extension(".mtl");

@@ -4,6 +4,7 @@
 #include "flightpaths/placement.h"
 #include "flightpaths/recorded_track.h"
 #include "sim/aircraft_kind.h"
+#include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
 #include "ui/base/data_files.h"
@@ -169,6 +170,29 @@ Flight place_flight(
         .legs = std::move(script.legs)};
 }
 
+/// The first aircraft stands where its path would begin until somebody moves it.
+Flight live_flight(const settings::RunSettings& settings, const SceneGround& ground) {
+    constexpr double above_ground_m = 300.0;
+    constexpr double usual_rate_hz = 60.0;
+    glm::dvec2 place_m(0.0);
+    if (settings.path.place) {
+        place_m =
+            place_from_text(*settings.path.place, ground.place, ground.ground->half_extent_m());
+    }
+    sim::AircraftState state;
+    const double ground_m = ground.ground->height_at(place_m.x, place_m.y).value_or(0.0);
+    state.position_m = glm::dvec3(place_m, ground_m + above_ground_m);
+    state.body_to_world = body_to_world_from_euler({});
+    return {
+        .trajectory = sim::Trajectory({state}),
+        .title = fmt::format(
+            "live over {}", std::filesystem::path(settings.path.terrain).stem().string()),
+        .rate_hz = usual_rate_hz,
+        .place_m = place_m,
+        .lowest_clearance_m = above_ground_m,
+        .legs = {}};
+}
+
 /// The leader's path has been laid over the ground; those beside him must clear it too.
 void check_wingmen(const World& world) {
     const Formation formation = formation_of(world.scene);
@@ -229,13 +253,17 @@ scene::FixedPoints fixed_points(const settings::RunSettings& settings, const Wor
 World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     settings::check_settings(settings);
     LoadedAircraft aircraft = load_aircraft(settings);
-    Script script = load_script(settings);
+    const bool is_live = settings.path.name == settings::live_path;
+    std::optional<Script> script = is_live ? std::nullopt : std::optional(load_script(settings));
     SceneGround ground = load_scene_ground(settings, drawn_by);
     World world;
     world.notes = std::move(aircraft.notes);
-    add(world.notes, script.notes);
+    if (script) {
+        add(world.notes, script->notes);
+    }
     add(world.notes, ground.notes);
-    world.flight = place_flight(settings, std::move(script), ground, world.notes);
+    world.flight = script ? place_flight(settings, std::move(*script), ground, world.notes)
+                          : live_flight(settings, ground);
     world.scene = {
         std::move(ground.ground),
         std::move(ground.texture),
@@ -245,7 +273,9 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     world.leader_kind = sim::find_aircraft_kind(settings.path.aircraft.front());
     world.ground_name = std::move(ground.name);
     world.ground_place = ground.place;
-    check_wingmen(world);
+    if (!is_live) {
+        check_wingmen(world);
+    }
     world.points = fixed_points(settings, world);
     return world;
 }

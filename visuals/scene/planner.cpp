@@ -184,6 +184,9 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
     if (settings_.view.kind == View::Cockpit && settings_.view.head_up_display) {
         plan_head_up_display(camera, request.states.front());
     }
+    if (!request.words.empty()) {
+        plan_.overlay = text_.draw(request.words, settings_.view.size_px, plan_.overlay);
+    }
     const SmoothChoice::Count shaded = smooth_.choose(
         placed_,
         refined_,

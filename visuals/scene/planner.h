@@ -8,6 +8,7 @@
 #include "visuals/scene/ground_in_front.h"
 #include "visuals/scene/ground_mesher.h"
 #include "visuals/scene/head_up_display.h"
+#include "visuals/scene/picture_text.h"
 #include "visuals/scene/placed_aircraft.h"
 #include "visuals/scene/polygon_repaint.h"
 #include "visuals/scene/refined_aircraft.h"
@@ -25,6 +26,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -57,6 +59,8 @@ struct PlanRequest {
     /// Called in the midst of the work, when the aircraft are placed and their meshes refined: for
     /// whoever measures. May be empty.
     std::function<void()> when_refined = nullptr;
+    /// Lines written into the upper left corner of the picture.
+    std::span<const std::string> words = {};
 };
 
 /// A frame that is planned.
@@ -150,6 +154,7 @@ private:
     FramePlan plan_;
     StepWriter steps_;
     HeadUpDisplay head_up_display_;
+    PictureText text_;
 };
 
 } // namespace octant::visuals::scene

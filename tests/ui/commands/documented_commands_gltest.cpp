@@ -3,6 +3,7 @@
 #include "tests/ui/commands/documented_lines.h"
 #include "ui/commands/command_line.h"
 #include "ui/commands/commands.h"
+#include "ui/window/listen_command.h"
 #include "ui/window/view_command.h"
 
 #include <catch2/catch.hpp>
@@ -49,7 +50,8 @@ std::string fault_of(const CommandLine& line) {
     for (const std::string& word : line) {
         words.push_back(word.c_str());
     }
-    const commands::Program program = commands::octant_program(ui::window::view_command());
+    const commands::Program program =
+        commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
     try {
         commands::action_of(program, static_cast<int>(words.size()), words.data());
     } catch (const Error& fault) {
@@ -87,7 +89,8 @@ void check_examples(const commands::Command& command) {
 }
 
 commands::Command command_named(std::string_view name) {
-    const commands::Program program = commands::octant_program(ui::window::view_command());
+    const commands::Program program =
+        commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
     return *std::ranges::find(program.commands, name, &commands::Command::name);
 }
 
@@ -120,7 +123,8 @@ TEST_CASE("every command line of the README files can be read and, where it is q
 
 TEST_CASE("the examples of octant --help and of fly --help run") {
     const WorkingFolder folder("documented-fly");
-    const commands::Program program = commands::octant_program(ui::window::view_command());
+    const commands::Program program =
+        commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
     check_lines(tests::command_lines(program.footer));
     check_examples(command_named("fly"));
 }
@@ -132,7 +136,8 @@ TEST_CASE("the examples of terrain --help run") {
 
 TEST_CASE("the examples of every other command's --help can be read and, where quick, run") {
     const WorkingFolder folder("documented-others");
-    const commands::Program program = commands::octant_program(ui::window::view_command());
+    const commands::Program program =
+        commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
     for (const commands::Command& command : program.commands) {
         if (command.name != "fly" && command.name != "terrain") {
             check_examples(command);

@@ -1,0 +1,40 @@
+#include "ui/commands/replay_packets.h"
+
+#include "ui/base/progress.h"
+#include "ui/flight/packet_file.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace octant::ui::commands {
+
+std::unique_ptr<flight::LiveFlight> fly_packets(
+    const flight::Replay& replay,
+    flight::Session& session,
+    flight::FlightRecorder& recorder,
+    bool quiet) {
+    const flight::PacketFile file = flight::read_packets(replay.folder);
+    // A killed flight's last rows may be missing from either file.
+    const std::size_t frames = std::min(file.frames.size(), replay.decisions.size());
+    auto live = std::make_unique<flight::LiveFlight>(file.options, session.world());
+    session.follow(*live);
+    session.simulation().start_log();
+    base::Progress progress(session.world().flight.title, static_cast<int>(frames), quiet);
+    for (std::size_t frame = 0; frame < frames; ++frame) {
+        const flight::PacketFrame& of_frame = file.frames[frame];
+        for (const sim::links::Datagram& packet : of_frame.packets) {
+            live->take(packet);
+        }
+        if (of_frame.has_words) {
+            session.set_words(of_frame.words);
+        }
+        report::FrameRecord record = session.draw_at(of_frame.time_s, std::nullopt);
+        live->fill_in(record, of_frame.time_s);
+        recorder.add(record, session);
+        progress.show(static_cast<int>(frame) + 1, fmt::format("{:.1f} ms", record.frame_ms));
+    }
+    progress.finish();
+    return live;
+}
+
+} // namespace octant::ui::commands

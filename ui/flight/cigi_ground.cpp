@@ -1,0 +1,98 @@
+#include "ui/flight/cigi_ground.h"
+
+#include "flightpaths/local_tangent.h"
+#include "sim/base/axes.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace octant::ui::flight {
+
+namespace {
+
+constexpr double step_m = 2.0;
+constexpr double most_steps = 10000.0;
+constexpr double found_m = 0.01;
+
+flightpaths::GeoOrigin origin_of(const LivePlace& place) {
+    return place.origin()
+               ? flightpaths::GeoOrigin{place.origin()->latitude_deg, place.origin()->longitude_deg}
+               : flightpaths::GeoOrigin{};
+}
+
+} // namespace
+
+glm::dvec3 CigiOverWorld::world_from(const glm::dvec3& place) const {
+    return {flightpaths::local_from_geo(origin_of(place_), place.x, place.y), place.z};
+}
+
+glm::dvec3 CigiOverWorld::place_from(const glm::dvec3& at_m) const {
+    const flightpaths::GeoOrigin geo =
+        flightpaths::geo_from_local(origin_of(place_), glm::dvec2(at_m.x, at_m.y));
+    return {geo.latitude_deg, geo.longitude_deg, at_m.z};
+}
+
+std::optional<double> CigiOverWorld::height_m(const glm::dvec3& at_m) const {
+    return place_.origin() ? world_.scene.ground->height_at(at_m.x, at_m.y) : std::nullopt;
+}
+
+std::optional<sim::links::CigiSurface> CigiOverWorld::below(const glm::dvec3& place) const {
+    const glm::dvec3 at_m = world_from(place);
+    const auto ground_m = height_m(at_m);
+    if (!ground_m) {
+        return std::nullopt;
+    }
+    constexpr double aside_m = 0.5;
+    const auto slope = [&](const glm::dvec3& along) {
+        const double ahead_m = height_m(at_m + along).value_or(*ground_m);
+        const double behind_m = height_m(at_m - along).value_or(*ground_m);
+        return (ahead_m - behind_m) / (2.0 * aside_m);
+    };
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(
+        -slope(glm::dvec3(aside_m, 0.0, 0.0)), -slope(glm::dvec3(0.0, aside_m, 0.0)), 1.0));
+    return sim::links::CigiSurface{
+        glm::dvec3(place.x, place.y, *ground_m),
+        wrapped_to_two_pi(std::atan2(normal.x, normal.y)),
+        std::asin(std::clamp(normal.z, -1.0, 1.0))};
+}
+
+std::optional<sim::links::CigiGround::Met>
+CigiOverWorld::first_met(const glm::dvec3& from, const glm::dvec3& to) const {
+    const glm::dvec3 from_m = world_from(from);
+    const glm::dvec3 to_m = world_from(to);
+    const double length_m = glm::length(to_m - from_m);
+    const double steps = std::clamp(std::ceil(length_m / step_m), 1.0, most_steps);
+    const auto is_under = [&](double share) {
+        const glm::dvec3 at_m = glm::mix(from_m, to_m, share);
+        const auto ground_m = height_m(at_m);
+        return ground_m && at_m.z < *ground_m;
+    };
+    double open = 0.0;
+    for (double step = 1.0; step <= steps; step += 1.0) {
+        double met = step / steps;
+        if (!is_under(met)) {
+            open = met;
+            continue;
+        }
+        while ((met - open) * length_m > found_m) {
+            const double middle = 0.5 * (open + met);
+            (is_under(middle) ? met : open) = middle;
+        }
+        const auto surface = below(place_from(glm::mix(from_m, to_m, met)));
+        return surface ? std::optional(Met{met * length_m, *surface}) : std::nullopt;
+    }
+    return std::nullopt;
+}
+
+double CigiOverWorld::distance_m(const glm::dvec3& from, const glm::dvec3& to) const {
+    return glm::length(world_from(to) - world_from(from));
+}
+
+glm::dvec3 CigiOverWorld::moved(const glm::dvec3& place, const glm::dvec3& ned_m) const {
+    return place_from(world_from(place) + glm::dvec3(ned_m.y, ned_m.x, -ned_m.z));
+}
+
+} // namespace octant::ui::flight

@@ -1,0 +1,97 @@
+#include "ui/flight/listener.h"
+
+#include <utility>
+
+namespace octant::ui::flight {
+
+using Taken = sim::links::LiveTraffic::Taken;
+
+Listener::Listener(const ListenerOptions& options)
+    : options_(options)
+    , input_(options.input) {}
+
+void Listener::attach(Session& session) {
+    live_ = std::make_unique<LiveFlight>(options_.live, session.world());
+    session.follow(*live_);
+}
+
+void Listener::record_into(const std::filesystem::path& folder) {
+    writer_.emplace(folder, options_.live);
+}
+
+std::vector<std::string> Listener::lines() const {
+    std::vector<std::string> lines = live_->lines();
+    if (live_->traffic().vehicles().empty()) {
+        const std::vector<std::string> waits = input_.lines();
+        lines.insert(lines.begin(), waits.begin(), waits.end());
+    }
+    return lines;
+}
+
+/// Returns whether something moved; in steps nothing is taken after that.
+bool Listener::take_waiting() {
+    bool moved = false;
+    while (!waiting_.empty() && !(options_.live.step && moved)) {
+        const sim::links::Datagram packet = std::move(waiting_.front());
+        waiting_.pop_front();
+        const Taken taken = live_->take(packet);
+        if (writer_ && taken != Taken::Wrong) {
+            writer_->add(packet);
+        }
+        moved = moved || taken == Taken::Moved;
+    }
+    return moved;
+}
+
+std::optional<double> Listener::take(Session& session) {
+    constexpr std::size_t most_waiting = 20000; // in steps: more wait in the network
+    if (waiting_.size() < most_waiting) {
+        for (const sim::links::Datagram& packet : input_.drain()) {
+            waiting_.push_back(packet);
+        }
+    }
+    const bool moved = take_waiting();
+    if (options_.live.step && !moved) {
+        return std::nullopt;
+    }
+    const double time_s =
+        options_.live.step ? static_cast<double>(++pictures_) / session.rate_hz() : input_.now_s();
+    if (time_s >= words_at_s_) {
+        constexpr double words_every_s = 0.5;
+        const std::vector<std::string> words =
+            options_.live.step ? std::vector<std::string>() : lines();
+        session.set_words(words);
+        if (writer_) {
+            writer_->add_words(words);
+        }
+        words_at_s_ = time_s + words_every_s;
+    }
+    if (writer_) {
+        writer_->add_picture(time_s);
+    }
+    return time_s;
+}
+
+void Listener::finish_picture(report::FrameRecord& record) {
+    live_->fill_in(record, input_.now_s());
+    if (input_.has_cigi()) {
+        input_.send_cigi(live_->cigi_message(++cigi_frames_, input_.now_s()));
+    }
+}
+
+void Listener::call_hosts() {
+    constexpr double every_s = 0.1;
+    const double now_s = input_.now_s();
+    if (input_.has_cigi() && !live_->traffic().cigi().has_host() && now_s >= called_at_s_) {
+        input_.send_cigi(live_->cigi_message(cigi_frames_, now_s));
+        called_at_s_ = now_s + every_s;
+    }
+}
+
+void Listener::finish() {
+    if (writer_) {
+        writer_->finish();
+    }
+}
+
+} // namespace octant::ui::flight

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "sim/links/live_traffic.h"
+#include "ui/flight/cigi_ground.h"
+#include "ui/flight/live_place.h"
+#include "ui/flight/session.h"
+#include "ui/report/frame_record.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace octant::ui::flight {
+
+/// How motion from outside is shown.
+struct LiveOptions {
+    double delay_s = 0.0;
+    std::optional<LiveHeight> height;
+    /// Each packet that moves something is one picture, of what it says and no more.
+    bool step = false;
+};
+
+/// Flies a session's aircraft by packets: the vehicle that came first is the first aircraft, and so
+/// on; aircraft that nobody flies yet are not seen, the first one waits at its place. Reads no
+/// clock: the same packets and times give the same states.
+class LiveFlight final : public StateSource {
+public:
+    /// The world of the session that it flies.
+    LiveFlight(const LiveOptions& options, const world::World& world);
+
+    /// Takes the next packet in the order in which they came.
+    sim::links::LiveTraffic::Taken take(const sim::links::Datagram& packet) {
+        return traffic_.take(packet);
+    }
+
+    void states_at(double time_s, std::span<sim::AircraftState> states) override;
+
+    /// What a person should be told, a line each.
+    std::vector<std::string> lines() const;
+
+    /// Fills in what came since the last frame that was filled in. `finished_s` is when its picture
+    /// was finished, on the clock of the packets.
+    void fill_in(report::FrameRecord& record, double finished_s);
+
+    /// What was told for the first time since the last call.
+    std::vector<std::string> take_news() { return traffic_.take_news(); }
+
+    std::optional<models::heights::GeoPlace> origin() const override { return place_.origin(); }
+
+    /// The message that CIGI hosts get for a picture.
+    std::vector<std::byte> cigi_message(std::uint32_t picture, double time_s) {
+        return traffic_.cigi().message_for(picture, time_s);
+    }
+
+    std::optional<visuals::scene::Camera>
+    camera(std::span<const sim::AircraftState> states) const override;
+
+    const sim::links::LiveTraffic& traffic() const { return traffic_; }
+
+    const LivePlace& place() const { return place_; }
+
+private:
+    LiveOptions options_;
+    LivePlace place_;
+    CigiOverWorld cigi_ground_;
+    sim::links::LiveTraffic traffic_;
+    sim::links::TrafficCounts counted_;
+    double newest_s_ = -1.0; ///< packet of the last frame
+};
+
+} // namespace octant::ui::flight

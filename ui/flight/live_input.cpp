@@ -1,0 +1,93 @@
+#include "ui/flight/live_input.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace octant::ui::flight {
+
+namespace links = sim::links;
+
+LiveInput::LiveInput(const LiveInputOptions& options)
+    : bind_(options.bind) {
+    const std::uint32_t address = links::address_from_text(options.bind);
+    const auto open = [&](links::Protocol protocol, const char* name, int port) {
+        if (port >= 0) {
+            ports_.push_back(
+                {protocol, name, links::UdpPort(address, static_cast<std::uint16_t>(port))});
+        }
+    };
+    open(links::Protocol::Fdm, "FlightGear FDM", options.fdm_port);
+    open(links::Protocol::MavLink, "MAVLink", options.mavlink_port);
+    open(links::Protocol::Dis, "DIS", options.dis_port);
+    if (options.cigi_port >= 0) {
+        cigi_ = Cigi{ports_.size(), links::peer_from_text(options.cigi_host)};
+        open(links::Protocol::Cigi, "CIGI", options.cigi_port);
+    }
+    if (options.lines_port >= 0) {
+        line_server_.emplace(address, static_cast<std::uint16_t>(options.lines_port));
+    }
+    if (options.standard_input) {
+        standard_input_.emplace();
+    }
+    if (!options.only_from.empty()) {
+        only_from_ = links::address_from_text(options.only_from);
+    }
+}
+
+double LiveInput::now_s() const {
+    const std::chrono::duration<double, std::micro> passed =
+        std::chrono::steady_clock::now() - begin_;
+    constexpr double per_second = 1e6;
+    return std::floor(passed.count()) / per_second;
+}
+
+const std::vector<links::Datagram>& LiveInput::drain() {
+    packets_.clear();
+    for (Port& port : ports_) {
+        port.socket.drain(port.protocol, now_s(), packets_);
+    }
+    if (line_server_) {
+        line_server_->drain(now_s(), packets_);
+    }
+    std::erase_if(packets_, [this](const links::Datagram& packet) {
+        return (only_from_ && packet.source.address != *only_from_) ||
+               !limit_.admits(packet.source, packet.arrival_s);
+    });
+    if (standard_input_) {
+        standard_input_->drain(now_s(), packets_);
+    }
+    return packets_;
+}
+
+void LiveInput::send_cigi(std::span<const std::byte> message) {
+    if (cigi_) {
+        ports_[cigi_->port].socket.send(cigi_->host, message);
+    }
+}
+
+bool LiveInput::has_ended() const {
+    return ports_.empty() && !line_server_ && standard_input_ && standard_input_->has_ended();
+}
+
+std::vector<std::string> LiveInput::lines() const {
+    std::vector<std::string> lines;
+    for (const Port& port : ports_) {
+        lines.push_back(
+            fmt::format("{}: waits on UDP {}:{}", port.name, bind_, port.socket.port()));
+    }
+    if (cigi_) {
+        lines.back() += fmt::format(", answers to {}", links::text_of(cigi_->host));
+    }
+    if (line_server_) {
+        lines.push_back(fmt::format("lines: waits on TCP {}:{}", bind_, line_server_->port()));
+    }
+    if (standard_input_) {
+        lines.emplace_back("lines: waits on standard input");
+    }
+    if (bind_ != "127.0.0.1") {
+        lines.push_back(fmt::format("open to other machines: bound to {}", bind_));
+    }
+    return lines;
+}
+
+} // namespace octant::ui::flight

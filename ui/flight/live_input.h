@@ -1,0 +1,82 @@
+#pragma once
+
+#include "sim/links/datagram.h"
+#include "sim/links/line_input.h"
+#include "sim/links/source_limit.h"
+#include "sim/links/udp_port.h"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace octant::ui::flight {
+
+/// Where to listen. A port of -1 is not opened, 0 is any free one.
+struct LiveInputOptions {
+    std::string bind = "127.0.0.1";
+    int fdm_port = 5550;
+    int mavlink_port = 14550;
+    int dis_port = 3000;
+    int lines_port = -1;
+    int cigi_port = 8004;
+    /// Who gets the messages of CIGI, as "HOST:PORT".
+    std::string cigi_host = "127.0.0.1:8005";
+    bool standard_input = false;
+    /// Packets from other addresses are not looked at; empty = from everywhere.
+    std::string only_from;
+};
+
+/// The ports on which packets come, and the clock by which they do.
+class LiveInput {
+public:
+    /// Opens the ports; the clock begins at 0. Throws Error where one is taken.
+    explicit LiveInput(const LiveInputOptions& options);
+
+    /// Seconds since the beginning, in whole microseconds.
+    double now_s() const;
+
+    /// All packets that have come since the last call, valid until the next one. now_s() from then
+    /// on lies behind their arrivals.
+    const std::vector<sim::links::Datagram>& drain();
+
+    /// Whether CIGI is listened to.
+    bool has_cigi() const { return cigi_.has_value(); }
+
+    /// Sends a message to the host of CIGI, where it is listened to.
+    void send_cigi(std::span<const std::byte> message);
+
+    /// Nothing can come any more: only standard input was listened to, and it has ended.
+    bool has_ended() const;
+
+    /// What is waited for, a line each.
+    std::vector<std::string> lines() const;
+
+private:
+    struct Port {
+        sim::links::Protocol protocol;
+        std::string name;
+        sim::links::UdpPort socket;
+    };
+
+    /// Of ports_, and to whom it sends.
+    struct Cigi {
+        std::size_t port = 0;
+        sim::links::Source host;
+    };
+
+    std::string bind_;
+    std::vector<Port> ports_;
+    std::optional<Cigi> cigi_;
+    std::optional<sim::links::LineServer> line_server_;
+    std::optional<sim::links::StandardInput> standard_input_;
+    std::optional<std::uint32_t> only_from_;
+    sim::links::SourceLimit limit_;
+    std::vector<sim::links::Datagram> packets_;
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+} // namespace octant::ui::flight

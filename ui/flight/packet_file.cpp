@@ -1,0 +1,231 @@
+#include "ui/flight/packet_file.h"
+
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "sim/links/wire_bytes.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace octant::ui::flight {
+
+namespace links = sim::links;
+
+namespace {
+
+enum class RecordKind : std::uint8_t { Packet = 1, Words = 2, Picture = 3 };
+
+constexpr std::string_view magic = "octant packets 1 ";
+constexpr std::size_t largest_bytes = std::size_t{1} << 32U;
+constexpr std::size_t most_bytes_a_record = 65536;
+
+std::string_view text_of(links::Bytes bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; // NOLINT
+}
+
+links::Bytes bytes_of(std::string_view text) {
+    return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+/// Reads records one behind the other; stops at one that is not whole.
+class RecordReader {
+public:
+    RecordReader(const std::filesystem::path& file, links::Bytes bytes)
+        : file_(file)
+        , reader_(bytes, links::ByteOrder::Big)
+        , bytes_(bytes) {}
+
+    /// The frames that are whole.
+    std::vector<PacketFrame> frames() {
+        std::vector<PacketFrame> frames;
+        PacketFrame frame;
+        while (next(frame)) {
+            if (complete_) {
+                frames.push_back(std::exchange(frame, {}));
+                complete_ = false;
+            }
+        }
+        return frames;
+    }
+
+private:
+    template <class Number>
+    std::optional<Number> number() {
+        if (bytes_.size() - at_ < sizeof(Number)) {
+            return std::nullopt;
+        }
+        const auto value = reader_.at<Number>(at_);
+        at_ += sizeof(Number);
+        return value;
+    }
+
+    std::optional<links::Bytes> block() {
+        const auto size = number<std::uint32_t>();
+        if (!size) {
+            return std::nullopt;
+        }
+        if (*size > most_bytes_a_record) {
+            refuse(fmt::format("a record of at most {} bytes, got {}", most_bytes_a_record, *size));
+        }
+        if (bytes_.size() - at_ < *size) {
+            return std::nullopt;
+        }
+        const links::Bytes block = bytes_.subspan(at_, *size);
+        at_ += *size;
+        return block;
+    }
+
+    bool next(PacketFrame& frame) {
+        const auto kind = number<std::uint8_t>();
+        if (!kind) {
+            return false;
+        }
+        switch (RecordKind{*kind}) {
+        case RecordKind::Packet:
+            return next_packet(frame);
+        case RecordKind::Words:
+            return next_words(frame);
+        case RecordKind::Picture: {
+            const auto time_s = number<double>();
+            if (time_s && !(*time_s > last_s_)) {
+                refuse(fmt::format("a picture after {} s, got {}", last_s_, *time_s));
+            }
+            complete_ = time_s.has_value();
+            last_s_ = frame.time_s = time_s.value_or(0.0);
+            return complete_;
+        }
+        }
+        refuse(fmt::format("a record of kind 1, 2 or 3, got {}", *kind));
+    }
+
+    bool next_packet(PacketFrame& frame) {
+        const auto protocol = number<std::uint8_t>();
+        const auto address = number<std::uint32_t>();
+        const auto port = number<std::uint16_t>();
+        const auto arrival_s = number<double>();
+        const auto bytes = block();
+        if (!protocol || !address || !port || !arrival_s || !bytes) {
+            return false;
+        }
+        if (!std::isfinite(*arrival_s)) {
+            refuse("a time of arrival, got no number");
+        }
+        frame.packets.push_back(
+            {links::Protocol{*protocol},
+             {*address, *port},
+             *arrival_s,
+             {bytes->begin(), bytes->end()}});
+        return true;
+    }
+
+    bool next_words(PacketFrame& frame) {
+        const auto bytes = block();
+        if (!bytes) {
+            return false;
+        }
+        frame.has_words = true;
+        for (const std::string_view line : split_lines(text_of(*bytes))) {
+            frame.words.emplace_back(line);
+        }
+        return true;
+    }
+
+    [[noreturn]] void refuse(const std::string& expected) const {
+        error_in(file_, fmt::format("byte {}: expected {}", at_, expected));
+    }
+
+    const std::filesystem::path& file_;
+    links::WireReader reader_;
+    links::Bytes bytes_;
+    std::size_t at_ = 0;
+    double last_s_ = -1.0;
+    bool complete_ = false;
+};
+
+LiveOptions options_of(const std::filesystem::path& file, std::string_view line) {
+    const auto words = split_words(line);
+    const auto delay_s = words.size() == 3 ? finite_number(words[0]) : std::nullopt;
+    if (!delay_s) {
+        error_at(
+            file,
+            1,
+            fmt::format(
+                "expected a delay, a height and a step, got '{}'", printable(std::string(line))));
+    }
+    return {*delay_s, live_height_from(words[1]), words[2] == "step"};
+}
+
+} // namespace
+
+PacketWriter::PacketWriter(const std::filesystem::path& folder, const LiveOptions& options)
+    : file_(folder / packets_name) {
+    file_.append(fmt::format(
+        "{}{} {} {}\n",
+        magic,
+        options.delay_s,
+        options.height ? name_of(*options.height) : "usual",
+        options.step ? "step" : "clock"));
+    file_.flush();
+}
+
+void PacketWriter::add(const links::Datagram& packet) {
+    links::WireWriter record(links::ByteOrder::Big);
+    record.add(static_cast<std::uint8_t>(RecordKind::Packet));
+    record.add(static_cast<std::uint8_t>(packet.protocol));
+    record.add(packet.source.address);
+    record.add(packet.source.port);
+    record.add(packet.arrival_s);
+    record.add(static_cast<std::uint32_t>(packet.bytes.size()));
+    file_.append(text_of(record.bytes()));
+    file_.append(text_of(packet.bytes));
+}
+
+void PacketWriter::add_words(const std::vector<std::string>& words) {
+    const std::string text = fmt::format("{}", fmt::join(words, "\n"));
+    links::WireWriter record(links::ByteOrder::Big);
+    record.add(static_cast<std::uint8_t>(RecordKind::Words));
+    record.add(static_cast<std::uint32_t>(text.size()));
+    file_.append(text_of(record.bytes()));
+    file_.append(text);
+}
+
+void PacketWriter::add_picture(double time_s) {
+    links::WireWriter record(links::ByteOrder::Big);
+    record.add(static_cast<std::uint8_t>(RecordKind::Picture));
+    record.add(time_s);
+    file_.append(text_of(record.bytes()));
+    constexpr long flushed_every = 30;
+    if (++pictures_ % flushed_every == 0) {
+        file_.flush();
+    }
+}
+
+void PacketWriter::finish() {
+    file_.flush();
+}
+
+bool holds_packets(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(folder / packets_name, ignored);
+}
+
+PacketFile read_packets(const std::filesystem::path& folder) {
+    const auto file = folder / packets_name;
+    const std::string bytes = read_file(file, largest_bytes);
+    const std::string_view text = bytes;
+    const std::size_t head = text.find('\n');
+    if (!text.starts_with(magic) || head == std::string_view::npos) {
+        error_at(file, 1, fmt::format("expected '{}', got another beginning", magic));
+    }
+    PacketFile packets;
+    packets.options = options_of(file, text.substr(magic.size(), head - magic.size()));
+    RecordReader reader(file, bytes_of(text.substr(head + 1)));
+    packets.frames = reader.frames();
+    return packets;
+}
+
+} // namespace octant::ui::flight

@@ -1,0 +1,174 @@
+#include "ui/flight/sender.h"
+
+#include "flightpaths/local_tangent.h"
+#include "sim/base/axes.h"
+#include "sim/base/error.h"
+#include "sim/base/units.h"
+#include "sim/links/dis_entity.h"
+#include "sim/links/flightgear_fdm.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace octant::ui::flight {
+
+namespace links = sim::links;
+
+namespace {
+
+flightpaths::GeoOrigin origin_of(const Session& session) {
+    std::optional<models::heights::GeoPlace> place = session.world().ground_place;
+    if (session.simulation().is_live()) {
+        place = session.simulation().source().origin();
+    }
+    return place ? flightpaths::GeoOrigin{place->latitude_deg, place->longitude_deg}
+                 : flightpaths::GeoOrigin{};
+}
+
+/// Microseconds as a clock that wraps around.
+std::uint32_t ticks_at(double time_s) {
+    constexpr double per_second = 1e6;
+    return static_cast<std::uint32_t>(std::llround(time_s * per_second) & 0xffffffffLL);
+}
+
+/// Of "tacview:PORT" or "tacview:ADDRESS:PORT".
+links::Source reader_address(const std::string& target) {
+    const std::string rest = target.substr(target.find(':') + 1);
+    return links::peer_from_text(rest.find(':') == std::string::npos ? "127.0.0.1:" + rest : rest);
+}
+
+/// What Tacview is told of all aircraft before they move.
+std::string tacview_head(const Session& session) {
+    std::string head = fmt::format(
+        "FileType=text/acmi/tacview\nFileVersion=2.2\n0,ReferenceTime=2026-01-01T00:00:00Z\n"
+        "0,DataSource=Octant\n0,Title={}\n",
+        session.world().flight.title);
+    const sim::AircraftKind* const kind = session.world().leader_kind;
+    for (std::size_t i = 0; i < session.states().size(); ++i) {
+        head += fmt::format(
+            "{:x},Type={},Name={},Color=Blue\n",
+            i + 1,
+            kind == nullptr ? "Air" : kind->tacview_type,
+            kind == nullptr ? "Aircraft" : kind->tacview_name);
+    }
+    return head;
+}
+
+} // namespace
+
+links::Fix fix_of(const Session& session, const sim::AircraftState& state) {
+    const glm::dvec3& at_m = state.position_m;
+    const flightpaths::GeoOrigin place =
+        flightpaths::geo_from_local(origin_of(session), glm::dvec2(at_m.x, at_m.y));
+    links::Fix fix;
+    fix.latitude_deg = std::clamp(place.latitude_deg, -90.0, 90.0);
+    fix.longitude_deg = place.longitude_deg;
+    fix.altitude_m = at_m.z;
+    if (const auto ground_m = session.world().scene.ground->height_at(at_m.x, at_m.y)) {
+        fix.above_ground_m = at_m.z - *ground_m;
+    }
+    fix.attitude = euler_from_body_to_world(state.body_to_world);
+    fix.velocity_ned_mps =
+        glm::dvec3(state.velocity_mps.y, state.velocity_mps.x, -state.velocity_mps.z);
+    fix.ticks = ticks_at(state.time_s);
+    return fix;
+}
+
+Sender::Sender(const std::vector<std::string>& targets) {
+    for (const std::string& target : targets) {
+        const std::string_view text = target;
+        if (text.starts_with("tacview:")) {
+            const links::Source own = reader_address(target);
+            tacview_.emplace_back(own.address, own.port, "Octant");
+            continue;
+        }
+        const auto form = text.starts_with("fdm:")   ? std::optional(Form::Fdm)
+                          : text.starts_with("dis:") ? std::optional(Form::Dis)
+                                                     : std::nullopt;
+        if (!form) {
+            throw Error(fmt::format(
+                "--send: expected fdm:HOST:PORT, dis:HOST:PORT or tacview:PORT, got '{}'",
+                printable(target)));
+        }
+        constexpr std::size_t prefix = 4;
+        targets_.push_back({*form, links::peer_from_text(target.substr(prefix))});
+    }
+    if (!targets_.empty()) {
+        socket_.emplace_back(0, std::uint16_t{0}); // any address of ours, any port
+    }
+}
+
+void Sender::send_fdm(const Target& target, const links::Fix& fix) {
+    socket_.front().send(target.peer, links::encode_fdm(fix));
+}
+
+void Sender::send_dis(const Target& target, std::size_t number, links::Fix fix, double time_s) {
+    links::DisEntity entity;
+    entity.site = 1;
+    entity.application = 1;
+    entity.entity = static_cast<std::uint16_t>(number + 1);
+    entity.force = 1;
+    entity.type = {1, 2, 0, 0, 0, 0, 0, 0}; // a platform in the air
+    entity.reckoning = links::DeadReckoning::Fpw;
+    constexpr std::string_view name = "OCTANT";
+    std::copy(name.begin(), name.end(), entity.marking.begin());
+    entity.fix = fix;
+    socket_.front().send(target.peer, links::encode_dis(entity, time_s));
+}
+
+void Sender::send_tacview(const Session& session) {
+    const auto states = session.states();
+    if (!std::exchange(head_told_, true)) {
+        for (links::TacviewServer& server : tacview_) {
+            server.set_head(tacview_head(session));
+        }
+    }
+    std::string text = fmt::format("#{:.3f}\n", states.front().time_s);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const links::Fix fix = fix_of(session, states[i]);
+        if (links::fault_of(fix) != links::Fault::None) {
+            continue;
+        }
+        text += fmt::format(
+            "{:x},T={:.7f}|{:.7f}|{:.2f}|{:.2f}|{:.2f}|{:.2f}\n",
+            i + 1,
+            fix.longitude_deg,
+            fix.latitude_deg,
+            fix.altitude_m,
+            deg_from_rad(fix.attitude.roll_rad),
+            deg_from_rad(fix.attitude.pitch_rad),
+            deg_from_rad(fix.attitude.heading_rad));
+    }
+    for (links::TacviewServer& server : tacview_) {
+        server.send(text);
+    }
+}
+
+void Sender::send(const Session& session) {
+    if (!tacview_.empty()) {
+        send_tacview(session);
+    }
+    for (const Target& target : targets_) {
+        const auto states = session.states();
+        const std::size_t count = target.form == Form::Fdm ? 1 : states.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            const links::Fix fix = fix_of(session, states[i]);
+            if (links::fault_of(fix) != links::Fault::None) {
+                continue; // nobody flies it yet
+            }
+            if (target.form == Form::Fdm) {
+                send_fdm(target, fix);
+            } else {
+                send_dis(target, i, fix, states[i].time_s);
+            }
+        }
+    }
+}
+
+} // namespace octant::ui::flight

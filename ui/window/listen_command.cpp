@@ -1,0 +1,107 @@
+#include "ui/window/listen_command.h"
+
+#include "sim/base/error.h"
+#include "ui/base/progress.h"
+#include "ui/commands/listen.h"
+#include "ui/window/view_command.h"
+#include "ui/window/viewer.h"
+#include "ui/world/input_files.h"
+
+#include <fmt/format.h>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace octant::ui::window {
+
+namespace {
+
+struct ListenWork {
+    commands::ListenOptions listen;
+    ViewOptions view;
+    bool headless = false;
+};
+
+void listen_in_window(ListenWork work) {
+    if (work.listen.listener.live.step) {
+        throw Error("--step: expected --headless beside it, got none");
+    }
+    if (work.listen.record.folder || work.listen.record.video) {
+        throw Error("--record, --video: expected --headless beside them, got none");
+    }
+    work.view.settings = work.listen.settings;
+    work.view.keeps_into = configuration_folder();
+    work.view.listener = work.listen.listener;
+    work.view.send = work.listen.send;
+    Viewer viewer(work.view);
+    int frames = 0;
+    while (viewer.turn()) {
+        if (work.view.settings.time.frames && ++frames >= *work.view.settings.time.frames) {
+            break;
+        }
+    }
+}
+
+void listen(ListenWork work) {
+    settings::RunSettings& settings = work.listen.settings;
+    settings.path.name = settings::live_path;
+    settings = world::with_absolute_files(settings);
+    if (work.headless) {
+        commands::listen_without_window(work.listen);
+    } else {
+        listen_in_window(std::move(work));
+    }
+}
+
+std::vector<commands::Option> options_of(ListenWork& work) {
+    using namespace commands;
+    ListenOptions& listen = work.listen;
+    std::vector<Option> table = {
+        flag("--headless", "no window: pictures, video and recording alone", work.headless),
+        text_option(
+            "--record",
+            "DIR",
+            "with --headless: write the recording and its report into this folder",
+            listen.record.folder),
+        text_option(
+            "--video",
+            "FILE.mp4",
+            "with --headless: write a video (needs ffmpeg)",
+            listen.record.video),
+        flag("--json", "with --headless: summary as JSON", listen.json),
+        flag("--full-screen", "fill the screen (F11)", work.view.full_screen),
+        flag(
+            "--vsync,!--no-vsync",
+            "one picture a refresh of the display; else as many as there can be",
+            work.view.vsync),
+        flag("--panels,!--no-panels", "begin with panels shown (Tab)", work.view.panels)};
+    std::vector<Option> shared = listen_options(listen);
+    table.insert(
+        table.end(),
+        std::make_move_iterator(shared.begin()),
+        std::make_move_iterator(shared.end()));
+    return table;
+}
+
+} // namespace
+
+commands::Command listen_command() {
+    auto work = std::make_shared<ListenWork>();
+    work->view.records_into = ".";
+    return {
+        .name = "listen",
+        .summary = "Shows what other programs fly: FlightGear FDM, MAVLink, DIS, lines of numbers",
+        .options = options_of(*work),
+        .footer = "Examples:\n"
+                  "  octant listen\n"
+                  "  octant listen --terrain map.tif --view cockpit --delay 0.1\n"
+                  "  octant listen --headless --seconds 60 --record my-flight --video flight.mp4\n"
+                  "  my-script | octant listen --from - --headless --step --record steps\n"
+                  "JSBSim: <output name=\"localhost\" type=\"FLIGHTGEAR\" port=\"5550\" "
+                  "protocol=\"UDP\" rate=\"60\"/>\n"
+                  "Ctrl-C ends it; a recording is then completed.",
+        .run = [work] { listen(*work); }};
+}
+
+} // namespace octant::ui::window

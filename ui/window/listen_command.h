@@ -1,0 +1,10 @@
+#pragma once
+
+#include "ui/commands/command.h"
+
+namespace octant::ui::window {
+
+/// The command that shows what other programs fly, in a window or without one.
+commands::Command listen_command();
+
+} // namespace octant::ui::window
