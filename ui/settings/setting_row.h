@@ -19,7 +19,7 @@ inline constexpr std::array enum_names<SettingGroup>{
     Named{SettingGroup::Path, "Path, aircraft and ground"},
     Named{SettingGroup::View, "View and picture"},
     Named{SettingGroup::Time, "Frames"},
-    Named{SettingGroup::Surface, "Hidden surfaces and detail of aircraft"},
+    Named{SettingGroup::Surface, "Hidden surfaces, aircraft detail"},
     Named{SettingGroup::Shading, "Shading of aircraft"},
     Named{SettingGroup::Ground, "Terrain mesh"},
     Named{SettingGroup::Air, "Sky, haze, sun and colours"}};
