@@ -7,9 +7,11 @@ namespace octant::tests::formats {
 namespace {
 
 constexpr const char* scene =
-    "PROTO P [ ] { Group { } }\nDEF hull Group { }\nTransform { rotation 0 1 0 1.5 scale 1 2 -1 translation 4 0 0\n"
+    "PROTO P [ ] { Group { } }\nDEF hull Group { }\nTransform { rotation 0 1 0 1.5 scale 1 2 -1 "
+    "translation 4 0 0\n"
     " children [ # comment\n Shape { geometry IndexedFaceSet { ccw FALSE\n"
-    "coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0, 1 1 0, 0 0 1, 1 0 1, 0 1 1, 1 1 1 ] } color Color { color [ 1 0 0, 0 1 0 ] } colorIndex [ 0 1 ]\n"
+    "coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0, 1 1 0, 0 0 1, 1 0 1, 0 1 1, 1 1 1 ] } color "
+    "Color { color [ 1 0 0, 0 1 0 ] } colorIndex [ 0 1 ]\n"
     "colorPerVertex FALSE coordIndex [ 0 1 3 2 -1 4 5 7 6 -1 ] } } ] }\n"
     "Switch { whichChoice 0 choice [ USE hull ] }\n";
 
