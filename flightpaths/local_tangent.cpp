@@ -41,4 +41,18 @@ GeoOrigin geo_from_local(const GeoOrigin& origin, const glm::dvec2& east_north_m
         origin.longitude_deg + deg_from_rad(east_north_m.x / scale.x)};
 }
 
+double geodetic_from_geocentric_deg(double geocentric_deg, double height_m) {
+    constexpr double e2 = flattening * (2.0 - flattening);
+    const double geocentric_rad = rad_from_deg(geocentric_deg);
+    double geodetic_rad = geocentric_rad;
+    for (int i = 0; i < 5; ++i) { // each step leaves less than a hundredth of the error
+        const double sine = std::sin(geodetic_rad);
+        const double normal_m = semi_major_m / std::sqrt(1.0 - e2 * sine * sine);
+        geodetic_rad = std::atan2(
+            std::sin(geocentric_rad) * (normal_m + height_m),
+            std::cos(geocentric_rad) * (normal_m * (1.0 - e2) + height_m));
+    }
+    return deg_from_rad(geodetic_rad);
+}
+
 } // namespace octant::flightpaths

@@ -16,4 +16,8 @@ struct GeoOrigin {
 glm::dvec2 local_from_geo(const GeoOrigin& origin, double latitude_deg, double longitude_deg);
 GeoOrigin geo_from_local(const GeoOrigin& origin, const glm::dvec2& east_north_m);
 
+/// The geodetic latitude of a place from its geocentric one, which is up to 0.19 degrees or 21 km
+/// less, and its height above the ellipsoid.
+double geodetic_from_geocentric_deg(double geocentric_deg, double height_m);
+
 } // namespace octant::flightpaths

@@ -74,11 +74,14 @@ constexpr std::array<Known, 15> own_columns{{
     {QuaternionZ, "q_z"},
 }};
 
+/// What JSBSim calls so is geocentric.
+constexpr std::string_view geocentric_latitude = "Latitude (deg)";
+
 // The geodetic latitude stands first: it is taken where both are there.
 constexpr std::array<Known, 11> jsbsim_columns{{
     {Time, "Time"},
     {North, "Latitude Geodetic (deg)"},
-    {North, "Latitude (deg)"},
+    {North, geocentric_latitude},
     {East, "Longitude (deg)"},
     {Altitude, "Altitude ASL (ft)"},
     {Roll, "Phi (deg)"},
@@ -208,12 +211,16 @@ Row row_from(std::string_view line, const Header& header, const Source& at) {
 }
 
 /// A JSBSim row in the units and axes of our own columns.
-Row own_from_jsbsim(Row row, std::optional<GeoOrigin>& origin, const Source& at) {
+Row own_from_jsbsim(
+    Row row, const Header& header, std::optional<GeoOrigin>& origin, const Source& at) {
     if (std::abs(row[North]) > 89.0 || std::abs(row[East]) > 360.0) {
         at.refuse(fmt::format(
             "expected a latitude within 89 deg and a longitude within 360 deg, got {} and {}",
             row[North],
             row[East]));
+    }
+    if (header.columns[North].name == geocentric_latitude) {
+        row[North] = geodetic_from_geocentric_deg(row[North], m_from_ft(row[Altitude]));
     }
     if (!origin) {
         origin = GeoOrigin{row[North], row[East]};
@@ -307,7 +314,7 @@ RecordedTrack read_recorded_track(const std::filesystem::path& file) {
         const Source at{file, static_cast<int>(i) + 1};
         Row row = row_from(lines[i], header, at);
         if (header.jsbsim) {
-            row = own_from_jsbsim(row, origin, at);
+            row = own_from_jsbsim(row, header, origin, at);
         }
         samples.push_back(state_from(row, as_quaternion, at));
         if (samples.size() > 1) {

@@ -84,6 +84,14 @@ TEST_CASE("JSBSim columns come with tabs or commas, in feet, with the geodetic l
     }
 }
 
+TEST_CASE("a latitude of JSBSim that is geocentric becomes the geodetic one") {
+    // JSBSim itself gives 47.19191 for a start at a geocentric 47.
+    const RecordedTrack track = track_of("Time,Latitude (deg),Longitude (deg),Altitude ASL (ft)\n"
+                                         "0,47,8,0\n1,47,8.00001,0\n");
+    REQUIRE(track.origin);
+    CHECK(track.origin->latitude_deg == Approx(47.19191).margin(1e-5));
+}
+
 TEST_CASE("a flight over the date line is whole") {
     const RecordedTrack track = track_of("Time,Latitude (deg),Longitude (deg),Altitude ASL (ft)\n"
                                          "0,10,179.9999,100\n1,10,-179.9999,100\n");
