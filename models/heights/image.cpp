@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gdal.h>
+#include <memory>
 #include <new>
 #include <utility>
 
@@ -23,13 +25,13 @@ using std::filesystem::path;
 }
 
 Dataset open(const path& file, const GdalSession& gdal) {
-    constexpr std::array<const char*, 4> drivers = {"GTiff", "PNG", "JPEG", nullptr};
+    constexpr std::array<const char*, 5> drivers = {"GTiff", "PNG", "JPEG", "BMP", nullptr};
     constexpr unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
     Dataset dataset(GDALOpenEx(file.c_str(), flags, drivers.data(), nullptr, nullptr));
     if (!dataset) {
         error_unreadable(
             file,
-            gdal.names_no_format() ? "another kind of file (GeoTIFF, PNG and JPEG are read)"
+            gdal.names_no_format() ? "another kind of file (GeoTIFF, PNG, JPEG and BMP are read)"
                                    : gdal.reason(file));
     }
     return dataset;
@@ -194,6 +196,30 @@ Image read_image(const path& file) {
         return image_from(file);
     } catch (const std::bad_alloc&) {
         error_in(file, "expected an image that fits in memory, got a larger one");
+    }
+}
+
+Image image_from_bytes(const std::string& name, std::string_view bytes) {
+    constexpr const char* place = "/vsimem/octant-image";
+    VSILFILE* const file = VSIFileFromMemBuffer(
+        place,
+        reinterpret_cast<GByte*>(const_cast<char*>(bytes.data())), // only read
+        bytes.size(),
+        FALSE);
+    if (file == nullptr) {
+        error_in(name, "expected an image that fits in memory, got a larger one");
+    }
+    VSIFCloseL(file);
+    const auto remove = [](const char* gone) { VSIUnlink(gone); };
+    const std::unique_ptr<const char, decltype(remove)> there(place, remove);
+    try {
+        Image image = image_from(place);
+        image.name = name;
+        return image;
+    } catch (const Error&) {
+        error_in(name, "expected an image that GDAL can read, got another file");
+    } catch (const std::bad_alloc&) {
+        error_in(name, "expected an image that fits in memory, got a larger one");
     }
 }
 

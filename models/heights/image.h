@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace octant::models::heights {
@@ -32,13 +33,16 @@ struct Image {
 /// averaged, and `note` says so.
 inline constexpr int largest_image_px = 16384;
 
-/// Reads an image of 8 bits a part: GeoTIFF, PNG or JPEG with red, green and blue, grey or a
-/// palette, with or without alpha or a value for no data. Nothing else is opened, no network is
-/// used and nothing is written. A file counts as placed when it has both a coordinate system and a
-/// pixel size in it. Memory: 4 bytes a pixel.
+/// Reads an image of 8 bits a part: GeoTIFF, PNG, JPEG or BMP with red, green and blue,
+/// grey or a palette, with or without alpha or a value for no data. Nothing else is opened, no
+/// network is used and nothing is written. A file counts as placed when it has both a coordinate
+/// system and a pixel size in it. Memory: 4 bytes a pixel.
 ///
 /// Throws Error "file: expected ..., got ..." for no readable file, a damaged one, other kinds of
 /// file and other depths.
 Image read_image(const std::filesystem::path& file);
+
+/// The same of a file's bytes; `name` is only told.
+Image image_from_bytes(const std::string& name, std::string_view bytes);
 
 } // namespace octant::models::heights

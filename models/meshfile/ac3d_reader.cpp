@@ -20,15 +20,17 @@ constexpr long most_count = 0x7fffffff;
 constexpr std::size_t least_vertex_bytes = 6; ///< "0 0 0" and what parts it from the next
 
 /// Keywords of an object that say nothing about its shape.
-constexpr std::array<std::string_view, 10> ignored_keywords{
-    "name", "texture", "texrep", "texoff", "subdiv", "crease", "url", "hidden", "locked", "folded"};
+constexpr std::array<std::string_view, 6> ignored_keywords{
+    "subdiv", "crease", "url", "hidden", "locked", "folded"};
 
 class Ac3dReading {
 public:
-    Ac3dReading(const std::filesystem::path& path, std::string_view text)
+    Ac3dReading(
+        const std::filesystem::path& path, std::string_view text, const ReadOptions& options)
         : path_(path)
+        , options_(options)
         , words_(path, text, 1)
-        , mesh_(path) {}
+        , mesh_(path, options) {}
 
     TriangleMesh read() {
         const std::string_view magic = words_.word("AC3D");
@@ -114,6 +116,8 @@ private:
         }
         words_.word("a kind of object");
         Placement own;
+        ObjectPicture picture;
+        const bool was_left_out = is_left_out_;
         const std::size_t first_vertex = mesh_.vertex_count();
         while (true) {
             const std::string_view word = words_.word("kids");
@@ -127,7 +131,14 @@ private:
             } else if (word == "numvert") {
                 take_vertices(parent.of(own));
             } else if (word == "numsurf") {
-                take_surfaces(first_vertex, parent.of(own).mirrors());
+                take_surfaces(first_vertex, parent.of(own).mirrors(), picture);
+            } else if (word == "name") {
+                std::string_view rest = words_.rest_of_line();
+                is_left_out_ = is_left_out_ || options_.left_out.contains(taken_name(rest));
+            } else if (word == "texture") {
+                take_picture(picture);
+            } else if (word == "texrep" || word == "texoff") {
+                take_pair(word == "texrep" ? picture.repeat : picture.shift);
             } else if (word == "data") {
                 const long bytes = words_.whole("a number of bytes", 0, most_count);
                 words_.rest_of_line();
@@ -148,6 +159,40 @@ private:
             }
             take_object(parent.of(own), depth + 1);
         }
+        is_left_out_ = was_left_out;
+    }
+
+    /// How an object's picture lies on its surfaces.
+    struct ObjectPicture {
+        std::uint32_t number = BakedPictures::none;
+        glm::vec2 repeat{1.0F};
+        glm::vec2 shift{0.0F};
+    };
+
+    void take_picture(ObjectPicture& picture) {
+        std::string_view rest = words_.rest_of_line();
+        const std::string name = taken_name(rest);
+        if (mesh_.takes_pictures() && !name.empty() && name != "empty_texture_no_mapping") {
+            picture.number = mesh_.pictures().picture(name);
+        }
+    }
+
+    void take_pair(glm::vec2& pair) {
+        pair.x = static_cast<float>(words_.number("a number"));
+        pair.y = static_cast<float>(words_.number("a number"));
+    }
+
+    /// What follows a corner's vertex: where it lies on the picture, from the lower left corner.
+    glm::vec2 taken_place(const ObjectPicture& picture) {
+        const auto words = split_words(words_.rest_of_line());
+        if (picture.number == BakedPictures::none || words.size() < 2) {
+            return glm::vec2(0.0F);
+        }
+        const glm::vec2 place(
+            static_cast<float>(finite_number(words[0]).value_or(0.0)),
+            static_cast<float>(finite_number(words[1]).value_or(0.0)));
+        const glm::vec2 on_picture = place * picture.repeat + picture.shift;
+        return {on_picture.x, 1.0F - on_picture.y};
     }
 
     glm::dvec3 vector() {
@@ -184,14 +229,14 @@ private:
         }
     }
 
-    void take_surfaces(std::size_t first_vertex, bool mirrored) {
+    void take_surfaces(std::size_t first_vertex, bool mirrored, const ObjectPicture& picture) {
         const long count = words_.whole("a number of surfaces", 0, most_count);
         for (long i = 0; i < count; ++i) {
             const std::string_view word = words_.word("SURF");
             if (word != "SURF") {
                 words_.refuse("SURF", in_quotes(word));
             }
-            take_surface(first_vertex, mirrored);
+            take_surface(first_vertex, mirrored, picture);
         }
     }
 
@@ -209,7 +254,7 @@ private:
         return value;
     }
 
-    void take_surface(std::size_t first_vertex, bool mirrored) {
+    void take_surface(std::size_t first_vertex, bool mirrored, const ObjectPicture& picture) {
         const unsigned kind = flags();
         std::uint32_t material = no_index;
         std::string_view word = words_.word("mat or refs");
@@ -228,21 +273,29 @@ private:
         corners_.clear();
         for (long i = 0; i < count; ++i) {
             const long vertex = words_.whole("a vertex", 0, last);
-            words_.rest_of_line(); // texture coordinates
+            const glm::vec2 on_picture = taken_place(picture);
             if (is_polygon) {
                 corners_.push_back(
-                    {static_cast<std::uint32_t>(first_vertex + static_cast<std::size_t>(vertex))});
+                    {.vertex = static_cast<std::uint32_t>(
+                         first_vertex + static_cast<std::size_t>(vertex)),
+                     .normal = no_index,
+                     .on_picture = on_picture});
             }
         }
         if (!is_polygon || count < 3) {
             ++skipped_;
             return;
         }
-        two_sided_ += static_cast<std::size_t>((kind & 0x20U) != 0);
+        if (is_left_out_) {
+            return;
+        }
+        const bool is_two_sided = (kind & 0x20U) != 0;
+        two_sided_ += static_cast<std::size_t>(is_two_sided && !mesh_.takes_backs());
+        mesh_.set_two_sided(is_two_sided);
         if (mirrored) {
             std::ranges::reverse(corners_);
         }
-        mesh_.add_polygon(corners_, used_material(material));
+        mesh_.add_polygon(corners_, used_material(material), picture.number);
     }
 
     /// Materials come in the order of their first polygon.
@@ -278,19 +331,21 @@ private:
     };
 
     std::filesystem::path path_;
+    ReadOptions options_;
     WordScanner words_;
     MeshBuilder mesh_;
     std::vector<FileMaterial> materials_;
     std::vector<Corner> corners_;
     std::size_t skipped_ = 0;
     std::size_t two_sided_ = 0;
+    bool is_left_out_ = false; ///< the object at hand
 };
 
 } // namespace
 
-TriangleMesh read_ac3d_mesh(const std::filesystem::path& path) {
+TriangleMesh read_ac3d_mesh(const std::filesystem::path& path, const ReadOptions& options) {
     const std::string text = read_text_file(path, largest_file_bytes);
-    return Ac3dReading(path, text).read();
+    return Ac3dReading(path, text, options).read();
 }
 
 } // namespace octant::models::meshfile

@@ -262,6 +262,16 @@ GltfNumbers GltfData::accessor(std::size_t index) {
     return made;
 }
 
+std::string GltfData::image_bytes(std::size_t index) {
+    const std::string where = fmt::format("images[{}]", index);
+    const Json& json = entry("images", index);
+    if (const auto view_index = this->index(json, "bufferView", count_of("bufferViews"), where)) {
+        std::size_t stride = 0;
+        return std::string(view(*view_index, stride));
+    }
+    return buffer_bytes(json, where);
+}
+
 std::string_view GltfData::view(std::size_t index, std::size_t& stride) {
     const std::string where = fmt::format("bufferViews[{}]", index);
     const Json& json = entry("bufferViews", index);

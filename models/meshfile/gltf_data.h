@@ -74,6 +74,9 @@ public:
     /// The accessor of that number, all of which lies in its buffer.
     GltfNumbers accessor(std::size_t index);
 
+    /// The bytes of an image's file, from a view or its own address.
+    std::string image_bytes(std::size_t index);
+
 private:
     void read_json(std::string_view text, std::size_t first_byte);
     void read_binary(std::string_view bytes);

@@ -1,5 +1,6 @@
 #include "models/display_colour.h"
 #include "models/meshfile/gltf_data.h"
+#include "models/meshfile/gltf_pictures.h"
 #include "models/meshfile/gltf_scene.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/placement.h"
@@ -20,10 +21,10 @@ constexpr std::array<std::string_view, 3> packed_extensions{
 
 class GltfReading {
 public:
-    explicit GltfReading(const std::filesystem::path& path)
+    GltfReading(const std::filesystem::path& path, const ReadOptions& options)
         : path_(path)
         , data_(path)
-        , mesh_(path)
+        , mesh_(path, options)
         , materials_(data_.count_of("materials"), no_index) {}
 
     TriangleMesh read() {
@@ -89,17 +90,24 @@ private:
         std::vector<std::uint32_t> corners = corner_list(primitive, count, where);
         const auto material = data_.index(primitive, "material", materials_.size(), where);
         const std::uint32_t used = material ? used_material(*material) : no_index;
+        const GltfPicture picture = material && mesh_.takes_pictures()
+                                        ? picture_of_material(data_, *material, mesh_.pictures())
+                                        : GltfPicture();
+        const std::vector<glm::vec2> places = places_on_picture(data_, *attributes, picture, count);
         const auto add = [&,
                           first = first_vertex](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             const auto corner = [&](std::uint32_t vertex) {
                 return Corner{
-                    first + vertex, first_normal == no_index ? no_index : first_normal + vertex};
+                    first + vertex,
+                    first_normal == no_index ? no_index : first_normal + vertex,
+                    places.empty() ? glm::vec2(0.0F) : places[vertex]};
             };
             std::array<Corner, 3> triangle{corner(a), corner(b), corner(c)};
             if (placement.mirrors()) {
                 std::swap(triangle[1], triangle[2]);
             }
-            mesh_.add_polygon(triangle, used);
+            mesh_.add_polygon(
+                triangle, used, places.empty() ? BakedPictures::none : picture.number);
         };
         add_triangles(mode, corners, add, where);
     }
@@ -282,8 +290,8 @@ private:
 
 } // namespace
 
-TriangleMesh read_gltf_mesh(const std::filesystem::path& path) {
-    return GltfReading(path).read();
+TriangleMesh read_gltf_mesh(const std::filesystem::path& path, const ReadOptions& options) {
+    return GltfReading(path, options).read();
 }
 
 } // namespace octant::models::meshfile

@@ -1,6 +1,7 @@
 #include "models/meshfile/mesh_builder.h"
 
 #include "models/meshfile/polygon_cut.h"
+#include "models/meshfile/sheet_backs.h"
 #include "sim/base/error.h"
 
 #include <glm/geometric.hpp>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <fmt/format.h>
 #include <utility>
 
 namespace octant::models::meshfile {
@@ -21,8 +23,10 @@ constexpr glm::dvec3 upwards(0.0, 0.0, 1.0);
 
 } // namespace
 
-MeshBuilder::MeshBuilder(const std::filesystem::path& path)
-    : path_(path) {
+MeshBuilder::MeshBuilder(const std::filesystem::path& path, const ReadOptions& options)
+    : path_(path)
+    , options_(options)
+    , pictures_(path) {
     mesh_.name = path.stem().string();
 }
 
@@ -52,10 +56,18 @@ std::uint32_t MeshBuilder::add_material(Material material) {
     return static_cast<std::uint32_t>(mesh_.materials.size() - 1);
 }
 
-void MeshBuilder::add_polygon(std::span<const Corner> corners, std::uint32_t material) {
+void MeshBuilder::add_polygon(
+    std::span<const Corner> corners, std::uint32_t material, std::uint32_t picture) {
     assert(corners.size() >= 3 && corners.size() <= most_polygon_corners);
+    const auto add = [&](const std::array<Corner, 3>& triangle) {
+        add_triangle(triangle, material);
+        if (options_.pictures) {
+            pictures_.add_triangle(
+                picture, {triangle[0].on_picture, triangle[1].on_picture, triangle[2].on_picture});
+        }
+    };
     if (corners.size() == 3) {
-        add_triangle(corners[0], corners[1], corners[2], material);
+        add({corners[0], corners[1], corners[2]});
         return;
     }
     places_m_.clear();
@@ -63,15 +75,16 @@ void MeshBuilder::add_polygon(std::span<const Corner> corners, std::uint32_t mat
         places_m_.push_back(mesh_.vertices_m[corner.vertex]);
     }
     for (const auto& piece : cut_polygon(places_m_)) {
-        add_triangle(corners[piece[0]], corners[piece[1]], corners[piece[2]], material);
+        add({corners[piece[0]], corners[piece[1]], corners[piece[2]]});
     }
 }
 
-void MeshBuilder::add_triangle(
-    const Corner& a, const Corner& b, const Corner& c, std::uint32_t material) {
+void MeshBuilder::add_triangle(const std::array<Corner, 3>& corners, std::uint32_t material) {
+    const auto& [a, b, c] = corners;
     mesh_.triangles.push_back({a.vertex, b.vertex, c.vertex});
     mesh_.corner_normals.push_back({a.normal, b.normal, c.normal});
     mesh_.triangle_materials.push_back(material);
+    two_sided_.push_back(is_two_sided_);
     has_normals_ =
         has_normals_ || a.normal != no_index || b.normal != no_index || c.normal != no_index;
     has_materials_ = has_materials_ || material != no_index;
@@ -86,7 +99,27 @@ TriangleMesh MeshBuilder::finish() {
     }
     finish_normals();
     finish_materials();
+    bake_pictures();
+    finish_backs();
     return std::move(mesh_);
+}
+
+void MeshBuilder::finish_backs() {
+    const bool any = std::ranges::find(two_sided_, true) != two_sided_.end();
+    const std::size_t added = options_.backs && any ? add_backs(mesh_, two_sided_) : 0;
+    if (added > 0) {
+        mesh_.notes.push_back(
+            fmt::format("{}: {} triangles of two-sided sheets got a back", path_.string(), added));
+    }
+}
+
+void MeshBuilder::bake_pictures() {
+    for (const std::string& note : pictures_.notes()) {
+        mesh_.notes.push_back(note);
+    }
+    if (!pictures_.is_empty() && mesh_.colours.empty()) {
+        pictures_.bake(mesh_);
+    }
 }
 
 void MeshBuilder::finish_normals() {

@@ -1,22 +1,23 @@
 #pragma once
 
+#include "models/meshfile/baked_pictures.h"
+#include "models/meshfile/no_index.h"
+#include "models/meshfile/read_options.h"
 #include "models/triangle_mesh.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace octant::models::meshfile {
-
-/// Stands for no normal, no material or no vertex.
-inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
 inline constexpr std::size_t most_polygon_corners = 10'000;
 
@@ -27,6 +28,7 @@ inline constexpr double most_coordinate = 1e12;
 struct Corner {
     std::uint32_t vertex = no_index;
     std::uint32_t normal = no_index;
+    glm::vec2 on_picture{0.0F}; ///< in shares from the upper left corner
 };
 
 /// What all mesh readers do alike: polygons into triangles, faulty normals, missing materials. Its
@@ -35,7 +37,16 @@ struct Corner {
 class MeshBuilder {
 public:
     /// The mesh is called after the file.
-    explicit MeshBuilder(const std::filesystem::path& path);
+    explicit MeshBuilder(const std::filesystem::path& path, const ReadOptions& options = {});
+
+    bool takes_pictures() const { return options_.pictures; }
+
+    bool takes_backs() const { return options_.backs; }
+
+    /// Whether polygons from now on are two-sided.
+    void set_two_sided(bool two_sided) { is_two_sided_ = two_sided; }
+
+    BakedPictures& pictures() { return pictures_; }
 
     std::size_t vertex_count() const { return mesh_.vertices_m.size(); }
 
@@ -55,7 +66,11 @@ public:
     std::uint32_t add_material(Material material);
 
     /// Adds a polygon, cut into triangles by cut_polygon (polygon_cut.h).
-    void add_polygon(std::span<const Corner> corners, std::uint32_t material = no_index);
+    /// `picture`: a number of pictures().
+    void add_polygon(
+        std::span<const Corner> corners,
+        std::uint32_t material = no_index,
+        std::uint32_t picture = BakedPictures::none);
 
     void add_note(std::string note) { mesh_.notes.push_back(std::move(note)); }
 
@@ -63,14 +78,20 @@ public:
     TriangleMesh finish();
 
 private:
-    void add_triangle(const Corner& a, const Corner& b, const Corner& c, std::uint32_t material);
+    void add_triangle(const std::array<Corner, 3>& corners, std::uint32_t material);
+    void bake_pictures();
+    void finish_backs();
     void finish_normals();
     void finish_materials();
 
     std::filesystem::path path_;
+    ReadOptions options_;
+    BakedPictures pictures_;
     TriangleMesh mesh_;
     std::vector<bool> faulty_normals_;
     std::vector<glm::dvec3> places_m_; ///< corners of the polygon at hand
+    std::vector<bool> two_sided_;      ///< one a triangle
+    bool is_two_sided_ = false;
     bool has_normals_ = false;
     bool has_materials_ = false;
 };

@@ -29,20 +29,31 @@ void write_one_file(const std::filesystem::path& path, const TriangleMesh& mesh)
     write_file(path, bytes_of(mesh));
 }
 
+/// A reader of files without pictures.
+template <TriangleMesh (*read)(const std::filesystem::path&)>
+TriangleMesh read_plainly(const std::filesystem::path& path, const ReadOptions& /*options*/) {
+    return read(path);
+}
+
 struct Format {
     std::string_view ending;
-    TriangleMesh (*read)(const std::filesystem::path&);
+    TriangleMesh (*read)(const std::filesystem::path&, const ReadOptions&);
     void (*write)(const std::filesystem::path&, const TriangleMesh&);
 };
 
+void refuse_to_write(const std::filesystem::path& path, const TriangleMesh& /*mesh*/) {
+    error_in(path, "expected another format to write than FlightGear's models, got .xml");
+}
+
 constexpr std::array formats{
     Format{".obj", read_obj_mesh, write_obj_mesh},
-    Format{".ply", read_ply_mesh, write_one_file<ply_bytes>},
-    Format{".stl", read_stl_mesh, write_one_file<stl_bytes>},
+    Format{".ply", read_plainly<read_ply_mesh>, write_one_file<ply_bytes>},
+    Format{".stl", read_plainly<read_stl_mesh>, write_one_file<stl_bytes>},
     Format{".gltf", read_gltf_mesh, write_one_file<gltf_text>},
     Format{".glb", read_gltf_mesh, write_one_file<glb_bytes>},
     Format{".ac", read_ac3d_mesh, write_one_file<ac3d_text>},
-    Format{".wrl", read_vrml_mesh, write_one_file<vrml_text>}};
+    Format{".wrl", read_plainly<read_vrml_mesh>, write_one_file<vrml_text>},
+    Format{".xml", read_flightgear_model, refuse_to_write}};
 
 const Format* find_format(const std::filesystem::path& path) {
     const std::string ending = ending_of(path);
@@ -69,8 +80,8 @@ const Format& format_of(const std::filesystem::path& path) {
 
 } // namespace
 
-TriangleMesh read_mesh(const std::filesystem::path& path) {
-    return format_of(path).read(path);
+TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
+    return format_of(path).read(path, options);
 }
 
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/meshfile/read_options.h"
 #include "models/triangle_mesh.h"
 
 #include <filesystem>
@@ -8,21 +9,23 @@ namespace octant::models::meshfile {
 
 /// Reads a triangle mesh; the file's ending says its format: .obj (with vertex colours), .ply
 /// (ascii, binary of both byte orders), .stl (ascii, binary), .gltf and .glb, .ac (AC3D), .wrl
-/// (VRML 2.0 IndexedFaceSet). Polygons are cut into triangles; nothing else is changed: see
-/// repair.h. Scenes are read as they stand (nodes placed, mirrored ones turned round again), axes
-/// and units as the file has them. Whole-number colours stand for 0..1. Colours
-/// are display values (models/display_colour.h); those of glTF, linear in its files, are converted.
+/// (VRML 2.0 IndexedFaceSet), .xml (FlightGear's model with its sub-models, read only). Polygons
+/// are cut into triangles; nothing else is changed: see repair.h. Scenes are read as they stand
+/// (nodes placed, mirrored ones turned round again), axes and units as the file has them.
+/// Whole-number colours stand for 0..1. Colours are display values (models/display_colour.h); those
+/// of glTF, linear in its files, are converted.
 ///
-/// Left out, where a file has it: textures, lines and points, face colours of PLY, normals of STL,
-/// inner nodes of unknown kinds; of two-sided surfaces the back. TriangleMesh::notes says what may
-/// be missed. A normal without a length becomes its triangle's own.
+/// Left out, where a file has it: textures but for `options`, lines and points, face colours of
+/// PLY, normals of STL, inner nodes of unknown kinds; of two-sided surfaces the back but for
+/// `options`. TriangleMesh::notes says what may be missed. A normal without a length becomes its
+/// triangle's own.
 ///
 /// Throws Error "file:line: expected ..., got ..." (binary files "file: at byte N: ...", glTF
 /// "file: nodes[3].mesh: ..."), also for a file without triangles. Memory is bounded by the file's
 /// size (16 to 30 times that for JSON and VRML): a header that promises more than the file can hold
 /// is refused before anything is made room for, scenes that show one thing again and again end at
 /// 2^27 corners and vertices.
-TriangleMesh read_mesh(const std::filesystem::path& path);
+TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// Writes a mesh in the format that the ending says, whole or not at all: .obj with .mtl beside it,
 /// .ply and .stl binary, .gltf with its data inside, .glb, .ac, .wrl. read_mesh gives the same mesh

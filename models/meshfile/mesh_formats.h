@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/meshfile/read_options.h"
 #include "models/triangle_mesh.h"
 
 #include <filesystem>
@@ -9,11 +10,12 @@
 namespace octant::models::meshfile {
 
 /// The readers behind read_mesh, one a format; all throw Error.
-TriangleMesh read_obj_mesh(const std::filesystem::path& path);
+TriangleMesh read_obj_mesh(const std::filesystem::path& path, const ReadOptions& options);
 TriangleMesh read_ply_mesh(const std::filesystem::path& path);
 TriangleMesh read_stl_mesh(const std::filesystem::path& path);
-TriangleMesh read_gltf_mesh(const std::filesystem::path& path);
-TriangleMesh read_ac3d_mesh(const std::filesystem::path& path);
+TriangleMesh read_gltf_mesh(const std::filesystem::path& path, const ReadOptions& options);
+TriangleMesh read_ac3d_mesh(const std::filesystem::path& path, const ReadOptions& options);
+TriangleMesh read_flightgear_model(const std::filesystem::path& path, const ReadOptions& options);
 TriangleMesh read_vrml_mesh(const std::filesystem::path& path);
 
 /// OBJ and MTL text of a mesh; `mtl_name` is what the OBJ text calls its material file (no mtllib

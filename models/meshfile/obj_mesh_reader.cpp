@@ -22,9 +22,9 @@ using Words = std::vector<std::string_view>;
 
 class ObjMeshReading {
 public:
-    explicit ObjMeshReading(const std::filesystem::path& path)
+    ObjMeshReading(const std::filesystem::path& path, const ReadOptions& options)
         : path_(path)
-        , mesh_(path) {}
+        , mesh_(path, options) {}
 
     TriangleMesh read() {
         const std::string text = read_text_file(path_, largest_file_bytes);
@@ -53,11 +53,14 @@ private:
             take_vertex(words);
         } else if (words[0] == "vn") {
             mesh_.add_normal(vector(words, 1));
+        } else if (words[0] == "vt" && mesh_.takes_pictures()) {
+            take_place(words);
         } else if (words[0] == "f") {
             take_polygon(words);
         } else if (words[0] == "usemtl") {
             material_name_ = std::string(polygons::after_first_word(line));
             material_ = no_index;
+            picture_ = BakedPictures::none;
         } else if (words[0] == "mtllib") {
             take_material_files(std::string(polygons::after_first_word(line)), words);
         }
@@ -94,6 +97,16 @@ private:
         }
     }
 
+    /// vt u v, from the lower left corner of a picture.
+    void take_place(const Words& words) {
+        const auto part = [&](std::size_t place) {
+            return place < words.size()
+                       ? static_cast<float>(finite_number(words[place]).value_or(0.0))
+                       : 0.0F;
+        };
+        places_.emplace_back(part(1), 1.0F - part(2));
+    }
+
     std::uint32_t index(std::string_view word, std::size_t count, std::string_view what) const {
         const auto value = whole_number(word);
         const long most = static_cast<long>(count);
@@ -112,6 +125,10 @@ private:
         if (second != std::string_view::npos && second + 1 < word.size()) {
             found.normal = index(word.substr(second + 1), mesh_.normal_count(), "normal");
         }
+        if (!places_.empty() && slash < word.size() && slash + 1 < std::min(second, word.size())) {
+            const std::string_view place = word.substr(slash + 1, second - slash - 1);
+            found.on_picture = places_[index(place, places_.size(), "place on a picture")];
+        }
         return found;
     }
 
@@ -126,7 +143,15 @@ private:
         for (std::size_t i = 1; i < words.size(); ++i) {
             corners_.push_back(corner(words[i]));
         }
-        mesh_.add_polygon(corners_, material());
+        const std::uint32_t used = material();
+        mesh_.add_polygon(corners_, used, picture_);
+    }
+
+    /// Of the materials that have one; BakedPictures::none for the others.
+    std::uint32_t picture_of(const std::string& material) {
+        const auto named = picture_names_.find(material);
+        return named == picture_names_.end() ? BakedPictures::none
+                                             : mesh_.pictures().picture(named->second);
     }
 
     /// Of the polygons from here on; materials come in the order of their first polygon.
@@ -134,6 +159,7 @@ private:
         if (!material_name_ || material_ != no_index) {
             return material_;
         }
+        picture_ = picture_of(*material_name_);
         const auto used = materials_.find(*material_name_);
         if (used != materials_.end()) {
             return material_ = used->second;
@@ -142,6 +168,9 @@ private:
         Material made{.name = *material_name_};
         if (known != colours_.end()) {
             made.colour = known->second;
+        }
+        if (picture_ != BakedPictures::none && made.colour == glm::vec3(0.0F)) {
+            made.colour = glm::vec3(1.0F); // written by programs that mean the picture alone
         }
         material_ = mesh_.add_material(made);
         materials_.emplace(*material_name_, material_);
@@ -169,6 +198,11 @@ private:
         for (const Material& material : polygons::read_mtl(file)) {
             colours_.insert_or_assign(material.name, material.colour);
         }
+        if (mesh_.takes_pictures()) {
+            for (const auto& [material, picture] : polygons::pictures_of_mtl(file)) {
+                picture_names_.insert_or_assign(material, picture);
+            }
+        }
         return true;
     }
 
@@ -188,15 +222,18 @@ private:
     std::uint32_t material_ = no_index; ///< of material_name_, once a polygon has it
     std::map<std::string, std::uint32_t> materials_;
     std::map<std::string, glm::vec3> colours_;
-    std::map<std::string, int> missing_; ///< with the line that names them first
+    std::map<std::string, std::string> picture_names_; ///< of materials
+    std::uint32_t picture_ = BakedPictures::none;      ///< of material_name_
+    std::vector<glm::vec2> places_;                    ///< on pictures
+    std::map<std::string, int> missing_;               ///< with the line that names them first
     std::vector<Corner> corners_;
     int line_ = 0;
 };
 
 } // namespace
 
-TriangleMesh read_obj_mesh(const std::filesystem::path& path) {
-    return ObjMeshReading(path).read();
+TriangleMesh read_obj_mesh(const std::filesystem::path& path, const ReadOptions& options) {
+    return ObjMeshReading(path, options).read();
 }
 
 } // namespace octant::models::meshfile

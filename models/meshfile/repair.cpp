@@ -1,6 +1,8 @@
 #include "models/meshfile/repair.h"
 
-#include "models/meshfile/mesh_builder.h"
+#include "models/meshfile/edge_joints.h"
+#include "models/meshfile/near_rims.h"
+#include "models/meshfile/no_index.h"
 #include "models/meshfile/shell_pieces.h"
 #include "models/meshfile/vertex_twins.h"
 
@@ -33,11 +35,19 @@ bool has_area(const glm::dvec3& a_m, const glm::dvec3& b_m, const glm::dvec3& c_
 
 class Repairing {
 public:
-    explicit Repairing(TriangleMesh&& mesh)
-        : mesh_(std::move(mesh)) {}
+    Repairing(TriangleMesh&& mesh, Seams seams)
+        : mesh_(std::move(mesh))
+        , seams_(seams)
+        , named_(mesh_.triangles) {}
 
     RepairedMesh repair() {
-        weld();
+        weld(first_twins(
+            mesh_.vertices_m,
+            seams_ == Seams::Welded ? std::vector<glm::vec3>() : mesh_.colours,
+            referenced()));
+        if (seams_ == Seams::Welded) {
+            weld(near_rims(mesh_));
+        }
         take_out_triangles();
         orient();
         split_vertices();
@@ -58,9 +68,9 @@ private:
         return used;
     }
 
-    void weld() {
-        const std::vector<std::uint32_t> welded =
-            first_twins(mesh_.vertices_m, mesh_.colours, referenced());
+    /// Puts the vertex that each is to become in its place, none or itself for one that stays.
+    void weld(const std::vector<std::uint32_t>& welded) {
+        mix_colours(mesh_.colours, welded);
         for (std::uint32_t v = 0; v < welded.size(); ++v) {
             counts_.duplicate_vertices +=
                 static_cast<std::size_t>(welded[v] != v && welded[v] != no_index);
@@ -116,6 +126,7 @@ private:
 
     void keep_triangles(const std::vector<bool>& stays) {
         keep(mesh_.triangles, stays);
+        keep(named_, stays);
         keep(mesh_.corner_normals, stays);
         keep(mesh_.triangle_materials, stays);
     }
@@ -124,7 +135,7 @@ private:
     void find_neighbours(const std::vector<Side>& sides) {
         neighbours_.assign(mesh_.triangles.size(), {no_index, no_index, no_index});
         agrees_.assign(mesh_.triangles.size(), {true, true, true});
-        for_each_edge(sides, [&](std::span<const Side> edge) {
+        for_each_joint(sides, named_, [&](std::span<const Side> edge) {
             counts_.split_edges += static_cast<std::size_t>(edge.size() > 2);
             if (edge.size() == 2) {
                 const bool agree = edge[0].rises != edge[1].rises;
@@ -182,7 +193,7 @@ private:
     /// corner's number is three times its triangle's plus its place.
     void join_fans(const std::vector<Side>& sides) {
         fans_ = Groups(mesh_.triangles.size() * 3);
-        for_each_edge(sides, [&](std::span<const Side> edge) {
+        for_each_joint(sides, named_, [&](std::span<const Side> edge) {
             if (edge.size() != 2) {
                 return;
             }
@@ -287,6 +298,8 @@ private:
     }
 
     TriangleMesh mesh_;
+    Seams seams_;
+    std::vector<Triangle> named_; ///< the triangles by the vertices of the file
     RepairCounts counts_;
     std::vector<std::array<std::uint32_t, 3>> neighbours_; ///< of each triangle, side by side
     std::vector<std::array<bool, 3>> agrees_; ///< with that neighbour, before any is turned
@@ -297,8 +310,8 @@ private:
 
 } // namespace
 
-RepairedMesh repaired(TriangleMesh mesh) {
-    return Repairing(std::move(mesh)).repair();
+RepairedMesh repaired(TriangleMesh mesh, Seams seams) {
+    return Repairing(std::move(mesh), seams).repair();
 }
 
 std::vector<std::string> in_words(const RepairCounts& counts) {

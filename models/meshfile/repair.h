@@ -11,7 +11,7 @@ namespace octant::models::meshfile {
 /// What was found and mended in a mesh.
 struct RepairCounts {
     std::size_t unreferenced_vertices = 0; ///< taken out, also what the triangles below leave
-    std::size_t duplicate_vertices = 0;   ///< welded: same position and colour (-0 is 0) to the bit
+    std::size_t duplicate_vertices = 0; ///< welded: one place (-0 is 0), or rims that nearly touch
     std::size_t degenerate_triangles = 0; ///< two corners in one vertex, or no area: taken out
     std::size_t doubled_triangles = 0; ///< same three vertices again, either way round: taken out
     std::size_t turned_triangles = 0;  ///< turned to agree with their neighbours
@@ -23,15 +23,22 @@ struct RepairCounts {
     bool operator==(const RepairCounts&) const = default;
 };
 
+/// Whether vertices at one place are one. Files double vertices where normals, colours or pictures
+/// break: Welded closes these seams and rims a rounding apart (a millionth of the diagonal), a
+/// vertex then has the mean of the colours there. Apart welds only what agrees to the bit, colours
+/// too.
+enum class Seams { Welded, Apart };
+
 struct RepairedMesh {
     TriangleMesh mesh; ///< every edge in one or two triangles, every vertex with one fan
     RepairCounts counts;
 };
 
 /// Makes an oriented manifold, perhaps with boundary and of several shells, out of a mesh as found
-/// in the field. Vertices and triangles that stay keep their order. No geometry moves; triangles
-/// that are only degenerate by area are taken out too.
-RepairedMesh repaired(TriangleMesh mesh);
+/// in the field. Vertices and triangles that stay keep their order. Nothing but rims that nearly
+/// touch moves; triangles that are only degenerate by area are taken out too. Where shells touch
+/// along an edge each keeps its own, if their triangles named it by vertices of their own.
+RepairedMesh repaired(TriangleMesh mesh, Seams seams = Seams::Welded);
 
 /// One line each for what was found, in words a user reads; empty for a closed mesh without faults.
 std::vector<std::string> in_words(const RepairCounts& counts);

@@ -1,6 +1,6 @@
 #include "models/meshfile/vertex_twins.h"
 
-#include "models/meshfile/mesh_builder.h"
+#include "models/meshfile/no_index.h"
 
 #include <array>
 #include <bit>
@@ -54,6 +54,22 @@ std::vector<std::uint32_t> first_twins(
         firsts[v] = first_of.try_emplace(key, v).first->second;
     }
     return firsts;
+}
+
+void mix_colours(std::vector<glm::vec3>& colours, std::span<const std::uint32_t> welded) {
+    std::vector<glm::vec3> sums(colours.size(), glm::vec3(0.0F));
+    std::vector<std::uint32_t> counts(colours.size(), 0);
+    for (std::uint32_t v = 0; v < colours.size(); ++v) {
+        if (welded[v] != no_index) {
+            sums[welded[v]] += colours[v];
+            ++counts[welded[v]];
+        }
+    }
+    for (std::uint32_t v = 0; v < colours.size(); ++v) {
+        if (counts[v] > 1) {
+            colours[v] = sums[v] / static_cast<float>(counts[v]);
+        }
+    }
 }
 
 } // namespace octant::models::meshfile

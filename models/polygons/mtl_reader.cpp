@@ -82,4 +82,21 @@ std::vector<Material> read_mtl(const std::filesystem::path& path) {
     return MtlReading(path).read();
 }
 
+std::map<std::string, std::string> pictures_of_mtl(const std::filesystem::path& path) {
+    const std::string text = read_text_file(path, largest_file_bytes);
+    std::map<std::string, std::string> pictures;
+    std::string material;
+    for (const std::string_view line : split_lines(without_byte_order_mark(text))) {
+        const auto words = split_words(line);
+        if (!words.empty() && words[0] == "newmtl") {
+            material = std::string(after_first_word(line));
+        } else if (words.size() >= 2 && words[0] == "map_Kd") {
+            const bool has_options = words[1].starts_with('-'); // else the name may have blanks
+            pictures.insert_or_assign(
+                material, std::string(has_options ? words.back() : after_first_word(line)));
+        }
+    }
+    return pictures;
+}
+
 } // namespace octant::models::polygons

@@ -3,6 +3,8 @@
 #include "models/polygons/polygon_model.h"
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace octant::models::polygons {
@@ -12,5 +14,9 @@ namespace octant::models::polygons {
 /// Error "file:line: expected ..., got ..." for a Kd that is not three numbers 0..1 or that comes
 /// before any newmtl, for a name that is missing or comes twice, and for a file that is not text.
 std::vector<Material> read_mtl(const std::filesystem::path& path);
+
+/// The pictures of an MTL file's materials, by the materials' names: what stands last in the lines
+/// `map_Kd ... FILE`. Throws Error for a file that is not text.
+std::map<std::string, std::string> pictures_of_mtl(const std::filesystem::path& path);
 
 } // namespace octant::models::polygons

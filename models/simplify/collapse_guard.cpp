@@ -31,12 +31,23 @@ double roundness(const std::array<glm::dvec3, 3>& corners, double area2) {
     return sides > 0.0 ? area2 / sides : 0.0;
 }
 
+/// Whether a triangle of twice the area `area2` is no higher than `height` over its longest side.
+bool is_lower(const std::array<glm::dvec3, 3>& corners, double area2, double height) {
+    double longest2 = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 side = corners[(i + 1) % 3] - corners[i];
+        longest2 = std::max(longest2, glm::dot(side, side));
+    }
+    return area2 * area2 <= height * height * longest2;
+}
+
 } // namespace
 
 bool may_become(
     const std::array<glm::dvec3, 3>& before,
     const std::array<glm::dvec3, 3>& after,
-    Strictness strictness) {
+    Strictness strictness,
+    double negligible) {
     if (strictness == Strictness::None) {
         return true;
     }
@@ -45,6 +56,10 @@ bool may_become(
     const double old2 = glm::dot(old_normal, old_normal);
     const double new2 = glm::dot(new_normal, new_normal);
     const double cosine = glm::dot(old_normal, new_normal);
+    if (negligible > 0.0 && is_lower(before, std::sqrt(old2), negligible) &&
+        is_lower(after, std::sqrt(new2), negligible)) {
+        return true;
+    }
     if (old2 > 0.0) {
         const double least = strictness == Strictness::Loose ? 0.0 : least_cosine;
         if (!(cosine > 0.0) || cosine * cosine < least * least * old2 * new2) {
@@ -82,13 +97,15 @@ bool may_move(
     const WorkingSurface& surface,
     std::span<const RingFace> ring,
     const glm::dvec3& place,
-    Strictness strictness) {
+    Strictness strictness,
+    double negligible) {
     return std::ranges::all_of(ring, [&](const RingFace& face) {
         const glm::dvec3& old_place = surface.places[surface.mesh.origin(face.half_edge)];
         return may_become(
             moved_corners(surface, face, old_place),
             moved_corners(surface, face, place),
-            strictness);
+            strictness,
+            negligible);
     });
 }
 

@@ -27,19 +27,28 @@ namespace {
 /// guide the place while distances decide the cost.
 constexpr EdgeWeights fast_weights{.boundary = 1.0, .crease = 0.1, .crease_cosine = 0.5};
 
+/// Triangles lower than this are never looked at again, and others each time that the error has
+/// doubled: by then more of them are negligible. Working units.
+constexpr double least_error = 1e-5;
+
 } // namespace
 
 CollapseRun::CollapseRun(
-    WorkingSurface& surface, const WorkingUnits& units, TrackedPoints* points, double length_share)
+    WorkingSurface& surface,
+    const WorkingUnits& units,
+    TrackedPoints* points,
+    const SimplifyOptions& options)
     : surface_(surface)
     , units_(units)
     , points_(points)
-    , length_share_(length_share)
+    , length_share_(options.length_share)
+    , low_may_turn_(options.low_may_turn)
     , quadrics_(surface, points != nullptr ? EdgeWeights{} : fast_weights)
     , heap_(surface.mesh.face_slots() * 3)
     , checked_(surface.mesh.face_slots() * 3, false)
     , numbers_(surface.mesh.vertex_slots())
-    , strictness_(strictness_for(surface)) {
+    , strictness_(strictness_for(surface))
+    , filled_at_(least_error) {
     std::iota(numbers_.begin(), numbers_.end(), 0U);
 }
 
@@ -61,6 +70,20 @@ void CollapseRun::fill() {
     }
 }
 
+/// Puts edges into the heap that were taken out of it, once the error allows more.
+void CollapseRun::fill_again() {
+    if (!low_may_turn_ || error_ < 2.0 * filled_at_) {
+        return;
+    }
+    filled_at_ = error_;
+    const CollapsibleMesh& mesh = surface_.mesh;
+    for (HalfEdge h = 0; h < mesh.face_slots() * 3; ++h) {
+        if (mesh.face_is_there(face_of(h)) && mesh.edge_of(h) == h && !heap_.holds(h)) {
+            update_cost(h);
+        }
+    }
+}
+
 void CollapseRun::run(const Goal& goal, const ShowProgress& show_progress) {
     const std::size_t start = surface_.mesh.face_count();
     const std::size_t wanted = goal.faces.value_or(2 * goal.vertices.value_or(0));
@@ -70,6 +93,7 @@ void CollapseRun::run(const Goal& goal, const ShowProgress& show_progress) {
             return;
         }
         collapse(h, placed(h));
+        fill_again();
         const std::size_t done = start - surface_.mesh.face_count();
         if (show_progress && collapses_.size() % 256 == 0 && start > wanted) {
             show_progress(
@@ -123,7 +147,8 @@ bool CollapseRun::is_allowed(HalfEdge h, const Placement& placement) {
         return false;
     }
     surface_.mesh.ring_of(h, ring_);
-    return may_move(surface_, ring_, placement.place, strictness_);
+    const double negligible = low_may_turn_ ? error_ : 0.0;
+    return may_move(surface_, ring_, placement.place, strictness_, negligible);
 }
 
 /// Puts an edge into the heap with its present cost, or takes it out where it may not collapse.

@@ -18,14 +18,15 @@ namespace octant::models::simplify {
 /// The greedy loop of edge collapses: always the cheapest edge next.
 class CollapseRun {
 public:
-    /// Without `points` (null) costs are quadrics (Quality::Fast), and `length_share` is that of
-    /// SimplifyOptions. With `points`, the tracked points of the surface, costs are the growth of
-    /// their squared distances (Quality::Surface). The surface and the points are changed by run().
+    /// Without `points` (null) costs are quadrics (Quality::Fast). Of the options length_share and
+    /// low_may_turn count. With `points`, the tracked points of the surface, costs are the growth
+    /// of their squared distances (Quality::Surface). The surface and the points are changed by
+    /// run().
     CollapseRun(
         WorkingSurface& surface,
         const WorkingUnits& units,
         TrackedPoints* points,
-        double length_share = 0.0);
+        const SimplifyOptions& options);
 
     /// Collapses edges until the goal is met or no edge may be collapsed any more. A goal of an
     /// error is compared with the run's own estimate, not with a certified distance.
@@ -37,6 +38,7 @@ public:
 private:
     bool is_met(const Goal& goal) const;
     void fill();
+    void fill_again();
     bool next_edge(HalfEdge& h);
     void update_cost(HalfEdge edge);
     double length_cost(HalfEdge edge, const Placement& placement) const;
@@ -50,6 +52,7 @@ private:
     const WorkingUnits& units_;
     TrackedPoints* points_; ///< Null: costs are quadrics.
     double length_share_;
+    bool low_may_turn_;
     VertexQuadrics quadrics_;
     EdgeHeap heap_;
     std::vector<bool> checked_; ///< For each edge whether its cost and permission are up to date.
@@ -59,6 +62,7 @@ private:
     Strictness strictness_;
     bool filled_ = false;
     double error_ = 0.0; ///< The estimated error so far, in working units.
+    double filled_at_;   ///< The error when edges that were not allowed were last looked at.
     SurfaceCost cost_;
     std::vector<RingFace> ring_;
     std::vector<std::uint32_t> faces_;

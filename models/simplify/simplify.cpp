@@ -12,6 +12,7 @@
 #include "models/measure/triangle_bvh.h"
 #include "models/simplify/attributes.h"
 #include "models/simplify/collapse_run.h"
+#include "models/simplify/passes.h"
 #include "models/simplify/polish.h"
 
 #include <algorithm>
@@ -220,7 +221,8 @@ TrackedPoints points_on(
 TrackedPoints points_carried(
     const WorkingSurface& surface,
     const WorkingSurface& target,
-    const std::vector<Collapse>& collapses) {
+    const std::vector<Collapse>& collapses,
+    Quality quality) {
     const std::size_t vertices = target.mesh.vertex_slots();
     // for each number of the sequence its vertex slot
     std::vector<std::uint32_t> slots(vertices + collapses.size());
@@ -233,7 +235,7 @@ TrackedPoints points_carried(
         slots[collapses[i].first] = slots[vertices + i];
         slots[collapses[i].second] = slots[vertices + i];
     }
-    TrackedPoints points(target, wanted_points(target, Quality::Fast));
+    TrackedPoints points(target, wanted_points(target, quality));
     std::vector<std::uint32_t> nearest(points.size());
     for (std::uint32_t point = 0; point < points.size(); ++point) {
         const std::uint32_t corner = target.mesh.origin(3 * points.face(point));
@@ -250,7 +252,7 @@ std::vector<Collapse> contracted(
     const WorkingUnits& units,
     const Goal& goal,
     const SimplifyOptions& options) {
-    CollapseRun run(surface, units, points ? &*points : nullptr, options.length_share);
+    CollapseRun run(surface, units, points ? &*points : nullptr, options);
     run.run(goal, options.show_progress);
     return std::move(run.collapses());
 }
@@ -284,20 +286,18 @@ Simplified simplified_to_error(TriangleMesh original, const SimplifyOptions& opt
     return result;
 }
 
-} // namespace
-
-Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
-    if (options.goal.error_m) {
-        return simplified_to_error(std::move(original), options);
-    }
+/// Simplifies to a goal of vertices or faces in one pass (OnePass).
+Simplified
+simplified_to_count(TriangleMesh original, const SimplifyOptions& options, Quality chosen_by) {
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
     const WorkingSurface target(original, units);
     WorkingSurface surface = target;
     std::optional<TrackedPoints> points;
-    if (options.quality == Quality::Surface) {
+    if (chosen_by == Quality::Surface) {
         points.emplace(target, least_points);
     }
     Simplified result;
+    result.chosen_by = chosen_by;
     CollapseSequence& sequence = result.sequence;
     sequence.collapses = contracted(surface, points, units, options.goal, options);
     sequence.original = std::move(original);
@@ -306,7 +306,7 @@ Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
         return result;
     }
     if (!points) {
-        points.emplace(points_carried(surface, target, sequence.collapses));
+        points.emplace(points_carried(surface, target, sequence.collapses, options.quality));
     }
     result.mesh = with_normals(
         polished_in(surface, *points, sequence.original, target, units, options),
@@ -314,9 +314,20 @@ Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
     return result;
 }
 
+} // namespace
+
+Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
+    if (options.goal.error_m) {
+        return simplified_to_error(std::move(original), options);
+    }
+    return best_of_passes(std::move(original), options, simplified_to_count);
+}
+
 CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& options) {
     assert(options.quality == Quality::Fast && !options.goal.error_m);
-    return sequence_to(options.goal, std::move(original), options);
+    SimplifyOptions facing = options;
+    facing.low_may_turn = false;
+    return sequence_to(facing.goal, std::move(original), facing);
 }
 
 TriangleMesh

@@ -1,19 +1,15 @@
 #pragma once
 
 #include "models/collapse_sequence.h"
+#include "models/simplify/simplified.h"
 #include "models/simplify/simplify_options.h"
 #include "models/triangle_mesh.h"
 
 namespace octant::models::simplify {
 
-/// The result of a simplification.
-struct Simplified {
-    TriangleMesh mesh; ///< The mesh after the polish, with the original's materials and normals.
-    CollapseSequence sequence; ///< The collapses that led to it, without the polish.
-};
-
 /// Simplifies an oriented manifold (a RepairedMesh; asserted). A closed manifold stays a closed
-/// manifold of the same genus; boundaries and creases are kept. The same input gives the same bytes
+/// manifold of the same genus, unless shells go for a goal of vertices or faces that cannot be
+/// reached with all of them; boundaries and creases are kept. The same input gives the same bytes
 /// on any number of threads. Lengths are in metres.
 Simplified simplified(TriangleMesh original, const SimplifyOptions& options);
 

@@ -33,6 +33,11 @@ struct SimplifyOptions {
     /// is chosen. Vertices of the result then stand for rounder regions of the original, which
     /// selective refinement can tell apart with fewer forced splits; about 0.03.
     double length_share = 0.0;
+    /// No shell of a mesh may vanish, also where a goal cannot be reached then.
+    bool keep_shells = false;
+    /// Triangles that are no higher than the error so far may turn over (collapse_guard.h).
+    /// fast_sequence lets none: selective refinement shows every state between.
+    bool low_may_turn = true;
     int threads = 1;            ///< The number of threads; it does not change the result.
     ShowProgress show_progress; ///< May be empty.
 };

@@ -41,6 +41,7 @@ std::vector<std::size_t> face_goals(std::size_t faces, std::size_t coarsest) {
 models::meshfile::LevelChain level_chain(TriangleMesh mesh, const ChainOptions& options) {
     constexpr double larger = 1.0 + 1e-9; // errors of a chain rise from level to level
     models::simplify::SimplifyOptions simplify = options.simplify;
+    simplify.keep_shells = true; // the finest level has them all
     simplify.goal = {.vertices = {}, .faces = options.coarsest_faces, .error_m = {}};
     const std::vector<std::size_t> goals =
         face_goals(mesh.triangles.size(), options.coarsest_faces);

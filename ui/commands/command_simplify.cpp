@@ -67,6 +67,7 @@ void refuse_faults(const SimplifyCommand& command) {
 void run(const SimplifyCommand& command) {
     refuse_faults(command);
     base::Figures figures;
+    bool is_reached = true;
     figures["in"] = command.in;
     figures["out"] = command.out;
     if (command.chain) {
@@ -74,9 +75,12 @@ void run(const SimplifyCommand& command) {
     } else if (const auto measure = paper_measure(command.method)) {
         simplify_as_printed(command, *measure, figures);
     } else {
-        simplify_mesh(command, figures);
+        is_reached = simplify_mesh(command, figures);
     }
     base::print_figures(figures, command.json);
+    if (!is_reached) {
+        throw CheckSaidNo();
+    }
 }
 
 std::vector<Option> goal_options(SimplifyCommand& command) {
@@ -122,6 +126,14 @@ void add_other_options(std::vector<Option>& table, SimplifyCommand& command) {
              {"threads", "N", "that work; change no result [all processors]", 1, 1024},
              command.threads),
          flag("--chain", "write levels of detail, halving, into OUT.chain", command.chain),
+         flag(
+             "--keep-seams-apart",
+             "weld only vertices that agree to the bit, colours too",
+             command.keep_seams_apart),
+         flag(
+             "--keep-shells",
+             "let none vanish, also where a goal is out of reach then",
+             command.keep_shells),
          text_option(
              "--polygons",
              "FILE.obj",
@@ -134,16 +146,17 @@ void add_other_options(std::vector<Option>& table, SimplifyCommand& command) {
 constexpr const char* footer =
     "error: certified two-sided distance (Hausdorff), rms: root mean square, in file units and as\n"
     "fractions of the diagonal.\n"
+    "Exit code 1: the mesh is written, but the goal was out of reach.\n"
     "Keys of --json: in, out, faces_in_file, repairs, faces_before, vertices_before, faces,\n"
-    "  vertices, method, error, error_of_diagonal, rms, rms_of_diagonal, colour_rms (length in "
-    "RGB\n"
-    "  0..1, where there are colours), time_s;\n"
+    "  vertices, method, chosen_by (distances, or quadrics where they were better), shells_gone,\n"
+    "  error, error_of_diagonal, rms, rms_of_diagonal, colour_rms (length in RGB 0..1, where "
+    "there\n"
+    "  are colours), time_s;\n"
     "  with --chain instead levels (faces, error, error_of_diagonal each), polygons,\n"
     "  polygons_error;\n"
-    "  as printed also reading, contractions, counted_vertices, feet, feet_outside, "
-    "share_outside,\n"
-    "  error_sum_plane, error_sum_triangle, error_sum_bidirectional, duplicate_faces,\n"
-    "  non_manifold_edges.\n"
+    "  as printed also reading, contractions, counted_vertices, feet, feet_outside,\n"
+    "  share_outside, error_sum_plane, error_sum_triangle, error_sum_bidirectional,\n"
+    "  duplicate_faces, non_manifold_edges.\n"
     "Examples:\n"
     "  octant simplify bunny.ply small.obj --faces 1000\n"
     "  octant simplify scan.stl part.glb --error 0.1%\n"

@@ -1,6 +1,7 @@
 #include "ui/commands/commands.h"
 
 #include "ui/base/version.h"
+#include "ui/world/library_mesh.h"
 
 #include <cstddef>
 #include <fmt/format.h>
@@ -14,7 +15,11 @@ Program octant_program(std::vector<Command> of_windows) {
     Program program{
         .about = "Octant: flies polygon aircraft along scripted paths over level-of-detail "
                  "terrain, and times it.",
-        .version = fmt::format("octant {} ({})", base::program_version(), base::program_commit()),
+        .version = fmt::format(
+            "octant {} ({})\nmeshes of .ac .glb .gltf .obj .ply .stl .wrl\n{}",
+            base::program_version(),
+            base::program_commit(),
+            world::library_formats()),
         .footer = "Examples:\n"
                   "  octant fly pop-up --aircraft f15 --terrain canyon --record my-flight\n"
                   "  octant view turn --view cockpit\n"
@@ -31,6 +36,7 @@ Program octant_program(std::vector<Command> of_windows) {
             terrain_command(),
             draw_order_command(),
             mesh_error_command(),
+            model_command(),
             refine_command(),
             simplify_command(),
             study_command(),

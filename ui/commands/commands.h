@@ -11,6 +11,7 @@ Command report_command();
 Command terrain_command();
 Command draw_order_command();
 Command mesh_error_command();
+Command model_command();
 Command refine_command();
 Command simplify_command();
 Command study_command();

@@ -46,6 +46,7 @@ simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diag
         options.goal.error_m = error_m_from(command.error, diagonal_m);
     }
     options.colour_weight = command.colour_weight;
+    options.keep_shells = command.keep_shells;
     options.threads = command.threads;
     return options;
 }
@@ -53,7 +54,9 @@ simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diag
 models::TriangleMesh read_repaired(const SimplifyCommand& command, Figures& figures) {
     models::TriangleMesh mesh = world::read_mesh_input(command.in);
     figures["faces_in_file"] = mesh.triangles.size();
-    meshfile::RepairedMesh repaired = meshfile::repaired(std::move(mesh));
+    meshfile::RepairedMesh repaired = meshfile::repaired(
+        std::move(mesh),
+        command.keep_seams_apart ? meshfile::Seams::Apart : meshfile::Seams::Welded);
     const std::vector<std::string> repairs = meshfile::in_words(repaired.counts);
     for (const std::string& line : repairs) {
         base::say(command.quiet, "repaired: " + line);
@@ -163,7 +166,7 @@ void simplify_as_printed(
     figures["time_s"] = time_s;
 }
 
-void simplify_mesh(const SimplifyCommand& command, Figures& figures) {
+bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
     models::TriangleMesh original = read_repaired(command, figures);
     simplify::SimplifyOptions options = options_of(command, models::diagonal_m(original));
     figures["faces_before"] = original.triangles.size();
@@ -171,15 +174,18 @@ void simplify_mesh(const SimplifyCommand& command, Figures& figures) {
     base::Progress progress("simplifying", 100, command.quiet, "percent");
     options.show_progress = [&](double share) { progress.show(static_cast<int>(100.0 * share)); };
     const base::Stopwatch watch;
-    const simplify::Simplified result = simplify::simplified(std::move(original), options);
+    const simplify::Simplified result = simplify::simplified(original, options);
     const double time_s = watch.s();
     progress.finish();
     meshfile::write_mesh(command.out, result.mesh);
     figures["faces"] = result.mesh.triangles.size();
     figures["vertices"] = result.mesh.vertices_m.size();
     figures["method"] = command.method;
+    figures["chosen_by"] =
+        result.chosen_by == simplify::Quality::Surface ? "distances" : "quadrics";
+    figures["shells_gone"] = result.shells_gone;
     if (!result.mesh.triangles.empty()) {
-        add_distance(figures, result.sequence.original, result.mesh, command.threads);
+        add_distance(figures, original, result.mesh, command.threads);
     }
     figures["time_s"] = time_s;
     const bool short_of_faces =
@@ -190,7 +196,9 @@ void simplify_mesh(const SimplifyCommand& command, Figures& figures) {
         base::say(
             command.quiet,
             "note: no edge can collapse any more without changing the kind of surface");
+        return false;
     }
+    return true;
 }
 
 void simplify_into_chain(const SimplifyCommand& command, Figures& figures) {

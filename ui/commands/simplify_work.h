@@ -21,6 +21,8 @@ struct SimplifyCommand {
     double colour_weight = 0.1;
     int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     bool chain = false;
+    bool keep_seams_apart = false;
+    bool keep_shells = false;
     std::string polygons;
     bool json = false;
     bool quiet = false;
@@ -34,8 +36,8 @@ double error_m_from(const std::string& text, double diagonal_m);
 std::optional<models::simplify::PaperMeasure> paper_measure(const std::string& method);
 
 /// Each does the work of `octant simplify` in one of its ways, writes the file and adds to the
-/// figures. Throws Error.
-void simplify_mesh(const SimplifyCommand& command, base::Figures& figures);
+/// figures. The first returns whether the goal was reached. Throws Error.
+bool simplify_mesh(const SimplifyCommand& command, base::Figures& figures);
 void simplify_into_chain(const SimplifyCommand& command, base::Figures& figures);
 
 /// As printed: of the mesh as it is, nothing repaired.

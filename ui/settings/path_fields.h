@@ -23,13 +23,16 @@ inline constexpr std::tuple path_rows{
         {"aircraft",
          "NAME|FILE",
          "aircraft: f15, 500md, concave, an OBJ file of up to 50,000 polygons (2,000 where nearly "
-         "all are triangles), or a mesh (.obj, .ply, .stl, .glb, .ac, .wrl, .pm, .chain); repeat "
-         "for wingmen"},
+         "all are triangles), or a mesh (.obj, .ply, .stl, .glb, .ac, .wrl, .pm, .chain, "
+         "FlightGear's .xml and what --version lists); repeat for wingmen"},
         {.group = SettingGroup::Path,
          .change = SettingsChange::Flight,
          .known = built_in_aircraft}),
     setting<&RunSettings::path, &PathSettings::axes>(
-        {"axes", "X,Y,Z", "where the axes of aircraft files point"},
+        {"axes",
+         "X,Y,Z|auto",
+         "where the axes of aircraft files point, such as right,up,back; auto: as the format has "
+         "it (AC3D, glTF), else guessed from the shape and said"},
         {.group = SettingGroup::Path, .change = SettingsChange::Flight}),
     setting<&RunSettings::path, &PathSettings::terrain>(
         {"terrain",

@@ -23,8 +23,8 @@ struct PathSettings {
     std::string name = "straight";
     /// Names or files, at least one. The first aircraft flies the path, the others beside it.
     std::vector<std::string> aircraft = {"f15"};
-    /// Directions of the axes of aircraft files.
-    std::string axes = "right,up,back";
+    /// Directions of the axes of aircraft files, or "auto": by their formats, else by their shapes.
+    std::string axes = "auto";
     std::string terrain = "hills";
     /// Sample spacing of terrain files that do not give one.
     double terrain_spacing_m = 30.0;

@@ -1,10 +1,13 @@
 #include "ui/world/aircraft_loader.h"
 
 #include "models/polygons/file_axes.h"
+#include "models/polygons/mesh_polygons.h"
 #include "models/polygons/obj_reader.h"
 #include "sim/aircraft_kind.h"
+#include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
+#include "ui/world/aircraft_axes.h"
 #include "ui/world/mesh_aircraft.h"
 #include "visuals/draworder/ordered_model.h"
 #include "visuals/ordercache/order_cache.h"
@@ -13,6 +16,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -37,20 +41,28 @@ constexpr std::size_t most_polygons_of_a_model = 50'000;
 constexpr std::size_t most_triangles_of_a_model = 2'000;
 /// Polygons that stand in for a mesh far away are put in order up to this number.
 constexpr std::size_t most_polygons_of_a_mesh = 2'000;
+/// So long their order is searched: few pixels come of it.
+constexpr double most_seconds_of_a_mesh = 0.3;
+
+/// What painting orders are looked for.
+struct OrderLimits {
+    std::size_t polygons = 0;
+    double seconds = 0.0;
+};
 
 draworder::OrderedModel with_order(
     models::polygons::PolygonModel model,
     const settings::RunSettings& settings,
-    std::size_t most,
+    const OrderLimits& most,
     Notes& notes) {
     if (settings.surface.hidden_surface != scene::HiddenSurface::Octant ||
-        model.polygons.size() > most) {
+        model.polygons.size() > most.polygons) {
         draworder::DrawOrder order = draworder::file_order(model);
         return {.model = std::move(model), .order = std::move(order), .cells = {}, .notes = {}};
     }
     draworder::OrderOptions options;
     options.method = settings.surface.order_method;
-    options.seconds = settings.surface.order_seconds;
+    options.seconds = std::min(settings.surface.order_seconds, most.seconds);
     if (!settings.surface.order_cache) {
         return draworder::ordered(std::move(model), options);
     }
@@ -84,15 +96,11 @@ scene::AircraftModel ready(
     models::polygons::PolygonModel model,
     const sim::AircraftKind* kind,
     const settings::RunSettings& settings,
-    Notes& notes,
-    bool is_mesh = false) {
+    const OrderLimits& most,
+    Notes& notes) {
     const glm::dvec3 eye_m = kind != nullptr ? kind->pilot_eye_m : scene::pilot_eye_m(model);
     const models::polygons::PolygonModel whole = model;
-    draworder::OrderedModel ordered = with_order(
-        std::move(model),
-        settings,
-        is_mesh ? most_polygons_of_a_mesh : most_polygons_of_a_model,
-        notes);
+    draworder::OrderedModel ordered = with_order(std::move(model), settings, most, notes);
     notes.insert(notes.end(), ordered.notes.begin(), ordered.notes.end());
     std::vector<glm::vec3> normals =
         shading::normals_of_pieces(whole, shading::corner_normals(whole), ordered.model);
@@ -100,25 +108,62 @@ scene::AircraftModel ready(
         std::move(ordered.model), std::move(ordered.order), eye_m, std::move(normals));
 }
 
+models::polygons::PolygonModel
+read_polygon_model(const std::filesystem::path& file, const std::string& axes, Notes& notes) {
+    if (file.parent_path() == base::data_folder() / "models") {
+        return models::polygons::read_obj(file);
+    }
+    const models::polygons::FileAxes usual;
+    models::polygons::PolygonModel model = models::polygons::read_obj(file, usual);
+    models::TriangleMesh shape = models::polygons::as_triangles(model);
+    for (glm::dvec3& vertex_m : shape.vertices_m) {
+        vertex_m = usual.file_from_body(vertex_m);
+    }
+    const AircraftAxes found = aircraft_axes(axes, file, shape);
+    if (std::string note = note_of(found, file); !note.empty()) {
+        notes.push_back(std::move(note));
+    }
+    return found.axes.text() == usual.text() ? std::move(model)
+                                             : models::polygons::read_obj(file, found.axes);
+}
+
+/// The polygons that stand in for a mesh far away. Without a painting order they only throw
+/// shadows.
+scene::AircraftModel
+far_model(MeshAircraft& mesh, const settings::RunSettings& settings, Notes& notes) {
+    if (mesh.polygons.polygons.size() <= most_polygons_of_a_mesh) {
+        try {
+            return ready(
+                mesh.polygons,
+                nullptr,
+                settings,
+                {most_polygons_of_a_mesh, most_seconds_of_a_mesh},
+                notes);
+        } catch (const Error& fault) {
+            notes.push_back(
+                fmt::format("{}; the mesh is drawn at every distance instead", fault.what()));
+        }
+    }
+    mesh.polygons_error_m = std::numeric_limits<double>::infinity();
+    return ready(std::move(mesh.polygons), nullptr, settings, {}, notes);
+}
+
 scene::AircraftModel
 load_model(const std::string& name, const settings::RunSettings& settings, Notes& notes) {
     const std::filesystem::path file = base::aircraft_file(name);
-    const bool built_in = file.parent_path() == base::data_folder() / "models";
-    const models::polygons::FileAxes axes =
-        built_in ? models::polygons::FileAxes()
-                 : models::polygons::FileAxes::from_text(settings.path.axes);
     if (is_polygon_model(file)) {
-        models::polygons::PolygonModel model = models::polygons::read_obj(file, axes);
+        models::polygons::PolygonModel model = read_polygon_model(file, settings.path.axes, notes);
         notes.insert(notes.end(), model.notes.begin(), model.notes.end());
-        return ready(std::move(model), sim::find_aircraft_kind(name), settings, notes);
+        return ready(
+            std::move(model),
+            sim::find_aircraft_kind(name),
+            settings,
+            {most_polygons_of_a_model, settings.surface.order_seconds},
+            notes);
     }
-    MeshAircraft mesh = read_mesh_aircraft(file, axes);
+    MeshAircraft mesh = read_mesh_aircraft(file, settings.path.axes);
     notes.insert(notes.end(), mesh.notes.begin(), mesh.notes.end());
-    const bool too_many = mesh.polygons.polygons.size() > most_polygons_of_a_mesh;
-    scene::AircraftModel model = ready(std::move(mesh.polygons), nullptr, settings, notes, true);
-    if (too_many) { // without a painting order they only throw shadows
-        mesh.polygons_error_m = std::numeric_limits<double>::infinity();
-    }
+    scene::AircraftModel model = far_model(mesh, settings, notes);
     add_meshes(model, mesh);
     return model;
 }

@@ -3,6 +3,7 @@
 #include "models/measure/mesh_distance.h"
 #include "models/polygons/mesh_polygons.h"
 #include "ui/base/stopwatch.h"
+#include "ui/world/aircraft_axes.h"
 #include "ui/world/refine_input.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/selective_refiner.h"
@@ -67,13 +68,21 @@ models::TriangleMesh finest_mesh(const refine::ProgressiveMesh& hierarchy) {
     return mesh;
 }
 
-MeshAircraft
-from_hierarchy(const std::filesystem::path& file, const models::polygons::FileAxes& axes) {
+/// Tells where nose and top were found.
+void add_note(MeshAircraft& aircraft, const AircraftAxes& axes, const std::filesystem::path& file) {
+    if (std::string note = note_of(axes, file); !note.empty()) {
+        aircraft.notes.push_back(std::move(note));
+    }
+}
+
+MeshAircraft from_hierarchy(const std::filesystem::path& file, const std::string& setting) {
     const base::Stopwatch watch;
     RefineMesh input = read_refine_mesh({.file = file.string(), .base = 0, .quiet = true});
+    const AircraftAxes axes = aircraft_axes(setting, file, finest_mesh(*input.mesh));
     MeshAircraft aircraft;
     aircraft.notes = std::move(input.notes);
-    aircraft.hierarchy = turned(*input.mesh, axes);
+    add_note(aircraft, axes, file);
+    aircraft.hierarchy = turned(*input.mesh, axes.axes);
     const models::TriangleMesh far = far_mesh(aircraft.hierarchy);
     measure::DistanceOptions loosely;
     loosely.tightness = 1.4;
@@ -90,8 +99,12 @@ from_hierarchy(const std::filesystem::path& file, const models::polygons::FileAx
 }
 
 /// Levels that are no better than the polygons are never drawn.
-MeshAircraft from_chain(meshfile::LevelChain chain, const models::polygons::FileAxes& axes) {
+MeshAircraft from_chain(const std::filesystem::path& file, const std::string& setting) {
+    meshfile::LevelChain chain = meshfile::read_chain(file);
+    const AircraftAxes found = aircraft_axes(setting, file, chain.levels.front().mesh);
+    const models::polygons::FileAxes& axes = found.axes;
     MeshAircraft aircraft;
+    add_note(aircraft, found, file);
     aircraft.polygons = chain.polygons ? std::move(*chain.polygons)
                                        : models::polygons::as_polygons(chain.levels.back().mesh);
     aircraft.polygons_error_m =
@@ -114,10 +127,8 @@ MeshAircraft from_chain(meshfile::LevelChain chain, const models::polygons::File
 
 } // namespace
 
-MeshAircraft
-read_mesh_aircraft(const std::filesystem::path& file, const models::polygons::FileAxes& axes) {
-    return meshfile::is_chain_file(file) ? from_chain(meshfile::read_chain(file), axes)
-                                         : from_hierarchy(file, axes);
+MeshAircraft read_mesh_aircraft(const std::filesystem::path& file, const std::string& axes) {
+    return meshfile::is_chain_file(file) ? from_chain(file, axes) : from_hierarchy(file, axes);
 }
 
 void add_meshes(scene::AircraftModel& model, const MeshAircraft& aircraft) {

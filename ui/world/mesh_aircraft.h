@@ -1,7 +1,6 @@
 #pragma once
 
 #include "models/meshfile/level_chain.h"
-#include "models/polygons/file_axes.h"
 #include "models/polygons/polygon_model.h"
 #include "visuals/refine/progressive_mesh.h"
 #include "visuals/scene/aircraft_model.h"
@@ -24,9 +23,8 @@ struct MeshAircraft {
 };
 
 /// Reads a chain of levels (.chain), a progressive mesh (.pm) or any other mesh file, of which a
-/// hierarchy is made here. Throws Error.
-MeshAircraft
-read_mesh_aircraft(const std::filesystem::path& file, const models::polygons::FileAxes& axes);
+/// hierarchy is made here. `axes`: as aircraft_axes takes them. Throws Error.
+MeshAircraft read_mesh_aircraft(const std::filesystem::path& file, const std::string& axes);
 
 /// Gives the model that was made of its polygons the rest of a mesh aircraft.
 void add_meshes(visuals::scene::AircraftModel& model, const MeshAircraft& aircraft);

@@ -7,6 +7,7 @@
 #include "models/polygons/mesh_polygons.h"
 #include "sim/base/file_status.h"
 #include "ui/base/data_files.h"
+#include "ui/world/library_mesh.h"
 
 #include <algorithm>
 #include <string>
@@ -14,7 +15,8 @@
 
 namespace octant::ui::world {
 
-models::TriangleMesh read_mesh_input(const std::string& name_or_file) {
+models::TriangleMesh
+read_mesh_input(const std::string& name_or_file, const models::meshfile::ReadOptions& options) {
     if (!is_there(name_or_file)) {
         if (name_or_file == "globe") {
             return models::made::globe();
@@ -27,10 +29,11 @@ models::TriangleMesh read_mesh_input(const std::string& name_or_file) {
         }
         const std::vector<std::string> shipped = base::built_in_models();
         if (std::ranges::find(shipped, name_or_file) != shipped.end()) {
-            return models::meshfile::read_mesh(base::aircraft_file(name_or_file));
+            return models::meshfile::read_mesh(base::aircraft_file(name_or_file), options);
         }
     }
-    return models::meshfile::read_mesh(name_or_file);
+    return is_library_file(name_or_file) ? read_library_mesh(name_or_file)
+                                         : models::meshfile::read_mesh(name_or_file, options);
 }
 
 } // namespace octant::ui::world

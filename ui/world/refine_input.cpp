@@ -54,7 +54,7 @@ void refuse_too_many(const std::string& file, const models::TriangleMesh& mesh) 
 
 refine::ProgressiveMesh made_hierarchy(const RefineInput& input, std::vector<std::string>& notes) {
     models::meshfile::RepairedMesh repaired =
-        models::meshfile::repaired(read_mesh_input(input.file));
+        models::meshfile::repaired(read_mesh_input(input.file, {.pictures = true, .backs = true}));
     notes = repaired.mesh.notes;
     for (const std::string& line : models::meshfile::in_words(repaired.counts)) {
         notes.push_back(input.file + ": " + line);

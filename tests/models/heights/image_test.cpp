@@ -105,7 +105,7 @@ TEST_CASE("what is no image of 8 bits is refused in one line") {
     CHECK_THROWS_WITH(
         read_image(text),
         text.string() + ": expected an image that GDAL can read, got another kind of file "
-                        "(GeoTIFF, PNG and JPEG are read)");
+                        "(GeoTIFF, PNG, JPEG and BMP are read)");
     const auto missing = scratch_file("missing.png");
     CHECK_THROWS_WITH(read_image(missing), missing.string() + ": expected a file, found none");
     const auto cut = scratch_file("cut.png");

@@ -81,7 +81,9 @@ void check_mutations(
 
 void check_mesh_mutations(const std::string& name, const std::string& good) {
     INFO(name);
-    check_mutations(name, good, read_mesh);
+    check_mutations(name, good, [](const std::filesystem::path& path) {
+        return read_mesh(path, {.pictures = true, .backs = true});
+    });
 }
 
 std::string written(const std::string& name, const TriangleMesh& mesh) {
@@ -126,6 +128,16 @@ TEST_CASE("a mutated PLY file is read soundly or refused in one line") {
         "property uchar z\nelement face 2\nproperty list ushort uint vertex_indices\nend_header\n" +
             std::string("\0\0\0\1\0\0\1\1\0\0\1\0", 12) +
             std::string("\0\3\0\0\0\0\0\0\0\1\0\0\0\2\0\3\0\0\0\0\0\0\0\2\0\0\0\3", 28));
+}
+
+TEST_CASE("a mutated FlightGear model is read soundly or refused in one line") {
+    write_mesh(scratch_file("part.ac"), coloured_cube());
+    check_mesh_mutations(
+        "model.xml",
+        "<?xml version=\"1.0\"?>\n<!-- a --><PropertyList>\n<path>part.ac</path>\n<model>"
+        "<path>part.ac</path><offsets><x-m>1.5</x-m><pitch-deg>30</pitch-deg></offsets></model>"
+        "<animation><type>select</type><object-name>cube</object-name><condition><not><property>"
+        "a</property></not></condition></animation>\n</PropertyList>\n");
 }
 
 TEST_CASE("a mutated STL file is read soundly or refused in one line") {

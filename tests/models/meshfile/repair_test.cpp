@@ -21,8 +21,8 @@ double volume_m3(const TriangleMesh& mesh) {
     return sum / 6.0;
 }
 
-RepairedMesh checked(TriangleMesh mesh) {
-    RepairedMesh result = repaired(std::move(mesh));
+RepairedMesh checked(TriangleMesh mesh, Seams seams = Seams::Welded) {
+    RepairedMesh result = repaired(std::move(mesh), seams);
     CHECK(manifold_fault(result.mesh).empty());
     CHECK(index_fault(result.mesh).empty());
     return result;
@@ -62,7 +62,7 @@ TEST_CASE("vertices of no triangle are taken out and the others keep their order
     CHECK(in_words(after.counts) == std::vector<std::string>{"1 vertex of no triangle taken out"});
 }
 
-TEST_CASE("triangles that share no vertices are welded where places and colours agree") {
+TEST_CASE("triangles that share no vertices are welded where places agree") {
     TriangleMesh soup;
     for (const Triangle& triangle : tetrahedron().triangles) {
         for (const std::uint32_t vertex : triangle) {
@@ -80,9 +80,47 @@ TEST_CASE("triangles that share no vertices are welded where places and colours 
     for (std::size_t v = 0; v < 3; ++v) {
         soup.colours[v] = glm::vec3(0.5F); // the first triangle stays apart
     }
-    const RepairedMesh coloured = checked(soup);
+    const RepairedMesh coloured = checked(soup, Seams::Apart);
     CHECK(
         coloured.counts == RepairCounts{.duplicate_vertices = 5, .boundary_loops = 2, .shells = 2});
+    const RepairedMesh mixed = checked(soup);
+    CHECK(mixed.counts == RepairCounts{.duplicate_vertices = 8, .shells = 1});
+    CHECK(mixed.mesh.colours[0].x == Approx(2.5 / 3.0)); // one of the three corners there is grey
+}
+
+TEST_CASE("rims a rounding apart are welded, rims farther apart are not") {
+    const auto quads = [](double gap) {
+        TriangleMesh mesh;
+        mesh.vertices_m = {
+            {0.0, 0.0, 0.0},
+            {1.0, 0.0, 0.0},
+            {1.0, 1.0, 0.0},
+            {0.0, 1.0, 0.0},
+            {1.0 + gap, 0.0, 0.0},
+            {2.0, 0.0, 0.0},
+            {2.0, 1.0, 0.0},
+            {1.0 + gap, 1.0, 0.0}};
+        mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+        return mesh;
+    };
+    const RepairCounts welded = checked(quads(1e-7)).counts;
+    CHECK(welded == RepairCounts{.duplicate_vertices = 2, .boundary_loops = 1, .shells = 1});
+    CHECK(checked(quads(1e-7), Seams::Apart).counts.shells == 2);
+    CHECK(checked(quads(1e-4)).counts.shells == 2);
+}
+
+TEST_CASE("closed shells that touch along an edge stay closed") {
+    TriangleMesh mesh = tetrahedron();
+    const TriangleMesh one = tetrahedron();
+    for (const glm::dvec3& vertex_m : one.vertices_m) { // the same one mirrored: it shares an edge
+        mesh.vertices_m.push_back(glm::dvec3(vertex_m.x, -vertex_m.y, -vertex_m.z));
+    }
+    for (const auto& [a, b, c] : one.triangles) {
+        mesh.triangles.push_back({a + 4, b + 4, c + 4});
+    }
+    const RepairedMesh after = checked(mesh);
+    CHECK(after.counts.boundary_loops == 0);
+    CHECK(after.counts.shells == 2);
 }
 
 TEST_CASE("triangles without an area go, and what only they had goes with them") {

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "models/heights/image.h"
+#include "models/triangle_mesh.h"
+
+#include <glm/vec2.hpp>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace octant::models::meshfile {
+
+/// The pictures on the surfaces of a mesh, and the colours that they leave at its vertices.
+class BakedPictures {
+public:
+    /// Stands for no picture.
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+    explicit BakedPictures(std::filesystem::path mesh_file)
+        : mesh_file_(std::move(mesh_file)) {}
+
+    /// The number of a picture beside the mesh's file: as it is named, else by its last name in
+    /// that folder. None where there is no such file, or none that can be read.
+    std::uint32_t picture(const std::string& name);
+
+    /// The number of a picture that stands in a file; `name` is only told.
+    std::uint32_t picture(const std::string& name, std::string_view bytes);
+
+    /// The next triangle of the mesh: its picture or none, and where its corners lie on it, in
+    /// shares of width and height from the upper left corner; beyond 0..1 the picture repeats.
+    void add_triangle(std::uint32_t picture, const std::array<glm::vec2, 3>& places);
+
+    bool is_empty() const { return pictures_.empty(); }
+
+    /// Gives the vertices of a mesh the mean colour around them: of the pictures, times the colour
+    /// of the material, or that alone. Vertices at one place get one colour. Its triangles are
+    /// those added.
+    void bake(TriangleMesh& mesh) const;
+
+    /// One line a picture that could not be used.
+    const std::vector<std::string>& notes() const { return notes_; }
+
+private:
+    struct Pictured {
+        std::uint32_t picture = none;
+        std::array<glm::vec2, 3> places{};
+    };
+
+    template <typename Read>
+    std::uint32_t kept(const std::string& name, Read&& read);
+
+    std::filesystem::path mesh_file_;
+    std::vector<heights::Image> pictures_;
+    std::map<std::string, std::uint32_t> known_;
+    std::vector<Pictured> triangles_;
+    std::vector<std::string> notes_;
+};
+
+} // namespace octant::models::meshfile

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "models/collapse_sequence.h"
+#include "models/simplify/simplify_options.h"
+#include "models/triangle_mesh.h"
+
+#include <cstddef>
+
+namespace octant::models::simplify {
+
+/// The result of a simplification.
+struct Simplified {
+    TriangleMesh mesh; ///< The mesh after the polish, with the original's materials and normals.
+    CollapseSequence sequence; ///< The collapses that led to it, without the polish.
+    /// Shells that had to go for the goal, the smallest ones; the sequence begins without them.
+    std::size_t shells_gone = 0;
+    /// What chose the collapses: with Quality::Surface the plain quadrics of Quality::Fast where
+    /// their result is the better one.
+    Quality chosen_by = Quality::Surface;
+};
+
+} // namespace octant::models::simplify

@@ -1,0 +1,163 @@
+#include "models/meshfile/format_axes.h"
+#include "models/meshfile/mesh_file.h"
+#include "models/meshfile/repair.h"
+#include "models/meshfile/xml_tree.h"
+#include "sim/base/error.h"
+#include "tests/models/meshfile/mesh_samples.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <utility>
+
+using namespace octant;
+using namespace octant::models;
+using namespace octant::models::meshfile;
+using namespace octant::models::meshfile::test;
+
+namespace {
+
+/// A BMP of two pixels side by side: red, then blue.
+std::string red_and_blue() {
+    std::string bytes = "BM";
+    const auto add = [&](std::uint32_t number, int size) {
+        for (int i = 0; i < size; ++i) {
+            bytes += static_cast<char>(number >> (8 * i) & 0xffU);
+        }
+    };
+    for (const auto& [number, size] : std::initializer_list<std::pair<std::uint32_t, int>>{
+             {62, 4},
+             {0, 4},
+             {54, 4},
+             {40, 4},
+             {2, 4},
+             {1, 4},
+             {1, 2},
+             {24, 2},
+             {0, 4},
+             {8, 4},
+             {2835, 4},
+             {2835, 4},
+             {0, 4},
+             {0, 4},
+             {0xff0000, 3},
+             {0x0000ff, 3},
+             {0, 2}}) {
+        add(number, size);
+    }
+    return bytes;
+}
+
+/// A square in x and y with a picture over it.
+std::string square(const std::string& flags, const std::string& name = "square") {
+    return "AC3Db\nMATERIAL \"white\" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0\n"
+           "OBJECT world\nkids 1\nOBJECT poly\nname \"" +
+           name +
+           "\"\ntexture \"two.bmp\"\nnumvert 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nnumsurf 1\nSURF " +
+           flags + "\nmat 0\nrefs 4\n0 0.01 0\n1 0.99 0\n2 0.99 1\n3 0.01 1\nkids 0\n";
+}
+
+} // namespace
+
+TEST_CASE("the picture of an AC3D surface colours its vertices, if it is asked for") {
+    file_with("two.bmp", red_and_blue());
+    const auto file = file_with("square.ac", square("0x0"));
+    CHECK(read_mesh(file).colours.empty());
+    const TriangleMesh mesh = read_mesh(file, {.pictures = true});
+    REQUIRE(mesh.colours.size() == 4);
+    CHECK(mesh.colours[0].x > 0.75F);
+    CHECK(mesh.colours[3].x > 0.75F);
+    CHECK(mesh.colours[0].y == 0.0F);
+    CHECK(mesh.colours[1].z > 0.75F);
+    CHECK(mesh.colours[2].z > 0.75F);
+}
+
+TEST_CASE("a picture that is missing is told, and the material's colour stays") {
+    const auto file = file_with("lonely.ac", square("0x0"));
+    std::filesystem::remove(file.parent_path() / "two.bmp");
+    const TriangleMesh mesh = read_mesh(file, {.pictures = true});
+    CHECK(mesh.colours.empty());
+    REQUIRE(mesh.notes.size() == 1);
+    CHECK_THAT(mesh.notes[0], Catch::Contains("expected a picture 'two.bmp', got none"));
+}
+
+TEST_CASE("a two-sided sheet gets a back that welding keeps apart") {
+    const auto file = file_with("sheet.ac", square("0x20"));
+    CHECK(read_mesh(file).triangles.size() == 2);
+    const TriangleMesh mesh = read_mesh(file, {.backs = true});
+    REQUIRE(mesh.triangles.size() == 4);
+    CHECK(normal_of(mesh, mesh.triangles[0]).z == Approx(1.0));
+    CHECK(normal_of(mesh, mesh.triangles[2]).z == Approx(-1.0));
+    CHECK(repaired(mesh).counts.shells == 2);
+    const auto one_sided = file_with("sheet.ac", square("0x0"));
+    CHECK(read_mesh(one_sided, {.backs = true}).triangles.size() == 2);
+}
+
+TEST_CASE("FlightGear's models bring their sub-models, moved and turned") {
+    file_with("square.ac", square("0x0"));
+    file_with(
+        "part.xml",
+        "<?xml version=\"1.0\"?><!-- one > two --><PropertyList><path>square.ac</path>"
+        "<offsets><z-m> 3 </z-m></offsets></PropertyList>");
+    const auto file = file_with(
+        "plane.xml",
+        "<PropertyList>\n <path>square.ac</path>\n <model n=\"1\"><path>part.xml</path><offsets>"
+        "<x-m>10</x-m><heading-deg>90</heading-deg></offsets></model>\n"
+        "<animation><type>spin</type></animation></PropertyList>");
+    const TriangleMesh mesh = read_mesh(file);
+    REQUIRE(mesh.vertices_m.size() == 8);
+    CHECK(mesh.vertices_m[2].x == Approx(1.0)); // AC3D's y is up
+    CHECK(mesh.vertices_m[2].z == Approx(1.0));
+    CHECK(mesh.vertices_m[6].x == Approx(10.0)); // x is turned to y
+    CHECK(mesh.vertices_m[6].y == Approx(1.0));
+    CHECK(mesh.vertices_m[6].z == Approx(4.0));
+    CHECK_THAT(mesh.notes.back(), Catch::Contains("left at rest: 1 spin"));
+    CHECK(axes_of_format(file)->text() == "back,right,up");
+}
+
+TEST_CASE("what a range shows from afar only is left out of a FlightGear model") {
+    file_with("square.ac", square("0x0", "far"));
+    const auto near_file = file_with("near.ac", square("0x0", "near"));
+    const auto file = file_with(
+        "ranges.xml",
+        "<PropertyList><path>near.ac</path><model><path>far.xml</path></model></PropertyList>");
+    file_with(
+        "far.xml",
+        "<PropertyList><path>square.ac</path><animation><type>range</type><min-m>100</min-m>"
+        "<object-name>far</object-name></animation></PropertyList>");
+    CHECK(read_mesh(file).triangles.size() == 2);
+    CHECK(read_mesh(near_file).triangles.size() == 2);
+}
+
+TEST_CASE("what FlightGear shows under a condition is there if it holds at rest") {
+    file_with("square.ac", square("0x0", "lamp"));
+    const auto shown = [](const std::string& condition) {
+        const auto file = file_with(
+            "selected.xml",
+            "<PropertyList><path>square.ac</path><model><path>square.ac</path></model><animation>"
+            "<type>select</type><object-name>lamp</object-name><condition>" +
+                condition + "</condition></animation></PropertyList>");
+        return read_mesh(file).triangles.size() == 4; // else the sub-model's two alone
+    };
+    CHECK_FALSE(shown("<property>on</property>"));
+    CHECK(shown("<not><property>on</property></not>"));
+    CHECK(shown("<or><property>on</property><equals><property>gear</property><value>0</value>"
+                "</equals></or>"));
+    CHECK_FALSE(shown("<greater-than><property>gear</property><value>0.1</value></greater-than>"));
+    CHECK_FALSE(shown("<equals><property>name</property><value>red</value></equals>"));
+}
+
+TEST_CASE("faulty XML is refused in one line that says where") {
+    const auto fault = [](const std::string& text) { return error_of("faulty.xml", text); };
+    CHECK(fault("") == "faulty.xml:1: expected an element, got the end of the file");
+    CHECK(fault("<a>\n<b>\n</a>") == "faulty.xml:3: expected </b>, got 'a'");
+    CHECK(fault("<a>\n<b") == "faulty.xml:2: expected '>', got the end of the file");
+    CHECK(fault("<a><!-- x") == "faulty.xml:1: expected '-->', got the end of the file");
+    const XmlElement root = xml_tree("x", "<a> 1 &lt; 2<b c='>'/><![CDATA[ <]]></a>");
+    CHECK(root.text == "1 < 2 <");
+    CHECK(root.find("b") != nullptr);
+    CHECK(root.find("c") == nullptr);
+}

@@ -1,0 +1,65 @@
+// octant-read-mesh LIBRARY IN OUT.chain: reads a mesh by a library and writes it as a chain of one
+// level. It runs beside octant, so that a file which makes the library crash, hang or eat memory
+// ends this program alone.
+#include "models/meshfile/level_chain.h"
+#include "sim/base/error.h"
+#include "ui/reader/library_readers.h"
+
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <sys/resource.h>
+#include <unistd.h>
+#include <utility>
+
+using namespace octant;
+
+namespace {
+
+constexpr int wrong_input = 2;
+constexpr rlim_t most_bytes = rlim_t{4} << 30U;
+constexpr rlim_t most_cpu_s = 25;
+constexpr unsigned most_s = 60;
+
+void limit() {
+    const rlimit memory{most_bytes, most_bytes};
+    const rlimit cpu{most_cpu_s, most_cpu_s};
+    const rlimit core{0, 0};
+    setrlimit(RLIMIT_AS, &memory);
+    setrlimit(RLIMIT_CPU, &cpu);
+    setrlimit(RLIMIT_CORE, &core);
+    alarm(most_s);
+}
+
+void read(const std::string& library, const std::string& in, const std::string& out) {
+    models::meshfile::MeshBuilder mesh(in, {.pictures = true, .backs = true});
+    if (library == "assimp") {
+        ui::reader::read_by_assimp(in, mesh);
+    } else {
+        ui::reader::read_by_osg(in, mesh);
+    }
+    models::meshfile::LevelChain chain;
+    chain.levels.push_back({mesh.finish(), 0.0});
+    chain.name = chain.levels.front().mesh.name;
+    models::meshfile::write_chain(out, chain);
+}
+
+} // namespace
+
+int main(int count, char** words) {
+    if (count != 4) {
+        std::fputs("octant-read-mesh assimp|osg IN OUT.chain: started by octant\n", stderr);
+        return wrong_input;
+    }
+    limit();
+    try {
+        read(words[1], words[2], words[3]);
+        return 0;
+    } catch (const std::bad_alloc&) {
+        std::fprintf(
+            stderr, "%s: expected a mesh that fits in 4 GiB, got a larger one\n", words[2]);
+    } catch (const std::exception& fault) {
+        std::fprintf(stderr, "%s\n", fault.what());
+    }
+    return wrong_input;
+}

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "models/polygons/file_axes.h"
+#include "models/triangle_mesh.h"
+
+#include <filesystem>
+#include <string>
+
+namespace octant::ui::world {
+
+/// Where the axes of an aircraft's file point, and how that is known.
+struct AircraftAxes {
+    /// Usual: its shape does not say, so that it is taken as x right, y up, z back.
+    enum class From { Given, Format, Guess, Usual };
+
+    models::polygons::FileAxes axes;
+    From from = From::Usual;
+};
+
+/// The setting --axes: "auto", or directions such as "right,up,back". With "auto" the format
+/// decides, then the shape. `mesh` is the aircraft in its file's axes. Throws Error.
+AircraftAxes aircraft_axes(
+    const std::string& setting,
+    const std::filesystem::path& file,
+    const models::TriangleMesh& mesh);
+
+/// Throws Error unless it is "auto" or directions that aircraft_axes takes.
+void check_axes(const std::string& setting);
+
+/// "nose towards -x, up +y: guessed from the shape".
+std::string in_words(const AircraftAxes& axes);
+
+/// What a person should be told of axes that were not given: empty for those of a format.
+std::string note_of(const AircraftAxes& axes, const std::filesystem::path& file);
+
+} // namespace octant::ui::world

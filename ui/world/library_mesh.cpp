@@ -1,0 +1,131 @@
+#include "ui/world/library_mesh.h"
+
+#include "models/meshfile/level_chain.h"
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "ui/report/child_program.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <string_view>
+#include <system_error>
+
+namespace octant::ui::world {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Library {
+    std::string_view word; ///< what octant-read-mesh calls it
+    std::string_view name;
+    std::string_view endings;
+};
+
+constexpr std::array libraries{
+    Library{
+        "assimp", "Assimp", ".3ds .ase .b3d .blend .dae .dxf .fbx .lwo .lws .md2 .ms3d .off .x"},
+    Library{"osg", "OpenSceneGraph", ".flt .ive .osg .osgb .osgt"}};
+
+const Library* library_of(const fs::path& file) {
+    const std::string ending = ending_of(file);
+    for (const Library& library : libraries) {
+        const auto endings = split_words(library.endings);
+        if (std::ranges::find(endings, ending) != endings.end()) {
+            return &library;
+        }
+    }
+    return nullptr;
+}
+
+/// Beside this program; empty where it was not built.
+fs::path reader_program() {
+    std::error_code ignored;
+    const fs::path reader =
+        fs::read_symlink("/proc/self/exe", ignored).parent_path() / "octant-read-mesh";
+    return fs::is_regular_file(reader, ignored) ? reader : fs::path();
+}
+
+/// A folder that goes with what lies in it.
+class ShortFolder {
+public:
+    ShortFolder() {
+        std::string name = (fs::temp_directory_path() / "octant-mesh-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) {
+            throw Error(fmt::format("{}: expected a folder that can be made, got none", name));
+        }
+        path_ = name;
+    }
+
+    ~ShortFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+
+    ShortFolder(const ShortFolder&) = delete;
+    ShortFolder& operator=(const ShortFolder&) = delete;
+    ShortFolder(ShortFolder&&) = delete;
+    ShortFolder& operator=(ShortFolder&&) = delete;
+
+    const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+} // namespace
+
+bool is_library_file(const fs::path& file) {
+    return library_of(file) != nullptr;
+}
+
+models::TriangleMesh read_library_mesh(const fs::path& file) {
+    const Library& library = *library_of(file);
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) {
+        error_in(file, "expected a file that can be read, got none");
+    }
+    const fs::path program = reader_program();
+    if (program.empty()) {
+        error_in(
+            file,
+            fmt::format(
+                "expected a build with {} for {} files, got one without",
+                library.name,
+                ending_of(file)));
+    }
+    const ShortFolder folder;
+    const fs::path out = folder.path() / "mesh.chain";
+    auto child = report::ChildProgram::start(
+        {program.string(), std::string(library.word), file.string(), out.string()});
+    if (!child) {
+        error_in(program, "expected a program that can be run, got another file");
+    }
+    const report::ProgramEnding ending = child->finish();
+    if (!ending.succeeded) {
+        error_in(
+            file,
+            fmt::format(
+                "expected a mesh that {} can read, its reader ended: {}",
+                library.name,
+                printable(ending.last_complaint)));
+    }
+    models::TriangleMesh mesh = std::move(models::meshfile::read_chain(out).levels.front().mesh);
+    mesh.name = file.stem().string();
+    return mesh;
+}
+
+std::string library_formats() {
+    if (reader_program().empty()) {
+        return "no formats by libraries: built without Assimp and OpenSceneGraph";
+    }
+    std::string text;
+    for (const Library& library : libraries) {
+        text += fmt::format("{}by {}: {}", text.empty() ? "" : "\n", library.name, library.endings);
+    }
+    return text;
+}
+
+} // namespace octant::ui::world
