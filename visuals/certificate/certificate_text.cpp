@@ -37,15 +37,14 @@ CertificateText::CertificateText(double size_m)
 
 void CertificateText::add_model(
     const models::polygons::PolygonModel& model, const LocalModel& local, const FileAxes& axes) {
-    std::string& text = made_.text;
-    append(text, "octant-certificate 1\n");
-    append(text, "tolerance {}\n", tolerance_sizes * size_m_);
+    append(text_, "octant-certificate 1\n");
+    append(text_, "tolerance {}\n", tolerance_sizes * size_m_);
     for (const glm::dvec3& vertex_m : model.vertices_m) {
-        append(text, "vertex {}\n", text_of(axes.file_from_body(vertex_m)));
+        append(text_, "vertex {}\n", text_of(axes.file_from_body(vertex_m)));
     }
     for (const models::polygons::Pivot& pivot : model.pivots) {
         append(
-            text,
+            text_,
             "axis {} {}\n",
             text_of(axes.file_from_body(pivot.point_m)),
             text_of(axes.file_from_body(pivot.axis)));
@@ -53,7 +52,7 @@ void CertificateText::add_model(
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
         const LocalPolygon& polygon = local.polygons[i];
         append(
-            text,
+            text_,
             "{} {} {}",
             polygon.axis ? fmt::format("turning {}", *polygon.axis) : "polygon",
             model.parent_of(i),
@@ -64,18 +63,18 @@ void CertificateText::add_model(
 
 void CertificateText::add_tree(const DrawOrder& order, const FileAxes& axes) {
     for (int list = 0; list < order.cell_count(); ++list) {
-        made_.text += "list";
+        text_ += "list";
         add_numbers(order.polygons_of(list));
     }
     for (const DrawOrder::Node& node : order.nodes()) {
         const std::string children = text_of_child(node.front) + text_of_child(node.back);
         if (node.kind == DrawOrder::Kind::Sequence) {
-            append(made_.text, "node sequence{}\n", children);
+            append(text_, "node sequence{}\n", children);
             continue;
         }
         const bool parts = node.kind == DrawOrder::Kind::Parting;
         append(
-            made_.text,
+            text_,
             "node {} {}{}{}\n",
             parts ? "parting" : "choice",
             text_of(Plane{axes.file_from_body(node.plane.normal), node.plane.offset_m}),
@@ -85,7 +84,7 @@ void CertificateText::add_tree(const DrawOrder& order, const FileAxes& axes) {
 }
 
 void CertificateText::begin_pairs(int part, std::uint32_t later) {
-    append(made_.text, "pairs{} {}", text_of_child(part), later);
+    append(text_, "pairs{} {}", text_of_child(part), later);
     run_length_ = 0;
 }
 
@@ -99,7 +98,7 @@ void CertificateText::add_pair(Decider by) {
 
 void CertificateText::end_pairs() {
     add_run();
-    made_.text += '\n';
+    text_ += '\n';
 }
 
 void CertificateText::add_run() {
@@ -107,7 +106,7 @@ void CertificateText::add_run() {
         const char letter = run_by_ == Decider::Earlier ? 'e'
                             : run_by_ == Decider::Later ? 'l'
                                                         : '-';
-        append(made_.text, " {}{}", run_length_, letter);
+        append(text_, " {}{}", run_length_, letter);
         run_length_ = 0;
     }
 }
@@ -116,12 +115,12 @@ void CertificateText::add_witness(
     int part, const Witness& witness, std::uint32_t earlier, std::uint32_t later) {
     const std::string where = fmt::format("{} {} {}", text_of_child(part), earlier, later);
     if (witness.kind == Witness::Kind::None) {
-        append(made_.text, "unproved{}\n", where);
-        ++made_.unproved;
+        append(text_, "unproved{}\n", where);
+        ++unproved_;
         return;
     }
     append(
-        made_.text,
+        text_,
         "{}{} {} {}",
         witness.kind == Witness::Kind::Sum ? "sum" : "never",
         where,
@@ -131,33 +130,33 @@ void CertificateText::add_witness(
 }
 
 void CertificateText::add_away(int part, std::uint32_t polygon, const Factors& factors) {
-    append(made_.text, "away{} {}", text_of_child(part), polygon);
+    append(text_, "away{} {}", text_of_child(part), polygon);
     add_walls(factors);
 }
 
 void CertificateText::add_doubt(int part, std::uint32_t polygon) {
-    append(made_.text, "unproved{} {}\n", text_of_child(part), polygon);
-    ++made_.unproved;
+    append(text_, "unproved{} {}\n", text_of_child(part), polygon);
+    ++unproved_;
 }
 
-OrderCertificate CertificateText::finished() {
-    return std::move(made_);
+std::string CertificateText::take() {
+    return std::move(text_);
 }
 
 void CertificateText::add_numbers(std::span<const std::uint32_t> numbers) {
     for (const std::uint32_t number : numbers) {
-        append(made_.text, " {}", number);
+        append(text_, " {}", number);
     }
-    made_.text += '\n';
+    text_ += '\n';
 }
 
 /// The factor of 1 is a length.
 void CertificateText::add_walls(const Factors& factors) {
-    append(made_.text, " {}", factors.one * size_m_);
+    append(text_, " {}", factors.one * size_m_);
     for (const double factor : factors.walls) {
-        append(made_.text, " {}", factor);
+        append(text_, " {}", factor);
     }
-    made_.text += '\n';
+    text_ += '\n';
 }
 
 } // namespace octant::visuals::certificate

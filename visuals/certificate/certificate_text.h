@@ -3,7 +3,6 @@
 #include "models/polygons/file_axes.h"
 #include "models/polygons/polygon_model.h"
 #include "visuals/certificate/local_model.h"
-#include "visuals/certificate/order_certificate.h"
 #include "visuals/certificate/witness.h"
 #include "visuals/draworder/draw_order.h"
 
@@ -44,7 +43,11 @@ public:
     /// No proof is found for the polygon.
     void add_doubt(int part, std::uint32_t polygon);
 
-    OrderCertificate finished();
+    /// All lines so far, which are taken away.
+    std::string take();
+
+    /// Pairs and polygons for which no proof was found.
+    std::uint64_t unproved() const { return unproved_; }
 
 private:
     void add_run();
@@ -52,7 +55,8 @@ private:
     void add_walls(const Factors& factors);
 
     double size_m_;
-    OrderCertificate made_;
+    std::string text_;
+    std::uint64_t unproved_ = 0;
     Decider run_by_ = Decider::Neither;
     std::size_t run_length_ = 0;
 };

@@ -48,7 +48,7 @@ public:
             to_do_.pop_back();
             write(task);
         }
-        return text_.finished();
+        return {text_.take(), text_.unproved()};
     }
 
 private:
