@@ -111,8 +111,9 @@ void check_eye_point(const scene::ViewSettings& view) {
 
 void check_settings(const RunSettings& settings) {
     check_listed_numbers(settings);
-    models::polygons::FileAxes::from_text(
-        settings.path.axes); // also where a built-in model needs none
+    if (settings.path.axes != "auto") { // also where a built-in model needs none
+        models::polygons::FileAxes::from_text(settings.path.axes);
+    }
     if (settings.view.inset == scene::View::Free && settings.view.kind != scene::View::Free) {
         throw Error("--inset free: expected --view free beside it, got another view");
     }

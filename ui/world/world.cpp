@@ -9,7 +9,6 @@
 #include "sim/base/units.h"
 #include "ui/base/data_files.h"
 #include "ui/settings/settings_check.h"
-#include "ui/world/aircraft_axes.h"
 #include "ui/world/aircraft_loader.h"
 #include "ui/world/place_text.h"
 #include "ui/world/scene_ground.h"
@@ -253,7 +252,6 @@ scene::FixedPoints fixed_points(const settings::RunSettings& settings, const Wor
 
 World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     settings::check_settings(settings);
-    check_axes(settings.path.axes);
     LoadedAircraft aircraft = load_aircraft(settings);
     const bool is_live = settings.path.name == settings::live_path;
     std::optional<Script> script = is_live ? std::nullopt : std::optional(load_script(settings));
