@@ -1,11 +1,14 @@
 #include "visuals/raster/ground_image.h"
 
+#include "sim/base/worker_team.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <thread>
 #include <utility>
 
 namespace octant::visuals::raster {
@@ -37,10 +40,34 @@ glm::vec3 normal_at(const scene::GroundImage& image, const glm::dvec2& at_m) {
     return {xy, std::sqrt(std::max(1.0F - glm::dot(xy, xy), 0.0F))};
 }
 
+/// Texels beyond the texture's rim are those of its rim.
+void light_row(
+    const scene::GroundTexture& texture, const Light& light, int row, GroundImage::Level& level) {
+    const scene::GroundImage& albedo = texture.albedo;
+    const auto width = static_cast<std::size_t>(albedo.width);
+    const auto y = static_cast<std::size_t>(std::min(row, albedo.height - 1));
+    std::uint32_t* const to =
+        level.texels.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(level.width);
+    for (int column = 0; column < level.width; ++column) {
+        const glm::dvec2 at_m = albedo.first_m + glm::dvec2(column, row) * albedo.step_m;
+        const glm::vec3 outwards = normal_at(texture.normal, at_m);
+        const glm::vec3 sum =
+            light.ambient + light.sunlight * std::max(glm::dot(outwards, light.to_sun), 0.0F);
+        const auto x = static_cast<std::size_t>(std::min(column, albedo.width - 1));
+        const std::uint8_t* const own = albedo.texels.data() + 3 * (y * width + x);
+        std::uint32_t packed = 0;
+        for (glm::length_t part = 0; part < 3; ++part) {
+            const float lit = std::min(static_cast<float>(own[part]) * sum[part], most_level);
+            packed |= static_cast<std::uint32_t>(lit + 0.5F) << (8 * static_cast<unsigned>(part));
+        }
+        to[column] = packed;
+    }
+}
+
 GroundImage::Level half_of(const GroundImage::Level& from) {
     GroundImage::Level to;
-    to.width = std::max(from.width / 2, 1);
-    to.height = std::max(from.height / 2, 1);
+    to.width = std::max(from.width / 2, 2);
+    to.height = std::max(from.height / 2, 2);
     to.texels.reserve(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height));
     const auto texel = [&](int x, int y) {
         return from.texels
@@ -77,30 +104,16 @@ void GroundImage::light(const Light& light) {
     }
     light_ = light;
     const scene::GroundImage& albedo = texture_.albedo;
-    Level level{albedo.width, albedo.height, {}};
-    level.texels.reserve(
-        static_cast<std::size_t>(albedo.width) * static_cast<std::size_t>(albedo.height));
-    for (int y = 0; y < albedo.height; ++y) {
-        for (int x = 0; x < albedo.width; ++x) {
-            const glm::dvec2 at_m = albedo.first_m + glm::dvec2(x, y) * albedo.step_m;
-            const glm::vec3 outwards = normal_at(texture_.normal, at_m);
-            const glm::vec3 sum =
-                light.ambient + light.sunlight * std::max(glm::dot(outwards, light.to_sun), 0.0F);
-            const std::size_t i = 3 * level.texels.size();
-            std::uint32_t packed = 0;
-            for (glm::length_t part = 0; part < 3; ++part) {
-                const auto own =
-                    static_cast<float>(albedo.texels[i + static_cast<std::size_t>(part)]);
-                const float lit = std::min(own * sum[part], most_level);
-                packed |= static_cast<std::uint32_t>(lit + 0.5F)
-                          << (8 * static_cast<unsigned>(part));
-            }
-            level.texels.push_back(packed);
-        }
-    }
     levels_.clear();
-    levels_.push_back(std::move(level));
-    while (levels_.back().width > 1 || levels_.back().height > 1) {
+    levels_.push_back({std::max(albedo.width, 2), std::max(albedo.height, 2), {}});
+    Level& level = levels_.back();
+    level.texels.resize(
+        static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height));
+    const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    share_out(static_cast<std::size_t>(level.height), threads, [&](std::size_t row, std::size_t) {
+        light_row(texture_, light, static_cast<int>(row), level);
+    });
+    while (levels_.back().width > 2 || levels_.back().height > 2) {
         levels_.push_back(half_of(levels_.back()));
     }
 }

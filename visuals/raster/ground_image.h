@@ -12,6 +12,7 @@ namespace octant::visuals::raster {
 /// of half the size each.
 class GroundImage {
 public:
+    /// At least two texels each way.
     struct Level {
         int width = 0;
         int height = 0;

@@ -108,7 +108,9 @@ PixelColour by_texture(const TileTriangle& one, const TileJob& job, int column, 
     const double most = static_cast<double>(levels.size()) - 1.0;
     const double level = size2 > 1.0 ? std::min(0.5 * coarse_log2(size2), most) : 0.0;
     const auto fine = static_cast<std::size_t>(level);
-    const double coarse_share = level - static_cast<double>(fine);
+    // Most places take one level: the next one comes in over a third of the way only.
+    const double coarse_share =
+        std::clamp(3.0 * (level - static_cast<double>(fine) - 0.5) + 0.5, 0.0, 1.0);
     const auto at_level = [&](std::size_t k) {
         const double scale = 1.0 / static_cast<double>(std::uint64_t{1} << k);
         return texel_at(levels[k], (x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5);

@@ -35,6 +35,12 @@ struct TileBox {
         , first_row(std::max(triangle.first_row - job.first_px.y, 0))
         , last_row(std::min(triangle.last_row - job.first_px.y, job.size_px.y - 1)) {}
 
+    /// A bit for each column from `left_column` on that belongs to it.
+    std::uint32_t columns_of_strip(int left_column) const {
+        const int width = right - left_column + 1;
+        return width >= strip_px ? ~0U : (1U << width) - 1U;
+    }
+
     std::uint32_t rows() const {
         return static_cast<std::uint32_t>(
             (std::uint64_t{2} << last_row) - (std::uint64_t{1} << first_row));
@@ -94,8 +100,7 @@ HWY_INLINE void paint_strip(
     const TileBox& box,
     int left,
     TileBuffer& buffer) {
-    const int width = box.right - left + 1;
-    const std::uint32_t columns = width >= strip_px ? ~0U : (1U << width) - 1U;
+    const std::uint32_t columns = box.columns_of_strip(left);
     const std::uint64_t wide_columns = std::uint64_t{columns} << left;
     const std::uint64_t full_row = job.full_row();
     const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
@@ -159,8 +164,7 @@ HWY_INLINE void paint_strip_of_middles(
     const TileBox& box,
     int left,
     TileBuffer& buffer) {
-    const int width = box.right - left + 1;
-    const std::uint32_t columns = width >= strip_px ? ~0U : (1U << width) - 1U;
+    const std::uint32_t columns = box.columns_of_strip(left);
     const std::uint64_t full_row = job.full_row();
     const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
     MiddleEdge whole(triangle.whole, triangle.top, first_px);

@@ -16,6 +16,7 @@
 #include "visuals/raster/tile_fill-inl.h"
 #include "visuals/raster/tile_levels-inl.h"
 #include "visuals/raster/tile_picture-inl.h"
+#include "visuals/raster/tile_texture-inl.h"
 
 #include <hwy/highway.h>
 #include <hwy/targets.h>
@@ -25,6 +26,20 @@ HWY_BEFORE_NAMESPACE();
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 
+/// Paints a triangle that has no depth.
+HWY_INLINE void paint_one(
+    const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+    const Fill fill_with = one.triangle->fill;
+    if (fill_with == Fill::Levels && one.extra == nullptr) {
+        paint_levels(*one.triangle, job, lanes, buffer);
+    } else if (fill_with == Fill::Texture && one.extra->cut_count == 0) {
+        paint_texture(one, job, lanes, buffer);
+    } else {
+        cover(one, job, lanes, buffer);
+        fill(one, job, buffer);
+    }
+}
+
 void PaintTile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     clear(buffer);
     std::size_t end = job.triangles.size();
@@ -33,12 +48,7 @@ void PaintTile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer)
         std::size_t first = end - 1;
         if (group == 0) {
             const TileTriangle& one = job.triangles[first];
-            if (one.triangle->fill == Fill::Levels && one.extra == nullptr) {
-                paint_levels(*one.triangle, job, lanes, buffer);
-            } else {
-                cover(one, job, lanes, buffer);
-                fill(one, job, buffer);
-            }
+            paint_one(one, job, lanes, buffer);
         } else {
             while (first > 0 && job.triangles[first - 1].triangle->group == group) {
                 --first;
