@@ -8,6 +8,7 @@
 #include "ui/commands/settings_options.h"
 #include "ui/flight/sender.h"
 #include "ui/flight/session.h"
+#include "ui/report/video_pipe.h"
 
 #include <algorithm>
 #include <array>
@@ -242,6 +243,9 @@ std::vector<Option> listen_options(ListenOptions& options) {
 }
 
 void listen_without_window(const ListenOptions& options) {
+    if (options.record.video) {
+        report::check_video(*options.record.video);
+    }
     HeadlessRun run(options);
     const flight::FlightEnd end = run.fly();
     for (const std::string& note : end.notes) {

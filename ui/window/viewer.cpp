@@ -160,8 +160,8 @@ bool Viewer::turn() {
                 ? "the edge of the map ends the flight: H goes back to the path"
                 : "the ground ends the flight: T flies on above it, H goes back to the path");
     }
-    const bool by_hand = session_->simulation().by_hand();
-    if (state_.playback.pass(wall_s, by_hand) == Playback::Moved::Restarts) {
+    const bool open_ended = session_->simulation().by_hand() || listener_ != nullptr;
+    if (state_.playback.pass(wall_s, open_ended) == Playback::Moved::Restarts) {
         go_to(state_.playback.begin_s);
     }
     if (listener_) {
@@ -304,27 +304,6 @@ void Viewer::draw() {
     shown_input_s_ = input_of_next_s;
     state_.history.add(record);
     record_frame(record);
-}
-
-/// Lets others fly what is loaded now, where there are others.
-void Viewer::follow_others() {
-    if (listener_) {
-        listener_->attach(*session_);
-        state_.playback.playing = false;
-    }
-}
-
-/// Shows what has come up to now.
-void Viewer::draw_live() {
-    const double time_s = *listener_->take(*session_); // not in steps: always a picture
-    session_->aim_at_window(input_->size_px());
-    report::FrameRecord record = session_->draw_at(time_s, std::nullopt);
-    listener_->finish_picture(record);
-    const double now_s = clock_.s();
-    record.missed = presented_s_ > 0.0 && now_s - presented_s_ > 1.5 / refresh_hz_ ? 1 : 0;
-    presented_s_ = now_s;
-    sender_.send(*session_);
-    state_.history.add(record);
 }
 
 void Viewer::record_frame(const report::FrameRecord& record) {
