@@ -25,6 +25,9 @@ done
 gnuplot -e "set datafile separator ','; set terminal png size 900,300; set output '$folder/memory.png'; set key off; \
   set xlabel 'seconds'; set ylabel 'resident, MB'; set yrange [0:*]; plot '$folder/memory.csv' every ::1 using 1:(\$2/1024) with lines" ||
   echo "no graph: gnuplot failed"
-awk -F, 'NR > 1 && $1 <= 60 {first = $2 > first ? $2 : first} $1 > 60 {most = $2 > most ? $2 : most}
-  END {grown = most - first; printf "%d kB in the first minute, %d kB at most after it: %+d kB\n", first, most, grown; exit grown > 2048}' \
-  "$folder/memory.csv"
+awk -F, 'NR > 1 && $1 <= 60 && $2 > first {first = $2}
+  NR > 1 && $1 > 60 && $2 > most {most = $2}
+  END {
+    printf "%d kB in the first minute, %d kB at most after it: %+d kB\n", first, most, most - first
+    exit most == 0 || most - first > 2048
+  }' "$folder/memory.csv"
