@@ -42,6 +42,15 @@ double focal_px(const Camera& camera, int picture_height_px) {
     return picture_height_px / (2.0 * std::tan(camera.vertical_fov_rad / 2.0));
 }
 
+glm::dvec3 ahead_of(const Camera& camera) {
+    return camera.view_to_world * glm::dvec3(0.0, 0.0, -1.0);
+}
+
+double corner_cos(const Camera& camera, double aspect) {
+    const double half_height = std::tan(camera.vertical_fov_rad / 2.0); // at distance 1
+    return 1.0 / std::sqrt(1.0 + half_height * half_height * (1.0 + aspect * aspect));
+}
+
 std::array<glm::dvec3, 4> frustum_normals(const Camera& camera, double aspect) {
     const double half_height = std::tan(camera.vertical_fov_rad / 2.0); // at distance 1
     const double half_width = half_height * aspect;

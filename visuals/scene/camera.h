@@ -31,6 +31,12 @@ glm::mat4 view_to_clip(const Camera& camera, double aspect);
 /// Pixels that a metre covers one metre before the eye, in the middle of the picture.
 double focal_px(const Camera& camera, int picture_height_px);
 
+/// The direction in which a camera looks, world axes.
+glm::dvec3 ahead_of(const Camera& camera);
+
+/// The cosine of the angle between that and the picture's corners.
+double corner_cos(const Camera& camera, double aspect);
+
 /// Planes of the view frustum through the eye, eye-relative world axes, unit normals pointing
 /// inside: left, right, bottom, top. A point is inside when every dot product is >= 0.
 std::array<glm::dvec3, 4> frustum_normals(const Camera& camera, double aspect);

@@ -27,8 +27,9 @@ namespace octant::visuals::terrain {
 ///
 /// The mesh is conforming: triangles neither gap nor overlap nor touch an edge between its ends.
 /// The triangles for a narrower frustum are triangles of the unculled mesh. Without geomorphs every
-/// sample of the ground is within the mesh's error_px of the triangles on the screen. With them a
-/// vertex appears and disappears in the middle of the edge that it halves.
+/// sample in the picture is within the mesh's error_px of the triangles, where the view has a
+/// direction. With them a vertex appears and disappears in the middle of the edge that it halves,
+/// and samples around it may lie 1.4 times as far off while it moves.
 class ErrorMesher {
 public:
     /// `ground` must outlive the mesher and stay where it is.

@@ -32,6 +32,12 @@ struct MeshView {
     /// middle of the picture, picture height / (2 tan(vertical field of view / 2)). For meshes by
     /// screen-space error.
     double focal_px = 869.1;
+    /// Where the picture looks, a unit vector in world axes. Errors are then those in the flat
+    /// picture around that direction; with a zero vector, those in a picture on a sphere around the
+    /// eye.
+    glm::dvec3 ahead{0.0};
+    /// The cosine of the angle between `ahead` and what the picture's corners show.
+    double corner_cos = 1.0;
     /// The ground is lowered by d^2 / (2 R), where d is the horizontal distance from the eye; 0 =
     /// flat earth. For meshes by screen-space error.
     double earth_radius_m = 0.0;
