@@ -1,4 +1,5 @@
 #include "sim/base/utf8.h"
+#include "ui/base/stop_signals.h"
 #include "ui/commands/command_line.h"
 #include "ui/commands/commands.h"
 #include "ui/window/listen_command.h"
@@ -54,7 +55,9 @@ int main(int argc, char** argv) {
     octant::visuals::gl::tune_allocator();
     std::signal(SIGXFSZ, SIG_IGN); // a file that grows too large is a write error, told in one line
     try {
-        return run(argc, argv);
+        const int code = run(argc, argv);
+        octant::ui::base::end_by_signal_that_came();
+        return code;
     } catch (const std::bad_alloc&) {
         std::fputs("octant: expected enough memory for this input, got none\n", stderr);
         return wrong_input;

@@ -12,7 +12,12 @@
 
 namespace octant {
 
-std::string read_file(const std::filesystem::path& path, std::size_t largest_bytes) {
+namespace {
+
+constexpr std::size_t longest_line_bytes = 65535;
+
+/// Throws Error for what is no regular file that can be read.
+std::ifstream opened(const std::filesystem::path& path) {
     std::error_code code;
     const auto status = std::filesystem::status(path, code);
     if (!std::filesystem::exists(status)) {
@@ -25,16 +30,24 @@ std::string read_file(const std::filesystem::path& path, std::size_t largest_byt
     if (!std::filesystem::is_regular_file(status)) {
         error_in(path, "expected a regular file, got a device or pipe");
     }
+    std::ifstream in(path, std::ios::binary);
+    if (!in) {
+        error_in(path, fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
+    }
+    return in;
+}
+
+} // namespace
+
+std::string read_file(const std::filesystem::path& path, std::size_t largest_bytes) {
+    std::ifstream in = opened(path);
+    std::error_code code;
     const auto size = std::filesystem::file_size(path, code);
     const auto refuse_size = [&] {
         error_in(path, fmt::format("expected at most {} bytes, got more", largest_bytes));
     };
     if (!code && size > largest_bytes) {
         refuse_size();
-    }
-    std::ifstream in(path, std::ios::binary);
-    if (!in) {
-        error_in(path, fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
     }
     // Read in pieces: a file that grows meanwhile costs no more memory than the largest allowed.
     std::string bytes;
@@ -58,6 +71,36 @@ std::string read_text_file(const std::filesystem::path& path, std::size_t larges
         error_in(path, "expected text, got binary data");
     }
     return text;
+}
+
+LineReader::LineReader(const std::filesystem::path& path)
+    : path_(path)
+    , in_(opened(path))
+    , line_(longest_line_bytes + 1, '\0') {}
+
+std::optional<std::string_view> LineReader::next() {
+    in_.getline(line_.data(), static_cast<std::streamsize>(line_.size()));
+    if (in_.bad()) {
+        error_in(path_, "cannot be read to its end");
+    }
+    const auto taken = static_cast<std::size_t>(in_.gcount());
+    torn_ = in_.eof() && taken > 0;
+    if (in_.eof() && taken == 0) {
+        return std::nullopt;
+    }
+    ++number_;
+    if (in_.fail()) {
+        error_at(
+            path_, number_, fmt::format("expected at most {} bytes, got more", longest_line_bytes));
+    }
+    std::string_view line(line_.data(), torn_ ? taken : taken - 1);
+    if (line.find('\0') != std::string_view::npos) {
+        error_in(path_, "expected text, got binary data");
+    }
+    if (!line.empty() && line.back() == '\r') {
+        line.remove_suffix(1);
+    }
+    return line;
 }
 
 std::vector<std::string_view> split_lines(std::string_view text) {

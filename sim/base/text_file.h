@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,30 @@ read_file(const std::filesystem::path& path, std::size_t largest_bytes = std::si
 /// read_file for text: also refuses a file with a zero byte ("expected text, got binary data").
 std::string read_text_file(
     const std::filesystem::path& path, std::size_t largest_bytes = std::size_t{256} << 20);
+
+/// The lines of a text file one after the other, in the memory of one of them.
+class LineReader {
+public:
+    /// Throws Error for what is no regular file that can be read.
+    explicit LineReader(const std::filesystem::path& path);
+
+    /// The next line without its line end (LF or CRLF), valid until the next call; nothing at the
+    /// end. Throws Error for a zero byte and for a line of more than 65,535 bytes.
+    std::optional<std::string_view> next();
+
+    /// Number of the line that next() gave, from 1.
+    int number() const { return number_; }
+
+    /// True when that line is the file's last and has no line end.
+    bool torn() const { return torn_; }
+
+private:
+    std::filesystem::path path_;
+    std::ifstream in_;
+    std::string line_;
+    int number_ = 0;
+    bool torn_ = false;
+};
 
 /// The lines of a text without their line ends (LF or CRLF). Views into `text`.
 std::vector<std::string_view> split_lines(std::string_view text);

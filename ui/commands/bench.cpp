@@ -4,6 +4,7 @@
 #include "ui/base/progress.h"
 #include "ui/flight/make_renderer.h"
 #include "ui/flight/session.h"
+#include "ui/report/frame_times.h"
 #include "ui/report/statistics.h"
 #include "visuals/gl/bare_grid.h"
 #include "visuals/scene/step_writer.h"

@@ -80,7 +80,7 @@ ordercache::CachedOrder found(
     if (cache) {
         return ordercache::cached_order(*cache, std::move(model), options);
     }
-    return {.ordered = draworder::ordered(std::move(model), options), .notes = {}};
+    return {.ordered = draworder::ordered(std::move(model), options), .file = {}, .notes = {}};
 }
 
 /// Finds the orders, or reads those that are to be checked.

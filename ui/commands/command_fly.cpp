@@ -1,6 +1,7 @@
 #include "sim/base/error.h"
 #include "sim/base/file_status.h"
 #include "ui/base/progress.h"
+#include "ui/base/stop_signals.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/flight_summary.h"
 #include "ui/commands/read_option.h"
@@ -10,6 +11,7 @@
 #include "ui/flight/replay.h"
 #include "ui/flight/sender.h"
 #include "ui/flight/session.h"
+#include "ui/report/packed_recording.h"
 #include "ui/report/video_pipe.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
@@ -101,13 +103,15 @@ void start_replay(const flight::Replay& replay, flight::Session& session, bool q
     session.replay(replay.decisions);
 }
 
-/// Every frame of the session, recorded.
-void fly_frames(
-    const FlyOptions& options, flight::Session& session, flight::FlightRecorder& recorder) {
+/// Every frame of the session, recorded, until a signal comes. What ended the flight before its
+/// last frame, empty = nothing did.
+std::string
+fly_frames(const FlyOptions& options, flight::Session& session, flight::FlightRecorder& recorder) {
     flight::Sender sender(options.send);
     base::Progress progress(session.world().flight.title, session.frames(), options.quiet);
     const base::Stopwatch since_start;
-    for (int frame = 0; frame < session.frames(); ++frame) {
+    int frame = 0;
+    for (; frame < session.frames() && !(base::StopSignals::came() && frame > 0); ++frame) {
         if (options.settings.time.realtime) {
             wait_for(since_start, frame / session.rate_hz());
         }
@@ -122,6 +126,12 @@ void fly_frames(
         progress.show(frame + 1, fmt::format("{:.1f} ms", record.frame_ms));
     }
     progress.finish();
+    return frame == session.frames() ? std::string()
+                                     : fmt::format(
+                                           "{} after {} of {} frames",
+                                           base::StopSignals::name(),
+                                           frame,
+                                           session.frames());
 }
 
 /// What the automatic share of smooth polygons came to.
@@ -160,13 +170,18 @@ void fly(FlyOptions options) {
         start_replay(*options.replay, session, options.quiet);
     }
     flight::FlightRecorder recorder(options.record, options.settings, session);
+    const base::StopSignals stop_signals;
+    std::string stopped;
     std::unique_ptr<flight::LiveFlight> packets;
     if (live) {
         packets = fly_packets(*options.replay, session, recorder, options.quiet);
     } else {
-        fly_frames(options, session, recorder);
+        stopped = fly_frames(options, session, recorder);
     }
-    const flight::FlightEnd end = recorder.finish(session);
+    if (!stopped.empty()) {
+        base::say(options.quiet, fmt::format("note: ended by {}", stopped));
+    }
+    const flight::FlightEnd end = recorder.finish(session, stopped);
     if (session.shading() && !options.replay) {
         base::say(options.quiet, shading_note(*session.shading()));
     }
@@ -222,12 +237,12 @@ std::vector<Option> options_of(FlyOptions& options) {
         {.name = "--replay",
          .form = "DIR",
          .meaning =
-             "fly the recording in DIR again by its rows, as far as they go, and check that "
-             "states and pictures are the same (exit code 1 when not, or when it was cut short "
-             "and has none to compare with)",
+             "fly the recording in DIR, a folder or a packed file, again by its rows, as far as "
+             "they go, and check that states and pictures are the same (exit code 1 when not, or "
+             "when it was cut short and has none to compare with)",
          .read =
              [&options](const Words& words) {
-                 const std::filesystem::path folder = words.front();
+                 const std::filesystem::path folder = report::recording_folder(words.front());
                  options.replay = flight::read_replay(folder);
                  options.record.replay_of = folder;
                  options.settings = settings::read_settings(folder / "run.json");

@@ -1,9 +1,10 @@
+#include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "ui/base/progress.h"
 #include "ui/commands/commands.h"
-#include "ui/flight/track_files.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
+#include "ui/report/packed_recording.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ struct ReportOptions {
 void make_report(const ReportOptions& options) {
     std::vector<report::LoadedRecording> recordings;
     for (const std::string& folder : options.folders) {
-        recordings.push_back(report::load_recording(folder));
+        recordings.push_back(report::load_recording(report::recording_folder(folder)));
         if (recordings.back().ended_early) {
             base::say(
                 options.quiet,
@@ -32,16 +33,22 @@ void make_report(const ReportOptions& options) {
                     "note: {} ended early, after {} frames",
                     folder,
                     recordings.back().records.size()));
-            report::complete_timing_files(recordings.back());
-            flight::cut_tracks(
-                folder,
-                recordings.back().records.empty() ? 0.0
-                                                  : recordings.back().records.back().sim_time_s);
+        }
+        if (!recordings.back().disagreement.empty()) {
+            base::say(
+                options.quiet,
+                fmt::format(
+                    "note: {}: summary and rows disagree: {}",
+                    folder,
+                    recordings.back().disagreement));
         }
     }
+    const std::filesystem::path first = options.folders.front();
+    if (options.out.empty() && std::filesystem::is_regular_file(first)) {
+        throw Error("--out: expected a file for the report of a packed recording, got none");
+    }
     const std::filesystem::path file =
-        options.out.empty() ? std::filesystem::path(options.folders.front()) / "report.html"
-                            : std::filesystem::path(options.out);
+        options.out.empty() ? first / "report.html" : std::filesystem::path(options.out);
     write_file(file, report::html_report(recordings));
     base::say(options.quiet, fmt::format("report: {}", file.string()));
 }
@@ -57,7 +64,7 @@ Command report_command() {
             {required(list_option(
                  "folders",
                  "DIR...",
-                 "folders of recordings, also of flights that were killed",
+                 "folders of recordings, also of flights that were killed, or packed ones",
                  Takes::SomeWords,
                  options->folders)),
              showing(

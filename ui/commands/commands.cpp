@@ -33,12 +33,14 @@ Program octant_program(std::vector<Command> of_windows) {
         .commands = {
             fly_command(),
             report_command(),
+            pack_command(),
             terrain_command(),
             draw_order_command(),
             mesh_error_command(),
             model_command(),
             refine_command(),
             simplify_command(),
+            sweep_command(),
             study_command(),
             bench_command()}};
     constexpr std::ptrdiff_t after_fly = 1;

@@ -7,6 +7,7 @@
 namespace octant::ui::commands {
 
 Command fly_command();
+Command pack_command();
 Command report_command();
 Command terrain_command();
 Command draw_order_command();
@@ -14,6 +15,7 @@ Command mesh_error_command();
 Command model_command();
 Command refine_command();
 Command simplify_command();
+Command sweep_command();
 Command study_command();
 Command bench_command();
 

@@ -58,8 +58,8 @@ void add_setting_options(std::vector<Option>& options, RunSettings& settings) {
         {.name = "--settings",
          .form = "FILE",
          .meaning =
-             "take settings from FILE or from a recording's run.json; other options override "
-             "them",
+             "take settings from FILE or from a recording (run.json, folder or packed file); other "
+             "options override them",
          .read = [&settings](const Words& words) {
              settings = settings::read_settings(words.front());
          }});

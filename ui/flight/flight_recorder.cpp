@@ -4,6 +4,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
+#include "ui/base/json_name.h"
 #include "ui/base/stopwatch.h"
 #include "ui/base/version.h"
 #include "ui/flight/track_files.h"
@@ -48,13 +49,17 @@ report::PictureView view_of(const visuals::scene::Picture& picture) {
     return {picture.width, picture.height, 4, std::as_bytes(std::span(picture.rgba)), false};
 }
 
-report::RunInfo run_info(const settings::RunSettings& settings, const Session& session) {
+report::RunInfo run_info(
+    const settings::RunSettings& settings,
+    const Session& session,
+    const std::filesystem::path& folder) {
     const world::Flight& flight = session.world().flight;
     report::RunInfo info;
     info.title = flight.title;
-    info.settings_json = settings::settings_json(settings).dump(2);
+    info.settings_json = settings::settings_json(world::as_recorded(settings, folder)).dump(2);
     info.version = base::program_version();
     info.commit = base::program_commit();
+    info.program_hash = base::program_hash();
     info.device = session.renderer().info().device;
     info.path_offset_m = {flight.place_m.x, flight.place_m.y, flight.offset_m};
     info.machine = report::read_machine_info(std::chrono::system_clock::now());
@@ -71,12 +76,12 @@ report::RunInfo run_info(const settings::RunSettings& settings, const Session& s
     }
     info.notes = session.world().notes;
     info.inputs = world::input_hashes(settings);
+    info.files = world::files_to_keep(settings, session.world().order_files);
     return info;
 }
 
 bool is_recorded(const RecordOptions& options, const settings::RunSettings& settings) {
-    const bool changed_checkout = base::program_commit().ends_with('+');
-    if (changed_checkout || !options.folder || !report::is_run_file(*options.folder / "run.json")) {
+    if (!options.folder || !report::is_run_file(*options.folder / "run.json")) {
         return false;
     }
     using Json = nlohmann::ordered_json;
@@ -85,13 +90,15 @@ bool is_recorded(const RecordOptions& options, const settings::RunSettings& sett
     const Json program = {
         {"name", "octant"},
         {"version", base::program_version()},
-        {"commit", base::program_commit()}};
+        {"commit", base::program_commit()},
+        {"hash", base::program_hash()}};
     Json inputs = Json::object();
     for (const auto& [input, hash] : world::input_hashes(settings)) {
-        inputs[input] = hash;
+        inputs[base::json_of_name(input)] = hash;
     }
-    return run.contains("summary") &&
-           run.value("settings", Json()) == settings::settings_json(settings) &&
+    return run.contains("summary") && !run.contains("stopped") &&
+           run.value("settings", Json()) ==
+               settings::settings_json(world::as_recorded(settings, *options.folder)) &&
            run.value("inputs", Json()) == inputs && run.value("program", Json()) == program;
 }
 
@@ -114,13 +121,14 @@ FlightRecorder::FlightRecorder(
                 settings.view.size_px.x, settings.view.size_px.y, 4, false, session.rate_hz()});
     }
     if (options.folder) {
-        report::RunInfo info = run_info(settings, session);
+        report::RunInfo info = run_info(settings, session, *options.folder);
         if (options.replay_of) {
-            info.facts.emplace_back("replay of", options.replay_of->string());
+            info.facts.emplace_back("replay of", options.replay_of->filename().string());
         }
         recording_.emplace(*options.folder, std::move(info));
-        // Whole at first: a killed flight's tracks are cut by its report.
-        write_tracks(*options.folder, session.world(), session.world().flight.trajectory.end_s());
+        if (!session.simulation().is_live()) {
+            tracks_.emplace(*options.folder, session.world());
+        }
     }
 }
 
@@ -136,9 +144,12 @@ void FlightRecorder::add(report::FrameRecord record, Session& session) {
     }
     record.record_ms = writing.ms();
     if (recording_) {
+        if (tracks_) {
+            tracks_->fly_until(record.sim_time_s);
+        }
         recording_->add(record);
     } else {
-        records_.push_back(record);
+        times_.add(record);
     }
 }
 
@@ -159,9 +170,10 @@ void FlightRecorder::write_flown(const Session& session) const {
     }
 }
 
-FlightEnd FlightRecorder::finish(const Session& session) {
+FlightEnd FlightRecorder::finish(const Session& session, const std::string& stopped) {
     FlightEnd end;
-    end.state_hash = session.state_hash();
+    // A stopped flight may have simulated the next picture's time already.
+    end.state_hash = stopped.empty() ? session.state_hash() : session.picture_state_hash();
     end.picture_hash = session.picture_hash();
     if (video_) {
         if (const auto fault = video_->finish()) {
@@ -175,14 +187,16 @@ FlightEnd FlightRecorder::finish(const Session& session) {
             {end.state_hash,
              end.picture_hash,
              report::read_cpu_times(),
-             visuals::groundfile::damage_lines()});
+             visuals::groundfile::damage_lines(),
+             stopped});
+        tracks_.reset();
         write_flown(session);
         end.notes.push_back(write_report(*options_.folder));
         if (!report::gnuplot_installed()) {
             end.missing.emplace_back("plots not made: gnuplot is not installed");
         }
     } else {
-        end.statistics = report::statistics_of(records_);
+        end.statistics = times_.statistics();
     }
     return end;
 }

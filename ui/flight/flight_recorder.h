@@ -1,6 +1,8 @@
 #pragma once
 
 #include "ui/flight/session.h"
+#include "ui/flight/track_files.h"
+#include "ui/report/frame_times.h"
 #include "ui/report/recording.h"
 #include "ui/report/video_pipe.h"
 #include "ui/settings/settings.h"
@@ -29,12 +31,15 @@ struct FlightEnd {
     std::string fault;                ///< what went wrong beside the recording; empty = nothing
 };
 
-/// True when the folder holds a finished recording of these settings and input files by this
-/// program. Never true for a program built from a changed checkout: two of them may differ.
+/// True when the folder holds a finished recording of these settings and input files by this very
+/// program file.
 bool is_recorded(const RecordOptions& options, const settings::RunSettings& settings);
 
-/// What run.json says of a flight.
-report::RunInfo run_info(const settings::RunSettings& settings, const Session& session);
+/// What run.json says of a flight that is recorded into a folder. Settings name files absolutely.
+report::RunInfo run_info(
+    const settings::RunSettings& settings,
+    const Session& session,
+    const std::filesystem::path& folder);
 
 /// Makes a folder's report.html anew; gives a line that says where it is. Throws Error.
 std::string write_report(const std::filesystem::path& folder);
@@ -55,8 +60,9 @@ public:
     /// Takes the frame that the session has just drawn. Throws Error (disk full).
     void add(report::FrameRecord record, Session& session);
 
-    /// Ends the recording and writes its report. Throws Error.
-    FlightEnd finish(const Session& session);
+    /// Ends the recording and writes its report. `stopped` says what ended the flight before its
+    /// last frame, empty = nothing did. Throws Error.
+    FlightEnd finish(const Session& session, const std::string& stopped = {});
 
 private:
     void write_flown(const Session& session) const;
@@ -64,8 +70,9 @@ private:
     RecordOptions options_;
     int picture_every_ = 0;
     std::optional<report::Recording> recording_;
+    std::optional<GrowingTracks> tracks_;
     std::optional<report::VideoPipe> video_;
-    std::vector<report::FrameRecord> records_; ///< without a folder
+    report::FrameTimes times_; ///< without a folder
     double flown_until_s_ = 0.0;
 };
 

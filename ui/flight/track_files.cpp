@@ -26,22 +26,32 @@ sim::Trajectory flown(const sim::Trajectory& path, double until_s) {
     return sim::Trajectory(std::move(samples));
 }
 
-/// Time at the head of a line of either track file: "12.5,..." or "#12.5"; nothing for others.
-std::optional<double> time_of(std::string_view line) {
-    if (!line.empty() && line.front() == '#') {
-        return finite_number(line.substr(1));
+/// The part of a track file's text from `begin` on that was flown by a time: up to the first line
+/// that tells a later one. Such lines begin with digits in track.csv, with # in track.acmi.
+std::string_view flown_part(std::string_view text, std::size_t begin, double until_s) {
+    std::size_t at = begin;
+    while (at < text.size()) {
+        const std::size_t end = text.find('\n', at) + 1;
+        std::string_view line = text.substr(at, end - at - 1);
+        if (line.starts_with('#')) {
+            line.remove_prefix(1);
+        } else {
+            line = line.substr(0, line.find(','));
+        }
+        const bool tells_time = text[at] == '#' || text.front() == 't';
+        const auto time_s = tells_time ? finite_number(line) : std::nullopt;
+        if (time_s && *time_s > until_s + rounding_s) {
+            break;
+        }
+        at = end;
     }
-    return finite_number(line.substr(0, line.find(',')));
+    return text.substr(begin, at - begin);
 }
 
-} // namespace
-
-void write_tracks(
-    const std::filesystem::path& folder,
+flightpaths::AcmiHeader acmi_header(
     const world::World& world,
     const sim::Trajectory& flight,
     const std::optional<models::heights::GeoPlace>& origin) {
-    write_file(folder / "track.csv", flightpaths::track_csv(flight));
     flightpaths::AcmiHeader header;
     header.title = world.flight.title;
     header.kind = world.leader_kind;
@@ -54,31 +64,46 @@ void write_tracks(
     if (origin) {
         header.origin = {origin->latitude_deg, origin->longitude_deg};
     }
-    write_file(folder / "track.acmi", flightpaths::track_acmi(flight, header));
+    return header;
+}
+
+} // namespace
+
+void write_tracks(
+    const std::filesystem::path& folder,
+    const world::World& world,
+    const sim::Trajectory& flight,
+    const std::optional<models::heights::GeoPlace>& origin) {
+    write_file(folder / "track.csv", flightpaths::track_csv(flight));
+    write_file(
+        folder / "track.acmi", flightpaths::track_acmi(flight, acmi_header(world, flight, origin)));
 }
 
 void write_tracks(const std::filesystem::path& folder, const world::World& world, double until_s) {
     write_tracks(folder, world, flown(world.flight.trajectory, until_s), world.ground_place);
 }
 
-void cut_tracks(const std::filesystem::path& folder, double until_s) {
-    for (const char* name : {"track.csv", "track.acmi"}) {
-        if (!is_there(folder / name)) {
-            continue;
+GrowingTracks::GrowingTracks(const std::filesystem::path& folder, const world::World& world)
+    : tracks_{
+          Track{GrowingFile(folder / "track.csv"), flightpaths::track_csv(world.flight.trajectory)},
+          Track{
+              GrowingFile(folder / "track.acmi"),
+              flightpaths::track_acmi(
+                  world.flight.trajectory,
+                  acmi_header(world, world.flight.trajectory, world.ground_place))}} {}
+
+void GrowingTracks::fly_until(double time_s) {
+    constexpr double flush_every_s = 1.0;
+    for (Track& track : tracks_) {
+        const std::string_view flown = flown_part(track.text, track.written, time_s);
+        track.file.append(flown);
+        track.written += flown.size();
+    }
+    if (!flushed_s_ || time_s - *flushed_s_ >= flush_every_s) {
+        for (Track& track : tracks_) {
+            track.file.flush();
         }
-        const std::string text = read_text_file(folder / name);
-        const bool timed_lines = std::string_view(name) == "track.csv";
-        std::string kept;
-        for (const std::string_view line : split_lines(text)) {
-            const bool tells_time = timed_lines || (!line.empty() && line.front() == '#');
-            const auto time_s = tells_time ? time_of(line) : std::nullopt;
-            if (time_s && *time_s > until_s + rounding_s) {
-                break;
-            }
-            kept += line;
-            kept += '\n';
-        }
-        write_file(folder / name, kept);
+        flushed_s_ = time_s;
     }
 }
 

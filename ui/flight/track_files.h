@@ -1,9 +1,13 @@
 #pragma once
 
+#include "sim/base/output_file.h"
 #include "ui/world/world.h"
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace octant::ui::flight {
 
@@ -19,8 +23,26 @@ void write_tracks(
     const sim::Trajectory& flight,
     const std::optional<models::heights::GeoPlace>& origin);
 
-/// Shortens the tracks of a flight that was killed to what was flown. Files that are not there are
-/// left alone. Throws Error.
-void cut_tracks(const std::filesystem::path& folder, double until_s);
+/// The tracks of a flight along the world's path while it is flown: at any time the files hold what
+/// has been flown, so that those of a killed flight go no further than it came.
+class GrowingTracks {
+public:
+    /// Makes both files. Throws Error.
+    GrowingTracks(const std::filesystem::path& folder, const world::World& world);
+
+    /// Appends what was flown up to a time, not before earlier ones, and hands it to the system at
+    /// the latest every second of it. Throws Error (disk full).
+    void fly_until(double time_s);
+
+private:
+    struct Track {
+        GrowingFile file;
+        std::string text; ///< of the whole path
+        std::size_t written = 0;
+    };
+
+    std::array<Track, 2> tracks_; ///< track.csv, track.acmi
+    std::optional<double> flushed_s_;
+};
 
 } // namespace octant::ui::flight

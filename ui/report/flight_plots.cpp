@@ -1,5 +1,6 @@
 #include "ui/report/flight_plots.h"
 
+#include "ui/report/frame_times.h"
 #include "ui/report/statistics.h"
 
 #include <algorithm>

@@ -217,29 +217,24 @@ FrameRecord as_written(const FrameRecord& record) {
 
 FrameFile
 read_frame_csv(const std::filesystem::path& path, std::span<const std::string_view> further) {
-    constexpr std::size_t largest_bytes = std::size_t{2} << 30; // two days at 60 frames a second
-    const std::string text = read_text_file(path, largest_bytes);
+    LineReader lines(path);
     FrameFile file;
-    file.torn = !text.empty() && text.back() != '\n';
-    auto lines = split_lines(text);
-    if (file.torn) {
-        const bool header_torn = lines.size() == 1 && header_line().starts_with(lines.front());
-        if (lines.size() > 1 || header_torn) {
-            lines.pop_back();
-        }
-    }
-    if (lines.empty()) {
+    const auto header = lines.next();
+    file.torn = header && lines.torn();
+    if (!header || (file.torn && header_line().starts_with(*header))) {
         return file;
     }
-    const auto order = read_header(path, lines.front(), further);
-    file.records.reserve(lines.size() - 1);
-    for (std::size_t i = 1; i < lines.size(); ++i) {
-        const int line_number = static_cast<int>(i + 1);
-        const FrameRecord record = read_line(path, line_number, lines[i], order);
+    const auto order = read_header(path, *header, further);
+    while (const auto line = lines.next()) {
+        file.torn = lines.torn();
+        if (file.torn) {
+            break;
+        }
+        const FrameRecord record = read_line(path, lines.number(), *line, order);
         if (!file.records.empty() && record.frame <= file.records.back().frame) {
             error_at(
                 path,
-                line_number,
+                lines.number(),
                 fmt::format(
                     "expected a frame after {}, got {}", file.records.back().frame, record.frame));
         }

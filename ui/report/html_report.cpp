@@ -68,6 +68,12 @@ std::string badges(const LoadedRecording& recording) {
     };
     std::string html =
         badge(recording.ended_early ? "ended early" : "ended", recording.ended_early);
+    if (!recording.disagreement.empty()) {
+        html += badge("rows and summary disagree", true);
+    }
+    if (!recording.run.stopped.empty()) {
+        html += badge("stopped", true);
+    }
     const bool noisy = !recording.run.noise.empty();
     html += badge(noisy ? "noisy" : "quiet machine", noisy);
     if (recording.statistics.frames == 0) {
@@ -80,6 +86,13 @@ std::string badges(const LoadedRecording& recording) {
     if (recording.ended_early) {
         notes += "The flight was cut short: the figures are those of the frames recorded until "
                  "then, and there are no hashes.";
+    }
+    if (!recording.disagreement.empty()) {
+        notes += "The summary is not that of the rows, whose figures these are: " +
+                 recording.disagreement + ". ";
+    }
+    if (!recording.run.stopped.empty()) {
+        notes += "Ended by " + recording.run.stopped + ". ";
     }
     return notes.empty() ? html : html + "<p class=\"note\">" + escaped(notes) + "</p>\n";
 }

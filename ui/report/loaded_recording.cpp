@@ -1,12 +1,13 @@
 #include "ui/report/loaded_recording.h"
 
 #include "sim/base/error.h"
-#include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "ui/report/frame_csv.h"
-#include "ui/report/timing_files.h"
+#include "ui/report/frame_times.h"
 
 #include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
 #include <optional>
 #include <string_view>
 
@@ -46,6 +47,27 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
     return pictures;
 }
 
+/// Figures in which run.json's summary is not that of the rows, whose last digits it rounds.
+std::string disagreement_of(const RunFile& run, const Statistics& statistics) {
+    std::string text;
+    for (const Figure& figure : figures()) {
+        const auto told = std::ranges::find_if(
+            run.summary, [&](const auto& row) { return row.first == figure.key; });
+        const auto value = told == run.summary.end() ? std::nullopt : finite_number(told->second);
+        const double by_rows = figure.value(statistics);
+        if (value && std::abs(*value - by_rows) > 1e-6 * std::max(1.0, std::abs(by_rows))) {
+            text += fmt::format(
+                "{}{}: {} in run.json, {:.{}f} by the rows",
+                text.empty() ? "" : "; ",
+                figure.key,
+                told->second,
+                by_rows,
+                figure.decimals);
+        }
+    }
+    return text;
+}
+
 } // namespace
 
 LoadedRecording load_recording(const fs::path& folder) {
@@ -64,22 +86,9 @@ LoadedRecording load_recording(const fs::path& folder) {
     }
     recording.statistics = statistics_of(recording.records);
     recording.ended_early = !recording.run.ended;
+    recording.disagreement = disagreement_of(recording.run, recording.statistics);
     recording.pictures = pictures_in(folder);
     return recording;
-}
-
-void complete_timing_files(const LoadedRecording& recording) {
-    std::error_code ignored;
-    const fs::path mangohud = recording.folder / "mangohud.csv";
-    if (!fs::exists(mangohud, ignored)) {
-        write_file(
-            mangohud,
-            mangohud_csv(recording.records, recording.run.machine_info, recording.run.device));
-    }
-    const fs::path trace = recording.folder / "trace.json";
-    if (!fs::exists(trace, ignored)) {
-        write_file(trace, trace_json(recording.records));
-    }
 }
 
 } // namespace octant::ui::report

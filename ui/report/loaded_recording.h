@@ -17,15 +17,15 @@ struct LoadedRecording {
     RunFile run;
     std::vector<FrameRecord> records;
     Statistics statistics;
-    bool ended_early = false;                    ///< killed: no summary in run.json
+    bool ended_early = false; ///< killed: no summary in run.json
+    /// What the summary in run.json says otherwise than the rows do: "frames: 230 in run.json, 120
+    /// by its rows; ..."; empty where they agree or where there is no summary.
+    std::string disagreement;
     std::vector<std::filesystem::path> pictures; ///< in frame order
 };
 
 /// Reads a recording, a killed one too: then a torn last line of frames.csv is left out. Throws
 /// Error for what is no recording or is damaged.
 LoadedRecording load_recording(const std::filesystem::path& folder);
-
-/// Writes mangohud.csv and trace.json where a killed flight left none. Throws Error.
-void complete_timing_files(const LoadedRecording& recording);
 
 } // namespace octant::ui::report

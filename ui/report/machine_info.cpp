@@ -104,8 +104,10 @@ read_machine_info(std::chrono::system_clock::time_point start, const std::filesy
     info.memory_kb = count_from(memory.substr(0, memory.find(' ')));
     info.os = or_unknown(value_of(text_of(root / "etc/os-release"), "PRETTY_NAME", '='));
     utsname names{};
-    info.kernel =
-        uname(&names) == 0 ? fmt::format("{} {}", names.sysname, names.release) : "unknown";
+    const bool named = uname(&names) == 0;
+    info.kernel = named ? fmt::format("{} {}", names.sysname, names.release) : "unknown";
+    const char* const node = std::getenv("SLURMD_NODENAME");
+    info.host = node != nullptr ? node : (named ? names.nodename : "unknown");
     info.compiler = compiler_text();
     const char* threads = std::getenv("LP_NUM_THREADS");
     info.lp_num_threads = threads != nullptr ? threads : "not set";

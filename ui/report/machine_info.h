@@ -20,6 +20,7 @@ struct CpuTimes {
 
 /// Where a flight was timed.
 struct MachineInfo {
+    std::string host; ///< its name among Slurm's nodes, else in its network
     std::string cpu;
     int cores = 0;
     std::uint64_t memory_kb = 0;

@@ -3,35 +3,20 @@
 #include "sim/base/error.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/png_file.h"
+#include "ui/report/recording_names.h"
 #include "ui/report/timing_files.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <fmt/format.h>
-#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace octant::ui::report {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// True for the names that a recording gives its files, and for what a kill left of writing one.
-bool is_recording_name(std::string_view name) {
-    constexpr std::array<std::string_view, 8> names{
-        "run.json",
-        "frames.csv",
-        "mangohud.csv",
-        "trace.json",
-        "track.acmi",
-        "track.csv",
-        "flight.csv",
-        "report.html"};
-    return is_unfinished(name) || (name.starts_with("picture-") && name.ends_with(".png")) ||
-           std::find(names.begin(), names.end(), name) != names.end();
-}
 
 /// The folder's entries; throws Error when it cannot be read.
 std::vector<fs::path> entries_of(const fs::path& folder) {
@@ -47,12 +32,17 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
     return entries;
 }
 
-/// Makes the folder ready for a new recording.
-fs::path prepared(fs::path folder) {
+fs::path made(fs::path folder) {
     make_folder(folder);
+    return folder;
+}
+
+/// Makes the folder, which is locked, ready for a new recording.
+void prepare(const fs::path& folder) {
     const std::vector<fs::path> entries = entries_of(folder);
     const auto foreign = std::find_if(entries.begin(), entries.end(), [](const fs::path& entry) {
-        return !is_unfinished(entry);
+        const std::string name = entry.filename().string();
+        return name != lock_name && !is_unfinished(entry);
     });
     if (foreign != entries.end() && !is_run_file(folder / "run.json")) {
         error_in(
@@ -62,16 +52,26 @@ fs::path prepared(fs::path folder) {
                 printable(foreign->filename().string())));
     }
     for (const fs::path& entry : entries) {
+        const std::string name = entry.filename().string();
         std::error_code code;
-        if (is_recording_name(entry.filename().string()) && !fs::remove(entry, code) && code) {
+        if (name == lock_name || !is_recording_name(name)) {
+            continue;
+        }
+        fs::remove_all(entry, code);
+        if (code) {
             error_in(entry, fmt::format("cannot be removed: {}", code.message()));
         }
     }
-    return folder;
 }
 
-/// run.json before frames.csv: where there are frames there is a run.json that says whose.
-fs::path begun(const fs::path& folder, const RunInfo& info) {
+/// run.json before frames.csv: where there are frames there is a run.json that says whose. The
+/// copies of what the run reads are written and forgotten.
+fs::path begun(const fs::path& folder, RunInfo& info) {
+    prepare(folder);
+    for (const auto& [name, bytes] : std::exchange(info.files, {})) {
+        make_folder((folder / name).parent_path());
+        write_file(folder / name, bytes);
+    }
     write_file(folder / "run.json", run_json(info));
     return folder / "frames.csv";
 }
@@ -79,24 +79,37 @@ fs::path begun(const fs::path& folder, const RunInfo& info) {
 } // namespace
 
 Recording::Recording(fs::path folder, RunInfo info, int flush_every_frames)
-    : folder_(prepared(std::move(folder)))
+    : folder_(made(std::move(folder)))
+    , lock_(folder_)
     , info_(std::move(info))
     , flush_every_frames_(flush_every_frames)
-    , frames_file_(begun(folder_, info_)) {
+    , frames_file_(begun(folder_, info_))
+    , mangohud_file_(folder_ / "mangohud.csv")
+    , trace_file_(folder_ / "trace.json") {
     assert(flush_every_frames >= 1);
     frames_file_.append(frame_csv_header());
+    mangohud_file_.append(mangohud_head(info_.machine, info_.device));
+    trace_file_.append(trace_head());
+    flush();
+}
+
+void Recording::flush() {
     frames_file_.flush();
+    mangohud_file_.flush();
+    trace_file_.flush();
+    unflushed_frames_ = 0;
 }
 
 void Recording::add(const FrameRecord& record) {
     constexpr double flush_every_s = 0.5;
-    records_.push_back(as_written(record));
+    const FrameRecord written = as_written(record);
+    times_.add(written);
     frames_file_.append(frame_csv_line(record));
-    const bool many =
-        records_.size() - flushed_records_ >= static_cast<std::size_t>(flush_every_frames_);
+    mangohud_file_.append(mangohud_line(written));
+    trace_file_.append(trace_events(written));
+    const bool many = ++unflushed_frames_ >= flush_every_frames_;
     if (many || record.wall_s - flushed_wall_s_ >= flush_every_s) {
-        frames_file_.flush();
-        flushed_records_ = records_.size();
+        flush();
         flushed_wall_s_ = record.wall_s;
     }
 }
@@ -116,10 +129,10 @@ void Recording::set_settings(std::string settings_json) {
 
 Statistics Recording::finish(const RunEnd& end) {
     frames_file_.flush();
-    const Statistics statistics = statistics_of(records_);
-    write_file(folder_ / "mangohud.csv", mangohud_csv(records_, info_.machine, info_.device));
-    write_file(folder_ / "trace.json", trace_json(records_));
+    const Statistics statistics = times_.statistics();
     write_file(folder_ / "run.json", run_json(info_, end, statistics));
+    trace_file_.append(trace_end());
+    flush();
     return statistics;
 }
 

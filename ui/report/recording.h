@@ -1,28 +1,29 @@
 #pragma once
 
 #include "sim/base/output_file.h"
+#include "ui/report/folder_lock.h"
 #include "ui/report/frame_record.h"
+#include "ui/report/frame_times.h"
 #include "ui/report/picture_view.h"
 #include "ui/report/run_file.h"
 #include "ui/report/statistics.h"
 
 #include <filesystem>
-#include <span>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace octant::ui::report {
 
-/// A recording being written: run.json at once, frames.csv as the flight goes, the summary,
-/// mangohud.csv and trace.json at the end. A kill loses the frames of at most half a second;
-/// load_recording works on what is left. Reads no clock: time comes with the records.
+/// A recording being written: run.json at once; frames.csv, mangohud.csv and trace.json as the
+/// flight goes, so that it takes no more memory the longer it is; the summary at the end. A kill
+/// loses the frames of at most half a second; load_recording works on what is left. Nobody else
+/// can record into the folder meanwhile. Reads no clock: time comes with the records.
 class Recording {
 public:
     /// Makes `folder` and its parents. In a folder that is a recording already its files are
-    /// removed and all others left alone. Throws Error for a folder with anything else in it, and
-    /// when nothing can be written there. frames.csv is handed to the system at the latest every
-    /// `flush_every_frames` (>= 1) frames or half a second of wall_s.
+    /// removed and all others left alone. Throws Error for a folder with anything else in it, for
+    /// one that is being recorded into, and when nothing can be written there. Rows are handed to
+    /// the system at the latest every `flush_every_frames` (>= 1) frames or half a second of
+    /// wall_s.
     Recording(std::filesystem::path folder, RunInfo info, int flush_every_frames = 60);
 
     /// Appends one frame. Throws Error (disk full); nothing more may be added then.
@@ -38,22 +39,24 @@ public:
     /// JSON object as text. Throws Error.
     void set_settings(std::string settings_json);
 
-    /// Writes everything that belongs to the end and gives the figures of the summary. Once only.
-    /// Throws Error.
+    /// Writes the summary into run.json, then ends the other files; gives the summary's figures.
+    /// Once only. Throws Error.
     Statistics finish(const RunEnd& end);
 
     const std::filesystem::path& folder() const { return folder_; }
 
-    /// What was added, as frames.csv has it.
-    std::span<const FrameRecord> records() const { return records_; }
-
 private:
+    void flush();
+
     std::filesystem::path folder_;
+    FolderLock lock_;
     RunInfo info_;
     int flush_every_frames_;
     GrowingFile frames_file_;
-    std::vector<FrameRecord> records_;
-    std::size_t flushed_records_ = 0;
+    GrowingFile mangohud_file_;
+    GrowingFile trace_file_;
+    FrameTimes times_;
+    int unflushed_frames_ = 0;
     double flushed_wall_s_ = 0.0;
 };
 

@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "ui/base/json_name.h"
 #include "ui/report/json_text.h"
 
 #include <cassert>
@@ -27,6 +28,7 @@ Json machine_json(const RunInfo& info) {
     const MachineInfo& machine = info.machine;
     const auto ticks_per_s = static_cast<double>(sysconf(_SC_CLK_TCK));
     return {
+        {"host", machine.host},
         {"cpu", machine.cpu},
         {"cores", machine.cores},
         {"memory_kb", machine.memory_kb},
@@ -51,7 +53,11 @@ Json start_json(const RunInfo& info) {
         {"format", format_name},
         {"format_version", format_version},
         {"title", info.title},
-        {"program", {{"name", "octant"}, {"version", info.version}, {"commit", info.commit}}},
+        {"program",
+         {{"name", "octant"},
+          {"version", info.version},
+          {"commit", info.commit},
+          {"hash", info.program_hash}}},
         {"settings", settings},
         {"machine", machine_json(info)}};
     const glm::dvec3& offset_m = info.path_offset_m;
@@ -60,7 +66,7 @@ Json start_json(const RunInfo& info) {
     json["notes"] = info.notes;
     json["inputs"] = Json::object();
     for (const auto& [file, hash] : info.inputs) {
-        json["inputs"][file] = hash;
+        json["inputs"][base::json_of_name(file)] = hash;
     }
     return json;
 }
@@ -146,6 +152,7 @@ double number_in(const Json& json, const char* name, double largest) {
 
 MachineInfo machine_from(const Json& json) {
     MachineInfo machine;
+    machine.host = text_in(json, "host");
     machine.cpu = text_in(json, "cpu");
     machine.cores = static_cast<int>(number_in(json, "cores", 1e6));
     machine.memory_kb = static_cast<std::uint64_t>(number_in(json, "memory_kb", 1e15));
@@ -182,6 +189,9 @@ std::string run_json(const RunInfo& info, const RunEnd& end, const Statistics& s
         json["notes"].push_back(note);
     }
     json["summary"] = summary_json(statistics, end);
+    if (!end.stopped.empty()) {
+        json["stopped"] = end.stopped;
+    }
     json["noise"] = noise_json(info.machine, end);
     return dumped(json);
 }
@@ -205,6 +215,8 @@ RunFile read_run_file(const std::filesystem::path& path) {
     run.path_offset = text_in(json, "path_offset_m");
     const Json summary = member(json, "summary");
     run.ended = summary.is_object();
+    append_rows(run.summary, summary.is_object() ? summary : Json::object(), "");
+    run.stopped = text_in(json, "stopped");
     run.state_hash = text_in(summary, "state_hash");
     run.picture_hash = text_in(summary, "picture_hash");
     run.noise = noise_from(json, run.machine_info);

@@ -26,12 +26,14 @@ struct RunInfo {
     std::string settings_json = "{}"; ///< an object as JSON text; its order is kept
     std::string version;
     std::string commit;
+    std::string program_hash;      ///< of the program's file
     std::string device;            ///< that draws; "gl_renderer" in the file
     glm::dvec3 path_offset_m{0.0}; ///< how the path was moved to stand over the ground
     MachineInfo machine;
     Rows facts;                     ///< anything else the report should show
     std::vector<std::string> notes; ///< what a person was told: voids filled, legs clipped, ...
     Rows inputs;                    ///< files that were read and hashes of what was in them
+    Rows files; ///< copies that lie in the recording: "inputs/a.obj" and its bytes; not in run.json
 };
 
 /// What is known after the end.
@@ -40,6 +42,9 @@ struct RunEnd {
     std::optional<std::uint64_t> picture_hash; ///< nothing where pictures follow the clock
     CpuTimes cpu_times; ///< read after the last frame (and after the video is whole)
     std::vector<std::string> notes = {}; ///< more of them than there were at the start
+    /// What ended the flight before its last frame: "SIGINT after 120 of 240 frames"; empty =
+    /// nothing did.
+    std::string stopped = {};
 };
 
 /// run.json with `summary` and `noise` when `end` is given. `info.settings_json` must be a JSON
@@ -56,7 +61,9 @@ struct RunFile {
     MachineInfo machine_info; ///< without cpu_times
     std::string device;       ///< as RunInfo::device
     std::string path_offset;  ///< "0, 0, 120 m"
+    Rows summary;             ///< figures by their keys, empty unless ended
     bool ended = false;       ///< there is a summary
+    std::string stopped;      ///< RunEnd::stopped
     std::string state_hash;   ///< 16 hex digits, empty unless ended
     std::string picture_hash;
     std::vector<std::string> noise; ///< see noise_reasons

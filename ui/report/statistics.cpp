@@ -2,12 +2,8 @@
 
 #include "sim/base/nearest_rank.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
-#include <numeric>
-#include <vector>
 
 namespace octant::ui::report {
 
@@ -103,43 +99,6 @@ constexpr std::array all_figures{
         value_of<&S::jitter_ms>},
 };
 
-double mean_of(std::span<const double> values) {
-    const double sum = std::accumulate(values.begin(), values.end(), 0.0);
-    return sum / static_cast<double>(values.size());
-}
-
-double sample_deviation(std::span<const double> values, double mean) {
-    if (values.size() < 2) {
-        return 0.0;
-    }
-    double squares = 0.0;
-    for (const double value : values) {
-        squares += (value - mean) * (value - mean);
-    }
-    return std::sqrt(squares / static_cast<double>(values.size() - 1));
-}
-
-double mean_change(std::span<const double> values) {
-    if (values.size() < 2) {
-        return 0.0;
-    }
-    double sum = 0.0;
-    for (std::size_t i = 1; i < values.size(); ++i) {
-        sum += std::abs(values[i] - values[i - 1]);
-    }
-    return sum / static_cast<double>(values.size() - 1);
-}
-
-double low_fps(std::span<const double> sorted, int permille) {
-    const double slowest_ms = mean_of(sorted.last(rank_of(sorted.size(), permille)));
-    return slowest_ms > 0.0 ? 1000.0 / slowest_ms : 0.0;
-}
-
-int count_above(std::span<const double> sorted, double limit_ms) {
-    return static_cast<int>(
-        sorted.end() - std::upper_bound(sorted.begin(), sorted.end(), limit_ms));
-}
-
 } // namespace
 
 std::span<const Figure> figures() {
@@ -149,41 +108,6 @@ std::span<const Figure> figures() {
 double nearest_rank(std::span<const double> sorted, int permille) {
     assert(permille >= 1 && permille <= 1000);
     return sorted.empty() ? 0.0 : sorted[rank_of(sorted.size(), permille) - 1];
-}
-
-Statistics statistics_of_times(std::span<const double> frame_ms) {
-    Statistics result;
-    if (frame_ms.empty()) {
-        return result;
-    }
-    std::vector<double> sorted(frame_ms.begin(), frame_ms.end());
-    std::sort(sorted.begin(), sorted.end());
-    result.frames = static_cast<int>(frame_ms.size());
-    result.mean_ms = mean_of(frame_ms);
-    result.sd_ms = sample_deviation(frame_ms, result.mean_ms);
-    result.p50_ms = nearest_rank(sorted, 500);
-    result.p90_ms = nearest_rank(sorted, 900);
-    result.p95_ms = nearest_rank(sorted, 950);
-    result.p99_ms = nearest_rank(sorted, 990);
-    result.p999_ms = nearest_rank(sorted, 999);
-    result.max_ms = sorted.back();
-    result.low_1pct_fps = low_fps(sorted, 10);
-    result.low_01pct_fps = low_fps(sorted, 1);
-    result.overruns_16ms = count_above(sorted, overrun_16_ms);
-    result.overruns_33ms = count_above(sorted, overrun_33_ms);
-    result.overruns_41ms = count_above(sorted, overrun_41_ms);
-    result.jitter_ms = mean_change(frame_ms);
-    return result;
-}
-
-Statistics statistics_of(std::span<const FrameRecord> records) {
-    std::vector<double> frame_ms;
-    for (const FrameRecord& record : records) {
-        if (!record.warm_up) {
-            frame_ms.push_back(record.frame_ms);
-        }
-    }
-    return statistics_of_times(frame_ms);
 }
 
 } // namespace octant::ui::report

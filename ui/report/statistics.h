@@ -1,7 +1,5 @@
 #pragma once
 
-#include "ui/report/frame_record.h"
-
 #include <span>
 #include <string_view>
 
@@ -46,11 +44,6 @@ struct Figure {
 
 /// All figures in the order of run.json.
 std::span<const Figure> figures();
-
-Statistics statistics_of(std::span<const FrameRecord> records);
-
-/// The same from bare frame times in milliseconds, in flight order.
-Statistics statistics_of_times(std::span<const double> frame_ms);
 
 /// The value of rank ceil(n * permille / 1000), counted from 1, of values sorted upwards.
 /// `permille` in [1, 1000]; 0 when there are no values.

@@ -84,45 +84,46 @@ void append_frame(Out out, const FrameRecord& record) {
 
 } // namespace
 
-std::string mangohud_csv(
-    std::span<const FrameRecord> records, const MachineInfo& machine, const std::string& renderer) {
-    std::string text = "os,cpu,gpu,ram,kernel,driver,cpuscheduler\n";
-    fmt::format_to(
-        std::back_inserter(text),
-        "{},{},{},{},{},,\n",
+std::string mangohud_head(const MachineInfo& machine, const std::string& renderer) {
+    return fmt::format(
+        "os,cpu,gpu,ram,kernel,driver,cpuscheduler\n{},{},{},{},{},,\n"
+        "fps,frametime,cpu_load,cpu_power,gpu_load,cpu_temp,gpu_temp,gpu_core_clock,"
+        "gpu_mem_clock,gpu_vram_used,gpu_power,ram_used,swap_used,process_rss,cpu_mhz,elapsed\n",
         plain_field(machine.os),
         plain_field(machine.cpu),
         plain_field(renderer),
         machine.memory_kb,
         plain_field(machine.kernel));
-    text +=
-        "fps,frametime,cpu_load,cpu_power,gpu_load,cpu_temp,gpu_temp,gpu_core_clock,"
-        "gpu_mem_clock,gpu_vram_used,gpu_power,ram_used,swap_used,process_rss,cpu_mhz,elapsed\n";
-    for (const FrameRecord& record : records) {
-        if (record.warm_up) {
-            continue;
-        }
-        const double fps = record.frame_ms > 0.0 ? 1000.0 / record.frame_ms : 0.0;
-        fmt::format_to(
-            std::back_inserter(text),
-            "{:.3f},{:.4f},0,0,0,0,0,0,0,0,0,0,0,0,0,{:.0f}\n",
-            fps,
-            record.frame_ms,
-            1e9 * record.wall_s + 1e6 * record.frame_ms);
+}
+
+std::string mangohud_line(const FrameRecord& record) {
+    if (record.warm_up) {
+        return {};
     }
+    const double fps = record.frame_ms > 0.0 ? 1000.0 / record.frame_ms : 0.0;
+    return fmt::format(
+        "{:.3f},{:.4f},0,0,0,0,0,0,0,0,0,0,0,0,0,{:.0f}\n",
+        fps,
+        record.frame_ms,
+        1e9 * record.wall_s + 1e6 * record.frame_ms);
+}
+
+std::string trace_head() {
+    return "[\n"
+           "{\"name\":\"process_name\",\"ph\":\"M\",\"pid\":1,\"tid\":1,"
+           "\"args\":{\"name\":\"octant\"}},\n"
+           "{\"name\":\"thread_name\",\"ph\":\"M\",\"pid\":1,\"tid\":1,"
+           "\"args\":{\"name\":\"frames\"}}";
+}
+
+std::string trace_events(const FrameRecord& record) {
+    std::string text;
+    append_frame(std::back_inserter(text), record);
     return text;
 }
 
-std::string trace_json(std::span<const FrameRecord> records) {
-    std::string text = "{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n"
-                       "{\"name\":\"process_name\",\"ph\":\"M\",\"pid\":1,\"tid\":1,"
-                       "\"args\":{\"name\":\"octant\"}},\n"
-                       "{\"name\":\"thread_name\",\"ph\":\"M\",\"pid\":1,\"tid\":1,"
-                       "\"args\":{\"name\":\"frames\"}}";
-    for (const FrameRecord& record : records) {
-        append_frame(std::back_inserter(text), record);
-    }
-    return text + "\n]}\n";
+std::string trace_end() {
+    return "\n]\n";
 }
 
 } // namespace octant::ui::report

@@ -2,8 +2,11 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "ui/base/json_name.h"
 #include "ui/report/json_text.h"
+#include "ui/report/packed_recording.h"
 #include "ui/settings/settings_fields.h"
+#include "ui/settings/settings_words.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -34,8 +37,16 @@ ordered_json json_of(double value) {
     return value;
 }
 
+ordered_json json_of(const std::string& value) {
+    return base::json_of_name(value);
+}
+
 ordered_json json_of(const std::vector<std::string>& value) {
-    return value;
+    ordered_json names = ordered_json::array();
+    for (const std::string& name : value) {
+        names.push_back(base::json_of_name(name));
+    }
+    return names;
 }
 
 template <class Value>
@@ -45,7 +56,7 @@ ordered_json json_of(const std::optional<Value>& value) {
 
 /// Returns the text of a JSON scalar as a person would have typed it.
 std::string scalar_text(const ordered_json& json) {
-    return json.is_string() ? json.get<std::string>() : json.dump();
+    return json.is_string() ? base::name_from_json(json.get<std::string>()) : json.dump();
 }
 
 template <class Value>
@@ -71,7 +82,10 @@ void read_field(const FieldInfo& info, const ordered_json& json, std::vector<std
         throw Error(
             fmt::format("{}: expected a list of names, got {}", info.name, printable(json.dump())));
     }
-    value = json.get<std::vector<std::string>>();
+    value.clear();
+    for (const ordered_json& name : json) {
+        value.push_back(base::name_from_json(name.get<std::string>()));
+    }
 }
 
 int line_of_key(const std::string& text, std::string_view key) {
@@ -89,11 +103,13 @@ ordered_json settings_json(const RunSettings& settings) {
     return json;
 }
 
-RunSettings read_settings(const std::filesystem::path& path) {
+RunSettings read_settings(const std::filesystem::path& given) {
+    const std::filesystem::path path = report::run_file_of(given);
     constexpr std::size_t largest_bytes = std::size_t{16} << 20;
     const std::string text = read_text_file(path, largest_bytes);
     ordered_json json = report::parsed_json(path, text);
-    if (json.is_object() && json.contains("settings")) {
+    const bool recorded = json.is_object() && json.contains("settings");
+    if (recorded) {
         json = ordered_json(json["settings"]);
     }
     if (!json.is_object()) {
@@ -121,6 +137,9 @@ RunSettings read_settings(const std::filesystem::path& path) {
                 line_of_key(text, key),
                 fmt::format("expected the name of a setting, got '{}'", printable(key)));
         }
+    }
+    if (recorded) {
+        find_files_from(path.parent_path(), settings);
     }
     return settings;
 }

@@ -1,5 +1,7 @@
 #include "ui/window/frame_history.h"
 
+#include "ui/report/frame_times.h"
+
 namespace octant::ui::window {
 
 void FrameHistory::add(const report::FrameRecord& record) {

@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "ui/base/progress.h"
+#include "ui/base/stop_signals.h"
 #include "ui/commands/read_option.h"
 #include "ui/commands/settings_options.h"
 #include "ui/window/viewer.h"
@@ -57,8 +58,9 @@ void view(const ViewOptions& options, bool quiet) {
     for (const std::string& note : viewer.session().world().notes) {
         base::say(quiet, "note: " + note);
     }
+    const base::StopSignals stop_signals;
     int frames = 0;
-    while (viewer.turn()) {
+    while (viewer.turn() && !base::StopSignals::came()) {
         if (options.settings.time.frames && ++frames >= *options.settings.time.frames) {
             break;
         }

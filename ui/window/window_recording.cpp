@@ -29,14 +29,15 @@ constexpr const char* flight_name = "flight.csv";
 /// Returns settings that fly without a window what a window flies from this step on.
 settings::RunSettings from_step(
     const flight::Session& session, long step, const std::filesystem::path& folder, bool by_hand) {
-    settings::RunSettings settings = world::with_absolute_files(session.settings());
+    settings::RunSettings settings =
+        world::as_recorded(world::with_absolute_files(session.settings()), folder);
     settings.drawing.context = settings::ContextKind::OsMesa;
     settings.time.frames.reset();
     settings.time.seconds.reset();
     const sim::Trajectory& path = session.world().flight.trajectory;
     settings.time.start_s = std::max(0.0, sim::time_of_step(step) - path.start_s());
     if (by_hand) {
-        settings.path.name = absolute_path(folder / flight_name).string();
+        settings.path.name = flight_name;
         settings.path.place = "0,0";
         settings.path.heading_deg = 0.0;
         settings.path.height_mode = settings::HeightMode::Datum;
@@ -56,9 +57,12 @@ long first_step_of(flight::Session& session) {
     return simulation.step();
 }
 
-report::RunInfo info_of(const flight::Session& session, const settings::RunSettings& to_repeat) {
+report::RunInfo info_of(
+    const flight::Session& session,
+    const settings::RunSettings& to_repeat,
+    const std::filesystem::path& folder) {
     report::RunInfo info =
-        flight::run_info(world::with_absolute_files(session.settings()), session);
+        flight::run_info(world::with_absolute_files(session.settings()), session, folder);
     info.settings_json = settings::settings_json(to_repeat).dump(2);
     info.facts.emplace_back(report::flown_fact, "in a window, by the clock");
     return info;
@@ -77,7 +81,10 @@ WindowRecording::WindowRecording(std::filesystem::path folder, flight::Session& 
     : first_step_(first_step_of(session))
     , recording_(
           folder,
-          info_of(session, from_step(session, first_step_, folder, session.simulation().by_hand())))
+          info_of(
+              session,
+              from_step(session, first_step_, folder, session.simulation().by_hand()),
+              folder))
     , by_hand_(session.simulation().by_hand())
     , last_time_s_(sim::time_of_step(first_step_))
     , next_picture_s_(last_time_s_) {

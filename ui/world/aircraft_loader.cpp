@@ -33,7 +33,15 @@ namespace shading = visuals::shading;
 
 namespace {
 
-using Notes = std::vector<std::string>;
+/// What loading comes upon beside the models.
+struct Found {
+    std::vector<std::string> notes;
+    std::vector<std::filesystem::path> order_files;
+
+    void note(const std::vector<std::string>& more) {
+        notes.insert(notes.end(), more.begin(), more.end());
+    }
+};
 
 /// An OBJ file with more faces is flown as a mesh.
 constexpr std::size_t most_polygons_of_a_model = 50'000;
@@ -54,7 +62,7 @@ draworder::OrderedModel with_order(
     models::polygons::PolygonModel model,
     const settings::RunSettings& settings,
     const OrderLimits& most,
-    Notes& notes) {
+    Found& found) {
     if (settings.surface.hidden_surface != scene::HiddenSurface::Octant ||
         model.polygons.size() > most.polygons) {
         draworder::DrawOrder order = draworder::file_order(model);
@@ -68,7 +76,8 @@ draworder::OrderedModel with_order(
     }
     ordercache::CachedOrder cached =
         ordercache::cached_order(*settings.surface.order_cache, std::move(model), options);
-    notes.insert(notes.end(), cached.notes.begin(), cached.notes.end());
+    found.note(cached.notes);
+    found.order_files.push_back(cached.file);
     return std::move(cached.ordered);
 }
 
@@ -97,11 +106,11 @@ scene::AircraftModel ready(
     const sim::AircraftKind* kind,
     const settings::RunSettings& settings,
     const OrderLimits& most,
-    Notes& notes) {
+    Found& found) {
     const glm::dvec3 eye_m = kind != nullptr ? kind->pilot_eye_m : scene::pilot_eye_m(model);
     const models::polygons::PolygonModel whole = model;
-    draworder::OrderedModel ordered = with_order(std::move(model), settings, most, notes);
-    notes.insert(notes.end(), ordered.notes.begin(), ordered.notes.end());
+    draworder::OrderedModel ordered = with_order(std::move(model), settings, most, found);
+    found.note(ordered.notes);
     std::vector<glm::vec3> normals =
         shading::normals_of_pieces(whole, shading::corner_normals(whole), ordered.model);
     return scene::aircraft_model(
@@ -109,7 +118,7 @@ scene::AircraftModel ready(
 }
 
 models::polygons::PolygonModel
-read_polygon_model(const std::filesystem::path& file, const std::string& axes, Notes& notes) {
+read_polygon_model(const std::filesystem::path& file, const std::string& axes, Found& found) {
     if (file.parent_path() == base::data_folder() / "models") {
         return models::polygons::read_obj(file);
     }
@@ -119,18 +128,18 @@ read_polygon_model(const std::filesystem::path& file, const std::string& axes, N
     for (glm::dvec3& vertex_m : shape.vertices_m) {
         vertex_m = usual.file_from_body(vertex_m);
     }
-    const AircraftAxes found = aircraft_axes(axes, file, shape);
-    if (std::string note = note_of(found, file); !note.empty()) {
-        notes.push_back(std::move(note));
+    const AircraftAxes shown = aircraft_axes(axes, file, shape);
+    if (std::string note = note_of(shown, file); !note.empty()) {
+        found.notes.push_back(std::move(note));
     }
-    return found.axes.text() == usual.text() ? std::move(model)
-                                             : models::polygons::read_obj(file, found.axes);
+    return shown.axes.text() == usual.text() ? std::move(model)
+                                             : models::polygons::read_obj(file, shown.axes);
 }
 
 /// The polygons that stand in for a mesh far away. Without a painting order they only throw
 /// shadows.
 scene::AircraftModel
-far_model(MeshAircraft& mesh, const settings::RunSettings& settings, Notes& notes) {
+far_model(MeshAircraft& mesh, const settings::RunSettings& settings, Found& found) {
     if (mesh.polygons.polygons.size() <= most_polygons_of_a_mesh) {
         try {
             return ready(
@@ -138,32 +147,32 @@ far_model(MeshAircraft& mesh, const settings::RunSettings& settings, Notes& note
                 nullptr,
                 settings,
                 {most_polygons_of_a_mesh, most_seconds_of_a_mesh},
-                notes);
+                found);
         } catch (const Error& fault) {
-            notes.push_back(
+            found.notes.push_back(
                 fmt::format("{}; the mesh is drawn at every distance instead", fault.what()));
         }
     }
     mesh.polygons_error_m = std::numeric_limits<double>::infinity();
-    return ready(std::move(mesh.polygons), nullptr, settings, {}, notes);
+    return ready(std::move(mesh.polygons), nullptr, settings, {}, found);
 }
 
 scene::AircraftModel
-load_model(const std::string& name, const settings::RunSettings& settings, Notes& notes) {
+load_model(const std::string& name, const settings::RunSettings& settings, Found& found) {
     const std::filesystem::path file = base::aircraft_file(name);
     if (is_polygon_model(file)) {
-        models::polygons::PolygonModel model = read_polygon_model(file, settings.path.axes, notes);
-        notes.insert(notes.end(), model.notes.begin(), model.notes.end());
+        models::polygons::PolygonModel model = read_polygon_model(file, settings.path.axes, found);
+        found.note(model.notes);
         return ready(
             std::move(model),
             sim::find_aircraft_kind(name),
             settings,
             {most_polygons_of_a_model, settings.surface.order_seconds},
-            notes);
+            found);
     }
     MeshAircraft mesh = read_mesh_aircraft(file, settings.path.axes);
-    notes.insert(notes.end(), mesh.notes.begin(), mesh.notes.end());
-    scene::AircraftModel model = far_model(mesh, settings, notes);
+    found.note(mesh.notes);
+    scene::AircraftModel model = far_model(mesh, settings, found);
     add_meshes(model, mesh);
     return model;
 }
@@ -187,6 +196,7 @@ LoadedAircraft load_aircraft(const settings::RunSettings& settings) {
         ordercache::make_cache_folder(*settings.surface.order_cache);
     }
     LoadedAircraft loaded;
+    Found told;
     const auto add = [&](scene::AircraftModel model) {
         loaded.models.push_back(std::make_shared<const scene::AircraftModel>(std::move(model)));
     };
@@ -196,13 +206,15 @@ LoadedAircraft load_aircraft(const settings::RunSettings& settings) {
         loaded.aircraft.push_back(static_cast<std::uint32_t>(found - names.begin()));
         if (found == names.end()) {
             names.push_back(name);
-            add(load_model(name, settings, loaded.notes));
+            add(load_model(name, settings, told));
         }
     }
     if (auto cockpit = load_cockpit(settings.path.aircraft.front())) {
         loaded.cockpit = static_cast<std::uint32_t>(loaded.models.size());
         add(std::move(*cockpit));
     }
+    loaded.notes = std::move(told.notes);
+    loaded.order_files = std::move(told.order_files);
     return loaded;
 }
 

@@ -4,6 +4,7 @@
 #include "visuals/scene/aircraft_model.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,7 +17,8 @@ struct LoadedAircraft {
     std::vector<std::shared_ptr<const visuals::scene::AircraftModel>> models;
     std::vector<std::uint32_t> aircraft;
     std::optional<std::uint32_t> cockpit;
-    std::vector<std::string> notes; ///< what a person should be told
+    std::vector<std::string> notes;                 ///< what a person should be told
+    std::vector<std::filesystem::path> order_files; ///< kept painting orders that were used
 };
 
 /// Loads the aircraft of a run, and the cockpit of the first one where it has one: polygon models

@@ -5,6 +5,7 @@
 #include "sim/base/error.h"
 #include "sim/base/file_status.h"
 #include "sim/base/hash.h"
+#include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
 #include "ui/settings/terrain_name.h"
 #include "visuals/groundfile/ground_file.h"
@@ -20,6 +21,9 @@ namespace octant::ui::world {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Where a recording keeps copies of the files that its run read.
+constexpr const char* inputs_folder = "inputs";
 
 std::string absolute(const std::string& file) {
     return absolute_path(file).string();
@@ -69,6 +73,79 @@ std::vector<fs::path> ground_files(const std::string& terrain) {
     return files;
 }
 
+/// Names of material files in an OBJ file, as they stand there.
+std::vector<std::string> material_names(const fs::path& obj) {
+    std::vector<std::string> names;
+    LineReader lines(obj);
+    while (const auto line = lines.next()) {
+        const auto words = split_words(*line);
+        if (words.size() > 1 && words.front() == "mtllib") {
+            names.emplace_back(words[1].data(), line->data() + line->size());
+            names.insert(names.end(), words.begin() + 1, words.end());
+        }
+    }
+    return names;
+}
+
+/// Files in the order in which they are found, each once, with names that differ.
+struct Collector {
+    std::vector<InputFile> files;
+
+    bool has(const fs::path& file) const {
+        return std::ranges::find(files, file, &InputFile::file) != files.end();
+    }
+
+    bool has_name(const std::string& name) const {
+        return std::ranges::find(files, name, &InputFile::name) != files.end();
+    }
+
+    /// A folder in the recording in which nothing of that name lies yet.
+    fs::path folder_for(const fs::path& file) const {
+        const fs::path name = file.filename();
+        fs::path folder = inputs_folder;
+        for (int i = 2; has_name((folder / name).string()); ++i) {
+            folder = fs::path(inputs_folder) / std::to_string(i);
+        }
+        return folder;
+    }
+
+    /// False where the file was there already.
+    bool add(const fs::path& file) {
+        if (has(file)) {
+            return false;
+        }
+        const fs::path own = base::data_folder();
+        if (file.parent_path().parent_path() == own) {
+            files.push_back({file, file.lexically_relative(own).string(), Kept::BuiltIn});
+        } else {
+            files.push_back({file, (folder_for(file) / file.filename()).string(), Kept::Inside});
+        }
+        return true;
+    }
+
+    void add_outside(const fs::path& file) {
+        if (!has(file)) {
+            files.push_back({file, file.filename().string(), Kept::Outside});
+        }
+    }
+
+    /// An aircraft and, of an OBJ file, its materials beside it.
+    void add_model(const fs::path& file) {
+        if (!add(file) || ending_of(file) != ".obj") {
+            return;
+        }
+        const InputFile model = files.back();
+        for (const std::string& name : material_names(file)) {
+            const fs::path materials = file.parent_path() / name;
+            const fs::path kept = fs::path(model.name).parent_path() / name;
+            const bool beside = fs::path(name).is_relative() && !name.starts_with("..");
+            if (beside && is_file(materials) && !has(materials)) {
+                files.push_back({materials, kept.lexically_normal().string(), model.kept});
+            }
+        }
+    }
+};
+
 } // namespace
 
 settings::RunSettings with_absolute_files(settings::RunSettings settings) {
@@ -95,29 +172,76 @@ settings::RunSettings with_absolute_files(settings::RunSettings settings) {
     return settings;
 }
 
-std::vector<std::pair<std::string, std::string>>
-input_hashes(const settings::RunSettings& settings) {
-    std::vector<fs::path> files;
+std::vector<InputFile> input_files(const settings::RunSettings& settings) {
+    Collector found;
     if (!is_live(settings)) {
-        files.push_back(base::path_file(settings.path.name, settings.path.aircraft.front()));
+        found.add(base::path_file(settings.path.name, settings.path.aircraft.front()));
     }
     for (const std::string& name : settings.path.aircraft) {
-        files.push_back(base::aircraft_file(name));
-        const fs::path materials = fs::path(files.back()).replace_extension(".mtl");
-        if (is_file(materials)) {
-            files.push_back(materials);
-        }
+        found.add_model(base::aircraft_file(name));
     }
-    const std::vector<fs::path> ground = ground_files(settings.path.terrain);
-    files.insert(files.end(), ground.begin(), ground.end());
+    for (const fs::path& file : ground_files(settings.path.terrain)) {
+        found.add_outside(file);
+    }
     if (settings.air.drape) {
-        files.emplace_back(*settings.air.drape);
+        found.add_outside(*settings.air.drape);
     }
+    return std::move(found.files);
+}
+
+std::vector<std::pair<std::string, std::string>>
+input_hashes(const settings::RunSettings& settings) {
     std::vector<std::pair<std::string, std::string>> hashes;
-    for (const fs::path& file : files) {
-        hashes.emplace_back(file.string(), hash_of_file(file));
+    for (const InputFile& input : input_files(settings)) {
+        hashes.emplace_back(input.name, hash_of_file(input.file));
     }
     return hashes;
+}
+
+settings::RunSettings as_recorded(const settings::RunSettings& settings, const fs::path& folder) {
+    const std::vector<InputFile> inputs = input_files(settings);
+    const fs::path from = fs::absolute(folder).lexically_normal();
+    const auto rename = [&](std::string& name) {
+        const auto found = std::ranges::find_if(
+            inputs, [&](const InputFile& input) { return input.file == fs::path(name); });
+        if (found != inputs.end() && found->kept == Kept::Inside) {
+            name = found->name;
+        } else if (
+            (found != inputs.end() && found->kept == Kept::Outside) ||
+            (found == inputs.end() && fs::path(name).is_absolute())) {
+            name = fs::absolute(name).lexically_normal().lexically_proximate(from).string();
+        }
+    };
+    settings::RunSettings renamed = settings;
+    rename(renamed.path.name);
+    std::ranges::for_each(renamed.path.aircraft, rename);
+    rename(renamed.path.terrain);
+    if (renamed.air.drape) {
+        rename(*renamed.air.drape);
+    }
+    if (renamed.surface.order_cache) {
+        renamed.surface.order_cache = (fs::path(inputs_folder) / "orders").string();
+    }
+    return renamed;
+}
+
+KeptFiles
+files_to_keep(const settings::RunSettings& settings, const std::vector<fs::path>& order_files) {
+    constexpr std::size_t largest_bytes = std::size_t{1} << 30;
+    KeptFiles kept;
+    for (const InputFile& input : input_files(settings)) {
+        if (input.kept == Kept::Inside) {
+            kept.emplace_back(input.name, read_file(input.file, largest_bytes));
+        }
+    }
+    for (const fs::path& file : order_files) {
+        if (is_file(file)) { // one that could not be written was told
+            kept.emplace_back(
+                (fs::path(inputs_folder) / "orders" / file.filename()).string(),
+                read_file(file, largest_bytes));
+        }
+    }
+    return kept;
 }
 
 } // namespace octant::ui::world

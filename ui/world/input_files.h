@@ -2,20 +2,52 @@
 
 #include "ui/settings/settings.h"
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace octant::ui::world {
 
-/// The settings with every file named by its absolute path, so that they mean the same from any
-/// folder. Built-in names stay.
+/// The settings with every file in them by its absolute name, so that they mean the same in any
+/// folder.
 settings::RunSettings with_absolute_files(settings::RunSettings settings);
 
-/// The files that a run reads for these settings, built-in ones too, and hashes of their bytes (16
-/// hex digits; of an imported ground all but its tiles, whose checksums count): two runs with the
-/// same settings and hashes show the same. Throws Error when one cannot be read.
+/// Where a recording has a file that its run reads.
+enum class Kept {
+    Inside,  ///< a copy lies in the recording
+    BuiltIn, ///< in the program's own folder
+    Outside  ///< too large to copy: a terrain, which is known by its hash
+};
+
+/// A file that a run reads.
+struct InputFile {
+    std::filesystem::path file;
+    /// "inputs/my.obj" in the recording, "models/f15.obj" in the program's own folder, or the
+    /// file's own name.
+    std::string name;
+    Kept kept = Kept::Inside;
+};
+
+/// The files that a run reads, painting orders apart: path, aircraft with their materials, terrain
+/// and what lies on it. Throws Error for files that are missing.
+std::vector<InputFile> input_files(const settings::RunSettings& settings);
+
+/// The name and a hash of the content of each of them. Throws Error.
 std::vector<std::pair<std::string, std::string>>
 input_hashes(const settings::RunSettings& settings);
+
+/// The settings as a recording in that folder has them: files by their names inside it, those
+/// outside by the way to them from there. settings::read_settings finds them again.
+settings::RunSettings
+as_recorded(const settings::RunSettings& settings, const std::filesystem::path& folder);
+
+/// Copies of files that are to lie in a recording: their names in it and their bytes.
+using KeptFiles = std::vector<std::pair<std::string, std::string>>;
+
+/// Reads what as_recorded() names inside the recording, and the painting orders that were used.
+/// Throws Error.
+KeptFiles files_to_keep(
+    const settings::RunSettings& settings, const std::vector<std::filesystem::path>& order_files);
 
 } // namespace octant::ui::world

@@ -258,6 +258,7 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     SceneGround ground = load_scene_ground(settings, drawn_by);
     World world;
     world.notes = std::move(aircraft.notes);
+    world.order_files = std::move(aircraft.order_files);
     if (script) {
         add(world.notes, script->notes);
     }

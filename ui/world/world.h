@@ -12,6 +12,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,8 @@ struct World {
     std::optional<models::heights::GeoPlace> ground_place;
     /// What a person should be told: voids filled, legs clipped, ...
     std::vector<std::string> notes;
+    /// Kept painting orders that were used.
+    std::vector<std::filesystem::path> order_files;
 };
 
 /// The formation in which the scene's aircraft fly.

@@ -153,11 +153,11 @@ CachedOrder cached_order(const fs::path& folder, PolygonModel model, const Order
     const fs::path file = file_of_key(folder, key);
     std::vector<std::string> notes;
     if (auto kept = kept_order(file, key, model, notes)) {
-        return {std::move(*kept), true, {}};
+        return {std::move(*kept), true, file, {}};
     }
     OrderedModel ordered = draworder::ordered(std::move(model), options);
     keep(file, key, ordered, notes);
-    return {std::move(ordered), false, std::move(notes)};
+    return {std::move(ordered), false, file, std::move(notes)};
 }
 
 } // namespace octant::visuals::ordercache

@@ -18,6 +18,7 @@ inline constexpr std::uint32_t order_version = 2;
 struct CachedOrder {
     draworder::OrderedModel ordered;
     bool was_kept = false;          ///< Read, not computed.
+    std::filesystem::path file;     ///< Where it is kept.
     std::vector<std::string> notes; ///< A file that could not be used, or not be written.
 };
 

@@ -1,5 +1,6 @@
 #include "tests/fuzz/formats/target.h"
 #include "ui/report/frame_csv.h"
+#include "ui/report/frame_times.h"
 #include "ui/report/statistics.h"
 
 namespace octant::tests::formats {

@@ -79,14 +79,14 @@ run_octant(const std::vector<std::string>& arguments, const std::vector<std::str
     return run;
 }
 
-void run_octant_and_kill(
-    const std::vector<std::string>& arguments, const std::filesystem::path& file) {
+int run_octant_and_signal(
+    const std::vector<std::string>& arguments, const std::filesystem::path& file, int signal) {
     const pid_t child = start(arguments, {}, "/dev/null", "/dev/null");
     for (int tenth = 0; tenth < 1200 && !std::filesystem::exists(file); ++tenth) {
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
-    kill(child, SIGKILL);
-    wait_for(child);
+    kill(child, signal);
+    return wait_for(child);
 }
 
 std::filesystem::path empty_folder(const std::string& name) {

@@ -18,9 +18,10 @@ struct ProgramRun {
 ProgramRun run_octant(
     const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
 
-/// Starts it and kills it (SIGKILL) once `file` is there, at the latest after two minutes.
-void run_octant_and_kill(
-    const std::vector<std::string>& arguments, const std::filesystem::path& file);
+/// Starts it and sends it a signal once `file` is there, at the latest after two minutes; its exit
+/// code as ProgramRun has it.
+int run_octant_and_signal(
+    const std::vector<std::string>& arguments, const std::filesystem::path& file, int signal);
 
 /// An empty folder for one test, removed and made anew.
 std::filesystem::path empty_folder(const std::string& name);

@@ -1,37 +1,143 @@
+#include "sim/base/text_file.h"
 #include "tests/ui/commands/command_line.h"
+#include "ui/report/folder_lock.h"
 #include "ui/report/loaded_recording.h"
 
 #include <catch2/catch.hpp>
 
+#include <csignal>
+#include <map>
+
 using namespace octant;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A flight in real time, 30 pictures a second, all of them kept.
+std::vector<std::string> slow_flight(const fs::path& folder) {
+    return {
+        "fly",
+        "straight",
+        "--realtime",
+        "--rate",
+        "30",
+        "--size",
+        "160x90",
+        "--triangles",
+        "2000",
+        "--pictures",
+        "1",
+        "--record",
+        folder.string()};
+}
+
+std::map<std::string, std::string> files_in(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        files[entry.path().filename().string()] = read_file(entry.path());
+    }
+    return files;
+}
+
+double last_time_in_track(const fs::path& folder) {
+    const std::string text = read_file(folder / "track.csv");
+    const auto lines = split_lines(text);
+    return finite_number(lines.back().substr(0, lines.back().find(','))).value();
+}
+
+} // namespace
 
 TEST_CASE("a flight that was killed is reported, losing at most its last second") {
     const auto folder = tests::empty_folder("killed") / "out";
-    tests::run_octant_and_kill(
-        {"fly",
-         "straight",
-         "--realtime",
-         "--rate",
-         "30",
-         "--size",
-         "160x90",
-         "--triangles",
-         "2000",
-         "--pictures",
-         "1",
-         "--record",
-         folder.string()},
-        folder / "picture-00100.png");
-    const tests::ProgramRun run = tests::run_octant({"report", folder.string()});
+    CHECK(
+        tests::run_octant_and_signal(slow_flight(folder), folder / "picture-00100.png", SIGKILL) ==
+        128 + SIGKILL);
+    const auto left = files_in(folder);
+    const auto page = folder.parent_path() / "elsewhere.html";
+    const tests::ProgramRun run =
+        tests::run_octant({"report", folder.string(), "--out", page.string()});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     CHECK(run.err.find("ended early") != std::string::npos);
-    CHECK(std::filesystem::exists(folder / "report.html"));
-    CHECK(std::filesystem::exists(folder / "mangohud.csv"));
+    CHECK(fs::exists(page));
+    CHECK(files_in(folder) == left);
+    CHECK(left.contains("mangohud.csv"));
     const auto loaded = ui::report::load_recording(folder);
     REQUIRE(loaded.ended_early);
     REQUIRE(loaded.records.size() > 30);
     // In real time the last picture written tells how far the flight had come.
     const double flown_s = std::stod(loaded.pictures.back().stem().string().substr(8)) / 30.0;
     CHECK(loaded.records.back().sim_time_s > flown_s - 1.0);
+    CHECK(last_time_in_track(folder) < flown_s + 0.1);
+    CHECK(last_time_in_track(folder) > flown_s - 1.5);
+}
+
+TEST_CASE("a signal ends a flight in order, and its recording can be flown again") {
+    const auto made = tests::empty_folder("stopped");
+    const auto folder = made / "out";
+    CHECK(
+        tests::run_octant_and_signal(slow_flight(folder), folder / "picture-00040.png", SIGTERM) ==
+        128 + SIGTERM);
+    const auto loaded = ui::report::load_recording(folder);
+    CHECK_FALSE(loaded.ended_early);
+    CHECK(loaded.disagreement.empty());
+    CHECK(loaded.run.stopped.starts_with("SIGTERM after "));
+    CHECK(loaded.records.size() >= 41);
+    CHECK(last_time_in_track(folder) <= loaded.records.back().sim_time_s + 1e-6);
+    CHECK(fs::exists(folder / "report.html"));
+    CHECK_FALSE(fs::exists(folder / "recording.lock"));
+    const tests::ProgramRun again = tests::run_octant({"fly", "--replay", folder.string()});
+    INFO(again.out << again.err);
+    CHECK(again.exit_code == 0);
+    CHECK(again.out.find("same states, same pictures") != std::string::npos);
+}
+
+TEST_CASE("a flight does not record into a folder that another program records into") {
+    const auto folder = tests::empty_folder("two-at-once");
+    const ui::report::FolderLock lock(folder);
+    const tests::ProgramRun run = tests::run_octant(
+        {"fly",
+         "straight",
+         "--size",
+         "160x90",
+         "--frames",
+         "2",
+         "--record",
+         folder.string(),
+         "--quiet"});
+    CHECK(run.exit_code == 2);
+    CHECK(tests::lines_in(run.err) == 1);
+    CHECK(run.err.find("expected a folder that nobody records into") != std::string::npos);
+    CHECK(files_in(folder).size() == 1);
+}
+
+TEST_CASE("a recording of files whose names are not UTF-8 is flown again") {
+    const auto made = tests::empty_folder("names");
+    const auto path = made / "caf\xe9.toml";
+    fs::copy_file(fs::path(OCTANT_SOURCE_DIR) / "flightpaths/f15-straight.toml", path);
+    const std::string first = (made / "caf\xe9").string();
+    const tests::ProgramRun run = tests::run_octant(
+        {"fly",
+         path.string(),
+         "--size",
+         "64x48",
+         "--frames",
+         "3",
+         "--warm-up",
+         "0",
+         "--record",
+         first,
+         "--quiet",
+         "--json"});
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    const tests::ProgramRun again =
+        tests::run_octant({"fly", "--settings", first + "/run.json", "--quiet", "--json"});
+    INFO(again.err);
+    REQUIRE(again.exit_code == 0);
+    const auto hashes = [](const std::string& text) {
+        return text.substr(text.find("state_hash"));
+    };
+    CHECK(hashes(run.out) == hashes(again.out));
 }

@@ -168,7 +168,9 @@ TEST_CASE("other targets in the rows give other pictures, and the check says so"
     CHECK(rows[10].terrain_triangles <= 1300);
     CHECK(rows[10].terrain_triangles > 1200);
     CHECK(replay(again).exit_code == 0); // a replay is a recording like any other
-    CHECK_THAT(read_text_file(again / "run.json"), Contains("\"replay of\": \"" + half.string()));
+    CHECK_THAT(
+        read_text_file(again / "run.json"),
+        Contains("\"replay of\": \"" + half.filename().string()));
 }
 
 TEST_CASE("what is left of a killed flight is replayed, and nothing says that it is the same") {

@@ -1,4 +1,5 @@
 #include "tests/ui/report/scratch.h"
+#include "ui/report/frame_times.h"
 #include "ui/report/overruns.h"
 #include "ui/report/statistics.h"
 

@@ -5,6 +5,7 @@
 #include "ui/base/progress.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/session.h"
+#include "ui/report/frame_times.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/plots.h"

@@ -2,6 +2,7 @@
 
 #include "ui/base/progress.h"
 #include "ui/flight/session.h"
+#include "ui/report/frame_times.h"
 #include "ui/report/statistics.h"
 
 #include <algorithm>

@@ -1,0 +1,84 @@
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "tests/ui/commands/command_checks.h"
+#include "tests/ui/commands/command_line.h"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+
+using namespace octant;
+using Catch::Contains;
+using octant::tests::run_octant;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* small_sweep = R"(
+name = "small"
+repeats = 2
+[settings]
+size = "64x48"
+frames = 3
+warm-up = 0
+pictures = 2
+terrain = "background60"
+[vary]
+path = ["straight", "turn"]
+aircraft = ["f15", "500md"]
+)";
+
+} // namespace
+
+TEST_CASE("a sweep flies what is not done yet, tells what failed, and reports all of it") {
+    const auto made = tests::empty_folder("sweep");
+    const std::string file = (made / "small.toml").string();
+    const fs::path out = made / "out";
+    write_file(file, small_sweep);
+    CHECK(tests::lines_in(run_octant({"sweep", file, "--list"}).out) == 8);
+    const std::vector<std::string> line = {"sweep", file, "--out", out.string(), "--quiet"};
+    const tests::ProgramRun first = run_octant(line);
+    INFO(first.out << first.err);
+    REQUIRE(first.exit_code == 0);
+    CHECK_THAT(first.out, Contains("8 of 8 flights done, one at a time"));
+    CHECK(tests::lines_in(read_file(out / "sweep.csv")) == 9);
+    CHECK(fs::exists(out / "report.html"));
+
+    const auto when = fs::last_write_time(out / "runs/turn-f15-r1/run.json");
+    const std::string before = read_file(out / "runs/turn-500md-r2/run.json");
+    fs::remove_all(out / "runs/turn-500md-r2");
+    CHECK(run_octant(line).exit_code == 0);
+    CHECK(fs::last_write_time(out / "runs/turn-f15-r1/run.json") == when);
+    const std::string after = read_file(out / "runs/turn-500md-r2/run.json");
+    CHECK(
+        after.substr(after.find("state_hash"), 80) == before.substr(before.find("state_hash"), 80));
+
+    // Another machine's pictures differ from ours.
+    std::string other = after;
+    other.replace(other.find("picture_hash") + 16, 4, "dead");
+    write_file(out / "runs/turn-500md-r2/run.json", other);
+    const tests::ProgramRun differs = run_octant(line);
+    CHECK(differs.exit_code == 1);
+    CHECK_THAT(differs.out, Contains("pictures of turn-500md-r1 on "));
+}
+
+TEST_CASE("a sweep goes on past flights that fail, and tries them again") {
+    const auto made = tests::empty_folder("sweep-faults");
+    const std::string file = (made / "faults.toml").string();
+    write_file(
+        file,
+        "[settings]\nsize = \"64x48\"\nframes = 2\nterrain = \"none\"\n[vary]\n"
+        "path = [\"nowhere.toml\", \"straight\"]\n");
+    const tests::ProgramRun run =
+        run_octant({"sweep", file, "--out", (made / "out").string(), "--retries", "2"});
+    CHECK(run.exit_code == 1);
+    CHECK_THAT(run.out, Contains("1 of 2 flights done"));
+    CHECK_THAT(run.out, Contains("failed: nowhere.toml: ") && Contains("nowhere.toml: expected"));
+    CHECK_THAT(run.err, Contains("1 flights failed and are tried again"));
+    tests::check_refused(
+        "sweep", {file, "--out", made.string()}, "expected an empty folder or that of a sweep");
+    tests::check_refused(
+        "sweep", {file, "--out", (made / "out").string(), "--jobs", "2"}, "--share-cores");
+    tests::check_refused("sweep", {(made / "none.toml").string()}, "expected a file, found none");
+}

@@ -1,0 +1,122 @@
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "tests/ui/report/scratch.h"
+#include "ui/report/folder_lock.h"
+#include "ui/report/loaded_recording.h"
+#include "ui/report/packed_recording.h"
+#include "ui/report/recording.h"
+#include "ui/report/zip_file.h"
+
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+using namespace octant;
+using namespace octant::ui::report;
+using Catch::Contains;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A finished recording with a copy of an input and a terrain beside the folder.
+void record(const fs::path& folder) {
+    write_file(folder.parent_path() / "map.bil", "heights");
+    write_file(folder.parent_path() / "map.hdr", "their size");
+    RunInfo info;
+    info.title = "a flight";
+    info.settings_json = R"({"path":"inputs/p.toml","terrain":"../map.bil"})";
+    info.files = {{"inputs/p.toml", "legs"}};
+    Recording recording(folder, info);
+    for (int frame = 0; frame < 20; ++frame) {
+        recording.add(made_up_frame(frame, 10.0));
+    }
+    recording.add_picture(3, made_up_picture(20, 10, 3).view());
+    recording.finish({1, 2, {}});
+}
+
+void zip_of(const fs::path& zip, const std::string& name) {
+    ZipWriter writer(zip);
+    writer.add("run.json", R"({"format":"octant recording"})");
+    writer.add(name, "bytes");
+    writer.finish();
+}
+
+} // namespace
+
+TEST_CASE("a packed recording is the same wherever it is unpacked, and the same bytes each time") {
+    const ScratchFolder scratch;
+    record(scratch / "rec");
+    write_file(scratch / "rec/notes.txt", "mine");
+    const Packing packing = pack_recording(scratch / "rec", scratch / "a.zip", false);
+    CHECK(packing.files == 6);
+    REQUIRE(packing.notes.size() == 1);
+    CHECK_THAT(packing.notes[0], Contains("map.bil does not lie in the recording"));
+    pack_recording(scratch / "rec", scratch / "b.zip", false);
+    CHECK(read_file(scratch / "a.zip") == read_file(scratch / "b.zip"));
+
+    const LoadedRecording before = load_recording(scratch / "rec");
+    const fs::path folder = recording_folder(scratch / "a.zip");
+    CHECK(recording_folder(scratch / "a.zip") == folder);
+    const LoadedRecording after = load_recording(folder);
+    CHECK(after.name == "a");
+    CHECK(after.statistics == before.statistics);
+    CHECK(after.pictures.size() == 1);
+    CHECK(read_file(folder / "inputs/p.toml") == "legs");
+    CHECK(read_file(folder / "picture-00003.png") == read_file(scratch / "rec/picture-00003.png"));
+    CHECK_FALSE(fs::exists(folder / "notes.txt"));
+    CHECK(run_file_of(scratch / "a.zip") == folder / "run.json");
+    CHECK(run_file_of(scratch / "rec") == scratch / "rec/run.json");
+}
+
+TEST_CASE("a terrain is packed where that is asked for, with what belongs to it") {
+    const ScratchFolder scratch;
+    record(scratch / "rec");
+    CHECK(pack_recording(scratch / "rec", scratch / "a.zip", true).notes.empty());
+    const fs::path folder = recording_folder(scratch / "a.zip");
+    const auto run = nlohmann::json::parse(read_file(folder / "run.json"));
+    CHECK(run["settings"]["terrain"] == "inputs/terrain/map.bil");
+    CHECK(read_file(folder / "inputs/terrain/map.bil") == "heights");
+    CHECK(read_file(folder / "inputs/terrain/map.hdr") == "their size");
+}
+
+TEST_CASE("files that are no packed recordings are refused and write nothing") {
+    const ScratchFolder scratch;
+    record(scratch / "rec");
+    int files = 0; // each under a name of its own: the library keeps what it knows of a name
+    const auto another = [&] { return scratch / fmt::format("{}.zip", files++); };
+    fs::path zip;
+    zip = another();
+    zip_of(zip, "evil.txt");
+    CHECK_THROWS_WITH(recording_folder(zip), Contains("expected only the files of a recording"));
+    for (const std::string name : {"../evil", "inputs/../../evil"}) { // the library leaves them out
+        zip = another();
+        zip_of(zip, name);
+        CHECK_FALSE(fs::exists(recording_folder(zip).parent_path() / "evil"));
+    }
+    zip = another();
+    {
+        ZipWriter writer(zip);
+        writer.add("frames.csv", "");
+        writer.finish();
+    }
+    CHECK_THROWS_WITH(recording_folder(zip), Contains("got one without run.json"));
+    zip = another();
+    write_file(zip, "PK is how they begin");
+    CHECK_THROWS_WITH(recording_folder(zip), Contains("expected a zip file"));
+    pack_recording(scratch / "rec", scratch / "whole.zip", false);
+    std::string bytes = read_file(scratch / "whole.zip");
+    zip = another();
+    write_file(zip, std::string_view(bytes).substr(0, bytes.size() / 2));
+    CHECK_THROWS_AS(recording_folder(zip), Error);
+    zip = another();
+    bytes[bytes.size() / 3] = static_cast<char>(bytes[bytes.size() / 3] ^ 0x55);
+    write_file(zip, bytes);
+    CHECK_THROWS_AS(recording_folder(zip), Error);
+    CHECK_THROWS_AS(pack_recording(scratch / "nothing", zip, false), Error);
+    const FolderLock lock(scratch / "rec");
+    CHECK_THROWS_WITH(
+        pack_recording(scratch / "rec", zip, false), Contains("got one that is being written"));
+}

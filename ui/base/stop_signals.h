@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+namespace octant::ui::base {
+
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP is only remembered, so that what is being
+/// written can be ended in order; the second ends the program at once. Signals that were ignored
+/// before (nohup) stay so. One at a time.
+class StopSignals {
+public:
+    StopSignals();
+    ~StopSignals();
+    StopSignals(const StopSignals&) = delete;
+    StopSignals& operator=(const StopSignals&) = delete;
+    StopSignals(StopSignals&&) = delete;
+    StopSignals& operator=(StopSignals&&) = delete;
+
+    /// True once one of them came, since the program began.
+    static bool came();
+
+    /// "SIGINT", "SIGTERM" or "SIGHUP"; empty where none came.
+    static std::string name();
+};
+
+/// Ends the program by the signal that came, as whoever started it expects; returns where none did.
+void end_by_signal_that_came();
+
+} // namespace octant::ui::base

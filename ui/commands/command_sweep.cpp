@@ -1,0 +1,259 @@
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+#include "ui/base/figures_text.h"
+#include "ui/base/progress.h"
+#include "ui/base/stop_signals.h"
+#include "ui/commands/commands.h"
+#include "ui/commands/read_option.h"
+#include "ui/report/html_report.h"
+#include "ui/report/loaded_recording.h"
+#include "ui/sweep/engine.h"
+#include "ui/sweep/sweep_file.h"
+#include "ui/sweep/sweep_folder.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace octant::ui::commands {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SweepOptions {
+    fs::path file;
+    std::optional<fs::path> out;
+    std::string on = "local";
+    sweep::EngineOptions engine;
+    std::optional<int> jobs;
+    std::optional<int> tasks;
+    std::optional<fs::path> hosts;
+    std::optional<fs::path> program;
+    int minutes = 60;
+    int retries = 1;
+    bool list = false;
+    bool json = false;
+};
+
+void print_list(const sweep::Sweep& sweep, bool json) {
+    if (json) {
+        base::Figures runs = base::Figures::list({});
+        for (const sweep::Run& run : sweep.runs) {
+            base::Figures varied;
+            for (const auto& [name, value] : run.varied) {
+                varied[name] = value;
+            }
+            runs.push_back({{"name", run.name}, {"repeat", run.repeat}, {"varied", varied}});
+        }
+        base::print_figures({{"name", sweep.name}, {"runs", runs}}, true);
+        return;
+    }
+    for (const sweep::Run& run : sweep.runs) {
+        std::fputs((run.name + "\n").c_str(), stdout);
+    }
+}
+
+std::unique_ptr<sweep::Engine> engine_of(
+    const SweepOptions& options, const sweep::Sweep& sweep, const sweep::SweepFolder& folder) {
+    sweep::EngineOptions engine = options.engine;
+    engine.jobs = options.jobs.value_or(0);
+    engine.tasks = options.tasks.value_or(0);
+    engine.minutes = options.minutes;
+    engine.program =
+        options.program ? options.program->string() : fs::read_symlink("/proc/self/exe").string();
+    if (options.hosts) {
+        engine.hosts = fs::absolute(*options.hosts);
+    }
+    if (options.on == "slurm") {
+        return sweep::slurm_engine(sweep, folder, engine);
+    }
+    return options.on == "parallel" ? sweep::parallel_engine(sweep, folder, engine)
+                                    : sweep::local_engine(sweep, folder, engine);
+}
+
+std::vector<sweep::RunResult>
+results_of(const sweep::Sweep& sweep, const sweep::SweepFolder& folder) {
+    std::vector<sweep::RunResult> results;
+    for (const sweep::Run& run : sweep.runs) {
+        results.push_back(sweep::result_of(folder, run));
+    }
+    return results;
+}
+
+std::vector<std::size_t> not_done(const std::vector<sweep::RunResult>& results) {
+    std::vector<std::size_t> runs;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        if (!results[i].done) {
+            runs.push_back(i);
+        }
+    }
+    return runs;
+}
+
+void write_results(
+    const sweep::Sweep& sweep,
+    const sweep::SweepFolder& folder,
+    const std::vector<sweep::RunResult>& results) {
+    write_file(folder.path() / "sweep.csv", sweep::sweep_csv(folder, sweep, results));
+    std::vector<report::LoadedRecording> recordings;
+    for (const sweep::RunResult& result : results) {
+        if (result.done) {
+            recordings.push_back(report::load_recording(folder.recording(result.name)));
+        }
+    }
+    if (!recordings.empty()) {
+        write_file(folder.path() / "report.html", report::html_report(recordings));
+    }
+}
+
+void print_end(
+    const sweep::Sweep& sweep,
+    const std::vector<sweep::RunResult>& results,
+    const std::vector<std::string>& differences,
+    const std::string& manner,
+    bool json) {
+    const std::size_t missing = not_done(results).size();
+    if (json) {
+        base::Figures runs = base::Figures::list({});
+        for (const sweep::RunResult& result : results) {
+            runs.push_back(
+                {{"name", result.name},
+                 {"done", result.done},
+                 {"fault", result.done ? std::string() : result.fault},
+                 {"host", result.host},
+                 {"state_hash", result.state_hash},
+                 {"picture_hash", result.picture_hash},
+                 {"noise", result.noise}});
+        }
+        base::print_figures(
+            {{"name", sweep.name},
+             {"flown", manner},
+             {"done", results.size() - missing},
+             {"of", results.size()},
+             {"differences", differences},
+             {"runs", runs}},
+            true);
+        return;
+    }
+    std::fputs(
+        fmt::format("{} of {} flights done, {}\n", results.size() - missing, results.size(), manner)
+            .c_str(),
+        stdout);
+    for (const sweep::RunResult& result : results) {
+        if (!result.done) {
+            std::fputs(fmt::format("failed: {}: {}\n", result.name, result.fault).c_str(), stdout);
+        }
+    }
+    for (const std::string& line : differences) {
+        std::fputs((line + "\n").c_str(), stdout);
+    }
+}
+
+void fly_sweep(const SweepOptions& options) {
+    const sweep::Sweep sweep = sweep::read_sweep(options.file);
+    if (options.list) {
+        print_list(sweep, options.json);
+        return;
+    }
+    const bool quiet = options.engine.quiet;
+    const sweep::SweepFolder folder(
+        fs::absolute(options.out.value_or(sweep.name)).lexically_normal());
+    folder.prepare(sweep);
+    const std::unique_ptr<sweep::Engine> engine = engine_of(options, sweep, folder);
+    const base::StopSignals stop_signals;
+    std::vector<sweep::RunResult> results = results_of(sweep, folder);
+    const std::size_t done_before = results.size() - not_done(results).size();
+    if (done_before > 0) {
+        base::say(quiet, fmt::format("{} flights are done already", done_before));
+    }
+    for (int attempt = 0; attempt <= options.retries && !base::StopSignals::came(); ++attempt) {
+        const std::vector<std::size_t> left = not_done(results);
+        if (left.empty()) {
+            break;
+        }
+        if (attempt > 0) {
+            base::say(
+                quiet, fmt::format("note: {} flights failed and are tried again", left.size()));
+        }
+        engine->fly(left);
+        results = results_of(sweep, folder);
+    }
+    write_results(sweep, folder, results);
+    const std::vector<std::string> differences = sweep::differences(sweep, results);
+    print_end(sweep, results, differences, engine->manner(), options.json);
+    base::say(
+        quiet, fmt::format("results: {0}/sweep.csv, {0}/report.html", folder.path().string()));
+    if (!differences.empty() || !not_done(results).empty()) {
+        throw CheckSaidNo();
+    }
+}
+
+} // namespace
+
+Command sweep_command() {
+    auto options = std::make_shared<SweepOptions>();
+    return {
+        .name = "sweep",
+        .summary = "Flies many flights, by a table of what they vary, and reports them together",
+        .options =
+            {required(text_option("file", "FILE.toml", "what is flown", options->file)),
+             showing(
+                 "the sweep's name",
+                 text_option("--out", "DIR", "folder of all of it", options->out)),
+             flag("--list", "print the flights and fly none", options->list),
+             choice_option(
+                 "--on",
+                 "ENGINE",
+                 "who flies: local, processes of this machine; slurm, a job array; parallel, GNU "
+                 "parallel over ssh, all machines seeing the folder",
+                 {"local", "slurm", "parallel"},
+                 options->on),
+             read_option(
+                 {"retries", "N", "how often a flight that failed is tried again", 0, 100},
+                 options->retries),
+             flag(
+                 "--share-cores",
+                 "fly several at once on a machine; frame times then depend on each other",
+                 options->engine.share_cores),
+             read_option(
+                 {"jobs", "N", "flights at once: here, on each machine, of the array", 1, 10000},
+                 options->jobs),
+             read_option(
+                 {"tasks", "N", "tasks of the job array [one a flight, at most 1000]", 1, 100000},
+                 options->tasks),
+             read_option(
+                 {"minutes", "N", "time limit of a task or a flight on engines", 1, 100000},
+                 options->minutes),
+             list_option(
+                 "--sbatch",
+                 "OPTION",
+                 "a further option of sbatch, such as --sbatch=--partition=long",
+                 Takes::OneWordAgain,
+                 options->engine.sbatch_options),
+             text_option("--hosts", "FILE", "GNU parallel's file of machines", options->hosts),
+             showing(
+                 "this one",
+                 text_option(
+                     "--program",
+                     "FILE",
+                     "octant as the machines that fly call it",
+                     options->program)),
+             flag("--json", "results as JSON", options->json),
+             flag("--quiet", "no progress, no notes", options->engine.quiet)},
+        .footer =
+            "Examples:\n"
+            "  octant sweep budgets.toml --list\n"
+            "  octant sweep budgets.toml --out budgets\n"
+            "  octant sweep budgets.toml --on slurm --minutes 30 --sbatch=--partition=long\n"
+            "  octant sweep budgets.toml --on parallel --hosts machines.txt\n"
+            "Flights that are done are not flown again. Exit code 1: some failed, or runs that\n"
+            "differ in nothing did not show the same.",
+        .run = [options] { fly_sweep(*options); }};
+}
+
+} // namespace octant::ui::commands

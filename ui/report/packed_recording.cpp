@@ -1,0 +1,233 @@
+#include "ui/report/packed_recording.h"
+
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "ui/base/json_name.h"
+#include "ui/report/folder_lock.h"
+#include "ui/report/json_text.h"
+#include "ui/report/recording_names.h"
+#include "ui/report/run_file.h"
+#include "ui/report/zip_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fmt/format.h>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+namespace octant::ui::report {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* run_name = "run.json";
+
+/// Settings that name a file which a recording knows by the way to it.
+constexpr std::array terrain_settings{"terrain", "drape"};
+
+/// The recording's own files by their names in it.
+std::map<std::string, fs::path> own_files(const fs::path& folder) {
+    std::map<std::string, fs::path> files;
+    std::error_code code;
+    for (fs::recursive_directory_iterator at(folder, code), end; !code && at != end;
+         at.increment(code)) {
+        const fs::path name = at->path().lexically_relative(folder);
+        const std::string first = name.begin()->string();
+        if (!is_recording_name(first) || first == lock_name || is_unfinished(first)) {
+            at.disable_recursion_pending();
+        } else if (at->is_regular_file()) {
+            files.emplace(name.string(), at->path());
+        }
+    }
+    if (code) {
+        error_in(folder, fmt::format("cannot be read: {}", code.message()));
+    }
+    return files;
+}
+
+/// The files that belong to one by their name: its own, and those beside it that differ by their
+/// ending (x.bil, x.hdr, x.prj).
+std::vector<fs::path> with_companions(const fs::path& file) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(file.parent_path())) {
+        if (entry.is_regular_file() && entry.path().stem() == file.stem()) {
+            files.push_back(entry.path());
+        }
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+/// Brings what the settings name outside the folder inside, or notes it.
+class Outsiders {
+public:
+    Outsiders(fs::path folder, bool with_terrain)
+        : folder_(std::move(folder))
+        , with_terrain_(with_terrain) {}
+
+    void take(Json& settings, const char* key, std::map<std::string, fs::path>& files) {
+        if (!settings.contains(key) || !settings[key].is_string()) {
+            return;
+        }
+        const fs::path file = folder_ / base::name_from_json(settings[key].get<std::string>());
+        std::error_code ignored;
+        const std::string within = file.lexically_normal().lexically_relative(folder_).string();
+        if (!fs::is_regular_file(file, ignored) || files.contains(within)) {
+            return;
+        }
+        if (!with_terrain_) {
+            notes.push_back(fmt::format(
+                "{} does not lie in the recording; --with-terrain packs it too",
+                file.lexically_normal().string()));
+            return;
+        }
+        const fs::path inside = fs::path("inputs") / key;
+        for (const fs::path& each : with_companions(file)) {
+            files.emplace((inside / each.filename()).string(), each);
+        }
+        settings[key] = base::json_of_name((inside / file.filename()).string());
+    }
+
+    std::vector<std::string> notes;
+
+private:
+    fs::path folder_;
+    bool with_terrain_;
+};
+
+/// A folder that is removed when the program ends.
+class TemporaryFolder {
+public:
+    TemporaryFolder() {
+        std::error_code ignored;
+        const fs::path place = fs::temp_directory_path(ignored);
+        std::string name = ((place.empty() ? "/tmp" : place) / "octant-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr) {
+            error_in(name, fmt::format("cannot be made a folder: {}", std::strerror(errno)));
+        }
+        path_ = name;
+    }
+
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    TemporaryFolder(TemporaryFolder&&) = delete;
+    TemporaryFolder& operator=(TemporaryFolder&&) = delete;
+
+    const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+/// Throws Error unless these can be the files of one recording.
+void check_entries(const fs::path& zip, const std::vector<ZipEntry>& entries) {
+    constexpr std::uint64_t most_bytes = std::uint64_t{64} << 30;
+    std::uint64_t bytes = 0;
+    bool has_run = false;
+    for (const ZipEntry& entry : entries) {
+        const fs::path name(entry.name);
+        const bool stays_inside = name.is_relative() && !name.empty() &&
+                                  std::ranges::none_of(name, [](const fs::path& part) {
+                                      return part == ".." || part == ".";
+                                  });
+        if (!stays_inside || !is_recording_name(name.begin()->string())) {
+            error_in(
+                zip,
+                fmt::format(
+                    "expected only the files of a recording, got one with '{}'",
+                    printable(entry.name)));
+        }
+        bytes += entry.bytes;
+        has_run = has_run || entry.name == run_name;
+    }
+    if (bytes > most_bytes) {
+        error_in(zip, fmt::format("expected at most {} bytes unpacked, got {}", most_bytes, bytes));
+    }
+    if (!has_run) {
+        error_in(zip, "expected a packed recording, got one without run.json");
+    }
+}
+
+fs::path unpacked(const fs::path& zip, const fs::path& into) {
+    const std::vector<ZipEntry> entries = zip_entries(zip);
+    check_entries(zip, entries);
+    const fs::path folder = into / zip.stem(); // reports call it by its name
+    for (const ZipEntry& entry : entries) {
+        make_folder((folder / entry.name).parent_path());
+        extract(zip, entry.name, folder / entry.name);
+    }
+    return folder;
+}
+
+} // namespace
+
+Packing pack_recording(const fs::path& folder, const fs::path& zip, bool with_terrain) {
+    std::error_code ignored;
+    if (!fs::is_directory(folder, ignored)) {
+        error_in(folder, "expected the folder of a recording, found none");
+    }
+    read_run_file(folder / run_name);
+    if (is_locked(folder)) {
+        error_in(folder, "expected a recording that is finished, got one that is being written");
+    }
+    const fs::path whole = fs::absolute(folder).lexically_normal();
+    std::map<std::string, fs::path> files = own_files(folder);
+    Json run = parsed_json(folder / run_name, read_text_file(folder / run_name));
+    Outsiders outsiders(whole.has_filename() ? whole : whole.parent_path(), with_terrain);
+    if (run.contains("settings") && run["settings"].is_object()) {
+        for (const char* key : terrain_settings) {
+            outsiders.take(run["settings"], key, files);
+        }
+    }
+    ZipWriter writer(zip);
+    writer.add(run_name, run.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    files.erase(run_name);
+    for (const auto& [name, file] : files) {
+        writer.add_file(name, file);
+    }
+    writer.finish();
+    return {static_cast<int>(files.size()) + 1, std::move(outsiders.notes)};
+}
+
+fs::path recording_folder(const fs::path& folder_or_zip) {
+    // By name and time of writing.
+    using Known = std::pair<fs::path, fs::file_time_type>;
+    static std::map<Known, std::pair<std::unique_ptr<TemporaryFolder>, fs::path>> opened;
+    std::error_code ignored;
+    if (!fs::is_regular_file(folder_or_zip, ignored)) {
+        return folder_or_zip;
+    }
+    const Known zip(
+        fs::absolute(folder_or_zip).lexically_normal(),
+        fs::last_write_time(folder_or_zip, ignored));
+    if (const auto known = opened.find(zip); known != opened.end()) {
+        return known->second.second;
+    }
+    auto place = std::make_unique<TemporaryFolder>();
+    const fs::path folder = unpacked(folder_or_zip, place->path());
+    opened.emplace(zip, std::pair(std::move(place), folder));
+    return folder;
+}
+
+fs::path run_file_of(const fs::path& path) {
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) {
+        return path / run_name;
+    }
+    return ending_of(path) == ".zip" ? recording_folder(path) / run_name : path;
+}
+
+} // namespace octant::ui::report

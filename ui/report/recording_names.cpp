@@ -1,0 +1,28 @@
+#include "ui/report/recording_names.h"
+
+#include "sim/base/output_file.h"
+#include "ui/report/folder_lock.h"
+
+#include <algorithm>
+#include <array>
+
+namespace octant::ui::report {
+
+bool is_recording_name(std::string_view name) {
+    constexpr std::array<std::string_view, 11> names{
+        lock_name,
+        "inputs",
+        "run.json",
+        "frames.csv",
+        "mangohud.csv",
+        "trace.json",
+        "track.acmi",
+        "track.csv",
+        "flight.csv",
+        "packets.bin",
+        "report.html"};
+    return is_unfinished(name) || (name.starts_with("picture-") && name.ends_with(".png")) ||
+           std::find(names.begin(), names.end(), name) != names.end();
+}
+
+} // namespace octant::ui::report

@@ -1,0 +1,184 @@
+#include "ui/report/zip_file.h"
+
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+
+#include <algorithm>
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+#include <fstream>
+#include <memory>
+#include <unistd.h>
+#include <utility>
+
+namespace octant::ui::report {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t piece_bytes = std::size_t{1} << 20;
+
+/// Keeps the library from printing what it finds wrong.
+class Quiet {
+public:
+    Quiet() {
+        CPLPushErrorHandler(CPLQuietErrorHandler);
+        CPLErrorReset();
+    }
+
+    ~Quiet() { CPLPopErrorHandler(); }
+
+    Quiet(const Quiet&) = delete;
+    Quiet& operator=(const Quiet&) = delete;
+    Quiet(Quiet&&) = delete;
+    Quiet& operator=(Quiet&&) = delete;
+};
+
+struct CloseFile {
+    void operator()(VSILFILE* file) const { VSIFCloseL(file); }
+};
+
+struct FreeList {
+    void operator()(char** list) const { CSLDestroy(list); }
+};
+
+/// A zip file as the library's file functions name it.
+std::string inside(const fs::path& zip, const std::string& name = {}) {
+    return fmt::format(
+        "/vsizip/{{{}}}{}{}", fs::absolute(zip).string(), name.empty() ? "" : "/", name);
+}
+
+[[noreturn]] void is_no_zip(const fs::path& zip) {
+    error_in(zip, "expected a zip file, got something else or a part of it");
+}
+
+} // namespace
+
+ZipWriter::ZipWriter(fs::path file)
+    : file_(std::move(file))
+    , part_(fmt::format("{}.{}.part", file_.string(), ::getpid())) {
+    check_can_write(file_);
+    const Quiet quiet;
+    zip_ = CPLCreateZip(part_.c_str(), nullptr);
+    if (zip_ == nullptr) {
+        error_in(file_, "cannot be written");
+    }
+}
+
+ZipWriter::~ZipWriter() {
+    if (zip_ != nullptr) {
+        const Quiet quiet;
+        CPLCloseZip(zip_);
+    }
+    std::error_code ignored;
+    fs::remove(part_, ignored);
+}
+
+void ZipWriter::begin_entry(const std::string& name) {
+    const Quiet quiet;
+    if (CPLCreateFileInZip(zip_, name.c_str(), nullptr) != CE_None) {
+        error_in(file_, "cannot be written");
+    }
+}
+
+void ZipWriter::write(std::string_view bytes) {
+    const Quiet quiet;
+    for (; !bytes.empty(); bytes.remove_prefix(std::min(bytes.size(), piece_bytes))) {
+        const auto size = static_cast<int>(std::min(bytes.size(), piece_bytes));
+        if (CPLWriteFileInZip(zip_, bytes.data(), size) != CE_None) {
+            error_in(file_, "cannot be written: is the disk full?");
+        }
+    }
+}
+
+void ZipWriter::end_entry() {
+    const Quiet quiet;
+    if (CPLCloseFileInZip(zip_) != CE_None) {
+        error_in(file_, "cannot be written: is the disk full?");
+    }
+}
+
+void ZipWriter::add(const std::string& name, std::string_view bytes) {
+    begin_entry(name);
+    write(bytes);
+    end_entry();
+}
+
+void ZipWriter::add_file(const std::string& name, const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) {
+        error_in(file, "expected a file that can be read, got none");
+    }
+    begin_entry(name);
+    std::string piece(piece_bytes, '\0');
+    while (in) {
+        in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+        write(std::string_view(piece).substr(0, static_cast<std::size_t>(in.gcount())));
+    }
+    end_entry();
+}
+
+void ZipWriter::finish() {
+    const Quiet quiet;
+    if (CPLCloseZip(std::exchange(zip_, nullptr)) != CE_None) {
+        error_in(file_, "cannot be written: is the disk full?");
+    }
+    std::error_code code;
+    fs::rename(part_, file_, code);
+    if (code) {
+        error_in(file_, fmt::format("cannot be written: {}", code.message()));
+    }
+}
+
+std::vector<ZipEntry> zip_entries(const fs::path& zip) {
+    const Quiet quiet;
+    const std::unique_ptr<char*, FreeList> names(VSIReadDirRecursive(inside(zip).c_str()));
+    if (!names) {
+        is_no_zip(zip);
+    }
+    std::vector<ZipEntry> entries;
+    for (char** name = names.get(); *name != nullptr; ++name) {
+        if (std::string_view(*name).ends_with('/')) {
+            continue;
+        }
+        VSIStatBufL status{};
+        if (VSIStatL(inside(zip, *name).c_str(), &status) != 0) {
+            is_no_zip(zip);
+        }
+        entries.push_back({*name, static_cast<std::uint64_t>(status.st_size)});
+    }
+    std::ranges::sort(entries, {}, &ZipEntry::name);
+    return entries;
+}
+
+void extract(const fs::path& zip, const std::string& name, const fs::path& out) {
+    const Quiet quiet;
+    const std::unique_ptr<VSILFILE, CloseFile> in(VSIFOpenL(inside(zip, name).c_str(), "rb"));
+    if (!in) {
+        is_no_zip(zip);
+    }
+    GrowingFile file(out);
+    std::string piece(piece_bytes, '\0');
+    std::uint64_t taken = 0;
+    for (;;) {
+        const std::size_t read = VSIFReadL(piece.data(), 1, piece.size(), in.get());
+        file.append(std::string_view(piece).substr(0, read));
+        file.flush();
+        taken += read;
+        if (read < piece.size()) {
+            break;
+        }
+    }
+    VSIStatBufL status{};
+    const bool whole = VSIStatL(inside(zip, name).c_str(), &status) == 0 &&
+                       static_cast<std::uint64_t>(status.st_size) == taken;
+    if (!whole || CPLGetLastErrorType() >= CE_Failure) {
+        error_in(zip, fmt::format("expected '{}' whole, got damaged bytes", printable(name)));
+    }
+}
+
+} // namespace octant::ui::report

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "ui/sweep/sweep_folder.h"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace octant::ui::sweep {
+
+/// How the flights of a sweep are given out.
+struct EngineOptions {
+    std::string program;      ///< the octant program, as the machines that fly call it
+    bool share_cores = false; ///< several at once on a machine, whatever that does to frame times
+    int jobs = 0;             ///< at once: on a machine, of an array; 0 = as many as fit
+    int tasks = 0;            ///< of a job array; 0 = one a run, at most 1000
+    int minutes = 60;         ///< that a task of a job array may take
+    std::vector<std::string> sbatch_options; ///< further ones, "--partition=long"
+    std::filesystem::path hosts;             ///< GNU parallel's file of machines
+    bool quiet = false;
+};
+
+/// Gives runs to processes or machines.
+class Engine {
+public:
+    Engine() = default;
+    virtual ~Engine() = default;
+    Engine(const Engine&) = delete;
+    Engine& operator=(const Engine&) = delete;
+    Engine(Engine&&) = delete;
+    Engine& operator=(Engine&&) = delete;
+
+    /// Has each of these runs flown once, or tried, and waits for all. What came of them lies in
+    /// the folder. Indices into the sweep's runs. Throws Error when the engine itself fails.
+    virtual void fly(std::span<const std::size_t> runs) = 0;
+
+    /// How the runs shared machines, for the report: "one at a time".
+    virtual std::string manner() const = 0;
+};
+
+/// Child processes on this machine, one at a time unless cores may be shared.
+std::unique_ptr<Engine>
+local_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
+
+/// A job array of Slurm, submitted by a script that lies in the folder. Throws Error where there is
+/// no sbatch.
+std::unique_ptr<Engine>
+slurm_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
+
+/// GNU parallel over ssh, by a script that lies in the folder, which all machines must see under
+/// its name. Throws Error where there is no GNU parallel.
+std::unique_ptr<Engine>
+parallel_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
+
+/// Text as one word of a shell.
+std::string shell_word(const std::string& text);
+
+} // namespace octant::ui::sweep

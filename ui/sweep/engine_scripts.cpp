@@ -1,0 +1,101 @@
+#include "ui/sweep/engine_scripts.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+namespace octant::ui::sweep {
+
+namespace {
+
+constexpr int most_tasks = 1000; // Slurm's MaxArraySize is 1001 where nobody changed it
+
+/// The command that flies the run whose name is in the shell's `variable`.
+std::string fly_command(const EngineOptions& options, const std::string& variable) {
+    return fmt::format(
+        "{} fly --settings \"jobs/{}.json\" --record \"runs/{}\" --if-new --quiet "
+        ">\"logs/{}.log\" 2>&1",
+        shell_word(options.program),
+        variable,
+        variable,
+        variable);
+}
+
+} // namespace
+
+std::string shell_word(const std::string& text) {
+    std::string word = "'";
+    for (const char letter : text) {
+        word += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    }
+    return word + "'";
+}
+
+int tasks_of(const Sweep& sweep, const EngineOptions& options) {
+    const int runs = static_cast<int>(sweep.runs.size());
+    const int wanted = options.tasks > 0 ? options.tasks : most_tasks;
+    return std::clamp(wanted, 1, std::max(1, runs));
+}
+
+std::string sbatch_script(
+    const Sweep& sweep, const SweepFolder& folder, const EngineOptions& options, int tasks) {
+    std::string text = "#!/bin/bash\n";
+    text += fmt::format(
+        "# Flies {} runs of the sweep {}. Submitted again (sbatch {}), it flies what is not "
+        "done.\n",
+        sweep.runs.size(),
+        sweep.name,
+        "sweep.sbatch");
+    text += fmt::format("#SBATCH --job-name=octant-{}\n", sweep.name);
+    text += fmt::format(
+        "#SBATCH --array=0-{}{}\n",
+        tasks - 1,
+        options.jobs > 0 ? fmt::format("%{}", options.jobs) : "");
+    text += fmt::format("#SBATCH --time={}\n", options.minutes);
+    text += "#SBATCH --requeue\n#SBATCH --open-mode=append\n";
+    text += fmt::format(
+        "#SBATCH --chdir={0}\n#SBATCH --output={0}/logs/slurm-%a.log\n", folder.path().string());
+    text += options.share_cores ? "" : "#SBATCH --exclusive\n";
+    for (const std::string& option : options.sbatch_options) {
+        text += fmt::format("#SBATCH {}\n", option);
+    }
+    text += "fault=0\nwhile read -r run; do\n  ";
+    text += fly_command(options, "$run");
+    text += fmt::format(
+        " </dev/null || fault=$?\ndone < <(awk \"NR % {} == ($SLURM_ARRAY_TASK_ID + 1) % {}\" "
+        "jobs.txt)\nexit $fault\n",
+        tasks,
+        tasks);
+    return text;
+}
+
+std::string task_list(std::span<const std::size_t> runs, int tasks) {
+    std::set<std::size_t> numbers;
+    for (const std::size_t run : runs) {
+        numbers.insert(run % static_cast<std::size_t>(tasks));
+    }
+    return fmt::format("{}", fmt::join(numbers, ","));
+}
+
+std::string
+parallel_script(const Sweep& sweep, const SweepFolder& folder, const EngineOptions& options) {
+    std::string text = "#!/bin/bash\n";
+    text += fmt::format(
+        "# Flies the runs of the sweep {} that todo.txt names on the machines of a file.\n",
+        sweep.name);
+    text += fmt::format("cd {} || exit 2\n", shell_word(folder.path().string()));
+    text += "exec parallel --will-cite --retries 3 --joblog logs/parallel.log --workdir \"$PWD\"";
+    text += fmt::format(" --timeout {}", 60 * options.minutes);
+    if (options.jobs > 0) {
+        text += fmt::format(" --jobs {}", options.jobs);
+    } else {
+        text += options.share_cores ? " --jobs 100%" : " --jobs 1";
+    }
+    if (!options.hosts.empty()) {
+        text += " --sshloginfile " + shell_word(options.hosts.string());
+    }
+    text += " --arg-file todo.txt " + shell_word(fly_command(options, "{}")) + "\n";
+    return text;
+}
+
+} // namespace octant::ui::sweep

@@ -1,0 +1,118 @@
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+#include "ui/base/progress.h"
+#include "ui/report/child_program.h"
+#include "ui/sweep/engine.h"
+#include "ui/sweep/engine_scripts.h"
+
+#include <fmt/format.h>
+#include <utility>
+
+namespace octant::ui::sweep {
+
+namespace {
+
+using report::ChildProgram;
+
+/// Runs a program that must be there and waits. What it says when it fails is a note: which runs
+/// are done is seen in their folders.
+void run_engine(const std::vector<std::string>& words, bool quiet) {
+    auto child = ChildProgram::start(words);
+    if (!child) {
+        throw Error(fmt::format("expected the program {}, which is not installed", words.front()));
+    }
+    const report::ProgramEnding ending = child->finish();
+    if (!ending.succeeded) {
+        base::say(quiet, fmt::format("note: {}: {}", words.front(), ending.last_complaint));
+    }
+}
+
+void check_installed(const std::string& program) {
+    auto child = ChildProgram::start({program, "--version"});
+    if (!child || !child->finish().succeeded) {
+        throw Error(fmt::format("expected the program {}, which is not installed", program));
+    }
+}
+
+class SlurmEngine : public Engine {
+public:
+    SlurmEngine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options)
+        : folder_(folder)
+        , options_(std::move(options))
+        , tasks_(tasks_of(sweep, options_)) {
+        check_installed("sbatch");
+        write_file(script(), sbatch_script(sweep, folder, options_, tasks_));
+    }
+
+    void fly(std::span<const std::size_t> runs) override {
+        base::say(
+            options_.quiet, fmt::format("{} flights by sbatch {}", runs.size(), script().string()));
+        run_engine(
+            {"sbatch", "--wait", "--array=" + array_of(runs), script().string()}, options_.quiet);
+    }
+
+    std::string manner() const override {
+        return options_.share_cores ? "by Slurm, on shared nodes: compare no frame times"
+                                    : "by Slurm, each alone on its node";
+    }
+
+private:
+    std::filesystem::path script() const { return folder_.path() / "sweep.sbatch"; }
+
+    std::string array_of(std::span<const std::size_t> runs) const {
+        return task_list(runs, tasks_) +
+               (options_.jobs > 0 ? fmt::format("%{}", options_.jobs) : std::string());
+    }
+
+    const SweepFolder& folder_;
+    EngineOptions options_;
+    int tasks_;
+};
+
+class ParallelEngine : public Engine {
+public:
+    ParallelEngine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options)
+        : sweep_(sweep)
+        , folder_(folder)
+        , options_(std::move(options)) {
+        check_installed("parallel");
+        write_file(script(), parallel_script(sweep, folder, options_));
+    }
+
+    void fly(std::span<const std::size_t> runs) override {
+        std::string names;
+        for (const std::size_t run : runs) {
+            names += sweep_.runs[run].name + "\n";
+        }
+        write_file(folder_.path() / "todo.txt", names);
+        base::say(options_.quiet, fmt::format("{} flights by {}", runs.size(), script().string()));
+        run_engine({"bash", script().string()}, options_.quiet);
+    }
+
+    std::string manner() const override {
+        return options_.share_cores || options_.jobs > 1
+                   ? "by GNU parallel, on shared cores: compare no frame times"
+                   : "by GNU parallel, one at a time on each machine";
+    }
+
+private:
+    std::filesystem::path script() const { return folder_.path() / "sweep.parallel.sh"; }
+
+    const Sweep& sweep_;
+    const SweepFolder& folder_;
+    EngineOptions options_;
+};
+
+} // namespace
+
+std::unique_ptr<Engine>
+slurm_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options) {
+    return std::make_unique<SlurmEngine>(sweep, folder, std::move(options));
+}
+
+std::unique_ptr<Engine>
+parallel_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options) {
+    return std::make_unique<ParallelEngine>(sweep, folder, std::move(options));
+}
+
+} // namespace octant::ui::sweep

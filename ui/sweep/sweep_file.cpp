@@ -1,0 +1,322 @@
+#include "ui/sweep/sweep_file.h"
+
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "ui/settings/settings_words.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+#include <string_view>
+#include <toml++/toml.h>
+
+namespace octant::ui::sweep {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+/// Settings that one value of something varied sets.
+struct Choice {
+    std::string label;
+    std::vector<std::pair<std::string, Words>> settings;
+};
+
+/// Something varied: its name and values.
+struct Axis {
+    std::string name;
+    int line = 1;
+    std::vector<Choice> choices;
+};
+
+/// A sweep's file while it is read.
+class Reader {
+public:
+    explicit Reader(const fs::path& file)
+        : file_(file)
+        , root_(parsed(file)) {}
+
+    Sweep sweep() const;
+
+private:
+    static toml::table parsed(const fs::path& file);
+
+    [[noreturn]] void refuse(const toml::node& node, const std::string& what) const {
+        error_at(file_, line_of(node), what);
+    }
+
+    static int line_of(const toml::node& node) {
+        return static_cast<int>(node.source().begin.line);
+    }
+
+    const toml::table* table_in(const toml::table& table, std::string_view key) const;
+    std::string word_of(const toml::node& node) const;
+    Words words_of(const toml::node& node) const;
+    std::vector<Words> range_of(const toml::table& table) const;
+    Axis axis_of(std::string_view name, const toml::node& node) const;
+    Axis named_groups(std::string_view name, const toml::table& table) const;
+    std::vector<Axis> axes() const;
+    void set(settings::RunSettings& settings, const std::string& name, const Words& words, int line)
+        const;
+    settings::RunSettings shared_settings() const;
+    int repeats() const;
+
+    fs::path file_;
+    toml::table root_;
+};
+
+toml::table Reader::parsed(const fs::path& file) {
+    try {
+        return toml::parse(read_text_file(file), file.string());
+    } catch (const toml::parse_error& fault) {
+        error_at(
+            file,
+            static_cast<int>(fault.source().begin.line),
+            fmt::format("expected TOML, got this: {}", std::string(fault.description())));
+    }
+}
+
+const toml::table* Reader::table_in(const toml::table& table, std::string_view key) const {
+    const toml::node* const node = table.get(key);
+    if (node != nullptr && !node->is_table()) {
+        refuse(*node, fmt::format("expected a table [{}], got something else", key));
+    }
+    return node == nullptr ? nullptr : node->as_table();
+}
+
+/// A value as a person would type it for the setting.
+std::string Reader::word_of(const toml::node& node) const {
+    if (const auto text = node.value_exact<std::string>()) {
+        return *text;
+    }
+    if (const auto whole = node.value_exact<std::int64_t>()) {
+        return fmt::format("{}", *whole);
+    }
+    if (const auto number = node.value_exact<double>()) {
+        return fmt::format("{}", *number);
+    }
+    if (const auto truth = node.value_exact<bool>()) {
+        return *truth ? "true" : "false";
+    }
+    refuse(node, "expected a text, a number or a truth value, got something else");
+}
+
+Words Reader::words_of(const toml::node& node) const {
+    const toml::array* const list = node.as_array();
+    if (list == nullptr) {
+        return {word_of(node)};
+    }
+    Words words;
+    for (const toml::node& each : *list) {
+        words.push_back(word_of(each));
+    }
+    return words;
+}
+
+/// { from, to, step }: from, from + step, ... up to `to`.
+std::vector<Words> Reader::range_of(const toml::table& table) const {
+    const auto number = [&](const char* key) {
+        const auto value = table[key].value<double>();
+        if (!value || !std::isfinite(*value)) {
+            refuse(
+                table, fmt::format("expected a range {{from, to, step}}, got one without {}", key));
+        }
+        return *value;
+    };
+    const double from = number("from");
+    const double to = number("to");
+    const double step = number("step");
+    if (table.size() != 3 || step <= 0.0 || to < from ||
+        (to - from) / step > static_cast<double>(most_runs)) {
+        refuse(
+            table,
+            fmt::format(
+                "expected from <= to, a step above 0 and at most {} values, got others",
+                most_runs));
+    }
+    constexpr double rounding = 1e-9; // of a step, so that 0.1 to 0.3 by 0.1 has three values
+    const bool whole = std::floor(from) == from && std::floor(step) == step;
+    std::vector<Words> values;
+    for (int i = 0; from + i * step <= to + rounding * step; ++i) {
+        const double value = from + i * step;
+        values.push_back({whole ? fmt::format("{:.0f}", value) : fmt::format("{:.6g}", value)});
+    }
+    return values;
+}
+
+std::string label_of(const Words& words) {
+    std::string label;
+    for (const std::string& word : words) {
+        const fs::path file(word);
+        const std::string name = file.has_parent_path() ? file.stem().string() : word;
+        label += label.empty() ? "" : "+";
+        label += name;
+    }
+    std::ranges::replace_if(
+        label,
+        [](char c) {
+            const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
+                               (c >= 'A' && c <= 'Z') || c == '.' || c == '+' || c == '_';
+            return !plain;
+        },
+        '-');
+    constexpr std::size_t longest = 60;
+    label.resize(std::min(label.size(), longest));
+    return label.starts_with('.') ? "_" + label : label;
+}
+
+Axis Reader::named_groups(std::string_view name, const toml::table& table) const {
+    Axis axis{std::string(name), line_of(table), {}};
+    for (const auto& [label, group] : table) {
+        const toml::table* const settings = group.as_table();
+        if (settings == nullptr) {
+            refuse(
+                group,
+                fmt::format(
+                    "expected a table [vary.{}.{}] of settings, got something else",
+                    name,
+                    std::string(label.str())));
+        }
+        Choice choice{label_of({std::string(label.str())}), {}};
+        for (const auto& [key, value] : *settings) {
+            choice.settings.emplace_back(std::string(key.str()), words_of(value));
+        }
+        axis.choices.push_back(std::move(choice));
+    }
+    return axis;
+}
+
+Axis Reader::axis_of(std::string_view name, const toml::node& node) const {
+    std::vector<Words> values;
+    if (const toml::array* const list = node.as_array()) {
+        for (const toml::node& each : *list) {
+            values.push_back(words_of(each));
+        }
+    } else if (const toml::table* const table = node.as_table()) {
+        if (!table->contains("from")) {
+            return named_groups(name, *table);
+        }
+        values = range_of(*table);
+    } else {
+        refuse(
+            node, fmt::format("{}: expected a list, a range or named groups, got one value", name));
+    }
+    Axis axis{std::string(name), line_of(node), {}};
+    for (Words& words : values) {
+        axis.choices.push_back({label_of(words), {{std::string(name), std::move(words)}}});
+    }
+    return axis;
+}
+
+/// In the order in which they stand in the file.
+std::vector<Axis> Reader::axes() const {
+    std::vector<Axis> axes;
+    if (const toml::table* const vary = table_in(root_, "vary")) {
+        for (const auto& [key, node] : *vary) {
+            axes.push_back(axis_of(key.str(), node));
+            if (axes.back().choices.empty()) {
+                refuse(node, fmt::format("{}: expected values, got none", axes.back().name));
+            }
+        }
+    }
+    std::ranges::stable_sort(axes, {}, &Axis::line);
+    return axes;
+}
+
+void Reader::set(
+    settings::RunSettings& settings, const std::string& name, const Words& words, int line) const {
+    try {
+        settings::set_by_name(settings, name, words);
+    } catch (const Error& fault) {
+        error_at(file_, line, fault.what());
+    }
+}
+
+settings::RunSettings Reader::shared_settings() const {
+    settings::RunSettings settings;
+    if (const toml::table* const shared = table_in(root_, "settings")) {
+        for (const auto& [key, node] : *shared) {
+            set(settings, std::string(key.str()), words_of(node), line_of(node));
+        }
+    }
+    return settings;
+}
+
+int Reader::repeats() const {
+    const toml::node* const node = root_.get("repeats");
+    if (node == nullptr) {
+        return 1;
+    }
+    const auto repeats = node->value_exact<std::int64_t>();
+    if (!repeats || *repeats < 1 || *repeats > 1000) {
+        refuse(*node, "repeats: expected a whole number from 1 to 1000, got another");
+    }
+    return static_cast<int>(*repeats);
+}
+
+Sweep Reader::sweep() const {
+    constexpr std::array<std::string_view, 4> keys{"name", "repeats", "settings", "vary"};
+    for (const auto& [key, node] : root_) {
+        if (std::ranges::find(keys, key.str()) == keys.end()) {
+            refuse(
+                node,
+                fmt::format(
+                    "expected name, repeats, [settings] or [vary], got '{}'",
+                    printable(std::string(key.str()))));
+        }
+    }
+    Sweep sweep;
+    sweep.name = label_of({root_["name"].value_or(file_.stem().string())});
+    const std::vector<Axis> varied = axes();
+    std::size_t count = static_cast<std::size_t>(repeats());
+    for (const Axis& axis : varied) {
+        count *= axis.choices.size();
+        if (count > most_runs) {
+            error_at(
+                file_, axis.line, fmt::format("expected at most {} flights, got more", most_runs));
+        }
+    }
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < count; ++i) {
+        Run run;
+        run.settings = shared_settings();
+        std::size_t left = i;
+        run.repeat = 1 + static_cast<int>(left % static_cast<std::size_t>(repeats()));
+        left /= static_cast<std::size_t>(repeats());
+        std::vector<const Choice*> chosen(varied.size());
+        for (std::size_t a = varied.size(); a-- > 0;) {
+            chosen[a] = &varied[a].choices[left % varied[a].choices.size()];
+            left /= varied[a].choices.size();
+        }
+        for (std::size_t a = 0; a < varied.size(); ++a) {
+            run.varied.emplace_back(varied[a].name, chosen[a]->label);
+            run.name += (run.name.empty() ? "" : "-") + chosen[a]->label;
+            for (const auto& [name, words] : chosen[a]->settings) {
+                set(run.settings, name, words, varied[a].line);
+            }
+        }
+        constexpr std::size_t longest_name = 200; // of a folder's 255 letters
+        run.name.resize(std::min(run.name.size(), longest_name));
+        run.name = run.name.empty() ? sweep.name : run.name;
+        if (repeats() > 1) {
+            run.name += fmt::format("-r{}", run.repeat);
+        }
+        while (!names.insert(run.name).second) {
+            run.name += "x"; // two files of one name from different folders
+        }
+        settings::find_files_from(fs::absolute(file_).parent_path(), run.settings);
+        sweep.runs.push_back(std::move(run));
+    }
+    return sweep;
+}
+
+} // namespace
+
+Sweep read_sweep(const fs::path& file) {
+    return Reader(file).sweep();
+}
+
+} // namespace octant::ui::sweep

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "ui/settings/settings.h"
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace octant::ui::sweep {
+
+/// One flight of a sweep.
+struct Run {
+    std::string name; ///< "turn-f15-2000-r2"; letters, digits, dots and dashes, once in a sweep
+    int repeat = 1;   ///< from 1; runs that differ in nothing else are to show the same
+    settings::RunSettings settings;
+    std::vector<std::pair<std::string, std::string>> varied; ///< names and values told in its name
+};
+
+/// What a sweep's file asks for.
+struct Sweep {
+    std::string name;
+    std::vector<Run> runs; ///< in the order of the file, the last thing varied changing fastest
+};
+
+/// The largest number of flights that one file may ask for.
+inline constexpr std::size_t most_runs = 100000;
+
+/// Reads a sweep:
+///   name = "budgets"                     # else the file's name
+///   repeats = 3                          # else 1
+///   [settings]                           # what all flights share, by the names of fly's options
+///   size = "320x180"
+///   [vary]                               # every combination is flown
+///   path = ["straight", "turn"]
+///   triangles = { from = 2000, to = 8000, step = 2000 }
+///   [vary.method.paper]                  # several settings under a name of their own
+///   order-method = "paper"
+///   [vary.method.tree]
+///   order-method = "tree"
+/// Files are looked for from the sweep's folder first. Throws Error "file:line: expected ..., got
+/// ..." for anything else, and for settings that a flight would refuse by themselves.
+Sweep read_sweep(const std::filesystem::path& file);
+
+} // namespace octant::ui::sweep

@@ -1,0 +1,167 @@
+#include "ui/sweep/sweep_folder.h"
+
+#include "sim/base/error.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "ui/flight/flight_recorder.h"
+#include "ui/report/run_file.h"
+#include "ui/report/statistics.h"
+#include "ui/report/table_text.h"
+#include "ui/settings/settings_file.h"
+#include "ui/world/input_files.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace octant::ui::sweep {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The last line that a run's log has something in.
+std::string last_words(const fs::path& log) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(log, ignored)) {
+        return {};
+    }
+    std::string last;
+    const std::string text = read_file(log);
+    for (const std::string_view line : split_lines(text)) {
+        if (!split_words(line).empty()) {
+            last = line;
+        }
+    }
+    return last;
+}
+
+bool follows_clock(const settings::RunSettings& settings) {
+    return settings.adapt.terrain || settings.adapt.shading;
+}
+
+/// What decides what a run shows, as text.
+std::string key_of(const Run& run) {
+    return settings::settings_json(run.settings)
+        .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+} // namespace
+
+void SweepFolder::prepare(const Sweep& sweep) const {
+    std::error_code code;
+    const bool known = fs::is_regular_file(folder_ / "jobs.txt", code);
+    if (fs::exists(folder_, code) && !known && !fs::is_empty(folder_, code)) {
+        error_in(folder_, "expected an empty folder or that of a sweep, got another");
+    }
+    for (const char* part : {"jobs", "runs", "logs"}) {
+        make_folder(folder_ / part);
+    }
+    std::string names;
+    for (const Run& run : sweep.runs) {
+        names += run.name + "\n";
+        write_file(
+            job(run.name),
+            settings::settings_json(world::with_absolute_files(run.settings)).dump(2) + "\n");
+    }
+    write_file(folder_ / "jobs.txt", names);
+}
+
+RunResult result_of(const SweepFolder& folder, const Run& run) {
+    RunResult result;
+    result.name = run.name;
+    const fs::path recording = folder.recording(run.name);
+    try {
+        result.done = flight::is_recorded(
+            {recording, std::nullopt, std::nullopt}, world::with_absolute_files(run.settings));
+    } catch (const Error& fault) { // a file of the run is missing: its log says so too
+        result.fault = fault.what();
+        return result;
+    }
+    if (!result.done) {
+        const std::string words = last_words(folder.log(run.name));
+        result.fault = words.empty() ? "was not flown to its end" : words;
+        return result;
+    }
+    const report::RunFile file = report::read_run_file(recording / "run.json");
+    result.host = file.machine_info.host;
+    result.state_hash = file.state_hash;
+    result.picture_hash = file.picture_hash;
+    for (const std::string& reason : file.noise) {
+        result.noise += (result.noise.empty() ? "" : " ") + reason;
+    }
+    return result;
+}
+
+std::vector<std::string> differences(const Sweep& sweep, std::span<const RunResult> results) {
+    std::vector<std::string> lines;
+    std::map<std::string, const RunResult*> firsts;
+    for (std::size_t i = 0; i < sweep.runs.size(); ++i) {
+        const RunResult& now = results[i];
+        if (!now.done || follows_clock(sweep.runs[i].settings)) {
+            continue;
+        }
+        const auto [first, is_first] = firsts.emplace(key_of(sweep.runs[i]), &now);
+        const RunResult& before = *first->second;
+        const bool states = before.state_hash != now.state_hash;
+        if (!is_first && (states || before.picture_hash != now.picture_hash)) {
+            lines.push_back(fmt::format(
+                "{} of {} on {} and {} on {} differ: expected {}, got {}",
+                states ? "states" : "pictures",
+                before.name,
+                before.host,
+                now.name,
+                now.host,
+                states ? before.state_hash : before.picture_hash,
+                states ? now.state_hash : now.picture_hash));
+        }
+    }
+    return lines;
+}
+
+std::string
+sweep_csv(const SweepFolder& folder, const Sweep& sweep, std::span<const RunResult> results) {
+    report::HtmlTable table;
+    table.header = {"run"};
+    if (!sweep.runs.empty()) {
+        for (const auto& [name, value] : sweep.runs.front().varied) {
+            table.header.push_back(name);
+        }
+    }
+    table.header.insert(
+        table.header.end(), {"repeat", "done", "host", "state_hash", "picture_hash", "noise"});
+    for (const report::Figure& figure : report::figures()) {
+        table.header.emplace_back(figure.key);
+    }
+    table.header.emplace_back("fault");
+    for (std::size_t i = 0; i < sweep.runs.size(); ++i) {
+        const Run& run = sweep.runs[i];
+        const RunResult& result = results[i];
+        std::vector<std::string> row = {run.name};
+        for (const auto& [name, value] : run.varied) {
+            row.push_back(value);
+        }
+        row.insert(
+            row.end(),
+            {fmt::format("{}", run.repeat),
+             result.done ? "1" : "0",
+             result.host,
+             result.state_hash,
+             result.picture_hash,
+             result.noise});
+        const report::Rows summary =
+            result.done ? report::read_run_file(folder.recording(run.name) / "run.json").summary
+                        : report::Rows();
+        for (const report::Figure& figure : report::figures()) {
+            const auto found = std::ranges::find_if(
+                summary, [&](const auto& each) { return each.first == figure.key; });
+            row.push_back(found == summary.end() ? "" : found->second);
+        }
+        row.push_back(result.fault);
+        table.rows.push_back(std::move(row));
+    }
+    return report::csv_of(table);
+}
+
+} // namespace octant::ui::sweep
