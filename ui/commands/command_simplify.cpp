@@ -143,7 +143,7 @@ void add_other_options(std::vector<Option>& table, SimplifyCommand& command) {
          flag("--quiet", "no progress, no notes", command.quiet)});
 }
 
-constexpr const char* footer =
+constexpr const char* simplify_footer =
     "error: certified two-sided distance (Hausdorff), rms: root mean square, in file units and as\n"
     "fractions of the diagonal.\n"
     "Exit code 1: the mesh is written, but the goal was out of reach.\n"
@@ -170,7 +170,7 @@ Command simplify_command() {
         .name = "simplify",
         .summary = "Reduces triangles of a mesh and certifies how far the result is off",
         .options = goal_options(*work),
-        .footer = footer,
+        .footer = simplify_footer,
         .run = [work] { run(*work); }};
     add_other_options(command.options, *work);
     return command;

@@ -107,7 +107,8 @@ void write_results(
         }
     }
     if (!recordings.empty()) {
-        write_file(folder.path() / "report.html", report::html_report(recordings));
+        write_file(
+            folder.path() / "report.html", report::html_report(recordings, {}, folder.path()));
     }
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <fmt/format.h>
 #include <iterator>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,7 @@ Program octant_program(std::vector<Command> of_windows) {
         program.commands.begin() + after_fly,
         std::make_move_iterator(of_windows.begin()),
         std::make_move_iterator(of_windows.end()));
+    program.commands.push_back(manual_command(std::make_shared<const Program>(program)));
     return program;
 }
 

@@ -2,11 +2,14 @@
 
 #include "ui/commands/command.h"
 
+#include <memory>
 #include <vector>
 
 namespace octant::ui::commands {
 
 Command fly_command();
+/// Prints what a program says of itself.
+Command manual_command(std::shared_ptr<const Program> program);
 Command pack_command();
 Command report_command();
 Command terrain_command();

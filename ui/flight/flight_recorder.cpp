@@ -11,7 +11,6 @@
 #include "ui/report/html_report.h"
 #include "ui/report/json_text.h"
 #include "ui/report/loaded_recording.h"
-#include "ui/report/plots.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
 #include "visuals/groundfile/damage_tally.h"
@@ -73,6 +72,9 @@ report::RunInfo run_info(
     if (settings.adapt.terrain) {
         info.facts.emplace_back(
             "adaptation", adaptation_text(stress_settings(settings, session.rate_hz())));
+    }
+    for (const flightpaths::LegBegin& leg : flight.legs) {
+        info.legs.push_back({leg.label, leg.time_s});
     }
     info.notes = session.world().notes;
     info.inputs = world::input_hashes(settings);
@@ -192,9 +194,6 @@ FlightEnd FlightRecorder::finish(const Session& session, const std::string& stop
         tracks_.reset();
         write_flown(session);
         end.notes.push_back(write_report(*options_.folder));
-        if (!report::gnuplot_installed()) {
-            end.missing.emplace_back("plots not made: gnuplot is not installed");
-        }
     } else {
         end.statistics = times_.statistics();
     }

@@ -28,24 +28,6 @@ std::byte square_mean(const PictureView& picture, int x, int y, int side, int ch
     return static_cast<std::byte>((sum + count / 2) / count);
 }
 
-std::string picture_html(const std::filesystem::path& path) {
-    const std::string name = escaped(path.filename().string());
-    try {
-        const Picture small = shrunk(read_png(path).view(), widest_px);
-        return fmt::format(
-            "<figure><img alt=\"{0}\" width=\"{1}\" height=\"{2}\" "
-            "src=\"data:image/png;base64,{3}\"><figcaption>{0}</figcaption></figure>\n",
-            name,
-            small.width_px,
-            small.height_px,
-            base64(png_bytes(small.view(), PngEffort::Small)));
-    } catch (const Error& error) {
-        return fmt::format(
-            "<figure class=\"missing\"><figcaption>{}</figcaption></figure>\n",
-            escaped(error.what()));
-    }
-}
-
 } // namespace
 
 std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t most) {
@@ -79,6 +61,24 @@ Picture shrunk(const PictureView& picture, int widest) {
     return small;
 }
 
+std::string
+picture_html(const std::filesystem::path& picture, int widest, const std::string& caption) {
+    try {
+        const Picture small = shrunk(read_png(picture).view(), widest);
+        return fmt::format(
+            "<figure><img alt=\"{0}\" width=\"{1}\" height=\"{2}\" "
+            "src=\"data:image/png;base64,{3}\"><figcaption>{0}</figcaption></figure>\n",
+            escaped(caption),
+            small.width_px,
+            small.height_px,
+            base64(png_bytes(small.view(), PngEffort::Small)));
+    } catch (const Error& error) {
+        return fmt::format(
+            "<figure class=\"missing\"><figcaption>{}</figcaption></figure>\n",
+            escaped(error.what()));
+    }
+}
+
 std::string contact_sheet_html(std::span<const std::filesystem::path> pictures) {
     if (pictures.empty()) {
         return {};
@@ -86,7 +86,7 @@ std::string contact_sheet_html(std::span<const std::filesystem::path> pictures) 
     const auto chosen = evenly_spaced(pictures.size(), most_pictures);
     std::string html = "<div class=\"sheet\">\n";
     for (const std::size_t index : chosen) {
-        html += picture_html(pictures[index]);
+        html += picture_html(pictures[index], widest_px, pictures[index].filename().string());
     }
     html += "</div>\n";
     if (chosen.size() < pictures.size()) {

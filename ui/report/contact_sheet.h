@@ -17,6 +17,11 @@ std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t most);
 /// that it is at most `widest_px` wide. A picture narrower than that stays as it is. RGB.
 Picture shrunk(const PictureView& picture, int widest_px);
 
+/// A picture as a figure of a page, embedded, at most `widest_px` wide. One that cannot be read is
+/// named in its place.
+std::string
+picture_html(const std::filesystem::path& picture, int widest_px, const std::string& caption);
+
 /// The pictures of a flight as a grid of figures for a page, embedded, at most 12 of them and each
 /// at most 640 pixels wide; the rest is mentioned. A picture that cannot be read is named in its
 /// place. Empty when there are none.

@@ -12,6 +12,7 @@ namespace octant::ui::report {
 
 namespace {
 
+constexpr const char* time_label = "simulated time, s";
 constexpr const char* blue = "#3b82f6";
 constexpr const char* amber = "#f59e0b";
 constexpr const char* green = "#10b981";
@@ -19,7 +20,7 @@ constexpr const char* violet = "#8b5cf6";
 constexpr const char* grey = "#9ca3af";
 
 /// Most pieces that a curve is cut into: more than there are pixels.
-constexpr std::size_t most_pieces = 1200;
+constexpr std::size_t most_pieces = 900;
 
 /// First index of each piece when `count` things are cut into at most `pieces`, and `count`.
 std::vector<std::size_t> cuts(std::size_t count, std::size_t pieces) {
@@ -43,14 +44,18 @@ std::vector<FrameRecord> chosen_by_warm_up(std::span<const FrameRecord> records,
 /// A curve of one value of the counted or of the warm-up frames. Where pieces hold several frames,
 /// each gives its least and its greatest value in the order they came.
 template <class Value>
-PlotSeries curve(std::span<const FrameRecord> records, bool warm_up, Value value_of) {
+PlotSeries curve(
+    std::span<const FrameRecord> records,
+    bool warm_up,
+    Value value_of,
+    std::size_t pieces = most_pieces) {
     const std::vector<FrameRecord> chosen = chosen_by_warm_up(records, warm_up);
     PlotSeries series;
     const auto add = [&](const FrameRecord& record) {
-        series.x.push_back(record.frame);
+        series.x.push_back(record.sim_time_s);
         series.y.push_back(static_cast<double>(value_of(record)));
     };
-    const auto at = cuts(chosen.size(), most_pieces);
+    const auto at = cuts(chosen.size(), pieces);
     for (std::size_t i = 0; i + 1 < at.size(); ++i) {
         const auto less = [&](const FrameRecord& a, const FrameRecord& b) {
             return value_of(a) < value_of(b);
@@ -74,7 +79,7 @@ PlotSeries named(PlotSeries series, const char* name, const char* colour) {
 
 Plot frame_time_plot(std::span<const FrameRecord> records, double ceiling_ms) {
     const auto frame_ms = [](const FrameRecord& record) { return record.frame_ms; };
-    Plot plot{"Frame time", "frame", "ms", {}, {}, 0.0, ceiling_ms};
+    Plot plot{"Frame time", time_label, "ms", {}, {}, 0.0, ceiling_ms};
     plot.series = {
         named(curve(records, true, frame_ms), "warm-up", grey),
         named(curve(records, false, frame_ms), "frame time", blue)};
@@ -141,7 +146,9 @@ std::vector<PlotColumn> stage_columns(std::span<const FrameRecord> counted) {
             std::max_element(piece.begin(), piece.end(), [](const auto& a, const auto& b) {
                 return a.frame_ms < b.frame_ms;
             });
-        columns.push_back({*longest, piece.front().frame - 0.5, piece.back().frame + 0.5});
+        const double to_s =
+            at[i + 1] < counted.size() ? counted[at[i + 1]].sim_time_s : piece.back().sim_time_s;
+        columns.push_back({*longest, piece.front().sim_time_s, to_s});
     }
     return columns;
 }
@@ -160,9 +167,9 @@ Plot stage_plot(std::span<const FrameRecord> records, double ceiling_ms) {
         Stage{"read", amber, &FrameRecord::read_ms}};
     const std::vector<FrameRecord> counted = chosen_by_warm_up(records, false);
     const std::vector<PlotColumn> columns = stage_columns(counted);
-    Plot plot{"Stages, stacked", "frame", "ms", {}, {}, 0.0, ceiling_ms};
+    Plot plot{"Stages, stacked", time_label, "ms", {}, {}, 0.0, ceiling_ms};
     if (columns.size() < counted.size()) {
-        plot.x_label = "frame (columns show the longest of their frames)";
+        plot.x_label = "simulated time, s (columns show the longest of their frames)";
     }
     std::vector<double> base(2 * columns.size(), 0.0);
     for (const Stage& stage : stages) {
@@ -182,7 +189,7 @@ Plot stage_plot(std::span<const FrameRecord> records, double ceiling_ms) {
 }
 
 Plot triangle_plot(std::span<const FrameRecord> records) {
-    Plot plot{"Terrain triangles", "frame", "triangles", {}, {}, 0.0, {}};
+    Plot plot{"Terrain triangles", time_label, "triangles", {}, {}, 0.0, {}};
     plot.series = {named(
         curve(records, false, [](const FrameRecord& record) { return record.terrain_triangles; }),
         "",
@@ -192,7 +199,7 @@ Plot triangle_plot(std::span<const FrameRecord> records) {
 
 Plot change_plot(std::span<const FrameRecord> records) {
     Plot plot{
-        "Change of terrain triangles from frame to frame", "frame", "triangles", {}, {}, {}, {}};
+        "Change of terrain triangles from frame to frame", time_label, "triangles", {}, {}, {}, {}};
     plot.series = {named(
         curve(records, false, [](const FrameRecord& record) { return record.triangle_change; }),
         "",
@@ -201,7 +208,7 @@ Plot change_plot(std::span<const FrameRecord> records) {
 }
 
 Plot target_plot(std::span<const FrameRecord> records) {
-    Plot plot{"Triangle target", "frame", "triangles", {}, {}, 0.0, {}};
+    Plot plot{"Triangle target", time_label, "triangles", {}, {}, 0.0, {}};
     plot.series = {named(
         curve(records, false, [](const FrameRecord& record) { return record.triangle_target; }),
         "",
@@ -210,7 +217,7 @@ Plot target_plot(std::span<const FrameRecord> records) {
 }
 
 Plot stress_plot(std::span<const FrameRecord> records) {
-    Plot plot{"Stress", "frame", "share of the frame", {}, {}, 0.0, {}};
+    Plot plot{"Stress", time_label, "share of the frame", {}, {}, 0.0, {}};
     plot.series = {named(
         curve(records, false, [](const FrameRecord& record) { return record.stress; }), "", blue)};
     plot.levels = {{"whole frame", 1.0}};
@@ -218,6 +225,11 @@ Plot stress_plot(std::span<const FrameRecord> records) {
 }
 
 } // namespace
+
+PlotSeries frame_time_curve(std::span<const FrameRecord> records, std::size_t pieces) {
+    return curve(
+        records, false, [](const FrameRecord& record) { return record.frame_ms; }, pieces);
+}
 
 TargetRange triangle_targets_of(std::span<const FrameRecord> records) {
     TargetRange range;

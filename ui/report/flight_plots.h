@@ -3,6 +3,7 @@
 #include "ui/report/frame_record.h"
 #include "ui/report/plots.h"
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,10 @@ TargetRange triangle_targets_of(std::span<const FrameRecord> records);
 /// more than 2.5 times P99, so that one stray frame does not flatten the rest (its curve leaves the
 /// plot). Plots of several flights take the greatest, so that they compare by eye.
 double plot_ceiling_ms(std::span<const FrameRecord> records);
+
+/// The frame times of a flight's counted frames over simulated time, with every peak, thinned to
+/// the least and the greatest of each of `pieces`.
+PlotSeries frame_time_curve(std::span<const FrameRecord> records, std::size_t pieces);
 
 /// The plots of a flight: frame time (warm-up apart), histogram, stages, terrain triangles, their
 /// change; where the triangle target moved also that target and the stress. A long flight is

@@ -5,9 +5,13 @@
 #include "ui/report/flight_plots.h"
 #include "ui/report/html_style.h"
 #include "ui/report/overruns.h"
+#include "ui/report/page_plot.h"
+#include "ui/report/page_script.h"
+#include "ui/report/several_page.h"
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <vector>
 
@@ -21,37 +25,12 @@ std::string title_of(const LoadedRecording& recording) {
     return recording.run.title.empty() ? recording.name : recording.run.title;
 }
 
-std::string value_in(const Rows& rows, const std::string& name) {
-    const auto found =
-        std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.first == name; });
-    return found == rows.end() ? std::string() : found->second;
-}
-
-/// What tells a recording from the others: its folder's name, or its whole path where names repeat.
-std::string label_of(Recordings recordings, const LoadedRecording& recording) {
-    const auto same = [&](const auto& each) { return each.name == recording.name; };
-    const bool unique = std::count_if(recordings.begin(), recordings.end(), same) == 1;
-    return unique ? recording.name : recording.folder.string();
-}
-
 std::string heading(const std::string& text) {
     return "<h2>" + escaped(text) + "</h2>\n";
 }
 
 std::string card(const std::string& inside) {
     return "<div class=\"card\">\n" + inside + "</div>\n";
-}
-
-/// One card a recording, side by side. `inside` makes a card's content.
-template <class Inside>
-std::string side_by_side(Recordings recordings, Inside inside) {
-    std::string html = "<div class=\"flights\">\n";
-    for (const LoadedRecording& recording : recordings) {
-        const std::string label = escaped(label_of(recordings, recording));
-        const std::string name = recordings.size() > 1 ? "<h3>" + label + "</h3>\n" : "";
-        html += card(name + inside(recording));
-    }
-    return html + "</div>\n";
 }
 
 std::string tile(const char* name, const std::string& value, const std::string& unit) {
@@ -125,73 +104,34 @@ std::string overview(const LoadedRecording& recording) {
     return html + "</dl>\n";
 }
 
-std::string table_head(Recordings recordings, const char* first, const char* last) {
-    std::string html = fmt::format("<div class=\"scroll\"><table>\n<thead><tr><th>{}</th>", first);
-    for (const LoadedRecording& recording : recordings) {
-        const std::string name = recordings.size() > 1 ? label_of(recordings, recording) : "";
-        html +=
-            fmt::format("<th class=\"{}\">{}</th>", *last != '\0' ? "number" : "", escaped(name));
-    }
-    return html + (*last != '\0' ? fmt::format("<th>{}</th>", last) : "") +
-           "</tr></thead>\n<tbody>\n";
-}
-
-/// The figures of all recordings; with several, each after the first says how it compares with it.
-std::string figures_table(Recordings recordings) {
-    std::string html = table_head(recordings, "Figure", "Definition");
+std::string figures_table(const LoadedRecording& recording) {
+    std::string html = "<div class=\"scroll\"><table>\n<thead><tr><th>Figure</th>"
+                       "<th class=\"number\">Value</th><th>Definition</th></tr></thead>\n<tbody>\n";
     for (const Figure& figure : figures()) {
-        html += fmt::format("<tr><td>{}</td>", escaped(figure.name));
-        const double first = figure.value(recordings.front().statistics);
-        for (const LoadedRecording& recording : recordings) {
-            const double value = figure.value(recording.statistics);
-            html += fmt::format("<td class=\"number\">{:.{}f}", value, figure.decimals);
-            if (&recording != &recordings.front() && first > 0.0 && figure.decimals > 0) {
-                const bool better = figure.less_is_better == (value < first);
-                html += fmt::format(
-                    " <small class=\"{}\">({:+.1f} %)</small>",
-                    value == first ? "" : (better ? "better" : "worse"),
-                    100.0 * (value / first - 1.0));
-            }
-            html += "</td>";
-        }
-        html += fmt::format("<td class=\"definition\">{}</td></tr>\n", escaped(figure.definition));
+        html += fmt::format(
+            "<tr><td>{}</td><td class=\"number\">{:.{}f}</td><td "
+            "class=\"definition\">{}</td></tr>\n",
+            escaped(figure.name),
+            figure.value(recording.statistics),
+            figure.decimals,
+            escaped(figure.definition));
     }
-    html += "</tbody></table></div>\n<p class=\"note\">frame_ms runs from the start of the frame's "
-            "simulation step to its pixels complete and read; writing pictures and video is "
-            "outside it. n is the number of frames counted. Stress (frames.csv) is the share of a "
-            "frame's time, the simulated time from it to the next, that frame_ms is; where the "
-            "ground adapts it is that share through a first-order filter.";
-    html += recordings.size() > 1 ? " In brackets: against the first recording.</p>\n" : "</p>\n";
-    return card(html);
+    return card(
+        html +
+        "</tbody></table></div>\n<p class=\"note\">frame_ms runs from the start of the frame's "
+        "simulation step to its pixels complete and read; writing pictures and video is outside "
+        "it. n is the number of frames counted. Stress (frames.csv) is the share of a frame's "
+        "time, the simulated time from it to the next, that frame_ms is; where the ground adapts "
+        "it is that share through a first-order filter.</p>\n");
 }
 
-/// Rows of names and values of all recordings, in the order in which the names first come.
-/// `rows_of` gives a recording's rows. Rows in which recordings differ are marked.
-template <class RowsOf>
-std::string rows_table(Recordings recordings, const char* first, RowsOf rows_of) {
-    std::vector<std::string> names;
-    for (const LoadedRecording& recording : recordings) {
-        for (const auto& [name, value] : rows_of(recording)) {
-            if (std::find(names.begin(), names.end(), name) == names.end()) {
-                names.push_back(name);
-            }
-        }
-    }
-    std::string html = table_head(recordings, first, "");
-    for (const std::string& name : names) {
-        const std::string expected = value_in(rows_of(recordings.front()), name);
-        std::string cells;
-        bool changed = false;
-        for (const LoadedRecording& recording : recordings) {
-            const std::string value = value_in(rows_of(recording), name);
-            changed = changed || value != expected;
-            cells += "<td><code>" + escaped(value) + "</code></td>";
-        }
+std::string rows_table(const char* first, const Rows& rows) {
+    std::string html = fmt::format(
+        "<div class=\"scroll\"><table>\n<thead><tr><th>{}</th><th></th></tr></thead>\n<tbody>\n",
+        first);
+    for (const auto& [name, value] : rows) {
         html += fmt::format(
-            "<tr{}><td>{}</td>{}</tr>\n",
-            changed ? " class=\"changed\"" : "",
-            escaped(name),
-            cells);
+            "<tr><td>{}</td><td><code>{}</code></td></tr>\n", escaped(name), escaped(value));
     }
     return card(html + "</tbody></table></div>\n");
 }
@@ -209,47 +149,23 @@ Rows result_rows(const LoadedRecording& recording) {
     return rows;
 }
 
-std::string plot_html(const Plot& plot, bool wide) {
-    const auto svg = plot_svg(plot);
-    if (!svg) {
-        return {};
-    }
-    return fmt::format(
-        "<div class=\"plot{}\"><h3>{}</h3>{}</div>\n",
-        wide ? " wide" : "",
-        escaped(plot.title),
-        inline_svg(*svg));
-}
-
-std::string plots_html(const LoadedRecording& recording, double ceiling_ms, bool alone) {
+std::string plots_html(const LoadedRecording& recording) {
+    const double ceiling_ms = plot_ceiling_ms(recording.records);
     std::string html = "<div class=\"plots\">\n";
     bool first = true;
     for (Plot& plot : flight_plots(recording.records, ceiling_ms)) {
-        plot.width_px = first && alone ? 1120 : 640;
-        plot.height_px = first && alone ? 300 : 270;
-        html += plot_html(plot, first);
+        if (plot.x_label.starts_with("simulated time")) {
+            plot.marks = recording.run.legs;
+        }
+        html += card(page_plot(plot, first ? PlotPlace::Wide : PlotPlace::Half));
         first = false;
     }
-    html += "</div>\n";
+    html += "</div>\n<p class=\"note\">Values under the pointer; drag to zoom, double click for "
+            "all of it.";
     if (recording.statistics.max_ms > ceiling_ms) {
-        html += "<p class=\"note\">Where a frame took longer than the plot is high, its curve "
-                "leaves it at the top.</p>\n";
+        html += " Where a frame took longer than the plot is high, its curve leaves it at the top.";
     }
-    return html;
-}
-
-std::string plots_section(Recordings recordings) {
-    if (!gnuplot_installed()) {
-        return heading("Plots") +
-               "<p class=\"note\">There are no plots: gnuplot is not installed.</p>\n";
-    }
-    double ceiling_ms = 0.0;
-    for (const LoadedRecording& recording : recordings) {
-        ceiling_ms = std::max(ceiling_ms, plot_ceiling_ms(recording.records));
-    }
-    return heading("Plots") + side_by_side(recordings, [&](const LoadedRecording& recording) {
-               return plots_html(recording, ceiling_ms, recordings.size() == 1);
-           });
+    return html + "</p>\n";
 }
 
 std::string overrun_summary(std::span<const Overrun> overruns, int frames) {
@@ -267,45 +183,81 @@ std::string overrun_summary(std::span<const Overrun> overruns, int frames) {
     return text;
 }
 
-std::string overruns_html(const LoadedRecording& recording) {
-    constexpr std::size_t most_rows = 20;
-    std::vector<Overrun> overruns = overruns_of(recording.records);
-    std::string html = "<p>" + overrun_summary(overruns, recording.statistics.frames) + "</p>\n";
-    if (overruns.empty()) {
-        return html;
-    }
-    std::stable_sort(overruns.begin(), overruns.end(), [](const Overrun& a, const Overrun& b) {
-        return a.record.frame_ms > b.record.frame_ms;
-    });
+/// The slowest frames with their reasons.
+HtmlTable slowest_table(std::span<const Overrun> slowest) {
     HtmlTable table;
-    table.header = {"frame", "ms", "took most", "ms", "grew most over its median", "triangles"};
-    for (std::size_t i = 0; i < std::min(most_rows, overruns.size()); ++i) {
-        const Overrun& overrun = overruns[i];
+    table.header = {
+        "frame",
+        "at, s",
+        "ms",
+        "took most",
+        "ms",
+        "grew most over its median",
+        "triangles",
+        "change"};
+    for (const Overrun& frame : slowest) {
         table.rows.push_back(
-            {fmt::format("{}", overrun.record.frame),
-             fmt::format("{:.2f}", overrun.record.frame_ms),
-             std::string(stage_names[overrun.longest_stage]),
-             fmt::format("{:.2f}", overrun.stage_ms[overrun.longest_stage]),
-             fmt::format("{} by {:.2f} ms", stage_names[overrun.grown_stage], overrun.growth_ms),
-             fmt::format("{}", overrun.record.terrain_triangles)});
+            {fmt::format("{}", frame.record.frame),
+             fmt::format("{:.2f}", frame.record.sim_time_s),
+             fmt::format("{:.2f}", frame.record.frame_ms),
+             std::string(stage_names[frame.longest_stage]),
+             fmt::format("{:.2f}", frame.stage_ms[frame.longest_stage]),
+             fmt::format("{} by {:.2f} ms", stage_names[frame.grown_stage], frame.growth_ms),
+             fmt::format("{}", frame.record.terrain_triangles),
+             fmt::format("{:+}", frame.record.triangle_change)});
     }
-    if (overruns.size() > most_rows) {
-        table.note = fmt::format("The {} longest; all of them are in frames.csv.", most_rows);
-    }
-    return html + html_of(table);
+    return table;
 }
 
-std::string pictures_section(Recordings recordings) {
-    const bool any = std::any_of(recordings.begin(), recordings.end(), [](const auto& each) {
-        return !each.pictures.empty();
+/// The kept picture nearest to a frame.
+const std::filesystem::path&
+nearest_picture(std::span<const std::filesystem::path> pictures, int frame) {
+    return *std::ranges::min_element(pictures, {}, [&](const std::filesystem::path& picture) {
+        return std::abs(picture_frame(picture.filename().string()).value_or(0) - frame);
     });
-    if (!any) {
-        return {};
+}
+
+std::string slowest_html(const LoadedRecording& recording) {
+    constexpr std::size_t most_rows = 12;
+    constexpr std::size_t most_pictures = 4;
+    constexpr int widest_px = 320;
+    const auto overruns = overruns_of(recording.records);
+    std::vector<Overrun> slowest = overruns_of(recording.records, 0.0);
+    std::ranges::stable_sort(slowest, [](const Overrun& a, const Overrun& b) {
+        return a.record.frame_ms > b.record.frame_ms;
+    });
+    slowest.resize(std::min(slowest.size(), most_rows));
+    std::string html = "<p>" + overrun_summary(overruns, recording.statistics.frames) + "</p>\n" +
+                       html_of(slowest_table(slowest));
+    if (recording.pictures.empty() || slowest.empty()) {
+        return card(html);
     }
-    return heading("Pictures") + side_by_side(recordings, [](const LoadedRecording& recording) {
-               const std::string sheet = contact_sheet_html(recording.pictures);
-               return sheet.empty() ? std::string("<p class=\"note\">No pictures.</p>\n") : sheet;
-           });
+    html += "<div class=\"sheet\">\n";
+    for (std::size_t i = 0; i < std::min(most_pictures, slowest.size()); ++i) {
+        const std::filesystem::path& picture =
+            nearest_picture(recording.pictures, slowest[i].record.frame);
+        html += picture_html(
+            picture,
+            widest_px,
+            fmt::format(
+                "frame {}, {:.2f} ms: nearest picture, {}",
+                slowest[i].record.frame,
+                slowest[i].record.frame_ms,
+                picture.filename().string()));
+    }
+    return card(html + "</div>\n");
+}
+
+std::string one_html(const LoadedRecording& recording) {
+    std::string html = card(overview(recording));
+    html += heading("Plots") + plots_html(recording);
+    const std::string sheet = contact_sheet_html(recording.pictures);
+    html += sheet.empty() ? sheet : heading("Pictures") + card(sheet);
+    html += heading("Frame times") + figures_table(recording);
+    html += heading("The slowest frames and why") + slowest_html(recording);
+    html += heading("Results") + rows_table("Result", result_rows(recording));
+    html += heading("Settings") + rows_table("Setting", recording.run.settings);
+    return html + heading("Program and machine") + rows_table("Entry", recording.run.machine);
 }
 
 std::string page_title(Recordings recordings) {
@@ -320,38 +272,31 @@ std::string head(Recordings recordings) {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<title>{} - Octant</title>\n<style>{}</style>\n</head>\n<body>\n"
-        "<main class=\"{}\" style=\"--flights: {}\">\n",
+        "<main class=\"{}\">\n",
         escaped(page_title(recordings)),
         page_style(),
-        recordings.size() > 1 ? "several" : "one",
-        std::max<std::size_t>(recordings.size(), 1));
+        recordings.size() > 1 ? "several" : "one");
 }
 
 } // namespace
 
-std::string html_report(Recordings recordings, std::span<const HtmlTable> further) {
+std::string html_report(
+    Recordings recordings,
+    std::span<const HtmlTable> further,
+    const std::filesystem::path& page_folder) {
     std::string html = head(recordings);
     html += "<header><p class=\"lead\">Octant flight report</p><h1>" +
             escaped(page_title(recordings)) + "</h1></header>\n";
-    if (!recordings.empty()) {
-        html += side_by_side(recordings, overview);
-        html += plots_section(recordings);
-        html += pictures_section(recordings);
-        html += heading("Frame times") + figures_table(recordings);
-        html += heading("What was overrun and why") + side_by_side(recordings, overruns_html);
-        html += heading("Results") + rows_table(recordings, "Result", result_rows);
-        html += heading("Settings") + rows_table(recordings, "Setting", [](const auto& recording) {
-                    return recording.run.settings;
-                });
-        html += heading("Program and machine") +
-                rows_table(recordings, "Entry", [](const auto& recording) {
-                    return recording.run.machine;
-                });
+    if (recordings.size() == 1) {
+        html += one_html(recordings.front());
+    } else if (!recordings.empty()) {
+        html += several_html(recordings, page_folder);
     }
     for (const HtmlTable& table : further) {
         html += card(html_of(table));
     }
-    return html + "</main>\n</body>\n</html>\n";
+    return html + "</main>\n<div id=\"tip\" hidden></div>\n<script>" + std::string(page_script()) +
+           "</script>\n</body>\n</html>\n";
 }
 
 } // namespace octant::ui::report

@@ -3,16 +3,20 @@
 #include "ui/report/html_text.h"
 #include "ui/report/loaded_recording.h"
 
+#include <filesystem>
 #include <span>
 #include <string>
 
 namespace octant::ui::report {
 
-/// A self-contained page on one recording, or on several side by side: figures with their
-/// definitions, plots, pictures, overruns and why, settings and machine; rows in which recordings
-/// differ are marked. `further` tables come last. Nothing is fetched when it is read. Without
-/// gnuplot the page has no plots and says so. Throws Error when gnuplot fails.
-std::string
-html_report(std::span<const LoadedRecording> recordings, std::span<const HtmlTable> further = {});
+/// A self-contained page on one recording, or on several (several_html). That on one has its
+/// figures with their definitions, plots over simulated time with the path's legs, pictures, its
+/// slowest frames and why, settings and machine. `further` tables come last. Nothing is fetched
+/// when it is read; its own script draws the plots. `page_folder` is where the page will lie, for
+/// links.
+std::string html_report(
+    std::span<const LoadedRecording> recordings,
+    std::span<const HtmlTable> further = {},
+    const std::filesystem::path& page_folder = {});
 
 } // namespace octant::ui::report

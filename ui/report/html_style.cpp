@@ -9,13 +9,11 @@ constexpr std::string_view style = R"css(
   color-scheme: light dark;
   --page: #f6f7f9; --card: #ffffff; --ink: #1b2430; --soft: #5d6b7c; --line: #dde3ea;
   --accent: #2563eb; --bad: #b91c1c; --bad-back: #fdecec; --good: #15803d; --good-back: #e8f6ed;
-  --changed: #fff6dd;
 }
 @media (prefers-color-scheme: dark) {
   :root {
     --page: #12161c; --card: #1a2029; --ink: #e4e9f0; --soft: #98a5b5; --line: #2e3743;
     --accent: #7ab0ff; --bad: #ff9b9b; --bad-back: #40201f; --good: #86e0a5; --good-back: #173324;
-    --changed: #3a3216;
   }
 }
 * { box-sizing: border-box; }
@@ -31,12 +29,10 @@ h3 { font-size: 1rem; margin: 0 0 .5rem; overflow-wrap: anywhere; }
 .lead, .note, figcaption { color: var(--soft); }
 .lead { margin: 0; }
 .note { font-size: .87rem; margin: .5rem 0 0; }
-.flights { display: grid; gap: 1rem; grid-template-columns: repeat(var(--flights), minmax(0, 1fr)); }
 .card {
   background: var(--card); border: 1px solid var(--line); border-radius: 10px; padding: 1rem 1.1rem;
   min-width: 0; margin-bottom: 1rem;
 }
-.flights > .card { margin-bottom: 0; }
 header { margin-bottom: 1rem; }
 .badge {
   display: inline-block; border-radius: 99px; padding: .1rem .7rem; margin: .5rem .4rem 0 0;
@@ -48,22 +44,44 @@ header { margin-bottom: 1rem; }
 .tiles dd { margin: 0; font-size: 1.35rem; font-weight: 650; font-variant-numeric: tabular-nums; }
 .tiles small { font-size: .8rem; font-weight: 400; color: var(--soft); }
 .plots { display: grid; gap: 1rem; grid-template-columns: repeat(2, minmax(0, 1fr)); }
-.plots .wide { grid-column: 1 / -1; }
-.several .plots { grid-template-columns: minmax(0, 1fr); }
-.plot h3 { font-size: .9rem; margin: 0; }
-.plot svg { display: block; width: 100%; height: auto; color: var(--ink); }
-.plot svg text { font-family: inherit; }
-.plot .gridline { opacity: .28; }
+.plots .card { margin: 0; }
+.plots .card:first-child { grid-column: 1 / -1; }
+.small-plots { display: grid; gap: 1rem 1.4rem; grid-template-columns: repeat(auto-fill, minmax(250px, 1fr)); }
+.plot { min-width: 0; position: relative; }
+.plot h3 { font-size: .9rem; margin: 0 0 .2rem; }
+.plot svg { display: block; max-width: 100%; cursor: crosshair; touch-action: pan-y; }
+.plot text { font: 12px system-ui, "DejaVu Sans", sans-serif; fill: var(--ink); font-variant-numeric: tabular-nums; }
+.plot text.soft { fill: var(--soft); }
+.plot .gridline { stroke: var(--line); }
+.plot .axis { stroke: var(--soft); }
+.plot .level { stroke: var(--bad); stroke-dasharray: 5 4; }
+.plot .mark { stroke: var(--soft); stroke-dasharray: 2 3; }
+.plot .cross { stroke: var(--ink); opacity: .5; }
+.plot .band { fill: var(--accent); opacity: .18; }
+.key { display: flex; flex-wrap: wrap; gap: .1rem 1rem; font-size: .8rem; color: var(--soft); margin-bottom: .2rem; }
+.key span { overflow-wrap: anywhere; }
+.key i { display: inline-block; width: .8rem; height: .8rem; border-radius: 2px; margin-right: .35rem; vertical-align: -.1rem; }
+#tip {
+  position: absolute; z-index: 2; white-space: pre; pointer-events: none; padding: .35rem .6rem; border-radius: 6px;
+  font-size: .8rem; background: var(--ink); color: var(--card);
+}
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-size: .9rem; }
 th, td { text-align: left; padding: .32rem .8rem .32rem 0; border-bottom: 1px solid var(--line); vertical-align: top; overflow-wrap: anywhere; }
 th { color: var(--soft); font-weight: 600; }
 tbody tr:last-child td { border-bottom: 0; }
 td:first-child:not(.number) { min-width: 9rem; width: 22%; }
-.flights td:first-child { width: auto; }
 .number { text-align: right; padding-right: 1.6rem; font-variant-numeric: tabular-nums; white-space: nowrap; }
-tr.changed td { background: var(--changed); }
-tr.changed td:first-child { box-shadow: -.5rem 0 var(--changed); }
+table.sortable th { cursor: pointer; white-space: normal; }
+table.sortable th[aria-sort=ascending]::after { content: " \25B2"; }
+table.sortable th[aria-sort=descending]::after { content: " \25BC"; }
+table.runs td { white-space: nowrap; overflow-wrap: normal; }
+table.runs td:first-child { width: auto; min-width: 0; }
+table.runs .number { padding-right: .9rem; }
+.card h3 { margin-top: .6rem; }
+.card > h3:first-child, .small-plots h3 { margin-top: 0; }
+a { color: var(--accent); }
+td.soft { color: var(--soft); }
 .better { color: var(--good); }
 .worse { color: var(--bad); }
 td.definition { color: var(--soft); }
@@ -74,10 +92,10 @@ figure img { display: block; width: 100%; height: auto; border-radius: 6px; bord
 figcaption { font-size: .8rem; padding-top: .2rem; }
 .missing { border: 1px dashed var(--line); border-radius: 6px; padding: 1rem; }
 @media (max-width: 800px) {
-  .flights, .plots { grid-template-columns: minmax(0, 1fr); }
+  .plots { grid-template-columns: minmax(0, 1fr); }
 }
 @media print {
-  :root { --page: #fff; --card: #fff; --ink: #000; --soft: #444; --line: #bbb; --changed: #eee; }
+  :root { --page: #fff; --card: #fff; --ink: #000; --soft: #444; --line: #bbb; }
   body { padding: 0; font-size: 10pt; }
   .card, figure, tr { break-inside: avoid; }
   .sheet { grid-template-columns: repeat(4, 1fr); }

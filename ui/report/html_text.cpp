@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <fmt/format.h>
 
 namespace octant::ui::report {
 
@@ -66,6 +67,19 @@ std::string escaped(std::string_view text) {
         text.remove_prefix(std::max<std::size_t>(length, 1));
     }
     return out;
+}
+
+std::string link_text(std::string_view way) {
+    constexpr std::string_view plain = "-._~/";
+    std::string text;
+    for (const char letter : way) {
+        const bool stays = (letter >= '0' && letter <= '9') || (letter >= 'a' && letter <= 'z') ||
+                           (letter >= 'A' && letter <= 'Z') ||
+                           plain.find(letter) != std::string_view::npos;
+        text += stays ? std::string(1, letter)
+                      : fmt::format("%{:02X}", static_cast<unsigned char>(letter));
+    }
+    return text;
 }
 
 std::string base64(std::string_view bytes) {

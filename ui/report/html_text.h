@@ -18,6 +18,9 @@ struct HtmlTable {
 /// ends and tabs dropped, bytes that are no UTF-8 replaced by U+FFFD.
 std::string escaped(std::string_view text);
 
+/// A relative way to a file as a link has it: what is no letter, digit or one of -._~/ as %20.
+std::string link_text(std::string_view way);
+
 std::string base64(std::string_view bytes);
 
 /// Title, table and note. Cells that are numbers are set right.

@@ -17,19 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The frame of "picture-00042.png", nothing for other names.
-std::optional<long> picture_frame(std::string_view name) {
-    constexpr std::string_view before = "picture-";
-    constexpr std::string_view after = ".png";
-    if (name.size() <= before.size() + after.size() || !name.starts_with(before) ||
-        !name.ends_with(after)) {
-        return std::nullopt;
-    }
-    name.remove_prefix(before.size());
-    name.remove_suffix(after.size());
-    return whole_number(name);
-}
-
 std::vector<fs::path> pictures_in(const fs::path& folder) {
     std::vector<std::pair<long, fs::path>> found;
     std::error_code code;
@@ -69,6 +56,18 @@ std::string disagreement_of(const RunFile& run, const Statistics& statistics) {
 }
 
 } // namespace
+
+std::optional<long> picture_frame(std::string_view name) {
+    constexpr std::string_view before = "picture-";
+    constexpr std::string_view after = ".png";
+    if (name.size() <= before.size() + after.size() || !name.starts_with(before) ||
+        !name.ends_with(after)) {
+        return std::nullopt;
+    }
+    name.remove_prefix(before.size());
+    name.remove_suffix(after.size());
+    return whole_number(name);
+}
 
 LoadedRecording load_recording(const fs::path& folder) {
     std::error_code ignored;

@@ -5,7 +5,9 @@
 #include "ui/report/statistics.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace octant::ui::report {
@@ -23,6 +25,9 @@ struct LoadedRecording {
     std::string disagreement;
     std::vector<std::filesystem::path> pictures; ///< in frame order
 };
+
+/// The frame of "picture-00042.png", nothing for other names.
+std::optional<long> picture_frame(std::string_view name);
 
 /// Reads a recording, a killed one too: then a torn last line of frames.csv is left out. Throws
 /// Error for what is no recording or is damaged.

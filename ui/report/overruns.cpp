@@ -1,7 +1,5 @@
 #include "ui/report/overruns.h"
 
-#include "ui/report/statistics.h"
-
 #include <algorithm>
 
 namespace octant::ui::report {
@@ -41,11 +39,11 @@ std::array<double, 5> stage_medians(std::span<const FrameRecord> records) {
 
 } // namespace
 
-std::vector<Overrun> overruns_of(std::span<const FrameRecord> records) {
+std::vector<Overrun> overruns_of(std::span<const FrameRecord> records, double limit_ms) {
     const auto medians = stage_medians(records);
     std::vector<Overrun> overruns;
     for (const FrameRecord& record : records) {
-        if (record.warm_up || record.frame_ms <= overrun_16_ms) {
+        if (record.warm_up || record.frame_ms <= limit_ms) {
             continue;
         }
         Overrun overrun;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/report/frame_record.h"
+#include "ui/report/statistics.h"
 
 #include <array>
 #include <span>
@@ -13,7 +14,7 @@ namespace octant::ui::report {
 inline constexpr std::array<std::string_view, 5> stage_names{
     "sim", "plan", "draw", "read", "other"};
 
-/// A frame above 16.67 ms and why.
+/// A slow frame and why.
 struct Overrun {
     FrameRecord record;
     std::array<double, 5> stage_ms{}; ///< as stage_names
@@ -22,7 +23,8 @@ struct Overrun {
     double growth_ms = 0.0;           ///< by that much
 };
 
-/// The counted frames above 16.67 ms in flight order.
-std::vector<Overrun> overruns_of(std::span<const FrameRecord> records);
+/// The counted frames above a time in flight order.
+std::vector<Overrun>
+overruns_of(std::span<const FrameRecord> records, double limit_ms = overrun_16_ms);
 
 } // namespace octant::ui::report

@@ -29,6 +29,12 @@ struct PlotLevel {
     double y = 0.0;
 };
 
+/// A place on the x axis that is marked from top to bottom.
+struct PlotMark {
+    std::string name;
+    double x = 0.0;
+};
+
 struct Plot {
     std::string title;
     std::string x_label;
@@ -41,6 +47,9 @@ struct Plot {
     double bar_width = 1.0;
     int width_px = 860;
     int height_px = 260;
+    std::vector<PlotMark> marks = {}; ///< in pages only, as the ends of the x axis
+    std::optional<double> x_min = {};
+    std::optional<double> x_max = {};
 };
 
 /// What gnuplot is told, data included. Same plot, same text.

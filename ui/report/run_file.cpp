@@ -62,6 +62,10 @@ Json start_json(const RunInfo& info) {
         {"machine", machine_json(info)}};
     const glm::dvec3& offset_m = info.path_offset_m;
     json["path_offset_m"] = {offset_m.x, offset_m.y, offset_m.z};
+    json["legs"] = Json::array();
+    for (const PlotMark& leg : info.legs) {
+        json["legs"].push_back({{"time_s", leg.x}, {"label", leg.name}});
+    }
     json["facts"] = facts;
     json["notes"] = info.notes;
     json["inputs"] = Json::object();
@@ -209,6 +213,9 @@ RunFile read_run_file(const std::filesystem::path& path) {
     append_rows(run.facts, member(json, "facts"), "");
     for (const Json& note : member(json, "notes")) {
         run.facts.emplace_back("note", shown(note));
+    }
+    for (const Json& leg : member(json, "legs")) {
+        run.legs.push_back({text_in(leg, "label"), number_in(leg, "time_s", 1e7)});
     }
     run.machine_info = machine_from(member(json, "machine"));
     run.device = text_in(member(json, "machine"), "gl_renderer");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/report/machine_info.h"
+#include "ui/report/plots.h"
 #include "ui/report/statistics.h"
 
 #include <glm/vec3.hpp>
@@ -32,6 +33,7 @@ struct RunInfo {
     MachineInfo machine;
     Rows facts;                     ///< anything else the report should show
     std::vector<std::string> notes; ///< what a person was told: voids filled, legs clipped, ...
+    std::vector<PlotMark> legs;     ///< of the path, by the simulated time when they begin
     Rows inputs;                    ///< files that were read and hashes of what was in them
     Rows files; ///< copies that lie in the recording: "inputs/a.obj" and its bytes; not in run.json
 };
@@ -58,13 +60,14 @@ struct RunFile {
     Rows settings; ///< nested names joined by dots, lists by ", "
     Rows machine;  ///< program, machine and renderer
     Rows facts;
-    MachineInfo machine_info; ///< without cpu_times
-    std::string device;       ///< as RunInfo::device
-    std::string path_offset;  ///< "0, 0, 120 m"
-    Rows summary;             ///< figures by their keys, empty unless ended
-    bool ended = false;       ///< there is a summary
-    std::string stopped;      ///< RunEnd::stopped
-    std::string state_hash;   ///< 16 hex digits, empty unless ended
+    MachineInfo machine_info;   ///< without cpu_times
+    std::string device;         ///< as RunInfo::device
+    std::string path_offset;    ///< "0, 0, 120 m"
+    std::vector<PlotMark> legs; ///< as RunInfo::legs
+    Rows summary;               ///< figures by their keys, empty unless ended
+    bool ended = false;         ///< there is a summary
+    std::string stopped;        ///< RunEnd::stopped
+    std::string state_hash;     ///< 16 hex digits, empty unless ended
     std::string picture_hash;
     std::vector<std::string> noise; ///< see noise_reasons
 };

@@ -1,11 +1,15 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
 #include "ui/base/progress.h"
+#include "ui/base/stop_signals.h"
 #include "ui/report/child_program.h"
 #include "ui/sweep/engine.h"
 #include "ui/sweep/engine_scripts.h"
 
+#include <chrono>
 #include <fmt/format.h>
+#include <thread>
 #include <utility>
 
 namespace octant::ui::sweep {
@@ -14,9 +18,9 @@ namespace {
 
 using report::ChildProgram;
 
-/// Runs a program that must be there and waits. What it says when it fails is a note: which runs
-/// are done is seen in their folders.
-void run_engine(const std::vector<std::string>& words, bool quiet) {
+/// Runs a program that must be there and waits; gives its output. What it says when it fails is a
+/// note: which runs are done is seen in their folders.
+std::string run_engine(const std::vector<std::string>& words, bool quiet) {
     auto child = ChildProgram::start(words);
     if (!child) {
         throw Error(fmt::format("expected the program {}, which is not installed", words.front()));
@@ -24,6 +28,32 @@ void run_engine(const std::vector<std::string>& words, bool quiet) {
     const report::ProgramEnding ending = child->finish();
     if (!ending.succeeded) {
         base::say(quiet, fmt::format("note: {}: {}", words.front(), ending.last_complaint));
+    }
+    return ending.output;
+}
+
+/// The number in "Submitted batch job 123"; empty where there is none.
+std::string job_in(const std::string& text) {
+    const auto words = split_words(text);
+    for (const std::string_view word : words) {
+        if (const auto number = whole_number(word.substr(0, word.find('\n')))) {
+            return fmt::format("{}", *number);
+        }
+    }
+    return {};
+}
+
+/// Waits until a job has left Slurm's queue: tasks that were on a node which died are there again
+/// when `sbatch --wait` takes the job for ended.
+void wait_for_queue(const std::string& job) {
+    constexpr auto look_every = std::chrono::seconds(2);
+    while (!job.empty() && !base::StopSignals::came()) {
+        auto child = ChildProgram::start({"squeue", "--noheader", "--jobs=" + job});
+        const report::ProgramEnding ending = child ? child->finish() : report::ProgramEnding();
+        if (!ending.succeeded || ending.output.empty()) {
+            return;
+        }
+        std::this_thread::sleep_for(look_every);
     }
 }
 
@@ -47,8 +77,8 @@ public:
     void fly(std::span<const std::size_t> runs) override {
         base::say(
             options_.quiet, fmt::format("{} flights by sbatch {}", runs.size(), script().string()));
-        run_engine(
-            {"sbatch", "--wait", "--array=" + array_of(runs), script().string()}, options_.quiet);
+        wait_for_queue(job_in(run_engine(
+            {"sbatch", "--wait", "--array=" + array_of(runs), script().string()}, options_.quiet)));
     }
 
     std::string manner() const override {

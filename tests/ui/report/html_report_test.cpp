@@ -2,6 +2,7 @@
 #include "tests/ui/report/scratch.h"
 #include "ui/report/flight_plots.h"
 #include "ui/report/html_report.h"
+#include "ui/report/page_plot.h"
 #include "ui/report/recording.h"
 
 #include <catch2/catch.hpp>
@@ -80,10 +81,11 @@ TEST_CASE("a page shows a flight whole, fetches nothing and lets no text through
     CHECK_THAT(page, Contains("&lt;script&gt;&amp;"));
     CHECK_THAT(page, Contains("&lt;i&gt;"));
     for (const char* unwanted :
-         {"<script", "<b>", "<i>", "<link", "src=\"http", "@import", "url("}) {
+         {"<script>&", "<b>", "<i>", "<link", "src=\"http", "@import", "src=\"//"}) {
         CHECK_THAT(page, !Contains(unwanted));
     }
-    CHECK(count_of(page, "data:image/png;base64,") == 12);
+    CHECK(count_of(page, "data:image/png;base64,") == 12 + 4); // and of the slowest frames
+    CHECK(count_of(page, "<script") == 1 + 5);                 // and the numbers of each plot
     CHECK_THAT(page, Contains("12 of 14 pictures"));
     for (const Figure& figure : figures()) {
         CHECK_THAT(page, Contains(escaped(figure.definition)));
@@ -94,20 +96,47 @@ TEST_CASE("a page shows a flight whole, fetches nothing and lets no text through
     CHECK(html_report(recordings, further) == page);
 }
 
-TEST_CASE("several flights stand side by side and what differs is marked") {
+TEST_CASE("several flights stand in a table, and those of the same flight are compared") {
     const ScratchFolder scratch;
     std::vector recordings{
         made_up_recording(scratch / "one", "first", 5.0),
         made_up_recording(scratch / "two", "second", 7.0)};
-    recordings[1].run.settings[1].second = "20";
-    const std::string page = html_report(recordings);
+    recordings[1].run.settings[0].second = "other";
+    std::string page = html_report(recordings);
     CHECK_THAT(page, Contains("2 flights compared"));
-    CHECK_THAT(page, Contains("--flights: 2"));
-    CHECK_THAT(page, Contains("<tr class=\"changed\"><td>rate</td>"));
-    CHECK_THAT(page, Contains("<tr><td>note</td>"));
-    CHECK_THAT(page, Contains("<small class=\"worse\">(+23.5 %)</small>")); // P50 8.5 -> 10.5
+    CHECK_THAT(page, Contains("<th>note</th>"));
+    CHECK_THAT(page, !Contains("<th>rate</th>"));
+    CHECK_THAT(page, Contains("<td class=\"\">+23.5 %</td>")); // 8.5 to 10.5; too few runs to judge
+    CHECK(count_of(page, "data:image/png;base64,") == 2);
+    CHECK(count_of(page, "class=\"plot small\"") == 2);
+    recordings[1].run.settings[1].second = "20";
+    page = html_report(recordings);
+    CHECK_THAT(page, Contains("<th>rate</th>"));
+    CHECK_THAT(page, Contains("No two of these recordings are of the same flight"));
+    CHECK_THAT(page, !Contains("%</td>"));
     recordings[1].name = "one";
     CHECK_THAT(html_report(recordings), Contains((scratch / "two").string()));
+    write_file(scratch / "two/report.html", "its own");
+    CHECK_THAT(
+        html_report(recordings, {}, scratch.path()), Contains("<a href=\"two/report.html\">"));
+}
+
+TEST_CASE("a change that repeats bear out is marked, and a long study stays small") {
+    const ScratchFolder scratch;
+    const LoadedRecording base = made_up_recording(scratch / "one", "first", 5.0);
+    std::vector<LoadedRecording> recordings;
+    for (int i = 0; i < 200; ++i) {
+        recordings.push_back(base);
+        recordings.back().name = "run-" + std::to_string(i);
+        const double more = (i % 2 == 0 ? 0.0 : 1.0) + 0.01 * (i % 7);
+        recordings.back().run.settings[0].second = i % 2 == 0 ? "old" : "new";
+        recordings.back().statistics.p50_ms += more;
+    }
+    const std::string page = html_report(recordings);
+    CHECK_THAT(page, Contains("<td class=\"worse\">+11.7 % ("));
+    CHECK(count_of(page, "class=\"plot small\"") == 200);
+    CHECK(count_of(page, "data:image/png;base64,") == 24);
+    CHECK(page.size() < 3'000'000);
 }
 
 TEST_CASE("a killed and noisy flight, a flight without frames and a bad picture are said") {
@@ -129,13 +158,17 @@ TEST_CASE("a killed and noisy flight, a flight without frames and a bad picture 
     CHECK_THAT(html_report({}), Contains("</html>"));
 }
 
-TEST_CASE("without gnuplot the page has no plots and says so in one line") {
-    const ScratchFolder scratch;
-    const std::vector recordings{made_up_recording(scratch / "one", "t", 5.0)};
-    const SearchPath nothing(scratch.path().string());
-    const std::string page = html_report(recordings);
-    CHECK_THAT(page, Contains("There are no plots: gnuplot is not installed."));
-    CHECK_THAT(page, !Contains("<svg"));
+TEST_CASE("a plot in a page has its numbers, and no text of it ends its element") {
+    Plot plot{"a < b", "x", "y", {}, {}, 0.0, {}};
+    plot.series = {
+        {"</script>", "#fff", PlotSeries::Style::Line, {0.0, 1.0}, {2.5, std::nan("")}, {}}};
+    plot.marks = {{"leg \"1\"", 0.5}};
+    const std::string html = page_plot(plot, PlotPlace::Wide);
+    CHECK_THAT(html, Contains("<h3>a &lt; b</h3>"));
+    CHECK_THAT(html, Contains("\"n\":\"\\u003c/script>\""));
+    CHECK_THAT(html, Contains("\"x\":[0,1],\"y\":[2.5,null]"));
+    CHECK_THAT(html, Contains("\"marks\":[[\"leg \\u00221\\u0022\",0.5]]"));
+    CHECK(count_of(html, "</script>") == 1);
 }
 
 TEST_CASE("a flight whose triangle target moved shows its course and its stress") {

@@ -1,0 +1,37 @@
+// Appended to a report: writes into the page what is wrong with how it stands there.
+(() => {
+  const faults = [];
+  const fault = text => { if (faults.length < 20) faults.push(text); };
+  const root = document.documentElement;
+  if (root.scrollWidth > root.clientWidth) fault(`page is ${root.scrollWidth} px wide in ${root.clientWidth}`);
+  for (const element of document.querySelectorAll("body *")) {
+    const text = Array.from(element.childNodes).some(n => n.nodeType === 3 && n.textContent.trim());
+    if (!text || element.closest("script, style, [hidden]")) continue;
+    const size = parseFloat(getComputedStyle(element).fontSize);
+    if (size < 11) fault(`text of ${size} px: ${element.textContent.trim().slice(0, 30)}`);
+  }
+  for (const card of document.querySelectorAll(".card"))
+    for (const inside of card.querySelectorAll("svg, img, figure, h3, dl")) {
+      if (inside.closest(".scroll")) continue;
+      const a = card.getBoundingClientRect(), b = inside.getBoundingClientRect();
+      if (b.left < a.left - 1 || b.right > a.right + 1) fault(`${inside.tagName} leaves its card`);
+    }
+  const plots = document.querySelectorAll(".plot svg");
+  for (const svg of plots) {
+    const whole = svg.getBoundingClientRect();
+    if (whole.width < 200) fault(`a plot is ${whole.width} px wide`);
+    const boxes = Array.from(svg.querySelectorAll("text")).map(t => [t.textContent, t.getBoundingClientRect()]);
+    boxes.forEach(([text, box], i) => {
+      if (box.left < whole.left - 1 || box.right > whole.right + 1 || box.top < whole.top - 1 || box.bottom > whole.bottom + 1)
+        fault(`text is cut: ${text}`);
+      for (const [other, second] of boxes.slice(i + 1))
+        if (box.left < second.right - 1 && second.left < box.right - 1 && box.top < second.bottom - 2 && second.top < box.bottom - 2)
+          fault(`texts overlap: ${text} | ${other}`);
+    });
+  }
+  if (document.querySelectorAll(".plot[data-height]").length !== plots.length) fault("plots are missing");
+  const pre = document.createElement("pre");
+  pre.id = "verdict";
+  pre.textContent = `PLOTS ${plots.length} FAULTS ${faults.length}\n${faults.join("\n")}\nEND`;
+  document.body.appendChild(pre);
+})();

@@ -1,0 +1,38 @@
+#include "ui/commands/commands.h"
+#include "ui/commands/manual.h"
+#include "ui/window/listen_command.h"
+#include "ui/window/view_command.h"
+
+#include <catch2/catch.hpp>
+
+using namespace octant::ui;
+using Catch::Contains;
+
+TEST_CASE(
+    "the manual page has every command and option, and no line that man takes for a request") {
+    const commands::Program program =
+        commands::octant_program({window::view_command(), window::listen_command()});
+    const std::string page = commands::man_page(program);
+    CHECK_THAT(page, Catch::StartsWith(".TH OCTANT 1 "));
+    for (const commands::Command& command : program.commands) {
+        CAPTURE(command.name);
+        const std::size_t at = page.find(".SS \"octant " + command.name.substr(0, 4));
+        CHECK(at != std::string::npos);
+    }
+    CHECK_THAT(page, Contains(".B \\-\\-order\\-method METHOD"));
+    CHECK_THAT(page, Contains("octant sweep budgets.toml \\-\\-list"));
+    CHECK(page.find("\n'") == std::string::npos);
+}
+
+TEST_CASE("completions offer the options of the command that stands there") {
+    const commands::Program program =
+        commands::octant_program({window::view_command(), window::listen_command()});
+    const std::string text = commands::bash_completion(program);
+    const std::size_t report = text.find("    'report') words=\"");
+    REQUIRE(report != std::string::npos);
+    const std::string line = text.substr(report, text.find('\n', report) - report);
+    CHECK_THAT(line, Contains(" --gate") && Contains(" --out") && !Contains("--order-method"));
+    CHECK_THAT(text, Contains("    'terrain query') words=\"--help"));
+    CHECK_THAT(text, Contains(" --vsync --no-vsync"));
+    CHECK_THAT(commands::zsh_completion(program), Catch::StartsWith("#compdef octant\n"));
+}

@@ -1,0 +1,158 @@
+#include "ui/commands/manual.h"
+
+#include "sim/base/text_file.h"
+
+#include <fmt/format.h>
+#include <string_view>
+
+namespace octant::ui::commands {
+
+namespace {
+
+/// Text of a line fit for man's macros.
+std::string in_roff(std::string_view text) {
+    std::string safe;
+    for (const char letter : text) {
+        switch (letter) {
+        case '\\':
+            safe += "\\e";
+            break;
+        case '-':
+            safe += "\\-";
+            break;
+        default:
+            safe += letter;
+        }
+    }
+    const bool looks_like_request = safe.starts_with('.') || safe.starts_with('\'');
+    return looks_like_request ? "\\&" + safe : safe;
+}
+
+void add_options(const Command& command, std::string& page) {
+    std::string heading;
+    for (const Option& option : command.options) {
+        if (option.heading != heading) {
+            heading = option.heading;
+            page += fmt::format(".PP\n.I {}\n", in_roff(heading));
+        }
+        page += fmt::format(".TP\n.B {}", in_roff(option.name));
+        page += option.form.empty() ? "\n" : fmt::format(" {}\n", in_roff(option.form));
+        page += in_roff(option.meaning);
+        page += option.shown_default.empty()
+                    ? "\n"
+                    : fmt::format(" [{}]\n", in_roff(option.shown_default));
+    }
+}
+
+/// Lines that stay as they are.
+void add_lines(std::string_view text, std::string& page) {
+    if (text.empty()) {
+        return;
+    }
+    page += ".PP\n.nf\n";
+    for (const std::string_view line : split_lines(text)) {
+        page += in_roff(line) + "\n";
+    }
+    page += ".fi\n";
+}
+
+void add_command(const Command& command, const std::string& before, std::string& page) {
+    const std::string name = before + " " + command.name;
+    page += fmt::format(".SS \"{}\"\n{}.\n", in_roff(name), in_roff(command.summary));
+    add_options(command, page);
+    add_lines(command.footer, page);
+    for (const Command& each : command.commands) {
+        add_command(each, name, page);
+    }
+}
+
+/// "--vsync,!--no-vsync" as words.
+std::string option_words(const Option& option) {
+    std::string words;
+    for (std::string_view name : split_fields(option.name, ',')) {
+        name.remove_prefix(name.starts_with('!') ? 1 : 0);
+        if (name.starts_with('-')) {
+            words += " " + std::string(name);
+        }
+    }
+    return words;
+}
+
+/// A case of the script for each command: its options and the commands below it.
+void add_case(const Command& command, const std::string& before, std::string& text) {
+    const std::string name = before.empty() ? command.name : before + " " + command.name;
+    std::string words = "--help";
+    for (const Option& option : command.options) {
+        words += option_words(option);
+    }
+    for (const Command& each : command.commands) {
+        words += " " + each.name;
+    }
+    text += fmt::format("    '{}') words=\"{}\" ;;\n", name, words);
+    for (const Command& each : command.commands) {
+        add_case(each, name, text);
+    }
+}
+
+} // namespace
+
+std::string man_page(const Program& program) {
+    std::string page = fmt::format(
+        ".TH OCTANT 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\n"
+        "octant \\- flight simulation over level\\-of\\-detail terrain, drawn and timed\n"
+        ".SH SYNOPSIS\n.B octant\n.I COMMAND\n[options]\n.SH DESCRIPTION\n{}\n",
+        in_roff(program.version),
+        in_roff(program.about));
+    add_lines(program.footer, page);
+    page += ".SH COMMANDS\n";
+    for (const Command& command : program.commands) {
+        add_command(command, "octant", page);
+    }
+    page +=
+        ".SH EXIT STATUS\n0: done. 1: a check said no. 2: wrong input or environment, told in one "
+        "line.\nA flight that a signal ended has its report, then ends the program by that "
+        "signal.\n";
+    page += ".SH ENVIRONMENT\n.TP\n.B OCTANT_DATA\nfolder of the program's models and paths\n";
+    return page;
+}
+
+std::string bash_completion(const Program& program) {
+    std::string cases;
+    std::string names = "--help --help-all --version";
+    for (const Command& command : program.commands) {
+        names += " " + command.name;
+        add_case(command, "", cases);
+    }
+    return fmt::format(
+        R"(# Completes octant's command lines. Made by: octant manual bash
+_octant() {{
+  local word=${{COMP_WORDS[COMP_CWORD]}} command="" words i
+  for ((i = 1; i < COMP_CWORD; ++i)); do
+    [[ ${{COMP_WORDS[i]}} == -* ]] && break
+    case "$command ${{COMP_WORDS[i]}}" in
+      ' '*) command=${{COMP_WORDS[i]}} ;;
+      'terrain '*|'study '*) [[ $command == *' '* ]] || command="$command ${{COMP_WORDS[i]}}" ;;
+    esac
+  done
+  case "$command" in
+    '') words="{0}" ;;
+{1}    *) words="" ;;
+  esac
+  COMPREPLY=()
+  while IFS= read -r i; do COMPREPLY+=("$i"); done < <(compgen -W "$words" -- "$word")
+  if [[ $word != -* && -n $command ]]; then
+    while IFS= read -r i; do COMPREPLY+=("$i"); done < <(compgen -f -- "$word")
+  fi
+}}
+complete -o filenames -F _octant octant
+)",
+        names,
+        cases);
+}
+
+std::string zsh_completion(const Program& program) {
+    return "#compdef octant\nautoload -U +X bashcompinit && bashcompinit\n" +
+           bash_completion(program);
+}
+
+} // namespace octant::ui::commands

@@ -1,0 +1,195 @@
+#include "ui/report/comparison.h"
+
+#include "sim/base/dice.h"
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <string_view>
+
+namespace octant::ui::report {
+
+namespace {
+
+/// Settings that make another flight or another picture of it, not another way to draw it.
+constexpr std::array<std::string_view, 17> flight_settings{
+    "path",
+    "aircraft",
+    "axes",
+    "terrain",
+    "terrain-spacing",
+    "place",
+    "heading",
+    "height-mode",
+    "view",
+    "size",
+    "rate",
+    "frame-per-sample",
+    "start",
+    "frames",
+    "seconds",
+    "fov",
+    "warm-up"};
+
+std::string value_in(const Rows& rows, std::string_view name) {
+    const auto found =
+        std::ranges::find_if(rows, [&](const auto& row) { return row.first == name; });
+    return found == rows.end() ? std::string() : found->second;
+}
+
+double resampled_median(std::span<const double> values, Dice& dice) {
+    std::vector<double> drawn;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto at = static_cast<std::size_t>(dice.next() * static_cast<double>(values.size()));
+        drawn.push_back(values[at]);
+    }
+    return median_of(std::move(drawn));
+}
+
+const Figure* figure_of(std::string_view name) {
+    const auto found = std::ranges::find_if(figures(), [&](const Figure& figure) {
+        return figure.key == name || figure.key == fmt::format("{}_ms", name);
+    });
+    return found == figures().end() || !found->less_is_better || found->decimals == 0 ? nullptr
+                                                                                      : &*found;
+}
+
+} // namespace
+
+double median_of(std::vector<double> values) {
+    assert(!values.empty());
+    std::ranges::sort(values);
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 != 0 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+std::vector<std::string>
+what_forbids_comparison(const LoadedRecording& first, const LoadedRecording& second) {
+    std::vector<std::string> names;
+    for (const std::string_view name : flight_settings) {
+        if (value_in(first.run.settings, name) != value_in(second.run.settings, name)) {
+            names.emplace_back(name);
+        }
+    }
+    if (first.run.machine_info.cpu != second.run.machine_info.cpu ||
+        first.run.machine_info.cores != second.run.machine_info.cores) {
+        names.emplace_back("processor");
+    }
+    return names;
+}
+
+std::vector<std::vector<std::size_t>>
+comparable_groups(std::span<const LoadedRecording> recordings) {
+    std::vector<std::vector<std::size_t>> groups;
+    for (std::size_t i = 0; i < recordings.size(); ++i) {
+        const auto found = std::ranges::find_if(groups, [&](const auto& group) {
+            return what_forbids_comparison(recordings[group.front()], recordings[i]).empty();
+        });
+        if (found == groups.end()) {
+            groups.push_back({i});
+        } else {
+            found->push_back(i);
+        }
+    }
+    return groups;
+}
+
+std::vector<std::vector<std::size_t>>
+variants_of(std::span<const LoadedRecording> recordings, std::span<const std::size_t> group) {
+    std::vector<std::vector<std::size_t>> variants;
+    for (const std::size_t i : group) {
+        const auto found = std::ranges::find_if(variants, [&](const auto& variant) {
+            return recordings[variant.front()].run.settings == recordings[i].run.settings;
+        });
+        if (found == variants.end()) {
+            variants.push_back({i});
+        } else {
+            found->push_back(i);
+        }
+    }
+    return variants;
+}
+
+Change change_between(std::span<const double> before, std::span<const double> after) {
+    constexpr std::size_t least_runs = 3;
+    constexpr int resamples = 4000;
+    Change change;
+    change.share =
+        median_of({after.begin(), after.end()}) / median_of({before.begin(), before.end()}) - 1.0;
+    if (before.size() < least_runs || after.size() < least_runs) {
+        return change;
+    }
+    Dice dice(1979);
+    std::vector<double> shares;
+    for (int i = 0; i < resamples; ++i) {
+        const double old = resampled_median(before, dice);
+        shares.push_back(resampled_median(after, dice) / old - 1.0);
+    }
+    std::ranges::sort(shares);
+    change.has_interval = true;
+    change.least = nearest_rank(shares, 25);
+    change.most = nearest_rank(shares, 975);
+    return change;
+}
+
+Gate read_gate(const std::string& text) {
+    Gate gate;
+    for (const std::string_view part : split_fields(text, ',')) {
+        const std::size_t equals = part.find('=');
+        const bool whole = equals != std::string_view::npos && part.ends_with('%');
+        const Figure* const figure = whole ? figure_of(part.substr(0, equals)) : nullptr;
+        const auto percent = figure != nullptr
+                                 ? finite_number(part.substr(equals + 1, part.size() - equals - 2))
+                                 : std::nullopt;
+        if (!percent || *percent < 0.0) {
+            throw Error(fmt::format(
+                "--gate: expected figures and what they may grow by, as in p50=5%,p99=10%, got "
+                "'{}'",
+                printable(text)));
+        }
+        gate.emplace_back(std::string(figure->key), *percent / 100.0);
+    }
+    return gate;
+}
+
+std::vector<std::string>
+gate_faults(std::span<const LoadedRecording> recordings, const Gate& gate) {
+    std::vector<std::string> faults;
+    const LoadedRecording& first = recordings.front();
+    for (const LoadedRecording& recording : recordings.subspan(1)) {
+        const auto names = what_forbids_comparison(first, recording);
+        if (!names.empty()) {
+            error_in(
+                recording.folder,
+                fmt::format(
+                    "expected a recording to be compared with {}, got one that differs in {}",
+                    first.folder.string(),
+                    fmt::join(names, ", ")));
+        }
+        for (const auto& [key, allowed] : gate) {
+            const Figure& figure = *figure_of(key);
+            const double before = figure.value(first.statistics);
+            const double after = figure.value(recording.statistics);
+            if (before <= 0.0 || after <= 0.0) {
+                error_in(recording.folder, "expected frames to compare, got none");
+            }
+            if (after / before - 1.0 > allowed) {
+                faults.push_back(fmt::format(
+                    "{}: {} {:.3f} ms, {:+.1f} % of {:.3f} ms, above {:+.1f} %",
+                    recording.name,
+                    key,
+                    after,
+                    100.0 * (after / before - 1.0),
+                    before,
+                    100.0 * allowed));
+            }
+        }
+    }
+    return faults;
+}
+
+} // namespace octant::ui::report

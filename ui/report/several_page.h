@@ -1,0 +1,21 @@
+#pragma once
+
+#include "ui/report/loaded_recording.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace octant::ui::report {
+
+/// What a page says of several recordings together: a table with one row each, comparisons among
+/// those of the same flight, their curves in common plots, a small plot each with common axes,
+/// pictures, and the settings that all share. A recording whose own page lies in its folder is
+/// linked from `page_folder`.
+std::string
+several_html(std::span<const LoadedRecording> recordings, const std::filesystem::path& page_folder);
+
+/// What tells a recording from the others: its folder's name, or its whole path where names repeat.
+std::string label_of(std::span<const LoadedRecording> recordings, const LoadedRecording& recording);
+
+} // namespace octant::ui::report
