@@ -2,6 +2,7 @@
 
 #include "ui/flight/make_renderer.h"
 #include "ui/report/statistics.h"
+#include "ui/world/sun_of_time.h"
 #include "visuals/scene/ground_texture_maker.h"
 
 #include <algorithm>
@@ -29,6 +30,7 @@ Session::Session(
     , times_(world::picture_times_of(settings_, world_.flight))
     , ground_height_(
           [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); }) {
+    settings_ = world::with_sun_of_time(settings_, world_.ground_place);
     load_models(shows);
     if (shows == Shows::World && world_.scene.ground_texture) {
         renderer_->load_ground_texture(*world_.scene.ground_texture);

@@ -3,6 +3,7 @@
 #include "ui/settings/settings_change.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/scene_ground.h"
+#include "ui/world/sun_of_time.h"
 #include "visuals/scene/ground.h"
 
 #include <algorithm>
@@ -18,7 +19,9 @@ namespace octant::ui::flight {
 
 namespace scene = visuals::scene;
 
-void Session::apply(const settings::RunSettings& settings) {
+void Session::apply(const settings::RunSettings& wanted) {
+    const settings::RunSettings settings =
+        world::with_sun_followed(wanted, settings_, world_.ground_place);
     switch (settings::change_between(settings_, settings)) {
     case settings::SettingsChange::None:
         break;
@@ -92,7 +95,7 @@ void Session::change_world(const settings::RunSettings& settings) {
     plan_ = nullptr;
     planner_.reset();
     inset_.reset();
-    settings_ = settings;
+    settings_ = world::with_sun_of_time(settings, world.ground_place);
     world_ = std::move(world);
     times_ = std::move(times);
     load_models(Shows::World);
@@ -123,7 +126,8 @@ void Session::change_picture(const settings::RunSettings& settings) {
     settings::check_settings(settings);
     const scene::FixedPoints points = world::fixed_points(settings, world_);
     world::SceneGround ground;
-    ground.ground = kept_ground(world_.scene, world::ground_settings(settings));
+    ground.ground =
+        kept_ground(world_.scene, world::ground_settings(settings, world_.ground_place));
     if (!ground.ground) {
         ground = world::load_scene_ground(settings, drawn_by());
     }

@@ -18,14 +18,34 @@ inline constexpr std::tuple air_rows{
          0.0,
          1e7},
         {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
+    setting<&RunSettings::air, &visuals::scene::AirSettings::haze_height_m>(
+        {"haze-height",
+         "METRES",
+         "so much higher up the haze is 1/e as dense; --visibility holds at the ground's mean "
+         "height; 0 = as dense at all heights",
+         0.0,
+         1e6},
+        {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
     setting<&RunSettings::air, &visuals::scene::AirSettings::background>(
-        {"background", "RRGGBB", "colour of the empty picture, and of the haze"},
+        {"background",
+         "RRGGBB",
+         "colour of the empty picture, and of the haze; under a sky that of the haze with the sun "
+         "35 degrees up, away from it"},
+        {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
+    setting<&RunSettings::air, &visuals::scene::AirSettings::time>(
+        {"time",
+         "YYYY-MM-DDTHH:MM",
+         "date and the sun's own time, in place of the sun's angles: where it stands at the map's "
+         "latitude, or at 45 degrees north without a place"},
         {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
     setting<&RunSettings::air, &visuals::scene::AirSettings::sun_azimuth_deg>(
         {"sun-azimuth", "DEGREES", "sun, clockwise from north", -360.0, 360.0},
         {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
     setting<&RunSettings::air, &visuals::scene::AirSettings::sun_elevation_deg>(
         {"sun-elevation", "DEGREES", "sun above the horizon", 0.0, 90.0},
+        {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
+    setting<&RunSettings::air, &visuals::scene::AirSettings::relief_shadows>(
+        {"relief-shadows", "", "shadows of the ground on itself, and less light in its hollows"},
         {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
     setting<&RunSettings::air, &visuals::scene::AirSettings::water_level_m>(
         {"water-level", "METRES", "level ground at or below it is water", -12000.0, 9000.0},

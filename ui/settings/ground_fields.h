@@ -75,6 +75,15 @@ inline constexpr std::tuple ground_rows{
          0.0,
          1e9},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::near_detail>(
+        {"near-detail",
+         "",
+         "screen error: ground near the eye gets made-up detail between its samples; heights that "
+         "are asked for have none"},
+        {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::scenery>(
+        {"scenery", "", "screen error: made-up trees and houses near the eye"},
+        {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
     setting<&RunSettings::ground, &visuals::scene::GroundSettings::show_mesh>(
         {"show-mesh",
          "WHAT",

@@ -3,6 +3,7 @@
 #include "models/polygons/file_axes.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "sim/sun_position.h"
 #include "ui/settings/settings_fields.h"
 #include "ui/settings/terrain_name.h"
 
@@ -30,6 +31,14 @@ void check_listed_numbers(const RunSettings& settings) {
             }
         }
     });
+}
+
+void check_time(const scene::AirSettings& air) {
+    if (air.time && !sim::solar_time_from_text(*air.time)) {
+        throw Error(fmt::format(
+            "--time: expected a day and an hour as YYYY-MM-DDTHH:MM, got '{}'",
+            printable(*air.time)));
+    }
 }
 
 void check_shading(const scene::ShadingSettings& shading, const scene::Adaptation& adapt) {
@@ -124,6 +133,7 @@ void check_settings(const RunSettings& settings) {
     check_ground(settings.ground, settings.path.terrain);
     check_ground_texture(settings.air, settings.path.terrain);
     check_eye_point(settings.view);
+    check_time(settings.air);
     if (settings.drawing.renderer == RendererKind::Gl && settings.view.samples == 16) {
         throw Error("--samples: expected 1 or 4 beside --renderer gl, got 16");
     }

@@ -1,59 +1,67 @@
+#include "sim/sun_position.h"
 #include "ui/window/panel_parts.h"
 #include "ui/window/panels.h"
 #include "ui/window/setting_widgets.h"
-#include "ui/window/sun_position.h"
+#include "ui/world/sun_of_time.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <fmt/format.h>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace octant::ui::window {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> scene_settings{
+constexpr std::array<std::string_view, 12> scene_settings{
+    "time",
     "sun-azimuth",
     "sun-elevation",
     "visibility",
+    "haze-height",
     "sky",
     "background",
+    "relief-shadows",
     "water-level",
     "palette",
     "ground-shading",
     "drape"};
 
-constexpr float noon = 12.0F;
-constexpr int spring_equinox = 80;
-constexpr double latitude_without_place_deg = 45.0;
+constexpr sim::SolarTime noon_in_spring{2000, 3, 20, 12 * 60};
+constexpr ImGuiSliderFlags no_typing = ImGuiSliderFlags_NoInput;
+constexpr int last_minute = 24 * 60 - 1;
 
-/// Returns the hour in the form "13:05".
-std::string clock_text(float hour) {
-    const long minutes = std::lround(hour * 60.0F);
-    return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60);
+std::string clock_text(const sim::SolarTime& time) {
+    return fmt::format("{:02}:{:02}", time.minute / 60, time.minute % 60);
 }
 
-/// Makes sliders for time and day, which set the position of the sun. ImGui keeps time and day with
-/// the panel, because settings hold only the position.
+std::string date_text(const sim::SolarTime& time) {
+    return fmt::format("{:04}-{:02}-{:02}", time.year, time.month, time.day);
+}
+
+/// Makes sliders for time and day, which set the position of the sun. They show none where the sun
+/// was put in its place by hand.
 void time_of_day(settings::RunSettings& settings, double latitude_deg) {
-    ImGuiStorage& storage = *ImGui::GetStateStorage();
-    float& hour = *storage.GetFloatRef(ImGui::GetID("hour"), noon);
-    int& day = *storage.GetIntRef(ImGui::GetID("day of year"), spring_equinox);
+    const auto now = settings.air.time ? sim::solar_time_from_text(*settings.air.time)
+                                       : std::optional<sim::SolarTime>();
+    sim::SolarTime time = now.value_or(noon_in_spring);
+    int day = sim::day_of_year(time);
+    const std::string clock = now ? clock_text(time) : "by hand";
+    const std::string date = now ? date_text(time) : "by hand";
     ImGui::SetNextItemWidth(value_width());
-    bool changed = ImGui::SliderFloat("time of day", &hour, 0.0F, 24.0F, clock_text(hour).c_str());
+    bool changed =
+        ImGui::SliderInt("time of day", &time.minute, 0, last_minute, clock.c_str(), no_typing);
     explain(fmt::format(
         "the sun's own time at latitude {:.1f}; sets its azimuth and elevation. At night it stays "
         "on the horizon.",
         latitude_deg));
     ImGui::SetNextItemWidth(value_width());
-    changed = ImGui::SliderInt("day of year", &day, 1, 365) || changed;
-    explain("80: spring equinox, 172: midsummer, 355: midwinter of the northern half");
+    changed = ImGui::SliderInt("day of year", &day, 1, 365, date.c_str(), no_typing) || changed;
+    explain("March 20: spring equinox, June 21: midsummer of the northern half");
     if (changed) {
-        const SunPosition sun =
-            sun_position(latitude_deg, static_cast<double>(day), static_cast<double>(hour));
-        settings.air.sun_azimuth_deg = sun.azimuth_deg;
-        settings.air.sun_elevation_deg = std::clamp(sun.elevation_deg, 0.0, 90.0);
+        time = sim::on_day(time, day);
+        settings.air.time = fmt::format("{}T{}", date_text(time), clock_text(time));
     }
 }
 
@@ -64,8 +72,7 @@ void scene_panel(ViewState& state, const flight::Session& session) {
     if (!panel.is_seen()) {
         return;
     }
-    const auto& place = session.world().ground_place;
-    time_of_day(state.wanted, place ? place->latitude_deg : latitude_without_place_deg);
+    time_of_day(state.wanted, world::latitude_of(session.world().ground_place));
     ImGui::Separator();
     edit_settings(state.wanted, scene_settings);
     ImGui::Separator();

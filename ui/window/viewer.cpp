@@ -7,6 +7,7 @@
 #include "ui/window/gui.h"
 #include "ui/window/look_control.h"
 #include "ui/window/panels.h"
+#include "ui/world/sun_of_time.h"
 #include "visuals/gl/make_renderer.h"
 #include "visuals/gl/picture_painter.h"
 #include "visuals/gl/window_context.h"
@@ -262,6 +263,8 @@ void Viewer::apply_wanted() {
     if (listener_) {
         wanted.path.name = settings::live_path;
     }
+    wanted = world::with_sun_followed(
+        std::move(wanted), session_->settings(), session_->world().ground_place);
     if (wanted == session_->settings()) {
         return;
     }
@@ -279,6 +282,7 @@ void Viewer::apply_wanted() {
         state_.wanted.view.size_px = size_px;
         return;
     }
+    state_.wanted.air = session_->settings().air; // another place has another sun at its time
     if (other_flight) {
         restart_playback();
         follow_others();

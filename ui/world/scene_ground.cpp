@@ -2,6 +2,7 @@
 
 #include "models/made/made_up.h"
 #include "ui/settings/terrain_name.h"
+#include "ui/world/sun_of_time.h"
 #include "ui/world/terrain_file.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/terrain/ground_builder.h"
@@ -49,7 +50,7 @@ void add_texture(
     DrawnBy drawn_by,
     SceneGround& loaded) {
     std::optional<scene::GroundTexture> texture =
-        load_ground_texture(samples, area, settings, drawn_by, loaded.notes);
+        load_ground_texture(samples, area, settings, loaded.place, drawn_by, loaded.notes);
     if (texture) {
         loaded.texture = std::make_shared<const scene::GroundTexture>(std::move(*texture));
         loaded.name += settings.air.drape ? ", draped" : ", textured";
@@ -62,8 +63,9 @@ SceneGround load_imported(const settings::RunSettings& settings, DrawnBy drawn_b
     SceneGround loaded = described(ground, facts.name, facts.place, facts.filled_voids);
     const models::heights::GroundArea area{
         facts.name, ground.half_extent_m(), ground.spacing_m(), facts.system};
-    add_texture(terrain::GroundSamples(ground), area, settings, drawn_by, loaded);
-    loaded.ground = scene::ground_from_tiles(std::move(ground), settings.air);
+    const settings::RunSettings own = ground_settings(settings, facts.place);
+    add_texture(terrain::GroundSamples(ground), area, own, drawn_by, loaded);
+    loaded.ground = scene::ground_from_tiles(std::move(ground), own.air);
     return loaded;
 }
 
@@ -71,7 +73,7 @@ SceneGround load_field(const settings::RunSettings& settings, DrawnBy drawn_by) 
     models::heights::HeightField field =
         load_height_field(settings.path.terrain, import_options(settings.path));
     SceneGround loaded = described(field, field.name, field.place, field.filled_voids);
-    const settings::RunSettings own = ground_settings(settings);
+    const settings::RunSettings own = ground_settings(settings, field.place);
     add_texture(
         terrain::GroundSamples(field), models::heights::area_of(field), own, drawn_by, loaded);
     loaded.ground = scene::ground_metric(settings.ground) == scene::GroundMetric::ScreenError
@@ -86,14 +88,15 @@ SceneGround load_polygons(const settings::RunSettings& settings) {
     loaded.ground = scene::ground_from_polygons(
         settings.path.terrain == "none" ? models::polygons::PolygonModel{}
                                         : models::made::background60(),
-        settings.air);
+        ground_settings(settings, std::nullopt).air);
     return loaded;
 }
 
 } // namespace
 
-settings::RunSettings ground_settings(const settings::RunSettings& settings) {
-    settings::RunSettings own = settings;
+settings::RunSettings ground_settings(
+    const settings::RunSettings& settings, const std::optional<models::heights::GeoPlace>& place) {
+    settings::RunSettings own = with_sun_of_time(settings, place);
     if (!settings.air.palette && settings.path.terrain == "canyon") {
         own.air.palette = scene::Palette::Arid;
     }

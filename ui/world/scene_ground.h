@@ -13,8 +13,10 @@
 
 namespace octant::ui::world {
 
-/// The settings with what the ground decides where they leave it open: its colours.
-settings::RunSettings ground_settings(const settings::RunSettings& settings);
+/// The settings with what the ground decides where they leave it open: its colours, and the sun at
+/// its place.
+settings::RunSettings ground_settings(
+    const settings::RunSettings& settings, const std::optional<models::heights::GeoPlace>& place);
 
 /// The ground of a run, ready to be shared by its views.
 struct SceneGround {

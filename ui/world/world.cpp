@@ -12,6 +12,7 @@
 #include "ui/world/aircraft_loader.h"
 #include "ui/world/place_text.h"
 #include "ui/world/scene_ground.h"
+#include "ui/world/sun_of_time.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -274,6 +275,9 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     world.leader_kind = sim::find_aircraft_kind(settings.path.aircraft.front());
     world.ground_name = std::move(ground.name);
     world.ground_place = ground.place;
+    if (auto night = note_of_night(settings, ground.place)) {
+        world.notes.push_back(std::move(*night));
+    }
     if (!is_live) {
         check_wingmen(world);
     }

@@ -25,6 +25,8 @@ constexpr GLuint picture_binding = 0; ///< place in the shaders
 struct PictureValues {
     glm::mat4 world_to_clip;
     glm::vec4 haze;
+    glm::vec4 haze_sunward;
+    glm::vec4 haze_to_sun;
     glm::vec4 to_sun;
     glm::vec4 ambient;
     glm::vec4 sunlight;
@@ -52,6 +54,8 @@ PictureValues values_of(const FramePlan& plan, const PixelRect& rect, Rows rows)
     return {
         plan.view_to_clip * plan.world_to_view,
         glm::vec4(plan.haze.colour, visibility_m > 0.0F ? 1.0F / visibility_m : 0.0F),
+        glm::vec4(plan.haze.sunward, plan.haze.falloff_per_m),
+        glm::vec4(plan.haze.to_sun_level, 0.0F, 0.0F),
         glm::vec4(plan.to_sun, 0.0F),
         glm::vec4(plan.ambient, 0.0F),
         glm::vec4(plan.sunlight, 0.0F),

@@ -1,6 +1,7 @@
 #include "visuals/raster/renderer.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -19,6 +20,14 @@ constexpr int frame_rows = 360; ///< of the picture for each pixel of the frame'
 
 std::uint8_t byte_of(float share) {
     return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F);
+}
+
+/// Colour of the haze in the middle of the picture, which textured ground has all over.
+glm::vec3 haze_ahead(const scene::FramePlan& plan) {
+    const glm::vec3 ahead(
+        -plan.world_to_view[0].z, -plan.world_to_view[1].z, -plan.world_to_view[2].z);
+    const float towards = std::max(glm::dot(glm::vec2(ahead), plan.haze.to_sun_level), 0.0F);
+    return glm::mix(plan.haze.colour, plan.haze.sunward, towards * towards);
 }
 
 std::size_t byte_at(const scene::Picture& picture, int x, int y) {
@@ -109,7 +118,7 @@ void Renderer::draw_into(const scene::FramePlan& plan, const scene::PixelRect& r
         job.background = {
             byte_of(plan.background.x), byte_of(plan.background.y), byte_of(plan.background.z)};
         job.ground = ground_ ? &*ground_ : nullptr;
-        job.haze = plan.haze.colour * 255.0F;
+        job.haze = haze_ahead(plan) * 255.0F;
         job.tints_mesh_levels = plan.mesh_look == scene::MeshLook::Levels;
         job.rgba = picture_.rgba.data() +
                    byte_at(picture_, rect.x + job.first_px.x, rect.y + job.first_px.y);

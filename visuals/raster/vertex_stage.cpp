@@ -13,17 +13,36 @@ namespace octant::visuals::raster {
 namespace {
 
 constexpr float most_level = 255.0F;
+constexpr float least_fall = 4e-3F; ///< of the haze's density, in powers of e
+constexpr float most_fall = 60.0F;
 
 glm::vec4 unpacked(std::uint32_t colour) {
     const auto byte = [&](unsigned shift) { return static_cast<float>(colour >> shift & 0xffU); };
     return {byte(0), byte(8), byte(16), byte(24)};
 }
 
-/// Share of haze between the eye and a place.
-float haze_share(const glm::vec3& place_m, float per_m) {
+/// Haze between the eye and a place.
+struct Air {
+    glm::vec3 levels;
+    float share;
+};
+
+/// As scene::Haze says.
+Air air_before(const glm::vec3& place_m, const Light& light) {
     const float distance_m =
         std::sqrt(place_m.x * place_m.x + place_m.y * place_m.y + place_m.z * place_m.z);
-    return 1.0F - exp_of_minus(distance_m * per_m);
+    const float fallen = place_m.z * light.falloff_per_m;
+    const float size = std::abs(fallen);
+    float density = 1.0F - 0.5F * fallen;
+    if (size >= least_fall) {
+        const float left = exp_of_minus(std::min(size, most_fall));
+        density = (1.0F - left) / (fallen > 0.0F ? size : size * left);
+    }
+    const float level_m = place_m.x * light.to_sun_level.x + place_m.y * light.to_sun_level.y;
+    const float towards = std::max(level_m / std::max(distance_m, 1e-6F), 0.0F);
+    return {
+        glm::mix(light.haze, light.sunward, towards * towards) * most_level,
+        1.0F - exp_of_minus(distance_m * light.per_m * density)};
 }
 
 /// A colour under the light on a surface that faces `outwards`, levels.
@@ -59,7 +78,10 @@ Light light_of(const scene::FramePlan& plan) {
         plan.sunlight,
         plan.to_sun,
         plan.haze.colour,
-        visibility_m > 0.0F ? 1.0F / visibility_m : 0.0F};
+        visibility_m > 0.0F ? 1.0F / visibility_m : 0.0F,
+        plan.haze.falloff_per_m,
+        plan.haze.to_sun_level,
+        plan.haze.sunward};
 }
 
 void place_coloured(
@@ -68,7 +90,6 @@ void place_coloured(
     const Light& light,
     const ScreenCorners& to) {
     assert(to.vertices.size() == from.size() && to.clip.size() == from.size());
-    const glm::vec3 haze = light.haze * most_level;
     for (std::size_t i = 0; i < from.size(); ++i) {
         const glm::vec3& at_m = from[i].position_m;
         to.clip[i] = clip_place(projection, at_m);
@@ -76,7 +97,8 @@ void place_coloured(
         const glm::vec4 own = unpacked(from[i].colour);
         glm::vec3 levels(own.x, own.y, own.z);
         if (light.per_m > 0.0F) {
-            levels = glm::mix(levels, haze, haze_share(at_m, light.per_m));
+            const Air air = air_before(at_m, light);
+            levels = glm::mix(levels, air.levels, air.share);
         }
         set_levels(levels, to.vertices[i].value);
     }
@@ -95,7 +117,7 @@ void place_textured(
         place(projection, to.clip[i], to.vertices[i]);
         const glm::vec2 texel = to_texels.at_eye + glm::vec2(at_m.x, at_m.y) * to_texels.per_m;
         const float light_left = static_cast<float>(from[i].colour >> 24U) / most_level;
-        to.vertices[i].value = {texel.x, texel.y, light_left, haze_share(at_m, light.per_m)};
+        to.vertices[i].value = {texel.x, texel.y, light_left, air_before(at_m, light).share};
     }
 }
 
@@ -106,7 +128,6 @@ void place_aircraft(
     const Light& light,
     const ScreenCorners& to) {
     assert(to.vertices.size() == from.size() && to.flat.size() == from.size());
-    const glm::vec3 haze = light.haze * most_level;
     for (std::size_t i = 0; i < from.size(); ++i) {
         const scene::ModelVertex& vertex = from[i];
         const glm::mat4& turn = look.parts[vertex.part];
@@ -116,11 +137,11 @@ void place_aircraft(
         const std::uint32_t word = vertex.polygon / 32U;
         const bool smooth =
             word < look.smooth.size() && (look.smooth[word] >> (vertex.polygon % 32U) & 1U) != 0;
-        const float share = haze_share(at_m, light.per_m);
+        const Air air = air_before(at_m, light);
         const auto coloured =
             [&](std::uint32_t colour, std::uint32_t tint, const glm::vec3& normal) {
                 const glm::vec3 outwards = glm::mat3(turn) * normal;
-                return glm::mix(lit(tinted(colour, tint), outwards, light), haze, share);
+                return glm::mix(lit(tinted(colour, tint), outwards, light), air.levels, air.share);
             };
         set_levels(coloured(vertex.colour, look.tints.smooth, vertex.normal), to.vertices[i].value);
         to.flat[i].is_smooth = smooth;

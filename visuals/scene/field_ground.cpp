@@ -101,6 +101,11 @@ public:
 
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
+    glm::vec3 colour_at(double x_m, double y_m, double footprint_m) const override {
+        const GroundPalette palette(air_, climate_at(field_->place), nullptr);
+        return nearest_colour(terrain::GroundSamples(*field_), palette, {x_m, y_m}, footprint_m);
+    }
+
     bool is_meshed_as(const GroundSettings& settings) const override {
         const terrain::QuadtreeOptions wanted = quadtree_options(settings);
         return ground_metric(settings) != GroundMetric::ScreenError &&

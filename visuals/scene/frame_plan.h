@@ -91,11 +91,16 @@ struct TexturePlaces {
     TexturePlace normal;
 };
 
-/// Air between the eye and what is seen: colour = mix(own, haze, 1 - exp(-distance / visibility)),
-/// mixed in display values.
+/// Air between the eye and what is seen: colour = mix(own, haze, 1 - exp(-depth)), mixed in display
+/// values. Depth is distance / visibility times the mean density on the way over that at the eye.
+/// Density falls with exp(-height * falloff). The haze's colour is mix(colour, sunward, c^2), where
+/// c is the cosine of the way to the level direction of the sun, at least 0.
 struct Haze {
-    glm::vec3 colour{0.0F};    ///< display values 0..1
-    float visibility_m = 0.0F; ///< distance at which 1/e of the own colour is left; 0 = no haze
+    glm::vec3 colour{0.0F};       ///< display values 0..1
+    float visibility_m = 0.0F;    ///< at the eye's height; 0 = no haze
+    float falloff_per_m = 0.0F;   ///< 0 = as dense at all heights
+    glm::vec2 to_sun_level{0.0F}; ///< unit, east and north; 0 = one colour all around
+    glm::vec3 sunward{0.0F};      ///< display values 0..1
 };
 
 /// What the ground shows of its mesh.

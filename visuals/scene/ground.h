@@ -40,6 +40,11 @@ public:
     virtual double mean_height_m() const = 0;
     virtual glm::vec3 mean_colour() const = 0;
 
+    /// Colour of a place on the map as the mean over about `footprint_m`, display values.
+    virtual glm::vec3 colour_at(double /*x_m*/, double /*y_m*/, double /*footprint_m*/) const {
+        return mean_colour();
+    }
+
     /// Whether meshes of this ground are refined by what these settings say.
     virtual bool is_meshed_as(const GroundSettings& /*settings*/) const { return true; }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace octant::visuals::scene {
 
@@ -31,8 +32,8 @@ GroundPoint ground_point(const terrain::GroundSamples& ground, int column, int r
 
 std::vector<std::uint32_t>
 ground_colours(const models::heights::HeightField& field, const AirSettings& settings) {
-    const GroundPalette palette(settings);
     const terrain::GroundSamples ground(field);
+    const GroundPalette palette(settings, climate_at(field.place), relief_light(ground, settings));
     const auto spacing_m = static_cast<float>(field.spacing_m());
     std::vector<std::uint32_t> colours;
     colours.reserve(
@@ -44,6 +45,18 @@ ground_colours(const models::heights::HeightField& field, const AirSettings& set
         }
     }
     return colours;
+}
+
+glm::vec3 nearest_colour(
+    const terrain::GroundSamples& ground,
+    const GroundPalette& palette,
+    const glm::dvec2& at_m,
+    double footprint_m) {
+    const glm::dvec2 place = ground.grid_from_world(at_m.x, at_m.y);
+    const int column = std::clamp(static_cast<int>(std::lround(place.x)), 0, ground.columns() - 1);
+    const int row = std::clamp(static_cast<int>(std::lround(place.y)), 0, ground.rows() - 1);
+    const int step = std::max(static_cast<int>(footprint_m / (2.0 * ground.spacing_m())), 1);
+    return palette.lit(ground_point(ground, column, row, step), static_cast<float>(footprint_m));
 }
 
 glm::vec3 mean_colour(const std::vector<std::uint32_t>& colours) {

@@ -5,6 +5,7 @@
 #include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_samples.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
@@ -21,6 +22,13 @@ GroundPoint ground_point(const terrain::GroundSamples& ground, int column, int r
 /// normals, so that the level of detail never changes the light.
 std::vector<std::uint32_t>
 ground_colours(const models::heights::HeightField& field, const AirSettings& settings);
+
+/// Colour of the sample nearest to a place, world axes, as the mean over about `footprint_m`.
+glm::vec3 nearest_colour(
+    const terrain::GroundSamples& ground,
+    const GroundPalette& palette,
+    const glm::dvec2& at_m,
+    double footprint_m);
 
 /// Mean of packed colours, display values 0..1.
 glm::vec3 mean_colour(const std::vector<std::uint32_t>& colours);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 namespace octant::visuals::scene {
 
@@ -26,11 +27,12 @@ constexpr std::array meadow_stops = {
     Stop{300.0F, {0.37F, 0.47F, 0.22F}},
     Stop{1100.0F, {0.36F, 0.43F, 0.23F}},
     Stop{1600.0F, {0.46F, 0.46F, 0.31F}},
-    Stop{2000.0F, {0.52F, 0.50F, 0.45F}},
-    Stop{2350.0F, {0.93F, 0.94F, 0.96F}}};
+    Stop{2000.0F, {0.52F, 0.50F, 0.45F}}};
 constexpr glm::vec3 dry_grass(0.58F, 0.55F, 0.31F);
 constexpr glm::vec3 forest(0.14F, 0.25F, 0.12F);
-constexpr float tree_line_m = 1500.0F;
+constexpr glm::vec3 snow(0.93F, 0.94F, 0.96F);
+constexpr float tree_line_m = 1500.0F; ///< for which the stops are meant ...
+constexpr float snow_line_m = 2350.0F; ///< ... and the line of lasting snow
 constexpr std::array crops = {
     glm::vec3(0.66F, 0.58F, 0.33F),
     glm::vec3(0.33F, 0.46F, 0.19F),
@@ -74,7 +76,7 @@ float patch_noise(float east_m, float north_m, float cell_m) {
     return 2.0F * glm::mix(south, north, sv) - 1.0F;
 }
 
-glm::vec3 cover(std::span<const Stop> stops, float height_m) {
+glm::vec3 level_cover(std::span<const Stop> stops, float height_m) {
     for (std::size_t i = 1; i < stops.size(); ++i) {
         if (height_m < stops[i].height_m) {
             const float t =
@@ -135,36 +137,77 @@ float single_trees(const Site& site) {
     return share_left(80.0F, site.footprint_m) * (2.0F * noise - 1.0F);
 }
 
-glm::vec3 temperate(const Site& site) {
-    // A tree line and a snow line that are not drawn with a ruler.
-    const float height_m = std::max(site.height_m + 120.0F * site.patches, 0.0F);
-    const float dryness = 0.5F + 0.5F * patch_noise(site.east_m + 1e5F, site.north_m, 1660.0F);
-    const float below_trees =
-        1.0F - glm::smoothstep(tree_line_m - 200.0F, tree_line_m + 200.0F, height_m);
-    glm::vec3 colour =
-        glm::mix(cover(meadow_stops, height_m), dry_grass, 0.45F * dryness * below_trees);
+/// The height at which the stops have what grows at a place's height in its climate.
+float height_of_cover_m(float height_m, const nature::Climate& climate) {
+    if (height_m < climate.tree_line_m) {
+        return height_m * tree_line_m / std::max(climate.tree_line_m, 1.0F);
+    }
+    const float above = (height_m - climate.tree_line_m) /
+                        std::max(climate.snow_line_m - climate.tree_line_m, 50.0F);
+    return tree_line_m + above * (snow_line_m - tree_line_m);
+}
+
+/// How much of a place lies under snow: more on the shaded side, none where it is too steep to
+/// hold.
+float snow_cover(const Site& site, const glm::vec3& normal, const nature::Climate& climate) {
+    const float shaded_m = 400.0F * normal.y * climate.poleward;
+    const float above_m = site.height_m + 150.0F * site.patches + shaded_m - climate.snow_line_m;
+    const float holds = 1.0F - glm::smoothstep(0.20F, 0.42F, site.steepness + 0.05F * site.patches);
+    return glm::smoothstep(-250.0F, 150.0F, above_m) * holds;
+}
+
+/// What covers a place of temperate ground, shares 0..1.
+struct Cover {
+    float below_trees = 0.0F;
+    float farmed = 0.0F;
+    float wooded = 0.0F;
+    float bare = 0.0F;
+};
+
+/// A tree line that is not drawn with a ruler.
+float height_of_line_m(const Site& site) {
+    return std::max(site.height_m + 120.0F * site.patches, 0.0F);
+}
+
+Cover cover_of(const Site& site) {
+    Cover cover;
+    cover.below_trees =
+        1.0F - glm::smoothstep(tree_line_m - 200.0F, tree_line_m + 200.0F, height_of_line_m(site));
     const float level = 1.0F - glm::smoothstep(0.0010F, 0.0035F, site.steepness);
-    const float farmed =
-        level *
+    cover.farmed =
+        cover.below_trees * level *
         glm::smoothstep(-0.15F, 0.05F, patch_noise(site.east_m, site.north_m + 1e5F, 1220.0F));
-    colour = glm::mix(colour, field_crop(site), farmed * below_trees);
     const float growth =
         site.patches + 0.5F * small_patches(site, 100.0F) + 5.0F * site.steepness - 0.12F;
-    const float wooded = glm::smoothstep(0.0F, 0.16F, growth) * below_trees * (1.0F - farmed);
-    colour = glm::mix(colour, forest * (1.0F + 0.15F * single_trees(site)), 0.9F * wooded);
-    const float bare = glm::smoothstep(0.14F, 0.30F, site.steepness + 0.03F * site.patches);
-    return glm::mix(colour, temperate_rock * (1.0F + 0.10F * site.patches), bare);
+    cover.wooded = glm::smoothstep(0.0F, 0.16F, growth) * cover.below_trees * (1.0F - cover.farmed);
+    cover.bare = glm::smoothstep(0.14F, 0.30F, site.steepness + 0.03F * site.patches);
+    return cover;
+}
+
+glm::vec3 temperate(const Site& site) {
+    const Cover cover = cover_of(site);
+    const float dryness = 0.5F + 0.5F * patch_noise(site.east_m + 1e5F, site.north_m, 1660.0F);
+    glm::vec3 colour = glm::mix(
+        level_cover(meadow_stops, height_of_line_m(site)),
+        dry_grass,
+        0.45F * dryness * cover.below_trees);
+    colour = glm::mix(colour, field_crop(site), cover.farmed);
+    colour = glm::mix(colour, forest * (1.0F + 0.15F * single_trees(site)), 0.9F * cover.wooded);
+    return glm::mix(colour, temperate_rock * (1.0F + 0.10F * site.patches), cover.bare);
+}
+
+float shrubs_of(const Site& site) {
+    return glm::smoothstep(0.1F, 0.5F, site.patches + 0.6F * small_patches(site, 60.0F));
 }
 
 glm::vec3 arid(const Site& site) {
-    const glm::vec3 level = cover(arid_stops, site.height_m + 60.0F * site.patches);
+    const glm::vec3 level = level_cover(arid_stops, site.height_m + 60.0F * site.patches);
     const float stratum = (site.height_m + 12.0F * site.patches) / band_m;
     const float layer = lattice_noise(static_cast<int>(std::floor(stratum)), 7);
     const glm::vec3 rock =
         glm::mix(glm::vec3(0.55F, 0.30F, 0.19F), glm::vec3(0.78F, 0.62F, 0.45F), layer);
-    const float shrubs =
-        glm::smoothstep(0.1F, 0.5F, site.patches + 0.6F * small_patches(site, 60.0F));
-    const glm::vec3 grown = glm::mix(level, glm::vec3(0.36F, 0.36F, 0.22F), 0.35F * shrubs);
+    const glm::vec3 grown =
+        glm::mix(level, glm::vec3(0.36F, 0.36F, 0.22F), 0.35F * shrubs_of(site));
     return glm::mix(grown, rock, glm::smoothstep(0.05F, 0.25F, site.steepness)) *
            (1.0F + 0.10F * site.patches);
 }
@@ -180,30 +223,105 @@ glm::vec3 direction_to_sun(const AirSettings& settings) {
         std::sin(elevation_rad)));
 }
 
-float light_on(const glm::vec3& normal, const glm::vec3& to_sun) {
-    return ambient_light + sun_light * std::max(glm::dot(normal, to_sun), 0.0F);
+nature::Daylight daylight_of(const AirSettings& settings) {
+    return nature::Daylight(
+        {rad_from_deg(settings.sun_azimuth_deg),
+         rad_from_deg(settings.sun_elevation_deg),
+         settings.background});
+}
+
+glm::vec3 light_on(const glm::vec3& normal, const nature::Daylight& day) {
+    const float towards = std::max(glm::dot(normal, glm::vec3(day.to_sun())), 0.0F);
+    return day.ambient() + day.sunlight() * towards;
 }
 
 bool same_colours(const AirSettings& a, const AirSettings& b) {
     return a.sun_azimuth_deg == b.sun_azimuth_deg && a.sun_elevation_deg == b.sun_elevation_deg &&
-           a.water_level_m == b.water_level_m && a.palette == b.palette;
+           a.relief_shadows == b.relief_shadows && a.water_level_m == b.water_level_m &&
+           a.palette == b.palette;
 }
 
-GroundPalette::GroundPalette(const AirSettings& settings)
-    : to_sun_(direction_to_sun(settings))
-    , water_m_(static_cast<float>(settings.water_level_m))
-    , arid_(settings.palette == Palette::Arid) {}
+std::shared_ptr<const nature::ReliefLight>
+relief_light(const terrain::GroundSamples& ground, const AirSettings& settings) {
+    return settings.relief_shadows ? std::make_shared<const nature::ReliefLight>(
+                                         ground, glm::dvec3(direction_to_sun(settings)))
+                                   : nullptr;
+}
+
+nature::Climate climate_at(const std::optional<models::heights::GeoPlace>& place) {
+    return place ? nature::climate_of(place->latitude_deg, place->longitude_deg)
+                 : nature::Climate();
+}
+
+GroundPalette::GroundPalette(
+    const AirSettings& settings,
+    const nature::Climate& climate,
+    std::shared_ptr<const nature::ReliefLight> relief)
+    : daylight_(daylight_of(settings))
+    , climate_(climate)
+    , relief_(std::move(relief))
+    , water_m_(static_cast<float>(settings.water_level_m)) {
+    if (settings.palette) {
+        climate_.arid = settings.palette == Palette::Arid;
+    }
+}
 
 glm::vec3 GroundPalette::own(const GroundPoint& point, float footprint_m) const {
-    const Site site = site_of(point, footprint_m, water_m_);
-    if (site.height_m <= 0.0F && site.steepness < 1e-4F) {
+    Site site = site_of(point, footprint_m, water_m_);
+    if (is_water(point)) {
         return water_colour;
     }
-    return arid_ ? arid(site) : temperate(site);
+    const float white = snow_cover(site, point.normal, climate_);
+    if (climate_.arid) {
+        return glm::mix(arid(site), snow, white);
+    }
+    site.height_m = height_of_cover_m(site.height_m, climate_);
+    return glm::mix(temperate(site), snow, white);
 }
 
 glm::vec3 GroundPalette::lit(const GroundPoint& point, float footprint_m) const {
-    return own(point, footprint_m) * light_on(point.normal, to_sun_);
+    const nature::LightLeft left = left_at(point, footprint_m);
+    const float towards = std::max(glm::dot(point.normal, glm::vec3(daylight_.to_sun())), 0.0F);
+    return own(point, footprint_m) *
+           (daylight_.ambient() * left.sky + daylight_.sunlight() * (towards * left.sun));
+}
+
+bool GroundPalette::is_water(const GroundPoint& point) const {
+    return point.height_m <= water_m_ && 1.0F - point.normal.z < 1e-4F;
+}
+
+nature::Growth GroundPalette::growth(const GroundPoint& point, float footprint_m) const {
+    nature::Growth growth;
+    growth.sun = left_at(point, footprint_m).sun;
+    Site site = site_of(point, footprint_m, water_m_);
+    const float white = snow_cover(site, point.normal, climate_);
+    if (is_water(point) || site.steepness > 0.16F || white > 0.5F) {
+        return growth;
+    }
+    if (climate_.arid) {
+        growth.shrubs = 0.12F + 0.35F * shrubs_of(site);
+        return growth;
+    }
+    site.height_m = height_of_cover_m(site.height_m, climate_);
+    const Cover cover = cover_of(site);
+    const float trees = 0.85F * cover.wooded + 0.02F * cover.below_trees * (1.0F - cover.farmed);
+    const float conifers = glm::smoothstep(500.0F, 1100.0F, site.height_m + 300.0F * site.patches);
+    growth.conifers = trees * conifers;
+    growth.broadleaves = trees * (1.0F - conifers);
+    const float village = patch_noise(site.east_m + 3e5F, site.north_m, 900.0F);
+    growth.houses = cover.farmed * (0.004F + 0.22F * glm::smoothstep(0.55F, 0.75F, village));
+    return growth;
+}
+
+glm::vec3 GroundPalette::light_left(const GroundPoint& point, float footprint_m) const {
+    const nature::LightLeft left = left_at(point, footprint_m);
+    const float towards = std::max(glm::dot(point.normal, glm::vec3(daylight_.to_sun())), 0.0F);
+    return (daylight_.ambient() * left.sky + daylight_.sunlight() * (towards * left.sun)) /
+           glm::max(light_on(point.normal, daylight_), glm::vec3(1e-3F));
+}
+
+nature::LightLeft GroundPalette::left_at(const GroundPoint& point, float footprint_m) const {
+    return relief_ ? relief_->at(point.east_m, point.north_m, footprint_m) : nature::LightLeft();
 }
 
 } // namespace octant::visuals::scene

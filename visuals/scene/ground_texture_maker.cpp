@@ -105,7 +105,7 @@ GroundImage draped(
 }
 
 /// Sum over a row of normals of the colours nearest to each, under light.
-glm::dvec3 sum_of_lit_row(const GroundTexture& texture, const glm::vec3& to_sun, int row) {
+glm::dvec3 sum_of_lit_row(const GroundTexture& texture, const nature::Daylight& day, int row) {
     const GroundImage& albedo = texture.albedo;
     const GroundImage& normal = texture.normal;
     const int albedo_row = row * albedo.height / normal.height;
@@ -116,23 +116,24 @@ glm::dvec3 sum_of_lit_row(const GroundTexture& texture, const glm::vec3& to_sun,
             static_cast<float>(normal.texels[2 * at] - 128) / 127.0F,
             static_cast<float>(normal.texels[2 * at + 1] - 128) / 127.0F);
         const float up = std::sqrt(std::max(1.0F - glm::dot(slope, slope), 0.0F));
-        const double light = light_on(glm::vec3(slope, up), to_sun);
+        const glm::vec3 light = light_on(glm::vec3(slope, up), day);
         const std::size_t under =
             index_of(albedo, column * albedo.width / normal.width, albedo_row);
         for (int part = 0; part < 3; ++part) {
-            sum[part] +=
-                std::min(light * albedo.texels[3 * under + static_cast<std::size_t>(part)], 255.0);
+            const auto own =
+                static_cast<float>(albedo.texels[3 * under + static_cast<std::size_t>(part)]);
+            sum[part] += static_cast<double>(std::min(light[part] * own, 255.0F));
         }
     }
     return sum;
 }
 
 /// Of the ground under light.
-glm::vec3 mean_lit(const GroundTexture& texture, const glm::vec3& to_sun) {
+glm::vec3 mean_lit(const GroundTexture& texture, const nature::Daylight& day) {
     const GroundImage& normal = texture.normal;
     std::vector<glm::dvec3> rows(static_cast<std::size_t>(normal.height));
     by_rows(normal.height, [&](int row) {
-        rows[static_cast<std::size_t>(row)] = sum_of_lit_row(texture, to_sun, row);
+        rows[static_cast<std::size_t>(row)] = sum_of_lit_row(texture, day, row);
     });
     const glm::dvec3 sum = std::accumulate(rows.begin(), rows.end(), glm::dvec3(0.0));
     return glm::vec3(sum / (255.0 * normal.width * normal.height));
@@ -151,18 +152,20 @@ TexturePlace place_in(const GroundImage& image, const glm::dvec3& eye_m) {
 GroundTexture ground_texture(
     const terrain::GroundSamples& ground,
     const AirSettings& settings,
-    const models::heights::Image* drape) {
+    const models::heights::Image* drape,
+    const nature::Climate& climate) {
     assert(drape == nullptr || std::max(drape->width, drape->height) <= largest_texture);
     const int stride = stride_of(ground);
     GroundTexture texture;
     texture.normal = sampled(ground, stride, 2);
     texture.albedo = sampled(ground, stride, 3);
-    const GroundPalette palette(settings);
+    const GroundPalette palette(settings, climate, relief_light(ground, settings));
     const auto footprint_m = static_cast<float>(stride * ground.spacing_m());
     by_rows(texture.normal.height, [&](int row) {
         for (int column = 0; column < texture.normal.width; ++column) {
             const GroundPoint point = ground_point(ground, column * stride, row * stride, stride);
-            const glm::vec3 own = palette.own(point, footprint_m);
+            const glm::vec3 own =
+                palette.own(point, footprint_m) * palette.light_left(point, footprint_m);
             const std::size_t at = index_of(texture.normal, column, row);
             texture.normal.texels[2 * at] = byte_of_slope(point.normal.x);
             texture.normal.texels[2 * at + 1] = byte_of_slope(point.normal.y);
@@ -174,7 +177,7 @@ GroundTexture ground_texture(
     if (drape != nullptr) {
         texture.albedo = draped(texture.albedo, *drape, ground.half_extent_m());
     }
-    texture.mean_colour = mean_lit(texture, direction_to_sun(settings));
+    texture.mean_colour = mean_lit(texture, daylight_of(settings));
     return texture;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/heights/image.h"
+#include "visuals/nature/climate.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/ground_texture.h"
 #include "visuals/scene/settings.h"
@@ -21,11 +22,12 @@ inline constexpr int largest_from_samples = 4097;
 /// ... with slope and cover filtered to that distance, so that a large imported ground gives its
 /// coarser levels and the others stay on the disk. `drape` reaches from edge to edge of the ground,
 /// north up, and has at most largest_texture pixels a side (asserted). Uses all processors; same
-/// bytes for any number of them.
+/// bytes for any number of them. What the relief takes from the light is in the colours.
 GroundTexture ground_texture(
     const terrain::GroundSamples& ground,
     const AirSettings& settings,
-    const models::heights::Image* drape);
+    const models::heights::Image* drape,
+    const nature::Climate& climate = {});
 
 /// The same without its texels, which a renderer has: all that plans need.
 GroundTexture without_texels(const GroundTexture& texture);

@@ -49,7 +49,7 @@ constexpr glm::vec2 least_whole_px{110.0F, 68.0F};
 constexpr float least_letter_px = 7.0F; ///< a pixel for each step of the letters' grid, and one
 constexpr float least_line_px = 1.15F;
 constexpr glm::vec3 green{0.22F, 1.0F, 0.36F};
-constexpr std::uint32_t shade = 0x60041c00U; ///< dark green, as ColourVertex::colour
+constexpr std::uint32_t shade = 0xb0041c00U; ///< dark green, as ColourVertex::colour
 
 constexpr double slowest_marked_mps = 5.0; ///< below, no flight path is shown
 constexpr double surely_flying_mps = 20.0;
@@ -289,7 +289,7 @@ HeadUpDisplay::draw(const HeadUpInputs& inputs, const Camera& camera, const glm:
         return {};
     }
     const float width_px = std::max(line_width * glass.unit_px, least_line_px);
-    canvas_.begin(glass.to_picture, {width_px, 1.1F, models::packed_colour(green), shade});
+    canvas_.begin(glass.to_picture, {width_px, 1.4F, models::packed_colour(green), shade});
     Signs(inputs, glass, canvas_).draw();
     return canvas_.finish();
 }

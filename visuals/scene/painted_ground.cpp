@@ -31,11 +31,11 @@ public:
 
     PaintedGround(const models::polygons::PolygonModel& model, const AirSettings& air)
         : air_(air) {
-        const glm::vec3 sun = direction_to_sun(air);
+        const nature::Daylight day = daylight_of(air);
         for (std::size_t i = 0; i < model.polygons.size(); ++i) {
             const glm::vec3 normal(world_from_body(models::polygons::normal_of(model, i)));
-            const float light = ambient_light + sun_light * std::max(glm::dot(normal, sun), 0.0F);
-            const glm::vec3 colour = model.materials[model.polygons[i].material].colour * light;
+            const glm::vec3 colour =
+                model.materials[model.polygons[i].material].colour * light_on(normal, day);
             const auto first = static_cast<std::uint32_t>(corners_m_.size());
             for (const std::uint32_t vertex : model.corners(i)) {
                 corners_m_.push_back(world_from_body(model.vertices_m[vertex]));

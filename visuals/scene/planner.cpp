@@ -50,6 +50,35 @@ Tints tints_of(const PlacedAircraft& aircraft, ModelLook look) {
     return {colour, colour};
 }
 
+/// At the ground's mean height. Without a sky the haze is the background all around.
+Haze haze_of(const AirSettings& air, const nature::Daylight& day) {
+    Haze haze{air.background, static_cast<float>(air.visibility_m)};
+    haze.falloff_per_m =
+        air.haze_height_m > 0.0 ? static_cast<float>(1.0 / air.haze_height_m) : 0.0F;
+    if (air.sky) {
+        haze.colour = day.haze_away();
+        haze.to_sun_level = glm::vec2(day.to_sun_level());
+        haze.sunward = day.haze_sunward();
+    }
+    return haze;
+}
+
+nature::Backdrop land_around(const Ground& ground, const AirSettings& air) {
+    if (!air.sky || ground.spacing_m() <= 0.0) {
+        return {};
+    }
+    return nature::backdrop_of(
+        {ground.half_extent_m(),
+         ground.mean_height_m(),
+         ground.mean_colour(),
+         [&](const glm::dvec2& at_m) {
+             return ground.height_at(at_m.x, at_m.y).value_or(ground.mean_height_m());
+         },
+         [&](const glm::dvec2& at_m, double footprint_m) {
+             return ground.colour_at(at_m.x, at_m.y, footprint_m);
+         }});
+}
+
 double distance_to_edge_m(const Ground& ground, const glm::dvec3& eye_m) {
     const glm::dvec2 half_m = ground.half_extent_m();
     return std::max(std::min(half_m.x - std::abs(eye_m.x), half_m.y - std::abs(eye_m.y)), 0.0);
@@ -93,18 +122,20 @@ Planner::Planner(const Scene& scene, const Settings& settings, std::unique_ptr<G
     , settings_(settings)
     , mesher_(mesher ? std::move(mesher) : scene.ground->mesher(mesh_settings(settings)))
     , aspect_(static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y)
+    , daylight_(daylight_of(settings.air))
     , to_sun_(direction_to_sun(settings.air))
+    , sky_(daylight_, land_around(*scene.ground, settings.air))
     , shadows_(to_sun_)
     , placed_(places_for(scene, settings.view.kind, parts_))
     , smooth_(settings.shading, settings.adapt.shading, placed_)
     , steps_(plan_) {
     plan_.background = settings.air.background;
-    plan_.haze = {settings.air.background, static_cast<float>(settings.air.visibility_m)};
+    plan_.haze = haze_of(settings.air, daylight_);
     plan_.mesh_look = settings.ground.show_mesh;
     plan_.sample_spacing_m = std::max(static_cast<float>(scene.ground->spacing_m()), 1e-3F);
     plan_.to_sun = glm::vec3(to_sun_);
-    plan_.ambient = glm::vec3(ambient_light);
-    plan_.sunlight = glm::vec3(sun_light);
+    plan_.ambient = daylight_.ambient();
+    plan_.sunlight = daylight_.sunlight();
     for (const PlacedAircraft& aircraft : placed_) {
         refined_.push_back(
             aircraft.model->progressive
@@ -180,6 +211,7 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
         mesher_->triangles(ground_request(camera, request.triangle_target), counts.ground), {}, {}};
     write_parts();
     cast_shadows(camera);
+    plan_haze(camera);
     plan_sky(camera);
     if (settings_.view.kind == View::Cockpit && settings_.view.head_up_display) {
         plan_head_up_display(camera, request.states.front());
@@ -207,6 +239,17 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
     return {plan_, counts};
 }
 
+/// The air at the eye's height over the ground's mean one.
+void Planner::plan_haze(const Camera& camera) {
+    const AirSettings& air = settings_.air;
+    const double mean_m = scene_.ground->mean_height_m();
+    if (air.haze_height_m > 0.0) {
+        const double above_m = camera.eye_m.z - (std::isfinite(mean_m) ? mean_m : 0.0);
+        const double thinner = std::exp(std::clamp(above_m / air.haze_height_m, -3.0, 30.0));
+        plan_.haze.visibility_m = static_cast<float>(air.visibility_m * thinner);
+    }
+}
+
 void Planner::plan_sky(const Camera& camera) {
     if (!settings_.air.sky) {
         return;
@@ -215,9 +258,10 @@ void Planner::plan_sky(const Camera& camera) {
     plan_.sky = sky_.around(
         {camera.eye_m.z - ground.mean_height_m(),
          distance_to_edge_m(ground, camera.eye_m),
-         scene_.ground_texture ? scene_.ground_texture->mean_colour : ground.mean_colour(),
+         ground.mean_colour(),
          mesher_->earth_radius_m()},
-        plan_.haze);
+        plan_.haze,
+        camera.eye_m);
 }
 
 /// Decides where each aircraft is, which list it is painted by and which box stands in for it.

@@ -108,6 +108,7 @@ public:
 private:
     GroundRequest ground_request(const Camera& camera, std::optional<int> triangle_target) const;
     void place_and_refine(const PlanRequest& request);
+    void plan_haze(const Camera& camera);
     void plan_sky(const Camera& camera);
     void place_aircraft(const Camera& camera, std::span<const sim::AircraftState> states);
     void place(PlacedAircraft& aircraft, const sim::AircraftState& state, const glm::dvec3& eye_m);
@@ -130,6 +131,7 @@ private:
     const Settings& settings_;
     std::unique_ptr<GroundMesher> mesher_;
     double aspect_;
+    nature::Daylight daylight_;
     glm::dvec3 to_sun_;
     Sky sky_;
     ShadowCaster shadows_;

@@ -98,8 +98,10 @@ struct GroundSettings {
     double resolution_c = 0.0; ///< C of the first frame; 0 = the one that meets the triangle target
     /// c, the weight of roughness. Nothing: 20 for midpoint, 5 for printed.
     std::optional<double> roughness_c;
-    double control_a = 0.0; ///< a, triangles per unit of C; 0 = from the terrain's own gain
-    int control_r = 4;      ///< r, earlier frames that the damping looks back at
+    double control_a = 0.0;   ///< a, triangles per unit of C; 0 = from the terrain's own gain
+    int control_r = 4;        ///< r, earlier frames that the damping looks back at
+    bool near_detail = false; ///< screen error: ground between the samples, near the eye
+    bool scenery = false;     ///< screen error: trees and houses near the eye
     MeshLook show_mesh = MeshLook::None;
 
     bool operator==(const GroundSettings&) const = default;
@@ -108,10 +110,17 @@ struct GroundSettings {
 /// Sky, haze, sun and the colours of the ground.
 struct AirSettings {
     bool sky = true;
-    double visibility_m = 30000.0; ///< 0 = no haze
+    double visibility_m = 30000.0; ///< at the mean height of the ground; 0 = no haze
+    /// The haze is 1/e as dense so much higher up; 0 = as dense at all heights.
+    double haze_height_m = 2500.0;
+    /// Of the haze under a sun of 35 degrees, too.
     glm::vec3 background{158.0F / 255.0F, 184.0F / 255.0F, 214.0F / 255.0F};
+    /// "YYYY-MM-DDTHH:MM" by the sun itself: whoever loads the scene sets the sun by it and the
+    /// place.
+    std::optional<std::string> time;
     double sun_azimuth_deg = 225.0; ///< clockwise from north
     double sun_elevation_deg = 35.0;
+    bool relief_shadows = true;     ///< of the ground on itself, and less light in its hollows
     double water_level_m = 0.0;     ///< ground at or below it is drawn as water
     std::optional<Palette> palette; ///< nothing: arid for the canyon, else temperate
     /// Auto: texture under a drape or on a GPU, else vertex.

@@ -1,12 +1,18 @@
 #pragma once
 
 #include "models/colour_vertex.h"
+#include "visuals/nature/backdrop.h"
+#include "visuals/nature/daylight.h"
 #include "visuals/scene/frame_plan.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace octant::visuals::scene {
+
+/// A colour at a place (world axes with the eye subtracted) as it is seen through the haze.
+glm::vec3 seen_through(const Haze& haze, const glm::dvec3& place_m, const glm::vec3& own);
 
 /// What the sky shows below the horizon, where the map has ended: an endless plain.
 struct Plain {
@@ -16,18 +22,30 @@ struct Plain {
     double earth_radius_m = 0.0;     ///< the plain sinks with the square of the distance; 0 = flat
 };
 
-/// A dome of triangles around the eye: blue overhead, pale at the horizon, the plain below it as
-/// far down as the map does not cover it. Rebuilt each frame into the same memory.
+/// A dome of triangles around the eye in the colours of a daylight, with the sun and its glare; the
+/// plain below it as far down as the map does not cover it. What is below the horizon is made anew
+/// each frame in the same memory.
 class Sky {
 public:
-    Sky();
+    /// `land`: what lies around the map; may be empty.
+    explicit Sky(const nature::Daylight& day, nature::Backdrop land = {});
 
-    /// The triangles stay valid until the next call.
-    TriangleDraw around(const Plain& plain, const Haze& haze);
+    /// The triangles, in painting order, stay valid until the next call. The land around the map is
+    /// left out from below its mean height.
+    TriangleDraw around(const Plain& plain, const Haze& haze, const glm::dvec3& eye_m = {});
 
 private:
-    std::vector<models::ColourVertex> vertices_;
+    void add_ring_triangles(std::uint32_t upper, std::uint32_t lower, int corners);
+    void add_dome(const nature::Daylight& day);
+    void add_sun(const nature::Daylight& day);
+    void place_land(const Plain& plain, const Haze& haze, const glm::dvec3& eye_m);
+
+    double first_azimuth_rad_; ///< of each ring of the dome: the sun's
+    nature::Backdrop land_;
+    std::vector<models::ColourVertex> vertices_; ///< of dome and sun, then of the land
     std::vector<std::uint32_t> indices_;
+    std::size_t sky_vertices_ = 0; ///< of dome and sun
+    std::size_t sky_indices_ = 0;
 };
 
 } // namespace octant::visuals::scene

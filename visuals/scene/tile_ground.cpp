@@ -1,5 +1,7 @@
 #include "sim/base/units.h"
+#include "visuals/nature/near_ground.h"
 #include "visuals/scene/ground.h"
+#include "visuals/scene/ground_colours.h"
 #include "visuals/scene/ground_mesher.h"
 #include "visuals/scene/ground_palette.h"
 #include "visuals/scene/vertex_colours.h"
@@ -9,6 +11,8 @@
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/ground_tiles.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -19,8 +23,10 @@ namespace octant::visuals::scene {
 
 namespace {
 
-constexpr double frames_ahead = 120.0;  ///< how far along the eye's way pages are asked for
-constexpr double least_error_px = 0.25; ///< what is finer than this nobody sees
+constexpr double frames_ahead = 120.0;   ///< how far along the eye's way pages are asked for
+constexpr double least_error_px = 0.25;  ///< what is finer than this nobody sees
+constexpr double detail_below_m = 900.0; ///< height over the ground from where detail shows
+constexpr int most_detail = 8000;        ///< triangles of ground between samples and of scenery
 
 /// Tiles, in memory or mapped from a file, and the palette of their colours.
 class TileGround final : public Ground {
@@ -28,11 +34,14 @@ public:
     TileGround(std::shared_ptr<const terrain::GroundTiles> tiles, const AirSettings& air)
         : tiles_(std::move(tiles))
         , air_(air)
-        , mean_colour_(VertexColours(*tiles_, air).mean()) {}
+        , relief_(relief_light(terrain::GroundSamples(*tiles_), air))
+        , mean_colour_(VertexColours(*tiles_, air, relief_).mean()) {}
 
     const terrain::GroundTiles& tiles() const { return *tiles_; }
 
     const AirSettings& air() const { return air_; }
+
+    const std::shared_ptr<const nature::ReliefLight>& relief() const { return relief_; }
 
     std::optional<double> height_at(double x_m, double y_m) const override {
         return tiles_->height_at(x_m, y_m);
@@ -45,6 +54,12 @@ public:
     double mean_height_m() const override { return static_cast<double>(tiles_->facts().mean_m); }
 
     glm::vec3 mean_colour() const override { return mean_colour_; }
+
+    glm::vec3 colour_at(double x_m, double y_m, double footprint_m) const override {
+        const terrain::GroundSamples samples(*tiles_);
+        const GroundPalette palette(air_, climate_at(tiles_->facts().place), relief_);
+        return nearest_colour(samples, palette, {x_m, y_m}, footprint_m);
+    }
 
     bool is_meshed_as(const GroundSettings& settings) const override {
         return ground_metric(settings) == GroundMetric::ScreenError;
@@ -64,6 +79,7 @@ private:
 
     std::shared_ptr<const terrain::GroundTiles> tiles_;
     AirSettings air_;
+    std::shared_ptr<const nature::ReliefLight> relief_;
     glm::vec3 mean_colour_;
 };
 
@@ -73,8 +89,14 @@ public:
     TileMesher(std::shared_ptr<const TileGround> ground, const MeshSettings& settings)
         : ground_(std::move(ground))
         , mesher_(ground_->tiles())
-        , colours_(ground_->tiles(), ground_->air())
+        , colours_(ground_->tiles(), ground_->air(), ground_->relief())
+        , near_(nature::Scenery(
+              -ground_->tiles().half_extent_m(),
+              {ground_->tiles().columns(), ground_->tiles().rows()},
+              ground_->tiles().spacing_m(),
+              [this](int column, int row) { return colours_.growth_of(column, row); }))
         , prefetcher_(ground_->tiles()) {
+        near_.scenery().light_by(daylight_of(ground_->air()));
         follow(settings);
     }
 
@@ -87,6 +109,8 @@ public:
         picture_height_px_ = settings.picture_height_px;
         target_.error_px = settings.ground.error_px.value_or(least_error_px);
         target_.geomorphs = settings.ground.geomorphs;
+        detail_ = {settings.ground.near_detail, settings.ground.scenery};
+        is_coloured_ = false;
         earth_radius_m_ = settings.ground.earth_curvature ? terrain::earth_radius_m : 0.0;
     }
 
@@ -97,7 +121,9 @@ public:
         }
         worker_.wait();
         ground_ = std::move(moved);
-        colours_.follow(ground_->air());
+        colours_.follow(ground_->air(), ground_->relief());
+        near_.scenery().forget();
+        near_.scenery().light_by(daylight_of(ground_->air()));
         is_coloured_ = false;
         return true;
     }
@@ -110,7 +136,7 @@ public:
         if (std::exchange(is_ahead_, true)) {
             return;
         }
-        aim_at(request.triangle_target);
+        aim_at(request);
         next_view_ = view_of(request);
         worker_.begin([this] { make(next_view_); });
     }
@@ -120,24 +146,56 @@ public:
     TriangleDraw triangles(const GroundRequest& request, GroundCounts& counts) override {
         is_ahead_ = false;
         worker_.wait();
-        aim_at(request.triangle_target);
+        aim_at(request);
         make(view_of(request));
         const glm::dvec3& eye_m = request.camera.eye_m;
         const glm::dvec3 way_m = eye_m - last_eye_m_.value_or(eye_m);
         prefetcher_.go_to(glm::dvec2(eye_m + frames_ahead * way_m));
         last_eye_m_ = eye_m;
-        counts = {mesh_.counters.triangles, mesh_.counters.fans, 0.0, mesh_.error_px};
-        return {mesh_.vertices, mesh_.indices};
+        counts = {
+            static_cast<int>(shown_.indices.size() / 3), mesh_.counters.fans, 0.0, mesh_.error_px};
+        return {shown_.vertices, shown_.indices};
     }
 
     void triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const override {
-        mesher_.triangles_in(wanted, triangles);
+        if (!has_detail()) {
+            mesher_.triangles_in(wanted, triangles);
+            return;
+        }
+        const std::size_t first = triangles.size();
+        const double moved_m = nature::FineGround::most_moved * ground_->spacing_m();
+        const glm::dvec3 below_m(0.0, 0.0, moved_m);
+        const glm::dvec3 above_m(0.0, 0.0, moved_m + nature::Scenery::highest_m);
+        mesher_.triangles_in(
+            [&](const glm::dvec3& least_m, const glm::dvec3& most_m) {
+                return wanted(least_m - below_m, most_m + above_m);
+            },
+            triangles);
+        near_.replace(triangles, first);
     }
 
 private:
-    void aim_at(int triangles) {
-        target_.most_triangles =
-            triangles >= unlimited_triangles ? terrain::any_triangles : triangles;
+    bool has_detail() const { return detail_.fine_ground || detail_.scenery; }
+
+    /// Of the triangles that are aimed at, detail gets up to two fifths where the eye is low.
+    void aim_at(const GroundRequest& request) {
+        const glm::dvec3& eye_m = request.camera.eye_m;
+        near_view_.eye_m = eye_m;
+        near_view_.spacing_m = ground_->spacing_m();
+        near_view_.order = order_;
+        std::ranges::transform(
+            frustum_normals(request.camera, request.aspect),
+            near_view_.frustum_normals.begin(),
+            [](const glm::dvec3& normal) { return glm::vec3(normal); });
+        const int triangles = request.triangle_target;
+        const bool unlimited = triangles >= unlimited_triangles;
+        const double over_m = eye_m.z - ground_->height_at(eye_m.x, eye_m.y).value_or(0.0);
+        const double low = has_detail() ? std::clamp(1.2 - over_m / detail_below_m, 0.0, 1.0) : 0.0;
+        const int kept = static_cast<int>(low * std::min(most_detail, triangles * 2 / 5));
+        near_view_.most_splits = static_cast<std::size_t>(detail_.scenery ? kept * 3 / 5 : kept);
+        near_view_.most_things = static_cast<std::size_t>(kept) -
+                                 (detail_.fine_ground ? near_view_.most_splits : std::size_t{0});
+        target_.most_triangles = unlimited ? terrain::any_triangles : std::max(triangles - kept, 1);
     }
 
     /// Does nothing where this mesh is the last one.
@@ -148,8 +206,16 @@ private:
             colours_.fill(mesher_.vertices(), mesh.origins);
             is_coloured_ = true;
             mesher_.measure_boxes();
+            show(mesh);
         }
         mesh_ = mesh;
+    }
+
+    void show(const terrain::GroundMesh& mesh) {
+        shown_ = {mesh.vertices, mesh.indices};
+        if (has_detail()) {
+            shown_ = near_.made(mesh, near_view_, detail_);
+        }
     }
 
     terrain::MeshView view_of(const GroundRequest& request) const {
@@ -166,6 +232,10 @@ private:
     std::shared_ptr<const TileGround> ground_;
     terrain::ErrorMesher mesher_;
     VertexColours colours_;
+    nature::NearGround near_;
+    nature::NearDetail detail_;
+    nature::FineView near_view_;
+    nature::NearGround::Triangles shown_; ///< mesh_ with its detail
     terrain::PaintOrder order_ = terrain::PaintOrder::BackToFront;
     int picture_height_px_ = 0;
     terrain::ErrorTarget target_;

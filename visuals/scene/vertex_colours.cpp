@@ -1,5 +1,7 @@
 #include "visuals/scene/vertex_colours.h"
 
+#include "visuals/scene/ground_colours.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -52,17 +54,21 @@ std::size_t hashed(std::uint32_t sample) {
 
 } // namespace
 
-VertexColours::VertexColours(const terrain::GroundTiles& ground, const AirSettings& settings)
+VertexColours::VertexColours(
+    const terrain::GroundTiles& ground,
+    const AirSettings& settings,
+    std::shared_ptr<const nature::ReliefLight> relief)
     : ground_(ground)
-    , palette_(settings)
+    , palette_(settings, climate_at(ground.facts().place), std::move(relief))
     , octaves_per_m_(static_cast<float>(footprint_share / ground.spacing_m()))
     , last_octave_(static_cast<unsigned>(ground.levels() - 1)) {
     fresh_.resize(least_places);
     stale_.resize(least_places);
 }
 
-void VertexColours::follow(const AirSettings& settings) {
-    palette_ = GroundPalette(settings);
+void VertexColours::follow(
+    const AirSettings& settings, std::shared_ptr<const nature::ReliefLight> relief) {
+    palette_ = GroundPalette(settings, climate_at(ground_.facts().place), std::move(relief));
     std::ranges::fill(fresh_, Entry{});
     std::ranges::fill(stale_, Entry{});
     fresh_count_ = 0;
@@ -175,6 +181,11 @@ VertexColours::colour_of(std::uint16_t column, std::uint16_t row, unsigned octav
         ground_.height_m(column, row),
         glm::normalize(glm::vec3(-rise_east, -rise_north, 1.0F))};
     return models::packed_colour(palette_.lit(point, spacing_m * static_cast<float>(step)));
+}
+
+nature::Growth VertexColours::growth_of(int column, int row) const {
+    const GroundPoint point = ground_point(terrain::GroundSamples(ground_), column, row, 1);
+    return palette_.growth(point, static_cast<float>(ground_.spacing_m()));
 }
 
 glm::vec3 VertexColours::mean() const {

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -22,10 +23,13 @@ namespace octant::visuals::scene {
 class VertexColours {
 public:
     /// The ground must outlive the colours.
-    VertexColours(const terrain::GroundTiles& ground, const AirSettings& settings);
+    VertexColours(
+        const terrain::GroundTiles& ground,
+        const AirSettings& settings,
+        std::shared_ptr<const nature::ReliefLight> relief);
 
     /// Gives other colours from now on.
-    void follow(const AirSettings& settings);
+    void follow(const AirSettings& settings, std::shared_ptr<const nature::ReliefLight> relief);
 
     /// Fills in ColourVertex::colour; `origins` as GroundMesh::origins.
     void
@@ -33,6 +37,9 @@ public:
 
     /// Colour of a sample seen through a footprint of 2^octave samples, packed.
     std::uint32_t colour_of(std::uint16_t column, std::uint16_t row, unsigned octave) const;
+
+    /// What stands at a sample.
+    nature::Growth growth_of(int column, int row) const;
 
     /// Mean over the ground, of widely spaced samples, display values 0..1.
     glm::vec3 mean() const;

@@ -33,6 +33,15 @@ TEST_CASE("only the numbers of samples that renderers offer are taken") {
     check_refused(settings, "--samples: expected 1 or 4 beside --renderer gl, got 16");
 }
 
+TEST_CASE("a time is a day that a calendar has, and a minute of it") {
+    RunSettings settings;
+    settings.air.time = "2024-06-21T05:30";
+    CHECK_NOTHROW(ui::settings::check_settings(settings));
+    settings.air.time = "2023-02-29T12:00";
+    check_refused(
+        settings, "--time: expected a day and an hour as YYYY-MM-DDTHH:MM, got '2023-02-29T12:00'");
+}
+
 TEST_CASE("eye points are refused where the view does not take them") {
     RunSettings settings;
     settings.view.eye_m = glm::dvec3(1.0, 2.0, 3.0);

@@ -41,7 +41,7 @@ TEST_CASE("the texture under its light shows each sample as the lit vertex does,
     const GroundTexture texture =
         ground_texture(terrain::GroundSamples(field), settings.air, nullptr);
     const std::vector<std::uint32_t> lit = ground_colours(field, settings.air);
-    const glm::vec3 to_sun = direction_to_sun(settings.air);
+    const visuals::nature::Daylight day = daylight_of(settings.air);
     REQUIRE(texture.normal.width == 9);
     REQUIRE(texture.normal.height == 7);
     for (int row = 0; row < 7; ++row) {
@@ -54,8 +54,9 @@ TEST_CASE("the texture under its light shows each sample as the lit vertex does,
             const std::array<int, 3> own = colour(texture.albedo, column, row);
             for (std::size_t part = 0; part < 3; ++part) {
                 const float expected = static_cast<float>((lit[at] >> (8 * part)) & 255U);
-                const float shown =
-                    std::min(static_cast<float>(own[part]) * light_on(normal, to_sun), 255.0F);
+                const float shown = std::min(
+                    static_cast<float>(own[part]) * light_on(normal, day)[static_cast<int>(part)],
+                    255.0F);
                 CHECK(shown == Approx(expected).margin(4.0));
             }
             const TexturePlaces places = texture_places(texture, field.sample_m(column, row));

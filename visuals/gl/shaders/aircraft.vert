@@ -13,7 +13,7 @@ layout(location = 8) in vec4 face_colour; // of the polygon that begins here
 layout(location = 9) in vec4 smooth_tint; // of the aircraft's smooth polygons; a = 0: none
 layout(location = 10) in vec4 flat_tint; // the same of its flat ones
 
-#include "picture.glsl"
+#include "haze.glsl"
 
 layout(std430, binding = 0) readonly buffer Parts {
     mat4 body_to_eye_world[]; // world axes, eye at the origin
@@ -36,8 +36,8 @@ void main() {
     vec4 place = vec4((part_to_eye_world * vec4(position_m, 1.0)).xyz, 1.0);
     mat3 turn = mat3(part_to_eye_world);
     uint bit = smooth_polygons[first_smooth + polygon / 32u] >> (polygon % 32u) & 1u;
-    float haze_share = 1.0 - exp(-length(place.xyz) * haze.w);
-    flat_colour = vec4(mix(lit(mix(face_colour.rgb, flat_tint.rgb, flat_tint.a), turn * face_normal), haze.rgb, haze_share), float(bit));
-    smooth_colour = mix(lit(mix(own_colour.rgb, smooth_tint.rgb, smooth_tint.a), turn * normal), haze.rgb, haze_share);
+    vec4 air = haze_before(place.xyz);
+    flat_colour = vec4(mix(lit(mix(face_colour.rgb, flat_tint.rgb, flat_tint.a), turn * face_normal), air.rgb, air.a), float(bit));
+    smooth_colour = mix(lit(mix(own_colour.rgb, smooth_tint.rgb, smooth_tint.a), turn * normal), air.rgb, air.a);
     gl_Position = world_to_clip * place;
 }

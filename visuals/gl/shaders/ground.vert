@@ -4,7 +4,7 @@
 layout(location = 0) in vec3 position_m; // world axes, eye at the origin
 layout(location = 1) in vec4 own_colour;
 
-#include "picture.glsl"
+#include "haze.glsl"
 
 out vec3 colour;
 #ifdef MESH
@@ -13,8 +13,8 @@ out vec3 place_m;
 
 void main() {
     vec4 place = vec4(position_m, 1.0);
-    float haze_share = 1.0 - exp(-length(position_m) * haze.w);
-    colour = mix(own_colour.rgb, haze.rgb, haze_share);
+    vec4 air = haze_before(position_m);
+    colour = mix(own_colour.rgb, air.rgb, air.a);
 #ifdef MESH
     place_m = position_m;
 #endif

@@ -3,7 +3,8 @@
 
 in vec2 albedo_at;
 in vec2 normal_at;
-in vec2 shade_and_haze;
+in float shade;
+in vec4 air;
 
 layout(location = 0) out vec4 pixel;
 
@@ -21,6 +22,6 @@ void main() {
     cut();
     vec3 normal = vec3(slope, sqrt(max(1.0 - dot(slope, slope), 0.0)));
     vec3 light = ambient.rgb + sunlight.rgb * max(dot(normal, to_sun.xyz), 0.0);
-    vec3 lit = min(own * light, vec3(1.0)) * shade_and_haze.x;
-    pixel = vec4(mix(lit, haze.rgb, shade_and_haze.y), 1.0);
+    vec3 lit = min(own * light, vec3(1.0)) * shade;
+    pixel = vec4(mix(lit, air.rgb, air.a), 1.0);
 }

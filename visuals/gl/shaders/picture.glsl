@@ -4,6 +4,8 @@
 layout(std140, binding = 0) uniform Picture {
     mat4 world_to_clip;
     vec4 haze; // colour, 1 / visibility (0 = no haze)
+    vec4 haze_sunward; // colour, fall of the density a metre
+    vec4 haze_to_sun; // unit, level, world axes
     vec4 to_sun; // unit, world axes
     vec4 ambient;
     vec4 sunlight;

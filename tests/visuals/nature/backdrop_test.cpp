@@ -1,0 +1,85 @@
+#include "visuals/nature/backdrop.h"
+
+#include <catch2/catch.hpp>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+using namespace octant::visuals::nature;
+
+namespace {
+
+constexpr double mean_m = 500.0;
+const glm::vec3 mean_colour(0.4F, 0.5F, 0.3F);
+
+/// Ground that rises to the east, brighter there, over 4 x 2 km.
+MapFacts slope(std::vector<glm::dvec2>* asked = nullptr) {
+    return {
+        {2000.0, 1000.0},
+        mean_m,
+        mean_colour,
+        [asked](const glm::dvec2& at_m) {
+            if (asked != nullptr) {
+                asked->push_back(at_m);
+            }
+            return mean_m + 0.1 * at_m.x;
+        },
+        [](const glm::dvec2& at_m, double) {
+            return glm::vec3(static_cast<float>(0.5 + at_m.x / 5000.0));
+        }};
+}
+
+double outside_m(const glm::dvec3& at_m) {
+    return std::max(std::abs(at_m.x) - 2000.0, std::abs(at_m.y) - 1000.0);
+}
+
+} // namespace
+
+TEST_CASE("the land around a map begins under its border and ends at its mean height and colour") {
+    const Backdrop land = backdrop_of(slope());
+    double farthest_m = 0.0;
+    for (const Backdrop::Corner& corner : land.corners) {
+        farthest_m = std::max(farthest_m, outside_m(corner.at_m));
+    }
+    CHECK(farthest_m > 2500.0);
+    int under = 0;
+    for (const Backdrop::Corner& corner : land.corners) {
+        if (outside_m(corner.at_m) < 0.0) {
+            ++under;
+            CHECK(corner.at_m.z < mean_m + 0.1 * corner.at_m.x - 10.0);
+        } else if (outside_m(corner.at_m) > 0.99 * farthest_m) {
+            CHECK(corner.at_m.z == Approx(mean_m));
+            CHECK(glm::length(corner.colour - mean_colour) < 1e-6F);
+        } else if (outside_m(corner.at_m) < 100.0) {
+            CHECK(std::abs(corner.at_m.z - mean_m - 0.1 * corner.at_m.x) < 30.0);
+        }
+    }
+    CHECK(under > 10);
+}
+
+TEST_CASE("only places on the map are asked for, whatever its shape") {
+    std::vector<glm::dvec2> asked;
+    backdrop_of(slope(&asked));
+    for (const glm::dvec2& at_m : asked) {
+        REQUIRE(std::abs(at_m.x) <= 2000.0);
+        REQUIRE(std::abs(at_m.y) <= 1000.0);
+    }
+}
+
+TEST_CASE("seen from above the land faces up and covers everything around the map once") {
+    const Backdrop land = backdrop_of(slope());
+    double area_m2 = 0.0;
+    for (std::size_t i = 0; i < land.indices.size(); i += 3) {
+        const glm::dvec2 a(land.corners[land.indices[i]].at_m);
+        const glm::dvec2 b(land.corners[land.indices[i + 1]].at_m);
+        const glm::dvec2 c(land.corners[land.indices[i + 2]].at_m);
+        const double twice_m2 = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        REQUIRE(twice_m2 > 0.0);
+        area_m2 += 0.5 * twice_m2;
+    }
+    const double size_m = 1500.0;
+    const double all_m2 = 4.0 * (2000.0 + 2.5 * size_m) * (1000.0 + 2.5 * size_m);
+    const double map_m2 = 4.0 * (2000.0 - 0.01 * size_m) * (1000.0 - 0.01 * size_m);
+    CHECK(area_m2 == Approx(all_m2 - map_m2).epsilon(1e-9));
+}

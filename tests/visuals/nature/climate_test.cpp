@@ -1,0 +1,30 @@
+#include "visuals/nature/climate.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using octant::visuals::nature::climate_of;
+
+TEST_CASE("trees and snow are where travellers find them") {
+    // Tree line in the Alps 1,900 to 2,300 m, in Scandinavia at 68 degrees 400 to 800 m, in the
+    // Himalaya about 3,900 m; snow there from 5,000 to 6,000 m, in the Alps from 2,700 to 3,200 m.
+    CHECK(std::abs(climate_of(46.5, 8.0).tree_line_m - 2200.0F) < 250.0F);
+    CHECK(std::abs(climate_of(68.0, 18.0).tree_line_m - 500.0F) < 300.0F);
+    CHECK(climate_of(28.0, 87.0).tree_line_m > 3500.0F);
+    CHECK(climate_of(28.0, 87.0).snow_line_m > 5000.0F);
+    CHECK(std::abs(climate_of(46.5, 8.0).snow_line_m - 2900.0F) < 300.0F);
+    CHECK(climate_of(85.0, 0.0).snow_line_m < 200.0F);
+    for (double latitude = -90.0; latitude <= 90.0; latitude += 1.5) {
+        CHECK(climate_of(latitude, 0.0).tree_line_m <= climate_of(latitude, 0.0).snow_line_m);
+    }
+}
+
+TEST_CASE("deserts are arid, also across the date line's count, and the rest is not") {
+    CHECK(climate_of(36.1, -112.1).arid); // Grand Canyon
+    CHECK(climate_of(23.0, 5.0).arid);    // Hoggar
+    CHECK(climate_of(-25.3, 131.0 - 360.0).arid);
+    CHECK_FALSE(climate_of(46.5, 8.0).arid);
+    CHECK_FALSE(climate_of(28.0, 87.0).arid);
+    CHECK_FALSE(climate_of(45.0, -70.0).arid);
+}

@@ -1,0 +1,269 @@
+#include "visuals/nature/near_ground.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+using namespace octant;
+using namespace octant::visuals::nature;
+using models::ColourVertex;
+
+namespace {
+
+constexpr int cells = 8;
+constexpr double spacing_m = 30.0;
+
+/// Samples of a rough field; triangles of whole cells or of blocks of `block` cells a side.
+struct Field {
+    std::vector<ColourVertex> vertices;
+    std::vector<std::uint32_t> indices;
+
+    Field(const glm::dvec3& eye_m, int block, double roughness_m) {
+        for (int row = 0; row <= cells; ++row) {
+            for (int column = 0; column <= cells; ++column) {
+                const double height_m = roughness_m * std::sin(1.7 * column + 0.6 * row);
+                const glm::dvec3 at_m(column * spacing_m, row * spacing_m, height_m);
+                vertices.push_back({glm::vec3(at_m - eye_m), 0xff808080U});
+            }
+        }
+        for (int row = 0; row < cells; row += block) {
+            for (int column = 0; column < cells; column += block) {
+                const auto at = [&](int i, int j) {
+                    return static_cast<std::uint32_t>(
+                        (row + block * j) * (cells + 1) + column + block * i);
+                };
+                indices.insert(indices.end(), {at(0, 0), at(1, 0), at(1, 1)});
+                indices.insert(indices.end(), {at(0, 0), at(1, 1), at(0, 1)});
+            }
+        }
+    }
+
+    visuals::terrain::GroundMesh mesh() const {
+        visuals::terrain::GroundMesh mesh;
+        mesh.vertices = vertices;
+        mesh.indices = indices;
+        return mesh;
+    }
+};
+
+Scenery scenery_of(const Growth& growth) {
+    return {
+        glm::dvec2(0.0), glm::ivec2(cells + 1), spacing_m, [growth](int, int) { return growth; }};
+}
+
+FineView view_from(const glm::dvec3& eye_m) {
+    return {
+        eye_m,
+        spacing_m,
+        visuals::terrain::PaintOrder::BackToFront,
+        {glm::vec3(0.0F), glm::vec3(0.0F), glm::vec3(0.0F), glm::vec3(0.0F)},
+        100000,
+        100000};
+}
+
+const glm::dvec3 low_eye_m(101.0, 87.0, 14.0);
+constexpr NearDetail fine_only{true, false};
+constexpr NearDetail scenery_only{false, true};
+
+float twice_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+} // namespace
+
+TEST_CASE("detail gives no cracks: every inner edge belongs to two triangles") {
+    const Field field(low_eye_m, 1, 6.0);
+    NearGround near(scenery_of({}));
+    const auto made = near.made(field.mesh(), view_from(low_eye_m), fine_only);
+    CHECK(made.indices.size() > 2 * field.indices.size());
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+    for (std::size_t i = 0; i < made.indices.size(); i += 3) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t from = made.indices[i + k];
+            const std::uint32_t to = made.indices[i + (k + 1) % 3];
+            ++uses[std::minmax(from, to)];
+        }
+    }
+    for (const auto& [edge, count] : uses) {
+        const glm::dvec3 middle = 0.5 * glm::dvec3(
+                                            made.vertices[edge.first].position_m +
+                                            made.vertices[edge.second].position_m) +
+                                  low_eye_m;
+        const double end_m = cells * spacing_m;
+        const bool border =
+            std::min({middle.x, middle.y, end_m - middle.x, end_m - middle.y}) < 0.01;
+        REQUIRE(count == (border ? 1 : 2));
+    }
+}
+
+TEST_CASE("detail keeps samples, turns no triangle over and covers the same ground") {
+    const Field field(low_eye_m, 1, 6.0);
+    NearGround near(scenery_of({}));
+    const auto made = near.made(field.mesh(), view_from(low_eye_m), fine_only);
+    for (std::size_t i = 0; i < field.vertices.size(); ++i) {
+        REQUIRE(made.vertices[i].position_m == field.vertices[i].position_m);
+    }
+    double area_m2 = 0.0;
+    for (std::size_t i = 0; i < made.indices.size(); i += 3) {
+        const float twice_m2 = twice_area(
+            made.vertices[made.indices[i]].position_m,
+            made.vertices[made.indices[i + 1]].position_m,
+            made.vertices[made.indices[i + 2]].position_m);
+        REQUIRE(twice_m2 > 0.0F);
+        area_m2 += 0.5 * static_cast<double>(twice_m2);
+    }
+    const double side_m = cells * spacing_m;
+    CHECK(area_m2 == Approx(side_m * side_m).epsilon(1e-4));
+}
+
+TEST_CASE("the parts of a triangle come from far to near, or the reverse") {
+    const Field field(low_eye_m, cells, 3.0);
+    for (const auto order :
+         {visuals::terrain::PaintOrder::BackToFront, visuals::terrain::PaintOrder::FrontToBack}) {
+        auto mesh = field.mesh();
+        mesh.indices =
+            mesh.indices.first(3); // the triangle below the diagonal, which holds the eye
+        FineView view = view_from(low_eye_m);
+        view.order = order;
+        NearGround near(scenery_of({}));
+        const auto made = near.made(mesh, view, fine_only);
+        const auto triangle_at = [&](const glm::vec3& at) {
+            for (std::size_t i = 0; i < made.indices.size(); i += 3) {
+                const auto corner = [&](std::size_t k) {
+                    return made.vertices[made.indices[i + k]].position_m;
+                };
+                if (twice_area(corner(0), corner(1), at) >= 0.0F &&
+                    twice_area(corner(1), corner(2), at) >= 0.0F &&
+                    twice_area(corner(2), corner(0), at) >= 0.0F) {
+                    return static_cast<int>(i / 3);
+                }
+            }
+            return -1;
+        };
+        int compared = 0;
+        for (int tick = 0; tick < 400; ++tick) {
+            const double turn = tick * 2.39996;
+            const glm::vec3 way(std::cos(turn), std::sin(turn), 0.0);
+            const int nearer = triangle_at(way * (3.0F + 0.11F * static_cast<float>(tick)));
+            const int farther = triangle_at(way * (9.0F + 0.2F * static_cast<float>(tick)));
+            if (nearer >= 0 && farther >= 0 && nearer != farther) {
+                ++compared;
+                REQUIRE((order == visuals::terrain::PaintOrder::BackToFront) == (farther < nearer));
+            }
+        }
+        CHECK(compared > 100);
+    }
+}
+
+TEST_CASE("from afar, and on level ground, nothing is moved") {
+    const glm::dvec3 high_m(120.0, 120.0, 3000.0);
+    const Field field(high_m, 1, 6.0);
+    NearGround near(scenery_of({}));
+    CHECK(
+        near.made(field.mesh(), view_from(high_m), fine_only).indices.size() ==
+        field.indices.size());
+    const Field level(low_eye_m, 1, 0.0);
+    const auto made = near.made(level.mesh(), view_from(low_eye_m), fine_only);
+    for (const ColourVertex& vertex : made.vertices) {
+        REQUIRE(vertex.position_m.z == Approx(-14.0));
+        REQUIRE(vertex.colour == 0xff808080U);
+    }
+}
+
+TEST_CASE("detail grows from nothing: a small move of the eye moves no vertex far") {
+    const auto heights_from = [](const glm::dvec3& eye_m) {
+        const Field field(eye_m, 1, 6.0);
+        NearGround near(scenery_of({}));
+        std::map<std::pair<long, long>, double> heights;
+        for (const ColourVertex& vertex :
+             near.made(field.mesh(), view_from(eye_m), fine_only).vertices) {
+            const glm::dvec3 at_m = glm::dvec3(vertex.position_m) + eye_m;
+            heights[{std::lround(at_m.x * 64.0), std::lround(at_m.y * 64.0)}] = at_m.z;
+        }
+        return heights;
+    };
+    const auto before = heights_from(low_eye_m);
+    const auto after = heights_from(low_eye_m + glm::dvec3(0.3, 0.2, 0.0));
+    int both = 0;
+    double most_rad = 0.0;
+    for (const auto& [at, height_m] : before) {
+        const auto found = after.find(at);
+        if (found != after.end()) {
+            ++both;
+            const double distance_m = glm::length(
+                glm::dvec3(
+                    static_cast<double>(at.first) / 64.0,
+                    static_cast<double>(at.second) / 64.0,
+                    height_m) -
+                low_eye_m);
+            most_rad = std::max(most_rad, std::abs(found->second - height_m) / distance_m);
+        }
+    }
+    CHECK(both > 200);
+    CHECK(most_rad < 0.25 / 869.0 * 4.0);
+}
+
+TEST_CASE("what stands on the ground stands within its triangle, whichever mesh it is") {
+    const Growth forest{0.5F, 0.3F, 0.0F, 0.05F, 1.0F};
+    const auto places_of = [&](int block) {
+        const Field field(low_eye_m, block, 0.0);
+        NearGround near(scenery_of(forest));
+        const auto made = near.made(field.mesh(), view_from(low_eye_m), scenery_only);
+        std::multiset<std::pair<long, long>> places;
+        for (std::size_t i = field.vertices.size(); i < made.vertices.size(); ++i) {
+            const glm::vec3& at_m = made.vertices[i].position_m;
+            places.insert({std::lround(at_m.x * 16.0F), std::lround(at_m.y * 16.0F)});
+        }
+        std::vector<std::uint32_t> all(field.indices.size() / 3);
+        for (std::uint32_t i = 0; i < all.size(); ++i) {
+            all[i] = i;
+        }
+        for (const std::uint32_t triangle : all) {
+            std::vector<std::uint32_t> own{triangle};
+            near.replace(own, 0);
+            const auto corner = [&](std::size_t k) {
+                return field.vertices[field.indices[3 * triangle + k]].position_m;
+            };
+            REQUIRE(own.size() >= 1);
+            for (const std::uint32_t part : own) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const glm::vec3 at_m = made.vertices[made.indices[3 * part + k]].position_m;
+                    for (std::size_t side = 0; side < 3; ++side) {
+                        REQUIRE(twice_area(corner(side), corner((side + 1) % 3), at_m) > -1.0F);
+                    }
+                }
+            }
+        }
+        return places;
+    };
+    const auto fine = places_of(1);
+    CHECK(fine.size() > 500);
+    CHECK(places_of(cells) == fine);
+}
+
+TEST_CASE("things are painted from far to near and face outwards") {
+    const Field field(low_eye_m, cells, 0.0);
+    NearGround near(scenery_of({0.3F, 0.3F, 0.2F, 0.1F, 1.0F}));
+    const auto made = near.made(field.mesh(), view_from(low_eye_m), scenery_only);
+    std::vector<std::uint32_t> own{0};
+    near.replace(own, 0);
+    REQUIRE(own.size() > 100);
+    double last_m = 1e9;
+    glm::vec3 last_at(0.0F);
+    int things = 0;
+    for (std::size_t i = 1; i < own.size(); ++i) {
+        const glm::vec3 at = made.vertices[made.indices[3 * own[i]]].position_m;
+        if (glm::length(glm::vec2(at - last_at)) > 13.0F) { // another thing
+            const double distance_m = glm::length(glm::vec2(at));
+            CHECK(distance_m < last_m + 12.0);
+            last_m = distance_m;
+            ++things;
+        }
+        last_at = at;
+    }
+    CHECK(things > 10);
+}

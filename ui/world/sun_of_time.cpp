@@ -1,0 +1,59 @@
+#include "ui/world/sun_of_time.h"
+
+#include "sim/sun_position.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+namespace octant::ui::world {
+
+namespace {
+
+using Place = std::optional<models::heights::GeoPlace>;
+
+std::optional<sim::SunPosition> sun_of(const visuals::scene::AirSettings& air, const Place& place) {
+    const auto time = air.time ? sim::solar_time_from_text(*air.time) : std::nullopt;
+    return time ? std::optional(sim::sun_position(latitude_of(place), *time)) : std::nullopt;
+}
+
+} // namespace
+
+double latitude_of(const Place& place) {
+    return place ? place->latitude_deg : latitude_without_place_deg;
+}
+
+settings::RunSettings with_sun_of_time(settings::RunSettings settings, const Place& place) {
+    if (const auto sun = sun_of(settings.air, place)) {
+        settings.air.sun_azimuth_deg = sun->azimuth_deg;
+        settings.air.sun_elevation_deg = std::clamp(sun->elevation_deg, 0.0, 90.0);
+    }
+    return settings;
+}
+
+settings::RunSettings with_sun_followed(
+    settings::RunSettings settings, const settings::RunSettings& before, const Place& place) {
+    const bool moved_by_hand = settings.air.time == before.air.time &&
+                               (settings.air.sun_azimuth_deg != before.air.sun_azimuth_deg ||
+                                settings.air.sun_elevation_deg != before.air.sun_elevation_deg);
+    if (moved_by_hand) {
+        settings.air.time.reset();
+    }
+    return with_sun_of_time(std::move(settings), place);
+}
+
+std::optional<std::string>
+note_of_night(const settings::RunSettings& settings, const Place& place) {
+    const auto sun = sun_of(settings.air, place);
+    if (!sun || sun->elevation_deg >= 0.0) {
+        return std::nullopt;
+    }
+    return fmt::format(
+        "--time {}: the sun is {:.0f} degrees below the horizon at latitude {:.1f}; it is shown on "
+        "the horizon",
+        *settings.air.time,
+        -sun->elevation_deg,
+        latitude_of(place));
+}
+
+} // namespace octant::ui::world

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "models/heights/height_field.h"
+#include "ui/settings/settings.h"
+
+#include <optional>
+#include <string>
+
+namespace octant::ui::world {
+
+/// Where the sun is worked out for ground without a place.
+inline constexpr double latitude_without_place_deg = 45.0;
+
+double latitude_of(const std::optional<models::heights::GeoPlace>& place);
+
+/// The settings with the sun where it stands at their time and that place, on the horizon at night;
+/// the same settings where they name no time, which has passed settings::check_settings.
+settings::RunSettings with_sun_of_time(
+    settings::RunSettings settings, const std::optional<models::heights::GeoPlace>& place);
+
+/// The same for settings that follow others: where their time is that of before and their sun is
+/// not, the sun was moved by hand, and they name no time any more.
+settings::RunSettings with_sun_followed(
+    settings::RunSettings settings,
+    const settings::RunSettings& before,
+    const std::optional<models::heights::GeoPlace>& place);
+
+/// What a person should be told where the sun of the settings' time is below the horizon.
+std::optional<std::string> note_of_night(
+    const settings::RunSettings& settings, const std::optional<models::heights::GeoPlace>& place);
+
+} // namespace octant::ui::world

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace octant::visuals::nature {
+
+/// A map, as far as its surroundings need it. World axes, metres.
+struct MapFacts {
+    glm::dvec2 half_extent_m{0.0};
+    double mean_height_m = 0.0;
+    glm::vec3 mean_colour{0.5F}; ///< display values
+    /// Height and colour of a place on the map; the colour as the mean over so many metres.
+    std::function<double(const glm::dvec2& at_m)> height_m;
+    std::function<glm::vec3(const glm::dvec2& at_m, double footprint_m)> colour;
+};
+
+/// Land around a map that goes on as the map's own mirror image and flattens towards the mean
+/// height and colour, so that no edge shows from above.
+struct Backdrop {
+    struct Corner {
+        glm::dvec3 at_m{0.0}; ///< world axes
+        glm::vec3 colour{0.0F};
+    };
+
+    std::vector<Corner> corners;
+    /// Triangles counter-clockwise seen from above; for an eye above the map in painting order.
+    std::vector<std::uint32_t> indices;
+};
+
+Backdrop backdrop_of(const MapFacts& map);
+
+} // namespace octant::visuals::nature

@@ -1,0 +1,136 @@
+#include "visuals/nature/daylight.h"
+
+#include "models/display_colour.h"
+#include "sim/base/units.h"
+
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace octant::visuals::nature {
+
+namespace {
+
+constexpr double turbidity = 2.6;
+constexpr double usual_elevation_rad = rad_from_deg(35.0); ///< under which colours are as given
+constexpr double adapted_rad = rad_from_deg(25.0);         ///< lower suns are seen darker
+constexpr double horizon_rad = rad_from_deg(1.0);
+constexpr double horizon_blend_rad = rad_from_deg(6.0);
+const glm::dvec3 usual_horizon(0.62, 0.72, 0.84); ///< under which the light is as given
+const glm::dvec3 weights(0.2126, 0.7152, 0.0722); ///< luminance of linear sRGB
+
+// Light on the ground under the usual sun, and what a low sun leaves of the light from everywhere.
+const glm::vec3 usual_ambient(0.39F, 0.42F, 0.47F);
+const glm::vec3 usual_sunlight(0.80F, 0.78F, 0.74F);
+constexpr double least_ambient = 0.95;
+constexpr double least_horizon = 0.42;
+constexpr double eye_power = 0.6; ///< how far the eye makes up for lost sunlight, in stops a stop
+const glm::dvec3 low_tint(1.0, 0.88, 1.28); ///< a low sun's sky is less green than the model's
+
+double smooth_step(double t) {
+    const double s = std::clamp(t, 0.0, 1.0);
+    return s * s * (3.0 - 2.0 * s);
+}
+
+/// The sky's mean light around the horizon, but for the side of the sun.
+glm::dvec3 horizon_light(const PerezSky& sky) {
+    glm::dvec3 sum(0.0);
+    for (const double azimuth_deg : {60.0, 90.0, 120.0, 180.0}) {
+        sum += 0.25 * sky.light(horizon_rad, rad_from_deg(azimuth_deg));
+    }
+    return sum;
+}
+
+/// What brings the usual horizon to its display colour, and lower suns' horizons to darker ones.
+glm::dvec3 exposure_of(const PerezSky& sky, double elevation_rad, const glm::dvec3& horizon) {
+    const glm::dvec3 usual_light = horizon_light(PerezSky(usual_elevation_rad, turbidity));
+    const glm::dvec3 aim =
+        -glm::log(1.0 - glm::min(models::linear_from_display(horizon), glm::dvec3(0.98)));
+    const glm::dvec3 usual = aim / usual_light;
+    const double grey = glm::dot(aim, weights) / glm::dot(usual_light, weights);
+    const double day = smooth_step(elevation_rad / adapted_rad);
+    const glm::dvec3 tint = glm::mix(grey * low_tint, usual, day);
+    const double wanted = glm::dot(aim, weights) * glm::mix(least_horizon, 1.0, day);
+    return tint * (wanted / std::max(glm::dot(tint * horizon_light(sky), weights), 1e-6));
+}
+
+glm::dvec3 power_of(const glm::dvec3& light) {
+    return glm::pow(light, glm::dvec3(1.0 / 2.2));
+}
+
+/// The sun's colour over its colour at the usual height, as the adapted eye sees it.
+glm::dvec3 sunlight_share(double elevation_rad) {
+    const glm::dvec3 share =
+        sunlight_left(elevation_rad, turbidity) / sunlight_left(usual_elevation_rad, turbidity);
+    return power_of(share * std::pow(glm::dot(share, weights), -eye_power));
+}
+
+/// Mean colour of the whole sky, its parts' mean being 1.
+glm::dvec3 sky_tint(const PerezSky& sky, const glm::dvec3& exposure) {
+    glm::dvec3 sum(0.0);
+    for (const double elevation_deg : {10.0, 30.0, 60.0}) {
+        for (int i = 0; i < 8; ++i) {
+            sum += power_of(exposure * sky.light(rad_from_deg(elevation_deg), pi / 4.0 * i));
+        }
+    }
+    return sum * (3.0 / (sum.x + sum.y + sum.z));
+}
+
+} // namespace
+
+Daylight::Daylight(const DaylightOptions& options)
+    : sky_(std::max(options.sun_elevation_rad, 0.0), turbidity)
+    , sun_azimuth_rad_(options.sun_azimuth_rad) {
+    const double elevation_rad = std::max(options.sun_elevation_rad, 0.0);
+    const glm::dvec2 level(std::sin(sun_azimuth_rad_), std::cos(sun_azimuth_rad_));
+    to_sun_ = {
+        std::cos(elevation_rad) * level.x,
+        std::cos(elevation_rad) * level.y,
+        std::sin(elevation_rad)};
+    to_sun_level_ = level;
+    exposure_ = exposure_of(sky_, elevation_rad, glm::dvec3(options.horizon));
+    haze_away_ = glm::vec3(
+        models::display_from_linear(glm::dvec3(1.0) - glm::exp(-exposure_ * horizon_light(sky_))));
+    haze_sunward_ = perez(horizon_rad, 0.0);
+    const double day = smooth_step(elevation_rad / adapted_rad);
+    const PerezSky usual(usual_elevation_rad, turbidity);
+    const glm::dvec3 tint = sky_tint(sky_, exposure_of(sky_, elevation_rad, usual_horizon)) /
+                            sky_tint(usual, exposure_of(usual, usual_elevation_rad, usual_horizon));
+    // The eye takes most of the light's own colour for white.
+    ambient_ = usual_ambient * glm::vec3(glm::sqrt(tint) * glm::mix(least_ambient, 1.0, day));
+    const glm::dvec3 share = sunlight_share(elevation_rad);
+    sunlight_ = usual_sunlight * glm::vec3(glm::min(share, glm::dvec3(1.15)));
+    const glm::dvec3 pure = share / std::max({share.x, share.y, share.z});
+    disc_ = glm::vec3(glm::mix(pure, glm::dvec3(1.0), glm::mix(0.5, 0.95, std::sqrt(day))));
+}
+
+glm::vec3 Daylight::perez(double elevation_rad, double azimuth_rad) const {
+    const glm::dvec3 light = exposure_ * sky_.light(elevation_rad, azimuth_rad);
+    return glm::vec3(models::display_from_linear(glm::dvec3(1.0) - glm::exp(-light)));
+}
+
+glm::vec3 Daylight::horizon(double cos_to_sun) const {
+    const auto towards = static_cast<float>(std::max(cos_to_sun, 0.0));
+    return glm::mix(haze_away_, haze_sunward_, towards * towards);
+}
+
+glm::vec3 Daylight::sky(const glm::dvec3& direction) const {
+    const double elevation_rad = std::asin(std::clamp(direction.z, 0.0, 1.0));
+    const double level = std::max(glm::length(glm::dvec2(direction)), 1e-9);
+    const double cos_to_sun = glm::dot(glm::dvec2(direction), to_sun_level_) / level;
+    const glm::vec3 high = perez(elevation_rad, std::acos(std::clamp(cos_to_sun, -1.0, 1.0)));
+    const auto share = static_cast<float>(smooth_step(elevation_rad / horizon_blend_rad));
+    return glm::mix(horizon(cos_to_sun), high, share);
+}
+
+glm::vec3 Daylight::glare(double from_sun_rad) const {
+    const double left = 1.0 - smooth_step(from_sun_rad / glare_rad);
+    const double size = left * (0.45 * std::exp(-from_sun_rad / rad_from_deg(1.0)) +
+                                0.12 * std::exp(-from_sun_rad / rad_from_deg(7.0)));
+    return disc_ * static_cast<float>(size);
+}
+
+} // namespace octant::visuals::nature

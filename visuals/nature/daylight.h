@@ -1,0 +1,70 @@
+#pragma once
+
+#include "visuals/nature/perez_sky.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace octant::visuals::nature {
+
+/// Where the sun stands, and the colour of the horizon under a sun of 35 degrees.
+struct DaylightOptions {
+    double sun_azimuth_rad = 0.0;           ///< clockwise from north
+    double sun_elevation_rad = 0.6;         ///< taken as 0 where it is less
+    glm::vec3 horizon{0.62F, 0.72F, 0.84F}; ///< display values
+};
+
+/// Colours of the sky, of the haze and of the light for one place of the sun, display values. Under
+/// a low sun sky and light are darker and warmer, but less so than in nature: the eye adapts.
+class Daylight {
+public:
+    explicit Daylight(const DaylightOptions& options);
+
+    /// Unit vector, world axes.
+    const glm::dvec3& to_sun() const { return to_sun_; }
+
+    /// Unit vector along the ground towards the sun; 0 where it stands overhead.
+    const glm::dvec2& to_sun_level() const { return to_sun_level_; }
+
+    /// What a surface's own colour is multiplied by: light from everywhere, and from the sun times
+    /// the cosine to it.
+    const glm::vec3& ambient() const { return ambient_; }
+
+    const glm::vec3& sunlight() const { return sunlight_; }
+
+    /// The horizon and the haze before it, away from the sun and towards it; horizon() is in
+    /// between.
+    const glm::vec3& haze_away() const { return haze_away_; }
+
+    const glm::vec3& haze_sunward() const { return haze_sunward_; }
+
+    /// `cos_to_sun`: of the angle along the horizon to the sun.
+    glm::vec3 horizon(double cos_to_sun) const;
+
+    /// The sky without the sun's disc in a direction (unit, world axes) at or above the horizon.
+    glm::vec3 sky(const glm::dvec3& direction) const;
+
+    const glm::vec3& disc() const { return disc_; }
+
+    /// What the sun's glare adds to the sky's colour so far from its middle.
+    glm::vec3 glare(double from_sun_rad) const;
+
+    static constexpr double disc_rad = 0.00465;  ///< half of what the sun's disc covers
+    static constexpr double glare_rad = 0.41888; ///< nothing is added from here on
+
+private:
+    glm::vec3 perez(double elevation_rad, double azimuth_rad) const;
+
+    PerezSky sky_;
+    double sun_azimuth_rad_;
+    glm::dvec3 to_sun_;
+    glm::dvec2 to_sun_level_{0.0};
+    glm::dvec3 exposure_{1.0}; ///< of red, green and blue
+    glm::vec3 ambient_{0.0F};
+    glm::vec3 sunlight_{0.0F};
+    glm::vec3 haze_away_{0.0F};
+    glm::vec3 haze_sunward_{0.0F};
+    glm::vec3 disc_{0.0F};
+};
+
+} // namespace octant::visuals::nature

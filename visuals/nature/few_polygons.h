@@ -1,0 +1,74 @@
+#pragma once
+
+#include "models/colour_vertex.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+// Things of few polygons that are convex, or nearly: seen from outside, none of their front faces
+// hides another. Triangles are counter-clockwise seen from outside.
+
+namespace octant::visuals::nature {
+
+/// Eight directions, counter-clockwise from east.
+inline constexpr std::array<glm::vec2, 8> compass = {
+    glm::vec2(1.0F, 0.0F),
+    {0.70710678F, 0.70710678F},
+    {0.0F, 1.0F},
+    {-0.70710678F, 0.70710678F},
+    {-1.0F, 0.0F},
+    {-0.70710678F, -0.70710678F},
+    {0.0F, -1.0F},
+    {0.70710678F, -0.70710678F}};
+
+/// Appends vertices and triangles of things.
+struct Builder {
+    std::vector<models::ColourVertex>& vertices;
+    std::vector<std::uint32_t>& indices;
+
+    std::uint32_t add(const glm::vec3& at_m, const glm::vec3& colour) {
+        vertices.push_back({at_m, models::packed_colour(colour)});
+        return static_cast<std::uint32_t>(vertices.size() - 1);
+    }
+
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        indices.insert(indices.end(), {a, b, c});
+    }
+};
+
+/// A tree's colours under light: of sides that face the compass, and from above.
+struct TreeLight {
+    std::array<glm::vec3, 8> sides;
+    glm::vec3 top;
+};
+
+enum class TreeShape { Pointed, Round };
+
+/// How finely a tree is built. Far ones have four sides, others eight; near ones are rounder.
+enum class TreeDetail { Near, Usual, Far };
+
+/// `size_m`: radius and height.
+void add_tree(
+    Builder& to,
+    const glm::vec3& foot_m,
+    const glm::vec2& size_m,
+    TreeShape shape,
+    TreeDetail detail,
+    const TreeLight& light);
+
+/// Four walls and a gable roof. `along` (unit) is the ridge's direction, `size_m` half the length,
+/// half the width and the height; walls face along, to the left, back and to the right, the roof's
+/// sides left and right.
+void add_house(
+    Builder& to,
+    const glm::vec3& foot_m,
+    const glm::vec2& along,
+    const glm::vec3& size_m,
+    const std::array<glm::vec3, 4>& wall,
+    const std::array<glm::vec3, 2>& roof);
+
+} // namespace octant::visuals::nature

@@ -1,0 +1,187 @@
+#include "visuals/nature/fine_ground.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace octant::visuals::nature {
+
+namespace {
+
+constexpr std::size_t table_places = std::size_t{1} << 15U;
+constexpr float long_rad = 0.08F;       ///< edges that look shorter stay whole
+constexpr float least_edge = 1.0F / 24; ///< over the sample distance: edges below stay whole
+constexpr float full_at = 1.8F;         ///< times as long: the middle is where it belongs
+constexpr int most_depth = 14;
+constexpr float moved_a_slope = 0.3F;
+constexpr float shade = 0.24F;
+constexpr float level_slope = 0.015F; ///< edges more level than this have less of everything
+
+/// The ground below the eye, and places no nearer than this, metres.
+constexpr float nearest_m = 3.0F;
+
+float squared(const glm::vec3& v) {
+    return v.x * v.x + v.y * v.y + v.z * v.z;
+}
+
+float level_length2(const glm::vec3& a, const glm::vec3& b) {
+    const float x = b.x - a.x;
+    const float y = b.y - a.y;
+    return x * x + y * y;
+}
+
+std::uint32_t scrambled(std::uint32_t h) {
+    h = (h ^ (h >> 16U)) * 0x7feb352dU;
+    h = (h ^ (h >> 15U)) * 0x846ca68bU;
+    return h ^ (h >> 16U);
+}
+
+/// In [-1, 1) by a place in the world.
+float noise_at(std::int64_t column, std::int64_t row, std::uint32_t salt) {
+    const auto x = static_cast<std::uint32_t>(column);
+    const auto y = static_cast<std::uint32_t>(row);
+    const std::uint32_t h = scrambled(x * 0x9e3779b1U ^ scrambled(y + salt * 0x85ebca77U));
+    return static_cast<float>(h >> 8U) * (2.0F / 16777216.0F) - 1.0F;
+}
+
+std::uint32_t shaded(std::uint32_t a, std::uint32_t b, float factor) {
+    std::uint32_t mixed = 0xff000000U;
+    for (unsigned shift = 0; shift < 24; shift += 8) {
+        const auto sum = static_cast<float>((a >> shift & 0xffU) + (b >> shift & 0xffU));
+        const float part = std::clamp(0.5F * sum * factor + 0.5F, 0.0F, 255.0F);
+        mixed |= static_cast<std::uint32_t>(part) << shift;
+    }
+    return mixed;
+}
+
+/// On which side of the way from a to b, seen from above, c lies: left above 0.
+float side_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+} // namespace
+
+void FineGround::begin(const FineView& view, std::span<const models::ColourVertex> vertices) {
+    view_ = view;
+    vertices_.assign(vertices.begin(), vertices.end());
+    middles_.resize(table_places);
+    ++frame_;
+    added_ = 0;
+}
+
+bool FineGround::looks_long(std::uint32_t a, std::uint32_t b) const {
+    const glm::vec3& from = vertices_[a].position_m;
+    const glm::vec3& to = vertices_[b].position_m;
+    const float length2 = level_length2(from, to);
+    const float distance2 = std::max(squared(0.5F * (from + to)), nearest_m * nearest_m);
+    const float least = least_edge * static_cast<float>(view_.spacing_m);
+    return length2 > long_rad * long_rad * distance2 && length2 > least * least;
+}
+
+/// The vertex in the middle of an edge that is halved; the edge's first end where it stays whole.
+std::uint32_t FineGround::middle_of(std::uint32_t a, std::uint32_t b) {
+    if (a > b) {
+        std::swap(a, b);
+    }
+    if (!looks_long(a, b)) {
+        return a;
+    }
+    const std::uint64_t edge = (std::uint64_t{a} << 32U | b) + 1;
+    std::size_t at = scrambled(a * 0x9e3779b1U ^ b) & (table_places - 1);
+    while (middles_[at].frame == frame_ && middles_[at].edge != edge) {
+        at = (at + 1) & (table_places - 1);
+    }
+    Middle& middle = middles_[at];
+    if (middle.frame != frame_) {
+        if (added_ >= std::min(view_.most_splits, table_places / 2)) {
+            return a;
+        }
+        middle = {edge, make_middle(a, b), frame_};
+    }
+    return middle.vertex;
+}
+
+std::uint32_t FineGround::make_middle(std::uint32_t a, std::uint32_t b) {
+    const models::ColourVertex& from = vertices_[a];
+    const models::ColourVertex& to = vertices_[b];
+    glm::vec3 at_m = 0.5F * (from.position_m + to.position_m);
+    const float length_m = std::sqrt(level_length2(from.position_m, to.position_m));
+    const auto spacing_m = static_cast<float>(view_.spacing_m);
+    float factor = 1.0F;
+    if (length_m < 1.45F * spacing_m) {
+        const float distance_m = std::max(std::sqrt(squared(at_m)), nearest_m);
+        const float grown =
+            std::clamp((length_m / (long_rad * distance_m) - 1.0F) / (full_at - 1.0F), 0.0F, 1.0F);
+        const float slope = std::abs(to.position_m.z - from.position_m.z) / length_m;
+        const float rough = std::min(slope / level_slope, 1.0F);
+        const double cell_m = view_.spacing_m / 64.0;
+        const auto column = std::llround((static_cast<double>(at_m.x) + view_.eye_m.x) / cell_m);
+        const auto row = std::llround((static_cast<double>(at_m.y) + view_.eye_m.y) / cell_m);
+        const float most_m =
+            std::min(moved_a_slope * slope * length_m, static_cast<float>(most_moved) * spacing_m);
+        at_m.z += 0.5F * grown * most_m * noise_at(column, row, 1);
+        factor = 1.0F + shade * grown * rough * noise_at(column, row, 2);
+    }
+    const std::uint32_t colour = shaded(from.colour, to.colour, factor);
+    vertices_.push_back({at_m, colour});
+    return static_cast<std::uint32_t>(vertices_.size() - 1);
+}
+
+void FineGround::add(const std::uint32_t* corners, std::vector<std::uint32_t>& indices) {
+    add_parts({corners[0], corners[1], corners[2]}, 0, indices);
+}
+
+/// Whether a triangle, and all that may be made of it, lies outside the frustum.
+bool FineGround::is_outside(const Corners& triangle) const {
+    const auto moved_m = static_cast<float>(most_moved * view_.spacing_m);
+    return std::ranges::any_of(view_.frustum_normals, [&](const glm::vec3& normal) {
+        return normal != glm::vec3(0.0F) &&
+               glm::dot(normal, vertices_[triangle.a].position_m) < -moved_m &&
+               glm::dot(normal, vertices_[triangle.b].position_m) < -moved_m &&
+               glm::dot(normal, vertices_[triangle.c].position_m) < -moved_m;
+    });
+}
+
+/// Halves a triangle by its longest edge that looks long, and its parts likewise. The plane through
+/// the cut stands upright, so that the part on the eye's side hides nothing of the other.
+void FineGround::add_parts(
+    const Corners& triangle, int depth, std::vector<std::uint32_t>& indices) {
+    const Corners turns[3] = {
+        triangle, {triangle.b, triangle.c, triangle.a}, {triangle.c, triangle.a, triangle.b}};
+    const Corners* longest = nullptr;
+    std::uint32_t middle = 0;
+    float length2 = 0.0F;
+    const bool whole = depth >= most_depth || (depth > 0 && is_outside(triangle));
+    for (const Corners& turn : turns) {
+        const float own2 =
+            level_length2(vertices_[turn.a].position_m, vertices_[turn.b].position_m);
+        if (own2 <= length2 || whole) {
+            continue;
+        }
+        const std::uint32_t own = middle_of(turn.a, turn.b);
+        if (own != std::min(turn.a, turn.b)) {
+            longest = &turn;
+            middle = own;
+            length2 = own2;
+        }
+    }
+    if (longest == nullptr) {
+        indices.insert(indices.end(), {triangle.a, triangle.b, triangle.c});
+        return;
+    }
+    ++added_;
+    const Corners first{longest->a, middle, longest->c};
+    const Corners second{middle, longest->b, longest->c};
+    const glm::vec3& cut_from = vertices_[longest->c].position_m;
+    const glm::vec3& cut_to = vertices_[middle].position_m;
+    const bool eye_by_first = (side_of(cut_from, cut_to, glm::vec3(0.0F)) > 0.0F) ==
+                              (side_of(cut_from, cut_to, vertices_[longest->a].position_m) > 0.0F);
+    const bool first_goes_last = eye_by_first == (view_.order == terrain::PaintOrder::BackToFront);
+    add_parts(first_goes_last ? second : first, depth + 1, indices);
+    add_parts(first_goes_last ? first : second, depth + 1, indices);
+}
+
+} // namespace octant::visuals::nature

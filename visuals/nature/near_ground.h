@@ -1,0 +1,60 @@
+#pragma once
+
+#include "visuals/nature/fine_ground.h"
+#include "visuals/nature/scenery.h"
+#include "visuals/terrain/ground_mesh.h"
+
+#include <glm/common.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace octant::visuals::nature {
+
+/// What is added to the mesh near the eye.
+struct NearDetail {
+    bool fine_ground = true;
+    bool scenery = true;
+
+    bool operator==(const NearDetail&) const = default;
+};
+
+/// The mesh of a frame with what stands on it and detail below its samples.
+class NearGround {
+public:
+    explicit NearGround(Scenery scenery)
+        : scenery_(std::move(scenery)) {}
+
+    Scenery& scenery() { return scenery_; }
+
+    struct Triangles {
+        std::span<const models::ColourVertex> vertices;
+        std::span<const std::uint32_t> indices; ///< in the order of the mesh
+    };
+
+    /// The mesh comes coloured. The triangles stay valid until the next call but one.
+    Triangles made(const terrain::GroundMesh& mesh, const FineView& view, const NearDetail& detail);
+
+    /// Replaces numbers of triangles of the last mesh, ascending, by those of the triangles that
+    /// were made in their places.
+    void replace(std::vector<std::uint32_t>& triangles, std::size_t first) const;
+
+private:
+    FineGround fine_;
+    Scenery scenery_;
+
+    struct Frame {
+        std::vector<models::ColourVertex> vertices;
+        std::vector<std::uint32_t> indices;
+    };
+
+    std::array<Frame, 2> frames_;
+    std::size_t frame_ = 0;
+    std::vector<std::uint32_t> first_of_; ///< for each triangle of the mesh, and the end
+    mutable std::vector<std::uint32_t> replaced_;
+};
+
+} // namespace octant::visuals::nature

@@ -1,0 +1,262 @@
+#include "visuals/nature/scenery.h"
+
+#include "visuals/nature/few_polygons.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace octant::visuals::nature {
+
+namespace {
+
+constexpr std::size_t known_places = std::size_t{1} << 15U;
+constexpr double most_reach_m = 900.0;
+constexpr double most_reach_cells = 30.0;
+constexpr double least_cell_m = 15.0; ///< denser ground bears something in some cells only
+constexpr float least_radius_m = 1.2F;
+constexpr float house_radius_m = 4.0F; ///< no house where less fits
+constexpr float house_m = 7.5F;        ///< its height
+constexpr float sunk_m = 0.3F;         ///< of trees, so that none floats over a slope
+constexpr float near_m = 110.0F;
+constexpr float far_off_m = 300.0F;
+constexpr std::size_t upwards = 8; ///< place of the light from above, after the eight sides
+constexpr double fits = 0.19;      ///< radius that fits into a quarter of a cell, over its side
+
+/// Middles of the four quarters into which its diagonals cut a cell.
+constexpr std::array<glm::dvec2, 4> spots = {
+    glm::dvec2(0.5, 0.2071), {0.7929, 0.5}, {0.5, 0.7929}, {0.2071, 0.5}};
+
+std::uint32_t scrambled(std::uint32_t h) {
+    h = (h ^ (h >> 16U)) * 0x7feb352dU;
+    h = (h ^ (h >> 15U)) * 0x846ca68bU;
+    return h ^ (h >> 16U);
+}
+
+/// A share in [0, 1) of some of the bits.
+float share_of(std::uint32_t dice, unsigned shift) {
+    return static_cast<float>(dice >> shift & 0xffU) * (1.0F / 256.0F);
+}
+
+float side_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+TreeDetail detail_at(float distance_m) {
+    return distance_m < near_m      ? TreeDetail::Near
+           : distance_m < far_off_m ? TreeDetail::Usual
+                                    : TreeDetail::Far;
+}
+
+struct Species {
+    glm::vec3 colour;
+    float height_m;
+    float radius_m;
+    TreeShape shape;
+};
+
+/// By Scenery::Kind: broadleaf, conifer, shrub.
+const Species& species_of(std::size_t kind) {
+    static const std::array<Species, 3> all = {
+        Species{glm::vec3(0.25F, 0.36F, 0.15F), 9.0F, 4.3F, TreeShape::Round},
+        Species{glm::vec3(0.16F, 0.27F, 0.15F), 12.0F, 3.0F, TreeShape::Pointed},
+        Species{glm::vec3(0.42F, 0.40F, 0.24F), 1.8F, 1.7F, TreeShape::Round}};
+    return all[kind - 1];
+}
+
+} // namespace
+
+Scenery::Scenery(glm::dvec2 first_m, glm::ivec2 samples, double spacing_m, GrowthAt growth_at)
+    : first_m_(first_m)
+    , samples_(samples)
+    , spacing_m_(spacing_m)
+    , stride_(std::max(static_cast<int>(std::ceil(least_cell_m / spacing_m)), 1))
+    , most_radius_m_(static_cast<float>(fits * spacing_m))
+    , reach_m_(
+          most_radius_m_ < least_radius_m
+              ? 0.0
+              : std::min(most_reach_m, most_reach_cells * stride_ * spacing_m))
+    , growth_at_(std::move(growth_at))
+    , known_(known_places) {}
+
+void Scenery::light_by(const Daylight& day) {
+    shade_ = day.ambient();
+    const glm::vec3 to_sun(day.to_sun());
+    for (std::size_t i = 0; i < compass.size(); ++i) {
+        const glm::vec3 outwards = glm::normalize(glm::vec3(compass[i].x, compass[i].y, 0.45F));
+        light_from_[i] = day.sunlight() * std::max(glm::dot(outwards, to_sun), 0.0F);
+    }
+    light_from_[upwards] = day.sunlight() * std::max(to_sun.z, 0.0F);
+}
+
+void Scenery::forget() {
+    std::ranges::fill(known_, Known{});
+}
+
+void Scenery::begin(const FineView& view) {
+    view_ = view;
+    added_ = 0;
+}
+
+Scenery::Thing Scenery::thing_at(int column, int row, int spot) {
+    const std::uint64_t place =
+        (static_cast<std::uint64_t>(row) << 32U | static_cast<std::uint64_t>(column) << 2U) +
+        static_cast<std::uint64_t>(spot);
+    const std::uint32_t dice = scrambled(
+        static_cast<std::uint32_t>(column * 4 + spot) * 0x9e3779b1U ^
+        scrambled(static_cast<std::uint32_t>(row)));
+    Known& known = known_[dice & (known_places - 1)];
+    if (known.place != place) {
+        const Growth growth = growth_at_(column, row);
+        const float pick = share_of(dice, 24) + share_of(dice, 16) * (1.0F / 256.0F);
+        float sum = growth.houses;
+        Kind kind = pick < sum ? Kind::House : Kind::Nothing;
+        for (const auto& [share, own] :
+             {std::pair(growth.conifers, Kind::Conifer),
+              std::pair(growth.broadleaves, Kind::Broadleaf),
+              std::pair(growth.shrubs, Kind::Shrub)}) {
+            sum += share;
+            kind = kind == Kind::Nothing && pick < sum ? own : kind;
+        }
+        if (kind == Kind::House && most_radius_m_ < house_radius_m) {
+            kind = Kind::Nothing;
+        }
+        known = {
+            place,
+            {kind,
+             static_cast<std::uint8_t>(std::clamp(growth.sun, 0.0F, 1.0F) * 255.0F),
+             scrambled(dice)}};
+    }
+    return known.thing;
+}
+
+/// What stands within a triangle, with the ground below it as drawn.
+void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
+    const auto& [a, b, c] = triangle_m;
+    const glm::dvec2 to_grid = glm::dvec2(view_.eye_m) - first_m_;
+    const glm::dvec2 least =
+        (to_grid + glm::dvec2(glm::min(glm::min(a, b), c))) / spacing_m_ + 0.01;
+    const glm::dvec2 most = (to_grid + glm::dvec2(glm::max(glm::max(a, b), c))) / spacing_m_ - 0.01;
+    const float area = side_of(a, b, c);
+    const auto reach2_m2 = static_cast<float>(reach_m_ * reach_m_);
+    const auto first_of = [&](double from) {
+        const int cell = std::max(static_cast<int>(std::floor(from)), 0);
+        return (cell + stride_ - 1) / stride_ * stride_;
+    };
+    const int last_column = std::min(static_cast<int>(std::floor(most.x)), samples_.x - 2);
+    const int last_row = std::min(static_cast<int>(std::floor(most.y)), samples_.y - 2);
+    for (int row = first_of(least.y); row <= last_row; row += stride_) {
+        for (int column = first_of(least.x); column <= last_column; column += stride_) {
+            for (int spot = 0; spot < 4; ++spot) {
+                const glm::dvec2 place =
+                    (glm::dvec2(column, row) + spots[static_cast<std::size_t>(spot)]) * spacing_m_ -
+                    to_grid;
+                glm::vec3 at_m(glm::dvec3(place, 0.0));
+                const float u = side_of(b, c, at_m) / area;
+                const float v = side_of(c, a, at_m) / area;
+                if (u < 0.0F || v < 0.0F || u + v > 1.0F) {
+                    continue;
+                }
+                at_m.z = u * a.z + v * b.z + (1.0F - u - v) * c.z;
+                const float distance2_m2 = glm::dot(at_m, at_m);
+                if (distance2_m2 > reach2_m2) {
+                    continue;
+                }
+                const Thing thing = thing_at(column, row, spot);
+                if (thing.kind != Kind::Nothing) {
+                    standing_.push_back({at_m, at_m.x * at_m.x + at_m.y * at_m.y, thing});
+                }
+            }
+        }
+    }
+}
+
+void Scenery::add(
+    const std::array<glm::vec3, 3>& triangle_m,
+    std::vector<models::ColourVertex>& vertices,
+    std::vector<std::uint32_t>& indices) {
+    standing_.clear();
+    collect(triangle_m);
+    std::ranges::sort(standing_, [&](const Standing& one, const Standing& other) {
+        return view_.order == terrain::PaintOrder::BackToFront
+                   ? one.distance2_m2 > other.distance2_m2
+                   : one.distance2_m2 < other.distance2_m2;
+    });
+    for (const Standing& one : standing_) {
+        const float distance_m = glm::length(one.at_m);
+        // Each grows out of the ground at a distance of its own.
+        const float begins_m =
+            static_cast<float>(reach_m_) * (0.55F + 0.45F * share_of(one.thing.dice, 0));
+        const float grown = std::clamp(4.0F - 4.0F * distance_m / begins_m, 0.0F, 1.0F);
+        if (grown <= 0.0F || added_ >= view_.most_things) {
+            continue;
+        }
+        const std::size_t before = indices.size();
+        if (one.thing.kind == Kind::House) {
+            build_house(one, grown, vertices, indices);
+        } else {
+            build_tree(one, grown, detail_at(distance_m), vertices, indices);
+        }
+        added_ += (indices.size() - before) / 3;
+    }
+}
+
+/// A colour under the light on one of the eight sides, or from above.
+glm::vec3 Scenery::lit(const Standing& one, const glm::vec3& own, std::size_t side) const {
+    const float sun = static_cast<float>(one.thing.sun) * (1.0F / 255.0F);
+    return own * (shade_ + sun * light_from_[side]);
+}
+
+void Scenery::build_house(
+    const Standing& one,
+    float grown,
+    std::vector<models::ColourVertex>& vertices,
+    std::vector<std::uint32_t>& indices) const {
+    const std::uint32_t dice = one.thing.dice;
+    const glm::vec3 plaster = glm::mix(
+        glm::vec3(0.86F, 0.82F, 0.74F), glm::vec3(0.72F, 0.60F, 0.48F), share_of(dice, 12));
+    const glm::vec3 tiles =
+        glm::mix(glm::vec3(0.56F, 0.27F, 0.18F), glm::vec3(0.36F, 0.34F, 0.34F), share_of(dice, 4));
+    const std::size_t turn = dice >> 20U & 7U;
+    const auto wall = [&](std::size_t eighths) { return lit(one, plaster, (turn + eighths) % 8); };
+    const auto roof = [&](std::size_t eighths) {
+        return 0.5F * (lit(one, tiles, (turn + eighths) % 8) + lit(one, tiles, upwards));
+    };
+    const float half_m = std::min(0.62F * most_radius_m_, 5.5F);
+    Builder to{vertices, indices};
+    add_house(
+        to,
+        one.at_m,
+        compass[turn],
+        glm::vec3(1.25F * half_m, 0.85F * half_m, house_m * grown),
+        {wall(0), wall(2), wall(4), wall(6)},
+        {roof(2), roof(6)});
+}
+
+void Scenery::build_tree(
+    const Standing& one,
+    float grown,
+    TreeDetail detail,
+    std::vector<models::ColourVertex>& vertices,
+    std::vector<std::uint32_t>& indices) const {
+    const Species& species = species_of(static_cast<std::size_t>(one.thing.kind));
+    const glm::vec3 leaf = species.colour * (0.85F + 0.3F * share_of(one.thing.dice, 8));
+    TreeLight light{{}, lit(one, leaf, upwards)};
+    for (std::size_t side = 0; side < light.sides.size(); ++side) {
+        light.sides[side] = lit(one, leaf, side);
+    }
+    const float size = 0.7F + 0.6F * share_of(one.thing.dice, 16);
+    Builder to{vertices, indices};
+    add_tree(
+        to,
+        one.at_m - glm::vec3(0.0F, 0.0F, sunk_m),
+        {std::min(size * species.radius_m, most_radius_m_), size * species.height_m * grown},
+        species.shape,
+        detail,
+        light);
+}
+
+} // namespace octant::visuals::nature
