@@ -31,8 +31,9 @@ struct TargetLattice {
 /// 1 %, that is the frame, and the lattice has all samples of a grid whose cells are square; of
 /// oblong cells whose sides are as 1 to 2, 2 to 3 and the like, too. Else the frame is a transverse
 /// Mercator projection about the middle of all, and samples are as far apart as the finer sides of
-/// the finest cells, or half as far where that makes at most 4096 x 4096 of them. A grid is cut to the largest upright rectangle without missing corners, unless
-/// it lies so aslant that less than half of it would be left.
+/// the finest cells, or half as far where that makes at most 4096 x 4096 of them. A grid is cut to
+/// the largest upright rectangle without missing corners, unless it lies so aslant that less than
+/// half of it would be left.
 ///
 /// Throws Error with the first file's name: a system that is neither projected nor in degrees, no
 /// system where one is needed, ground wider than 1,000 km or at a pole, too many samples.

@@ -4,7 +4,16 @@ namespace octant::tests::faults {
 
 std::span<const std::vector<std::string>> preparations() {
     static const std::vector<std::vector<std::string>> all{
-        {"terrain", "make", "--kind", "hills", "--size", "129", "--spacing", "150", "--out", "hills.tif"},
+        {"terrain",
+         "make",
+         "--kind",
+         "hills",
+         "--size",
+         "129",
+         "--spacing",
+         "150",
+         "--out",
+         "hills.tif"},
         {"simplify", "500md", "part.ply", "--faces", "400", "--method", "fast", "--quiet"},
         {"fly",
          "straight",

@@ -124,12 +124,12 @@ TEST_CASE("maps of twenty kinds are the same ground") {
     };
 
     const std::array<Kind, 20> kinds = {
-        {{"GTiff", "map.tif"},       {"COG", "cloud.tif"},       {"VRT", "map.vrt"},
-         {"netCDF", "map.nc"},       {"EHdr", "map.bil"},        {"HFA", "map.img"},
-         {"ENVI", "map.envi"},       {"XYZ", "map.xyz"},         {"JP2OpenJPEG", "map.jp2", 40.0},
-         {"GPKG", "map.gpkg", 30.0}, {"AAIGrid", "map.asc"},     {"SAGA", "map.sdat"},
-         {"RST", "map.rst"},         {"GSBG", "map.grd"},        {"GS7BG", "map7.grd"},
-         {"BT", "map.bt"},           {"ERS", "map.ers"},         {"PCIDSK", "map.pix"},
+        {{"GTiff", "map.tif"},       {"COG", "cloud.tif"},    {"VRT", "map.vrt"},
+         {"netCDF", "map.nc"},       {"EHdr", "map.bil"},     {"HFA", "map.img"},
+         {"ENVI", "map.envi"},       {"XYZ", "map.xyz"},      {"JP2OpenJPEG", "map.jp2", 40.0},
+         {"GPKG", "map.gpkg", 30.0}, {"AAIGrid", "map.asc"},  {"SAGA", "map.sdat"},
+         {"RST", "map.rst"},         {"GSBG", "map.grd"},     {"GS7BG", "map7.grd"},
+         {"BT", "map.bt"},           {"ERS", "map.ers"},      {"PCIDSK", "map.pix"},
          {"ISIS3", "map.cub"},       {"SIGDEM", "map.sigdem"}}};
     const RasterFile raster = metric_hills();
     write_raster(scratch_file("expected.tif"), "GTiff", raster);

@@ -222,7 +222,8 @@ TEST_CASE("files that do not fit together are refused by name") {
     const path picture = scratch("picture.pgm");
     std::ofstream(picture) << "P2 2 2 9 1 2 3 4\n";
     CHECK_THROWS_WITH(
-        imported({west, picture}, "unfit.ground"), Contains("picture.pgm") && Contains("knows its place"));
+        imported({west, picture}, "unfit.ground"),
+        Contains("picture.pgm") && Contains("knows its place"));
     CHECK_FALSE(std::filesystem::exists(scratch("unfit.ground.part")));
 }
 
