@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 #include <unordered_map>
 #include <utility>
 
@@ -189,9 +188,20 @@ private:
         counts_.turned_triangles += others ? shell.size() - to_turn : to_turn;
     }
 
+    /// Joins the corners of triangles around each vertex into fans. Fans may meet again elsewhere,
+    /// so that a side would come twice: then its later triangle stays apart.
+    void join_fans(const std::vector<Side>& sides) {
+        is_apart_.assign(mesh_.triangles.size(), false);
+        const std::size_t split_before = counts_.split_edges;
+        do {
+            counts_.split_edges = split_before;
+            join_but_apart(sides);
+        } while (keep_crowded_apart());
+    }
+
     /// Joins the corners of two triangles at both ends of the edge they share and agree about. A
     /// corner's number is three times its triangle's plus its place.
-    void join_fans(const std::vector<Side>& sides) {
+    void join_but_apart(const std::vector<Side>& sides) {
         fans_ = Groups(mesh_.triangles.size() * 3);
         for_each_joint(sides, named_, [&](std::span<const Side> edge) {
             if (edge.size() != 2) {
@@ -200,13 +210,36 @@ private:
             const auto rises = [&](const Side& side) {
                 return side.rises != (turned_[side.triangle] != 0);
             };
-            if (rises(edge[0]) == rises(edge[1])) {
+            if (rises(edge[0]) == rises(edge[1]) || is_apart_[edge[0].triangle] ||
+                is_apart_[edge[1].triangle]) {
                 ++counts_.split_edges;
                 return;
             }
             fans_.join(corner_of(edge[0], true), corner_of(edge[1], true));
             fans_.join(corner_of(edge[0], false), corner_of(edge[1], false));
         });
+    }
+
+    /// Marks the later triangles of each side that would come twice; false where there is none.
+    bool keep_crowded_apart() {
+        std::vector<std::array<std::uint32_t, 3>> ends; // of a side: from, to; its triangle
+        ends.reserve(mesh_.triangles.size() * 3);
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const std::uint32_t from = fans_.group_of(t * 3 + k);
+                const std::uint32_t to = fans_.group_of(t * 3 + (k + 1) % 3);
+                ends.push_back(turned_[t] != 0 ? std::array{to, from, t} : std::array{from, to, t});
+            }
+        }
+        std::ranges::sort(ends);
+        bool any = false;
+        for (std::size_t i = 1; i < ends.size(); ++i) {
+            if (ends[i][0] == ends[i - 1][0] && ends[i][1] == ends[i - 1][1]) {
+                is_apart_[ends[i][2]] = true;
+                any = true;
+            }
+        }
+        return any;
     }
 
     /// At the smaller or the larger vertex of a side.
@@ -304,6 +337,7 @@ private:
     std::vector<std::array<std::uint32_t, 3>> neighbours_; ///< of each triangle, side by side
     std::vector<std::array<bool, 3>> agrees_; ///< with that neighbour, before any is turned
     std::vector<std::uint8_t> turned_;        ///< 1 for triangles that are to be turned
+    std::vector<bool> is_apart_;              ///< Triangles that share no vertex with others.
     std::unordered_map<std::uint32_t, std::uint32_t> turned_normals_;
     Groups fans_{0}; ///< of corners
 };
@@ -312,36 +346,6 @@ private:
 
 RepairedMesh repaired(TriangleMesh mesh, Seams seams) {
     return Repairing(std::move(mesh), seams).repair();
-}
-
-std::vector<std::string> in_words(const RepairCounts& counts) {
-    std::vector<std::string> lines;
-    const auto add = [&](std::size_t count, std::string_view one, std::string_view many) {
-        if (count > 0) {
-            lines.push_back(fmt::format("{} {}", count, count == 1 ? one : many));
-        }
-    };
-    add(counts.unreferenced_vertices,
-        "vertex of no triangle taken out",
-        "vertices of no triangle taken out");
-    add(counts.duplicate_vertices, "duplicate vertex welded", "duplicate vertices welded");
-    add(counts.degenerate_triangles,
-        "triangle without an area taken out",
-        "triangles without an area taken out");
-    add(counts.doubled_triangles, "doubled triangle taken out", "doubled triangles taken out");
-    add(counts.turned_triangles,
-        "triangle turned to agree with its neighbours",
-        "triangles turned to agree with their neighbours");
-    add(counts.split_edges,
-        "edge split that more than two triangles or two that disagree share",
-        "edges split that more than two triangles or two that disagree share");
-    add(counts.split_vertices,
-        "vertex split where several fans of triangles met",
-        "vertices split where several fans of triangles met");
-    add(counts.boundary_loops,
-        "hole or open rim left as it is",
-        "holes or open rims left as they are");
-    return lines;
 }
 
 } // namespace octant::models::meshfile

@@ -143,6 +143,7 @@ Command model_command() {
     return {
         .name = "model",
         .summary = "Looks at aircraft and meshes before they fly",
+        .footer = "Example:\n  octant model info f15 --picture f15.png",
         .commands = {model_info_command()}};
 }
 

@@ -101,7 +101,7 @@ std::string man_page(const Program& program) {
         ".TH OCTANT 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\n"
         "octant \\- flight simulation over level\\-of\\-detail terrain, drawn and timed\n"
         ".SH SYNOPSIS\n.B octant\n.I COMMAND\n[options]\n.SH DESCRIPTION\n{}\n",
-        in_roff(program.version),
+        in_roff(program.version.substr(0, program.version.find('\n'))),
         in_roff(program.about));
     add_lines(program.footer, page);
     page += ".SH COMMANDS\n";

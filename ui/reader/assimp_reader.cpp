@@ -1,6 +1,7 @@
 #include "sim/base/error.h"
 #include "ui/reader/library_readers.h"
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>

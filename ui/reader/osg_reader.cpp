@@ -1,6 +1,7 @@
 #include "sim/base/error.h"
 #include "ui/reader/library_readers.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <iterator>
 #include <string>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -75,9 +76,13 @@ FolderLock::FolderLock(const fs::path& folder)
     : file_(folder / lock_name)
     , descriptor_(locked(file_)) {
     const std::string name = own_name();
-    // Only for people: a disk without room for it is told by the files that matter.
-    [[maybe_unused]] const bool told =
-        ::ftruncate(descriptor_, 0) == 0 && ::pwrite(descriptor_, name.data(), name.size(), 0) > 0;
+    if (::ftruncate(descriptor_, 0) != 0 ||
+        ::pwrite(descriptor_, name.data(), name.size(), 0) != std::ssize(name)) {
+        const std::string reason = std::strerror(errno);
+        ::unlink(file_.c_str());
+        ::close(descriptor_);
+        error_in(file_, "cannot be written: " + reason);
+    }
 }
 
 FolderLock::~FolderLock() {

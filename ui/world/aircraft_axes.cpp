@@ -79,7 +79,7 @@ std::string note_of(const AircraftAxes& axes, const std::filesystem::path& file)
     if (axes.from == From::Given || axes.from == From::Format) {
         return {};
     }
-    return fmt::format("{}: {}; --axes to change", file.string(), in_words(axes));
+    return fmt::format("{}: {}; --axes to change", file.filename().string(), in_words(axes));
 }
 
 } // namespace octant::ui::world

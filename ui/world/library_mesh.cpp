@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace octant::ui::world {
 

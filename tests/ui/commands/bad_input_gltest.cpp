@@ -144,7 +144,9 @@ TEST_CASE("a wrong terrain is refused in one line with exit code 2") {
     check_refused(
         {"straight", "--terrain", file_with("small.pgm", "P2\n3 3\n255\n0 0 0\n0 0 0\n0 0 0\n")},
         "map");
-    check_refused({"straight", "--terrain", folder().string()}, "expected");
+    check_refused(
+        {"straight", "--terrain", tests::empty_folder("no-maps").string()},
+        "no-maps: expected maps of heights that GDAL reads, found none");
 }
 
 TEST_CASE("wrong settings and options are refused in one line with exit code 2") {

@@ -104,6 +104,9 @@ void make_input(const std::string& option, const fs::path& file) {
         write_file(file, "map,0,0,500,30,-10\n");
     } else if (option == "--points") {
         write_file(file, "0,0\n100,200,900\n");
+    } else if (file.native().ends_with('/')) {
+        fs::create_directories(file);
+        fs::copy_file(seed_folder() / "seed.tif", file / "seed.tif");
     } else if (const fs::path seed = seed_folder() / ("seed" + file.extension().string());
                file.has_extension() && fs::exists(seed)) {
         fs::copy_file(seed, file);

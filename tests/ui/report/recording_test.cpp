@@ -178,7 +178,7 @@ TEST_CASE("a summary of other rows is told") {
         for (int frame = 0; frame < 6; ++frame) {
             recording.add(made_up_frame(frame, 10.0));
         }
-        recording.finish({1, 2, {}, "SIGINT after 6 of 9 frames"});
+        recording.finish({1, 2, {}, {}, "SIGINT after 6 of 9 frames"});
     }
     CHECK(load_recording(scratch / "rec").disagreement.empty());
     CHECK(load_recording(scratch / "rec").run.stopped == "SIGINT after 6 of 9 frames");

@@ -100,7 +100,7 @@ TEST_CASE("by hand the flight panel shows what the aircraft does and the status 
     const std::string marks =
         gui.texts([&] { ui::window::status_line(shown.state, shown.session, 0.0); });
     CHECK(marks.find("by hand") != std::string::npos);
-    for (const char* const part : {"throttle", " kt ", " ft ", "Level off"}) {
+    for (const char* const part : {"throttle", " kt", " ft", "Level off"}) {
         CAPTURE(part);
         CHECK(texts.find(part) != std::string::npos);
     }

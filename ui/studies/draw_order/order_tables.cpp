@@ -186,7 +186,7 @@ OrderedInEveryWay order_in_every_way(const std::string& name) {
 }
 
 report::HtmlTable paper_order_table() {
-    const world::OrderInput input = world::read_order_input("concave", "");
+    const world::OrderInput input = world::read_order_input("concave", "right,up,back");
     draworder::OrderOptions options;
     options.method = draworder::Method::Paper;
     const auto orders = draworder::cell_orders(draworder::ordered(input.model, options));
