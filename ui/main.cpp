@@ -2,6 +2,7 @@
 #include "ui/base/stop_signals.h"
 #include "ui/commands/command_line.h"
 #include "ui/commands/commands.h"
+#include "ui/report/packed_recording.h"
 #include "ui/window/listen_command.h"
 #include "ui/window/view_command.h"
 #include "visuals/gl/platform_tuning.h"
@@ -54,8 +55,10 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     octant::visuals::gl::tune_allocator();
     std::signal(SIGXFSZ, SIG_IGN); // a file that grows too large is a write error, told in one line
+    std::signal(SIGCHLD, SIG_DFL); // child programs are waited for
     try {
         const int code = run(argc, argv);
+        octant::ui::report::remove_unpacked();
         octant::ui::base::end_by_signal_that_came();
         return code;
     } catch (const std::bad_alloc&) {

@@ -11,6 +11,8 @@ namespace {
 /// A longer silence of packets without a clock counts as time that passed at the sender too.
 constexpr double longest_gap_s = 0.25;
 constexpr double restart_s = 2.0;
+constexpr double least_step_s = 1e-6; ///< what is nearer counts as the same time
+constexpr double most_missing = 1e6;  ///< packets in one gap
 constexpr int late_before_restart = 10;
 constexpr double bucket_s = 0.25; ///< the least delay is that of twelve of them
 constexpr double quick_fall_s = 0.1;
@@ -91,7 +93,7 @@ void SenderClock::learn_period(double step_s, double arrival_s) {
     const double share = 1.0 / static_cast<double>(std::min(arrivals_, most));
     const double observed_s = step_s > 0.0 ? step_s : between_s;
     if (period_s_ > 0.0 && arrivals_ > 20 && observed_s > 1.5 * period_s_) {
-        const long missing = std::lround(observed_s / period_s_) - 1;
+        const long missing = std::lround(std::min(observed_s / period_s_, most_missing)) - 1;
         lost_ += step_s > 0.0 ? missing : 0;
         if (step_s > 0.0) {
             return; // The distance of neighbours is what is learned.
@@ -104,7 +106,7 @@ void SenderClock::learn_period(double step_s, double arrival_s) {
 void SenderClock::follow(double arrival_s) {
     const double delay_s = arrival_s - sender_s_;
     const auto now = static_cast<long>(std::floor(arrival_s / bucket_s));
-    for (; bucket_ < now; ++bucket_) {
+    for (bucket_ = std::max(bucket_, now - static_cast<long>(buckets)); bucket_ < now; ++bucket_) {
         const long next = bucket_ + 1;
         if (now - next < static_cast<long>(buckets)) {
             least_s_[static_cast<std::size_t>(next) % buckets] =
@@ -133,7 +135,7 @@ SenderClock::Order SenderClock::take(double arrival_s, const TimeClue& clue) {
     const std::optional<double> told_s = passed_s(arrival_s, clue);
     double step_s = 0.0;
     if (told_s) {
-        step_s = *told_s;
+        step_s = *told_s > 0.0 && *told_s < least_step_s ? 0.0 : *told_s;
         if (step_s <= 0.0 && step_s > -restart_s && ++late_in_a_row_ < late_before_restart) {
             lost_ -= step_s < 0.0 && lost_ > 0 ? 1 : 0;
             return Order::Late;
@@ -145,7 +147,7 @@ SenderClock::Order SenderClock::take(double arrival_s, const TimeClue& clue) {
     } else {
         const double between_s = arrival_s - last_arrival_s_;
         step_s = between_s > longest_gap_s || period_s_ <= 0.0 ? between_s : period_s_;
-        step_s = std::max(step_s, 1e-6);
+        step_s = std::max(step_s, least_step_s);
     }
     late_in_a_row_ = 0;
     learn_period(told_s ? step_s : 0.0, arrival_s);

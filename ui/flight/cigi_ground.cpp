@@ -16,6 +16,7 @@ namespace {
 constexpr double step_m = 2.0;
 constexpr double most_steps = 10000.0;
 constexpr double found_m = 0.01;
+constexpr int most_halvings = 64;
 
 flightpaths::GeoOrigin origin_of(const LivePlace& place) {
     return place.origin()
@@ -77,7 +78,8 @@ CigiOverWorld::first_met(const glm::dvec3& from, const glm::dvec3& to) const {
             open = met;
             continue;
         }
-        while ((met - open) * length_m > found_m) {
+        // Bounded: of points very far away no two may be found_m apart.
+        for (int i = 0; i < most_halvings && (met - open) * length_m > found_m; ++i) {
             const double middle = 0.5 * (open + met);
             (is_under(middle) ? met : open) = middle;
         }

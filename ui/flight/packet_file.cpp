@@ -22,6 +22,7 @@ enum class RecordKind : std::uint8_t { Packet = 1, Words = 2, Picture = 3 };
 constexpr std::string_view magic = "octant packets 1 ";
 constexpr std::size_t largest_bytes = std::size_t{1} << 32U;
 constexpr std::size_t most_bytes_a_record = 65536;
+constexpr double longest_s = 1e7; ///< of a recording
 
 std::string_view text_of(links::Bytes bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; // NOLINT
@@ -91,8 +92,9 @@ private:
             return next_words(frame);
         case RecordKind::Picture: {
             const auto time_s = number<double>();
-            if (time_s && !(*time_s > last_s_)) {
-                refuse(fmt::format("a picture after {} s, got {}", last_s_, *time_s));
+            if (time_s && !(*time_s > last_s_ && *time_s <= longest_s)) {
+                refuse(fmt::format(
+                    "a picture after {} s and up to {} s, got {}", last_s_, longest_s, *time_s));
             }
             complete_ = time_s.has_value();
             last_s_ = frame.time_s = time_s.value_or(0.0);
@@ -111,8 +113,8 @@ private:
         if (!protocol || !address || !port || !arrival_s || !bytes) {
             return false;
         }
-        if (!std::isfinite(*arrival_s)) {
-            refuse("a time of arrival, got no number");
+        if (!(std::abs(*arrival_s) <= longest_s)) {
+            refuse(fmt::format("a time of arrival up to {} s, got {}", longest_s, *arrival_s));
         }
         frame.packets.push_back(
             {links::Protocol{*protocol},

@@ -161,10 +161,21 @@ void check_entries(const fs::path& zip, const std::vector<ZipEntry>& entries) {
     }
 }
 
+/// A packed file by its name and time of writing.
+using Known = std::pair<fs::path, fs::file_time_type>;
+using Unpacked = std::map<Known, std::pair<std::unique_ptr<TemporaryFolder>, fs::path>>;
+
+Unpacked& unpacked_ones() {
+    static Unpacked all;
+    return all;
+}
+
 fs::path unpacked(const fs::path& zip, const fs::path& into) {
     const std::vector<ZipEntry> entries = zip_entries(zip);
     check_entries(zip, entries);
-    const fs::path folder = into / zip.stem(); // reports call it by its name
+    const fs::path stem = zip.stem(); // reports call it by its name
+    const fs::path folder =
+        into / (stem.empty() || stem == "." || stem == ".." ? "recording" : stem);
     for (const ZipEntry& entry : entries) {
         make_folder((folder / entry.name).parent_path());
         extract(zip, entry.name, folder / entry.name);
@@ -203,9 +214,7 @@ Packing pack_recording(const fs::path& folder, const fs::path& zip, bool with_te
 }
 
 fs::path recording_folder(const fs::path& folder_or_zip) {
-    // By name and time of writing.
-    using Known = std::pair<fs::path, fs::file_time_type>;
-    static std::map<Known, std::pair<std::unique_ptr<TemporaryFolder>, fs::path>> opened;
+    auto& opened = unpacked_ones();
     std::error_code ignored;
     if (!fs::is_regular_file(folder_or_zip, ignored)) {
         return folder_or_zip;
@@ -220,6 +229,10 @@ fs::path recording_folder(const fs::path& folder_or_zip) {
     const fs::path folder = unpacked(folder_or_zip, place->path());
     opened.emplace(zip, std::pair(std::move(place), folder));
     return folder;
+}
+
+void remove_unpacked() {
+    unpacked_ones().clear();
 }
 
 fs::path run_file_of(const fs::path& path) {

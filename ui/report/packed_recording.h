@@ -24,6 +24,9 @@ Packing pack_recording(
 /// recording or has anything else in it.
 std::filesystem::path recording_folder(const std::filesystem::path& folder_or_zip);
 
+/// Removes what recording_folder() unpacked, before the program is ended by a signal.
+void remove_unpacked();
+
 /// The same for a recording's run.json, its folder or its packed file; other files stay.
 std::filesystem::path run_file_of(const std::filesystem::path& path);
 

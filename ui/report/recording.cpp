@@ -69,6 +69,10 @@ void prepare(const fs::path& folder) {
 fs::path begun(const fs::path& folder, RunInfo& info) {
     prepare(folder);
     for (const auto& [name, bytes] : std::exchange(info.files, {})) {
+        const fs::path way = fs::path(name).lexically_normal();
+        if (way.is_absolute() || way.empty() || *way.begin() != "inputs") {
+            error_in(folder, "expected a name in inputs/, got '" + printable(name) + "'");
+        }
         make_folder((folder / name).parent_path());
         write_file(folder / name, bytes);
     }

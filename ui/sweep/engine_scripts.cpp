@@ -53,8 +53,13 @@ std::string sbatch_script(
         options.jobs > 0 ? fmt::format("%{}", options.jobs) : "");
     text += fmt::format("#SBATCH --time={}\n", options.minutes);
     text += "#SBATCH --requeue\n#SBATCH --open-mode=append\n";
+    const std::string place = folder.path().string();
+    std::string pattern; // in which % stands for more than itself
+    for (const char letter : place) {
+        pattern += letter == '%' ? "%%" : std::string(1, letter);
+    }
     text += fmt::format(
-        "#SBATCH --chdir={0}\n#SBATCH --output={0}/logs/slurm-%a.log\n", folder.path().string());
+        "#SBATCH --chdir=\"{}\"\n#SBATCH --output=\"{}/logs/slurm-%a.log\"\n", place, pattern);
     text += options.share_cores ? "" : "#SBATCH --exclusive\n";
     for (const std::string& option : options.sbatch_options) {
         text += fmt::format("#SBATCH {}\n", option);

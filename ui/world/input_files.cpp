@@ -87,6 +87,19 @@ std::vector<std::string> material_names(const fs::path& obj) {
     return names;
 }
 
+/// The material files of an OBJ file that lie beside it or below, by their ways from there.
+std::vector<fs::path> materials_below(const fs::path& obj) {
+    std::vector<fs::path> found;
+    for (const std::string& name : material_names(obj)) {
+        const fs::path way = fs::path(name).lexically_normal();
+        if (!way.empty() && way.is_relative() && *way.begin() != ".." &&
+            is_file(obj.parent_path() / way) && std::ranges::find(found, way) == found.end()) {
+            found.push_back(way);
+        }
+    }
+    return found;
+}
+
 /// Files in the order in which they are found, each once, with names that differ.
 struct Collector {
     std::vector<InputFile> files;
@@ -99,18 +112,21 @@ struct Collector {
         return std::ranges::find(files, name, &InputFile::name) != files.end();
     }
 
-    /// A folder in the recording in which nothing of that name lies yet.
-    fs::path folder_for(const fs::path& file) const {
-        const fs::path name = file.filename();
+    /// A folder in the recording in which nothing of the file's name and the others lies yet.
+    fs::path folder_for(const fs::path& file, std::vector<fs::path> names) const {
+        names.push_back(file.filename());
         fs::path folder = inputs_folder;
-        for (int i = 2; has_name((folder / name).string()); ++i) {
+        const auto is_taken = [&](const fs::path& name) {
+            return has_name((folder / name).string());
+        };
+        for (int i = 2; std::ranges::any_of(names, is_taken); ++i) {
             folder = fs::path(inputs_folder) / std::to_string(i);
         }
         return folder;
     }
 
-    /// False where the file was there already.
-    bool add(const fs::path& file) {
+    /// Adds a file, with room for others beside it; false where it was there already.
+    bool add(const fs::path& file, const std::vector<fs::path>& others = {}) {
         if (has(file)) {
             return false;
         }
@@ -118,7 +134,8 @@ struct Collector {
         if (file.parent_path().parent_path() == own) {
             files.push_back({file, file.lexically_relative(own).string(), Kept::BuiltIn});
         } else {
-            files.push_back({file, (folder_for(file) / file.filename()).string(), Kept::Inside});
+            files.push_back(
+                {file, (folder_for(file, others) / file.filename()).string(), Kept::Inside});
         }
         return true;
     }
@@ -129,18 +146,18 @@ struct Collector {
         }
     }
 
-    /// An aircraft and, of an OBJ file, its materials beside it.
+    /// An aircraft and, of an OBJ file, its materials beside it or in folders below.
     void add_model(const fs::path& file) {
-        if (!add(file) || ending_of(file) != ".obj") {
+        const std::vector<fs::path> materials =
+            ending_of(file) == ".obj" ? materials_below(file) : std::vector<fs::path>();
+        if (!add(file, materials)) {
             return;
         }
         const InputFile model = files.back();
-        for (const std::string& name : material_names(file)) {
-            const fs::path materials = file.parent_path() / name;
-            const fs::path kept = fs::path(model.name).parent_path() / name;
-            const bool beside = fs::path(name).is_relative() && !name.starts_with("..");
-            if (beside && is_file(materials) && !has(materials)) {
-                files.push_back({materials, kept.lexically_normal().string(), model.kept});
+        for (const fs::path& name : materials) {
+            const std::string kept = (fs::path(model.name).parent_path() / name).string();
+            if (!has_name(kept)) {
+                files.push_back({file.parent_path() / name, kept, model.kept});
             }
         }
     }
@@ -201,6 +218,15 @@ input_hashes(const settings::RunSettings& settings) {
 settings::RunSettings as_recorded(const settings::RunSettings& settings, const fs::path& folder) {
     const std::vector<InputFile> inputs = input_files(settings);
     const fs::path from = fs::absolute(folder).lexically_normal();
+    for (const InputFile& input : inputs) {
+        const fs::path way = absolute_path(input.file).lexically_relative(from / inputs_folder);
+        if (input.kept == Kept::Outside && !way.empty() && *way.begin() != "..") {
+            throw Error(fmt::format(
+                "--record: expected another folder than that of the run's own '{}', got '{}'",
+                printable(input.name),
+                printable(folder.string())));
+        }
+    }
     const auto rename = [&](std::string& name) {
         const auto found = std::ranges::find_if(
             inputs, [&](const InputFile& input) { return input.file == fs::path(name); });

@@ -2,6 +2,7 @@
 #include "sim/base/dice.h"
 #include "sim/base/units.h"
 #include "sim/links/live_vehicle.h"
+#include "sim/links/sender_clock.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -233,4 +234,18 @@ TEST_CASE("a paused sender's aircraft stands where it is") {
             CHECK_FALSE(vehicle.is_stale());
         }
     }
+}
+
+TEST_CASE("a clock that hardly moves is late, and years without a packet are passed at once") {
+    SenderClock clock;
+    const auto at = [](double sent_s) {
+        TimeClue clue;
+        clue.sent_s = sent_s;
+        return clue;
+    };
+    clock.take(0.0, at(0.0));
+    CHECK(clock.take(1.0, at(1.0)) == SenderClock::Order::Next);
+    CHECK(clock.take(1.1, at(1.0 + 1e-12)) == SenderClock::Order::Late);
+    CHECK(clock.sender_s() == 1.0);
+    CHECK(clock.take(1e12, at(2.0)) == SenderClock::Order::Next);
 }

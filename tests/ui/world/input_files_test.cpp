@@ -1,0 +1,87 @@
+#include "sim/base/output_file.h"
+#include "tests/scratch.h"
+#include "ui/world/input_files.h"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace octant;
+using namespace octant::ui::world;
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path empty_folder(const std::string& name) {
+    const fs::path folder = tests::scratch_folder() / name;
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    return folder;
+}
+
+std::string model(const std::string& materials) {
+    return "mtllib " + materials + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+}
+
+ui::settings::RunSettings flown_by(const std::vector<fs::path>& aircraft) {
+    ui::settings::RunSettings settings;
+    settings.path.name = "straight";
+    settings.path.terrain = "none";
+    settings.path.aircraft.clear();
+    for (const fs::path& file : aircraft) {
+        settings.path.aircraft.push_back(file.string());
+    }
+    return settings;
+}
+
+} // namespace
+
+TEST_CASE("materials are kept only where they lie beside their model or below") {
+    const fs::path folder = empty_folder("inputs-beside");
+    fs::create_directories(folder / "m/below");
+    write_file(folder / "above.mtl", "newmtl a\n");
+    write_file(folder / "m/below/in.mtl", "newmtl a\n");
+    for (const char* const way : {"../above.mtl", "./../above.mtl", "below/../../above.mtl"}) {
+        CAPTURE(way);
+        write_file(folder / "m/m.obj", model(way));
+        CHECK(files_to_keep(flown_by({folder / "m/m.obj"}), {}).size() == 1);
+    }
+    write_file(folder / "m/m.obj", model("./below/in.mtl"));
+    const auto kept = files_to_keep(flown_by({folder / "m/m.obj"}), {});
+    REQUIRE(kept.size() == 2);
+    CHECK(kept[1].first == "inputs/below/in.mtl");
+}
+
+TEST_CASE("models whose materials have one name keep their own") {
+    const fs::path folder = empty_folder("inputs-two");
+    for (const char* const name : {"a", "b"}) {
+        fs::create_directories(folder / name);
+        write_file(folder / name / (std::string(name) + ".obj"), model("m.mtl"));
+        write_file(folder / name / "m.mtl", std::string("newmtl ") + name + "\n");
+    }
+    const auto kept = files_to_keep(flown_by({folder / "a/a.obj", folder / "b/b.obj"}), {});
+    std::set<std::string> names;
+    for (const auto& [name, bytes] : kept) {
+        names.insert(name);
+    }
+    CHECK(
+        names ==
+        std::set<std::string>{"inputs/a.obj", "inputs/m.mtl", "inputs/2/b.obj", "inputs/2/m.mtl"});
+}
+
+TEST_CASE("a recording does not take the place of the terrain that it flies over") {
+    const fs::path folder = empty_folder("inputs-terrain");
+    fs::create_directories(folder / "rec/inputs/terrain");
+    ui::settings::RunSettings settings = flown_by({"f15"});
+    settings.path.terrain = (folder / "rec/inputs/terrain/t.asc").string();
+    write_file(
+        settings.path.terrain,
+        "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2\n3 4\n");
+    CHECK_THROWS_WITH(
+        as_recorded(settings, folder / "rec"),
+        Catch::Contains("--record: expected another folder"));
+    CHECK_NOTHROW(as_recorded(settings, folder / "other"));
+}
