@@ -1,6 +1,6 @@
 #include "models/meshfile/baked_pictures.h"
 
-#include "models/meshfile/vertex_twins.h"
+#include "models/repair/vertex_twins.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
@@ -131,7 +131,7 @@ void BakedPictures::add_triangle(std::uint32_t picture, const std::array<glm::ve
 void BakedPictures::bake(TriangleMesh& mesh) const {
     assert(triangles_.size() == mesh.triangles.size());
     const std::vector<bool> all(mesh.vertices_m.size(), true);
-    const std::vector<std::uint32_t> firsts = first_twins(mesh.vertices_m, {}, all);
+    const std::vector<std::uint32_t> firsts = repair::first_twins(mesh.vertices_m, {}, all);
     std::vector<Sum> sums(mesh.vertices_m.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Triangle& corners = mesh.triangles[t];

@@ -1,7 +1,7 @@
 #include "models/meshfile/mesh_builder.h"
 
 #include "models/meshfile/polygon_cut.h"
-#include "models/meshfile/sheet_backs.h"
+#include "models/repair/sheet_backs.h"
 #include "sim/base/error.h"
 
 #include <glm/geometric.hpp>
@@ -106,7 +106,7 @@ TriangleMesh MeshBuilder::finish() {
 
 void MeshBuilder::finish_backs() {
     const bool any = std::ranges::find(two_sided_, true) != two_sided_.end();
-    const std::size_t added = options_.backs && any ? add_backs(mesh_, two_sided_) : 0;
+    const std::size_t added = options_.backs && any ? repair::add_backs(mesh_, two_sided_) : 0;
     if (added > 0) {
         mesh_.notes.push_back(
             fmt::format("{}: {} triangles of two-sided sheets got a back", path_.string(), added));

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "models/meshfile/baked_pictures.h"
-#include "models/meshfile/no_index.h"
 #include "models/meshfile/read_options.h"
+#include "models/no_index.h"
 #include "models/triangle_mesh.h"
 
 #include <glm/vec2.hpp>

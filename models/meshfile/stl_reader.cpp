@@ -1,8 +1,8 @@
 #include "models/meshfile/byte_reader.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/vertex_twins.h"
 #include "models/meshfile/word_scanner.h"
+#include "models/repair/vertex_twins.h"
 #include "sim/base/text_file.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ public:
 
     TriangleMesh welded(MeshBuilder& mesh) const {
         const std::vector<std::uint32_t> firsts =
-            first_twins(places_m_, {}, std::vector<bool>(places_m_.size(), true));
+            repair::first_twins(places_m_, {}, std::vector<bool>(places_m_.size(), true));
         std::vector<std::uint32_t> vertices(places_m_.size(), no_index);
         for (std::uint32_t corner = 0; corner < firsts.size(); ++corner) {
             vertices[corner] = firsts[corner] == corner ? mesh.add_vertex(places_m_[corner])

@@ -1,5 +1,5 @@
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/repair.h"
+#include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
 
 #include <cstdio>
@@ -17,7 +17,7 @@ Hierarchy read_hierarchy(const std::string& path, std::size_t base) {
     options.quality = models::simplify::Quality::Fast;
     options.length_share = 0.03;
     options.goal.vertices = base;
-    auto mesh = models::meshfile::repaired(models::meshfile::read_mesh(path)).mesh;
+    auto mesh = models::repair::repaired(models::meshfile::read_mesh(path)).mesh;
     return std::make_shared<const visuals::refine::ProgressiveMesh>(
         models::simplify::fast_sequence(std::move(mesh), options));
 }

@@ -7,7 +7,7 @@
 #include "ui/report/frame_times.h"
 #include "ui/report/statistics.h"
 #include "visuals/gl/bare_grid.h"
-#include "visuals/scene/step_writer.h"
+#include "visuals/planning/step_writer.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -18,6 +18,7 @@
 
 namespace octant::ui::commands {
 
+namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 
 namespace {
@@ -40,7 +41,7 @@ public:
             {}, static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y);
         grid_ = visuals::gl::bare_grid(floor_triangles, plan_.view_to_clip);
         plan_.ground = {grid_.vertices, grid_.indices};
-        scene::StepWriter(plan_).paint_ground();
+        planning::StepWriter(plan_).paint_ground();
         renderer_->warm_up();
     }
 

@@ -12,8 +12,8 @@
 #include "visuals/draworder/order_check.h"
 #include "visuals/draworder/order_table.h"
 #include "visuals/draworder/order_text.h"
-#include "visuals/draworder/separation.h"
 #include "visuals/ordercache/order_cache.h"
+#include "visuals/separation/separation.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -26,6 +26,7 @@
 
 namespace octant::ui::commands {
 
+namespace separation = visuals::separation;
 namespace draworder = visuals::draworder;
 namespace ordercache = visuals::ordercache;
 
@@ -136,7 +137,7 @@ void export_files(const Work& work, const DrawOrderOptions& options) {
     draworder::CellOrders orders = work.orders;
     for (draworder::ListedCell& cell : orders.cells) {
         if (cell.directions.empty()) {
-            cell.planes = draworder::without_redundant(cell.planes);
+            cell.planes = separation::without_redundant(cell.planes);
         }
     }
     write_file(options.export_file, draworder::order_text(orders, work.axes));

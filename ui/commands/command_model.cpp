@@ -1,6 +1,6 @@
 #include "models/measure/mesh_defects.h"
 #include "models/meshfile/level_chain.h"
-#include "models/meshfile/repair.h"
+#include "models/repair/repair.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
@@ -69,13 +69,13 @@ void add_materials(base::Figures& figures, const models::TriangleMesh& mesh) {
 
 void add_surface(base::Figures& figures, const models::TriangleMesh& mesh) {
     const std::size_t read = mesh.triangles.size();
-    const models::meshfile::RepairedMesh repaired = models::meshfile::repaired(mesh);
+    const models::repair::RepairedMesh repaired = models::repair::repaired(mesh);
     const models::measure::MeshDefects found = models::measure::defects(repaired.mesh);
     figures["faces"] = read;
     figures["vertices"] = mesh.vertices_m.size();
     figures["shells"] = found.shells;
     figures["closed"] = found.boundary_edges == 0;
-    figures["defects"] = models::meshfile::in_words(repaired.counts);
+    figures["defects"] = models::repair::in_words(repaired.counts);
 }
 
 void show_model_info(const ModelInfoOptions& options) {

@@ -3,8 +3,8 @@
 #include "models/measure/mesh_distance.h"
 #include "models/meshfile/level_chain.h"
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/repair.h"
 #include "models/polygons/obj_reader.h"
+#include "models/repair/repair.h"
 #include "models/simplify/paper_simplify.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/error.h"
@@ -26,6 +26,7 @@
 namespace octant::ui::commands {
 
 namespace simplify = models::simplify;
+namespace repair = models::repair;
 namespace meshfile = models::meshfile;
 
 namespace {
@@ -54,10 +55,9 @@ simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diag
 models::TriangleMesh read_repaired(const SimplifyCommand& command, Figures& figures) {
     models::TriangleMesh mesh = world::read_mesh_input(command.in);
     figures["faces_in_file"] = mesh.triangles.size();
-    meshfile::RepairedMesh repaired = meshfile::repaired(
-        std::move(mesh),
-        command.keep_seams_apart ? meshfile::Seams::Apart : meshfile::Seams::Welded);
-    const std::vector<std::string> repairs = meshfile::in_words(repaired.counts);
+    repair::RepairedMesh repaired = repair::repaired(
+        std::move(mesh), command.keep_seams_apart ? repair::Seams::Apart : repair::Seams::Welded);
+    const std::vector<std::string> repairs = repair::in_words(repaired.counts);
     for (const std::string& line : repairs) {
         base::say(command.quiet, "repaired: " + line);
     }

@@ -9,6 +9,8 @@ namespace octant::ui::flight {
 
 namespace {
 
+namespace landscape = visuals::landscape;
+namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 
 std::uint32_t id_at(const scene::Picture& picture, int x, int y) {
@@ -127,14 +129,14 @@ namespace {
 
 scene::Picture number_picture(Session& session, const settings::RunSettings& settings) {
     // Meshed by the session's settings, so that all pictures show the same triangles.
-    const scene::Scene& scene = session.world().scene;
-    scene::Planner planner(
-        scene, settings, scene.ground->mesher(scene::mesh_settings(session.settings())));
+    const planning::Scene& scene = session.world().scene;
+    planning::Planner planner(
+        scene, settings, scene.ground->mesher(landscape::mesh_settings(session.settings())));
     planner.settle(session.camera());
-    scene::IdPlan ids(scene);
+    planning::IdPlan ids(scene);
     const auto renderer = session.renderer().beside(settings.view.size_px, 1);
     renderer->load_models(ids.models());
-    const scene::PlannedFrame frame =
+    const planning::PlannedFrame frame =
         planner.plan({session.camera(), session.states(), session.triangle_target()});
     scene::Picture picture;
     renderer->draw(ids.of(frame.plan));

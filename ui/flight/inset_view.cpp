@@ -1,6 +1,6 @@
 #include "ui/flight/inset_view.h"
 
-#include "visuals/scene/ground.h"
+#include "visuals/landscape/ground.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,6 +9,8 @@
 
 namespace octant::ui::flight {
 
+namespace landscape = visuals::landscape;
+namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 
 namespace {
@@ -41,7 +43,7 @@ scene::PixelRect inset_rectangle(const glm::ivec2& picture_px) {
     return {at_px.x, at_px.y, size_px.x, size_px.y};
 }
 
-InsetView::InsetView(const settings::RunSettings& settings, const scene::Scene& scene)
+InsetView::InsetView(const settings::RunSettings& settings, const planning::Scene& scene)
     : scene_(scene) {
     place(settings);
     planner_.emplace(scene_, settings_);
@@ -54,7 +56,7 @@ void InsetView::place(const settings::RunSettings& settings) {
 }
 
 void InsetView::follow(const settings::RunSettings& settings) {
-    std::unique_ptr<scene::GroundMesher> mesher = planner_->take_mesher();
+    std::unique_ptr<landscape::GroundMesher> mesher = planner_->take_mesher();
     settles_ = settles_ || &mesher->ground() != scene_.ground.get() ||
                !scene::same_detail_control(settings.ground, settings_.ground);
     planner_.reset();
@@ -62,7 +64,8 @@ void InsetView::follow(const settings::RunSettings& settings) {
     planner_.emplace(
         scene_,
         settings_,
-        scene::mesher_after(std::move(mesher), *scene_.ground, scene::mesh_settings(settings_)));
+        landscape::mesher_after(
+            std::move(mesher), *scene_.ground, landscape::mesh_settings(settings_)));
 }
 
 const scene::FramePlan& InsetView::plan(
@@ -72,7 +75,7 @@ const scene::FramePlan& InsetView::plan(
     if (std::exchange(settles_, false)) {
         planner_->settle(camera);
     }
-    scene::PlanRequest request{camera, states};
+    planning::PlanRequest request{camera, states};
     request.smooth.share = smooth_share;
     return planner_->plan(request).plan;
 }

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "ui/settings/settings.h"
+#include "visuals/planning/planner.h"
+#include "visuals/planning/scene.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/picture.h"
-#include "visuals/scene/planner.h"
-#include "visuals/scene/scene.h"
 
 #include <optional>
 #include <span>
@@ -20,7 +20,7 @@ visuals::scene::PixelRect inset_rectangle(const glm::ivec2& picture_px);
 class InsetView {
 public:
     /// For ViewSettings::inset (asserted). The scene must outlive it. Stays in its place.
-    InsetView(const settings::RunSettings& settings, const visuals::scene::Scene& scene);
+    InsetView(const settings::RunSettings& settings, const visuals::planning::Scene& scene);
     ~InsetView() = default;
     InsetView(const InsetView&) = delete;
     InsetView& operator=(const InsetView&) = delete;
@@ -51,10 +51,10 @@ public:
 private:
     void place(const settings::RunSettings& settings);
 
-    const visuals::scene::Scene& scene_;
+    const visuals::planning::Scene& scene_;
     settings::RunSettings settings_;
     visuals::scene::PixelRect rectangle_;
-    std::optional<visuals::scene::Planner> planner_;
+    std::optional<visuals::planning::Planner> planner_;
     bool settles_ = true; ///< the ground's detail has not been set for a first picture
 };
 

@@ -3,7 +3,7 @@
 #include "ui/flight/make_renderer.h"
 #include "ui/report/statistics.h"
 #include "ui/world/sun_of_time.h"
-#include "visuals/scene/ground_texture_maker.h"
+#include "visuals/landscape/ground_texture_maker.h"
 
 #include <algorithm>
 #include <span>
@@ -11,6 +11,8 @@
 
 namespace octant::ui::flight {
 
+namespace landscape = visuals::landscape;
+namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 
 namespace {
@@ -64,7 +66,7 @@ void Session::load_models(Shows shows) {
 void Session::drop_texels() {
     std::shared_ptr<const scene::GroundTexture>& texture = world_.scene.ground_texture;
     if (texture) {
-        texture = std::make_shared<const scene::GroundTexture>(scene::without_texels(*texture));
+        texture = std::make_shared<const scene::GroundTexture>(landscape::without_texels(*texture));
     }
 }
 
@@ -151,8 +153,8 @@ report::FrameRecord Session::draw_at(double time_s, std::optional<double> next_s
     return picture_of(drawn_++, time_s, next_s);
 }
 
-scene::PlanCounts Session::make_plans(std::function<void()> when_refined) {
-    const scene::PlannedFrame frame = planner_->plan(
+planning::PlanCounts Session::make_plans(std::function<void()> when_refined) {
+    const planning::PlannedFrame frame = planner_->plan(
         {.camera = now_.camera,
          .states = now_.states,
          .triangle_target = now_.triangle_target,
@@ -196,7 +198,7 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     record.sim_ms = stage.lap_ms();
 
     smooth_target_ = decider_.smooth_target(frame);
-    const scene::PlanCounts counts = make_plans([&] { record.refine_ms = stage.lap_ms(); });
+    const planning::PlanCounts counts = make_plans([&] { record.refine_ms = stage.lap_ms(); });
     record.plan_ms = record.refine_ms + stage.lap_ms();
 
     if (next_s && settings_.ground.mesh_ahead) {
@@ -219,7 +221,7 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     return record;
 }
 
-void Session::fill_in(const scene::PlanCounts& counts, report::FrameRecord& record) {
+void Session::fill_in(const planning::PlanCounts& counts, report::FrameRecord& record) {
     record.triangle_target = now_.triangle_target;
     record.smooth_target = smooth_target_.value_or(-1);
     record.smooth_polygons = counts.smooth_polygons;

@@ -9,9 +9,9 @@
 #include "ui/world/picture_times.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
-#include "visuals/scene/id_plan.h"
+#include "visuals/planning/id_plan.h"
+#include "visuals/planning/planner.h"
 #include "visuals/scene/picture.h"
-#include "visuals/scene/planner.h"
 #include "visuals/scene/renderer.h"
 #include "visuals/shading/shading_controller.h"
 
@@ -29,7 +29,8 @@ namespace octant::ui::flight {
 /// What the pictures of a session show.
 enum class Shows {
     World,
-    PolygonNumbers ///< scene::IdPlan: which polygon or triangle of ground each pixel belongs to
+    PolygonNumbers ///< visuals::planning::IdPlan: which polygon or triangle of ground each pixel
+                   ///< belongs to
 };
 
 /// The conductor of a run: takes each frame from simulation through plan and picture to its record.
@@ -160,9 +161,9 @@ private:
     void reach(double time_s, int frame, Moment& moment);
     visuals::scene::Camera camera_of(const settings::RunSettings& settings) const;
     void mesh_ahead();
-    visuals::scene::PlanCounts make_plans(std::function<void()> when_refined);
+    visuals::planning::PlanCounts make_plans(std::function<void()> when_refined);
     void draw_plans();
-    void fill_in(const visuals::scene::PlanCounts& counts, report::FrameRecord& record);
+    void fill_in(const visuals::planning::PlanCounts& counts, report::FrameRecord& record);
     void change_world(const settings::RunSettings& settings);
     void change_picture(const settings::RunSettings& settings);
     void wait_for_meshes();
@@ -175,9 +176,9 @@ private:
     settings::RunSettings settings_;
     std::unique_ptr<visuals::scene::Renderer> renderer_;
     world::World world_;
-    std::optional<visuals::scene::Planner> planner_;
+    std::optional<visuals::planning::Planner> planner_;
     std::unique_ptr<InsetView> inset_; ///< over world_.scene, as planner_; null = no inset
-    std::optional<visuals::scene::IdPlan> ids_;
+    std::optional<visuals::planning::IdPlan> ids_;
     std::optional<Simulation> simulation_;
     world::PictureTimes times_;
     visuals::scene::GroundHeight ground_height_;

@@ -4,7 +4,7 @@
 #include "ui/settings/settings_check.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/sun_of_time.h"
-#include "visuals/scene/ground.h"
+#include "visuals/landscape/ground.h"
 
 #include <algorithm>
 #include <memory>
@@ -17,6 +17,8 @@
 
 namespace octant::ui::flight {
 
+namespace landscape = visuals::landscape;
+namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 
 void Session::apply(const settings::RunSettings& wanted) {
@@ -111,8 +113,8 @@ namespace {
 
 /// The ground of a scene under other settings: itself, or made of the same heights; nothing where
 /// it, or the texture over it, must be loaded.
-std::shared_ptr<const scene::Ground>
-kept_ground(const scene::Scene& scene, const settings::RunSettings& settings) {
+std::shared_ptr<const landscape::Ground>
+kept_ground(const planning::Scene& scene, const settings::RunSettings& settings) {
     const bool same = scene.ground->suits(settings.ground, settings.air);
     if (same || scene.ground_texture) {
         return same ? scene.ground : nullptr;
@@ -154,14 +156,14 @@ void Session::change_picture(const settings::RunSettings& settings) {
 /// Plans by the settings and over the ground that the session has now. The detail of the ground
 /// goes on where both it and its control are the same.
 void Session::follow_ground(bool other_control) {
-    std::unique_ptr<scene::GroundMesher> mesher = planner_->take_mesher();
-    const scene::Ground& ground = *world_.scene.ground;
+    std::unique_ptr<landscape::GroundMesher> mesher = planner_->take_mesher();
+    const landscape::Ground& ground = *world_.scene.ground;
     const bool settles = other_control || &mesher->ground() != &ground;
     planner_.reset();
     planner_.emplace(
         world_.scene,
         settings_,
-        scene::mesher_after(std::move(mesher), ground, scene::mesh_settings(settings_)));
+        landscape::mesher_after(std::move(mesher), ground, landscape::mesh_settings(settings_)));
     if (settles) {
         planner_->settle(now_.camera);
     }

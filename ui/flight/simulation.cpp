@@ -3,7 +3,7 @@
 #include "sim/base/axes.h"
 #include "sim/fixed_step.h"
 #include "sim/flight_models.h"
-#include "visuals/scene/aircraft_model.h"
+#include "visuals/planning/aircraft_model.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -14,12 +14,13 @@
 
 namespace octant::ui::flight {
 
+namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 
 namespace {
 
 /// How far an aircraft reaches below its reference point when it stands upright, metres.
-double reach_below_m(const scene::AircraftModel& model) {
+double reach_below_m(const planning::AircraftModel& model) {
     float most_m = 0.0F;
     for (const scene::ModelVertex& vertex : model.buffers.vertices) {
         most_m = std::max(most_m, vertex.position_m.z);

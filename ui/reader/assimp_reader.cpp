@@ -15,10 +15,10 @@ namespace octant::ui::reader {
 
 namespace {
 
+using models::no_index;
 using models::meshfile::BakedPictures;
 using models::meshfile::Corner;
 using models::meshfile::MeshBuilder;
-using models::meshfile::no_index;
 
 struct Surface {
     std::uint32_t material = no_index;

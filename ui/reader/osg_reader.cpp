@@ -22,10 +22,10 @@ namespace octant::ui::reader {
 
 namespace {
 
+using models::no_index;
 using models::meshfile::BakedPictures;
 using models::meshfile::Corner;
 using models::meshfile::MeshBuilder;
-using models::meshfile::no_index;
 
 /// Collects the triangles of a geometry by their vertices.
 struct Triangles {

@@ -2,8 +2,8 @@
 
 #include "ui/terrain/ground_view.h"
 #include "visuals/gl/make_renderer.h"
-#include "visuals/scene/facing.h"
-#include "visuals/scene/step_writer.h"
+#include "visuals/planning/facing.h"
+#include "visuals/planning/step_writer.h"
 
 #include <glm/geometric.hpp>
 
@@ -14,6 +14,7 @@
 
 namespace octant::ui::terrain {
 
+namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 
 namespace {
@@ -51,9 +52,9 @@ void KeyPictures::draw(const visuals::terrain::GroundMesh& mesh, const scene::Ca
     plan.world_to_view = scene::world_to_view(camera);
     plan.view_to_clip = scene::view_to_clip(camera, static_cast<double>(size_px_.x) / size_px_.y);
     plan.background = {1.0F, 0.0F, 1.0F};
-    const scene::GroundFrame ground{{vertices_, mesh.indices}, {}, {}};
-    plan.ground = scene::facing_the_eye(ground, camera.vertical_fov_rad / size_px_.y, facing_);
-    scene::StepWriter(plan).paint_ground();
+    const planning::GroundFrame ground{{vertices_, mesh.indices}, {}, {}};
+    plan.ground = planning::facing_the_eye(ground, camera.vertical_fov_rad / size_px_.y, facing_);
+    planning::StepWriter(plan).paint_ground();
     renderer_->draw(plan);
     renderer_->finish_and_read(picture_);
 }

@@ -24,25 +24,25 @@ constexpr std::array<std::string_view, 10> aircraft_settings{
     "shading-far"};
 
 /// Lists the levels of detail in which a model can be drawn.
-void show_representations(const visuals::scene::AircraftModel& model) {
+void show_representations(const visuals::planning::AircraftModel& model) {
     if (model.progressive) {
         ImGui::TextDisabled(
             "  refined in each frame: %zu triangles at most", model.progressive->face_count());
     }
-    for (const visuals::scene::MeshLevel& level : model.levels) {
+    for (const visuals::planning::MeshLevel& level : model.levels) {
         ImGui::TextDisabled(
             "  level of %d triangles, wrong by %.3g m", level.range.polygons, level.error_m);
     }
 }
 
 /// Makes one line for each model that flies.
-void show_models(const visuals::scene::Scene& scene) {
+void show_models(const visuals::planning::Scene& scene) {
     for (std::size_t model = 0; model < scene.models.size(); ++model) {
         const auto flying = std::ranges::count(scene.aircraft, model);
         if (flying == 0) {
             continue;
         }
-        const visuals::scene::AircraftModel& each = *scene.models[model];
+        const visuals::planning::AircraftModel& each = *scene.models[model];
         ImGui::BulletText(
             "%ld x %s: %zu polygons",
             static_cast<long>(flying),

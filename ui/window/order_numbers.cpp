@@ -1,6 +1,6 @@
 #include "ui/window/panels.h"
 #include "visuals/draworder/octant_order.h"
-#include "visuals/scene/placed_aircraft.h"
+#include "visuals/planning/placed_aircraft.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -15,6 +15,7 @@
 
 namespace octant::ui::window {
 
+namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 
 namespace {
@@ -49,15 +50,15 @@ private:
     ImVec2 size_;
 };
 
-glm::dvec3 centroid_of(const scene::SightPolygon& polygon) {
+glm::dvec3 centroid_of(const planning::SightPolygon& polygon) {
     glm::dvec3 sum(0.0);
-    for (const scene::SightCorner& corner : polygon) {
+    for (const planning::SightCorner& corner : polygon) {
         sum += corner.at_m;
     }
     return sum / static_cast<double>(polygon.size());
 }
 
-bool faces_eye(const scene::SightPolygon& polygon) {
+bool faces_eye(const planning::SightPolygon& polygon) {
     glm::dvec3 normal(0.0);
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         normal += glm::cross(polygon[i].at_m, polygon[(i + 1) % polygon.size()].at_m);
@@ -66,10 +67,10 @@ bool faces_eye(const scene::SightPolygon& polygon) {
 }
 
 /// Returns the area on the screen; 0 where a corner is not in front of the eye.
-double area_px(const scene::SightPolygon& polygon, const ScreenPlaces& places) {
+double area_px(const planning::SightPolygon& polygon, const ScreenPlaces& places) {
     double twice = 0.0;
     std::optional<ImVec2> before = places.of(polygon.back().at_m);
-    for (const scene::SightCorner& corner : polygon) {
+    for (const planning::SightCorner& corner : polygon) {
         const auto at = places.of(corner.at_m);
         if (!at || !before) {
             return 0.0;
@@ -101,15 +102,15 @@ void write_order_numbers(const flight::Session& session) {
     if (session.states().empty() || session.settings().view.kind == scene::View::Cockpit) {
         return;
     }
-    const scene::AircraftModel& model = world.scene.model_of(0);
+    const planning::AircraftModel& model = world.scene.model_of(0);
     const sim::AircraftState& state = session.states().front();
     const scene::Camera& camera = session.camera();
 
     glm::dmat4 body_to_eye_world(glm::mat3_cast(state.body_to_world));
     body_to_eye_world[3] = glm::dvec4(state.position_m - camera.eye_m, 1.0);
     std::vector<glm::dmat4> parts(model.polygons.pivots.size() + 1);
-    scene::place_parts(model.polygons, body_to_eye_world, state.time_s, parts);
-    scene::PlacedAircraft placed;
+    planning::place_parts(model.polygons, body_to_eye_world, state.time_s, parts);
+    planning::PlacedAircraft placed;
     placed.model = &model;
     placed.parts = parts;
 
@@ -120,10 +121,10 @@ void write_order_numbers(const flight::Session& session) {
         visuals::draworder::eye_in_body(camera.eye_m, state.position_m, state.body_to_world),
         walk,
         list);
-    scene::SightPolygon polygon;
+    planning::SightPolygon polygon;
     int painted = 0;
     for (const std::uint32_t number : list) {
-        scene::place_polygon(placed, number, polygon);
+        planning::place_polygon(placed, number, polygon);
         if (!faces_eye(polygon)) {
             continue;
         }

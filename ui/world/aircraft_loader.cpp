@@ -26,6 +26,7 @@
 
 namespace octant::ui::world {
 
+namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 namespace draworder = visuals::draworder;
 namespace ordercache = visuals::ordercache;
@@ -101,19 +102,19 @@ bool is_polygon_model(const std::filesystem::path& file) {
 }
 
 /// `kind`: the row of the aircraft; null for one of which only the shape is known.
-scene::AircraftModel ready(
+planning::AircraftModel ready(
     models::polygons::PolygonModel model,
     const sim::AircraftKind* kind,
     const settings::RunSettings& settings,
     const OrderLimits& most,
     Found& found) {
-    const glm::dvec3 eye_m = kind != nullptr ? kind->pilot_eye_m : scene::pilot_eye_m(model);
+    const glm::dvec3 eye_m = kind != nullptr ? kind->pilot_eye_m : planning::pilot_eye_m(model);
     const models::polygons::PolygonModel whole = model;
     draworder::OrderedModel ordered = with_order(std::move(model), settings, most, found);
     found.note(ordered.notes);
     std::vector<glm::vec3> normals =
         shading::normals_of_pieces(whole, shading::corner_normals(whole), ordered.model);
-    return scene::aircraft_model(
+    return planning::aircraft_model(
         std::move(ordered.model), std::move(ordered.order), eye_m, std::move(normals));
 }
 
@@ -138,7 +139,7 @@ read_polygon_model(const std::filesystem::path& file, const std::string& axes, F
 
 /// The polygons that stand in for a mesh far away. Without a painting order they only throw
 /// shadows.
-scene::AircraftModel
+planning::AircraftModel
 far_model(MeshAircraft& mesh, const settings::RunSettings& settings, Found& found) {
     if (mesh.polygons.polygons.size() <= most_polygons_of_a_mesh) {
         try {
@@ -157,7 +158,7 @@ far_model(MeshAircraft& mesh, const settings::RunSettings& settings, Found& foun
     return ready(std::move(mesh.polygons), nullptr, settings, {}, found);
 }
 
-scene::AircraftModel
+planning::AircraftModel
 load_model(const std::string& name, const settings::RunSettings& settings, Found& found) {
     const std::filesystem::path file = base::aircraft_file(name);
     if (is_polygon_model(file)) {
@@ -172,13 +173,13 @@ load_model(const std::string& name, const settings::RunSettings& settings, Found
     }
     MeshAircraft mesh = read_mesh_aircraft(file, settings.path.axes);
     found.note(mesh.notes);
-    scene::AircraftModel model = far_model(mesh, settings, found);
+    planning::AircraftModel model = far_model(mesh, settings, found);
     add_meshes(model, mesh);
     return model;
 }
 
 /// Nothing where the aircraft has none.
-std::optional<scene::AircraftModel> load_cockpit(const std::string& aircraft) {
+std::optional<planning::AircraftModel> load_cockpit(const std::string& aircraft) {
     const sim::AircraftKind* kind = sim::find_aircraft_kind(aircraft);
     if (kind == nullptr) {
         return std::nullopt;
@@ -186,7 +187,7 @@ std::optional<scene::AircraftModel> load_cockpit(const std::string& aircraft) {
     models::polygons::PolygonModel model =
         models::polygons::read_obj(base::data_folder() / "models" / kind->cockpit_file);
     draworder::DrawOrder order = draworder::file_order(model);
-    return scene::aircraft_model(std::move(model), std::move(order), glm::dvec3(0.0));
+    return planning::aircraft_model(std::move(model), std::move(order), glm::dvec3(0.0));
 }
 
 } // namespace
@@ -197,8 +198,8 @@ LoadedAircraft load_aircraft(const settings::RunSettings& settings) {
     }
     LoadedAircraft loaded;
     Found told;
-    const auto add = [&](scene::AircraftModel model) {
-        loaded.models.push_back(std::make_shared<const scene::AircraftModel>(std::move(model)));
+    const auto add = [&](planning::AircraftModel model) {
+        loaded.models.push_back(std::make_shared<const planning::AircraftModel>(std::move(model)));
     };
     std::vector<std::string> names;
     for (const std::string& name : settings.path.aircraft) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ui/settings/settings.h"
-#include "visuals/scene/aircraft_model.h"
+#include "visuals/planning/aircraft_model.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace octant::ui::world {
 
 /// The aircraft of a run, as Scene has them.
 struct LoadedAircraft {
-    std::vector<std::shared_ptr<const visuals::scene::AircraftModel>> models;
+    std::vector<std::shared_ptr<const visuals::planning::AircraftModel>> models;
     std::vector<std::uint32_t> aircraft;
     std::optional<std::uint32_t> cockpit;
     std::vector<std::string> notes;                 ///< what a person should be told

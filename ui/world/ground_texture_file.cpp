@@ -2,11 +2,12 @@
 
 #include "models/heights/image.h"
 #include "models/heights/image_on_ground.h"
-#include "visuals/scene/ground_palette.h"
-#include "visuals/scene/ground_texture_maker.h"
+#include "visuals/landscape/ground_palette.h"
+#include "visuals/landscape/ground_texture_maker.h"
 
 namespace octant::ui::world {
 
+namespace landscape = visuals::landscape;
 namespace scene = visuals::scene;
 using scene::GroundShading;
 
@@ -17,20 +18,21 @@ std::optional<scene::GroundTexture> load_ground_texture(
     const std::optional<models::heights::GeoPlace>& place,
     DrawnBy drawn_by,
     std::vector<std::string>& notes) {
-    const visuals::nature::Climate climate = scene::climate_at(place);
+    const visuals::nature::Climate climate = landscape::climate_at(place);
     if (settings.air.drape) {
         const models::heights::Image drape = models::heights::laid_on_ground(
-            models::heights::read_image(*settings.air.drape), area, scene::largest_texture);
+            models::heights::read_image(*settings.air.drape), area, landscape::largest_texture);
         if (!drape.note.empty()) {
             notes.push_back(drape.note);
         }
-        return scene::ground_texture(ground, settings.air, &drape, climate);
+        return landscape::ground_texture(ground, settings.air, &drape, climate);
     }
     const bool textured =
         settings.air.ground_shading == GroundShading::Texture ||
         (settings.air.ground_shading == GroundShading::Auto && drawn_by == DrawnBy::Gpu);
-    return textured ? std::optional(scene::ground_texture(ground, settings.air, nullptr, climate))
-                    : std::nullopt;
+    return textured
+               ? std::optional(landscape::ground_texture(ground, settings.air, nullptr, climate))
+               : std::nullopt;
 }
 
 } // namespace octant::ui::world

@@ -16,7 +16,7 @@ namespace octant::ui::world {
 namespace meshfile = models::meshfile;
 namespace measure = models::measure;
 namespace refine = visuals::refine;
-namespace scene = visuals::scene;
+namespace planning = visuals::planning;
 
 namespace {
 
@@ -131,16 +131,16 @@ MeshAircraft read_mesh_aircraft(const std::filesystem::path& file, const std::st
     return meshfile::is_chain_file(file) ? from_chain(file, axes) : from_hierarchy(file, axes);
 }
 
-void add_meshes(scene::AircraftModel& model, const MeshAircraft& aircraft) {
+void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
     if (aircraft.hierarchy) {
-        scene::add_progressive(model, aircraft.hierarchy, aircraft.polygons_error_m);
+        planning::add_progressive(model, aircraft.hierarchy, aircraft.polygons_error_m);
         return;
     }
-    std::vector<scene::MeshSource> sources;
+    std::vector<planning::MeshSource> sources;
     for (const meshfile::ChainLevel& level : aircraft.levels) {
         sources.push_back({&level.mesh, level.error_m});
     }
-    scene::add_levels(model, sources, aircraft.polygons_error_m);
+    planning::add_levels(model, sources, aircraft.polygons_error_m);
 }
 
 } // namespace octant::ui::world

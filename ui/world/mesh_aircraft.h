@@ -2,8 +2,8 @@
 
 #include "models/meshfile/level_chain.h"
 #include "models/polygons/polygon_model.h"
+#include "visuals/planning/aircraft_model.h"
 #include "visuals/refine/progressive_mesh.h"
-#include "visuals/scene/aircraft_model.h"
 
 #include <filesystem>
 #include <memory>
@@ -27,6 +27,6 @@ struct MeshAircraft {
 MeshAircraft read_mesh_aircraft(const std::filesystem::path& file, const std::string& axes);
 
 /// Gives the model that was made of its polygons the rest of a mesh aircraft.
-void add_meshes(visuals::scene::AircraftModel& model, const MeshAircraft& aircraft);
+void add_meshes(visuals::planning::AircraftModel& model, const MeshAircraft& aircraft);
 
 } // namespace octant::ui::world

@@ -1,6 +1,6 @@
 #include "ui/world/refine_input.h"
 
-#include "models/meshfile/repair.h"
+#include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/error.h"
 #include "ui/base/progress.h"
@@ -53,10 +53,10 @@ void refuse_too_many(const std::string& file, const models::TriangleMesh& mesh) 
 }
 
 refine::ProgressiveMesh made_hierarchy(const RefineInput& input, std::vector<std::string>& notes) {
-    models::meshfile::RepairedMesh repaired =
-        models::meshfile::repaired(read_mesh_input(input.file, {.pictures = true, .backs = true}));
+    models::repair::RepairedMesh repaired =
+        models::repair::repaired(read_mesh_input(input.file, {.pictures = true, .backs = true}));
     notes = repaired.mesh.notes;
-    for (const std::string& line : models::meshfile::in_words(repaired.counts)) {
+    for (const std::string& line : models::repair::in_words(repaired.counts)) {
         notes.push_back(input.file + ": " + line);
     }
     if (repaired.mesh.triangles.empty()) {

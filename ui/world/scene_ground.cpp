@@ -16,6 +16,7 @@
 
 namespace octant::ui::world {
 
+namespace landscape = visuals::landscape;
 namespace scene = visuals::scene;
 namespace terrain = visuals::terrain;
 
@@ -65,7 +66,7 @@ SceneGround load_imported(const settings::RunSettings& settings, DrawnBy drawn_b
         facts.name, ground.half_extent_m(), ground.spacing_m(), facts.system};
     const settings::RunSettings own = ground_settings(settings, facts.place);
     add_texture(terrain::GroundSamples(ground), area, own, drawn_by, loaded);
-    loaded.ground = scene::ground_from_tiles(std::move(ground), own.air);
+    loaded.ground = landscape::ground_from_tiles(std::move(ground), own.air);
     return loaded;
 }
 
@@ -77,15 +78,15 @@ SceneGround load_field(const settings::RunSettings& settings, DrawnBy drawn_by) 
     add_texture(
         terrain::GroundSamples(field), models::heights::area_of(field), own, drawn_by, loaded);
     loaded.ground = scene::ground_metric(settings.ground) == scene::GroundMetric::ScreenError
-                        ? scene::ground_from_tiles(terrain::ground_of(field), own.air)
-                        : scene::ground_from_field(std::move(field), own.ground, own.air);
+                        ? landscape::ground_from_tiles(terrain::ground_of(field), own.air)
+                        : landscape::ground_from_field(std::move(field), own.ground, own.air);
     return loaded;
 }
 
 SceneGround load_polygons(const settings::RunSettings& settings) {
     SceneGround loaded;
     loaded.name = settings.path.terrain;
-    loaded.ground = scene::ground_from_polygons(
+    loaded.ground = landscape::ground_from_polygons(
         settings.path.terrain == "none" ? models::polygons::PolygonModel{}
                                         : models::made::background60(),
         ground_settings(settings, std::nullopt).air);

@@ -3,7 +3,7 @@
 #include "models/heights/height_field.h"
 #include "ui/settings/settings.h"
 #include "ui/world/ground_texture_file.h"
-#include "visuals/scene/ground.h"
+#include "visuals/landscape/ground.h"
 #include "visuals/scene/ground_texture.h"
 
 #include <memory>
@@ -20,7 +20,7 @@ settings::RunSettings ground_settings(
 
 /// The ground of a run, ready to be shared by its views.
 struct SceneGround {
-    std::shared_ptr<const visuals::scene::Ground> ground;
+    std::shared_ptr<const visuals::landscape::Ground> ground;
     /// Null = the ground shows its vertices' colours.
     std::shared_ptr<const visuals::scene::GroundTexture> texture;
     std::string name;                               ///< with its size, for people

@@ -21,6 +21,7 @@
 
 namespace octant::ui::world {
 
+namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 
 namespace {
@@ -217,7 +218,7 @@ void check_wingmen(const World& world) {
 
 } // namespace
 
-Formation formation_of(const scene::Scene& scene) {
+Formation formation_of(const planning::Scene& scene) {
     double largest_m = 0.0;
     for (const std::uint32_t model : scene.aircraft) {
         largest_m = std::max(largest_m, scene.models[model]->subject.radius_m);

@@ -7,8 +7,8 @@
 #include "ui/settings/settings.h"
 #include "ui/world/formation.h"
 #include "ui/world/ground_texture_file.h"
+#include "visuals/planning/scene.h"
 #include "visuals/scene/camera_rig.h"
-#include "visuals/scene/scene.h"
 
 #include <glm/vec2.hpp>
 
@@ -34,7 +34,7 @@ struct Flight {
 
 /// Everything a run needs, loaded.
 struct World {
-    visuals::scene::Scene scene;
+    visuals::planning::Scene scene;
     /// The row of the first aircraft; null where only its shape is known.
     const sim::AircraftKind* leader_kind = nullptr;
     Flight flight{
@@ -49,7 +49,7 @@ struct World {
 };
 
 /// The formation in which the scene's aircraft fly.
-Formation formation_of(const visuals::scene::Scene& scene);
+Formation formation_of(const visuals::planning::Scene& scene);
 
 /// Where the views of these settings stand that do not follow the aircraft. Throws Error for eye
 /// points that the view does not take.

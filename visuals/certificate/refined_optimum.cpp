@@ -13,7 +13,7 @@ namespace {
 constexpr double magnification = 1e6;
 constexpr int rounds = 1;
 
-using draworder::LinearProgramme;
+using separation::LinearProgramme;
 
 /// The programme of what is to be added to a solution, times `magnification`.
 LinearProgramme correction(const LinearProgramme& programme, const std::vector<double>& solution) {
@@ -36,9 +36,9 @@ LinearProgramme correction(const LinearProgramme& programme, const std::vector<d
 } // namespace
 
 std::optional<std::vector<double>> refined_optimum(const LinearProgramme& programme) {
-    auto solution = draworder::optimum(programme);
+    auto solution = separation::optimum(programme);
     for (int round = 0; solution && round < rounds; ++round) {
-        const auto more = draworder::optimum(correction(programme, *solution));
+        const auto more = separation::optimum(correction(programme, *solution));
         if (!more) {
             break;
         }

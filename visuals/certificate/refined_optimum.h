@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/draworder/linear_programme.h"
+#include "visuals/separation/linear_programme.h"
 
 #include <optional>
 #include <vector>
@@ -8,6 +8,6 @@
 namespace octant::visuals::certificate {
 
 /// The variables of an optimum to nearly all of their digits; nothing where none is found.
-std::optional<std::vector<double>> refined_optimum(const draworder::LinearProgramme& programme);
+std::optional<std::vector<double>> refined_optimum(const separation::LinearProgramme& programme);
 
 } // namespace octant::visuals::certificate

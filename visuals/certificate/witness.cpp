@@ -5,7 +5,7 @@
 #include "visuals/certificate/witness.h"
 
 #include "visuals/certificate/refined_optimum.h"
-#include "visuals/draworder/linear_programme.h"
+#include "visuals/separation/linear_programme.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -18,7 +18,7 @@ namespace octant::visuals::certificate {
 
 namespace {
 
-using draworder::LinearProgramme;
+using separation::LinearProgramme;
 
 /// What is left of the tolerance for the rounding of this code.
 constexpr double safe = 0.999;
@@ -192,7 +192,7 @@ std::optional<Factors> separating(const Question& asked) {
     for (const Norm norm : {Norm::Factors, Norm::Distance}) {
         const LinearProgramme programme = separation_programme(
             planes, asked.turns ? a.swept : a.corners, asked.turns ? b.swept : b.corners, norm);
-        if (auto factors = judged(draworder::optimum(programme))) {
+        if (auto factors = judged(separation::optimum(programme))) {
             return factors;
         }
         if (auto factors = judged(refined_optimum(programme))) {

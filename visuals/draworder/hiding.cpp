@@ -3,7 +3,7 @@
 // right for every eye of a region.
 #include "visuals/draworder/hiding.h"
 
-#include "visuals/draworder/convex_separation.h"
+#include "visuals/separation/convex_separation.h"
 
 #include <glm/geometric.hpp>
 
@@ -70,7 +70,7 @@ bool HidingTest::possible(const Face& b, const Face& a) const {
 
 bool HidingTest::hides(const Face& b, const Face& a, std::span<const glm::dvec4> eyes) {
     if (!a.plane || !b.plane) {
-        return !separable(b.corners, a.corners, eyes);
+        return !separation::separable(b.corners, a.corners, eyes);
     }
     find_crossings(b, a, eyes);
     if (crossings_.empty()) {

@@ -4,9 +4,9 @@
 #include "visuals/draworder/model_faces.h"
 
 #include "visuals/draworder/components.h"
-#include "visuals/draworder/convex_separation.h"
 #include "visuals/draworder/hiding.h"
 #include "visuals/draworder/turning_parts.h"
+#include "visuals/separation/convex_separation.h"
 
 #include <glm/geometric.hpp>
 
@@ -93,7 +93,8 @@ void find_meetings(
         const Face& met = out.faces[other];
         const bool known = met.pivot && other < polygon;
         const bool apart = known || met.pivot == face.pivot || !test.possible(face, met) ||
-                           !test.possible(met, face) || separable(face.corners, met.corners, {});
+                           !test.possible(met, face) ||
+                           separation::separable(face.corners, met.corners, {});
         if (apart) {
             continue;
         }

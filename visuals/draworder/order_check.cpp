@@ -3,8 +3,8 @@
 // code with the search, so that a mistake there cannot repeat itself here.
 #include "visuals/draworder/order_check.h"
 
-#include "visuals/draworder/check_shape.h"
-#include "visuals/draworder/separation.h"
+#include "visuals/separation/check_shape.h"
+#include "visuals/separation/separation.h"
 
 #include <glm/geometric.hpp>
 
@@ -27,8 +27,8 @@ public:
     Certifying(const models::polygons::PolygonModel& model, const CellOrders& orders)
         : model_(model)
         , orders_(orders)
-        , frame_(check_frame(model))
-        , shapes_(check_shapes(model, frame_, orders.two_sided)) {}
+        , frame_(separation::check_frame(model))
+        , shapes_(separation::check_shapes(model, frame_, orders.two_sided)) {}
 
     OrderCheck check(const std::function<void(std::size_t, std::size_t)>& progress) {
         for (std::size_t i = 0; i < orders_.cells.size(); ++i) {
@@ -68,7 +68,7 @@ private:
         ++check_.unlisted;
         const auto& fronts = shapes_[polygon].swept_fronts;
         const bool unseen = std::ranges::all_of(
-            fronts, [&](const Plane& front) { return is_behind(region_, front); });
+            fronts, [&](const Plane& front) { return separation::is_behind(region_, front); });
         if (!unseen) {
             ++check_.unlisted_open;
             doubt({cell, polygon, polygon});
@@ -79,23 +79,24 @@ private:
     void check_pair(std::size_t cell, std::uint32_t first, std::uint32_t later) {
         ++check_.pairs;
         switch (certificate(shapes_[first], shapes_[later])) {
-        case Certificate::Plane:
+        case separation::Certificate::Plane:
             ++check_.by_plane;
             break;
-        case Certificate::LinearProgramme:
+        case separation::Certificate::LinearProgramme:
             ++check_.by_programme;
             break;
-        case Certificate::None:
+        case separation::Certificate::None:
             ++check_.pairs_open;
             doubt({cell, first, later});
         }
     }
 
     /// The weakest certificate over the sides from which each of the two polygons is seen.
-    Certificate certificate(const CheckShape& near_one, const CheckShape& far_one) const {
+    separation::Certificate certificate(
+        const separation::CheckShape& near_one, const separation::CheckShape& far_one) const {
         const bool rigid = near_one.pivot == far_one.pivot;
         const Planes region = rigid && near_one.pivot ? unturned(*near_one.pivot) : region_;
-        Certificate weakest = Certificate::Plane;
+        separation::Certificate weakest = separation::Certificate::Plane;
         for (const Planes& near_side : sides_of(near_one, rigid)) {
             for (const Planes& far_side : sides_of(far_one, rigid)) {
                 Planes planes = region;
@@ -103,7 +104,7 @@ private:
                 planes.insert(planes.end(), far_side.begin(), far_side.end());
                 weakest = std::max(
                     weakest,
-                    separated(
+                    separation::separated(
                         rigid ? near_one.corners : near_one.swept,
                         rigid ? far_one.corners : far_one.swept,
                         planes));
@@ -113,7 +114,7 @@ private:
     }
 
     /// For each side from which a polygon is seen, the planes that those eyes are in front of.
-    static std::vector<Planes> sides_of(const CheckShape& shape, bool rigid) {
+    static std::vector<Planes> sides_of(const separation::CheckShape& shape, bool rigid) {
         if (!rigid && shape.swept_fronts.size() != shape.fronts.size()) {
             return {Planes{}};
         }
@@ -142,8 +143,8 @@ private:
 
     const models::polygons::PolygonModel& model_;
     const CellOrders& orders_;
-    CheckFrame frame_;
-    std::vector<CheckShape> shapes_;
+    separation::CheckFrame frame_;
+    std::vector<separation::CheckShape> shapes_;
     Planes region_; ///< The region of the cell that is being checked.
     OrderCheck check_;
 };

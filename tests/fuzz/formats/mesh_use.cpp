@@ -1,7 +1,7 @@
 #include "tests/fuzz/formats/mesh_use.h"
 
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/repair.h"
+#include "models/repair/repair.h"
 #include "tests/fuzz/formats/target.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ void check_lists(const models::TriangleMesh& mesh) {
 
 void use_mesh(const models::TriangleMesh& mesh) {
     check_lists(mesh);
-    const models::TriangleMesh mended = models::meshfile::repaired(mesh).mesh;
+    const models::TriangleMesh mended = models::repair::repaired(mesh).mesh;
     if (!mended.triangles.empty()) {
         check_lists(mended);
     }

@@ -8,6 +8,9 @@
 
 namespace octant::models::meshfile::test {
 
+using tests::coloured_cube;
+using tests::tetrahedron;
+
 LevelChain sample_chain() {
     LevelChain chain;
     chain.name = "cube and less";

@@ -1,7 +1,7 @@
 #include "models/meshfile/format_axes.h"
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/repair.h"
 #include "models/meshfile/xml_tree.h"
+#include "models/repair/repair.h"
 #include "sim/base/error.h"
 #include "tests/models/meshfile/mesh_samples.h"
 
@@ -16,6 +16,7 @@
 using namespace octant;
 using namespace octant::models;
 using namespace octant::models::meshfile;
+using namespace octant::models::repair;
 using namespace octant::models::meshfile::test;
 
 namespace {

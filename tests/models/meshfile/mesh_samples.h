@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/triangle_mesh.h"
+#include "tests/sample_meshes.h"
 
 #include <filesystem>
 #include <optional>
@@ -19,24 +20,8 @@ std::filesystem::path file_with(const std::string& name, std::string_view conten
 /// left out.
 std::string error_of(const std::string& name, std::string_view content);
 
-/// The unit cube: 8 vertices, 12 triangles, outwards.
-TriangleMesh cube();
-
-/// The cube with a colour a vertex (parts of n/255), six corner normals and two materials.
-TriangleMesh coloured_cube();
-
-/// Four triangles.
-TriangleMesh tetrahedron();
-
 /// Checks that everything two meshes hold is the same.
 void check_same(const TriangleMesh& a, const TriangleMesh& b);
-
-/// What is wrong with a mesh's indices and lists; empty for a sound one.
-std::string index_fault(const TriangleMesh& mesh);
-
-/// Why a mesh is no oriented manifold (perhaps with boundary); empty when it is one. Slow and
-/// simple: apart from the code that makes manifolds.
-std::string manifold_fault(const TriangleMesh& mesh);
 
 /// A large real file, if this computer has it. Prints "SKIPPED: why" when it has not.
 std::optional<std::filesystem::path> real_mesh_file(const std::string& name);

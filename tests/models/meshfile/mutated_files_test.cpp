@@ -1,6 +1,6 @@
 #include "models/meshfile/level_chain.h"
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/repair.h"
+#include "models/repair/repair.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "tests/models/meshfile/chain_samples.h"
@@ -14,7 +14,9 @@
 
 using namespace octant::models;
 using namespace octant::models::meshfile;
+using namespace octant::models::repair;
 using namespace octant::models::meshfile::test;
+using namespace octant::tests;
 
 namespace {
 

@@ -1,5 +1,5 @@
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/repair.h"
+#include "models/repair/repair.h"
 #include "tests/models/meshfile/mesh_samples.h"
 
 #include <catch2/catch.hpp>
@@ -8,7 +8,9 @@
 
 using namespace octant::models;
 using namespace octant::models::meshfile;
+using namespace octant::models::repair;
 using namespace octant::models::meshfile::test;
+using namespace octant::tests;
 
 TEST_CASE("the scanned bunny is read and mended as published") {
     const auto path = real_mesh_file("bun_zipper.ply");

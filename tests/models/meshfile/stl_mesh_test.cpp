@@ -9,6 +9,7 @@
 using namespace octant::models;
 using namespace octant::models::meshfile;
 using namespace octant::models::meshfile::test;
+using namespace octant::tests;
 
 namespace {
 

@@ -18,6 +18,7 @@
 
 using namespace octant;
 using namespace octant::tests;
+namespace landscape = octant::visuals::landscape;
 namespace scene = octant::visuals::scene;
 using ui::flight::InsetView;
 
@@ -125,7 +126,7 @@ TEST_CASE("an inset follows the scene to another ground") {
     settings.ground.mesh = scene::GroundMetric::Midpoint;
     InsetView inset(settings, world.scene);
     const std::size_t level = triangles_of(inset);
-    world.scene.ground = scene::ground_from_field(rough_field(), settings.ground, settings.air);
+    world.scene.ground = landscape::ground_from_field(rough_field(), settings.ground, settings.air);
     inset.follow(settings);
     CHECK(triangles_of(inset) > level);
 }
@@ -136,7 +137,7 @@ TEST_CASE("an inset settles anew when the control of its ground changes") {
     settings.ground.mesh = scene::GroundMetric::Midpoint;
     settings.ground.detail = scene::DetailControl::Damped;
     settings.ground.resolution_c = 3.0;
-    world.scene.ground = scene::ground_from_field(rough_field(), settings.ground, settings.air);
+    world.scene.ground = landscape::ground_from_field(rough_field(), settings.ground, settings.air);
     InsetView inset(settings, world.scene);
     triangles_of(inset);
     settings.ground.resolution_c = 30.0;

@@ -5,7 +5,7 @@
 #include "models/triangle_mesh.h"
 #include "sim/base/axes.h"
 #include "visuals/draworder/draw_order.h"
-#include "visuals/scene/aircraft_model.h"
+#include "visuals/planning/aircraft_model.h"
 
 #include <glm/geometric.hpp>
 
@@ -15,17 +15,19 @@
 
 namespace octant::tests {
 
+namespace landscape = visuals::landscape;
+namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 
 namespace {
 
-scene::AircraftModel tetrahedron() {
+planning::AircraftModel tetrahedron() {
     models::TriangleMesh mesh;
     mesh.vertices_m = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
     mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
     models::polygons::PolygonModel polygons = models::polygons::as_polygons(mesh);
     visuals::draworder::DrawOrder order = visuals::draworder::file_order(polygons);
-    return scene::aircraft_model(std::move(polygons), std::move(order), glm::dvec3(0.0));
+    return planning::aircraft_model(std::move(polygons), std::move(order), glm::dvec3(0.0));
 }
 
 } // namespace
@@ -51,7 +53,7 @@ ui::world::World small_world(int aircraft) {
     scene::GroundSettings by_quadtree;
     by_quadtree.mesh = scene::GroundMetric::Midpoint;
     ui::world::World world;
-    world.scene.ground = scene::ground_from_field(
+    world.scene.ground = landscape::ground_from_field(
         {side, side, spacing_m, std::vector<float>(side * side, 0.0F)}, by_quadtree, {});
     world.scene.add_model(tetrahedron());
     world.scene.aircraft.assign(static_cast<std::size_t>(aircraft), 0);

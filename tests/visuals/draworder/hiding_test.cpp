@@ -1,5 +1,5 @@
-#include "visuals/draworder/convex_separation.h"
 #include "visuals/draworder/hiding.h"
+#include "visuals/separation/convex_separation.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -7,6 +7,7 @@
 #include "wrong_rays.h"
 
 using namespace octant::visuals::draworder;
+using namespace octant::visuals::separation;
 using octant::Dice;
 using octant::Plane;
 

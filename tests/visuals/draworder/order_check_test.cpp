@@ -2,7 +2,7 @@
 #include "tests/scratch.h"
 #include "visuals/draworder/order_check.h"
 #include "visuals/draworder/order_text.h"
-#include "visuals/draworder/separation.h"
+#include "visuals/separation/separation.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -15,6 +15,7 @@
 
 using namespace octant;
 using namespace octant::visuals::draworder;
+using namespace octant::visuals::separation;
 
 namespace {
 

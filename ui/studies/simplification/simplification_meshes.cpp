@@ -4,7 +4,7 @@
 #include "models/made/made_part.h"
 #include "models/made/made_up.h"
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/repair.h"
+#include "models/repair/repair.h"
 #include "sim/base/error.h"
 #include "ui/base/data_files.h"
 
@@ -27,7 +27,7 @@ StudyMesh study_mesh(std::string name, models::TriangleMesh original) {
     shape.colours = original.colours;
     shape.triangles = original.triangles;
     mesh.original = shape;
-    mesh.clean = models::meshfile::repaired(std::move(shape)).mesh;
+    mesh.clean = models::repair::repaired(std::move(shape)).mesh;
     return mesh;
 }
 
@@ -69,7 +69,7 @@ models::TriangleMesh cut_in_four(const models::TriangleMesh& coarse) {
 models::TriangleMesh fine_aircraft(const char* name) {
     constexpr std::size_t wanted = 40'000;
     models::TriangleMesh mesh =
-        models::meshfile::repaired(models::meshfile::read_mesh(base::aircraft_file(name))).mesh;
+        models::repair::repaired(models::meshfile::read_mesh(base::aircraft_file(name))).mesh;
     while (mesh.triangles.size() < wanted) {
         mesh = cut_in_four(mesh);
     }

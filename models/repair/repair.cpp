@@ -1,0 +1,351 @@
+#include "models/repair/repair.h"
+
+#include "models/no_index.h"
+#include "models/repair/edge_joints.h"
+#include "models/repair/near_rims.h"
+#include "models/repair/shell_pieces.h"
+#include "models/repair/vertex_twins.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+namespace octant::models::repair {
+
+namespace {
+
+/// Twice a triangle's area, as a part of the square of its longest coordinate difference, up to
+/// which it has none: what rounding leaves of corners on a line.
+constexpr double no_area = 1e-13;
+
+bool has_area(const glm::dvec3& a_m, const glm::dvec3& b_m, const glm::dvec3& c_m) {
+    const glm::dvec3 ab_m = b_m - a_m;
+    const glm::dvec3 ac_m = c_m - a_m;
+    double longest_m = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        longest_m = std::max({longest_m, std::abs(ab_m[k]), std::abs(ac_m[k])});
+    }
+    return longest_m > 0.0 && glm::length(glm::cross(ab_m / longest_m, ac_m / longest_m)) > no_area;
+}
+
+class Repairing {
+public:
+    Repairing(TriangleMesh&& mesh, Seams seams)
+        : mesh_(std::move(mesh))
+        , seams_(seams)
+        , named_(mesh_.triangles) {}
+
+    RepairedMesh repair() {
+        weld(first_twins(
+            mesh_.vertices_m,
+            seams_ == Seams::Welded ? std::vector<glm::vec3>() : mesh_.colours,
+            referenced()));
+        if (seams_ == Seams::Welded) {
+            weld(near_rims(mesh_));
+        }
+        take_out_triangles();
+        orient();
+        split_vertices();
+        take_out_vertices();
+        counts_.shells = count_shells(mesh_);
+        counts_.boundary_loops = count_boundary_loops(mesh_);
+        return {std::move(mesh_), counts_};
+    }
+
+private:
+    std::vector<bool> referenced() const {
+        std::vector<bool> used(mesh_.vertices_m.size(), false);
+        for (const Triangle& triangle : mesh_.triangles) {
+            for (const std::uint32_t vertex : triangle) {
+                used[vertex] = true;
+            }
+        }
+        return used;
+    }
+
+    /// Puts the vertex that each is to become in its place, none or itself for one that stays.
+    void weld(const std::vector<std::uint32_t>& welded) {
+        mix_colours(mesh_.colours, welded);
+        for (std::uint32_t v = 0; v < welded.size(); ++v) {
+            counts_.duplicate_vertices +=
+                static_cast<std::size_t>(welded[v] != v && welded[v] != no_index);
+        }
+        for (Triangle& triangle : mesh_.triangles) {
+            for (std::uint32_t& vertex : triangle) {
+                vertex = welded[vertex];
+            }
+        }
+    }
+
+    bool is_degenerate(const Triangle& triangle) const {
+        const auto [a, b, c] = triangle;
+        return a == b || b == c || c == a ||
+               !has_area(mesh_.vertices_m[a], mesh_.vertices_m[b], mesh_.vertices_m[c]);
+    }
+
+    void take_out_triangles() {
+        std::vector<bool> stays(mesh_.triangles.size(), true);
+        std::vector<std::pair<Triangle, std::uint32_t>> sorted; // vertices, triangle
+        sorted.reserve(mesh_.triangles.size());
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+            stays[t] = !is_degenerate(mesh_.triangles[t]);
+            counts_.degenerate_triangles += static_cast<std::size_t>(!stays[t]);
+            if (stays[t]) {
+                sorted.emplace_back(mesh_.triangles[t], t);
+                std::ranges::sort(sorted.back().first);
+            }
+        }
+        std::ranges::sort(sorted);
+        for (std::size_t i = 1; i < sorted.size(); ++i) {
+            if (sorted[i].first == sorted[i - 1].first) {
+                stays[sorted[i].second] = false;
+                ++counts_.doubled_triangles;
+            }
+        }
+        keep_triangles(stays);
+    }
+
+    template <typename T>
+    static void keep(std::vector<T>& things, const std::vector<bool>& stays) {
+        if (things.empty()) {
+            return;
+        }
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < things.size(); ++i) {
+            if (stays[i]) {
+                things[kept++] = things[i];
+            }
+        }
+        things.resize(kept);
+    }
+
+    void keep_triangles(const std::vector<bool>& stays) {
+        keep(mesh_.triangles, stays);
+        keep(named_, stays);
+        keep(mesh_.corner_normals, stays);
+        keep(mesh_.triangle_materials, stays);
+    }
+
+    /// The other triangle at each side of each triangle, where exactly two share the edge.
+    void find_neighbours(const std::vector<Side>& sides) {
+        neighbours_.assign(mesh_.triangles.size(), {no_index, no_index, no_index});
+        agrees_.assign(mesh_.triangles.size(), {true, true, true});
+        for_each_joint(sides, named_, [&](std::span<const Side> edge) {
+            counts_.split_edges += static_cast<std::size_t>(edge.size() > 2);
+            if (edge.size() == 2) {
+                const bool agree = edge[0].rises != edge[1].rises;
+                for (std::size_t i = 0; i < 2; ++i) {
+                    const Side& side = edge[i];
+                    neighbours_[side.triangle][side.corner] = edge[1 - i].triangle;
+                    agrees_[side.triangle][side.corner] = agree;
+                }
+            }
+        });
+    }
+
+    /// Decides for each triangle whether it is turned, shell by shell from its first triangle.
+    void orient() {
+        const std::vector<Side> sides = sorted_sides(mesh_.triangles);
+        find_neighbours(sides);
+        turned_.assign(mesh_.triangles.size(), 0);
+        std::vector<bool> reached(mesh_.triangles.size(), false);
+        std::vector<std::uint32_t> shell;
+        for (std::uint32_t first = 0; first < reached.size(); ++first) {
+            if (reached[first]) {
+                continue;
+            }
+            shell.assign(1, first);
+            reached[first] = true;
+            std::size_t to_turn = 0;
+            for (std::size_t i = 0; i < shell.size(); ++i) {
+                const std::uint32_t t = shell[i];
+                to_turn += turned_[t];
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::uint32_t next = neighbours_[t][k];
+                    if (next != no_index && !reached[next]) {
+                        reached[next] = true;
+                        turned_[next] =
+                            static_cast<std::uint8_t>(turned_[t] ^ (agrees_[t][k] ? 0U : 1U));
+                        shell.push_back(next);
+                    }
+                }
+            }
+            turn_fewer(shell, to_turn);
+        }
+        join_fans(sides);
+        turn_triangles();
+    }
+
+    void turn_fewer(const std::vector<std::uint32_t>& shell, std::size_t to_turn) {
+        const bool others = 2 * to_turn > shell.size();
+        for (const std::uint32_t t : shell) {
+            turned_[t] ^= static_cast<std::uint8_t>(others);
+        }
+        counts_.turned_triangles += others ? shell.size() - to_turn : to_turn;
+    }
+
+    /// Joins the corners of triangles around each vertex into fans. Fans may meet again elsewhere,
+    /// so that a side would come twice: then its later triangle stays apart.
+    void join_fans(const std::vector<Side>& sides) {
+        is_apart_.assign(mesh_.triangles.size(), false);
+        const std::size_t split_before = counts_.split_edges;
+        do {
+            counts_.split_edges = split_before;
+            join_but_apart(sides);
+        } while (keep_crowded_apart());
+    }
+
+    /// Joins the corners of two triangles at both ends of the edge they share and agree about. A
+    /// corner's number is three times its triangle's plus its place.
+    void join_but_apart(const std::vector<Side>& sides) {
+        fans_ = Groups(mesh_.triangles.size() * 3);
+        for_each_joint(sides, named_, [&](std::span<const Side> edge) {
+            if (edge.size() != 2) {
+                return;
+            }
+            const auto rises = [&](const Side& side) {
+                return side.rises != (turned_[side.triangle] != 0);
+            };
+            if (rises(edge[0]) == rises(edge[1]) || is_apart_[edge[0].triangle] ||
+                is_apart_[edge[1].triangle]) {
+                ++counts_.split_edges;
+                return;
+            }
+            fans_.join(corner_of(edge[0], true), corner_of(edge[1], true));
+            fans_.join(corner_of(edge[0], false), corner_of(edge[1], false));
+        });
+    }
+
+    /// Marks the later triangles of each side that would come twice; false where there is none.
+    bool keep_crowded_apart() {
+        std::vector<std::array<std::uint32_t, 3>> ends; // of a side: from, to; its triangle
+        ends.reserve(mesh_.triangles.size() * 3);
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const std::uint32_t from = fans_.group_of(t * 3 + k);
+                const std::uint32_t to = fans_.group_of(t * 3 + (k + 1) % 3);
+                ends.push_back(turned_[t] != 0 ? std::array{to, from, t} : std::array{from, to, t});
+            }
+        }
+        std::ranges::sort(ends);
+        bool any = false;
+        for (std::size_t i = 1; i < ends.size(); ++i) {
+            if (ends[i][0] == ends[i - 1][0] && ends[i][1] == ends[i - 1][1]) {
+                is_apart_[ends[i][2]] = true;
+                any = true;
+            }
+        }
+        return any;
+    }
+
+    /// At the smaller or the larger vertex of a side.
+    static std::uint32_t corner_of(const Side& side, bool at_least) {
+        const std::uint32_t place = side.rises == at_least ? side.corner : (side.corner + 1U) % 3U;
+        return side.triangle * 3 + place;
+    }
+
+    /// One vertex a fan: the first fan keeps the vertex, each other one gets a copy at the end.
+    void split_vertices() {
+        std::vector<std::uint32_t> fan_at(mesh_.vertices_m.size(), no_index);
+        std::vector<std::uint32_t> vertex_of(mesh_.triangles.size() * 3, no_index);
+        std::vector<bool> is_split(mesh_.vertices_m.size(), false);
+        for (std::uint32_t corner = 0; corner < vertex_of.size(); ++corner) {
+            std::uint32_t& vertex = mesh_.triangles[corner / 3][place_of(corner)];
+            const std::uint32_t fan = fans_.group_of(corner);
+            if (vertex_of[fan] == no_index && fan_at[vertex] == no_index) {
+                fan_at[vertex] = fan;
+                vertex_of[fan] = vertex;
+            } else if (vertex_of[fan] == no_index) {
+                counts_.split_vertices += static_cast<std::size_t>(!is_split[vertex]);
+                is_split[vertex] = true;
+                vertex_of[fan] = copy_of(vertex);
+            }
+            vertex = vertex_of[fan];
+        }
+    }
+
+    /// Where a corner stands now that its triangle may have been turned.
+    std::size_t place_of(std::uint32_t corner) const {
+        const std::size_t place = corner % 3;
+        return turned_[corner / 3] != 0 && place > 0 ? 3 - place : place;
+    }
+
+    std::uint32_t copy_of(std::uint32_t vertex) {
+        mesh_.vertices_m.push_back(glm::dvec3(mesh_.vertices_m[vertex]));
+        if (!mesh_.colours.empty()) {
+            mesh_.colours.push_back(glm::vec3(mesh_.colours[vertex]));
+        }
+        return static_cast<std::uint32_t>(mesh_.vertices_m.size() - 1);
+    }
+
+    void turn_triangles() {
+        for (std::size_t t = 0; t < turned_.size(); ++t) {
+            if (turned_[t] == 0) {
+                continue;
+            }
+            std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
+            if (!mesh_.corner_normals.empty()) {
+                std::swap(mesh_.corner_normals[t][1], mesh_.corner_normals[t][2]);
+                turn_normals(t);
+            }
+        }
+    }
+
+    /// Turns the normals that point to the back of triangle t.
+    void turn_normals(std::size_t t) {
+        const glm::dvec3 front = area_vector(mesh_, mesh_.triangles[t]);
+        for (std::uint32_t& normal : mesh_.corner_normals[t]) {
+            if (glm::dot(front, glm::dvec3(mesh_.normals[normal])) < 0.0) {
+                const auto next = static_cast<std::uint32_t>(mesh_.normals.size());
+                const auto [at, is_new] = turned_normals_.try_emplace(normal, next);
+                if (is_new) {
+                    mesh_.normals.push_back(-mesh_.normals[normal]);
+                }
+                normal = at->second;
+            }
+        }
+    }
+
+    /// Also those that only the triangles taken out had.
+    void take_out_vertices() {
+        const std::vector<bool> stays = referenced();
+        std::vector<std::uint32_t> places(stays.size(), no_index);
+        std::uint32_t kept = 0;
+        std::size_t gone = 0;
+        for (std::size_t v = 0; v < stays.size(); ++v) {
+            gone += static_cast<std::size_t>(!stays[v]);
+            places[v] = stays[v] ? kept++ : no_index;
+        }
+        counts_.unreferenced_vertices = gone - counts_.duplicate_vertices;
+        keep(mesh_.vertices_m, stays);
+        keep(mesh_.colours, stays);
+        for (Triangle& triangle : mesh_.triangles) {
+            for (std::uint32_t& vertex : triangle) {
+                vertex = places[vertex];
+            }
+        }
+    }
+
+    TriangleMesh mesh_;
+    Seams seams_;
+    std::vector<Triangle> named_; ///< the triangles by the vertices of the file
+    RepairCounts counts_;
+    std::vector<std::array<std::uint32_t, 3>> neighbours_; ///< of each triangle, side by side
+    std::vector<std::array<bool, 3>> agrees_; ///< with that neighbour, before any is turned
+    std::vector<std::uint8_t> turned_;        ///< 1 for triangles that are to be turned
+    std::vector<bool> is_apart_;              ///< Triangles that share no vertex with others.
+    std::unordered_map<std::uint32_t, std::uint32_t> turned_normals_;
+    Groups fans_{0}; ///< of corners
+};
+
+} // namespace
+
+RepairedMesh repaired(TriangleMesh mesh, Seams seams) {
+    return Repairing(std::move(mesh), seams).repair();
+}
+
+} // namespace octant::models::repair

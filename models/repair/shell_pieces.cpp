@@ -1,0 +1,56 @@
+#include "models/repair/shell_pieces.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace octant::models::repair {
+
+std::vector<Side> sorted_sides(std::span<const Triangle> triangles) {
+    std::vector<Side> sides;
+    sides.reserve(triangles.size() * 3);
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        for (std::uint8_t k = 0; k < 3; ++k) {
+            const std::uint32_t from = triangles[t][k];
+            const std::uint32_t to = triangles[t][(k + 1U) % 3U];
+            sides.push_back({std::min(from, to), std::max(from, to), t, k, from < to});
+        }
+    }
+    std::ranges::sort(sides, [](const Side& a, const Side& b) {
+        return std::tie(a.least, a.most, a.triangle, a.corner) <
+               std::tie(b.least, b.most, b.triangle, b.corner);
+    });
+    return sides;
+}
+
+std::size_t count_shells(const TriangleMesh& mesh) {
+    Groups shells(mesh.vertices_m.size());
+    for (const Triangle& triangle : mesh.triangles) {
+        shells.join(triangle[0], triangle[1]);
+        shells.join(triangle[0], triangle[2]);
+    }
+    std::size_t count = 0;
+    for (std::uint32_t v = 0; v < mesh.vertices_m.size(); ++v) {
+        count += static_cast<std::size_t>(shells.group_of(v) == v);
+    }
+    return count;
+}
+
+std::size_t count_boundary_loops(const TriangleMesh& mesh) {
+    Groups loops(mesh.vertices_m.size());
+    std::vector<bool> on_boundary(mesh.vertices_m.size(), false);
+    const std::vector<Side> sides = sorted_sides(mesh.triangles);
+    for_each_edge(sides, [&](std::span<const Side> edge) {
+        if (edge.size() == 1) {
+            loops.join(edge[0].least, edge[0].most);
+            on_boundary[edge[0].least] = true;
+            on_boundary[edge[0].most] = true;
+        }
+    });
+    std::size_t count = 0;
+    for (std::uint32_t v = 0; v < mesh.vertices_m.size(); ++v) {
+        count += static_cast<std::size_t>(on_boundary[v] && loops.group_of(v) == v);
+    }
+    return count;
+}
+
+} // namespace octant::models::repair

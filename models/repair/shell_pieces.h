@@ -1,0 +1,75 @@
+#pragma once
+
+#include "models/triangle_mesh.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace octant::models::repair {
+
+/// Things that are put together piece by piece (union-find); the smallest thing of a group names
+/// it.
+class Groups {
+public:
+    explicit Groups(std::size_t count)
+        : parents_(count) {
+        std::iota(parents_.begin(), parents_.end(), 0U);
+    }
+
+    std::uint32_t group_of(std::uint32_t thing) {
+        while (parents_[thing] != thing) {
+            parents_[thing] = parents_[parents_[thing]];
+            thing = parents_[thing];
+        }
+        return thing;
+    }
+
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = group_of(a);
+        b = group_of(b);
+        parents_[a < b ? b : a] = a < b ? a : b;
+    }
+
+private:
+    std::vector<std::uint32_t> parents_;
+};
+
+/// One side of a triangle: from corner `corner` to the next one.
+struct Side {
+    std::uint32_t least = 0; ///< the smaller of its vertices
+    std::uint32_t most = 0;
+    std::uint32_t triangle = 0;
+    std::uint8_t corner = 0;
+    bool rises = true; ///< from least to most
+
+    bool operator==(const Side&) const = default;
+};
+
+/// The sides of all triangles, sorted so that those of one edge stand together, in the order of
+/// their triangles.
+std::vector<Side> sorted_sides(std::span<const Triangle> triangles);
+
+/// Calls `take(std::span<const Side>)` for each edge.
+template <typename Take>
+void for_each_edge(std::span<const Side> sides, Take&& take) {
+    for (std::size_t first = 0; first < sides.size();) {
+        std::size_t last = first + 1;
+        while (last < sides.size() && sides[last].least == sides[first].least &&
+               sides[last].most == sides[first].most) {
+            ++last;
+        }
+        take(sides.subspan(first, last - first));
+        first = last;
+    }
+}
+
+/// Pieces of an oriented manifold that hang together by vertices.
+std::size_t count_shells(const TriangleMesh& mesh);
+
+/// Closed runs of sides that one triangle has, of an oriented manifold.
+std::size_t count_boundary_loops(const TriangleMesh& mesh);
+
+} // namespace octant::models::repair

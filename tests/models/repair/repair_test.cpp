@@ -1,0 +1,242 @@
+#include "models/repair/repair.h"
+#include "tests/sample_meshes.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <utility>
+
+using namespace octant::models;
+using namespace octant::models::repair;
+using namespace octant::tests;
+
+namespace {
+
+double volume_m3(const TriangleMesh& mesh) {
+    double sum = 0.0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        sum += glm::dot(mesh.vertices_m[a], glm::cross(mesh.vertices_m[b], mesh.vertices_m[c]));
+    }
+    return sum / 6.0;
+}
+
+RepairedMesh checked(TriangleMesh mesh, Seams seams = Seams::Welded) {
+    RepairedMesh result = repaired(std::move(mesh), seams);
+    CHECK(manifold_fault(result.mesh).empty());
+    CHECK(index_fault(result.mesh).empty());
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("a closed mesh without faults stays as it is, bit for bit") {
+    const TriangleMesh before = coloured_cube();
+    const RepairedMesh after = checked(before);
+    CHECK(after.mesh.vertices_m == before.vertices_m);
+    CHECK(after.mesh.colours == before.colours);
+    CHECK(after.mesh.triangles == before.triangles);
+    CHECK(after.mesh.corner_normals == before.corner_normals);
+    CHECK(after.mesh.triangle_materials == before.triangle_materials);
+    CHECK(after.counts == RepairCounts{.shells = 1});
+    CHECK(in_words(after.counts).empty());
+}
+
+TEST_CASE("an open mesh keeps its hole, which is counted") {
+    TriangleMesh mesh = cube();
+    mesh.triangles.resize(10);
+    const RepairedMesh after = checked(mesh);
+    CHECK(after.counts == RepairCounts{.boundary_loops = 1, .shells = 1});
+    CHECK(after.mesh.triangles == mesh.triangles);
+    CHECK(in_words(after.counts) == std::vector<std::string>{"1 hole or open rim left as it is"});
+}
+
+TEST_CASE("vertices of no triangle are taken out and the others keep their order") {
+    TriangleMesh mesh = tetrahedron();
+    mesh.vertices_m.insert(mesh.vertices_m.begin() + 1, glm::dvec3(7.0));
+    mesh.triangles = {{0, 3, 2}, {0, 2, 4}, {2, 3, 4}, {0, 4, 3}};
+    const RepairedMesh after = checked(mesh);
+    CHECK(after.mesh.vertices_m == tetrahedron().vertices_m);
+    CHECK(after.mesh.triangles == tetrahedron().triangles);
+    CHECK(after.counts == RepairCounts{.unreferenced_vertices = 1, .shells = 1});
+    CHECK(in_words(after.counts) == std::vector<std::string>{"1 vertex of no triangle taken out"});
+}
+
+TEST_CASE("triangles that share no vertices are welded where places agree") {
+    TriangleMesh soup;
+    for (const Triangle& triangle : tetrahedron().triangles) {
+        for (const std::uint32_t vertex : triangle) {
+            soup.vertices_m.push_back(tetrahedron().vertices_m[vertex]);
+        }
+        const auto last = static_cast<std::uint32_t>(soup.vertices_m.size());
+        soup.triangles.push_back({last - 3, last - 2, last - 1});
+    }
+    soup.vertices_m[0].x = -0.0; // is the place of 0
+    const RepairedMesh after = checked(soup);
+    CHECK(after.counts == RepairCounts{.duplicate_vertices = 8, .shells = 1});
+    CHECK(after.mesh.vertices_m.size() == 4);
+
+    soup.colours.assign(12, glm::vec3(1.0F));
+    for (std::size_t v = 0; v < 3; ++v) {
+        soup.colours[v] = glm::vec3(0.5F); // the first triangle stays apart
+    }
+    const RepairedMesh coloured = checked(soup, Seams::Apart);
+    CHECK(
+        coloured.counts == RepairCounts{.duplicate_vertices = 5, .boundary_loops = 2, .shells = 2});
+    const RepairedMesh mixed = checked(soup);
+    CHECK(mixed.counts == RepairCounts{.duplicate_vertices = 8, .shells = 1});
+    CHECK(mixed.mesh.colours[0].x == Approx(2.5 / 3.0)); // one of the three corners there is grey
+}
+
+TEST_CASE("rims a rounding apart are welded, rims farther apart are not") {
+    const auto quads = [](double gap) {
+        TriangleMesh mesh;
+        mesh.vertices_m = {
+            {0.0, 0.0, 0.0},
+            {1.0, 0.0, 0.0},
+            {1.0, 1.0, 0.0},
+            {0.0, 1.0, 0.0},
+            {1.0 + gap, 0.0, 0.0},
+            {2.0, 0.0, 0.0},
+            {2.0, 1.0, 0.0},
+            {1.0 + gap, 1.0, 0.0}};
+        mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+        return mesh;
+    };
+    const RepairCounts welded = checked(quads(1e-7)).counts;
+    CHECK(welded == RepairCounts{.duplicate_vertices = 2, .boundary_loops = 1, .shells = 1});
+    CHECK(checked(quads(1e-7), Seams::Apart).counts.shells == 2);
+    CHECK(checked(quads(1e-4)).counts.shells == 2);
+}
+
+TEST_CASE("closed shells that touch along an edge stay closed") {
+    TriangleMesh mesh = tetrahedron();
+    const TriangleMesh one = tetrahedron();
+    for (const glm::dvec3& vertex_m : one.vertices_m) { // the same one mirrored: it shares an edge
+        mesh.vertices_m.push_back(glm::dvec3(vertex_m.x, -vertex_m.y, -vertex_m.z));
+    }
+    for (const auto& [a, b, c] : one.triangles) {
+        mesh.triangles.push_back({a + 4, b + 4, c + 4});
+    }
+    const RepairedMesh after = checked(mesh);
+    CHECK(after.counts.boundary_loops == 0);
+    CHECK(after.counts.shells == 2);
+}
+
+TEST_CASE("triangles without an area go, and what only they had goes with them") {
+    TriangleMesh mesh = tetrahedron();
+    mesh.vertices_m.emplace_back(0.5, 0.0, 0.0);
+    mesh.vertices_m.emplace_back(0.1 + 0.2, 0.0, 0.0);
+    mesh.triangles.push_back({0, 1, 1});
+    mesh.triangles.push_back({0, 1, 4});
+    mesh.triangles.push_back({0, 5, 1});
+    const RepairedMesh after = checked(mesh);
+    CHECK(
+        after.counts ==
+        RepairCounts{.unreferenced_vertices = 2, .degenerate_triangles = 3, .shells = 1});
+    CHECK(after.mesh.triangles == tetrahedron().triangles);
+}
+
+TEST_CASE("a long thin triangle is no degenerate one") {
+    TriangleMesh mesh;
+    mesh.vertices_m = {{0.0, 0.0, 0.0}, {1e6, 0.0, 0.0}, {5e5, 1e-3, 0.0}};
+    mesh.triangles = {{0, 1, 2}};
+    CHECK(checked(mesh).counts == RepairCounts{.boundary_loops = 1, .shells = 1});
+}
+
+TEST_CASE("a triangle that comes again, either way round, is taken out; materials follow") {
+    TriangleMesh mesh = tetrahedron();
+    mesh.materials.resize(3);
+    mesh.triangle_materials = {0, 1, 0, 1};
+    mesh.triangles.insert(mesh.triangles.begin() + 1, Triangle{2, 1, 0});
+    mesh.triangle_materials.insert(mesh.triangle_materials.begin() + 1, 2);
+    mesh.triangles.push_back({1, 0, 2});
+    mesh.triangle_materials.push_back(2);
+    const RepairedMesh after = checked(mesh);
+    CHECK(after.counts == RepairCounts{.doubled_triangles = 2, .shells = 1});
+    CHECK(after.mesh.triangles == tetrahedron().triangles);
+    CHECK(after.mesh.triangle_materials == std::vector<std::uint32_t>{0, 1, 0, 1});
+}
+
+TEST_CASE("of two directions the one that fewer triangles have is turned, with its normals") {
+    TriangleMesh mesh = coloured_cube();
+    std::swap(mesh.triangles[0][1], mesh.triangles[0][2]); // its normals still point outwards
+    std::swap(mesh.triangles[5][1], mesh.triangles[5][2]);
+    mesh.normals.push_back({0.0F, 1.0F, 0.0F});
+    mesh.corner_normals[5] = {6, 6, 6}; // these point inwards as the triangle does
+    const RepairedMesh after = checked(mesh);
+    CHECK(after.counts == RepairCounts{.turned_triangles = 2, .shells = 1});
+    CHECK(after.mesh.triangles == cube().triangles);
+    CHECK(volume_m3(after.mesh) == Approx(1.0));
+    CHECK(after.mesh.corner_normals[0] == Triangle{0, 0, 0});
+    CHECK(after.mesh.normals[after.mesh.corner_normals[5][1]] == glm::vec3(0.0F, -1.0F, 0.0F));
+}
+
+TEST_CASE("a shell that is inside out throughout stays so: it may be a hollow") {
+    TriangleMesh mesh = tetrahedron();
+    for (Triangle& triangle : mesh.triangles) {
+        std::swap(triangle[1], triangle[2]);
+    }
+    const RepairedMesh after = checked(mesh);
+    CHECK(after.counts == RepairCounts{.shells = 1});
+    CHECK(volume_m3(after.mesh) < 0.0);
+}
+
+TEST_CASE("two tetrahedra that touch in a vertex get one each") {
+    TriangleMesh mesh = tetrahedron();
+    for (const double side : {-1.0}) {
+        mesh.vertices_m.emplace_back(side, 0.0, 0.0);
+        mesh.vertices_m.emplace_back(0.0, side, 0.0);
+        mesh.vertices_m.emplace_back(0.0, 0.0, side);
+    }
+    for (const Triangle& triangle : tetrahedron().triangles) {
+        Triangle other = triangle;
+        for (std::uint32_t& vertex : other) {
+            vertex += vertex == 0 ? 0 : 3;
+        }
+        mesh.triangles.push_back(other);
+    }
+    const RepairedMesh after = checked(mesh);
+    CHECK(after.counts == RepairCounts{.split_vertices = 1, .shells = 2});
+    CHECK(after.mesh.vertices_m.size() == 8);
+    CHECK(after.mesh.vertices_m[7] == glm::dvec3(0.0));
+    CHECK(after.mesh.triangles[0] == Triangle{0, 2, 1});
+}
+
+TEST_CASE("an edge of three triangles is cut: each has it as a boundary") {
+    TriangleMesh mesh;
+    mesh.vertices_m = {
+        {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}};
+    mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
+    const RepairedMesh after = checked(mesh);
+    CHECK(
+        after.counts ==
+        RepairCounts{.split_edges = 1, .split_vertices = 2, .boundary_loops = 3, .shells = 3});
+    CHECK(after.mesh.vertices_m.size() == 9);
+}
+
+TEST_CASE("a Moebius band of five triangles is cut once") {
+    TriangleMesh band;
+    for (int v = 0; v < 5; ++v) {
+        band.vertices_m.emplace_back(std::cos(v), std::sin(2.0 * v), 0.3 * v * v);
+    }
+    band.triangles = {{0, 1, 2}, {1, 2, 3}, {2, 3, 4}, {3, 4, 0}, {4, 0, 1}};
+    const RepairedMesh after = checked(band);
+    CHECK(after.counts.split_edges == 1);
+    CHECK(after.counts.shells == 1);
+    CHECK(after.counts.boundary_loops == 1);
+    CHECK(after.mesh.vertices_m.size() == 7);
+}
+
+TEST_CASE("nothing comes of nothing") {
+    CHECK(checked({}).counts == RepairCounts{});
+    TriangleMesh dots;
+    dots.vertices_m.resize(3);
+    dots.triangles = {{0, 1, 2}};
+    const RepairedMesh after = checked(dots);
+    CHECK(after.mesh.triangles.empty());
+    CHECK(
+        after.counts ==
+        RepairCounts{
+            .unreferenced_vertices = 1, .duplicate_vertices = 2, .degenerate_triangles = 1});
+}

@@ -1,0 +1,75 @@
+#include "sim/base/axes.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include "small_world.h"
+
+using namespace octant;
+using namespace octant::tests;
+using namespace octant::visuals::planning;
+using namespace octant::visuals::scene;
+
+TEST_CASE("a turning part's matrix puts its points where the pivot has turned them to") {
+    models::polygons::PolygonModel model = box_model({4.0, 1.0, 1.0});
+    model.parts.emplace_back("top");
+    model.polygons[5].part = 1;
+    model.pivots.push_back({1, {0.5, 0.0, -1.0}, {0.0, 0.0, 1.0}, 0.3});
+    Scene scene;
+    scene.ground = triangle_ground({});
+    scene.add_model(convex_aircraft(box_model({1, 1, 1})));
+    scene.add_model(convex_aircraft(model));
+    scene.aircraft = {0, 1, 1};
+    const AircraftModel& aircraft = *scene.models[1];
+    for (std::size_t i = 0; i < aircraft.buffers.vertices.size(); ++i) {
+        CHECK(aircraft.buffers.vertices[i].part == (i / 4 == 5 ? 1U : 0U));
+    }
+
+    const Settings settings = plain_settings();
+    Planner planner(scene, settings);
+    const glm::dquat attitude = body_to_world_from_euler({0.7, 0.2, -0.4});
+    std::vector<sim::AircraftState> states = {
+        state_at({0, 90, 0}), state_at({5, 30, 2}, attitude), state_at({-20, 60, 0})};
+    states[1].time_s = 12.5;
+    const Camera camera = camera_looking_at({1, 2, 3}, {0, 50, 0});
+    const FramePlan& plan = planner.plan({camera, states}).plan;
+    REQUIRE(plan.parts.size() == 5);
+    REQUIRE(plan.aircraft.size() == 3);
+    const AircraftDraw& nearest = plan.aircraft.back();
+    REQUIRE(nearest.model == 1);
+    const glm::dvec3 point_m(3.0, -0.5, 1.0);
+    const glm::dvec3 turned_m =
+        models::polygons::turned(model.pivots[0], point_m, 2.0 * 3.14159265358979 * 0.3 * 12.5);
+    const auto placed = [&](const glm::dvec3& body_m, std::uint32_t part) {
+        return glm::dvec3(plan.parts[nearest.first_part + part] * glm::vec4(glm::vec3(body_m), 1));
+    };
+    const glm::dvec3 expected_m = states[1].position_m + attitude * turned_m - camera.eye_m;
+    CHECK(glm::distance(placed(point_m, 1), expected_m) < 1e-4);
+    CHECK(glm::distance(placed(turned_m, 0), expected_m) < 1e-4);
+    // All three in one step that is not cut: there is neither sky nor ground.
+    REQUIRE(plan.steps.size() == 1);
+    CHECK(plan.steps[0].count == 3);
+    CHECK(plan.steps[0].clip == PaintStep::whole);
+}
+
+TEST_CASE("with a depth buffer one step draws the aircraft from the nearest") {
+    Scene scene;
+    scene.ground = triangle_ground({});
+    scene.add_model(convex_aircraft(box_model({1, 1, 1})));
+    scene.aircraft = {0, 0, 0};
+    Settings settings = plain_settings();
+    settings.surface.hidden_surface = HiddenSurface::DepthBuffer;
+    Planner planner(scene, settings);
+    const std::vector states{state_at({0, 30, 0}), state_at({0, 90, 0}), state_at({0, 60, 0})};
+    const FramePlan& plan = planner.plan({Camera(), states}).plan;
+    REQUIRE(plan.steps.size() == 2);
+    CHECK(plan.steps[0].what == PaintStep::What::ClearDepth);
+    CHECK(plan.depth_boxes.at(0).most == settings.view.size_px);
+    CHECK(plan.steps[1].what == PaintStep::What::Aircraft);
+    CHECK(plan.steps[1].count == 3);
+    CHECK(plan.steps[1].depth == DepthUse::Nearest);
+    REQUIRE(plan.aircraft.size() == 3);
+    CHECK(plan.aircraft[0].first_part == 0);
+    CHECK(plan.aircraft[1].first_part == 2);
+    CHECK(plan.aircraft[2].first_part == 1);
+}

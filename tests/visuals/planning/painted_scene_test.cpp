@@ -1,0 +1,264 @@
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+#include "plan_painter.h"
+
+using namespace octant;
+using namespace octant::tests;
+using namespace octant::visuals::landscape;
+using namespace octant::visuals::planning;
+using namespace octant::visuals::scene;
+
+namespace {
+
+double rugged(double x_m, double y_m) {
+    return 60.0 * std::sin(x_m / 90.0) * std::cos(y_m / 70.0) +
+           25.0 * std::sin(x_m / 31.0 + y_m / 23.0);
+}
+
+struct Total {
+    int seen = 0;
+    int wrong = 0;
+    int cuts = 0;
+    int knots = 0;
+    int unordered = 0;
+};
+
+/// Boxes and concave bodies where `place` puts them, seen from `eye`.
+Total paint_scenes(
+    int scenes,
+    int aircraft,
+    std::shared_ptr<const Ground> ground,
+    const std::function<glm::dvec3(PlaceDice&)>& place,
+    const std::function<glm::dvec3(PlaceDice&)>& eye,
+    const Settings& settings = plain_settings()) {
+    Total total;
+    PlaceDice dice(1989);
+    Scene scene;
+    scene.ground = std::move(ground);
+    scene.add_model(convex_aircraft(box_model({10.0, 3.0, 2.0})));
+    scene.add_model(concave_aircraft(0.1));
+    for (int i = 0; i < aircraft; ++i) {
+        scene.aircraft.push_back(static_cast<std::uint32_t>(i % 2));
+    }
+    Planner planner(scene, settings);
+    for (int i = 0; i < scenes; ++i) {
+        std::vector<sim::AircraftState> states;
+        for (int k = 0; k < aircraft; ++k) {
+            states.push_back(state_at(place(dice), dice.attitude()));
+        }
+        Camera camera = camera_looking_at(eye(dice), states.front().position_m);
+        camera.near_m = 1e-3;
+        const auto [plan, counts] = planner.plan({camera, states});
+        const SightCount count = count_wrong_sights(plan, scene, states, camera, dice);
+        if (count.wrong > 0) {
+            INFO("scene " << i);
+            CHECK(count.wrong == 0);
+        }
+        total.seen += count.seen;
+        total.wrong += count.wrong;
+        total.cuts += counts.cuts;
+        total.knots += counts.knots;
+        total.unordered += counts.unordered;
+    }
+    return total;
+}
+
+std::shared_ptr<const Ground> cells(const Height& height) {
+    return cell_ground(16, 50.0, height);
+}
+
+const Height level = [](double, double) { return 0.0; };
+
+} // namespace
+
+TEST_CASE("aircraft apart over level ground are painted right without repaints") {
+    const Total total = paint_scenes(
+        100,
+        6,
+        cells(level),
+        [](PlaceDice& dice) {
+            return dice.in_box({300, 300, 60}) + glm::dvec3(0, 0, 100);
+        },
+        [](PlaceDice& dice) {
+            return dice.in_box({350, 350, 60}) + glm::dvec3(0, 0, 100);
+        });
+    CHECK(total.seen > 10000);
+    CHECK(total.wrong == 0);
+    CHECK(total.cuts == 0);
+    CHECK(total.unordered == 0);
+}
+
+TEST_CASE("aircraft among ridges are painted right") {
+    const Total total = paint_scenes(
+        100,
+        5,
+        cells(rugged),
+        [](PlaceDice& dice) {
+            const glm::dvec3 at = dice.in_box({300, 300, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(18.0, 60.0));
+        },
+        [](PlaceDice& dice) {
+            const glm::dvec3 at = dice.in_box({380, 380, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 60.0));
+        });
+    CHECK(total.seen > 10000);
+    CHECK(total.wrong == 0);
+    CHECK(total.cuts > 100);
+    CHECK(total.unordered == 0);
+}
+
+TEST_CASE("aircraft that touch the ground are painted right") {
+    const Total total = paint_scenes(
+        100,
+        3,
+        cells(rugged),
+        [](PlaceDice& dice) {
+            const glm::dvec3 at = dice.in_box({300, 300, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(-2.0, 8.0));
+        },
+        [](PlaceDice& dice) {
+            const glm::dvec3 at = dice.in_box({380, 380, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 60.0));
+        });
+    CHECK(total.seen > 5000);
+    CHECK(total.wrong == 0);
+    CHECK(total.knots > 50);
+    CHECK(total.unordered == 0);
+}
+
+TEST_CASE("aircraft close together, in rings and through each other are painted right") {
+    for (const double spread_m : {8.0, 15.0, 30.0}) {
+        const Total total = paint_scenes(
+            60,
+            5,
+            cells(rugged),
+            [&](PlaceDice& dice) {
+                return dice.in_box(glm::dvec3(spread_m)) + glm::dvec3(0, 0, 150);
+            },
+            [](PlaceDice& dice) {
+                return dice.in_box({120, 120, 60}) + glm::dvec3(0, 0, 150);
+            });
+        CHECK(total.seen > 5000);
+        CHECK(total.wrong == 0);
+        CHECK(total.unordered == 0);
+        CHECK(total.knots > 10);
+    }
+}
+
+TEST_CASE("27 aircraft in any attitudes 20 m apart are painted right") {
+    int next = 0;
+    const Total total = paint_scenes(
+        30,
+        27,
+        cells(level),
+        [&](PlaceDice& /*dice*/) {
+            const int i = next++;
+            return 20.0 * glm::dvec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 % 3 + 4);
+        },
+        [](PlaceDice& dice) {
+            return dice.in_box({70, 70, 40}) + glm::dvec3(0, 0, 100);
+        });
+    CHECK(total.seen > 10000);
+    CHECK(total.wrong == 0);
+    CHECK(total.unordered == 0);
+    CHECK(total.knots > 30);
+    CHECK(total.cuts > 0);
+}
+
+TEST_CASE("125 aircraft in any attitudes 20 m apart are planned without giving up") {
+    Scene scene;
+    scene.ground = cells(level);
+    scene.add_model(convex_aircraft(box_model({9.7, 6.5, 2.2})));
+    scene.add_model(concave_aircraft(0.1));
+    PlaceDice dice(1989);
+    std::vector<sim::AircraftState> states;
+    for (int i = 0; i < 125; ++i) {
+        scene.aircraft.push_back(static_cast<std::uint32_t>(i % 2));
+        states.push_back(
+            state_at(20.0 * glm::dvec3(i % 5, i / 5 % 5, i / 25 + 4), dice.attitude()));
+    }
+    const Settings settings = plain_settings();
+    Planner planner(scene, settings);
+    const Camera camera = camera_looking_at({-120, -90, 140}, {40, 40, 120});
+    const PlanCounts counts = planner.plan({camera, states}).counts;
+    CHECK(counts.unordered == 0);
+    CHECK(counts.knots > 1);
+    CHECK(counts.cuts < 500);
+}
+
+TEST_CASE("ground before a knot stays behind what is seen between the members") {
+    // Two bars meet in a corner. Before the box around both stands a wall, before it a small box
+    // that is painted first, as its sphere is farther than theirs.
+    Scene scene;
+    scene.ground = triangle_ground({{{{20, 7, 20}, {100, 7, 20}, {20, 7, 100}}}});
+    scene.add_model(convex_aircraft(box_model({50, 1, 1})));
+    scene.add_model(convex_aircraft(box_model({1, 1, 50})));
+    scene.add_model(convex_aircraft(box_model({1, 1, 1})));
+    scene.aircraft = {0, 1, 2};
+    const std::vector states = {
+        state_at({50, 11, 0}), state_at({0, 11, 50}), state_at({40, 5, 40})};
+    const Settings settings = plain_settings();
+    Planner planner(scene, settings);
+    const Camera camera = camera_looking_at({0, 0, 0}, states[2].position_m);
+    const auto [plan, counts] = planner.plan({camera, states});
+    REQUIRE(counts.knots == 1);
+    CHECK(plan.aircraft.front().model == 2);
+    PlaceDice dice(1);
+    const SightCount count = count_wrong_sights(plan, scene, states, camera, dice);
+    CHECK(count.seen > 50);
+    CHECK(count.wrong == 0);
+}
+
+TEST_CASE("27 aircraft in any attitudes among ridges are painted right") {
+    int next = 0;
+    const Total total = paint_scenes(
+        30,
+        27,
+        cells(rugged),
+        [&](PlaceDice& /*dice*/) {
+            const int i = next++;
+            const glm::dvec3 at = 21.0 * glm::dvec3(i % 9 - 4, i / 9 % 3 - 1, 0);
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + 9.0);
+        },
+        [](PlaceDice& dice) {
+            const glm::dvec3 at = dice.in_box({250, 250, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 30.0));
+        });
+    CHECK(total.seen > 10000);
+    CHECK(total.wrong == 0);
+    CHECK(total.unordered == 0);
+    CHECK(total.knots > 30);
+}
+
+TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {
+    std::vector<float> heights_m;
+    for (int row = 0; row < 65; ++row) {
+        for (int column = 0; column < 65; ++column) {
+            heights_m.push_back(
+                static_cast<float>(rugged((column - 32) * 12.5, (row - 32) * 12.5)));
+        }
+    }
+    Settings settings = plain_settings();
+    settings.ground.triangles = 600;
+    settings.ground.mesh = GroundMetric::Midpoint;
+    const Total total = paint_scenes(
+        60,
+        5,
+        ground_from_field({65, 65, 12.5, heights_m}, settings.ground, settings.air),
+        [](PlaceDice& dice) {
+            const glm::dvec3 at = dice.in_box({300, 300, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(0.0, 60.0));
+        },
+        [](PlaceDice& dice) {
+            const glm::dvec3 at = dice.in_box({380, 380, 0});
+            return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(3.0, 60.0));
+        },
+        settings);
+    CHECK(total.seen > 5000);
+    CHECK(total.wrong == 0);
+    CHECK(total.cuts > 100);
+    CHECK(total.unordered == 0);
+}

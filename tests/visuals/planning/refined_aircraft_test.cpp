@@ -1,0 +1,234 @@
+#include "visuals/planning/mesh_levels.h"
+#include "visuals/planning/refined_aircraft.h"
+#include "visuals/scene/model_look.h"
+
+#include <catch2/catch.hpp>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "small_world.h"
+
+using namespace octant;
+using namespace octant::tests;
+namespace refine = octant::visuals::refine;
+namespace shading = octant::visuals::shading;
+namespace planning = octant::visuals::planning;
+namespace scene = octant::visuals::scene;
+
+namespace {
+
+constexpr std::uint32_t rim = 24;
+
+/// A fan of 24 triangles about (0, 0, -1), its rim on a circle of 4 m in the plane z = 0, seen from
+/// above (z down). The rim is merged pair by pair, three times over: 12, 6 and 3 triangles.
+models::CollapseSequence folding_fan() {
+    models::CollapseSequence sequence;
+    models::TriangleMesh& mesh = sequence.original;
+    mesh.name = "fan";
+    mesh.vertices_m.emplace_back(0.0, 0.0, -1.0);
+    std::vector<std::uint32_t> ring;
+    for (std::uint32_t i = 0; i < rim; ++i) {
+        const double turn = 2.0 * std::numbers::pi * i / rim;
+        ring.push_back(static_cast<std::uint32_t>(mesh.vertices_m.size()));
+        mesh.vertices_m.emplace_back(4.0 * std::cos(turn), 4.0 * std::sin(turn), 0.0);
+        mesh.triangles.push_back({0, 1 + (i + 1) % rim, 1 + i});
+    }
+    std::uint32_t apart = 1; // original vertices that one of the ring stands for
+    for (const double error_m : {0.02, 0.09, 0.2}) {
+        std::vector<std::uint32_t> merged;
+        for (std::uint32_t i = 0; i < ring.size(); i += 2) {
+            models::Collapse merge{.first = ring[i], .second = ring[i + 1]};
+            merge.position_m = mesh.vertices_m[1 + i * apart];
+            merge.right = (i + 1) * apart - 1;
+            merge.error_m = error_m;
+            merged.push_back(
+                static_cast<std::uint32_t>(mesh.vertices_m.size() + sequence.collapses.size()));
+            sequence.collapses.push_back(merge);
+        }
+        ring = merged;
+        apart *= 2;
+    }
+    return sequence;
+}
+
+std::shared_ptr<const refine::ProgressiveMesh> hierarchy() {
+    return std::make_shared<const refine::ProgressiveMesh>(folding_fan());
+}
+
+/// The fan `away_m` below an eye that looks down, in world axes with the eye at the origin.
+glm::dmat4 below(double away_m) {
+    glm::dmat4 body = glm::translate(glm::dmat4(1.0), {0.0, 0.0, -away_m});
+    body[1] = -body[1]; // z down to z up
+    body[2] = -body[2];
+    return body;
+}
+
+planning::RefineLook looking_down() {
+    planning::RefineLook look;
+    look.ahead = {0.0, 0.0, -1.0};
+    look.frustum.fill(glm::dvec3(0.0, 0.0, -1.0)); // everything below is inside
+    return look;
+}
+
+refine::ViewRefinerOptions refining() {
+    refine::ViewRefinerOptions options;
+    options.error_px = 1.0;
+    return options;
+}
+
+int triangles_at(double away_m) {
+    planning::RefinedAircraft aircraft(hierarchy(), refining(), {});
+    aircraft.update(below(away_m), looking_down(), true);
+    return aircraft.triangles();
+}
+
+std::vector<glm::vec3> places(const scene::RefinedDraw& draw) {
+    std::vector<glm::vec3> found;
+    for (const scene::ModelVertex& vertex : draw.vertices) {
+        found.push_back(vertex.position_m);
+    }
+    return found;
+}
+
+int smooth_in(const scene::RefinedDraw& draw) {
+    int smooth = 0;
+    for (std::size_t i = 0; i + 2 < draw.indices.size(); i += 3) {
+        const bool is_triangle = draw.indices[i] != draw.indices[i + 1];
+        smooth += is_triangle && draw.vertices[draw.indices[i]].polygon == 0 ? 1 : 0;
+    }
+    return smooth;
+}
+
+} // namespace
+
+TEST_CASE("a nearer eye sees more triangles of a refined aircraft, up to all of them") {
+    CHECK(triangles_at(1e6) == 3);
+    CHECK(triangles_at(120.0) == 6);
+    CHECK(triangles_at(60.0) == 12);
+    CHECK(triangles_at(5.0) == 24);
+}
+
+TEST_CASE(
+    "a standing eye gives a refined aircraft no work, an aircraft seen first is fit at once") {
+    planning::RefinedAircraft aircraft(hierarchy(), refining(), {});
+    const auto first = aircraft.update(below(60.0), looking_down(), true);
+    CHECK(first.splits + first.collapses + first.moving == 0);
+    CHECK(first.settled);
+    const int triangles = aircraft.triangles();
+    for (int frame = 0; frame < 5; ++frame) {
+        const auto done = aircraft.update(below(60.0), looking_down(), false);
+        CHECK(done.splits + done.collapses + done.moving == 0);
+        CHECK(aircraft.triangles() == triangles);
+    }
+    CHECK(aircraft.update(below(20.0), looking_down(), false).splits > 0);
+}
+
+TEST_CASE(
+    "as many triangles are smooth as asked for; a flat one begins with a vertex of its own that "
+    "has its normal and the mean of its corners' colours") {
+    for (const int smooth : {0, 1, 5, 12}) {
+        planning::RefinedAircraft aircraft(hierarchy(), refining(), {});
+        aircraft.update(below(60.0), looking_down(), true);
+        REQUIRE(aircraft.triangles() == 12);
+        shading::ShadingLight light;
+        light.to_light = glm::normalize(glm::vec3(1.0F, 0.3F, -1.0F));
+        aircraft.shade({0.0, 0.0, -60.0}, light, smooth);
+        const scene::RefinedDraw draw = aircraft.draw();
+        CHECK(smooth_in(draw) == smooth);
+        for (std::size_t i = 0; i + 2 < draw.indices.size(); i += 3) {
+            const std::array<scene::ModelVertex, 3> corners{
+                draw.vertices[draw.indices[i]],
+                draw.vertices[draw.indices[i + 1]],
+                draw.vertices[draw.indices[i + 2]]};
+            const glm::vec3 normal = glm::normalize(glm::cross(
+                corners[1].position_m - corners[0].position_m,
+                corners[2].position_m - corners[0].position_m));
+            CHECK(normal.z < 0.0F); // up
+            if (corners[0].polygon == 1) {
+                CHECK(glm::distance(corners[0].face_normal, normal) < 1e-5F);
+                CHECK(corners[0].face_colour == 0xffffffffU);
+                CHECK(std::ranges::count(draw.indices, draw.indices[i]) == 1);
+            }
+        }
+    }
+}
+
+TEST_CASE("a frame in which nothing moves changes no triangle's shading") {
+    planning::RefinedAircraft aircraft(hierarchy(), refining(), {});
+    shading::ShadingLight light;
+    light.to_light = glm::normalize(glm::vec3(1.0F, 0.3F, -1.0F));
+    aircraft.update(below(60.0), looking_down(), true);
+    aircraft.shade({0.0, 0.0, -60.0}, light, 4);
+    const scene::RefinedDraw first = aircraft.draw();
+    const std::vector<std::uint32_t> before(first.indices.begin(), first.indices.end());
+    aircraft.update(below(60.0), looking_down(), false);
+    aircraft.shade({0.0, 0.0, -60.0}, light, 4);
+    const scene::RefinedDraw second = aircraft.draw();
+    CHECK(before == std::vector<std::uint32_t>(second.indices.begin(), second.indices.end()));
+    CHECK(first.vertices.size() == second.vertices.size());
+}
+
+TEST_CASE("shading follows a mesh that is refined further, and turns all smooth and back") {
+    planning::RefinedAircraft aircraft(hierarchy(), refining(), {});
+    shading::ShadingLight light;
+    light.to_light = glm::normalize(glm::vec3(1.0F, 0.3F, -1.0F));
+    aircraft.update(below(60.0), looking_down(), true);
+    aircraft.shade({0.0, 0.0, -60.0}, light, 4);
+    CHECK(smooth_in(aircraft.draw()) == 4);
+    for (int frame = 0; frame < 40; ++frame) {
+        aircraft.update(below(5.0), looking_down(), false);
+        aircraft.shade({0.0, 0.0, -5.0}, light, 7);
+        CHECK(smooth_in(aircraft.draw()) == 7);
+    }
+    CHECK(aircraft.triangles() == 24);
+    aircraft.shade({0.0, 0.0, -5.0}, light, 24);
+    CHECK(smooth_in(aircraft.draw()) == 24);
+    aircraft.shade({0.0, 0.0, -5.0}, light, 0);
+    CHECK(smooth_in(aircraft.draw()) == 0);
+    aircraft.shade({0.0, 0.0, -5.0}, light, 7);
+    CHECK(smooth_in(aircraft.draw()) == 7);
+}
+
+TEST_CASE("a refined mesh shows its levels: white where it is as its file, else by its error") {
+    scene::ShadingSettings shading;
+    shading.show_model = scene::ModelLook::Levels;
+    planning::RefinedAircraft fine(hierarchy(), refining(), shading);
+    fine.update(below(5.0), looking_down(), true);
+    for (const scene::ModelVertex& vertex : fine.draw().vertices) {
+        CHECK(vertex.colour == 0xffffffffU);
+    }
+    CHECK(scene::level_colour(0.0, 4.0) == 0xffffffffU);
+    CHECK(scene::level_colour(0.09, 4.0) != scene::level_colour(0.2, 4.0));
+    CHECK(scene::level_colour(0.09, 4.0) == scene::level_colour(0.9, 40.0));
+}
+
+TEST_CASE("aircraft that share a hierarchy have fronts of their own") {
+    const auto shared = hierarchy();
+    planning::RefinedAircraft near_by(shared, refining(), {});
+    planning::RefinedAircraft far_off(shared, refining(), {});
+    near_by.update(below(5.0), looking_down(), true);
+    far_off.update(below(1e6), looking_down(), true);
+    CHECK(near_by.triangles() == 24);
+    CHECK(far_off.triangles() == 3);
+    planning::RefinedAircraft alone(shared, refining(), {});
+    alone.update(below(5.0), looking_down(), true);
+    CHECK(places(near_by.draw()) == places(alone.draw()));
+    CHECK(shared.use_count() == 4);
+}
+
+TEST_CASE("far away, where its polygons are good enough, a refined aircraft is drawn as them") {
+    planning::AircraftModel model = convex_aircraft(box_model({4.0, 4.0, 1.0}));
+    planning::add_progressive(model, hierarchy(), 0.5);
+    const auto drawn_at = [&](double away_m) {
+        return planning::chosen_level(model.errors_m, away_m * 0.001, -1);
+    };
+    REQUIRE(model.errors_m.size() == 2);
+    CHECK(drawn_at(100.0) == 0);
+    CHECK(drawn_at(1000.0) == static_cast<int>(model.as_polygons()));
+}

@@ -1,0 +1,207 @@
+#include "visuals/landscape/ground_palette.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "small_world.h"
+
+using namespace octant;
+using namespace octant::tests;
+using namespace octant::visuals::landscape;
+using namespace octant::visuals::planning;
+using namespace octant::visuals::scene;
+
+namespace {
+
+double rolling(double x_m, double y_m) {
+    return 3.0 * std::sin(x_m / 12.0) + 2.0 * std::cos(y_m / 9.0);
+}
+
+struct Shadowed {
+    Scene scene;
+    Settings settings = plain_settings();
+    Camera camera = camera_looking_at({-60, -80, 90}, {0, 0, 0});
+    std::vector<sim::AircraftState> states;
+
+    Shadowed() {
+        settings.surface.shadows = true;
+        scene.ground = cell_ground(40, 10.0, rolling);
+        scene.add_model(convex_aircraft(box_model({8.0, 2.0, 1.0})));
+        scene.aircraft = {0, 0};
+        states = {
+            state_at({20, 10, 30}, glm::angleAxis(0.4, glm::normalize(glm::dvec3(1, 2, 3)))),
+            state_at({-30, 20, 25}, glm::angleAxis(1.2, glm::normalize(glm::dvec3(3, -2, 1))))};
+    }
+};
+
+struct Corners {
+    std::array<glm::dvec3, 3> at;
+};
+
+Corners
+corners_of(const FramePlan& plan, std::span<const std::uint32_t> indices, std::size_t first) {
+    Corners corners;
+    const std::size_t own = plan.ground.vertices.size();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t vertex = indices[first + i];
+        corners.at[i] = glm::dvec3(
+            vertex < own ? plan.ground.vertices[vertex].position_m
+                         : plan.shadow_vertices[vertex - own].position_m);
+    }
+    return corners;
+}
+
+double plan_side(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p) {
+    return ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) /
+           std::hypot(b.x - a.x, b.y - a.y);
+}
+
+double inside_m(const Corners& t, const glm::dvec3& p) {
+    return std::min(
+        {plan_side(t.at[0], t.at[1], p),
+         plan_side(t.at[1], t.at[2], p),
+         plan_side(t.at[2], t.at[0], p)});
+}
+
+double off_plane_m(const Corners& t, const glm::dvec3& p) {
+    return glm::dot(glm::normalize(glm::cross(t.at[1] - t.at[0], t.at[2] - t.at[0])), p - t.at[0]);
+}
+
+bool is_shadow(const FramePlan& plan, std::uint32_t index) {
+    return index >= plan.ground.vertices.size();
+}
+
+/// Whether a sun ray from a point meets the box of an aircraft: -1 surely not, 1 surely, 0 close.
+int in_the_way(
+    const sim::AircraftState& state, const glm::dvec3& point_m, const glm::dvec3& to_sun) {
+    const auto meets = [&](double grown_m) {
+        const glm::dquat to_body = glm::inverse(state.body_to_world);
+        const glm::dvec3 half_m = glm::dvec3(8.0, 2.0, 1.0) + grown_m;
+        const glm::dvec3 from = to_body * (point_m - state.position_m);
+        const glm::dvec3 along = to_body * to_sun;
+        double entry = 0.0;
+        double leave = 1e9;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double a = (-half_m[axis] - from[axis]) / along[axis];
+            const double b = (half_m[axis] - from[axis]) / along[axis];
+            entry = std::max(entry, std::min(a, b));
+            leave = std::min(leave, std::max(a, b));
+        }
+        return entry < leave;
+    };
+    return meets(-0.01) ? 1 : (meets(0.01) ? 0 : -1);
+}
+
+/// The step that draws shadows on ground that was drawn by depth; null where there is none.
+const PaintStep* step_on_ground(const FramePlan& plan) {
+    const auto found = std::ranges::find(plan.steps, DepthUse::OnGround, &PaintStep::depth);
+    return found == plan.steps.end() ? nullptr : &*found;
+}
+
+} // namespace
+
+TEST_CASE("shadow pieces lie on the triangle before them, inside it, and face up") {
+    Shadowed world;
+    Planner planner(world.scene, world.settings);
+    const PlannedFrame frame = planner.plan({world.camera, world.states});
+    const FramePlan& plan = frame.plan;
+    REQUIRE(frame.counts.shadow_triangles > 10);
+    CHECK(step_on_ground(plan) == nullptr);
+    Corners under;
+    int pieces = 0;
+    for (std::size_t i = 0; i < plan.ground.indices.size(); i += 3) {
+        const Corners corners = corners_of(plan, plan.ground.indices, i);
+        if (!is_shadow(plan, plan.ground.indices[i])) {
+            under = corners;
+            continue;
+        }
+        ++pieces;
+        for (const glm::dvec3& corner : corners.at) {
+            CHECK(std::abs(off_plane_m(under, corner)) < 1e-3);
+            CHECK(inside_m(under, corner) > -1e-3);
+        }
+        CHECK(plan_side(corners.at[0], corners.at[1], corners.at[2]) > -1e-3);
+    }
+    CHECK(pieces == frame.counts.shadow_triangles);
+}
+
+TEST_CASE("ground is in shadow where the sun's ray meets an aircraft and nowhere else") {
+    Shadowed world;
+    Planner planner(world.scene, world.settings);
+    const FramePlan& plan = planner.plan({world.camera, world.states}).plan;
+    const glm::dvec3 to_sun(direction_to_sun(world.settings.air));
+    PlaceDice dice(11);
+    int dark = 0;
+    for (std::size_t i = 0; i < plan.ground.indices.size(); i += 3) {
+        if (is_shadow(plan, plan.ground.indices[i])) {
+            continue;
+        }
+        const Corners t = corners_of(plan, plan.ground.indices, i);
+        for (int k = 0; k < 10; ++k) {
+            const double u = dice.next();
+            const double v = dice.next() * (1.0 - u);
+            const glm::dvec3 p = t.at[0] + (t.at[1] - t.at[0]) * u + (t.at[2] - t.at[0]) * v;
+            double covered_m = -1e9; // how deep inside a piece
+            for (std::size_t n = i + 3;
+                 n < plan.ground.indices.size() && is_shadow(plan, plan.ground.indices[n]);
+                 n += 3) {
+                covered_m =
+                    std::max(covered_m, inside_m(corners_of(plan, plan.ground.indices, n), p));
+            }
+            int expected = -1;
+            for (const sim::AircraftState& state : world.states) {
+                expected = std::max(expected, in_the_way(state, p + world.camera.eye_m, to_sun));
+            }
+            if (expected != 0 && inside_m(t, p) > 0.01) {
+                CHECK((expected == 1) == (covered_m > -1e-3));
+                dark += expected == 1 ? 1 : 0;
+            }
+        }
+    }
+    CHECK(dark > 20);
+}
+
+TEST_CASE("all of a shadow has one darkness and says for textures what light is left") {
+    Shadowed world;
+    Planner planner(world.scene, world.settings);
+    const FramePlan& plan = planner.plan({world.camera, world.states}).plan;
+    for (const models::ColourVertex& vertex : plan.shadow_vertices) {
+        CHECK(vertex.colour == 0x8c464646U);
+    }
+}
+
+TEST_CASE("with a depth buffer shadows come apart from the ground") {
+    Shadowed world;
+    world.settings.surface.hidden_surface = HiddenSurface::DepthBuffer;
+    Planner planner(world.scene, world.settings);
+    const PlannedFrame frame = planner.plan({world.camera, world.states});
+    const FramePlan& plan = frame.plan;
+    const PaintStep* const step = step_on_ground(plan);
+    REQUIRE(step != nullptr);
+    CHECK(step->what == PaintStep::What::GroundAgain);
+    CHECK(step->count / 3 == static_cast<std::uint32_t>(frame.counts.shadow_triangles));
+    CHECK(frame.counts.shadow_triangles > 10);
+    CHECK(std::ranges::none_of(
+        plan.ground.indices, [&](std::uint32_t index) { return is_shadow(plan, index); }));
+}
+
+TEST_CASE("a low sun, a shadow out of view or too small and a switch give no shadows") {
+    const auto shadow_triangles = [](const std::function<void(Shadowed&)>& change) {
+        Shadowed world;
+        change(world);
+        Planner planner(world.scene, world.settings);
+        return planner.plan({world.camera, world.states}).counts.shadow_triangles;
+    };
+    CHECK(shadow_triangles([](Shadowed&) {}) > 0);
+    CHECK(shadow_triangles([](Shadowed& w) { w.settings.air.sun_elevation_deg = 2.0; }) == 0);
+    CHECK(shadow_triangles([](Shadowed& w) { w.settings.surface.shadows = false; }) == 0);
+    CHECK(shadow_triangles([](Shadowed& w) {
+              w.camera = camera_looking_at({-60, -80, 90}, {-200, -300, 0});
+          }) == 0);
+    CHECK(shadow_triangles([](Shadowed& w) {
+              w.camera = camera_looking_at({0, 0, 6000}, {0, 0, 0});
+          }) == 0);
+}

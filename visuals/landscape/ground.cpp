@@ -1,0 +1,29 @@
+#include "visuals/landscape/ground.h"
+
+#include <cassert>
+
+namespace octant::visuals::landscape {
+
+MeshSettings mesh_settings(const scene::Settings& settings) {
+    return {
+        settings.ground,
+        settings.view.size_px.y,
+        settings.surface.hidden_surface == scene::HiddenSurface::DepthBuffer};
+}
+
+std::unique_ptr<GroundMesher> Ground::mesher(const MeshSettings& settings) const {
+    assert(is_meshed_as(settings.ground));
+    return make_mesher(settings);
+}
+
+std::unique_ptr<GroundMesher> mesher_after(
+    std::unique_ptr<GroundMesher> before, const Ground& ground, const MeshSettings& settings) {
+    assert(ground.is_meshed_as(settings.ground));
+    if (!before || (&before->ground() != &ground && !before->move_to(ground.shared_from_this()))) {
+        return ground.mesher(settings);
+    }
+    before->follow(settings);
+    return before;
+}
+
+} // namespace octant::visuals::landscape

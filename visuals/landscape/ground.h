@@ -1,0 +1,97 @@
+#pragma once
+
+#include "models/heights/height_field.h"
+#include "models/polygons/polygon_model.h"
+#include "visuals/landscape/ground_mesher.h"
+#include "visuals/scene/settings.h"
+#include "visuals/terrain/ground_tiles.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <memory>
+#include <optional>
+
+namespace octant::visuals::landscape {
+
+/// What stands below the aircraft: a height field under a quadtree, ground under a mesh by
+/// screen-space error, or polygons painted in one fixed order. Made once at loading, never changed
+/// and shared by all views: what a view needs of its own is in its mesher. Always owned by a
+/// shared_ptr.
+class Ground : public std::enable_shared_from_this<Ground> {
+public:
+    virtual ~Ground() = default;
+    Ground(const Ground&) = delete;
+    Ground& operator=(const Ground&) = delete;
+    Ground(Ground&&) = delete;
+    Ground& operator=(Ground&&) = delete;
+
+    /// Height of the full-resolution ground, metres above datum; nothing outside the map.
+    virtual std::optional<double> height_at(double x_m, double y_m) const = 0;
+
+    /// Half the extent of the map from its centre, east and north, metres.
+    virtual glm::dvec2 half_extent_m() const = 0;
+
+    /// Distance of neighbouring samples at full resolution, metres; 0 where there are none.
+    virtual double spacing_m() const { return 0.0; }
+
+    /// Mean height above datum, metres, infinite where there is no ground at all, and mean colour
+    /// of what is drawn.
+    virtual double mean_height_m() const = 0;
+    virtual glm::vec3 mean_colour() const = 0;
+
+    /// Colour of a place on the map as the mean over about `footprint_m`, display values.
+    virtual glm::vec3 colour_at(double /*x_m*/, double /*y_m*/, double /*footprint_m*/) const {
+        return mean_colour();
+    }
+
+    /// Whether meshes of this ground are refined by what these settings say.
+    virtual bool is_meshed_as(const scene::GroundSettings& /*settings*/) const { return true; }
+
+    /// Whether it has the colours that these settings give it. Their palette is that of the ground:
+    /// where none is named, temperate.
+    virtual bool is_coloured_as(const scene::AirSettings& /*settings*/) const { return true; }
+
+    /// Whether loading the same heights by these settings would give this ground.
+    bool suits(const scene::GroundSettings& ground, const scene::AirSettings& air) const {
+        return is_meshed_as(ground) && is_coloured_as(air);
+    }
+
+    /// Ground of the same heights as these settings want it, made of what is in memory; null where
+    /// it must be loaded. Loading work.
+    virtual std::shared_ptr<const Ground>
+    remade(const scene::GroundSettings& /*ground*/, const scene::AirSettings& /*air*/) const {
+        return nullptr;
+    }
+
+    /// The meshes of one more view. The ground is_meshed_as() the settings say (asserted).
+    std::unique_ptr<GroundMesher> mesher(const MeshSettings& settings) const;
+
+protected:
+    Ground() = default;
+
+private:
+    virtual std::unique_ptr<GroundMesher> make_mesher(const MeshSettings& settings) const = 0;
+};
+
+/// The mesher by which a view goes on under other settings: `before` where it meshes this very
+/// ground or the same one in other colours, else a new one. As Ground::mesher.
+std::unique_ptr<GroundMesher> mesher_after(
+    std::unique_ptr<GroundMesher> before, const Ground& ground, const MeshSettings& settings);
+
+/// A height field under a quadtree whose triangle count is held. Takes the field over.
+std::shared_ptr<const Ground> ground_from_field(
+    models::heights::HeightField field,
+    const scene::GroundSettings& ground,
+    const scene::AirSettings& air);
+
+/// Ground under a mesh by screen-space error.
+std::shared_ptr<const Ground>
+ground_from_tiles(terrain::GroundTiles ground, const scene::AirSettings& air);
+
+/// Polygons painted in file order over a level datum. Body axes of the model: x north, y east, z
+/// down. Without polygons: nothing to see and a map of 2,000 km, for aircraft alone.
+std::shared_ptr<const Ground>
+ground_from_polygons(models::polygons::PolygonModel polygons, const scene::AirSettings& air);
+
+} // namespace octant::visuals::landscape

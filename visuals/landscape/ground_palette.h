@@ -1,0 +1,76 @@
+#pragma once
+
+#include "visuals/nature/climate.h"
+#include "visuals/nature/daylight.h"
+#include "visuals/nature/relief_light.h"
+#include "visuals/nature/scenery.h"
+#include "visuals/scene/settings.h"
+#include "visuals/terrain/ground_samples.h"
+
+#include <glm/vec3.hpp>
+
+#include <memory>
+#include <optional>
+
+namespace octant::visuals::landscape {
+
+/// Unit vector towards the sun, world axes. Azimuth clockwise from north.
+glm::vec3 direction_to_sun(const scene::AirSettings& settings);
+
+/// Colours of sky, haze and light under the settings' sun.
+nature::Daylight daylight_of(const scene::AirSettings& settings);
+
+/// Light on a surface: 1 would leave its colour as it is. Unit vector, world axes.
+glm::vec3 light_on(const glm::vec3& normal, const nature::Daylight& day);
+
+/// The shadows of the ground on itself under the settings' sun; null where they want none.
+std::shared_ptr<const nature::ReliefLight>
+relief_light(const terrain::GroundSamples& ground, const scene::AirSettings& settings);
+
+/// What grows at a place; of made ground where there is none.
+nature::Climate climate_at(const std::optional<models::heights::GeoPlace>& place);
+
+/// Whether ground has the same colours under both: its sun, water and palette.
+bool same_colours(const scene::AirSettings& a, const scene::AirSettings& b);
+
+/// A place on the ground.
+struct GroundPoint {
+    float east_m = 0.0F;   ///< of the field's south-west corner
+    float north_m = 0.0F;  ///< of the field's south-west corner
+    float height_m = 0.0F; ///< above datum
+    glm::vec3 normal{0.0F, 0.0F, 1.0F};
+};
+
+/// Which colour ground has by place, height and slope: the same everywhere and for every field.
+class GroundPalette {
+public:
+    /// Without `relief`, all light reaches every place.
+    explicit GroundPalette(
+        const scene::AirSettings& settings,
+        const nature::Climate& climate = {},
+        std::shared_ptr<const nature::ReliefLight> relief = nullptr);
+
+    /// Own colour, display values 0..1. Features smaller than `footprint_m` are seen as their mean:
+    /// the size of what one colour stands for, metres.
+    glm::vec3 own(const GroundPoint& point, float footprint_m) const;
+
+    /// The colour as own() gives it under the light that reaches the place, display values.
+    glm::vec3 lit(const GroundPoint& point, float footprint_m) const;
+
+    /// What stands at a place.
+    nature::Growth growth(const GroundPoint& point, float footprint_m) const;
+
+    /// Share of the whole light on a place that the relief leaves, for each part of the colour.
+    glm::vec3 light_left(const GroundPoint& point, float footprint_m) const;
+
+private:
+    bool is_water(const GroundPoint& point) const;
+    nature::LightLeft left_at(const GroundPoint& point, float footprint_m) const;
+
+    nature::Daylight daylight_;
+    nature::Climate climate_;
+    std::shared_ptr<const nature::ReliefLight> relief_;
+    float water_m_;
+};
+
+} // namespace octant::visuals::landscape

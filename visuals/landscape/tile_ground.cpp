@@ -1,0 +1,265 @@
+#include "sim/base/units.h"
+#include "visuals/landscape/ground.h"
+#include "visuals/landscape/ground_colours.h"
+#include "visuals/landscape/ground_mesher.h"
+#include "visuals/landscape/ground_palette.h"
+#include "visuals/landscape/vertex_colours.h"
+#include "visuals/landscape/worker.h"
+#include "visuals/nature/near_ground.h"
+#include "visuals/terrain/error_mesher.h"
+#include "visuals/terrain/ground_prefetcher.h"
+#include "visuals/terrain/ground_query.h"
+#include "visuals/terrain/ground_tiles.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace octant::visuals::landscape {
+
+namespace {
+
+constexpr double frames_ahead = 120.0;   ///< how far along the eye's way pages are asked for
+constexpr double least_error_px = 0.25;  ///< what is finer than this nobody sees
+constexpr double detail_below_m = 900.0; ///< height over the ground from where detail shows
+constexpr int most_detail = 8000;        ///< triangles of ground between samples and of scenery
+
+/// Tiles, in memory or mapped from a file, and the palette of their colours.
+class TileGround final : public Ground {
+public:
+    TileGround(std::shared_ptr<const terrain::GroundTiles> tiles, const scene::AirSettings& air)
+        : tiles_(std::move(tiles))
+        , air_(air)
+        , relief_(relief_light(terrain::GroundSamples(*tiles_), air))
+        , mean_colour_(VertexColours(*tiles_, air, relief_).mean()) {}
+
+    const terrain::GroundTiles& tiles() const { return *tiles_; }
+
+    const scene::AirSettings& air() const { return air_; }
+
+    const std::shared_ptr<const nature::ReliefLight>& relief() const { return relief_; }
+
+    std::optional<double> height_at(double x_m, double y_m) const override {
+        return tiles_->height_at(x_m, y_m);
+    }
+
+    double spacing_m() const override { return tiles_->spacing_m(); }
+
+    glm::dvec2 half_extent_m() const override { return tiles_->half_extent_m(); }
+
+    double mean_height_m() const override { return static_cast<double>(tiles_->facts().mean_m); }
+
+    glm::vec3 mean_colour() const override { return mean_colour_; }
+
+    glm::vec3 colour_at(double x_m, double y_m, double footprint_m) const override {
+        const terrain::GroundSamples samples(*tiles_);
+        const GroundPalette palette(air_, climate_at(tiles_->facts().place), relief_);
+        return nearest_colour(samples, palette, {x_m, y_m}, footprint_m);
+    }
+
+    bool is_meshed_as(const scene::GroundSettings& settings) const override {
+        return ground_metric(settings) == scene::GroundMetric::ScreenError;
+    }
+
+    bool is_coloured_as(const scene::AirSettings& settings) const override {
+        return same_colours(settings, air_);
+    }
+
+    std::shared_ptr<const Ground>
+    remade(const scene::GroundSettings& ground, const scene::AirSettings& air) const override {
+        return is_meshed_as(ground) ? std::make_shared<TileGround>(tiles_, air) : nullptr;
+    }
+
+private:
+    std::unique_ptr<GroundMesher> make_mesher(const MeshSettings& settings) const override;
+
+    std::shared_ptr<const terrain::GroundTiles> tiles_;
+    scene::AirSettings air_;
+    std::shared_ptr<const nature::ReliefLight> relief_;
+    glm::vec3 mean_colour_;
+};
+
+/// Meshes by screen-space error with geomorphs, made ahead on a thread where that is asked for.
+class TileMesher final : public GroundMesher {
+public:
+    TileMesher(std::shared_ptr<const TileGround> ground, const MeshSettings& settings)
+        : ground_(std::move(ground))
+        , mesher_(ground_->tiles())
+        , colours_(ground_->tiles(), ground_->air(), ground_->relief())
+        , near_(nature::Scenery(
+              -ground_->tiles().half_extent_m(),
+              {ground_->tiles().columns(), ground_->tiles().rows()},
+              ground_->tiles().spacing_m(),
+              [this](int column, int row) { return colours_.growth_of(column, row); }))
+        , prefetcher_(ground_->tiles()) {
+        near_.scenery().light_by(daylight_of(ground_->air()));
+        follow(settings);
+    }
+
+    const Ground& ground() const override { return *ground_; }
+
+    void follow(const MeshSettings& settings) override {
+        worker_.wait();
+        order_ = settings.nearest_first ? terrain::PaintOrder::FrontToBack
+                                        : terrain::PaintOrder::BackToFront;
+        picture_height_px_ = settings.picture_height_px;
+        target_.error_px = settings.ground.error_px.value_or(least_error_px);
+        target_.geomorphs = settings.ground.geomorphs;
+        detail_ = {settings.ground.near_detail, settings.ground.scenery};
+        is_coloured_ = false;
+        earth_radius_m_ = settings.ground.earth_curvature ? terrain::earth_radius_m : 0.0;
+    }
+
+    bool move_to(const std::shared_ptr<const Ground>& ground) override {
+        auto moved = std::dynamic_pointer_cast<const TileGround>(ground);
+        if (!moved || &moved->tiles() != &ground_->tiles()) {
+            return false;
+        }
+        worker_.wait();
+        ground_ = std::move(moved);
+        colours_.follow(ground_->air(), ground_->relief());
+        near_.scenery().forget();
+        near_.scenery().light_by(daylight_of(ground_->air()));
+        is_coloured_ = false;
+        return true;
+    }
+
+    double earth_radius_m() const override { return earth_radius_m_; }
+
+    /// A second mesh ahead would take the memory of the one that is being drawn.
+    void prepare(const GroundRequest& request) override {
+        worker_.wait();
+        if (std::exchange(is_ahead_, true)) {
+            return;
+        }
+        aim_at(request);
+        next_view_ = view_of(request);
+        worker_.begin([this] { make(next_view_); });
+    }
+
+    void wait() override { worker_.wait(); }
+
+    scene::TriangleDraw triangles(const GroundRequest& request, GroundCounts& counts) override {
+        is_ahead_ = false;
+        worker_.wait();
+        aim_at(request);
+        make(view_of(request));
+        const glm::dvec3& eye_m = request.camera.eye_m;
+        const glm::dvec3 way_m = eye_m - last_eye_m_.value_or(eye_m);
+        prefetcher_.go_to(glm::dvec2(eye_m + frames_ahead * way_m));
+        last_eye_m_ = eye_m;
+        counts = {
+            static_cast<int>(shown_.indices.size() / 3), mesh_.counters.fans, 0.0, mesh_.error_px};
+        return {shown_.vertices, shown_.indices};
+    }
+
+    void triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const override {
+        if (!has_detail()) {
+            mesher_.triangles_in(wanted, triangles);
+            return;
+        }
+        const std::size_t first = triangles.size();
+        const double moved_m = nature::FineGround::most_moved * ground_->spacing_m();
+        const glm::dvec3 below_m(0.0, 0.0, moved_m);
+        const glm::dvec3 above_m(0.0, 0.0, moved_m + nature::Scenery::highest_m);
+        mesher_.triangles_in(
+            [&](const glm::dvec3& least_m, const glm::dvec3& most_m) {
+                return wanted(least_m - below_m, most_m + above_m);
+            },
+            triangles);
+        near_.replace(triangles, first);
+    }
+
+private:
+    bool has_detail() const { return detail_.fine_ground || detail_.scenery; }
+
+    /// Of the triangles that are aimed at, detail gets up to two fifths where the eye is low.
+    void aim_at(const GroundRequest& request) {
+        const glm::dvec3& eye_m = request.camera.eye_m;
+        near_view_.eye_m = eye_m;
+        near_view_.spacing_m = ground_->spacing_m();
+        near_view_.order = order_;
+        std::ranges::transform(
+            frustum_normals(request.camera, request.aspect),
+            near_view_.frustum_normals.begin(),
+            [](const glm::dvec3& normal) { return glm::vec3(normal); });
+        const int triangles = request.triangle_target;
+        const bool unlimited = triangles >= scene::unlimited_triangles;
+        const double over_m = eye_m.z - ground_->height_at(eye_m.x, eye_m.y).value_or(0.0);
+        const double low = has_detail() ? std::clamp(1.2 - over_m / detail_below_m, 0.0, 1.0) : 0.0;
+        const int kept = static_cast<int>(low * std::min(most_detail, triangles * 2 / 5));
+        near_view_.most_splits = static_cast<std::size_t>(detail_.scenery ? kept * 3 / 5 : kept);
+        near_view_.most_things = static_cast<std::size_t>(kept) -
+                                 (detail_.fine_ground ? near_view_.most_splits : std::size_t{0});
+        target_.most_triangles = unlimited ? terrain::any_triangles : std::max(triangles - kept, 1);
+    }
+
+    /// Does nothing where this mesh is the last one.
+    void make(const terrain::MeshView& view) {
+        const terrain::GroundMesh mesh = mesher_.mesh(view, target_);
+        if (!is_coloured_ || mesh.vertices.data() != mesh_.vertices.data()) {
+            is_coloured_ = false;
+            colours_.fill(mesher_.vertices(), mesh.origins);
+            is_coloured_ = true;
+            mesher_.measure_boxes();
+            show(mesh);
+        }
+        mesh_ = mesh;
+    }
+
+    void show(const terrain::GroundMesh& mesh) {
+        shown_ = {mesh.vertices, mesh.indices};
+        if (has_detail()) {
+            shown_ = near_.made(mesh, near_view_, detail_);
+        }
+    }
+
+    terrain::MeshView view_of(const GroundRequest& request) const {
+        return {
+            .eye_m = request.camera.eye_m,
+            .frustum_normals = frustum_normals(request.camera, request.aspect),
+            .order = order_,
+            .focal_px = focal_px(request.camera, picture_height_px_),
+            .ahead = ahead_of(request.camera),
+            .corner_cos = corner_cos(request.camera, request.aspect),
+            .earth_radius_m = earth_radius_m_};
+    }
+
+    std::shared_ptr<const TileGround> ground_;
+    terrain::ErrorMesher mesher_;
+    VertexColours colours_;
+    nature::NearGround near_;
+    nature::NearDetail detail_;
+    nature::FineView near_view_;
+    nature::NearGround::Triangles shown_; ///< mesh_ with its detail
+    terrain::PaintOrder order_ = terrain::PaintOrder::BackToFront;
+    int picture_height_px_ = 0;
+    terrain::ErrorTarget target_;
+    double earth_radius_m_ = 0.0;
+    terrain::GroundMesh mesh_;
+    bool is_coloured_ = false;    ///< mesh_, in the ground's colours
+    terrain::MeshView next_view_; ///< of the mesh that is made ahead
+    bool is_ahead_ = false;       ///< a mesh has been begun that nobody has asked for yet
+    std::optional<glm::dvec3> last_eye_m_;
+    terrain::GroundPrefetcher prefetcher_;
+    Worker worker_; ///< goes first: it uses the others
+};
+
+std::unique_ptr<GroundMesher> TileGround::make_mesher(const MeshSettings& settings) const {
+    return std::make_unique<TileMesher>(
+        std::static_pointer_cast<const TileGround>(shared_from_this()), settings);
+}
+
+} // namespace
+
+std::shared_ptr<const Ground>
+ground_from_tiles(terrain::GroundTiles ground, const scene::AirSettings& air) {
+    return std::make_shared<TileGround>(
+        std::make_shared<const terrain::GroundTiles>(std::move(ground)), air);
+}
+
+} // namespace octant::visuals::landscape

@@ -1,0 +1,297 @@
+// The layout follows what fighters show (MIL-STD-1787B, "Aircraft display symbology"): speed left,
+// altitude right, heading above, a pitch ladder and a flight-path marker that lie on the world.
+// Deviations: true instead of calibrated airspeed; the air moves with the ground and has the
+// standard atmosphere's temperature above datum (ISO 2533, troposphere and tropopause); the height
+// above ground is that straight below the aircraft.
+
+#include "visuals/overlay/head_up_display.h"
+
+#include "sim/base/axes.h"
+#include "sim/base/units.h"
+#include "visuals/overlay/head_up_glass.h"
+#include "visuals/overlay/pitch_ladder.h"
+#include "visuals/overlay/stroke_letters.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <string_view>
+#include <utility>
+
+namespace octant::visuals::overlay {
+
+namespace {
+
+// Shares of the glass's unit, x to the right, y down from where the body's axis points.
+constexpr float box_letter = 0.026F;
+constexpr float small_letter = 0.021F;
+constexpr float tape_letter = 0.018F;
+constexpr float ladder_letter = 0.0175F;
+constexpr float box_side = 0.262F; ///< of the speed and altitude boxes towards the middle
+constexpr float tape_bottom = -0.345F;
+constexpr float tape_half = 0.17F;
+constexpr float tape_per_deg = 0.0085F;
+constexpr float tick = 0.011F;
+constexpr float long_tick = 0.018F;
+constexpr float marker_radius = 0.0115F;
+constexpr float marker_wing = 0.032F;
+constexpr float marker_tail = 0.024F;
+constexpr float line_width = 0.0025F;
+constexpr OverlayBox field{{-0.235F, -0.275F}, {0.235F, 0.33F}}; ///< of what lies on the world
+constexpr OverlayBox whole{{-0.46F, -0.42F}, {0.46F, 0.36F}};
+
+/// Room for letters that cannot be smaller in small pictures.
+constexpr glm::vec2 least_whole_px{110.0F, 68.0F};
+constexpr float least_letter_px = 7.0F; ///< a pixel for each step of the letters' grid, and one
+constexpr float least_line_px = 1.15F;
+constexpr glm::vec3 green{0.22F, 1.0F, 0.36F};
+constexpr std::uint32_t shade = 0xb0041c00U; ///< dark green, as ColourVertex::colour
+
+constexpr double slowest_marked_mps = 5.0; ///< below, no flight path is shown
+constexpr double surely_flying_mps = 20.0;
+constexpr double least_mach = 0.3;
+
+OverlayBox scaled(const OverlayBox& box, float unit_px) {
+    return {box.least * unit_px, box.most * unit_px};
+}
+
+OverlayBox whole_of(const HeadUpGlass& glass) {
+    const OverlayBox box = scaled(whole, glass.unit_px);
+    return {glm::min(box.least, -least_whole_px), glm::max(box.most, least_whole_px)};
+}
+
+/// A few letters on the stack.
+class Caption {
+public:
+    template <typename... Values>
+    explicit Caption(fmt::format_string<Values...> format, Values&&... values)
+        : size_(std::min(
+              fmt::format_to_n(
+                  letters_.data(), letters_.size(), format, std::forward<Values>(values)...)
+                  .size,
+              letters_.size())) {}
+
+    std::string_view text() const { return {letters_.data(), size_}; }
+
+private:
+    std::array<char, 16> letters_{};
+    std::size_t size_;
+};
+
+/// To whole numbers, of at most six digits.
+long rounded(double value, double step = 1.0) {
+    constexpr double most = 999999.0;
+    return std::lround(std::clamp(value, -most, most) / step) * std::lround(step);
+}
+
+double speed_of_sound_mps(double height_m) {
+    constexpr double sea_level_k = 288.15;
+    constexpr double lapse_k_per_m = 0.0065;
+    constexpr double tropopause_k = 216.65;
+    constexpr double heat_ratio_times_gas_constant = 1.4 * 287.05287;
+    const double temperature_k = std::max(sea_level_k - lapse_k_per_m * height_m, tropopause_k);
+    return std::sqrt(heat_ratio_times_gas_constant * temperature_k);
+}
+
+/// Draws one picture's signs.
+class Signs {
+public:
+    Signs(const HeadUpInputs& inputs, const HeadUpGlass& glass, OverlayCanvas& canvas)
+        : inputs_(inputs)
+        , glass_(glass)
+        , canvas_(canvas)
+        , unit_px_(glass.unit_px)
+        , flight_path_(inputs.state.velocity_mps) {}
+
+    void draw() {
+        canvas_.clip_to(scaled(field, unit_px_));
+        draw_pitch_ladder(glass_, ladder_anchor(), letter_px(ladder_letter), canvas_);
+        draw_flight_path_marker();
+        draw_axis_mark();
+        canvas_.clip_to(whole_of(glass_));
+        draw_left();
+        draw_right();
+        draw_heading();
+    }
+
+private:
+    float letter_px(float share) const { return std::max(share * unit_px_, least_letter_px); }
+
+    glm::dvec3 body_axis() const { return inputs_.state.body_to_world * glm::dvec3(1.0, 0.0, 0.0); }
+
+    /// Where the flight goes, held at the field's edge: the ladder stands around it, and before the
+    /// nose where the aircraft hardly moves or goes elsewhere.
+    glm::dvec3 ladder_anchor() const {
+        const double speed_mps = glm::length(flight_path_);
+        const double share = glm::smoothstep(slowest_marked_mps, surely_flying_mps, speed_mps);
+        const auto place = share > 0.0 ? glass_.place_of(flight_path_) : std::nullopt;
+        if (!place) {
+            return body_axis();
+        }
+        const OverlayBox box = scaled(field, unit_px_);
+        const glm::dvec3 seen = glass_.direction_to(glm::clamp(*place, box.least, box.most));
+        return glm::mix(body_axis(), glm::normalize(seen), share);
+    }
+
+    /// Crossed out where the flight goes beyond the field.
+    void draw_flight_path_marker() {
+        const auto place = glass_.place_of(flight_path_);
+        if (!place || glm::length(flight_path_) < slowest_marked_mps) {
+            return;
+        }
+        const OverlayBox box = scaled(field, unit_px_);
+        const float reach_px = marker_wing * unit_px_;
+        const glm::vec2 at = glm::clamp(*place, box.least + reach_px, box.most - reach_px);
+        const float radius = marker_radius * unit_px_;
+        const float tail = marker_tail * unit_px_;
+        canvas_.circle(at, radius);
+        canvas_.line(at - glm::vec2(reach_px, 0.0F), at - glm::vec2(radius, 0.0F));
+        canvas_.line(at + glm::vec2(radius, 0.0F), at + glm::vec2(reach_px, 0.0F));
+        canvas_.line(at - glm::vec2(0.0F, tail), at - glm::vec2(0.0F, radius));
+        if (at != *place) {
+            const glm::vec2 arm(0.9F * radius);
+            const glm::vec2 other_arm(arm.x, -arm.y);
+            canvas_.line(at - arm, at + arm);
+            canvas_.line(at - other_arm, at + other_arm);
+        }
+    }
+
+    /// The waterline mark: where the body's axis points.
+    void draw_axis_mark() {
+        constexpr float far = 0.03F;
+        constexpr float near = 0.015F;
+        constexpr float half = 0.0075F;
+        constexpr float low = 0.012F;
+        std::array<glm::vec2, 7> points{
+            {{-far, 0.0F},
+             {-near, 0.0F},
+             {-half, low},
+             {0.0F, 0.0F},
+             {half, low},
+             {near, 0.0F},
+             {far, 0.0F}}};
+        for (glm::vec2& point : points) {
+            point *= unit_px_;
+        }
+        canvas_.polyline(points);
+    }
+
+    /// A box with room for `letters` whose edge towards the middle is `side`, and what is in it.
+    void draw_boxed(float side, std::size_t letters, std::string_view number) {
+        const float height = letter_px(box_letter);
+        const float step = height / letter_height;
+        const float pad = 0.45F * height;
+        const float outward = side < 0.0F ? -1.0F : 1.0F;
+        const float inner = side * unit_px_;
+        const float width = step * static_cast<float>(text_width(letters)) + 2.0F * pad;
+        const float outer = inner + outward * width;
+        const float half = 0.5F * height + pad;
+        canvas_.box({{std::min(inner, outer), -half}, {std::max(inner, outer), half}});
+        canvas_.line({inner - outward * 1.3F * pad, 0.0F}, {inner, 0.0F});
+        canvas_.text({{std::max(inner, outer) - pad, 0.0F}, height, 1.0F}, number);
+    }
+
+    /// The middle of row `row` above (-) or below (+) the boxes.
+    float row_y(int row) const {
+        const float gap = 0.95F * letter_px(box_letter) + 0.95F * letter_px(small_letter);
+        const float line = 1.65F * letter_px(small_letter);
+        const auto beyond = static_cast<float>(std::abs(row) - 1);
+        return (row < 0 ? -1.0F : 1.0F) * (gap + beyond * line);
+    }
+
+    void draw_row(int row, float side, std::string_view text) {
+        const float share_before = side < 0.0F ? 1.0F : 0.0F;
+        canvas_.text({{side * unit_px_, row_y(row)}, letter_px(small_letter), share_before}, text);
+    }
+
+    void draw_left() {
+        const double speed_mps = glm::length(inputs_.state.velocity_mps);
+        draw_boxed(-box_side, 4, Caption("{}", rounded(kt_from_mps(speed_mps))).text());
+        draw_row(1, -box_side, Caption("G {:4.1f}", inputs_.state.load_factor).text());
+        const double mach = speed_mps / speed_of_sound_mps(inputs_.height_m);
+        if (mach >= least_mach) {
+            draw_row(2, -box_side, Caption("M {:4.2f}", mach).text());
+        }
+    }
+
+    void draw_right() {
+        constexpr double step_ft = 10.0;
+        const double climb_mps = inputs_.state.velocity_mps.z;
+        draw_boxed(
+            box_side, 5, Caption("{}", rounded(ft_from_m(inputs_.height_m), step_ft)).text());
+        const long climb_fpm = rounded(60.0 * ft_from_m(climb_mps), step_ft);
+        draw_row(-1, box_side, Caption("VS {:+}", climb_fpm).text());
+        if (inputs_.height_above_ground_m) {
+            const double height_ft = ft_from_m(*inputs_.height_above_ground_m);
+            draw_row(1, box_side, Caption("R {}", rounded(height_ft)).text());
+        }
+    }
+
+    void draw_heading() {
+        const double heading_deg =
+            deg_from_rad(euler_from_body_to_world(inputs_.state.body_to_world).heading_rad);
+        draw_tape(heading_deg);
+        const float bottom = tape_bottom * unit_px_;
+        const float caret = 0.008F * unit_px_;
+        const float tip = bottom + 0.5F * caret;
+        canvas_.polyline(std::array{
+            glm::vec2(-caret, tip + 1.6F * caret),
+            glm::vec2(0.0F, tip),
+            glm::vec2(caret, tip + 1.6F * caret)});
+        const float height = letter_px(small_letter);
+        const long shown = rounded(heading_deg) % 360;
+        canvas_.text(
+            {{0.0F, tip + 2.2F * caret + 0.5F * height}, height, 0.5F},
+            Caption("{:03}", shown).text());
+    }
+
+    /// A tick each 5 degrees, longer each 10, and numbers as close as they fit.
+    void draw_tape(double heading_deg) {
+        const float per_deg = tape_per_deg * unit_px_;
+        const float bottom = tape_bottom * unit_px_;
+        const float height = letter_px(tape_letter);
+        const float number_px = height / letter_height * static_cast<float>(text_width(3));
+        const int number_deg = 10.0F * per_deg > 1.3F * number_px ? 10 : 30;
+        const double half_deg = static_cast<double>(tape_half / tape_per_deg);
+        const auto first = static_cast<int>(std::ceil((heading_deg - half_deg) / 5.0));
+        const auto last = static_cast<int>(std::floor((heading_deg + half_deg) / 5.0));
+        for (int fifth = first; fifth <= last; ++fifth) {
+            const int deg = 5 * fifth;
+            const float x = static_cast<float>(deg - heading_deg) * per_deg;
+            const float top = bottom - (deg % 10 == 0 ? long_tick : tick) * unit_px_;
+            canvas_.line({x, bottom}, {x, top});
+            if (deg % number_deg == 0) {
+                const int shown = (deg + 720) % 360;
+                canvas_.text(
+                    {{x, bottom - long_tick * unit_px_ - 0.95F * height}, height, 0.5F},
+                    Caption("{:03}", shown).text());
+            }
+        }
+    }
+
+    const HeadUpInputs& inputs_;
+    const HeadUpGlass& glass_;
+    OverlayCanvas& canvas_;
+    float unit_px_;
+    glm::dvec3 flight_path_;
+};
+
+} // namespace
+
+scene::OverlayDraw HeadUpDisplay::draw(
+    const HeadUpInputs& inputs, const scene::Camera& camera, const glm::ivec2& size_px) {
+    const HeadUpGlass glass = head_up_glass(inputs.state, camera, size_px);
+    if (!glass.shows(whole_of(glass), size_px)) {
+        return {};
+    }
+    const float width_px = std::max(line_width * glass.unit_px, least_line_px);
+    canvas_.begin(glass.to_picture, {width_px, 1.4F, models::packed_colour(green), shade});
+    Signs(inputs, glass, canvas_).draw();
+    return canvas_.finish();
+}
+
+} // namespace octant::visuals::overlay

@@ -1,0 +1,100 @@
+#pragma once
+
+#include "visuals/scene/frame_plan.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace octant::visuals::overlay {
+
+/// An upright rectangle.
+struct OverlayBox {
+    glm::vec2 least{0.0F};
+    glm::vec2 most{0.0F};
+
+    bool holds(const glm::vec2& at) const {
+        return at.x >= least.x && at.y >= least.y && at.x <= most.x && at.y <= most.y;
+    }
+};
+
+/// What lines are drawn with: a core with soft edges over a wider shade that sets it off from what
+/// is behind it.
+struct OverlayPen {
+    float width_px = 1.5F;
+    float shade_px = 1.5F; ///< how much farther than the core the shade reaches
+    std::uint32_t colour = 0;
+    std::uint32_t shade = 0;
+};
+
+/// Where a text goes. `height` is that of a capital.
+struct TextPlace {
+    glm::vec2 at{0.0F};
+    float height = 10.0F;
+    float share_before = 0.0F;   ///< of the text's width that lies before `at`: 0.5 = centred
+    glm::vec2 along{1.0F, 0.0F}; ///< unit vector to the right of the text
+};
+
+/// Collects lines and letters as the triangles of an OverlayDraw: shades, then lines, then letters.
+/// One draws on a plane, x to the right and y down, that is then seen in the picture.
+class OverlayCanvas {
+public:
+    /// Empties the canvas. (x, y, 1) of the plane times `to_picture`, divided by its last part,
+    /// which must be positive wherever something is drawn, is a place in the picture in pixels.
+    void begin(const glm::mat3& to_picture, const OverlayPen& pen);
+
+    /// Cuts what is drawn from here on at the edges of a box of the plane.
+    void clip_to(const OverlayBox& box) { clip_ = box; }
+
+    /// Lines from each point to the next, joined.
+    void polyline(std::span<const glm::vec2> points);
+
+    void line(const glm::vec2& from, const glm::vec2& to) { polyline(std::array{from, to}); }
+
+    void box(const OverlayBox& box);
+    void circle(const glm::vec2& centre, float radius);
+
+    /// Nothing unless all of it lies in the clip box: half a letter cannot be read.
+    void text(const TextPlace& place, std::string_view text);
+
+    /// Valid until the next begin(). No allocation once warmed up.
+    scene::OverlayDraw finish();
+
+private:
+    /// What a line is across, at most four points from left to right, and all strips of that kind.
+    struct Strips {
+        struct Point {
+            float at_px = 0.0F;
+            std::uint32_t colour = 0;
+        };
+
+        std::array<Point, 4> points{};
+        std::size_t count = 0;
+        float beyond_ends_px = 0.0F; ///< of a line
+        std::vector<std::uint32_t> indices;
+    };
+
+    void cut_line(const glm::vec2& from, const glm::vec2& to);
+    void add_to_run(const glm::vec2& at);
+    void end_run();
+    void stroke(Strips& strips);
+    void add_row(const Strips& strips, const glm::vec2& at, const glm::vec2& side);
+    void join_last_rows(Strips& strips);
+
+    glm::mat3 to_picture_{1.0F};
+    Strips shade_;
+    Strips lines_;
+    Strips letters_;
+    bool writing_ = false; ///< what is drawn is letters
+    OverlayBox clip_;
+    std::vector<glm::vec2> run_; ///< of the plane's lines within the clip box, in the picture
+    std::vector<scene::OverlayVertex> vertices_;
+};
+
+} // namespace octant::visuals::overlay

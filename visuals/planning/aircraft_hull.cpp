@@ -1,0 +1,235 @@
+#include "visuals/planning/aircraft_hull.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace octant::visuals::planning {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+void widen(HullExtent& extent, const glm::dvec3& least_m, const glm::dvec3& most_m) {
+    extent.least_m = glm::min(extent.least_m, least_m);
+    extent.most_m = glm::max(extent.most_m, most_m);
+}
+
+/// Corners of the circle that a point runs about the axis of a pivot.
+void widen_by_circle(
+    HullExtent& extent, const models::polygons::Pivot& pivot, const glm::dvec3& point_m) {
+    const glm::dvec3 arm_m = point_m - pivot.point_m;
+    const glm::dvec3 along_m = pivot.axis * glm::dot(arm_m, pivot.axis);
+    const double radius_m = glm::length(arm_m - along_m);
+    const glm::dvec3 reach_m =
+        radius_m * glm::sqrt(glm::max(1.0 - pivot.axis * pivot.axis, glm::dvec3(0.0)));
+    const glm::dvec3 centre_m = pivot.point_m + along_m;
+    widen(extent, centre_m - reach_m, centre_m + reach_m);
+}
+
+glm::dvec3 signs_of(int corner) {
+    return {
+        (corner & 1) != 0 ? 1.0 : -1.0,
+        (corner & 2) != 0 ? 1.0 : -1.0,
+        (corner & 4) != 0 ? 1.0 : -1.0};
+}
+
+/// Calls edge(corner, other corner) for each edge of the outline between the sides of which
+/// `seen` says yes and those of which it says no.
+template <class Seen, class Edge>
+void for_each_outline_edge(const Seen& seen, const Edge& edge) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const int u = (axis + 1) % 3;
+        const int v = (axis + 2) % 3;
+        for (int which = 0; which < 4; ++which) {
+            const int u_most = which & 1;
+            const int v_most = which >> 1;
+            if (seen(2 * u + u_most) != seen(2 * v + v_most)) {
+                const int corner = (u_most << u) | (v_most << v);
+                edge(
+                    static_cast<std::size_t>(corner), static_cast<std::size_t>(corner | 1 << axis));
+            }
+        }
+    }
+}
+
+/// Half the length of a box's shadow on a unit axis.
+double reach_m(const HullBox& box, const glm::dvec3& axis) {
+    return glm::dot(box.half_m, glm::abs(axis * box.axes));
+}
+
+/// Takes out of `pair` what a plane across `axis` between the boxes forbids.
+void forbid_across(HidingPair& pair, const HullBox& a, const HullBox& b, const glm::dvec3& axis) {
+    const double size = glm::length(axis);
+    if (size < 1e-6) {
+        return; // of two edges that run alike; other axes serve
+    }
+    const glm::dvec3 unit = axis / size;
+    const double a_m = glm::dot(unit, a.centre_m);
+    const double b_m = glm::dot(unit, b.centre_m);
+    const double a_reach_m = reach_m(a, unit);
+    const double b_reach_m = reach_m(b, unit);
+    if (std::abs(b_m - a_m) <= a_reach_m + b_reach_m) {
+        return;
+    }
+    pair.meet = false;
+    const double up = b_m > a_m ? 1.0 : -1.0;
+    // Along up * unit: a, then b, the eye at zero. An eye below the beginning of b cannot have a
+    // hidden by b.
+    pair.b_hides_a = pair.b_hides_a && up * b_m - b_reach_m < 0.0;
+    pair.a_hides_b = pair.a_hides_b && up * a_m + a_reach_m > 0.0;
+}
+
+bool apart_on_screen(const SightCone& cone, const std::array<glm::dvec3, 8>& corners_m) {
+    return std::ranges::any_of(cone.planes(), [&](const glm::dvec3& normal) {
+        return std::ranges::all_of(corners_m, [&](const glm::dvec3& corner_m) {
+            return glm::dot(normal, corner_m) <= 0.0;
+        });
+    });
+}
+
+} // namespace
+
+HullExtent hull_extent(const models::polygons::PolygonModel& model) {
+    HullExtent extent{glm::dvec3(infinite), glm::dvec3(-infinite)};
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        const std::optional<std::uint32_t> pivot = models::polygons::pivot_of(model, i);
+        for (const std::uint32_t vertex : model.corners(i)) {
+            const glm::dvec3& point_m = model.vertices_m[vertex];
+            widen(extent, point_m, point_m);
+            if (pivot) {
+                widen_by_circle(extent, model.pivots[*pivot], point_m);
+            }
+        }
+    }
+    return model.polygons.empty() ? HullExtent{} : extent;
+}
+
+HullBox placed_hull(
+    const HullExtent& extent,
+    const glm::dvec3& position_m,
+    const glm::dquat& body_to_world,
+    double margin_m) {
+    return {
+        position_m + body_to_world * (0.5 * (extent.least_m + extent.most_m)),
+        glm::mat3_cast(body_to_world),
+        0.5 * (extent.most_m - extent.least_m) + margin_m};
+}
+
+std::array<glm::dvec3, 8> corners_of(const HullBox& box) {
+    std::array<glm::dvec3, 8> corners_m;
+    for (int corner = 0; corner < 8; ++corner) {
+        corners_m[static_cast<std::size_t>(corner)] =
+            box.centre_m + box.axes * (box.half_m * signs_of(corner));
+    }
+    return corners_m;
+}
+
+HullExtent world_extent(const HullBox& box) {
+    glm::dvec3 reach(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        reach += glm::abs(box.axes[axis]) * box.half_m[axis];
+    }
+    return {box.centre_m - reach, box.centre_m + reach};
+}
+
+HullBox box_between(const HullExtent& extent) {
+    return {
+        0.5 * (extent.least_m + extent.most_m),
+        glm::dmat3(1.0),
+        0.5 * (extent.most_m - extent.least_m)};
+}
+
+double radius_m(const HullBox& box) {
+    return glm::length(box.half_m);
+}
+
+Plane side_of(const HullBox& box, int side) {
+    const int axis = side / 2;
+    const glm::dvec3 normal = box.axes[axis] * (side % 2 == 1 ? 1.0 : -1.0);
+    return {normal, -glm::dot(normal, box.centre_m) - box.half_m[axis]};
+}
+
+void cut_to_inside(SightPolygon& polygon, const HullBox& box, SightPolygon& scratch) {
+    for (int side = 0; side < 6 && !polygon.empty(); ++side) {
+        const Plane plane = side_of(box, side);
+        cut_to_front(polygon, {-plane.normal, -plane.offset_m}, 0.0, scratch);
+    }
+}
+
+bool holds_eye(const HullBox& box) {
+    return glm::all(glm::lessThanEqual(glm::abs(box.centre_m * box.axes), box.half_m));
+}
+
+SightCone cone_of(const HullBox& box) {
+    const std::array<glm::dvec3, 8> corners_m = corners_of(box);
+    SightCone cone;
+    for_each_outline_edge(
+        [&](int side) { return side_of(box, side).offset_m > 0.0; },
+        [&](std::size_t from, std::size_t to) {
+            const glm::dvec3 across = glm::cross(corners_m[from], corners_m[to]);
+            const double size = glm::length(across);
+            if (size > 0.0 && cone.count < 6) {
+                const double inward = glm::dot(across, box.centre_m) < 0.0 ? -1.0 : 1.0;
+                cone.normals[static_cast<std::size_t>(cone.count++)] = across * (inward / size);
+            }
+        });
+    return cone;
+}
+
+LightPrism prism_of(const HullBox& box, const glm::dvec3& from) {
+    const std::array<glm::dvec3, 8> corners_m = corners_of(box);
+    LightPrism prism;
+    for_each_outline_edge(
+        [&](int side) { return glm::dot(side_of(box, side).normal, from) > 0.0; },
+        [&](std::size_t first, std::size_t second) {
+            const glm::dvec3 across = glm::cross(corners_m[second] - corners_m[first], from);
+            const double size = glm::length(across);
+            if (size > 0.0 && prism.count < 6) {
+                const double inward =
+                    glm::dot(across, box.centre_m - corners_m[first]) < 0.0 ? -1.0 : 1.0;
+                const glm::dvec3 normal = across * (inward / size);
+                prism.planes[static_cast<std::size_t>(prism.count++)] = {
+                    normal, -glm::dot(normal, corners_m[first])};
+            }
+        });
+    return prism;
+}
+
+double entry_of(const HullBox& box, const glm::dvec3& ray) {
+    const glm::dvec3 along = ray * box.axes;
+    const glm::dvec3 eye_m = -(box.centre_m * box.axes);
+    double entry = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (along[axis] != 0.0) {
+            const double near_side_m = along[axis] > 0.0 ? -box.half_m[axis] : box.half_m[axis];
+            entry = std::max(entry, (near_side_m - eye_m[axis]) / along[axis]);
+        }
+    }
+    return entry;
+}
+
+HidingPair hiding_pair(const HullBox& a, const HullBox& b) {
+    HidingPair pair{true, true, true};
+    for (int i = 0; i < 3; ++i) {
+        forbid_across(pair, a, b, a.axes[i]);
+        forbid_across(pair, a, b, b.axes[i]);
+        for (int k = 0; k < 3; ++k) {
+            forbid_across(pair, a, b, glm::cross(a.axes[i], b.axes[k]));
+        }
+    }
+    if (!pair.meet && (pair.a_hides_b || pair.b_hides_a) && !holds_eye(a) && !holds_eye(b) &&
+        (apart_on_screen(cone_of(a), corners_of(b)) ||
+         apart_on_screen(cone_of(b), corners_of(a)))) {
+        pair.a_hides_b = false;
+        pair.b_hides_a = false;
+    }
+    return pair;
+}
+
+} // namespace octant::visuals::planning

@@ -1,0 +1,95 @@
+#pragma once
+
+#include "models/polygons/polygon_model.h"
+#include "sim/base/plane.h"
+#include "visuals/planning/sight.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <span>
+
+namespace octant::visuals::planning {
+
+/// Corners of the smallest body-axes box that holds a model however its pivots have turned.
+struct HullExtent {
+    glm::dvec3 least_m{0.0};
+    glm::dvec3 most_m{0.0};
+};
+
+/// Loading work.
+HullExtent hull_extent(const models::polygons::PolygonModel& model);
+
+/// A box that stands in for one aircraft, or for several: world axes with the eye at the origin.
+struct HullBox {
+    glm::dvec3 centre_m{0.0};
+    glm::dmat3 axes{1.0}; ///< columns: unit vectors along the edges
+    glm::dvec3 half_m{0.0};
+};
+
+/// The hull of an aircraft at `position_m` (eye at the origin), wider by `margin_m` on all sides.
+HullBox placed_hull(
+    const HullExtent& extent,
+    const glm::dvec3& position_m,
+    const glm::dquat& body_to_world,
+    double margin_m);
+
+std::array<glm::dvec3, 8> corners_of(const HullBox& box);
+
+/// Corners of the smallest box along the world's axes that holds the box.
+HullExtent world_extent(const HullBox& box);
+
+/// The box along the world's axes between two corners.
+HullBox box_between(const HullExtent& extent);
+
+/// Radius of the sphere around the centre through the corners, metres.
+double radius_m(const HullBox& box);
+
+/// Plane of side 0 .. 5 of a box, its front outside.
+Plane side_of(const HullBox& box, int side);
+
+/// Cuts a convex polygon down to the inside of a box.
+void cut_to_inside(SightPolygon& polygon, const HullBox& box, SightPolygon& scratch);
+
+/// True for an eye inside the box or on it.
+bool holds_eye(const HullBox& box);
+
+/// The planes through the eye and the outline of a box as the eye sees it, unit normals pointing
+/// inside. The box, and what it holds, lies in front of all of them.
+struct SightCone {
+    std::array<glm::dvec3, 6> normals{};
+    int count = 0;
+
+    std::span<const glm::dvec3> planes() const {
+        return std::span(normals).first(static_cast<std::size_t>(count));
+    }
+};
+
+/// Seen from an eye outside the box.
+SightCone cone_of(const HullBox& box);
+
+/// The same for light that comes from the unit vector `from`: planes along the light, unit normals
+/// pointing inside, with the box in front of all of them.
+struct LightPrism {
+    std::array<Plane, 6> planes{};
+    int count = 0;
+};
+
+LightPrism prism_of(const HullBox& box, const glm::dvec3& from);
+
+/// Multiple of `ray` (from the eye, into the box's cone) at which it enters the box.
+double entry_of(const HullBox& box, const glm::dvec3& ray);
+
+/// Which of two boxes can hide part of the other from the eye; for boxes that do not meet at most
+/// one can.
+struct HidingPair {
+    bool meet = false;
+    bool a_hides_b = false;
+    bool b_hides_a = false;
+};
+
+HidingPair hiding_pair(const HullBox& a, const HullBox& b);
+
+} // namespace octant::visuals::planning

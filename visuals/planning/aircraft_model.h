@@ -1,0 +1,77 @@
+#pragma once
+
+#include "models/polygons/polygon_model.h"
+#include "visuals/draworder/draw_order.h"
+#include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/mesh_levels.h"
+#include "visuals/refine/progressive_mesh.h"
+#include "visuals/scene/camera_rig.h"
+#include "visuals/scene/frame_plan.h"
+#include "visuals/scene/index_range.h"
+#include "visuals/shading/shaded_polygons.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::planning {
+
+/// A model as drawn. As polygons: one vertex a polygon corner, in the order of
+/// PolygonModel::corner_vertices; one index buffer that holds the polygons of the order's flat list
+/// and, behind them, all polygons in file order. As meshes, where it has levels of detail: behind
+/// both.
+struct AircraftModel {
+    models::polygons::PolygonModel polygons;
+    draworder::DrawOrder order;
+    scene::ModelBuffers buffers;
+    /// Where each polygon of order.polygons() begins in the index buffer, and the last one ends.
+    std::vector<std::uint32_t> first_indices;
+    scene::IndexRange file_order;
+    std::vector<std::uint32_t> file_list; ///< 0, 1, 2, ...: what file_order draws
+    HullExtent hull;                      ///< of polygons and meshes
+    scene::Subject subject;
+    shading::ShadedPolygons shaded; ///< the polygons
+    std::vector<MeshLevel> levels;  ///< finest first; often none
+    /// In place of levels: a mesh that is refined in each frame. Body axes.
+    std::shared_ptr<const refine::ProgressiveMesh> progressive;
+    /// Of each representation: the levels or the progressive mesh, then the polygons.
+    std::vector<double> errors_m;
+
+    /// Number of the representation by polygons.
+    std::size_t as_polygons() const { return errors_m.size() - 1; }
+
+    /// Of a level or of the polygons.
+    const shading::ShadedPolygons& shaded_as(std::size_t representation) const {
+        return representation < levels.size() ? levels[representation].shaded : shaded;
+    }
+};
+
+/// The part of a model's index buffer that holds a range of its order.
+scene::IndexRange index_range(const AircraftModel& model, const draworder::DrawOrder::Range& range);
+
+/// Makes a model ready to be drawn. `pilot_eye_m`: body axes. `normals`: one a corner, for smooth
+/// shading; empty = made here by crease angle, for polygons that are whole. Loading work.
+AircraftModel aircraft_model(
+    models::polygons::PolygonModel polygons,
+    draworder::DrawOrder order,
+    const glm::dvec3& pilot_eye_m,
+    std::vector<glm::vec3> normals = {});
+
+/// Gives a model levels of detail, finest first, of which its polygons are the last one, wrong by
+/// `polygons_error_m`. Errors must not fall (asserted). Loading work.
+void add_levels(AircraftModel& model, std::span<const MeshSource> sources, double polygons_error_m);
+
+/// Gives a model a mesh that is refined in each frame; far away, where `polygons_error_m` is
+/// little, it is drawn as its polygons. Loading work.
+void add_progressive(
+    AircraftModel& model,
+    std::shared_ptr<const refine::ProgressiveMesh> mesh,
+    double polygons_error_m);
+
+/// Where a pilot's eye may be in an aircraft of which only the shape is known, body axes: a quarter
+/// of the length behind the nose at the height of the top.
+glm::dvec3 pilot_eye_m(const models::polygons::PolygonModel& model);
+
+} // namespace octant::visuals::planning

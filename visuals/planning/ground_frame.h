@@ -1,0 +1,32 @@
+#pragma once
+
+#include "visuals/planning/sight.h"
+#include "visuals/scene/frame_plan.h"
+
+#include <cstdint>
+#include <span>
+
+namespace octant::visuals::planning {
+
+/// Indices of one triangle's shadow pieces, numbered as FramePlan::repaint_indices are.
+struct ShadowPieces {
+    std::uint32_t triangle = 0; ///< number in Ground::triangles
+    std::uint32_t first = 0;    ///< place of the first index among the pieces' indices
+    std::uint32_t count = 0;
+};
+
+/// The ground of one frame before facing, with the shadows on it.
+struct GroundFrame {
+    scene::TriangleDraw all;               ///< Ground::triangles, in painting order
+    std::span<const ShadowPieces> shadows; ///< ascending
+    std::span<const std::uint32_t> shadow_indices;
+};
+
+/// The shadow pieces on a triangle.
+std::span<const ShadowPieces> shadows_on(const GroundFrame& ground, std::uint32_t triangle);
+
+/// Three corners of a triangle of the ground.
+void place_triangle(
+    const scene::TriangleDraw& ground, std::uint32_t triangle, SightPolygon& placed);
+
+} // namespace octant::visuals::planning

@@ -1,0 +1,136 @@
+#include "visuals/planning/ground_in_front.h"
+
+#include "visuals/planning/ground_frame.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace octant::visuals::planning {
+
+namespace {
+
+/// Adds the plane through the eye that leans on the box from below and runs level across the line
+/// of sight: what lies under it hides nothing. None when the box reaches over the eye's place.
+void add_lowest_sight_plane(ConvexRoom& room, const HullBox& box) {
+    const double level_m = std::hypot(box.centre_m.x, box.centre_m.y);
+    if (level_m <= 0.0) {
+        return;
+    }
+    const glm::dvec3 ahead(box.centre_m.x / level_m, box.centre_m.y / level_m, 0.0);
+    double least_slope = std::numeric_limits<double>::infinity();
+    for (const glm::dvec3& corner_m : corners_of(box)) {
+        const double along_m = glm::dot(corner_m, ahead);
+        if (along_m <= 0.0) {
+            return;
+        }
+        least_slope = std::min(least_slope, corner_m.z / along_m);
+    }
+    room.add({glm::normalize(glm::dvec3(0.0, 0.0, 1.0) - ahead * least_slope), 0.0});
+}
+
+} // namespace
+
+bool may_meet(const ConvexRoom& room, const glm::dvec3& least_m, const glm::dvec3& most_m) {
+    if (glm::any(glm::lessThan(most_m, room.extent.least_m)) ||
+        glm::any(glm::greaterThan(least_m, room.extent.most_m))) {
+        return false;
+    }
+    for (int i = 0; i < room.count; ++i) {
+        const Plane& plane = room.planes[static_cast<std::size_t>(i)];
+        const glm::dvec3 foremost_m(
+            plane.normal.x > 0.0 ? most_m.x : least_m.x,
+            plane.normal.y > 0.0 ? most_m.y : least_m.y,
+            plane.normal.z > 0.0 ? most_m.z : least_m.z);
+        if (distance_m(plane, foremost_m) < 0.0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+ConvexRoom sight_lines_to(const HullBox& box) {
+    ConvexRoom room;
+    room.extent = world_extent(box);
+    room.extent.least_m = glm::min(room.extent.least_m, glm::dvec3(0.0));
+    room.extent.most_m = glm::max(room.extent.most_m, glm::dvec3(0.0));
+    add_lowest_sight_plane(room, box);
+    if (!holds_eye(box)) {
+        const SightCone cone = cone_of(box);
+        for (const glm::dvec3& normal : cone.planes()) {
+            room.add({normal, 0.0});
+        }
+    }
+    for (int side = 0; side < 6; ++side) {
+        const Plane plane = side_of(box, side);
+        if (plane.offset_m <= 0.0) { // behind the box
+            room.add({-plane.normal, -plane.offset_m});
+        }
+    }
+    return room;
+}
+
+void GroundInFront::find(
+    const HullBox& box,
+    const landscape::GroundMesher& ground,
+    const scene::TriangleDraw& triangles,
+    const glm::dvec3& eye_m) {
+    candidates_.clear();
+    found_.clear();
+    meeting_.clear();
+    const ConvexRoom room = sight_lines_to(box);
+
+    struct Look {
+        const ConvexRoom& room;
+        const glm::dvec3& eye_m;
+    } const look{room, eye_m};
+
+    ground.triangles_in(
+        [&look](const glm::dvec3& least_m, const glm::dvec3& most_m) {
+            return may_meet(look.room, least_m - look.eye_m, most_m - look.eye_m);
+        },
+        candidates_);
+    if (candidates_.empty()) {
+        return;
+    }
+    const SightCone cone = holds_eye(box) ? SightCone{} : cone_of(box);
+    for (const std::uint32_t candidate : candidates_) {
+        place_triangle(triangles, candidate, triangle_);
+        const glm::dvec3& a = triangle_[0].at_m;
+        const glm::dvec3& b = triangle_[1].at_m;
+        const glm::dvec3& c = triangle_[2].at_m;
+        if (glm::dot(glm::cross(b - a, c - a), a) >= 0.0 ||
+            !may_meet(room, glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c))) {
+            continue;
+        }
+        const Place place = place_of(box, cone.planes());
+        if (place != Place::Elsewhere) {
+            found_.push_back({candidate, place == Place::Meets});
+        }
+        if (place == Place::Meets) {
+            meeting_.push_back(candidate);
+        }
+    }
+}
+
+GroundInFront::Place GroundInFront::place_of(const HullBox& box, std::span<const glm::dvec3> cone) {
+    part_ = triangle_;
+    cut_to_inside(part_, box, scratch_);
+    if (!part_.empty()) {
+        return Place::Meets;
+    }
+    if (cone.empty()) {
+        return Place::Elsewhere; // beyond a box that is all around the eye
+    }
+    part_ = triangle_;
+    cut_to_cone(part_, cone, scratch_);
+    if (solid_angle_sr(part_) < least_solid_angle_sr) {
+        return Place::Elsewhere;
+    }
+    return entry_of(box, middle_of(part_)) > 1.0 ? Place::Before : Place::Elsewhere;
+}
+
+} // namespace octant::visuals::planning

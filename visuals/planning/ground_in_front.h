@@ -1,0 +1,70 @@
+#pragma once
+
+#include "visuals/landscape/ground_mesher.h"
+#include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/sight.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::planning {
+
+/// Convex set of points: the common front of some planes and the inside of a box along the world's
+/// axes. World axes with the eye at the origin.
+struct ConvexRoom {
+    HullExtent extent;
+    std::array<Plane, 14> planes{};
+    int count = 0;
+
+    void add(const Plane& plane) { planes[static_cast<std::size_t>(count++)] = plane; }
+};
+
+/// False only when the room holds no point of the box between two corners.
+bool may_meet(const ConvexRoom& room, const glm::dvec3& least_m, const glm::dvec3& most_m);
+
+/// A room that holds all sight lines from the eye to points of a box.
+ConvexRoom sight_lines_to(const HullBox& box);
+
+/// A triangle of the ground that hides part of a box or meets it.
+struct NearTriangle {
+    std::uint32_t triangle = 0; ///< number in GroundMesher::triangles
+    bool meets = false;         ///< it may lie before, inside and behind the box
+};
+
+/// Finds the triangles of the ground that hide part of a box or meet it. Keeps its memory.
+///
+/// A triangle and a box that do not meet are parted by a plane, and the eye stands on one side of
+/// it: wherever the eye sees both, the same one is nearer. So one sight line through both decides.
+class GroundInFront {
+public:
+    /// Looks at those of the mesher's last triangles() that face the eye. `eye_m`: world.
+    void find(
+        const HullBox& box,
+        const landscape::GroundMesher& ground,
+        const scene::TriangleDraw& triangles,
+        const glm::dvec3& eye_m);
+
+    /// In the ground's painting order.
+    std::span<const NearTriangle> found() const { return found_; }
+
+    /// Those of them that meet the box.
+    std::span<const std::uint32_t> meeting() const { return meeting_; }
+
+private:
+    enum class Place { Elsewhere, Before, Meets };
+
+    Place place_of(const HullBox& box, std::span<const glm::dvec3> cone);
+
+    std::vector<std::uint32_t> candidates_;
+    std::vector<NearTriangle> found_;
+    std::vector<std::uint32_t> meeting_;
+    SightPolygon triangle_;
+    SightPolygon part_;
+    SightPolygon scratch_;
+};
+
+} // namespace octant::visuals::planning

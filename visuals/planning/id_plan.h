@@ -1,0 +1,39 @@
+#pragma once
+
+#include "visuals/planning/planner.h"
+#include "visuals/scene/frame_plan.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace octant::visuals::planning {
+
+/// Turns plans into plans whose picture says in each pixel's colour which polygon it shows: of an
+/// aircraft (a split polygon counts as one, each aircraft for itself) or which triangle of the
+/// ground; 0 is nothing. The painting steps stay those of the plan, but for sky and overlay, so
+/// that a renderer draws both alike. For pictures with one sample a pixel, of plans without
+/// shadows.
+class IdPlan {
+public:
+    /// The scene must outlive it. Throws Error for one with a mesh that is refined in each frame:
+    /// its triangles have no numbers.
+    explicit IdPlan(const Scene& scene);
+
+    /// What a renderer has to load for these plans, in place of the scene's models.
+    const std::vector<scene::ModelBuffers>& models() const { return models_; }
+
+    /// Valid until the next call, and as long as `plan`. A triangle of the ground has the same
+    /// number in every plan in which its corners lie in the same places.
+    const scene::FramePlan& of(const scene::FramePlan& plan);
+
+private:
+    void add_ground(const scene::FramePlan& plan, std::span<const std::uint32_t> indices);
+
+    std::vector<scene::ModelBuffers> models_;  ///< one for each aircraft, then the cockpit
+    std::vector<std::uint32_t> model_of_part_; ///< by AircraftDraw::first_part
+    std::vector<models::ColourVertex> vertices_;
+    std::vector<std::uint32_t> indices_;
+    scene::FramePlan plan_;
+};
+
+} // namespace octant::visuals::planning

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/aircraft_model.h"
+#include "visuals/planning/sight.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::planning {
+
+/// One aircraft of one frame, where it is.
+struct PlacedAircraft {
+    const AircraftModel* model = nullptr;
+    std::uint32_t model_index = 0;
+    /// Polygons in the order of the index buffer: what IndexRange::first_polygon counts in. Empty
+    /// for a mesh.
+    std::span<const std::uint32_t> list;
+    /// Of the index buffer: what is drawn of it, one range after the other. Keeps its memory.
+    std::vector<scene::IndexRange> ranges;
+    int polygon_count = 0;       ///< of all ranges; of a refined mesh its triangles
+    int cell = 0;                ///< of the draw order, in which the eye is; 0 where it has parts
+    bool is_represented = false; ///< in the last frame, in view
+    std::size_t representation = 0; ///< index into AircraftModel::errors_m
+    std::uint32_t first_smooth = 0; ///< as AircraftDraw::first_smooth
+    scene::Tints tints{};
+    std::uint32_t first_part = 0; ///< index into FramePlan::parts
+    /// Body axes to world axes with the eye at the origin: the body, then each pivot turned.
+    std::span<const glm::dmat4> parts;
+};
+
+/// Whether an aircraft is drawn as a mesh, which has no painting order: its hidden surfaces are
+/// removed by depth.
+inline bool is_solid(const PlacedAircraft& aircraft) {
+    return aircraft.representation < aircraft.model->as_polygons();
+}
+
+/// Whether that mesh is one that is refined in each frame.
+inline bool is_refined(const PlacedAircraft& aircraft) {
+    return is_solid(aircraft) && aircraft.model->progressive != nullptr;
+}
+
+/// The corners of a polygon of an aircraft where it is; world axes with the eye at the origin.
+void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, SightPolygon& placed);
+
+/// What a whole aircraft is drawn by; valid as long as the aircraft and its ranges.
+scene::AircraftDraw draw_of(const PlacedAircraft& aircraft);
+
+/// What a part of its index buffer is drawn by.
+scene::AircraftDraw
+draw_of(const PlacedAircraft& aircraft, std::uint32_t first_index, std::uint32_t index_count);
+
+/// Number of indices of a polygon as a fan of triangles.
+std::uint32_t index_count_of(const models::polygons::Polygon& polygon);
+
+/// The body matrix of an aircraft and one matrix for each pivot of its model, at a time.
+void place_parts(
+    const models::polygons::PolygonModel& model,
+    const glm::dmat4& body_to_eye_world,
+    double time_s,
+    std::span<glm::dmat4> parts);
+
+} // namespace octant::visuals::planning

@@ -1,0 +1,393 @@
+#include "visuals/planning/planner.h"
+
+#include "visuals/draworder/octant_order.h"
+#include "visuals/landscape/ground_palette.h"
+#include "visuals/landscape/ground_texture_maker.h"
+#include "visuals/planning/facing.h"
+#include "visuals/planning/mesh_levels.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace octant::visuals::planning {
+
+namespace {
+
+/// What the boxes around aircraft are made wider by, so that rounding leaves nothing outside: wider
+/// ones only cost time.
+constexpr double hull_margin_px = 0.25;
+constexpr double hull_margin_m = 0.01;
+
+glm::dmat4 body_to_eye_world(const sim::AircraftState& state, const glm::dvec3& eye_m) {
+    glm::dmat4 matrix(glm::mat3_cast(state.body_to_world));
+    matrix[3] = glm::dvec4(state.position_m - eye_m, 1.0);
+    return matrix;
+}
+
+/// The state as it is seen over a round earth: sunk as far as the ground below it.
+sim::AircraftState sunk(sim::AircraftState state, const glm::dvec3& eye_m, double earth_radius_m) {
+    if (earth_radius_m > 0.0) {
+        const glm::dvec2 level_m(state.position_m - eye_m);
+        state.position_m.z -= glm::dot(level_m, level_m) / (2.0 * earth_radius_m);
+    }
+    return state;
+}
+
+scene::Tints tints_of(const PlacedAircraft& aircraft, scene::ModelLook look) {
+    const AircraftModel& model = *aircraft.model;
+    if (look == scene::ModelLook::None ||
+        (look == scene::ModelLook::Levels && is_refined(aircraft))) {
+        return {};
+    }
+    if (look == scene::ModelLook::Shading) {
+        return scene::shading_tints;
+    }
+    const double radius_m =
+        model.progressive ? model.progressive->half_diagonal_m() : model.subject.radius_m;
+    const std::uint32_t colour =
+        scene::level_colour(model.errors_m[aircraft.representation], radius_m);
+    return {colour, colour};
+}
+
+/// At the ground's mean height. Without a sky the haze is the background all around.
+scene::Haze haze_of(const scene::AirSettings& air, const nature::Daylight& day) {
+    scene::Haze haze{air.background, static_cast<float>(air.visibility_m)};
+    haze.falloff_per_m =
+        air.haze_height_m > 0.0 ? static_cast<float>(1.0 / air.haze_height_m) : 0.0F;
+    if (air.sky) {
+        haze.colour = day.haze_away();
+        haze.to_sun_level = glm::vec2(day.to_sun_level());
+        haze.sunward = day.haze_sunward();
+    }
+    return haze;
+}
+
+nature::Backdrop land_around(const landscape::Ground& ground, const scene::AirSettings& air) {
+    if (!air.sky || ground.spacing_m() <= 0.0) {
+        return {};
+    }
+    return nature::backdrop_of(
+        {ground.half_extent_m(),
+         ground.mean_height_m(),
+         ground.mean_colour(),
+         [&](const glm::dvec2& at_m) {
+             return ground.height_at(at_m.x, at_m.y).value_or(ground.mean_height_m());
+         },
+         [&](const glm::dvec2& at_m, double footprint_m) {
+             return ground.colour_at(at_m.x, at_m.y, footprint_m);
+         }});
+}
+
+double distance_to_edge_m(const landscape::Ground& ground, const glm::dvec3& eye_m) {
+    const glm::dvec2 half_m = ground.half_extent_m();
+    return std::max(std::min(half_m.x - std::abs(eye_m.x), half_m.y - std::abs(eye_m.y)), 0.0);
+}
+
+/// The aircraft of a scene, with room for their parts.
+std::vector<PlacedAircraft>
+places_for(const Scene& scene, scene::View view, std::vector<glm::dmat4>& parts) {
+    std::vector<PlacedAircraft> placed;
+    const auto add = [&](std::uint32_t model) {
+        PlacedAircraft& aircraft = placed.emplace_back();
+        aircraft.model = scene.models[model].get();
+        aircraft.model_index = model;
+        aircraft.first_part = static_cast<std::uint32_t>(parts.size());
+        parts.resize(parts.size() + aircraft.model->polygons.pivots.size() + 1);
+    };
+    for (const std::uint32_t model : scene.aircraft) {
+        add(model);
+    }
+    if (scene.cockpit && view == scene::View::Cockpit) {
+        add(*scene.cockpit);
+    }
+    for (PlacedAircraft& aircraft : placed) {
+        aircraft.parts = std::span(parts).subspan(
+            aircraft.first_part, aircraft.model->polygons.pivots.size() + 1);
+    }
+    return placed;
+}
+
+refine::ViewRefinerOptions refiner_options(const scene::Settings& settings) {
+    refine::ViewRefinerOptions options;
+    options.error_px = settings.surface.aircraft_error_px;
+    options.geomorphs = settings.ground.geomorphs;
+    return options;
+}
+
+} // namespace
+
+Planner::Planner(
+    const Scene& scene,
+    const scene::Settings& settings,
+    std::unique_ptr<landscape::GroundMesher> mesher)
+    : scene_(scene)
+    , settings_(settings)
+    , mesher_(mesher ? std::move(mesher) : scene.ground->mesher(landscape::mesh_settings(settings)))
+    , aspect_(static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y)
+    , daylight_(landscape::daylight_of(settings.air))
+    , to_sun_(landscape::direction_to_sun(settings.air))
+    , sky_(daylight_, land_around(*scene.ground, settings.air))
+    , shadows_(to_sun_)
+    , placed_(places_for(scene, settings.view.kind, parts_))
+    , smooth_(settings.shading, settings.adapt.shading, placed_)
+    , steps_(plan_) {
+    plan_.background = settings.air.background;
+    plan_.haze = haze_of(settings.air, daylight_);
+    plan_.mesh_look = settings.ground.show_mesh;
+    plan_.sample_spacing_m = std::max(static_cast<float>(scene.ground->spacing_m()), 1e-3F);
+    plan_.to_sun = glm::vec3(to_sun_);
+    plan_.ambient = daylight_.ambient();
+    plan_.sunlight = daylight_.sunlight();
+    for (const PlacedAircraft& aircraft : placed_) {
+        refined_.push_back(
+            aircraft.model->progressive
+                ? std::make_unique<RefinedAircraft>(
+                      aircraft.model->progressive, refiner_options(settings), settings.shading)
+                : nullptr);
+    }
+    was_refined_.resize(placed_.size());
+    hulls_.resize(scene.aircraft.size());
+    near_to_far_.resize(scene.aircraft.size());
+}
+
+landscape::GroundRequest
+Planner::ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const {
+    return {camera, aspect_, triangle_target.value_or(scene::triangle_target(settings_))};
+}
+
+void Planner::settle(const scene::Camera& camera) {
+    mesher_->settle(ground_request(camera, std::nullopt));
+}
+
+void Planner::prepare(const scene::Camera& camera, std::optional<int> triangle_target) {
+    mesher_->prepare(ground_request(camera, triangle_target));
+}
+
+void Planner::place_and_refine(const PlanRequest& request) {
+    const scene::Camera& camera = request.camera;
+    pixel_rad_ = 2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings_.view.size_px.y;
+    frustum_ = frustum_normals(camera, aspect_);
+    place_aircraft(camera, request.states);
+    refine_meshes(camera);
+    if (request.when_refined) {
+        request.when_refined();
+    }
+}
+
+/// Refines the meshes of the aircraft that are drawn as meshes; those drawn as polygons keep theirs
+/// as they are.
+void Planner::refine_meshes(const scene::Camera& camera) {
+    const RefineLook look{frustum_, camera.view_to_world * glm::dvec3(0.0, 0.0, -1.0), pixel_rad_};
+    refine_splits_ = 0;
+    refine_collapses_ = 0;
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+        const bool before = was_refined_[i] != 0;
+        was_refined_[i] = is_refined(placed_[i]) ? 1 : 0;
+        if (is_refined(placed_[i])) {
+            const refine::RefinedFrame frame =
+                refined_[i]->update(placed_[i].parts[0], look, !before);
+            refine_splits_ += static_cast<int>(frame.splits);
+            refine_collapses_ += static_cast<int>(frame.collapses);
+            placed_[i].polygon_count = refined_[i]->triangles();
+        }
+    }
+}
+
+PlannedFrame Planner::plan(const PlanRequest& request) {
+    const scene::Camera& camera = request.camera;
+    PlanCounts counts;
+    place_and_refine(request);
+    plan_.world_to_view = world_to_view(camera);
+    plan_.view_to_clip = view_to_clip(camera, aspect_);
+    if (scene_.ground_texture) {
+        plan_.ground_texture = landscape::texture_places(*scene_.ground_texture, camera.eye_m);
+    }
+    plan_.aircraft.clear();
+    plan_.refined.clear();
+    plan_.steps.clear();
+    plan_.clips.clear();
+    plan_.repaint_indices.clear();
+    plan_.depth_boxes.clear();
+    plan_.overlay = {};
+    ground_ = {
+        mesher_->triangles(ground_request(camera, request.triangle_target), counts.ground), {}, {}};
+    write_parts();
+    cast_shadows(camera);
+    plan_haze(camera);
+    plan_sky(camera);
+    if (settings_.view.kind == scene::View::Cockpit && settings_.view.head_up_display) {
+        plan_head_up_display(camera, request.states.front());
+    }
+    if (!request.words.empty()) {
+        plan_.overlay = text_.draw(request.words, settings_.view.size_px, plan_.overlay);
+    }
+    const SmoothChoice::Count shaded = smooth_.choose(
+        placed_,
+        refined_,
+        request.smooth,
+        to_sun_,
+        glm::vec2(plan_.ambient.x, plan_.sunlight.x),
+        plan_.smooth);
+    counts.may_be_smooth = shaded.polygons;
+    counts.smooth_polygons = shaded.smooth;
+    count_aircraft(counts);
+    counts.shadow_triangles = static_cast<int>(ground_.shadow_indices.size() / 3);
+    if (settings_.surface.hidden_surface == scene::HiddenSurface::DepthBuffer) {
+        paint_by_depth();
+    } else {
+        paint_in_order(camera, counts);
+    }
+    steps_.paint_overlay();
+    return {plan_, counts};
+}
+
+/// The air at the eye's height over the ground's mean one.
+void Planner::plan_haze(const scene::Camera& camera) {
+    const scene::AirSettings& air = settings_.air;
+    const double mean_m = scene_.ground->mean_height_m();
+    if (air.haze_height_m > 0.0) {
+        const double above_m = camera.eye_m.z - (std::isfinite(mean_m) ? mean_m : 0.0);
+        const double thinner = std::exp(std::clamp(above_m / air.haze_height_m, -3.0, 30.0));
+        plan_.haze.visibility_m = static_cast<float>(air.visibility_m * thinner);
+    }
+}
+
+void Planner::plan_sky(const scene::Camera& camera) {
+    if (!settings_.air.sky) {
+        return;
+    }
+    const landscape::Ground& ground = *scene_.ground;
+    plan_.sky = sky_.around(
+        {camera.eye_m.z - ground.mean_height_m(),
+         distance_to_edge_m(ground, camera.eye_m),
+         ground.mean_colour(),
+         mesher_->earth_radius_m()},
+        plan_.haze,
+        camera.eye_m);
+}
+
+/// Decides where each aircraft is, which list it is painted by and which box stands in for it.
+void Planner::place_aircraft(
+    const scene::Camera& camera, std::span<const sim::AircraftState> states) {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const sim::AircraftState state = sunk(states[i], camera.eye_m, mesher_->earth_radius_m());
+        place(placed_[i], state, camera.eye_m);
+        const glm::dvec3 position_m = state.position_m - camera.eye_m;
+        const double margin_m =
+            hull_margin_m + hull_margin_px * pixel_rad_ * glm::length(position_m);
+        hulls_[i] = placed_hull(placed_[i].model->hull, position_m, state.body_to_world, margin_m);
+    }
+    if (placed_.size() > states.size()) {
+        sim::AircraftState around_eye = states.front();
+        around_eye.position_m = camera.eye_m;
+        place(placed_.back(), around_eye, camera.eye_m);
+    }
+}
+
+void Planner::place(
+    PlacedAircraft& aircraft, const sim::AircraftState& state, const glm::dvec3& eye_m) {
+    const AircraftModel& model = *aircraft.model;
+    place_parts(
+        model.polygons,
+        body_to_eye_world(state, eye_m),
+        state.time_s,
+        std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1));
+    const glm::dvec3 eye_in_body_m =
+        draworder::eye_in_body(eye_m, state.position_m, state.body_to_world);
+    aircraft.cell = model.order.one_cell_an_eye() ? model.order.cell_of(eye_in_body_m) : 0;
+    represent(aircraft);
+    aircraft.tints = tints_of(aircraft, settings_.shading.show_model);
+    choose_ranges(aircraft, eye_in_body_m);
+    aircraft.polygon_count = 0;
+    for (const scene::IndexRange& range : aircraft.ranges) {
+        aircraft.polygon_count += range.polygons;
+    }
+}
+
+/// Chooses what of an aircraft's index buffer is drawn; of a refined mesh nothing.
+void Planner::choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m) {
+    const AircraftModel& model = *aircraft.model;
+    aircraft.ranges.clear();
+    aircraft.list = {};
+    if (is_solid(aircraft)) {
+        if (!is_refined(aircraft)) {
+            aircraft.ranges.push_back(model.levels[aircraft.representation].range);
+        }
+        return;
+    }
+    if (settings_.surface.hidden_surface != scene::HiddenSurface::Octant) {
+        aircraft.list = model.file_list;
+        aircraft.ranges.push_back(model.file_order);
+        return;
+    }
+    aircraft.list = model.order.polygons();
+    for (const auto& range : model.order.ranges_of(eye_in_body_m, walk_)) {
+        aircraft.ranges.push_back(index_range(model, range));
+    }
+}
+
+/// Chooses the coarsest representation that is as good as asked for; out of view the coarsest of
+/// all.
+void Planner::represent(PlacedAircraft& aircraft) {
+    const AircraftModel& model = *aircraft.model;
+    if (model.as_polygons() == 0) {
+        return;
+    }
+    const glm::dvec3 place_m(aircraft.parts[0][3]);
+    const double radius_m = model.subject.radius_m;
+    if (!scene::in_view(place_m, radius_m, frustum_)) {
+        aircraft.representation = model.as_polygons();
+        aircraft.is_represented = false; // what it is when it comes back into view is chosen anew
+        return;
+    }
+    const double nearest_m = std::max(glm::length(place_m) - radius_m, 0.0);
+    aircraft.representation = static_cast<std::size_t>(chosen_level(
+        model.errors_m,
+        settings_.surface.aircraft_error_px * pixel_rad_ * nearest_m,
+        aircraft.is_represented ? static_cast<int>(aircraft.representation) : -1));
+    aircraft.is_represented = true;
+}
+
+void Planner::write_parts() {
+    plan_.parts.resize(parts_.size());
+    std::ranges::transform(
+        parts_, plan_.parts.begin(), [](const glm::dmat4& part) { return glm::mat4(part); });
+}
+
+void Planner::cast_shadows(const scene::Camera& camera) {
+    shadows_.begin(ground_.all, plan_.shadow_vertices);
+    if (settings_.surface.shadows) {
+        const ShadowView view{camera.eye_m, frustum_, pixel_rad_};
+        for (std::size_t i = 0; i < hulls_.size(); ++i) {
+            shadows_.cast(placed_[i], hulls_[i], *mesher_, view);
+        }
+        shadows_.sort_pieces();
+    }
+    ground_.shadows = shadows_.pieces();
+    ground_.shadow_indices = shadows_.indices();
+}
+
+void Planner::plan_head_up_display(const scene::Camera& camera, const sim::AircraftState& state) {
+    overlay::HeadUpInputs inputs{state, state.position_m.z, {}};
+    if (const auto ground_m = scene_.ground->height_at(state.position_m.x, state.position_m.y)) {
+        inputs.height_above_ground_m = state.position_m.z - *ground_m;
+    }
+    plan_.overlay = head_up_display_.draw(inputs, camera, settings_.view.size_px);
+}
+
+void Planner::count_aircraft(PlanCounts& counts) const {
+    for (const PlacedAircraft& aircraft : placed_) {
+        counts.aircraft_polygons += aircraft.polygon_count;
+    }
+    counts.refine_splits = refine_splits_;
+    counts.refine_collapses = refine_collapses_;
+    if (!placed_.empty()) {
+        counts.draw_cell = placed_.front().cell;
+        counts.aircraft_level = static_cast<int>(placed_.front().representation);
+    }
+}
+
+} // namespace octant::visuals::planning

@@ -1,0 +1,144 @@
+#include "visuals/planning/facing.h"
+#include "visuals/planning/pixel_box.h"
+#include "visuals/planning/planner.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+// Writes the painting steps of a plan: in which order, and how, what has been planned is drawn.
+//
+// In painting order (HiddenSurface::Octant, BackFace): sky, ground with its shadows in place, then
+// the aircraft from far to near. After each knot of aircraft the ground that lies before it is
+// painted again, cut to where the knot is seen. Meshes alone ask for depth, within their knot.
+//
+// By depth (HiddenSurface::DepthBuffer): from near to far, so that what is hidden is not coloured
+// first: aircraft, ground, shadows, sky. Where aircraft and ground are equally near the aircraft is
+// seen.
+
+namespace octant::visuals::planning {
+
+namespace {
+
+/// Renderers round screen positions to 1/256 pixel. What is painted again is cut this much too wide
+/// where only that rounding could tell, so that no line of the covered thing shows along the cut.
+constexpr double rounding_px = 0.01;
+
+} // namespace
+
+void Planner::paint_by_depth() {
+    std::iota(near_to_far_.begin(), near_to_far_.end(), 0U);
+    const auto distance2_m2 = [&](std::uint32_t i) {
+        return glm::dot(hulls_[i].centre_m, hulls_[i].centre_m);
+    };
+    std::ranges::sort(near_to_far_, [&](std::uint32_t a, std::uint32_t b) {
+        const double a_m2 = distance2_m2(a);
+        const double b_m2 = distance2_m2(b);
+        return a_m2 != b_m2 ? a_m2 < b_m2 : a < b;
+    });
+    steps_.clear_depth({glm::ivec2(0), settings_.view.size_px});
+    if (placed_.size() > hulls_.size()) {
+        paint(placed_.back(), scene::DepthUse::Nearest); // the cockpit is nearer than all
+    }
+    // What is refined comes apart, so that all others become one step.
+    for (const bool refined : {false, true}) {
+        for (const std::uint32_t i : near_to_far_) {
+            if (is_refined(placed_[i]) == refined) {
+                paint(placed_[i], scene::DepthUse::Nearest);
+            }
+        }
+    }
+    std::size_t edge_on_indices = 0;
+    plan_.ground = facing_first(ground_.all, pixel_rad_, facing_indices_, edge_on_indices);
+    steps_.paint_ground_by_depth(edge_on_indices);
+    steps_.paint_shadows_by_depth(ground_);
+    steps_.paint_sky(scene::DepthUse::InfinitelyFar);
+}
+
+void Planner::paint_in_order(const scene::Camera& camera, PlanCounts& counts) {
+    plan_.ground = facing_the_eye(ground_, pixel_rad_, facing_indices_);
+    steps_.paint_sky();
+    steps_.paint_ground();
+    paint_knots(camera, counts);
+    if (placed_.size() > hulls_.size()) {
+        paint(placed_.back(), scene::DepthUse::None); // the cockpit is nearer than all
+    }
+}
+
+/// Paints a whole aircraft. What was refined for this frame is always drawn by depth.
+void Planner::paint(const PlacedAircraft& aircraft, scene::DepthUse depth) {
+    if (!is_refined(aircraft)) {
+        steps_.paint(draw_of(aircraft), depth);
+        return;
+    }
+    const auto i = static_cast<std::size_t>(&aircraft - placed_.data());
+    scene::RefinedDraw draw = refined_[i]->draw();
+    draw.first_part = aircraft.first_part;
+    draw.first_smooth = smooth_.refined_word();
+    draw.tints = aircraft.tints;
+    steps_.paint(draw);
+}
+
+void Planner::paint_knots(const scene::Camera& camera, PlanCounts& counts) {
+    order_.arrange(hulls_);
+    for (const Knot& knot : order_.knots()) {
+        paint_knot(knot, camera, counts);
+    }
+}
+
+/// Paints a knot and again what lies before it; nothing again where it is out of view.
+void Planner::paint_knot(const Knot& knot, const scene::Camera& camera, PlanCounts& counts) {
+    members_.clear();
+    for (const std::uint32_t member : order_.members(knot)) {
+        members_.push_back(&placed_[member]);
+    }
+    if (!scene::in_view(knot.box.centre_m, radius_m(knot.box), frustum_)) {
+        for (const PlacedAircraft* member : members_) {
+            steps_.paint(draw_of(*member));
+        }
+        return;
+    }
+    in_front_.find(knot.box, *mesher_, ground_.all, camera.eye_m);
+    paint_members(knot, counts);
+    if (in_front_.found().empty() || holds_eye(knot.box)) {
+        return;
+    }
+    // Not in the cone of a knot's box: between the members a farther knot may be seen before the
+    // ground. What was painted earlier and is seen in a member's cone lies behind the member.
+    for (const std::uint32_t member : order_.members(knot)) {
+        steps_.paint_before(ground_, in_front_.found(), knot.box, cone_of(hulls_[member]));
+        counts.cuts += static_cast<int>(in_front_.found().size());
+    }
+}
+
+/// Polygons as their order says, or cut where there is none; by depth where a mesh is among them.
+void Planner::paint_members(const Knot& knot, PlanCounts& counts) {
+    const bool solid =
+        std::ranges::any_of(members_, [](const PlacedAircraft* one) { return is_solid(*one); });
+    const bool alone = in_front_.meeting().empty() && members_.size() == 1;
+    counts.knots += alone ? 0 : 1;
+    if (solid) {
+        paint_members_by_depth(knot);
+    } else if (alone) {
+        steps_.paint(draw_of(*members_.front()));
+    } else {
+        counts.cuts += repaint_.paint(
+            members_, knot.box, ground_, in_front_.meeting(), rounding_px * pixel_rad_, steps_);
+        counts.unordered += repaint_.given_up();
+    }
+}
+
+/// By a depth buffer that holds nothing else but the ground that meets them.
+void Planner::paint_members_by_depth(const Knot& knot) {
+    steps_.clear_depth(pixel_box(knot.box, plan_, settings_.view.size_px));
+    if (!in_front_.meeting().empty()) {
+        steps_.hide_by_ground(ground_, in_front_.meeting());
+    }
+    for (const PlacedAircraft* member : members_) {
+        paint(*member, scene::DepthUse::Nearest);
+    }
+}
+
+} // namespace octant::visuals::planning

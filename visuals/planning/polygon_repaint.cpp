@@ -1,0 +1,139 @@
+#include "visuals/planning/polygon_repaint.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace octant::visuals::planning {
+
+namespace {
+
+/// Share of its distance within which a corner counts as lying on another polygon's plane.
+constexpr double touching = 1e-9;
+
+/// More repaints than this in one place are not worth their time.
+constexpr std::size_t most_painted = 20000;
+
+} // namespace
+
+int PolygonRepaint::paint(
+    std::span<const PlacedAircraft* const> aircraft,
+    const HullBox& box,
+    const GroundFrame& ground,
+    std::span<const std::uint32_t> meeting,
+    double rounding_rad,
+    StepWriter& steps) {
+    painted_.clear();
+    corners_.clear();
+    given_up_ = 0;
+    ground_ = &ground;
+    for (const std::uint32_t triangle : meeting) {
+        place_triangle(ground.all, triangle, part_);
+        cut_to_inside(part_, box, scratch_);
+        note({is_ground, triangle, 0, 0, 0}, part_);
+    }
+    int again = 0;
+    for (std::uint32_t owner = 0; owner < aircraft.size(); ++owner) {
+        again += paint_aircraft(aircraft, owner, rounding_rad, steps);
+    }
+    return again;
+}
+
+void PolygonRepaint::note(Painted painted, const SightPolygon& part) {
+    painted.first_corner = corners_.size();
+    painted.corner_count = part.size();
+    corners_.insert(corners_.end(), part.begin(), part.end());
+    painted_.push_back(painted);
+}
+
+int PolygonRepaint::paint_aircraft(
+    std::span<const PlacedAircraft* const> aircraft,
+    std::uint32_t owner,
+    double rounding_rad,
+    StepWriter& steps) {
+    int again = 0;
+    for (const scene::IndexRange& range : aircraft[owner]->ranges) {
+        again += paint_range(aircraft, owner, range, rounding_rad, steps);
+    }
+    return again;
+}
+
+int PolygonRepaint::paint_range(
+    std::span<const PlacedAircraft* const> aircraft,
+    std::uint32_t owner,
+    const scene::IndexRange& range,
+    double rounding_rad,
+    StepWriter& steps) {
+    const PlacedAircraft& own = *aircraft[owner];
+    std::uint32_t run_first = range.first_index;
+    std::uint32_t next = run_first;
+    int again = 0;
+    const auto polygons =
+        own.list.subspan(range.first_polygon, static_cast<std::size_t>(range.polygons));
+    for (const std::uint32_t polygon : polygons) {
+        const std::uint32_t first = next;
+        next += index_count_of(own.model->polygons.polygons[polygon]);
+        place_polygon(own, polygon, polygon_);
+        const Plane plane = plane_of(polygon_);
+        if (plane.offset_m <= 0.0) {
+            continue; // seen from behind: not drawn
+        }
+        const std::size_t before = painted_.size();
+        note({owner, first, next - first, 0, 0}, polygon_);
+        const std::size_t hiding = painted_.size();
+        find_hiding(plane, owner, before, rounding_rad);
+        if (painted_.size() == hiding) {
+            continue;
+        }
+        steps.paint(draw_of(own, run_first, next - run_first));
+        run_first = next;
+        for (std::size_t i = hiding; i < painted_.size(); ++i) {
+            write(aircraft, painted_[i], steps);
+            ++again;
+        }
+    }
+    if (next > run_first) {
+        steps.paint(draw_of(own, run_first, next - run_first));
+    }
+    return again;
+}
+
+/// Notes the parts of what was painted before that hide part of polygon_.
+void PolygonRepaint::find_hiding(
+    const Plane& plane, std::uint32_t owner, std::size_t before, double rounding_rad) {
+    cone_of(polygon_, rounding_rad, cone_);
+    const double tolerance_m = touching * (1.0 + glm::length(middle_of(polygon_)));
+    for (std::size_t i = 0; i < before; ++i) {
+        const Painted painted = painted_[i];
+        if (painted.owner == owner) {
+            continue;
+        }
+        const auto corners =
+            std::span(corners_).subspan(painted.first_corner, painted.corner_count);
+        part_.assign(corners.begin(), corners.end());
+        cut_to_front(part_, plane, tolerance_m, scratch_);
+        cut_to_cone(part_, cone_, scratch_);
+        if (solid_angle_sr(part_) < least_solid_angle_sr) {
+            continue;
+        }
+        if (painted_.size() >= most_painted) {
+            ++given_up_;
+            continue;
+        }
+        note(painted, part_);
+    }
+}
+
+void PolygonRepaint::write(
+    std::span<const PlacedAircraft* const> aircraft, const Painted& painted, StepWriter& steps) {
+    const auto corners = std::span(corners_).subspan(painted.first_corner, painted.corner_count);
+    part_.assign(corners.begin(), corners.end());
+    if (painted.owner == is_ground) {
+        steps.paint_within(*ground_, painted.item, part_);
+    } else {
+        steps.paint_within(
+            draw_of(*aircraft[painted.owner], painted.item, painted.index_count), part_);
+    }
+}
+
+} // namespace octant::visuals::planning

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "visuals/planning/placed_aircraft.h"
+#include "visuals/planning/sight.h"
+#include "visuals/planning/step_writer.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::planning {
+
+/// Paints aircraft that no order puts right as wholes: boxes that meet each other or the ground.
+/// Keeps its memory.
+///
+/// Polygon by polygon: after each polygon P everything painted before is painted once more, in its
+/// order, as far as it lies in the cone of the eye over P and before the plane of P. If the picture
+/// was right before P, it is right after: where nothing lies before P, P is seen; elsewhere what
+/// was on top lies before P (the nearest does when any does) and comes on top again. Polygons of
+/// the same aircraft are in order already and are not compared. What is painted again is cut to
+/// a convex part of itself by planes through the eye.
+class PolygonRepaint {
+public:
+    /// Paints the aircraft in `box` over ground that has been painted; `meeting` are the triangles
+    /// that meet the box, in painting order, and only what lies inside it is painted again.
+    /// `rounding_rad`: how far a renderer may move an edge. Returns how many triangles and polygons
+    /// were painted again.
+    int paint(
+        std::span<const PlacedAircraft* const> aircraft,
+        const HullBox& box,
+        const GroundFrame& ground,
+        std::span<const std::uint32_t> meeting,
+        double rounding_rad,
+        StepWriter& steps);
+
+    /// Repaints that were given up in the last paint() because there were too many.
+    int given_up() const { return given_up_; }
+
+private:
+    static constexpr std::uint32_t is_ground = ~std::uint32_t{0};
+
+    /// Something painted: a part of a polygon or of a triangle.
+    struct Painted {
+        std::uint32_t owner = is_ground; ///< index of the aircraft
+        std::uint32_t item = 0;        ///< number of the triangle; else first index of the polygon
+        std::uint32_t index_count = 0; ///< of the polygon
+        std::size_t first_corner = 0;  ///< of its part, in corners_
+        std::size_t corner_count = 0;
+    };
+
+    void note(Painted painted, const SightPolygon& part);
+    int paint_aircraft(
+        std::span<const PlacedAircraft* const> aircraft,
+        std::uint32_t owner,
+        double rounding_rad,
+        StepWriter& steps);
+    int paint_range(
+        std::span<const PlacedAircraft* const> aircraft,
+        std::uint32_t owner,
+        const scene::IndexRange& range,
+        double rounding_rad,
+        StepWriter& steps);
+    void
+    find_hiding(const Plane& plane, std::uint32_t owner, std::size_t before, double rounding_rad);
+    void write(
+        std::span<const PlacedAircraft* const> aircraft, const Painted& painted, StepWriter& steps);
+
+    std::vector<Painted> painted_;
+    std::vector<SightCorner> corners_;
+    const GroundFrame* ground_ = nullptr;
+    SightPolygon polygon_;
+    SightPolygon part_;
+    SightPolygon scratch_;
+    std::vector<glm::dvec3> cone_;
+    int given_up_ = 0;
+};
+
+} // namespace octant::visuals::planning

@@ -1,0 +1,195 @@
+#include "visuals/planning/refined_aircraft.h"
+
+#include "visuals/scene/model_look.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace octant::visuals::planning {
+
+namespace {
+
+constexpr std::uint32_t flat_polygon = 1; ///< RefinedDraw::first_smooth
+
+float part_of(std::uint32_t colour, unsigned shift) {
+    return static_cast<float>(colour >> shift & 0xffU);
+}
+
+float colour_sum(std::uint32_t colour) {
+    return (part_of(colour, 0) + part_of(colour, 8) + part_of(colour, 16)) / 255.0F;
+}
+
+std::uint32_t mean_colour(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    std::uint32_t mean = 0xff000000U;
+    for (unsigned shift = 0; shift < 24; shift += 8) {
+        const std::uint32_t sum =
+            (a >> shift & 0xffU) + (b >> shift & 0xffU) + (c >> shift & 0xffU);
+        mean |= (sum + 1) / 3 << shift;
+    }
+    return mean;
+}
+
+} // namespace
+
+shading::ShadingRuleSettings rule_of(const scene::ShadingSettings& settings) {
+    shading::ShadingRuleSettings rule;
+    rule.rule = settings.rule == scene::HybridRule::Paper ? shading::ShadingRule::Paper
+                                                          : shading::ShadingRule::Error;
+    return rule;
+}
+
+RefinedAircraft::RefinedAircraft(
+    std::shared_ptr<const refine::ProgressiveMesh> mesh,
+    const refine::ViewRefinerOptions& options,
+    const scene::ShadingSettings& shading)
+    : refiner_(std::move(mesh), options)
+    , selector_(rule_of(shading))
+    , shows_levels_(shading.show_model == scene::ModelLook::Levels) {}
+
+refine::RefinedFrame
+RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const RefineLook& look, bool first) {
+    const glm::dmat3 turn(body_to_eye_world); // a vector times it is turned back
+    refine::RefineView view;
+    view.eye_m = -glm::dvec3(body_to_eye_world[3]) * turn;
+    view.ahead = look.ahead * turn;
+    for (std::size_t i = 0; i < look.frustum.size(); ++i) {
+        view.side_normals[i] = look.frustum[i] * turn;
+    }
+    view.focal_px = 1.0 / look.pixel_rad;
+    if (first) {
+        refiner_.settle(view);
+    }
+    const refine::RefinedFrame frame = refiner_.update(view);
+    const bool changed = first || frame.splits + frame.collapses > 0;
+    front_changed_ = front_changed_ || changed;
+    drawn_changed_ = drawn_changed_ || changed || frame.moving > 0;
+    return frame;
+}
+
+scene::ModelVertex RefinedAircraft::drawn(std::uint32_t slot) const {
+    const refine::ProgressiveMesh& mesh = refiner_.front().mesh();
+    const refine::RefinedVertex& vertex = refiner_.front().vertices()[slot];
+    scene::ModelVertex drawn;
+    drawn.position_m = vertex.position_m + glm::vec3(mesh.parts().origin_m);
+    drawn.normal = refine::unpacked(vertex.normal);
+    drawn.colour = vertex.colour;
+    const std::uint32_t node = refiner_.front().node_at(slot);
+    if (shows_levels_ && node != refine::none) {
+        drawn.colour = scene::level_colour(mesh.error_m(node), mesh.half_diagonal_m());
+    }
+    return drawn;
+}
+
+/// Takes over what has been written of the front's vertices.
+void RefinedAircraft::follow_front() {
+    refine::SelectiveRefiner& front = refiner_.front();
+    front.take_dirty_vertices(ranges_);
+    slot_count_ = front.vertices().size();
+    vertices_.resize(slot_count_);
+    points_.resize(slot_count_);
+    for (const refine::PlaceRange& range : ranges_) {
+        for (std::size_t slot = range.first; slot < range.end; ++slot) {
+            const scene::ModelVertex vertex = drawn(static_cast<std::uint32_t>(slot));
+            vertices_[slot] = vertex;
+            points_[slot] = {vertex.position_m, vertex.normal, colour_sum(vertex.colour)};
+        }
+    }
+}
+
+/// Copies the numbers of the triangles whose blocks changed in the front.
+void RefinedAircraft::follow_labels() {
+    refine::SelectiveRefiner& front = refiner_.front();
+    front.take_dirty_faces(ranges_);
+    labels_.resize(front.indices().size() / 3);
+    for (const refine::PlaceRange& range : ranges_) {
+        for (std::size_t place = range.first; place < range.end; ++place) {
+            labels_[place] = front.face_at(place);
+        }
+    }
+}
+
+void RefinedAircraft::shade(
+    const glm::dvec3& eye_m, const shading::ShadingLight& light, int smooth) {
+    assert(smooth >= 0 && smooth <= triangles());
+    const bool chooses = smooth > 0 && smooth < triangles();
+    const bool all_flat = smooth == 0;
+    if (chooses != choosing_ || all_flat != all_flat_) {
+        front_changed_ = true;
+        drawn_changed_ = true;
+    }
+    choosing_ = chooses;
+    all_flat_ = all_flat;
+    if (!chooses) {
+        return;
+    }
+    if (drawn_changed_) {
+        follow_front();
+        follow_labels();
+    }
+    const shading::ChangingMesh mesh{
+        .points = points_,
+        .indices = refiner_.front().indices(),
+        .labels = labels_,
+        .triangle_count = refiner_.front().face_count(),
+        .centre_m = glm::vec3(refiner_.front().mesh().middle_m())};
+    const bool chosen =
+        selector_.choose(mesh, eye_m, light, static_cast<std::size_t>(smooth), front_changed_);
+    front_changed_ = false;
+    drawn_changed_ = drawn_changed_ || chosen;
+}
+
+/// Gives a flat triangle a first corner of its own.
+void RefinedAircraft::write_flat(std::span<const std::uint32_t> corners) {
+    const scene::ModelVertex& second = vertices_[corners[1]];
+    const scene::ModelVertex& third = vertices_[corners[2]];
+    scene::ModelVertex first = vertices_[corners[0]];
+    const glm::vec3 across =
+        glm::cross(second.position_m - first.position_m, third.position_m - first.position_m);
+    const float size = glm::length(across);
+    first.face_normal = size > 0.0F ? across / size : first.normal;
+    first.face_colour = mean_colour(first.colour, second.colour, third.colour);
+    first.polygon = flat_polygon;
+    indices_.push_back(static_cast<std::uint32_t>(vertices_.size()));
+    indices_.push_back(corners[1]);
+    indices_.push_back(corners[2]);
+    vertices_.push_back(first);
+}
+
+void RefinedAircraft::write_indices() {
+    const auto shared = refiner_.front().indices();
+    const auto smooth = selector_.smooth();
+    indices_.clear();
+    for (std::size_t place = 0; 3 * place < shared.size(); ++place) {
+        const auto corners = shared.subspan(3 * place, 3);
+        if (corners[0] == corners[1]) {
+            continue; // a place without a triangle
+        }
+        if (all_flat_ || smooth[place] == 0) {
+            write_flat(corners);
+        } else {
+            indices_.insert(indices_.end(), corners.begin(), corners.end());
+        }
+    }
+}
+
+scene::RefinedDraw RefinedAircraft::draw() {
+    const bool all_smooth = !choosing_ && !all_flat_;
+    assert(!choosing_ || !front_changed_);
+    if (drawn_changed_) {
+        follow_front();
+        if (!all_smooth) {
+            write_indices();
+        }
+    }
+    drawn_changed_ = false;
+    scene::RefinedDraw draw;
+    draw.vertices = vertices_;
+    draw.indices = all_smooth ? refiner_.front().indices() : indices_;
+    return draw;
+}
+
+} // namespace octant::visuals::planning

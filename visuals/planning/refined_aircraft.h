@@ -1,0 +1,77 @@
+#pragma once
+
+#include "visuals/refine/view_refiner.h"
+#include "visuals/scene/frame_plan.h"
+#include "visuals/scene/settings.h"
+#include "visuals/shading/changing_mesh_shading.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::planning {
+
+/// What an aircraft is refined for. World axes with the eye at the origin.
+struct RefineLook {
+    std::array<glm::dvec3, 4> frustum{}; ///< frustum_normals
+    glm::dvec3 ahead{0.0, 1.0, 0.0};     ///< unit vector
+    double pixel_rad = 0.001;
+};
+
+/// The rule by which polygons are chosen to be smooth.
+shading::ShadingRuleSettings rule_of(const scene::ShadingSettings& settings);
+
+/// One aircraft's mesh, kept as fine as each frame needs it. Several share a hierarchy. Keeps its
+/// memory; what stays from frame to frame is not worked out again.
+class RefinedAircraft {
+public:
+    /// The hierarchy is in body axes.
+    RefinedAircraft(
+        std::shared_ptr<const refine::ProgressiveMesh> mesh,
+        const refine::ViewRefinerOptions& options,
+        const scene::ShadingSettings& shading);
+
+    /// One frame; nothing is done where nothing has moved. `first`: it was not seen in the frame
+    /// before, so it is made fit at once.
+    refine::RefinedFrame
+    update(const glm::dmat4& body_to_eye_world, const RefineLook& look, bool first);
+
+    int triangles() const { return static_cast<int>(refiner_.front().face_count()); }
+
+    /// Chooses which triangles of the last update() are smooth: exactly `smooth`, from 0 to
+    /// triangles(). Eye and light are in body axes.
+    void shade(const glm::dvec3& eye_m, const shading::ShadingLight& light, int smooth);
+
+    /// The mesh of the last update() for drawing, shaded as shade() chose after it, before the
+    /// first one all smooth. Corners share vertices, but a flat triangle's first one is its own,
+    /// with its normal and the mean of its corners' colours. Until the next call.
+    scene::RefinedDraw draw();
+
+private:
+    scene::ModelVertex drawn(std::uint32_t slot) const;
+    void follow_front();
+    void follow_labels();
+    void write_indices();
+    void write_flat(std::span<const std::uint32_t> corners);
+
+    refine::ViewRefiner refiner_;
+    shading::ChangingMeshSelector selector_;
+    bool shows_levels_;
+    bool choosing_ = false;      ///< some triangles are smooth and some are not
+    bool all_flat_ = false;      ///< else
+    bool front_changed_ = true;  ///< since the selector has seen it
+    bool drawn_changed_ = true;  ///< since draw()
+    std::size_t slot_count_ = 0; ///< of vertices_; those of flat triangles lie behind
+    std::vector<scene::ModelVertex> vertices_;
+    std::vector<shading::LitPoint> points_; ///< one a slot
+    std::vector<std::uint32_t> labels_;     ///< one a place of the front's indices
+    std::vector<std::uint32_t> indices_;
+    std::vector<refine::PlaceRange> ranges_;
+};
+
+} // namespace octant::visuals::planning

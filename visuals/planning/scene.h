@@ -1,0 +1,37 @@
+#pragma once
+
+#include "visuals/landscape/ground.h"
+#include "visuals/planning/aircraft_model.h"
+#include "visuals/scene/ground_texture.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace octant::visuals::planning {
+
+/// Everything that is loaded once and looked at in every frame, by one view or by several. What is
+/// large is shared and never changes: a copy costs little.
+struct Scene {
+    std::shared_ptr<const landscape::Ground> ground;
+    /// Null = the ground shows its vertices' colours. Plans need no texels: they may be gone once a
+    /// renderer has them.
+    std::shared_ptr<const scene::GroundTexture> ground_texture;
+    /// Each once, however many aircraft fly it.
+    std::vector<std::shared_ptr<const AircraftModel>> models;
+    std::vector<std::uint32_t> aircraft;  ///< model of each aircraft
+    std::optional<std::uint32_t> cockpit; ///< model of what the first pilot sees around the eye
+
+    const AircraftModel& model_of(std::size_t number) const { return *models[aircraft[number]]; }
+
+    /// Returns the model's index.
+    std::uint32_t add_model(AircraftModel model) {
+        models.push_back(std::make_shared<const AircraftModel>(std::move(model)));
+        return static_cast<std::uint32_t>(models.size() - 1);
+    }
+};
+
+} // namespace octant::visuals::planning

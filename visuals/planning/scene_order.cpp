@@ -1,0 +1,197 @@
+// Knots are the strongly connected components of "waits for": R. Tarjan, Depth-First Search and
+// Linear Graph Algorithms, SIAM Journal on Computing 1(2), 1972, section 4.
+// Deviations: a path kept in memory stands in for the recursion.
+
+#include "visuals/planning/scene_order.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace octant::visuals::planning {
+
+void SceneOrder::arrange(std::span<const HullBox> boxes) {
+    place_bodies(boxes);
+    find_windows();
+    knots_.clear();
+    members_.clear();
+    std::uint32_t body = 0;
+    const auto add_singles_before = [&](std::size_t end) {
+        for (; body < end; ++body) {
+            add_knot(std::span(&body, 1), 0);
+        }
+    };
+    std::size_t next = 0;
+    while (next < windows_.size()) {
+        auto [first, last] = windows_[next++];
+        while (next < windows_.size() && windows_[next].first <= last) {
+            last = std::max(last, windows_[next++].second);
+        }
+        add_singles_before(first);
+        arrange_window(first, last);
+        body = last + 1;
+    }
+    add_singles_before(bodies_.size());
+}
+
+void SceneOrder::place_bodies(std::span<const HullBox> boxes) {
+    bodies_.clear();
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        Body& body = bodies_.emplace_back();
+        body.box = boxes[i];
+        body.index = i;
+        body.radius_m = radius_m(body.box);
+        const double distance_m = glm::length(body.box.centre_m);
+        body.power_m2 = distance_m * distance_m - body.radius_m * body.radius_m;
+        body.around_eye = distance_m <= body.radius_m;
+        if (!body.around_eye) {
+            body.towards = body.box.centre_m / distance_m;
+            body.sine = body.radius_m / distance_m;
+            body.cosine = std::sqrt(1.0 - body.sine * body.sine);
+        }
+    }
+    std::ranges::sort(bodies_, [](const Body& a, const Body& b) {
+        return a.power_m2 != b.power_m2 ? a.power_m2 > b.power_m2 : a.index < b.index;
+    });
+}
+
+/// Sweeps along x for bodies whose spheres meet, and notes the windows of the list in which a body
+/// stands before one that it hides.
+void SceneOrder::find_windows() {
+    windows_.clear();
+    by_x_.resize(bodies_.size());
+    std::iota(by_x_.begin(), by_x_.end(), 0U);
+    const auto least_x = [&](std::uint32_t i) {
+        return bodies_[i].box.centre_m.x - bodies_[i].radius_m;
+    };
+    std::ranges::sort(by_x_, [&](std::uint32_t a, std::uint32_t b) {
+        return least_x(a) != least_x(b) ? least_x(a) < least_x(b) : a < b;
+    });
+    for (std::size_t i = 0; i < by_x_.size(); ++i) {
+        const Body& body = bodies_[by_x_[i]];
+        const double most_x = body.box.centre_m.x + body.radius_m;
+        for (std::size_t k = i + 1; k < by_x_.size() && least_x(by_x_[k]) <= most_x; ++k) {
+            const Body& other = bodies_[by_x_[k]];
+            const glm::dvec3 apart_m = other.box.centre_m - body.box.centre_m;
+            const double touch_m = body.radius_m + other.radius_m;
+            if (glm::dot(apart_m, apart_m) > touch_m * touch_m) {
+                continue;
+            }
+            const auto [earlier, later] = std::minmax(by_x_[i], by_x_[k]);
+            if (hiding_pair(bodies_[earlier].box, bodies_[later].box).a_hides_b) {
+                windows_.emplace_back(earlier, later);
+            }
+        }
+    }
+    std::ranges::sort(windows_);
+}
+
+/// Adds the knots of bodies first .. last, those of great power first where that leaves a choice.
+void SceneOrder::arrange_window(std::uint32_t first, std::uint32_t last) {
+    const std::uint32_t count = last - first + 1;
+    fill_waits(first, count);
+    visited_ = 0;
+    for (std::uint32_t body = 0; body < count; ++body) {
+        if (visits_[body].number == 0) {
+            add_with_all_it_waits_for(first, body);
+        }
+    }
+}
+
+/// False when the spheres around two boxes are seen apart, with nothing said about the boxes.
+bool SceneOrder::may_overlap_on_screen(const Body& a, const Body& b) {
+    return a.around_eye || b.around_eye ||
+           glm::dot(a.towards, b.towards) >= a.cosine * b.cosine - a.sine * b.sine - 1e-9;
+}
+
+void SceneOrder::fill_waits(std::uint32_t first, std::uint32_t count) {
+    waits_.clear();
+    for (std::uint32_t a = 0; a < count; ++a) {
+        const Body& earlier = bodies_[first + a];
+        for (std::uint32_t b = a + 1; b < count; ++b) {
+            const Body& later = bodies_[first + b];
+            if (!may_overlap_on_screen(earlier, later)) {
+                continue;
+            }
+            const HidingPair pair = hiding_pair(earlier.box, later.box);
+            if (pair.a_hides_b) {
+                waits_.emplace_back(a, b);
+            }
+            if (pair.b_hides_a) {
+                waits_.emplace_back(b, a);
+            }
+        }
+    }
+    std::ranges::sort(waits_);
+    visits_.assign(count, {});
+    for (std::uint32_t i = 0; i < waits_.size(); ++i) {
+        Visit& visit = visits_[waits_[i].first];
+        visit.next = visit.end == 0 ? i : visit.next;
+        visit.end = i + 1;
+    }
+}
+
+void SceneOrder::begin_visit(std::uint32_t body) {
+    visits_[body].number = ++visited_;
+    visits_[body].least = visited_;
+    path_.push_back(body);
+    open_.push_back(body);
+}
+
+/// Walks along what each body waits for. A body from which no lesser number is reached than its own
+/// closes a knot with all that are open since.
+void SceneOrder::add_with_all_it_waits_for(std::uint32_t first, std::uint32_t body) {
+    path_.clear();
+    open_.clear();
+    begin_visit(body);
+    while (!path_.empty()) {
+        const std::uint32_t at = path_.back();
+        Visit& visit = visits_[at];
+        if (visit.next < visit.end) {
+            const std::uint32_t other = waits_[visit.next++].second;
+            if (visits_[other].number == 0) {
+                begin_visit(other);
+            } else if (!visits_[other].in_knot) {
+                visit.least = std::min(visit.least, visits_[other].number);
+            }
+            continue;
+        }
+        path_.pop_back();
+        if (!path_.empty()) {
+            Visit& back = visits_[path_.back()];
+            back.least = std::min(back.least, visit.least);
+        }
+        if (visit.least == visit.number) {
+            std::size_t knot = open_.size();
+            do {
+                visits_[open_[--knot]].in_knot = true;
+            } while (open_[knot] != at);
+            add_knot(std::span(open_).subspan(knot), first);
+            open_.resize(knot);
+        }
+    }
+}
+
+/// `bodies` count from body `first`.
+void SceneOrder::add_knot(std::span<const std::uint32_t> bodies, std::uint32_t first) {
+    Knot& knot = knots_.emplace_back();
+    knot.first = static_cast<std::uint32_t>(members_.size());
+    knot.count = static_cast<std::uint32_t>(bodies.size());
+    knot.box = bodies_[first + bodies.front()].box;
+    HullExtent extent = world_extent(knot.box);
+    for (const std::uint32_t body : bodies) {
+        const HullExtent own = world_extent(bodies_[first + body].box);
+        extent.least_m = glm::min(extent.least_m, own.least_m);
+        extent.most_m = glm::max(extent.most_m, own.most_m);
+        members_.push_back(bodies_[first + body].index);
+    }
+    if (knot.count > 1) {
+        knot.box = box_between(extent);
+        std::ranges::sort(std::span(members_).subspan(knot.first));
+    }
+}
+
+} // namespace octant::visuals::planning

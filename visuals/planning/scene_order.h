@@ -1,0 +1,88 @@
+#pragma once
+
+#include "visuals/planning/aircraft_hull.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace octant::visuals::planning {
+
+/// Aircraft that are painted as one: nearly always a single one.
+struct Knot {
+    HullBox box; ///< of a single member; else holds the boxes of all, and may meet other knots
+    std::uint32_t first = 0;
+    std::uint32_t count = 0; ///< members first .. first + count - 1
+};
+
+/// Painting order of aircraft by the boxes that stand in for them. Keeps its memory.
+///
+/// A box must wait for every other of which it can hide a part; two that meet wait for each other.
+/// Boxes that wait for each other, directly or in a ring, become one knot, and no others do: what
+/// is left has an order.
+///
+/// Nearly all of it comes from a sort. The power of the eye with respect to a sphere is
+/// |centre|^2 - radius^2. The eyes of equal power to two spheres that do not meet form a plane
+/// between them, and the sphere on the eye's side has the smaller power: by descending power, no
+/// such box comes before one that must be painted first. Only where spheres meet, a box may come
+/// before one that it hides; the window of the list from one to the other is then sorted anew by
+/// which box hides which. No ring reaches out of these windows.
+class SceneOrder {
+public:
+    /// Boxes with the eye at the origin.
+    void arrange(std::span<const HullBox> boxes);
+
+    /// Farthest first: no member of a knot hides any part of a member of a later one from the eye.
+    std::span<const Knot> knots() const { return knots_; }
+
+    /// Boxes of a knot, by index, ascending.
+    std::span<const std::uint32_t> members(const Knot& knot) const {
+        return std::span(members_).subspan(knot.first, knot.count);
+    }
+
+private:
+    struct Body {
+        HullBox box;
+        double radius_m = 0.0;
+        double power_m2 = 0.0;
+        glm::dvec3 towards{0.0}; ///< unit vector
+        double sine = 0.0;       ///< of half the angle over which the sphere is seen
+        double cosine = 0.0;
+        bool around_eye = false; ///< the sphere holds the eye
+        std::uint32_t index = 0; ///< of the box
+    };
+
+    /// Where the search for rings has come with a body of a window.
+    struct Visit {
+        std::uint32_t number = 0; ///< in order of first visits, from 1; 0: not yet seen
+        std::uint32_t least = 0;  ///< least number known to be reached from here
+        std::uint32_t next = 0;   ///< in waits_
+        std::uint32_t end = 0;
+        bool in_knot = false;
+    };
+
+    static bool may_overlap_on_screen(const Body& a, const Body& b);
+
+    void place_bodies(std::span<const HullBox> boxes);
+    void find_windows();
+    void arrange_window(std::uint32_t first, std::uint32_t last);
+    void fill_waits(std::uint32_t first, std::uint32_t count);
+    void add_with_all_it_waits_for(std::uint32_t first, std::uint32_t body);
+    void begin_visit(std::uint32_t body);
+    void add_knot(std::span<const std::uint32_t> bodies, std::uint32_t first);
+
+    std::vector<Body> bodies_; ///< by descending power
+    std::vector<std::uint32_t> by_x_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> windows_; ///< first and last body
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> waits_;   ///< a body, one it waits for
+    std::vector<Visit> visits_;
+    std::vector<std::uint32_t> path_; ///< each waits for the next
+    std::vector<std::uint32_t> open_; ///< seen and not yet in a knot, by number
+    std::uint32_t visited_ = 0;
+    std::vector<Knot> knots_;
+    std::vector<std::uint32_t> members_;
+};
+
+} // namespace octant::visuals::planning

@@ -1,0 +1,227 @@
+#include "visuals/planning/shadow.h"
+
+#include "sim/base/units.h"
+#include "visuals/planning/ground_in_front.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace octant::visuals::planning {
+
+namespace {
+
+constexpr double least_shadow_px = 2.0;
+constexpr int most_march_steps = 200;
+
+glm::vec3 unpacked(std::uint32_t colour) {
+    return glm::vec3(
+               static_cast<float>(colour & 255U),
+               static_cast<float>((colour >> 8U) & 255U),
+               static_cast<float>((colour >> 16U) & 255U)) /
+           255.0F;
+}
+
+/// Darkened, with the share that is left for alpha.
+std::uint32_t shaded(const glm::vec3& colour) {
+    constexpr auto share = static_cast<std::uint32_t>(255.0F * shadow_share + 0.5F);
+    return (models::packed_colour(colour * shadow_share) & 0x00ffffffU) | share << 24U;
+}
+
+/// What the light through a hull reaches up to `path_m` below its middle and `reach_m` beyond.
+ConvexRoom lit_room(const HullBox& hull, const glm::dvec3& to_sun, double path_m, double reach_m) {
+    const HullExtent extent = world_extent(hull);
+    const glm::dvec3 down_m = to_sun * -(path_m + reach_m);
+    ConvexRoom room;
+    room.extent = {
+        glm::min(extent.least_m, extent.least_m + down_m),
+        glm::max(extent.most_m, extent.most_m + down_m)};
+    const LightPrism prism = prism_of(hull, to_sun);
+    for (int i = 0; i < prism.count; ++i) {
+        room.add(prism.planes[static_cast<std::size_t>(i)]);
+    }
+    return room;
+}
+
+double plan_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+} // namespace
+
+ShadowCaster::ShadowCaster(const glm::dvec3& to_sun)
+    : to_sun_(to_sun)
+    , high_enough_(to_sun.z >= std::sin(rad_from_deg(least_sun_elevation_deg))) {}
+
+void ShadowCaster::begin(
+    const scene::TriangleDraw& triangles, std::vector<models::ColourVertex>& vertices) {
+    ground_ = triangles;
+    vertices_ = &vertices;
+    vertices.clear();
+    pieces_.clear();
+    indices_.clear();
+}
+
+void ShadowCaster::cast(
+    const PlacedAircraft& aircraft,
+    const HullBox& hull,
+    const landscape::GroundMesher& ground,
+    const ShadowView& view) {
+    if (!high_enough_ || ground_.indices.empty()) {
+        return;
+    }
+    const double path_m = light_path_m(hull, ground.ground(), view.eye_m);
+    if (path_m < 0.0) {
+        return;
+    }
+    const glm::dvec3 place_m = hull.centre_m - to_sun_ * path_m;
+    const HullExtent& extent = aircraft.model->hull;
+    const double size_m = 0.5 * glm::distance(extent.least_m, extent.most_m);
+    // On a slope that falls away from the sun a shadow is longer than on the level.
+    const double reach_m = 2.0 * size_m / to_sun_.z;
+    if (2.0 * size_m < least_shadow_px * view.pixel_rad * glm::length(place_m) ||
+        !scene::in_view(place_m, reach_m, view.frustum_normals)) {
+        return;
+    }
+    const ConvexRoom room = lit_room(hull, to_sun_, path_m, reach_m);
+
+    struct Look {
+        const ConvexRoom& room;
+        const glm::dvec3& eye_m;
+    } const look{room, view.eye_m};
+
+    candidates_.clear();
+    ground.triangles_in(
+        [&look](const glm::dvec3& least_m, const glm::dvec3& most_m) {
+            return may_meet(look.room, least_m - look.eye_m, most_m - look.eye_m);
+        },
+        candidates_);
+    collect_faces(aircraft);
+    for (const std::uint32_t candidate : candidates_) {
+        place_triangle(ground_, candidate, triangle_);
+        const glm::dvec3& a = triangle_[0].at_m;
+        const glm::dvec3& b = triangle_[1].at_m;
+        const glm::dvec3& c = triangle_[2].at_m;
+        if (may_meet(room, glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c))) {
+            cast_on(candidate);
+        }
+    }
+}
+
+/// Length of the light's way from the middle of the hull to the ground; negative when it meets
+/// none or the middle lies under it.
+double ShadowCaster::light_path_m(
+    const HullBox& hull, const landscape::Ground& ground, const glm::dvec3& eye_m) const {
+    const glm::dvec3 from_m = hull.centre_m + eye_m;
+    const auto height_over_ground_m = [&](double path_m) -> std::optional<double> {
+        const glm::dvec3 at_m = from_m - to_sun_ * path_m;
+        const std::optional<double> ground_m = ground.height_at(at_m.x, at_m.y);
+        return ground_m ? std::optional<double>(at_m.z - *ground_m) : std::nullopt;
+    };
+    const double least_step_m = radius_m(hull);
+    double above_m = 0.0;
+    double path_m = 0.0;
+    for (int step = 0; step < most_march_steps; ++step) {
+        const std::optional<double> height_m = height_over_ground_m(path_m);
+        if (!height_m || (step == 0 && *height_m < 0.0)) {
+            return -1.0;
+        }
+        if (*height_m <= 0.0) {
+            for (int halving = 0; halving < 20; ++halving) {
+                const double middle_m = 0.5 * (above_m + path_m);
+                (height_over_ground_m(middle_m).value_or(0.0) > 0.0 ? above_m : path_m) = middle_m;
+            }
+            return path_m;
+        }
+        above_m = path_m;
+        path_m += std::max(least_step_m, 0.25 * *height_m / to_sun_.z);
+    }
+    return -1.0;
+}
+
+/// The polygons that face the sun, where they are.
+void ShadowCaster::collect_faces(const PlacedAircraft& aircraft) {
+    faces_.clear();
+    face_corners_.clear();
+    const auto count = static_cast<std::uint32_t>(aircraft.model->polygons.polygons.size());
+    for (std::uint32_t polygon = 0; polygon < count; ++polygon) {
+        place_polygon(aircraft, polygon, part_);
+        const Plane plane = plane_of(part_);
+        if (glm::dot(plane.normal, to_sun_) > 0.0) {
+            faces_.push_back({plane, face_corners_.size(), part_.size()});
+            face_corners_.insert(face_corners_.end(), part_.begin(), part_.end());
+        }
+    }
+}
+
+void ShadowCaster::cast_on(std::uint32_t triangle) {
+    const Plane plane = plane_of(triangle_);
+    const double slope = glm::dot(plane.normal, to_sun_);
+    if (slope <= 0.01 || plane.offset_m <= 0.0 || plane.normal.z <= 0.0) {
+        return; // the sun does not reach it or the eye does not see it
+    }
+    std::array<Plane, 3> sides;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3& from_m = triangle_[i].at_m;
+        const glm::dvec3 edge_m = triangle_[(i + 1) % 3].at_m - from_m;
+        const glm::dvec3 inward(-edge_m.y, edge_m.x, 0.0);
+        sides[i] = {inward, -glm::dot(inward, from_m)};
+    }
+    const std::size_t first = indices_.size();
+    for (const Face& face : faces_) {
+        const auto corners = std::span(face_corners_).subspan(face.first, face.count);
+        part_.assign(corners.begin(), corners.end());
+        cut_to_front(part_, plane, 0.0, scratch_);
+        for (SightCorner& corner : part_) {
+            corner.at_m -= to_sun_ * (distance_m(plane, corner.at_m) / slope);
+        }
+        for (std::size_t i = 0; i < 3 && !part_.empty(); ++i) {
+            cut_to_front(part_, sides[i], 0.0, scratch_);
+        }
+        if (part_.size() >= 3) {
+            add_piece(triangle);
+        }
+    }
+    if (indices_.size() > first) {
+        pieces_.push_back(
+            {triangle,
+             static_cast<std::uint32_t>(first),
+             static_cast<std::uint32_t>(indices_.size() - first)});
+    }
+}
+
+/// part_ as a fan with the triangle's colours, darkened.
+void ShadowCaster::add_piece(std::uint32_t triangle) {
+    const auto base = static_cast<std::uint32_t>(ground_.vertices.size() + vertices_->size());
+    const std::uint32_t* corner = &ground_.indices[std::size_t{3} * triangle];
+    const glm::dvec3& a = triangle_[0].at_m;
+    const glm::dvec3& b = triangle_[1].at_m;
+    const glm::dvec3& c = triangle_[2].at_m;
+    const double whole = plan_area(a, b, c);
+    for (const SightCorner& at : part_) {
+        const double share_a = plan_area(at.at_m, b, c) / whole;
+        const double share_b = plan_area(a, at.at_m, c) / whole;
+        const glm::vec3 colour =
+            unpacked(ground_.vertices[corner[0]].colour) * static_cast<float>(share_a) +
+            unpacked(ground_.vertices[corner[1]].colour) * static_cast<float>(share_b) +
+            unpacked(ground_.vertices[corner[2]].colour) *
+                static_cast<float>(1.0 - share_a - share_b);
+        vertices_->push_back({glm::vec3(at.at_m), shaded(colour)});
+    }
+    for (std::uint32_t i = 2; i < part_.size(); ++i) {
+        indices_.insert(indices_.end(), {base, base + i - 1, base + i});
+    }
+}
+
+void ShadowCaster::sort_pieces() {
+    std::ranges::sort(pieces_, {}, [](const ShadowPieces& piece) {
+        return std::pair(piece.triangle, piece.first);
+    });
+}
+
+} // namespace octant::visuals::planning

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "visuals/landscape/ground.h"
+#include "visuals/landscape/ground_mesher.h"
+#include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/ground_frame.h"
+#include "visuals/planning/placed_aircraft.h"
+#include "visuals/planning/sight.h"
+#include "visuals/scene/camera.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::planning {
+
+/// Share of a sunlit surface's colour that is left in a shadow.
+inline constexpr float shadow_share = 0.55F;
+
+/// Below this elevation of the sun there are no shadows: they would be longer than 19 heights.
+inline constexpr double least_sun_elevation_deg = 3.0;
+
+/// What decides whether a shadow is seen. World axes, eye at the origin.
+struct ShadowView {
+    glm::dvec3 eye_m{0.0}; ///< world
+    std::array<glm::dvec3, 4> frustum_normals{};
+    double pixel_rad = 0.0;
+};
+
+/// Shadows of aircraft: each polygon that faces the sun, thrown along the sunlight onto each
+/// triangle of the ground below and cut off at the triangle's sides. The pieces are opaque and have
+/// the triangle's own colours, darkened, so that pieces on pieces change nothing. Light ends at the
+/// ground it meets first; ground shadows no ground. Keeps its memory.
+class ShadowCaster {
+public:
+    /// `to_sun`: unit vector, world axes.
+    explicit ShadowCaster(const glm::dvec3& to_sun);
+
+    /// Forgets the last frame. `triangles` are GroundMesher::triangles before facing; the pieces'
+    /// corners go to `vertices` and are numbered on after the ground's.
+    void begin(const scene::TriangleDraw& triangles, std::vector<models::ColourVertex>& vertices);
+
+    /// Adds the shadow of an aircraft inside `hull`, unless it is under 2 pixels or out of view.
+    void cast(
+        const PlacedAircraft& aircraft,
+        const HullBox& hull,
+        const landscape::GroundMesher& ground,
+        const ShadowView& view);
+
+    /// To be called after the last cast().
+    void sort_pieces();
+
+    /// Ascending once sorted.
+    std::span<const ShadowPieces> pieces() const { return pieces_; }
+
+    std::span<const std::uint32_t> indices() const { return indices_; }
+
+private:
+    struct Face {
+        Plane plane;
+        std::size_t first = 0;
+        std::size_t count = 0;
+    };
+
+    double light_path_m(
+        const HullBox& hull, const landscape::Ground& ground, const glm::dvec3& eye_m) const;
+    void collect_faces(const PlacedAircraft& aircraft);
+    void cast_on(std::uint32_t triangle);
+    void add_piece(std::uint32_t triangle);
+
+    glm::dvec3 to_sun_;
+    bool high_enough_;
+    scene::TriangleDraw ground_;
+    std::vector<models::ColourVertex>* vertices_ = nullptr;
+    std::vector<ShadowPieces> pieces_;
+    std::vector<std::uint32_t> indices_;
+    std::vector<std::uint32_t> candidates_;
+    std::vector<Face> faces_;
+    std::vector<SightCorner> face_corners_;
+    SightPolygon triangle_;
+    SightPolygon part_;
+    SightPolygon scratch_;
+};
+
+} // namespace octant::visuals::planning

@@ -1,0 +1,219 @@
+#include "visuals/planning/sky.h"
+
+#include "sim/base/axes.h"
+#include "sim/base/units.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace octant::visuals::planning {
+
+namespace {
+
+constexpr int spokes = 36;
+constexpr double dome_radius_m = 1000.0; ///< only its direction shows: the sky has no depth
+
+/// Elevations of the rings above the horizon, degrees, from the zenith down.
+constexpr std::array rings_above_deg = {
+    90.0, 75.0, 60.0, 48.0, 38.0, 30.0, 23.0, 17.0, 12.0, 8.0, 5.0, 2.5, 1.0, 0.0};
+constexpr int rings_above = static_cast<int>(rings_above_deg.size());
+constexpr int rings_below = 7;
+
+/// Rings around the sun: the disc's edge, then its glare.
+constexpr int sun_spokes = 32;
+constexpr std::array glare_rings_deg = {0.2665, 0.5, 0.9, 1.5, 2.5, 4.0, 7.0, 12.0, 18.0, 24.0};
+
+models::ColourVertex dome_vertex(const glm::dvec3& direction, const glm::vec3& colour) {
+    return {glm::vec3(dome_radius_m * direction), models::packed_colour(colour)};
+}
+
+/// Mean density of the haze between the eye and a place `rise_m` above it, by that at the eye.
+double mean_density(double rise_m, double falloff_per_m) {
+    const double fallen = rise_m * falloff_per_m;
+    return std::abs(fallen) < 1e-4 ? 1.0 : -std::expm1(-fallen) / fallen;
+}
+
+/// Distance at which a look down meets the plain; nothing above its horizon.
+std::optional<double> distance_to_plain_m(double depression_rad, const Plain& plain) {
+    if (plain.height_below_eye_m <= 0.0 || depression_rad <= 0.0) {
+        return std::nullopt;
+    }
+    if (plain.earth_radius_m <= 0.0) {
+        return plain.height_below_eye_m / std::sin(depression_rad);
+    }
+    // The nearer root of h + d^2 / 2R = d tan(depression).
+    const double slope = std::tan(depression_rad);
+    const double under = slope * slope - 2.0 * plain.height_below_eye_m / plain.earth_radius_m;
+    if (under < 0.0) {
+        return std::nullopt;
+    }
+    return 2.0 * plain.height_below_eye_m / (slope + std::sqrt(under)) / std::cos(depression_rad);
+}
+
+/// What a look down at the plain shows; `ray` is of unit length.
+glm::vec3 colour_below(const glm::dvec3& ray, const Plain& plain, const scene::Haze& haze) {
+    const auto distance_m = distance_to_plain_m(std::asin(-ray.z), plain);
+    constexpr double beyond_m = 1e9;
+    const glm::dvec3 level(ray.x, ray.y, 0.0);
+    return distance_m ? seen_through(haze, *distance_m * ray, plain.colour)
+                      : seen_through(
+                            {haze.colour, 1.0F, 0.0F, haze.to_sun_level, haze.sunward},
+                            beyond_m * level,
+                            haze.colour);
+}
+
+/// Steepest look down at which the plain can show past the edge of the map, with a margin for
+/// ground that lies lower than the plain.
+double deepest_rad(const Plain& plain) {
+    const double height_m = std::max(plain.height_below_eye_m, 0.0) + 200.0;
+    const double deepest = std::atan2(2.0 * height_m, std::max(plain.map_edge_m, 1.0));
+    return std::clamp(deepest, rad_from_deg(3.0), pi / 2.0);
+}
+
+} // namespace
+
+glm::vec3 seen_through(const scene::Haze& haze, const glm::dvec3& place_m, const glm::vec3& own) {
+    if (haze.visibility_m <= 0.0F) {
+        return own;
+    }
+    const double distance_m = std::max(glm::length(place_m), 1e-6);
+    const double depth = distance_m / static_cast<double>(haze.visibility_m) *
+                         mean_density(place_m.z, static_cast<double>(haze.falloff_per_m));
+    const double towards =
+        std::max(glm::dot(glm::dvec2(place_m), glm::dvec2(haze.to_sun_level)) / distance_m, 0.0);
+    const glm::vec3 air =
+        glm::mix(haze.colour, haze.sunward, static_cast<float>(towards * towards));
+    return glm::mix(air, own, static_cast<float>(std::exp(-depth)));
+}
+
+Sky::Sky(const nature::Daylight& day, nature::Backdrop land)
+    : first_azimuth_rad_(std::atan2(day.to_sun_level().x, day.to_sun_level().y))
+    , land_(std::move(land)) {
+    add_dome(day);
+    add_sun(day);
+    sky_vertices_ = vertices_.size();
+    sky_indices_ = indices_.size();
+    vertices_.resize(sky_vertices_ + land_.corners.size());
+    for (const std::uint32_t corner : land_.indices) {
+        indices_.push_back(static_cast<std::uint32_t>(sky_vertices_) + corner);
+    }
+}
+
+/// Triangles between two rings of vertices, counter-clockwise seen from the inside of the dome
+/// where corners go clockwise seen from above.
+void Sky::add_ring_triangles(std::uint32_t upper, std::uint32_t lower, int corners) {
+    for (int corner = 0; corner < corners; ++corner) {
+        const auto here = static_cast<std::uint32_t>(corner);
+        const auto next = static_cast<std::uint32_t>((corner + 1) % corners);
+        indices_.insert(indices_.end(), {upper + here, lower + next, lower + here});
+        indices_.insert(indices_.end(), {upper + here, upper + next, lower + next});
+    }
+}
+
+/// The rings below the horizon are left to around().
+void Sky::add_dome(const nature::Daylight& day) {
+    for (const double elevation_deg : rings_above_deg) {
+        const double elevation_rad = rad_from_deg(elevation_deg);
+        for (int spoke = 0; spoke < spokes; ++spoke) {
+            const glm::dvec3 level =
+                direction_from_heading(first_azimuth_rad_ - 2.0 * pi * spoke / spokes);
+            const double share = elevation_deg < 90.0 ? std::cos(elevation_rad) : 0.0;
+            const glm::dvec3 direction(share * level.x, share * level.y, std::sin(elevation_rad));
+            vertices_.push_back(dome_vertex(direction, day.sky(direction)));
+        }
+    }
+    vertices_.resize(vertices_.size() + std::size_t{rings_below} * spokes);
+    for (int ring = 0; ring + 1 < rings_above + rings_below; ++ring) {
+        const auto upper = static_cast<std::uint32_t>(ring * spokes);
+        add_ring_triangles(upper, upper + spokes, spokes);
+    }
+}
+
+/// Over the dome: glare from outside in, then the disc. What would lie below the horizon is moved
+/// up to it.
+void Sky::add_sun(const nature::Daylight& day) {
+    const glm::dvec3& to_sun = day.to_sun();
+    const glm::dvec3 right(-to_sun.y, to_sun.x, 0.0);
+    const glm::dvec3 across =
+        glm::length(right) > 1e-9 ? glm::normalize(right) : glm::dvec3(1.0, 0.0, 0.0);
+    const glm::dvec3 up = glm::cross(to_sun, across);
+    const auto first = static_cast<std::uint32_t>(vertices_.size());
+    const auto add = [&](double from_sun_rad, int spoke, bool of_disc) {
+        const double turn = -2.0 * pi * spoke / sun_spokes;
+        glm::dvec3 direction =
+            std::cos(from_sun_rad) * to_sun +
+            std::sin(from_sun_rad) * (std::cos(turn) * across + std::sin(turn) * up);
+        if (direction.z < 0.0) {
+            direction = glm::normalize(glm::dvec3(direction.x, direction.y, 0.0));
+        }
+        const double angle_rad = std::acos(std::clamp(glm::dot(direction, to_sun), -1.0, 1.0));
+        vertices_.push_back(dome_vertex(
+            direction,
+            of_disc
+                ? glm::max(
+                      day.disc(), glm::min(day.sky(direction) + day.glare(0.0), glm::vec3(1.0F)))
+                : day.sky(direction) + day.glare(angle_rad)));
+    };
+    for (auto ring = glare_rings_deg.rbegin(); ring != glare_rings_deg.rend(); ++ring) {
+        for (int spoke = 0; spoke < sun_spokes; ++spoke) {
+            add(rad_from_deg(*ring), spoke, false);
+        }
+    }
+    const auto disc = static_cast<std::uint32_t>(vertices_.size());
+    for (int spoke = 0; spoke < sun_spokes; ++spoke) {
+        add(nature::Daylight::disc_rad, spoke, true);
+    }
+    for (std::uint32_t ring = first; ring + sun_spokes < disc; ring += sun_spokes) {
+        add_ring_triangles(ring, ring + sun_spokes, sun_spokes);
+    }
+    for (std::uint32_t spoke = 2; spoke < sun_spokes; ++spoke) {
+        indices_.insert(indices_.end(), {disc, disc + spoke - 1, disc + spoke});
+    }
+}
+
+void Sky::place_land(const Plain& plain, const scene::Haze& haze, const glm::dvec3& eye_m) {
+    auto* vertex = &vertices_[sky_vertices_];
+    for (const nature::Backdrop::Corner& corner : land_.corners) {
+        glm::dvec3 at_m = corner.at_m - eye_m;
+        if (plain.earth_radius_m > 0.0) {
+            at_m.z -= (at_m.x * at_m.x + at_m.y * at_m.y) / (2.0 * plain.earth_radius_m);
+        }
+        *vertex++ = {
+            glm::vec3(at_m), models::packed_colour(seen_through(haze, at_m, corner.colour))};
+    }
+}
+
+scene::TriangleDraw
+Sky::around(const Plain& plain, const scene::Haze& haze, const glm::dvec3& eye_m) {
+    const double deepest = deepest_rad(plain);
+    auto* vertex = &vertices_[std::size_t{rings_above} * spokes];
+    for (int ring = 1; ring <= rings_below; ++ring) {
+        // The rings crowd towards the horizon, where the plain's colour changes fastest.
+        const double share = ring / static_cast<double>(rings_below);
+        const double elevation_rad = -deepest * share * share;
+        for (int spoke = 0; spoke < spokes; ++spoke, ++vertex) {
+            const glm::dvec3 level =
+                direction_from_heading(first_azimuth_rad_ - 2.0 * pi * spoke / spokes);
+            const glm::dvec3 ray(
+                std::cos(elevation_rad) * level.x,
+                std::cos(elevation_rad) * level.y,
+                std::sin(elevation_rad));
+            *vertex = dome_vertex(ray, colour_below(ray, plain, haze));
+        }
+    }
+    const std::span indices(indices_);
+    if (land_.corners.empty() || !(plain.height_below_eye_m > 0.0)) {
+        return {std::span(vertices_).first(sky_vertices_), indices.first(sky_indices_)};
+    }
+    place_land(plain, haze, eye_m);
+    return {vertices_, indices};
+}
+
+} // namespace octant::visuals::planning

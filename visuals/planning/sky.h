@@ -1,0 +1,52 @@
+#pragma once
+
+#include "models/colour_vertex.h"
+#include "visuals/nature/backdrop.h"
+#include "visuals/nature/daylight.h"
+#include "visuals/scene/frame_plan.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace octant::visuals::planning {
+
+/// A colour at a place (world axes with the eye subtracted) as it is seen through the haze.
+glm::vec3 seen_through(const scene::Haze& haze, const glm::dvec3& place_m, const glm::vec3& own);
+
+/// What the sky shows below the horizon, where the map has ended: an endless plain.
+struct Plain {
+    double height_below_eye_m = 0.0; ///< zero, less or not finite = no plain, only haze
+    double map_edge_m = 0.0;         ///< level distance from the eye to the nearest edge of the map
+    glm::vec3 colour{0.4F};          ///< mean colour of the ground, display values 0..1
+    double earth_radius_m = 0.0;     ///< the plain sinks with the square of the distance; 0 = flat
+};
+
+/// A dome of triangles around the eye in the colours of a daylight, with the sun and its glare; the
+/// plain below it as far down as the map does not cover it. What is below the horizon is made anew
+/// each frame in the same memory.
+class Sky {
+public:
+    /// `land`: what lies around the map; may be empty.
+    explicit Sky(const nature::Daylight& day, nature::Backdrop land = {});
+
+    /// The triangles, in painting order, stay valid until the next call. The land around the map is
+    /// left out from below its mean height.
+    scene::TriangleDraw
+    around(const Plain& plain, const scene::Haze& haze, const glm::dvec3& eye_m = {});
+
+private:
+    void add_ring_triangles(std::uint32_t upper, std::uint32_t lower, int corners);
+    void add_dome(const nature::Daylight& day);
+    void add_sun(const nature::Daylight& day);
+    void place_land(const Plain& plain, const scene::Haze& haze, const glm::dvec3& eye_m);
+
+    double first_azimuth_rad_; ///< of each ring of the dome: the sun's
+    nature::Backdrop land_;
+    std::vector<models::ColourVertex> vertices_; ///< of dome and sun, then of the land
+    std::vector<std::uint32_t> indices_;
+    std::size_t sky_vertices_ = 0; ///< of dome and sun
+    std::size_t sky_indices_ = 0;
+};
+
+} // namespace octant::visuals::planning

@@ -1,0 +1,185 @@
+#include "visuals/planning/smooth_choice.h"
+
+#include "visuals/shading/smooth_count.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace octant::visuals::planning {
+
+namespace {
+
+constexpr std::size_t word_bits = 32;
+
+/// An aircraft nearer than this many radii weighs no more.
+constexpr double nearest_radii = 1.0;
+
+std::size_t words_for(const AircraftModel& model) {
+    std::size_t most = 0;
+    for (std::size_t as = 0; as <= model.levels.size(); ++as) {
+        most = std::max(most, model.shaded_as(as).size());
+    }
+    return most / word_bits + 1;
+}
+
+double distance_m(const PlacedAircraft& aircraft) {
+    return glm::length(glm::dvec3(aircraft.parts[0][3]));
+}
+
+/// Those that may be flat or smooth.
+int polygons_of(const PlacedAircraft& aircraft) {
+    return is_refined(aircraft)
+               ? aircraft.polygon_count
+               : static_cast<int>(aircraft.model->shaded_as(aircraft.representation).size());
+}
+
+/// Whether some polygons may be smooth while others are not.
+bool chooses_by(const scene::ShadingSettings& settings, bool follows_clock) {
+    return settings.kind == scene::AircraftShading::Hybrid &&
+           (settings.smooth_share < 1.0 || settings.device_ratio || follows_clock ||
+            settings.rule == scene::HybridRule::Paper);
+}
+
+/// Of the sun, in body axes.
+shading::ShadingLight
+light_on(const PlacedAircraft& aircraft, const glm::dvec3& to_sun, const glm::vec2& light) {
+    shading::ShadingLight sun;
+    sun.to_light = glm::vec3(to_sun * glm::dmat3(aircraft.parts[0]));
+    sun.ambient = light.x;
+    sun.diffuse = light.y;
+    sun.specular = 0.0F;
+    return sun;
+}
+
+/// About the solid angle under which an aircraft is seen.
+double weight_of(const PlacedAircraft& aircraft) {
+    const double radius_m = aircraft.model->subject.radius_m;
+    const double sine = radius_m / std::max(distance_m(aircraft), nearest_radii * radius_m);
+    return sine * sine;
+}
+
+} // namespace
+
+void share_out_smooth(std::span<const SmoothShare> aircraft, int smooth, std::span<int> given) {
+    assert(given.size() == aircraft.size());
+    std::ranges::fill(given, 0);
+    int left = smooth;
+    bool filled = true; // some aircraft got all that it can take: the others share what is left
+    while (left > 0 && filled) {
+        double weight = 0.0;
+        for (std::size_t i = 0; i < aircraft.size(); ++i) {
+            weight += given[i] < aircraft[i].polygons ? aircraft[i].weight : 0.0;
+        }
+        filled = false;
+        const int to_share = left;
+        for (std::size_t i = 0; i < aircraft.size() && weight > 0.0; ++i) {
+            const int room = aircraft[i].polygons - given[i];
+            const auto part = static_cast<int>(to_share * (aircraft[i].weight / weight));
+            filled = filled || (room > 0 && part >= room);
+            given[i] += std::min(room, part);
+            left -= std::min(room, part);
+        }
+    }
+    for (std::size_t i = 0; i < aircraft.size() && left > 0; ++i) { // what rounding left over
+        const int more = std::min(left, aircraft[i].polygons - given[i]);
+        given[i] += more;
+        left -= more;
+    }
+}
+
+SmoothChoice::SmoothChoice(
+    const scene::ShadingSettings& settings, bool follows_clock, std::span<PlacedAircraft> placed)
+    : settings_(settings)
+    , chooses_(chooses_by(settings, follows_clock))
+    , choosers_(placed.size())
+    , shares_(placed.size())
+    , given_(placed.size()) {
+    std::size_t words = 0;
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        const AircraftModel& model = *placed[i].model;
+        placed[i].first_smooth = static_cast<std::uint32_t>(words);
+        words += words_for(model);
+        for (std::size_t as = 0; chooses_ && as <= model.levels.size(); ++as) {
+            choosers_[i].emplace_back(model.shaded_as(as), rule_of(settings));
+        }
+    }
+    bits_.assign(words, settings.kind == scene::AircraftShading::Flat ? 0U : ~0U);
+    bits_.push_back(1);
+}
+
+/// Fills in given_; returns the sum of the polygons.
+int SmoothChoice::wanted_of(std::span<const PlacedAircraft> placed, const SmoothWish& wish) {
+    int all = 0;
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        shares_[i] = {polygons_of(placed[i]), weight_of(placed[i])};
+        all += shares_[i].polygons;
+    }
+    const double share = wish.share.value_or(settings_.smooth_share);
+    int wanted = static_cast<int>(std::lround(share * all));
+    if (settings_.device_ratio && !wish.share) {
+        wanted = shading::device_smooth_count(*settings_.device_ratio, all);
+    }
+    wanted = std::min(wish.polygons.value_or(wanted), all);
+    share_out_smooth(shares_, wanted, given_);
+    if (settings_.rule == scene::HybridRule::Paper) {
+        const shading::ShadingRange range{settings_.near_m, settings_.far_m};
+        for (std::size_t i = 0; i < placed.size(); ++i) {
+            given_[i] = std::min(
+                given_[i],
+                shading::smooth_count(distance_m(placed[i]), range, shares_[i].polygons));
+        }
+    }
+    return all;
+}
+
+SmoothChoice::Count SmoothChoice::choose(
+    std::span<const PlacedAircraft> placed,
+    std::span<const std::unique_ptr<RefinedAircraft>> refined,
+    const SmoothWish& wish,
+    const glm::dvec3& to_sun,
+    const glm::vec2& light,
+    std::vector<std::uint32_t>& smooth) {
+    Count count{wanted_of(placed, wish), 0};
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        int given = settings_.kind == scene::AircraftShading::Flat ? 0 : shares_[i].polygons;
+        const shading::ShadingLight sun = light_on(placed[i], to_sun, light);
+        const glm::dvec3 eye_m =
+            -glm::dvec3(placed[i].parts[0][3]) * glm::dmat3(placed[i].parts[0]);
+        if (chooses_) {
+            given = given_[i];
+        }
+        if (is_refined(placed[i])) {
+            refined[i]->shade(eye_m, sun, given);
+        } else if (chooses_) {
+            write_bits(placed[i], chooser_of(i, placed[i]).choose(eye_m, sun, given));
+        }
+        count.smooth += given;
+    }
+    smooth.assign(bits_.begin(), bits_.end());
+    return count;
+}
+
+shading::ShadingSelector&
+SmoothChoice::chooser_of(std::size_t aircraft, const PlacedAircraft& placed) {
+    const bool polygons = !is_solid(placed);
+    return polygons ? choosers_[aircraft].back() : choosers_[aircraft][placed.representation];
+}
+
+void SmoothChoice::write_bits(
+    const PlacedAircraft& aircraft, const shading::ShadingChoice& choice) {
+    for (std::size_t first = 0; first < choice.smooth.size(); first += word_bits) {
+        const auto part =
+            choice.smooth.subspan(first, std::min(word_bits, choice.smooth.size() - first));
+        std::uint32_t word = 0;
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            word |= std::uint32_t{part[i]} << i;
+        }
+        bits_[aircraft.first_smooth + first / word_bits] = word;
+    }
+}
+
+} // namespace octant::visuals::planning

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "visuals/planning/placed_aircraft.h"
+#include "visuals/planning/refined_aircraft.h"
+#include "visuals/scene/settings.h"
+#include "visuals/shading/shading_rule.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::planning {
+
+/// Polygons of one aircraft, and how much of the picture it takes.
+struct SmoothShare {
+    int polygons = 0;
+    double weight = 0.0; ///< at least 0
+};
+
+/// Shares `smooth` smooth polygons out among aircraft, by weight, none getting more than it has;
+/// in all as many as asked for, or all. `given`: one an aircraft.
+void share_out_smooth(std::span<const SmoothShare> aircraft, int smooth, std::span<int> given);
+
+/// How many polygons are smooth in a frame: a number, else a share from 0 to 1; neither = as the
+/// settings say.
+struct SmoothWish {
+    std::optional<int> polygons;
+    std::optional<double> share;
+};
+
+/// Chooses in each frame which polygons of which aircraft are lit smoothly, triangles of meshes
+/// that are refined included. Keeps the choice, so that shading does not flicker, and its memory.
+class SmoothChoice {
+public:
+    /// Gives each aircraft its place in FramePlan::smooth. `follows_clock`: the share of smooth
+    /// polygons may be another one in each frame. Loading work.
+    SmoothChoice(
+        const scene::ShadingSettings& settings,
+        bool follows_clock,
+        std::span<PlacedAircraft> placed);
+
+    /// RefinedDraw::first_smooth of all that is refined.
+    std::uint32_t refined_word() const { return static_cast<std::uint32_t>(bits_.size() - 1); }
+
+    /// Of how many polygons, and how many of them.
+    struct Count {
+        int polygons = 0;
+        int smooth = 0;
+    };
+
+    /// Fills in the bits of the aircraft as they are placed and shades what is refined (`refined`:
+    /// one an aircraft, some null); counts all polygons of models, painted or not, and the
+    /// triangles that refined meshes have now.
+    /// `to_sun`: unit vector, world axes. `light`: share of it from everywhere and from the sun.
+    Count choose(
+        std::span<const PlacedAircraft> placed,
+        std::span<const std::unique_ptr<RefinedAircraft>> refined,
+        const SmoothWish& wish,
+        const glm::dvec3& to_sun,
+        const glm::vec2& light,
+        std::vector<std::uint32_t>& smooth);
+
+private:
+    /// Of one aircraft: its levels, then its polygons; empty where all polygons are alike.
+    using Choosers = std::vector<shading::ShadingSelector>;
+
+    int wanted_of(std::span<const PlacedAircraft> placed, const SmoothWish& wish);
+    shading::ShadingSelector& chooser_of(std::size_t aircraft, const PlacedAircraft& placed);
+    void write_bits(const PlacedAircraft& aircraft, const shading::ShadingChoice& choice);
+
+    scene::ShadingSettings settings_;
+    bool chooses_; ///< some polygons may be smooth while others are not
+    std::vector<Choosers> choosers_;
+    std::vector<std::uint32_t> bits_;
+    std::vector<SmoothShare> shares_;
+    std::vector<int> given_;
+};
+
+} // namespace octant::visuals::planning

@@ -1,0 +1,90 @@
+#pragma once
+
+#include "visuals/planning/ground_frame.h"
+#include "visuals/planning/ground_in_front.h"
+#include "visuals/planning/sight.h"
+#include "visuals/scene/frame_plan.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::planning {
+
+/// Appends to the painting steps of a plan.
+class StepWriter {
+public:
+    explicit StepWriter(scene::FramePlan& plan)
+        : plan_(plan) {}
+
+    /// Depth becomes infinitely far there: what is drawn by depth from here on hides only itself.
+    void clear_depth(const scene::PixelBox& box);
+
+    /// The plan's sky; nothing where it is empty.
+    void paint_sky(scene::DepthUse depth = scene::DepthUse::None);
+
+    /// The plan's ground in its order; nothing where it is empty.
+    void paint_ground();
+
+    /// The plan's ground by depth, of which the last `edge_on_indices` indices belong to triangles
+    /// that face away but for rounding: they only close holes along edges, elsewhere their depths
+    /// mean nothing.
+    void paint_ground_by_depth(std::size_t edge_on_indices);
+
+    /// All shadows, where ground has been drawn by depth.
+    void paint_shadows_by_depth(const GroundFrame& ground);
+
+    /// The plan's overlay; nothing where it is empty.
+    void paint_overlay();
+
+    /// A whole aircraft. Consecutive ones that are drawn alike become one step.
+    void paint(const scene::AircraftDraw& draw, scene::DepthUse depth = scene::DepthUse::None);
+
+    /// A mesh that was refined for this frame, by depth.
+    void paint(const scene::RefinedDraw& draw);
+
+    /// Paints an aircraft's range once more where `region` is seen: a part of one of its polygons.
+    void paint_within(const scene::AircraftDraw& draw, const SightPolygon& region);
+
+    /// Paints triangles once more where they lie before a box, with their shadows, as far as they
+    /// are seen in `cone`: of the box or of one inside it. They are in painting order; those that
+    /// meet the box are cut to the outside of its sides. The eye is outside the box.
+    void paint_before(
+        const GroundFrame& ground,
+        std::span<const NearTriangle> triangles,
+        const HullBox& box,
+        const SightCone& cone);
+
+    /// Paints one triangle once more where `region`, a part of it, is seen.
+    void
+    paint_within(const GroundFrame& ground, std::uint32_t triangle, const SightPolygon& region);
+
+    /// Gives depth to ground that what comes next by depth may stick in: triangles that have been
+    /// painted.
+    void hide_by_ground(const GroundFrame& ground, std::span<const std::uint32_t> triangles);
+
+private:
+    void paint_range(
+        scene::PaintStep::What what, std::size_t first, std::size_t count, scene::DepthUse depth);
+
+    /// Index of a new clip by planes through the eye, at most Clip::most_planes.
+    std::uint32_t add_clip(std::span<const glm::dvec3> normals);
+    void paint_outside(
+        const GroundFrame& ground,
+        std::uint32_t triangle,
+        const HullBox& box,
+        const SightCone& cone);
+    void add_indices(const GroundFrame& ground, std::uint32_t triangle);
+
+    /// Calls paint(clip) for each convex piece of `region` that few enough planes bound.
+    template <class Paint>
+    void for_each_clip(const SightPolygon& region, const Paint& paint);
+
+    scene::FramePlan& plan_;
+    SightPolygon piece_;
+    SightPolygon scratch_;
+    std::vector<glm::dvec3> normals_;
+};
+
+} // namespace octant::visuals::planning

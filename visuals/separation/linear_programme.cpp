@@ -1,0 +1,104 @@
+#include "visuals/separation/linear_programme.h"
+
+#include <Clp_C_Interface.h>
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace octant::visuals::separation {
+
+namespace {
+
+constexpr double tolerance = 1e-9;
+constexpr int most_iterations = 10000;
+constexpr int optimal = 0;
+constexpr int no_perturbation = 100;
+/// CLP's own scaling suits programmes of unequal factors. With factors of about 1 it ends in
+/// solutions that are no optimum once they are scaled back.
+constexpr int no_scaling = 0;
+constexpr double maximise = -1.0;
+
+using Solver = std::unique_ptr<Clp_Simplex, decltype(&Clp_deleteModel)>;
+
+/// The bound as CLP takes it: the largest finite number and its negative stand for none.
+double clp_bound(double bound) {
+    constexpr double none = std::numeric_limits<double>::max();
+    return std::clamp(bound, -none, none);
+}
+
+/// A linear programme as CLP reads it: the matrix by columns without its zeros, and all bounds.
+struct Columns {
+    std::vector<CoinBigIndex> starts{0};
+    std::vector<int> rows;
+    std::vector<double> factors;
+    std::vector<double> weights;
+    std::vector<double> least;
+    std::vector<double> most;
+    std::vector<double> row_least;
+    std::vector<double> row_most;
+};
+
+Columns columns_of(const LinearProgramme& programme) {
+    Columns columns;
+    for (std::size_t i = 0; i < programme.variables.size(); ++i) {
+        const auto& [weight, least, most] = programme.variables[i];
+        columns.weights.push_back(weight);
+        columns.least.push_back(clp_bound(least));
+        columns.most.push_back(clp_bound(most));
+        for (std::size_t row = 0; row < programme.rows.size(); ++row) {
+            assert(programme.rows[row].factors.size() == programme.variables.size());
+            if (const double factor = programme.rows[row].factors[i]; factor != 0.0) {
+                columns.rows.push_back(static_cast<int>(row));
+                columns.factors.push_back(factor);
+            }
+        }
+        columns.starts.push_back(static_cast<CoinBigIndex>(columns.rows.size()));
+    }
+    for (const LinearProgramme::Row& row : programme.rows) {
+        columns.row_least.push_back(clp_bound(row.least));
+        columns.row_most.push_back(clp_bound(row.most));
+    }
+    return columns;
+}
+
+void load(Clp_Simplex* solver, const Columns& columns) {
+    Clp_loadProblem(
+        solver,
+        static_cast<int>(columns.weights.size()),
+        static_cast<int>(columns.row_least.size()),
+        columns.starts.data(),
+        columns.rows.data(),
+        columns.factors.data(),
+        columns.least.data(),
+        columns.most.data(),
+        columns.weights.data(),
+        columns.row_least.data(),
+        columns.row_most.data());
+}
+
+} // namespace
+
+// Clp_primal works on its own model alone: unlike CLP's drivers it sets no signal handlers, and
+// without perturbation it draws no random numbers. So threads may solve side by side, and the same
+// programme always gives the same values.
+std::optional<std::vector<double>> optimum(const LinearProgramme& programme) {
+    const Solver solver(Clp_newModel(), &Clp_deleteModel);
+    Clp_setLogLevel(solver.get(), 0);
+    load(solver.get(), columns_of(programme));
+    Clp_setOptimizationDirection(solver.get(), maximise);
+    Clp_setPrimalTolerance(solver.get(), tolerance);
+    Clp_setDualTolerance(solver.get(), tolerance);
+    Clp_setMaximumIterations(solver.get(), most_iterations);
+    Clp_scaling(solver.get(), no_scaling);
+    Clp_setPerturbation(solver.get(), no_perturbation);
+    Clp_primal(solver.get(), 0);
+    if (Clp_status(solver.get()) != optimal) {
+        return std::nullopt;
+    }
+    const double* values = Clp_getColSolution(solver.get());
+    return std::vector<double>(values, values + programme.variables.size());
+}
+
+} // namespace octant::visuals::separation
