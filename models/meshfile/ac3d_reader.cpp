@@ -1,3 +1,4 @@
+#include "models/meshfile/ac3d_materials.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/placement.h"
 #include "models/meshfile/word_scanner.h"
@@ -43,7 +44,7 @@ public:
             if (word == "OBJECT") {
                 break;
             }
-            take_material(word);
+            materials_.take(word, words_);
         }
         take_object({}, 0);
         add_notes();
@@ -51,64 +52,6 @@ public:
     }
 
 private:
-    void take_material(std::string_view word) {
-        if (word == "MATERIAL") {
-            take_material_line();
-        } else if (word == "MAT") {
-            take_material_block();
-        } else {
-            words_.refuse("MATERIAL or OBJECT", in_quotes(word));
-        }
-    }
-
-    /// Reads the rest of a line MATERIAL "name" rgb R G B ...
-    void take_material_line() {
-        std::string_view rest = words_.rest_of_line();
-        Material material{.name = taken_name(rest)};
-        const auto words = split_words(rest);
-        if (words.size() < 4 || words[0] != "rgb") {
-            words_.refuse("rgb and three numbers", in_quotes(rest));
-        }
-        for (int part = 0; part < 3; ++part) {
-            material.colour[part] = colour_part(words[static_cast<std::size_t>(part) + 1]);
-        }
-        materials_.push_back({std::move(material)});
-    }
-
-    /// MAT "name", lines such as rgb R G B, ENDMAT: version c.
-    void take_material_block() {
-        std::string_view rest = words_.rest_of_line();
-        Material material{.name = taken_name(rest)};
-        for (std::string_view word; (word = words_.word("ENDMAT")) != "ENDMAT";) {
-            for (int part = 0; word == "rgb" && part < 3; ++part) {
-                material.colour[part] = colour_part(words_.word("a part of a colour"));
-            }
-            words_.rest_of_line();
-        }
-        materials_.push_back({std::move(material)});
-    }
-
-    /// Takes a name, in quotes or not, off the front of a line.
-    std::string taken_name(std::string_view& line) const {
-        const bool quoted = line.starts_with('"');
-        const std::size_t end = line.find(quoted ? '"' : ' ', quoted ? 1 : 0);
-        if (quoted && end == std::string_view::npos) {
-            words_.refuse("a name in quotes", in_quotes(line));
-        }
-        const std::size_t last = std::min(end, line.size());
-        std::string name(line.substr(quoted ? 1 : 0, last - (quoted ? 1 : 0)));
-        line.remove_prefix(std::min(last + 1, line.size()));
-        return name;
-    }
-
-    float colour_part(std::string_view word) const {
-        const auto value = finite_number(word);
-        if (!value || *value < 0.0 || *value > 1.0) {
-            words_.refuse("a part of a colour of 0 to 1", in_quotes(word));
-        }
-        return static_cast<float>(*value);
-    }
-
     /// Reads what follows OBJECT, its kids included.
     void take_object(const Placement& parent, int depth) {
         if (depth > most_depth) {
@@ -134,7 +77,8 @@ private:
                 take_surfaces(first_vertex, parent.of(own).mirrors(), picture);
             } else if (word == "name") {
                 std::string_view rest = words_.rest_of_line();
-                is_left_out_ = is_left_out_ || options_.left_out.contains(taken_name(rest));
+                is_left_out_ =
+                    is_left_out_ || options_.left_out.contains(taken_ac3d_name(rest, words_));
             } else if (word == "texture") {
                 take_picture(picture);
             } else if (word == "texrep" || word == "texoff") {
@@ -144,7 +88,7 @@ private:
                 words_.rest_of_line();
                 words_.skip_bytes(static_cast<std::size_t>(bytes) + 1, "data");
             } else if (word == "MATERIAL" || word == "MAT") {
-                take_material(word);
+                materials_.take(word, words_);
             } else if (std::ranges::find(ignored_keywords, word) != ignored_keywords.end()) {
                 words_.rest_of_line();
             } else {
@@ -171,7 +115,7 @@ private:
 
     void take_picture(ObjectPicture& picture) {
         std::string_view rest = words_.rest_of_line();
-        const std::string name = taken_name(rest);
+        const std::string name = taken_ac3d_name(rest, words_);
         if (mesh_.takes_pictures() && !name.empty() && name != "empty_texture_no_mapping") {
             picture.number = mesh_.pictures().picture(name);
         }
@@ -259,7 +203,7 @@ private:
         std::uint32_t material = no_index;
         std::string_view word = words_.word("mat or refs");
         if (word == "mat") {
-            const auto last = static_cast<long>(materials_.size()) - 1;
+            const auto last = static_cast<long>(materials_.count()) - 1;
             material = static_cast<std::uint32_t>(words_.whole("a material", 0, last));
             word = words_.word("refs");
         }
@@ -295,19 +239,7 @@ private:
         if (mirrored) {
             std::ranges::reverse(corners_);
         }
-        mesh_.add_polygon(corners_, used_material(material), picture.number);
-    }
-
-    /// Materials come in the order of their first polygon.
-    std::uint32_t used_material(std::uint32_t number) {
-        if (number == no_index) {
-            return no_index;
-        }
-        FileMaterial& material = materials_[number];
-        if (material.used_as == no_index) {
-            material.used_as = mesh_.add_material(material.material);
-        }
-        return material.used_as;
+        mesh_.add_polygon(corners_, materials_.used(material, mesh_), picture.number);
     }
 
     void add_notes() {
@@ -325,16 +257,11 @@ private:
         }
     }
 
-    struct FileMaterial {
-        Material material;
-        std::uint32_t used_as = no_index;
-    };
-
     std::filesystem::path path_;
     ReadOptions options_;
     WordScanner words_;
     MeshBuilder mesh_;
-    std::vector<FileMaterial> materials_;
+    Ac3dMaterials materials_;
     std::vector<Corner> corners_;
     std::size_t skipped_ = 0;
     std::size_t two_sided_ = 0;

@@ -1,6 +1,7 @@
 #include "models/repair/repair.h"
 
 #include "models/no_index.h"
+#include "models/repair/agreeing_turns.h"
 #include "models/repair/edge_joints.h"
 #include "models/repair/near_rims.h"
 #include "models/repair/shell_pieces.h"
@@ -130,62 +131,14 @@ private:
         keep(mesh_.triangle_materials, stays);
     }
 
-    /// The other triangle at each side of each triangle, where exactly two share the edge.
-    void find_neighbours(const std::vector<Side>& sides) {
-        neighbours_.assign(mesh_.triangles.size(), {no_index, no_index, no_index});
-        agrees_.assign(mesh_.triangles.size(), {true, true, true});
-        for_each_joint(sides, named_, [&](std::span<const Side> edge) {
-            counts_.split_edges += static_cast<std::size_t>(edge.size() > 2);
-            if (edge.size() == 2) {
-                const bool agree = edge[0].rises != edge[1].rises;
-                for (std::size_t i = 0; i < 2; ++i) {
-                    const Side& side = edge[i];
-                    neighbours_[side.triangle][side.corner] = edge[1 - i].triangle;
-                    agrees_[side.triangle][side.corner] = agree;
-                }
-            }
-        });
-    }
-
-    /// Decides for each triangle whether it is turned, shell by shell from its first triangle.
     void orient() {
         const std::vector<Side> sides = sorted_sides(mesh_.triangles);
-        find_neighbours(sides);
-        turned_.assign(mesh_.triangles.size(), 0);
-        std::vector<bool> reached(mesh_.triangles.size(), false);
-        std::vector<std::uint32_t> shell;
-        for (std::uint32_t first = 0; first < reached.size(); ++first) {
-            if (reached[first]) {
-                continue;
-            }
-            shell.assign(1, first);
-            reached[first] = true;
-            std::size_t to_turn = 0;
-            for (std::size_t i = 0; i < shell.size(); ++i) {
-                const std::uint32_t t = shell[i];
-                to_turn += turned_[t];
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const std::uint32_t next = neighbours_[t][k];
-                    if (next != no_index && !reached[next]) {
-                        reached[next] = true;
-                        turned_[next] =
-                            static_cast<std::uint8_t>(turned_[t] ^ (agrees_[t][k] ? 0U : 1U));
-                        shell.push_back(next);
-                    }
-                }
-            }
-            turn_fewer(shell, to_turn);
-        }
+        AgreeingTurns turns = agreeing_turns(mesh_.triangles, sides, named_);
+        turned_ = std::move(turns.turned);
+        counts_.turned_triangles += turns.count;
+        counts_.split_edges += turns.crowded_edges;
         join_fans(sides);
         turn_triangles();
-    }
-
-    void turn_fewer(const std::vector<std::uint32_t>& shell, std::size_t to_turn) {
-        const bool others = 2 * to_turn > shell.size();
-        for (const std::uint32_t t : shell) {
-            turned_[t] ^= static_cast<std::uint8_t>(others);
-        }
-        counts_.turned_triangles += others ? shell.size() - to_turn : to_turn;
     }
 
     /// Joins the corners of triangles around each vertex into fans. Fans may meet again elsewhere,
@@ -334,10 +287,8 @@ private:
     Seams seams_;
     std::vector<Triangle> named_; ///< the triangles by the vertices of the file
     RepairCounts counts_;
-    std::vector<std::array<std::uint32_t, 3>> neighbours_; ///< of each triangle, side by side
-    std::vector<std::array<bool, 3>> agrees_; ///< with that neighbour, before any is turned
-    std::vector<std::uint8_t> turned_;        ///< 1 for triangles that are to be turned
-    std::vector<bool> is_apart_;              ///< Triangles that share no vertex with others.
+    std::vector<std::uint8_t> turned_; ///< 1 for triangles that are to be turned
+    std::vector<bool> is_apart_;       ///< triangles that share no vertex with others
     std::unordered_map<std::uint32_t, std::uint32_t> turned_normals_;
     Groups fans_{0}; ///< of corners
 };

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "sim/aircraft_kind.h"
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
 #include "sim/fixed_step.h"
+#include "sim/flight_models.h"
 #include "sim/hand_flight.h"
 
 #include <glm/geometric.hpp>
@@ -11,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <random>
 
 namespace octant::tests {
@@ -32,6 +35,13 @@ void fly(sim::HandFlight& flight, double seconds, Pilot&& pilot, const Look& loo
 inline void hold(sim::HandFlight& flight, double seconds, const sim::PilotControls& controls) {
     fly(
         flight, seconds, [&](double) { return controls; }, [](const sim::HandFlight&) {});
+}
+
+/// An F-15 in level flight towards 70 degrees, ready to be flown.
+inline std::unique_ptr<sim::HandFlight> trimmed_f15(double speed_mps, double height_m = 1000.0) {
+    const sim::AircraftKind& kind = sim::aircraft_kind("f15");
+    return sim::hand_flight(
+        kind, sim::trimmed_state(kind, {0, 0, height_m}, rad_from_deg(70), speed_mps));
 }
 
 inline double speed_mps(const sim::HandFlight& flight) {

@@ -15,7 +15,4 @@ namespace octant::ui::report {
 std::string
 several_html(std::span<const LoadedRecording> recordings, const std::filesystem::path& page_folder);
 
-/// What tells a recording from the others: its folder's name, or its whole path where names repeat.
-std::string label_of(std::span<const LoadedRecording> recordings, const LoadedRecording& recording);
-
 } // namespace octant::ui::report

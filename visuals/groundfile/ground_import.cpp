@@ -275,12 +275,7 @@ void Import::build() {
         source_.spacing_m(),
         progress_.lowest_m,
         progress_.highest_m);
-    StoredHeights heights{numbers(), source_.columns(), source_.rows(), 1, 0, shape_.height_unit_m};
-    if (source_.whole_metres()) {
-        heights.multiplier = static_cast<int>(1.0 / shape_.height_unit_m);
-        heights.addend = static_cast<int>(-shape_.height_base_m / shape_.height_unit_m);
-        heights.number_unit_m = 1.0;
-    }
+    const StoredHeights heights = heights_of(numbers(), source_, shape_);
     const std::span<std::byte> memory = file_part(GroundHeader::bytes, layout_.total_bytes());
     const std::span<std::byte> table = file_part(plan_.checksums, 8 * (plan_.tiles + 1));
     GroundAssembly assembly(shape_, layout_, heights, memory, options_.threads);

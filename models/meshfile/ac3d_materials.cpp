@@ -1,0 +1,82 @@
+#include "models/meshfile/ac3d_materials.h"
+
+#include "sim/base/text_file.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace octant::models::meshfile {
+
+namespace {
+
+float colour_part(std::string_view word, const WordScanner& words) {
+    const auto value = finite_number(word);
+    if (!value || *value < 0.0 || *value > 1.0) {
+        words.refuse("a part of a colour of 0 to 1", in_quotes(word));
+    }
+    return static_cast<float>(*value);
+}
+
+} // namespace
+
+std::string taken_ac3d_name(std::string_view& line, const WordScanner& words) {
+    const bool quoted = line.starts_with('"');
+    const std::size_t end = line.find(quoted ? '"' : ' ', quoted ? 1 : 0);
+    if (quoted && end == std::string_view::npos) {
+        words.refuse("a name in quotes", in_quotes(line));
+    }
+    const std::size_t last = std::min(end, line.size());
+    std::string name(line.substr(quoted ? 1 : 0, last - (quoted ? 1 : 0)));
+    line.remove_prefix(std::min(last + 1, line.size()));
+    return name;
+}
+
+void Ac3dMaterials::take(std::string_view word, WordScanner& words) {
+    if (word == "MATERIAL") {
+        take_line(words);
+    } else if (word == "MAT") {
+        take_block(words);
+    } else {
+        words.refuse("MATERIAL or OBJECT", in_quotes(word));
+    }
+}
+
+/// Reads the rest of a line MATERIAL "name" rgb R G B ...
+void Ac3dMaterials::take_line(WordScanner& words) {
+    std::string_view rest = words.rest_of_line();
+    Material material{.name = taken_ac3d_name(rest, words)};
+    const auto parts = split_words(rest);
+    if (parts.size() < 4 || parts[0] != "rgb") {
+        words.refuse("rgb and three numbers", in_quotes(rest));
+    }
+    for (int part = 0; part < 3; ++part) {
+        material.colour[part] = colour_part(parts[static_cast<std::size_t>(part) + 1], words);
+    }
+    materials_.push_back({std::move(material)});
+}
+
+/// Reads MAT "name", lines such as rgb R G B, ENDMAT, which version c of the format has.
+void Ac3dMaterials::take_block(WordScanner& words) {
+    std::string_view rest = words.rest_of_line();
+    Material material{.name = taken_ac3d_name(rest, words)};
+    for (std::string_view word; (word = words.word("ENDMAT")) != "ENDMAT";) {
+        for (int part = 0; word == "rgb" && part < 3; ++part) {
+            material.colour[part] = colour_part(words.word("a part of a colour"), words);
+        }
+        words.rest_of_line();
+    }
+    materials_.push_back({std::move(material)});
+}
+
+std::uint32_t Ac3dMaterials::used(std::uint32_t number, MeshBuilder& mesh) {
+    if (number == no_index) {
+        return no_index;
+    }
+    FileMaterial& material = materials_[number];
+    if (material.used_as == no_index) {
+        material.used_as = mesh.add_material(material.material);
+    }
+    return material.used_as;
+}
+
+} // namespace octant::models::meshfile

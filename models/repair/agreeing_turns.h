@@ -1,0 +1,27 @@
+#pragma once
+
+#include "models/repair/shell_pieces.h"
+#include "models/triangle_mesh.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::models::repair {
+
+/// Which triangles of a mesh are to be turned so that neighbours agree on which side is out.
+struct AgreeingTurns {
+    std::vector<std::uint8_t> turned; ///< one a triangle: 1 for those that are to be turned
+    std::size_t count = 0;            ///< how many are
+    std::size_t crowded_edges = 0;    ///< shared by more than two triangles, which none agree over
+};
+
+/// Goes from each shell's first triangle to its neighbours and turns the fewer half of the shell.
+/// `sides`: the sorted sides of the triangles; `named`: as for_each_joint.
+AgreeingTurns agreeing_turns(
+    std::span<const Triangle> triangles,
+    std::span<const Side> sides,
+    std::span<const Triangle> named);
+
+} // namespace octant::models::repair

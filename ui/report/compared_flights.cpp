@@ -1,0 +1,153 @@
+#include "ui/report/compared_flights.h"
+
+#include "ui/report/comparison.h"
+#include "ui/report/flight_plots.h"
+#include "ui/report/flights_text.h"
+#include "ui/report/html_text.h"
+#include "ui/report/page_plot.h"
+
+#include <fmt/format.h>
+#include <utility>
+#include <vector>
+
+namespace octant::ui::report {
+
+namespace {
+
+using Indices = std::vector<std::size_t>;
+
+/// "order-method tree, samples 4", by the settings in which variants differ.
+std::string variant_label(const LoadedRecording& recording, const std::vector<std::string>& names) {
+    std::string label;
+    for (const std::string& name : names) {
+        label += fmt::format(
+            "{}{} {}",
+            label.empty() ? "" : ", ",
+            name,
+            short_value(value_of(recording.run.settings, name)));
+    }
+    return label.empty() ? "all the same" : label;
+}
+
+std::vector<double>
+values_of(Recordings recordings, const Indices& runs, double (*value)(const Statistics&)) {
+    std::vector<double> values;
+    for (const std::size_t i : runs) {
+        if (recordings[i].statistics.frames > 0) {
+            values.push_back(value(recordings[i].statistics));
+        }
+    }
+    return values;
+}
+
+/// Median of a variant's runs, and how it compares with the first variant's.
+std::string
+compared_cells(const std::vector<double>& before, const std::vector<double>& now, bool is_first) {
+    if (now.empty() || before.empty()) {
+        return "<td class=\"number\">none</td><td></td>";
+    }
+    std::string html = number_cell(median_of(now), 3);
+    if (is_first) {
+        return html + "<td class=\"soft\">compared with this one</td>";
+    }
+    const Change change = change_between(before, now);
+    const char* const mark = !change.is_sure() ? "" : (change.share < 0.0 ? "better" : "worse");
+    std::string text = fmt::format("{:+.1f} %", 100.0 * change.share);
+    if (change.has_interval) {
+        text += fmt::format(" ({:+.1f} to {:+.1f} %)", 100.0 * change.least, 100.0 * change.most);
+    }
+    return html + fmt::format("<td class=\"{}\">{}</td>", mark, text);
+}
+
+std::string comparison_table(Recordings recordings, const std::vector<Indices>& variants) {
+    Indices all;
+    for (const Indices& variant : variants) {
+        all.insert(all.end(), variant.begin(), variant.end());
+    }
+    const std::vector<std::string> names = differing_settings(recordings, all);
+    std::string html =
+        "<div class=\"scroll\"><table>\n<thead><tr><th>variant</th><th class=\"number\">runs</th>"
+        "<th class=\"number\">P50, ms</th><th>change</th><th class=\"number\">P99, ms</th>"
+        "<th>change</th></tr></thead>\n<tbody>\n";
+    for (const Indices& variant : variants) {
+        html += fmt::format(
+            "<tr><td>{}</td><td class=\"number\">{}</td>",
+            escaped(variant_label(recordings[variant.front()], names)),
+            variant.size());
+        for (const char* key : {"p50_ms", "p99_ms"}) {
+            const auto value = figure_named(key).value;
+            html += compared_cells(
+                values_of(recordings, variants.front(), value),
+                values_of(recordings, variant, value),
+                &variant == &variants.front());
+        }
+        html += "</tr>\n";
+    }
+    html += "</tbody></table></div>\n<p class=\"note\">Medians over the runs of a variant. In "
+            "brackets the 95 % interval of the change by the bootstrap over runs, where both "
+            "variants have three runs or more; green or red only where it leaves zero out.</p>\n";
+    return html;
+}
+
+std::string title_of_group(const LoadedRecording& recording) {
+    return recording.run.title.empty() ? recording.name : recording.run.title;
+}
+
+/// The frame times of a flight's runs over its simulated time, in one plot.
+std::string
+overlaid(Recordings recordings, const std::vector<Indices>& variants, double ceiling_ms) {
+    constexpr std::size_t most_curves = 12;
+    Plot plot{"Frame time of each run", "simulated time, s", "ms", {}, {}, 0.0, ceiling_ms};
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+        for (const std::size_t i : variants[v]) {
+            if (plot.series.size() < most_curves) {
+                PlotSeries curve = frame_time_curve(recordings[i].records, 400);
+                curve.name = label_of(recordings, recordings[i]);
+                curve.colour = run_colours[v % run_colours.size()];
+                plot.series.push_back(std::move(curve));
+            }
+        }
+    }
+    plot.levels = {{"16.67 ms", overrun_16_ms}};
+    plot.marks = recordings[variants.front().front()].run.legs;
+    return page_plot(plot, PlotPlace::Wide);
+}
+
+} // namespace
+
+std::string compared_flights_html(Recordings recordings) {
+    constexpr std::size_t most_groups = 24;
+    std::string html;
+    std::size_t shown = 0;
+    std::size_t compared = 0;
+    for (const Indices& group : comparable_groups(recordings)) {
+        if (group.size() < 2) {
+            continue;
+        }
+        ++compared;
+        if (shown == most_groups) {
+            continue;
+        }
+        ++shown;
+        const std::vector<Indices> variants = variants_of(recordings, group);
+        html += "<div class=\"card\">\n<h3>" + escaped(title_of_group(recordings[group.front()])) +
+                "</h3>\n";
+        if (variants.size() > 1) {
+            html += comparison_table(recordings, variants);
+        }
+        html += overlaid(recordings, variants, ceiling_of(recordings, group)) + "</div>\n";
+    }
+    if (html.empty()) {
+        return "<p class=\"note\">No two of these recordings are of the same flight on the same "
+               "kind of machine, so none are compared.</p>\n";
+    }
+    if (shown < compared) {
+        html += fmt::format(
+            "<p class=\"note\">The first {} of {} flights that were flown more than once.</p>\n",
+            shown,
+            compared);
+    }
+    return "<h2>The same flight, compared</h2>\n" + html;
+}
+
+} // namespace octant::ui::report

@@ -1,0 +1,59 @@
+#include "ui/report/flights_text.h"
+
+#include "ui/report/page_plot.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace octant::ui::report {
+
+std::string label_of(Recordings recordings, const LoadedRecording& recording) {
+    const auto same = [&](const auto& each) { return each.name == recording.name; };
+    const bool unique = std::ranges::count_if(recordings, same) == 1;
+    return unique ? recording.name : recording.folder.string();
+}
+
+std::string value_of(const Rows& rows, std::string_view name) {
+    const auto found =
+        std::ranges::find_if(rows, [&](const auto& row) { return row.first == name; });
+    return found == rows.end() ? std::string() : found->second;
+}
+
+std::vector<std::string>
+differing_settings(Recordings recordings, const std::vector<std::size_t>& among) {
+    std::vector<std::string> names;
+    const Rows& first = recordings[among.front()].run.settings;
+    for (const auto& [name, value] : first) {
+        const bool differs = std::ranges::any_of(among, [&](std::size_t i) {
+            return value_of(recordings[i].run.settings, name) != value;
+        });
+        if (differs) {
+            names.push_back(name);
+        }
+    }
+    return names;
+}
+
+std::string short_value(const std::string& value) {
+    const bool is_path = value.find('/') != std::string::npos;
+    return is_path ? std::filesystem::path(value).filename().string() : value;
+}
+
+std::string number_cell(double value, int decimals) {
+    return fmt::format("<td class=\"number\">{:.{}f}</td>", value, decimals);
+}
+
+const Figure& figure_named(std::string_view key) {
+    return *std::ranges::find(figures(), key, &Figure::key);
+}
+
+double ceiling_of(Recordings recordings, const std::vector<std::size_t>& runs) {
+    double ceiling_ms = 0.0;
+    for (const std::size_t i : runs) {
+        ceiling_ms = std::max(ceiling_ms, plot_ceiling_ms(recordings[i].records));
+    }
+    return ceiling_ms;
+}
+
+} // namespace octant::ui::report
