@@ -51,14 +51,14 @@ std::uint64_t count_from(std::string_view text) {
 
 std::uint64_t own_ticks() {
     const double ticks_per_s = static_cast<double>(sysconf(_SC_CLK_TCK));
-    double seconds = 0.0;
+    double used_s = 0.0;
     for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
         rusage use{};
         getrusage(who, &use);
-        seconds += static_cast<double>(use.ru_utime.tv_sec + use.ru_stime.tv_sec);
-        seconds += 1e-6 * static_cast<double>(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
+        used_s += static_cast<double>(use.ru_utime.tv_sec + use.ru_stime.tv_sec);
+        used_s += 1e-6 * static_cast<double>(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
     }
-    return static_cast<std::uint64_t>(seconds * ticks_per_s);
+    return static_cast<std::uint64_t>(used_s * ticks_per_s);
 }
 
 std::string compiler_text() {
