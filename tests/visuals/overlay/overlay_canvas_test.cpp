@@ -12,7 +12,6 @@
 using namespace octant;
 using namespace octant::tests;
 using namespace octant::visuals::overlay;
-using namespace octant::visuals::planning;
 using namespace octant::visuals::scene;
 
 namespace {
