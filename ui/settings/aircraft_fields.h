@@ -50,7 +50,9 @@ inline constexpr std::tuple shading_rows{
     setting<&RunSettings::shading, &visuals::scene::ShadingSettings::kind>(
         {"shading",
          "KIND",
-         "aircraft: flat, gouraud, or hybrid (the polygons that gain most are smooth)"},
+         "aircraft: flat, gouraud, hybrid (the polygons that gain most are smooth), or phong (lit "
+         "in "
+         "each pixel, with highlights)"},
         {.group = SettingGroup::Shading, .change = SettingsChange::Picture}),
     setting<&RunSettings::shading, &visuals::scene::ShadingSettings::rule>(
         {"shading-rule",

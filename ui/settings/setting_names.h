@@ -87,7 +87,8 @@ template <>
 inline constexpr std::array enum_names<visuals::scene::AircraftShading>{
     Named{visuals::scene::AircraftShading::Flat, "flat"},
     Named{visuals::scene::AircraftShading::Gouraud, "gouraud"},
-    Named{visuals::scene::AircraftShading::Hybrid, "hybrid"}};
+    Named{visuals::scene::AircraftShading::Hybrid, "hybrid"},
+    Named{visuals::scene::AircraftShading::Phong, "phong"}};
 
 template <>
 inline constexpr std::array enum_names<visuals::scene::HybridRule>{

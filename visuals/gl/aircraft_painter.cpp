@@ -75,6 +75,11 @@ void AircraftPainter::add_any(scene::FramePlan& plan) const {
 }
 
 void AircraftPainter::upload(const scene::FramePlan& plan) {
+    lights_pixels_ = plan.lights_pixels;
+    if (lights_pixels_ && !phong_programs_) {
+        phong_programs_ =
+            make_program_pair(gl_, "aircraft", {aircraft_vert, aircraft_frag}, "PHONG");
+    }
     commands_.clear();
     is_gathered_.clear();
     gathered_.clear();
@@ -132,7 +137,7 @@ void AircraftPainter::draw(const scene::PaintStep& step, const scene::Clip* clip
     }
     state_.use_depth(step.depth);
     state_.cull_back_faces(true);
-    state_.use_program(programs_, clip);
+    state_.use_program(programs(), clip);
     const std::size_t end = std::size_t{step.first} + step.count;
     for (std::size_t first = step.first; first < end;) {
         std::size_t next = first + 1;

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,8 +24,8 @@ public:
     /// Whether a plan may draw an aircraft by depth among others that are painted in order.
     bool has_meshes() const { return has_meshes_; }
 
-    /// They draw any mesh that comes as scene::ModelVertex.
-    const ProgramPair& programs() const { return programs_; }
+    /// Of the last upload's plan. They draw any mesh that comes as scene::ModelVertex.
+    const ProgramPair& programs() const { return lights_pixels_ ? *phong_programs_ : programs_; }
 
     /// Asserts that every draw names a model, indices and parts that are there.
     void upload(const scene::FramePlan& plan);
@@ -61,6 +62,8 @@ private:
     const Functions& gl_;
     DrawState& state_;
     ProgramPair programs_;
+    std::optional<ProgramPair> phong_programs_; ///< made for the first plan that lights pixels
+    bool lights_pixels_ = false;
     Object model_vertices_;
     Object model_indices_;
     StreamBuffer part_buffer_;

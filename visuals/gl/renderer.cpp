@@ -44,7 +44,11 @@ glm::mat4 ray_from_pixel(const FramePlan& plan, const PixelRect& rect, Rows rows
     glm::mat4 view_ray(0.0F);
     view_ray[0].x = 2.0F * across / static_cast<float>(rect.width);
     view_ray[1].y = -2.0F * up / static_cast<float>(rect.height);
-    view_ray[2] = glm::vec4(-across, up, -1.0F, 0.0F) - static_cast<float>(rect.x) * view_ray[0] -
+    // The picture's middle need not lie straight ahead.
+    const glm::vec2 aside(
+        plan.view_to_clip[2][0] * across, plan.view_to_clip[2][1] / plan.view_to_clip[1][1]);
+    view_ray[2] = glm::vec4(-across + aside.x, up + aside.y, -1.0F, 0.0F) -
+                  static_cast<float>(rect.x) * view_ray[0] -
                   static_cast<float>(rect.y) * view_ray[1];
     return glm::transpose(plan.world_to_view) * view_ray;
 }

@@ -101,6 +101,7 @@ Planner::Planner(
     plan_.to_sun = glm::vec3(to_sun_);
     plan_.ambient = daylight_.ambient();
     plan_.sunlight = daylight_.sunlight();
+    plan_.lights_pixels = settings.shading.kind == scene::AircraftShading::Phong;
     for (const PlacedAircraft& aircraft : placed_) {
         refined_.push_back(
             aircraft.model->progressive

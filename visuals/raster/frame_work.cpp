@@ -54,6 +54,7 @@ void FrameWork::prepare(const FrameInput& input) {
     vertices_.resize(slices_.corners());
     clip_.resize(slices_.corners());
     flat_.resize(slices_.flat_corners());
+    lit_.resize(input.plan.lights_pixels ? slices_.corners() : 0);
     place_corners(input);
     make_batches();
     std::vector<TriangleSetup> setups(
@@ -110,6 +111,9 @@ void FrameWork::place_corners(const FrameInput& input) {
             break;
         case CornerBlock::Kind::Aircraft:
             to.flat = std::span(flat_).subspan(block.first_flat + task.from, task.count);
+            if (!lit_.empty()) {
+                to.lit = std::span(lit_).subspan(block.first + task.from, task.count);
+            }
             place_aircraft(
                 block.of_model.subspan(task.from, task.count), block.look, projection_, light_, to);
             break;
@@ -147,7 +151,7 @@ void FrameWork::set_up(const FrameInput& input, Batch& batch, TriangleSetup& set
     for (std::size_t s = batch.first; s < batch.end; ++s) {
         const FrameSlice& slice = slices_.slices()[s];
         setup.begin_step(slice.style);
-        const ScreenCorners corners{vertices_, clip_, {}};
+        const ScreenCorners corners{vertices_, clip_, {}, lit_};
         const auto vertex = [&](std::uint32_t index) {
             return static_cast<std::uint32_t>(slice.first_corner + index);
         };

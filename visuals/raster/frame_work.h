@@ -34,6 +34,8 @@ public:
 
     glm::ivec2 tiles() const { return tiles_; }
 
+    const Light& light() const { return light_; }
+
     /// Triangles that may cover a tile, in painting order; valid until `list` is used again.
     std::span<const TileTriangle> triangles_of(int tile, std::vector<TileTriangle>& list) const;
 
@@ -66,6 +68,7 @@ private:
     std::vector<ScreenVertex> vertices_;
     std::vector<ClipPlace> clip_;
     std::vector<FlatColour> flat_;
+    std::vector<LitCorner> lit_; ///< as vertices_, where pixels are lit; else empty
     std::vector<std::unique_ptr<Batch>> batches_;
     std::size_t batch_count_ = 0;
     Batch overlay_;

@@ -173,6 +173,85 @@ PixelColour by_mesh(const TileTriangle& one, const TileJob& job, int column, int
     return colour;
 }
 
+float dot(const std::array<float, 3>& a, const std::array<float, 3>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// A value of three corners, each times its weight.
+template <class Part>
+std::array<float, 3>
+mixed(const TriangleExtra& extra, const std::array<float, 3>& weights, Part part) {
+    std::array<float, 3> sum{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::array<float, 3>& own = extra.lit[k]->*part;
+        for (std::size_t i = 0; i < 3; ++i) {
+            sum[i] += weights[k] * own[i];
+        }
+    }
+    return sum;
+}
+
+/// The cosine between the mirrored light and the way to the eye to the power of the highlight.
+/// `normal` and `to_eye` of any length, `towards_sun` their dot product with the light.
+float highlight(
+    const std::array<float, 3>& normal,
+    const std::array<float, 3>& to_eye,
+    const std::array<float, 3>& to_sun,
+    float towards_sun) {
+    const float mirrored =
+        2.0F * towards_sun * dot(normal, to_eye) / dot(normal, normal) - dot(to_sun, to_eye);
+    if (!(mirrored > 0.0F)) {
+        return 0.0F;
+    }
+    float base = std::min(mirrored / std::sqrt(dot(to_eye, to_eye)), 1.0F);
+    float power = 1.0F;
+    for (int exponent = scene::Highlight::power; exponent > 0; exponent /= 2) {
+        power *= exponent % 2 == 1 ? base : 1.0F;
+        base *= base;
+    }
+    return power;
+}
+
+/// Phong's shading: normals between the corners, light in the pixel.
+PixelColour by_light(const TileTriangle& one, const TileJob& job, int column, int row) {
+    const TriangleExtra& extra = *one.extra;
+    // Beyond an edge, where only a pixel's samples are covered, the edge's colour.
+    std::array<float, 3> weights;
+    float sum = 0.0F;
+    for (std::size_t k = 0; k < 3; ++k) {
+        weights[k] = static_cast<float>(std::max(extra.from_edges[k].at(column, row), 0.0));
+        sum += weights[k];
+    }
+    float clear = 0.0F;
+    for (std::size_t k = 0; k < 3; ++k) {
+        weights[k] = sum > 0.0F ? weights[k] / sum : 1.0F / 3.0F;
+        clear += weights[k] * extra.lit[k]->clear;
+    }
+    const Light& light = *job.light;
+    const std::array to_sun{light.to_sun.x, light.to_sun.y, light.to_sun.z};
+    const auto normal = mixed(extra, weights, &LitCorner::normal);
+    const float length = std::sqrt(dot(normal, normal));
+    const float towards_sun = dot(normal, to_sun);
+    float diffuse = 0.0F;
+    float shine = 0.0F;
+    if (towards_sun > 0.0F && length > 0.0F) {
+        diffuse = towards_sun / length;
+        shine = scene::Highlight::share * static_cast<float>(most_level) *
+                highlight(normal, mixed(extra, weights, &LitCorner::to_eye), to_sun, towards_sun);
+    }
+    const auto own = mixed(extra, weights, &LitCorner::rgb);
+    const auto haze = mixed(extra, weights, &LitCorner::haze);
+    PixelColour colour;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto part = static_cast<glm::length_t>(i);
+        const float lit = own[i] * (light.ambient[part] + light.sunlight[part] * diffuse) +
+                          light.sunlight[part] * shine;
+        const float seen = std::min(lit, static_cast<float>(most_level)) * clear + haze[i];
+        colour[i] = packed(static_cast<double>(seen));
+    }
+    return colour;
+}
+
 } // namespace
 
 PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, int row) {
@@ -183,6 +262,8 @@ PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, i
         return by_texture(one, job, column, row);
     case Fill::Mesh:
         return by_mesh(one, job, column, row);
+    case Fill::Lit:
+        return by_light(one, job, column, row);
     case Fill::Levels:
         break;
     }

@@ -77,6 +77,9 @@ CutLine cut_line(
     line.a = normal.x * across / static_cast<double>(projection.half_px.x);
     line.b = -normal.y * up / static_cast<double>(projection.half_px.y);
     line.c = -normal.x * across + normal.y * up - normal.z + 0.5 * (line.a + line.b);
+    // The picture's middle need not lie straight ahead.
+    line.c += normal.x * across * static_cast<double>(plan.view_to_clip[2][0]) +
+              normal.y * up * static_cast<double>(plan.view_to_clip[2][1]);
     line.a += offset * by_w.per_x;
     line.b += offset * by_w.per_y;
     line.c += offset * by_w.base;

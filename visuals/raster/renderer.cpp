@@ -119,6 +119,8 @@ void Renderer::draw_into(const scene::FramePlan& plan, const scene::PixelRect& r
             byte_of(plan.background.x), byte_of(plan.background.y), byte_of(plan.background.z)};
         job.ground = ground_ ? &*ground_ : nullptr;
         job.haze = haze_ahead(plan) * 255.0F;
+        job.light = &work_.light();
+        job.far_to_near = walk_ == Walk::FarToNear;
         job.tints_mesh_levels = plan.mesh_look == scene::MeshLook::Levels;
         job.rgba = picture_.rgba.data() +
                    byte_at(picture_, rect.x + job.first_px.x, rect.y + job.first_px.y);

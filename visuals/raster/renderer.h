@@ -31,6 +31,14 @@ public:
         int samples,
         Show show = nullptr);
 
+    /// Which way painting order is walked.
+    enum class Walk {
+        NearToFar, ///< each sample is coloured once
+        FarToNear  ///< the painter's way, for comparison; with one sample a pixel only
+    };
+
+    void walk(Walk walk) { walk_ = walk; }
+
     const scene::RendererInfo& info() const override { return info_; }
 
     std::unique_ptr<scene::Renderer> beside(const glm::ivec2& size_px, int samples) const override;
@@ -62,6 +70,7 @@ private:
     scene::RendererInfo info_;
     Show show_;
     int samples_ = 0;
+    Walk walk_ = Walk::NearToFar;
     SampleLanes lanes_;
     FrameWork work_;
     std::vector<scene::ModelBuffers> models_;

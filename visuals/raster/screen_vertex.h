@@ -42,4 +42,13 @@ struct FlatColour {
     bool is_smooth = false;     ///< the corners' own colours count
 };
 
+/// What a corner of a polygon that is lit in each pixel brings.
+struct LitCorner {
+    std::array<float, 3> normal{}; ///< world axes, unit
+    std::array<float, 3> to_eye{}; ///< world axes, metres
+    std::array<float, 3> rgb{};    ///< its own colour, 0..255
+    std::array<float, 3> haze{};   ///< the haze's colour times its share, 0..255
+    float clear = 1.0F;            ///< what the haze leaves of its own colour
+};
+
 } // namespace octant::visuals::raster

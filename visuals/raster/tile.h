@@ -32,7 +32,9 @@ struct TileJob {
     std::array<std::uint8_t, 3> background{};
     const GroundImage* ground = nullptr; ///< for Fill::Texture
     glm::vec3 haze{0.0F};                ///< levels, for Fill::Texture
+    const Light* light = nullptr;        ///< for Fill::Lit
     bool tints_mesh_levels = false;      ///< for Fill::Mesh
+    bool far_to_near = false;            ///< each triangle over what is there; one sample a pixel
     std::uint8_t* rgba = nullptr;        ///< of its upper left pixel
     std::size_t row_bytes = 0;
 

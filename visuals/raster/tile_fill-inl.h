@@ -146,7 +146,7 @@ HWY_NOINLINE void fill(const TileTriangle& one, const TileJob& job, TileBuffer& 
                 if (shift < tile_width) {
                     buffer.full[static_cast<std::size_t>(at)] |= full << shift;
                 }
-                if (triangle.fill == Fill::Texture || triangle.fill == Fill::Mesh) {
+                if (triangle.fill != Fill::Levels && triangle.fill != Fill::Perspective) {
                     alignas(32) std::array<std::uint16_t, px_at_once> each;
                     hn::Store(counts, Pixels(), each.data());
                     add_pixel_by_pixel(

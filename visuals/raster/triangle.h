@@ -1,5 +1,6 @@
 #pragma once
 
+#include "visuals/raster/screen_vertex.h"
 #include "visuals/scene/paint_step.h"
 
 #include <array>
@@ -53,7 +54,8 @@ enum class Fill : std::uint8_t {
     Levels,      ///< three planes of levels
     Perspective, ///< as Levels, corrected for perspective
     Texture,
-    Mesh ///< levels, and lines along the edges
+    Mesh, ///< levels, and lines along the edges
+    Lit   ///< by light and normal in each pixel
 };
 
 /// What only some triangles need.
@@ -65,6 +67,7 @@ struct TriangleExtra {
     std::array<CutLine, scene::Clip::most_planes> cuts{};
     int cut_count = 0;
     std::array<RealPlane, 3> from_edges{}; ///< over w; 1 at the corner opposite the edge
+    std::array<const LitCorner*, 3> lit{}; ///< of from_edges, for Fill::Lit
     float mesh_level = 0.0F; ///< how many times the longest edge is twice the sample spacing
 };
 

@@ -57,6 +57,10 @@ void TriangleSetup::add(
     flat_ = flat != nullptr && !flat->is_smooth ? flat : nullptr;
     extra_ = Triangle::none;
     fill_ = fill_of({&vertices[a], &vertices[b], &vertices[c]}, is_cut);
+    if (flat != nullptr && flat_ == nullptr && !corners.lit.empty()) {
+        fill_ = Fill::Lit;
+        lit_ = {&corners.lit[a], &corners.lit[b], &corners.lit[c]};
+    }
     if (!is_cut && style_.group == 0 && fill_ == Fill::Levels && style_.clip_planes.empty()) {
         add_placed(vertices[a], vertices[b], vertices[c], list);
         return;
@@ -120,7 +124,7 @@ void TriangleSetup::add_extra(std::span<const Corner, 3> corners, TriangleList& 
     if (style_.group != 0) {
         set_depth(extra, by_w, style_, projection_);
     }
-    if (fill_ != Fill::Levels) {
+    if (fill_ != Fill::Levels && fill_ != Fill::Lit) {
         for (std::size_t i = 0; i < 4; ++i) {
             extra.by_w[i] = solver.plane(
                 {static_cast<double>(corners[0].vertex.value[i]),
@@ -128,12 +132,13 @@ void TriangleSetup::add_extra(std::span<const Corner, 3> corners, TriangleList& 
                  static_cast<double>(corners[2].vertex.value[i])});
         }
     }
-    if (fill_ == Fill::Mesh) {
+    if (fill_ == Fill::Mesh || fill_ == Fill::Lit) {
         extra.from_edges = {
             solver.plane({1.0, 0.0, 0.0}),
             solver.plane({0.0, 1.0, 0.0}),
             solver.plane({0.0, 0.0, 1.0})};
         extra.mesh_level = mesh_level_;
+        extra.lit = lit_;
     }
     for (const glm::vec4& plane : style_.clip_planes) {
         extra.cuts[static_cast<std::size_t>(extra.cut_count++)] =
@@ -253,7 +258,7 @@ void TriangleSetup::add_placed(
     if (flat_ != nullptr) {
         set_edges(corners, triangle);
         triangle.levels = even_levels(flat_->rgb);
-    } else if (fill_ == Fill::Texture) {
+    } else if (fill_ == Fill::Texture || fill_ == Fill::Lit) {
         set_edges(corners, triangle);
     } else {
         // With one sample every pixel that is coloured has its middle within the triangle. Soft

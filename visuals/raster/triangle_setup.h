@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -65,7 +66,8 @@ private:
     bool is_overlay_ = false;
     // Of the triangle at hand.
     Fill fill_ = Fill::Levels;
-    const FlatColour* flat_ = nullptr; ///< of a flat polygon of an aircraft
+    const FlatColour* flat_ = nullptr;      ///< of a flat polygon of an aircraft
+    std::array<const LitCorner*, 3> lit_{}; ///< of a smooth one that is lit in each pixel
     std::uint32_t extra_ = Triangle::none;
     // Its polygon while the view cuts it.
     std::vector<Corner> polygon_;

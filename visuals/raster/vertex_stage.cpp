@@ -63,10 +63,10 @@ glm::vec3 tinted(std::uint32_t colour, std::uint32_t tint) {
         glm::vec3(own.x, own.y, own.z), glm::vec3(over.x, over.y, over.z), over.w / most_level);
 }
 
-void set_levels(const glm::vec3& levels, std::span<float> value) {
-    value[0] = levels.x;
-    value[1] = levels.y;
-    value[2] = levels.z;
+void set_three(const glm::vec3& from, std::span<float> to) {
+    to[0] = from.x;
+    to[1] = from.y;
+    to[2] = from.z;
 }
 
 } // namespace
@@ -100,7 +100,7 @@ void place_coloured(
             const Air air = air_before(at_m, light);
             levels = glm::mix(levels, air.levels, air.share);
         }
-        set_levels(levels, to.vertices[i].value);
+        set_three(levels, to.vertices[i].value);
     }
 }
 
@@ -143,10 +143,18 @@ void place_aircraft(
                 const glm::vec3 outwards = glm::mat3(turn) * normal;
                 return glm::mix(lit(tinted(colour, tint), outwards, light), air.levels, air.share);
             };
-        set_levels(coloured(vertex.colour, look.tints.smooth, vertex.normal), to.vertices[i].value);
+        set_three(coloured(vertex.colour, look.tints.smooth, vertex.normal), to.vertices[i].value);
         to.flat[i].is_smooth = smooth;
-        set_levels(
+        set_three(
             coloured(vertex.face_colour, look.tints.flat, vertex.face_normal), to.flat[i].rgb);
+        if (!to.lit.empty()) {
+            LitCorner& lit = to.lit[i];
+            set_three(glm::mat3(turn) * vertex.normal, lit.normal);
+            set_three(-at_m, lit.to_eye);
+            set_three(tinted(vertex.colour, look.tints.smooth), lit.rgb);
+            set_three(air.levels * air.share, lit.haze);
+            lit.clear = 1.0F - air.share;
+        }
     }
 }
 

@@ -31,6 +31,7 @@ struct ScreenCorners {
     std::span<ScreenVertex> vertices;
     std::span<ClipPlace> clip;
     std::span<FlatColour> flat; ///< of aircraft alone
+    std::span<LitCorner> lit{}; ///< of aircraft that are lit in each pixel; else empty
 };
 
 /// Corners that have the colours they show, but for haze; the sky has none.

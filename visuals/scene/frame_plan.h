@@ -103,6 +103,14 @@ struct Haze {
     glm::vec3 sunward{0.0F};      ///< display values 0..1
 };
 
+/// What a surface that is lit in each pixel has beside the light of all others, where it faces the
+/// sun: white * sunlight * share * max(c, 0)^power, where c is the cosine between the mirrored
+/// light and the way to the eye.
+struct Highlight {
+    static constexpr float share = 0.4F;
+    static constexpr int power = 24;
+};
+
 /// What the ground shows of its mesh.
 enum class MeshLook {
     None,
@@ -141,6 +149,8 @@ struct FramePlan {
     /// A bit for each polygon of each aircraft: 1 = lit smoothly (Gouraud), 0 = flat; and a word
     /// for all that is refined.
     std::vector<std::uint32_t> smooth;
+    /// Smooth polygons are lit in each pixel (Phong's shading) instead of at their corners.
+    bool lights_pixels = false;
     OverlayDraw overlay;
 
     Haze haze;

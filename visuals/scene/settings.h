@@ -26,7 +26,7 @@ enum class GroundFans { Partial, Full };
 enum class DetailControl { Exact, Damped, Previous, Literal, Fixed };
 enum class Palette { Temperate, Arid };
 enum class GroundShading { Auto, Vertex, Texture };
-enum class AircraftShading { Flat, Gouraud, Hybrid };
+enum class AircraftShading { Flat, Gouraud, Hybrid, Phong };
 enum class HybridRule { Error, Paper };
 
 /// What follows the clock: each frame's choice then depends on how long the frames before it took.

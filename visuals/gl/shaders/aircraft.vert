@@ -24,7 +24,14 @@ layout(std430, binding = 1) readonly buffer Smooth {
 };
 
 flat out vec4 flat_colour; // a = 1: the smooth one counts
+#ifdef PHONG
+out vec3 surface_colour;
+out vec3 surface_normal; // world axes
+out vec3 to_eye; // world axes, metres
+out vec4 haze_part; // colour times share, and what is left of the surface's own
+#else
 out vec3 smooth_colour;
+#endif
 
 vec3 lit(vec3 colour, vec3 outwards) {
     vec3 light = ambient.rgb + sunlight.rgb * max(dot(outwards, to_sun.xyz), 0.0);
@@ -38,6 +45,14 @@ void main() {
     uint bit = smooth_polygons[first_smooth + polygon / 32u] >> (polygon % 32u) & 1u;
     vec4 air = haze_before(place.xyz);
     flat_colour = vec4(mix(lit(mix(face_colour.rgb, flat_tint.rgb, flat_tint.a), turn * face_normal), air.rgb, air.a), float(bit));
-    smooth_colour = mix(lit(mix(own_colour.rgb, smooth_tint.rgb, smooth_tint.a), turn * normal), air.rgb, air.a);
+    vec3 own = mix(own_colour.rgb, smooth_tint.rgb, smooth_tint.a);
+#ifdef PHONG
+    surface_colour = own;
+    surface_normal = turn * normal;
+    to_eye = -place.xyz;
+    haze_part = vec4(air.rgb * air.a, 1.0 - air.a);
+#else
+    smooth_colour = mix(lit(own, turn * normal), air.rgb, air.a);
+#endif
     gl_Position = world_to_clip * place;
 }
