@@ -3,6 +3,7 @@
 #include "ui/studies/draw_order/study_draw_order.h"
 #include "ui/studies/draw_order/study_flights.h"
 #include "ui/studies/draw_order/study_hidden_surface.h"
+#include "ui/studies/draw_order/study_pictures.h"
 #include "ui/studies/flicker/study_flicker.h"
 #include "ui/studies/flicker/study_popping.h"
 #include "ui/studies/hybrid_shading/study_shading.h"
@@ -12,6 +13,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace octant::ui::commands {
@@ -107,8 +109,10 @@ Command flicker_command() {
 }
 
 void hidden_surface(studies::draw_order::HiddenSurfaceStudy study, const std::string& only) {
-    study.race = only != "pictures";
-    study.pictures = only != "race";
+    const auto wants = [&](std::string_view part) { return only == part || only == "all"; };
+    study.race = wants("race");
+    study.pictures = wants("pictures");
+    study.rays = wants("rays");
     if (!studies::draw_order::study_hidden_surface(study)) {
         throw CheckSaidNo();
     }
@@ -120,10 +124,11 @@ hidden_surface_options(studies::draw_order::HiddenSurfaceStudy& study, std::stri
         choice_option(
             "--only",
             "PART",
-            "frames a second (race), polygon numbers (pictures) or both",
-            {"race", "pictures", "both"},
+            "frames a second (race), polygon numbers against a depth buffer (pictures), against "
+            "rays (rays) or all",
+            {"race", "pictures", "rays", "all"},
             only),
-        read_option({"terrain", "NAME|FILE", "ground of both parts"}, study.settings.path.terrain),
+        read_option({"terrain", "NAME|FILE", "ground of all parts"}, study.settings.path.terrain),
         size_option(
             study.settings, "picture size of the comparison; the race has 640x480 and 1280x720"),
         context_option(study.settings),
@@ -133,7 +138,7 @@ hidden_surface_options(studies::draw_order::HiddenSurfaceStudy& study, std::stri
 
 Command hidden_surface_command() {
     auto study = std::make_shared<studies::draw_order::HiddenSurfaceStudy>();
-    auto only = std::make_shared<std::string>("both");
+    auto only = std::make_shared<std::string>("all");
     study->settings.path.terrain = "canyon";
     return {
         .name = "hidden-surface",
@@ -141,9 +146,28 @@ Command hidden_surface_command() {
                    "every pixel's polygon compared",
         .options = study_options(
             study->out, study->json, study->quiet, hidden_surface_options(*study, *only)),
-        .footer = "Exit code 1 when a pixel is wrong.\n"
-                  "Example:\n  octant study hidden-surface --out tables --only pictures --every 10",
+        .footer =
+            "Exit code 1 when a pixel is wrong.\n"
+            "Examples:\n  octant study hidden-surface --out tables --only pictures --every 10\n"
+            "  octant study hidden-surface --out tables --only rays --every 4 --size 640x360",
         .run = [study, only] { hidden_surface(*study, *only); }};
+}
+
+Command pictures_command() {
+    auto options = std::make_shared<studies::draw_order::PictureStudyOptions>();
+    return {
+        .name = "pictures",
+        .summary = "How near the pictures of both renderers, with 1, 4 and 16 samples a pixel, "
+                   "come to 8 x 8 samples, standing and moving",
+        .options = study_options(
+            options->out,
+            options->json,
+            options->quiet,
+            {size_option(options->settings, "picture size in pixels"),
+             context_option(options->settings),
+             read_option({"frames", "N", "pictures of each scene", 1, 1000}, options->frames)}),
+        .footer = "Example:\n  octant study pictures --out tables",
+        .run = [options] { studies::draw_order::study_pictures(*options); }};
 }
 
 std::vector<Option> popping_options(studies::flicker::PoppingStudyOptions& options) {
@@ -282,6 +306,7 @@ Command study_command() {
             draw_order_study_command(),
             flicker_command(),
             hidden_surface_command(),
+            pictures_command(),
             popping_command(),
             shading_command(),
             refinement_command(),

@@ -30,7 +30,7 @@ std::unique_ptr<Renderer> make_gl_renderer(const settings::RunSettings& settings
 
 } // namespace
 
-std::unique_ptr<Renderer>
+std::unique_ptr<raster::Renderer>
 make_raster_renderer(const settings::RunSettings& settings, raster::Renderer::Show show) {
     const auto cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
     const int threads = settings.drawing.raster_threads.value_or(cores);

@@ -9,7 +9,7 @@
 namespace octant::ui::flight {
 
 /// The raster renderer, whatever the settings ask for. `show` puts its pictures into a window.
-std::unique_ptr<visuals::scene::Renderer> make_raster_renderer(
+std::unique_ptr<visuals::raster::Renderer> make_raster_renderer(
     const settings::RunSettings& settings, visuals::raster::Renderer::Show show = nullptr);
 
 /// The renderer that the settings ask for. Throws Error.

@@ -11,6 +11,7 @@
 #include <hwy/foreach_target.h>
 // clang-format on
 
+#include "visuals/raster/tile_compared-inl.h"
 #include "visuals/raster/tile_coverage-inl.h"
 #include "visuals/raster/tile_depth-inl.h"
 #include "visuals/raster/tile_fill-inl.h"
@@ -40,8 +41,8 @@ HWY_INLINE void paint_one(
     }
 }
 
-void PaintTile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
-    clear(buffer);
+HWY_INLINE void
+paint_near_to_far(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     std::size_t end = job.triangles.size();
     while (end > 0 && buffer.full_rows != job.full_rows()) {
         const std::uint16_t group = job.triangles[end - 1].triangle->group;
@@ -56,6 +57,15 @@ void PaintTile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer)
             paint_group(job, {first, end}, lanes, buffer);
         }
         end = first;
+    }
+}
+
+void PaintTile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+    clear(buffer);
+    if (is_painted_over(job, lanes)) {
+        paint_over(job, lanes, buffer);
+    } else {
+        paint_near_to_far(job, lanes, buffer);
     }
     resolve(job, buffer);
     paint_overlay(job, lanes, buffer);

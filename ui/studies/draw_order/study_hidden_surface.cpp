@@ -4,6 +4,7 @@
 #include "ui/base/progress.h"
 #include "ui/flight/id_comparison.h"
 #include "ui/report/table_text.h"
+#include "ui/studies/draw_order/ray_comparison.h"
 #include "ui/studies/draw_order/ridge_tower.h"
 #include "ui/studies/draw_order/surface_race.h"
 #include "ui/world/world.h"
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,10 +27,19 @@ namespace {
 
 constexpr std::array paths = {"straight", "jinking", "pop-up", "turn"};
 constexpr std::array aircraft_names = {"f15", "500md"};
+
+struct StudiedView {
+    scene::View kind;
+    const char* name;
+    bool behind_ridges = false; ///< from a tower that ridges hide the aircraft from now and then
+};
+
 constexpr std::array views = {
-    scene::View::Chase, scene::View::Tower, scene::View::Tower, scene::View::Orbit};
-constexpr std::array view_names = {"chase", "tower", "behind ridges", "orbit"};
-constexpr std::size_t behind_ridges = 2;
+    StudiedView{scene::View::Chase, "chase"},
+    StudiedView{scene::View::Tower, "tower"},
+    StudiedView{scene::View::Tower, "behind ridges", true},
+    StudiedView{scene::View::Orbit, "orbit"}};
+constexpr StudiedView cockpit{scene::View::Cockpit, "cockpit"};
 
 std::string short_name(const std::string& terrain) {
     return std::filesystem::path(terrain).stem().string();
@@ -54,7 +65,8 @@ std::vector<Race> run_races(const HiddenSurfaceStudy& study) {
 
 report::HtmlTable race_table(const std::vector<Race>& races) {
     report::HtmlTable table;
-    table.title = "Frames a second: octant order, removal of back faces only, depth buffer";
+    table.title =
+        "Frames a second by OpenGL: octant order, removal of back faces only, depth buffer";
     table.header = {
         "scene",
         "aircraft",
@@ -93,33 +105,53 @@ report::HtmlTable race_table(const std::vector<Race>& races) {
     return table;
 }
 
+report::HtmlTable raster_times(const std::vector<Race>& races) {
+    std::vector<std::vector<std::string>> names;
+    std::vector<RasterTimes> times;
+    for (const Race& r : races) {
+        names.push_back(
+            {short_name(r.scene),
+             fmt::format("{}", r.aircraft),
+             fmt::format("{}x{}", r.width_px, r.height_px)});
+        times.push_back(r.raster);
+    }
+    return raster_table({"scene", "aircraft", "size"}, names, times);
+}
+
+template <class Result>
 struct Compared {
     std::vector<std::string> name; ///< path, aircraft, view
-    flight::IdComparison result;
+    Result result;
 };
 
-std::vector<Compared> run_comparisons(const HiddenSurfaceStudy& study) {
-    std::vector<Compared> compared;
+/// A comparison of every path, aircraft and view: `compare` takes settings, every how many frames,
+/// and whom to tell.
+template <class Compare>
+auto run_comparisons(
+    const HiddenSurfaceStudy& study,
+    std::span<const StudiedView> studied_views,
+    const Compare& compare) {
+    using Result = decltype(compare(study.settings, 1, [](int, int) {}));
+    std::vector<Compared<Result>> compared;
     for (const char* path : paths) {
         for (const char* aircraft : aircraft_names) {
-            for (std::size_t v = 0; v < views.size(); ++v) {
+            for (const StudiedView& view : studied_views) {
                 settings::RunSettings settings = study.settings;
                 settings.path.name = path;
                 settings.path.aircraft = {aircraft};
-                settings.view.kind = views[v];
-                if (v == behind_ridges) {
+                settings.view.kind = view.kind;
+                if (view.behind_ridges) {
                     settings.view.eye_m = ridge_tower(world::load_world(settings));
                 }
-                Compared run{{path, aircraft, view_names[v]}, {}};
+                Compared<Result> run{{path, aircraft, view.name}, {}};
                 std::optional<base::Progress> progress;
-                run.result = flight::compare_with_depth_buffer(
-                    settings, study.every, [&](int frame, int frames) {
-                        if (!progress) {
-                            progress.emplace(
-                                fmt::format("{}", fmt::join(run.name, " ")), frames, study.quiet);
-                        }
-                        progress->show(frame);
-                    });
+                run.result = compare(settings, study.every, [&](int frame, int frames) {
+                    if (!progress) {
+                        progress.emplace(
+                            fmt::format("{}", fmt::join(run.name, " ")), frames, study.quiet);
+                    }
+                    progress->show(frame);
+                });
                 compared.push_back(std::move(run));
             }
         }
@@ -140,8 +172,8 @@ cells_of(std::vector<std::string> name, const flight::IdComparison& result) {
     return name;
 }
 
-report::HtmlTable
-picture_table(const std::vector<Compared>& compared, const HiddenSurfaceStudy& study) {
+report::HtmlTable picture_table(
+    const std::vector<Compared<flight::IdComparison>>& compared, const HiddenSurfaceStudy& study) {
     report::HtmlTable table;
     table.title = "Polygon numbers: octant order against the depth buffer";
     table.header = {
@@ -157,7 +189,7 @@ picture_table(const std::vector<Compared>& compared, const HiddenSurfaceStudy& s
         "apart",
         "wrong"};
     flight::IdComparison sum;
-    for (const Compared& run : compared) {
+    for (const Compared<flight::IdComparison>& run : compared) {
         table.rows.push_back(cells_of(run.name, run.result));
         sum.frames += run.result.frames;
         sum.frames_with_cuts += run.result.frames_with_cuts;
@@ -184,6 +216,58 @@ picture_table(const std::vector<Compared>& compared, const HiddenSurfaceStudy& s
     return table;
 }
 
+std::vector<Compared<RayComparison>> run_ray_comparisons(const HiddenSurfaceStudy& study) {
+    std::vector<StudiedView> all(views.begin(), views.end());
+    all.push_back(cockpit);
+    return run_comparisons(study, all, compare_with_rays);
+}
+
+report::HtmlTable
+ray_table(const std::vector<Compared<RayComparison>>& compared, const HiddenSurfaceStudy& study) {
+    report::HtmlTable table;
+    table.title = "Polygon numbers: octant order against a ray through each pixel's middle";
+    table.header = {
+        "path",
+        "aircraft",
+        "view",
+        "pictures",
+        "pixels of a renderer",
+        "raster: differing",
+        "raster: wrong",
+        "OpenGL: differing",
+        "OpenGL: wrong",
+        "first wrong"};
+    const auto add_row = [&](std::vector<std::string> cells, const RayComparison& result) {
+        cells.push_back(fmt::format("{}", result.frames));
+        cells.push_back(fmt::format("{}", result.pixels));
+        std::string first_wrong;
+        for (const RayComparison::OfRenderer& one : result.renderers) {
+            cells.push_back(fmt::format("{}", one.differing));
+            cells.push_back(fmt::format("{}", one.wrong));
+            first_wrong = first_wrong.empty() ? one.first_wrong : first_wrong;
+        }
+        cells.push_back(first_wrong);
+        table.rows.push_back(std::move(cells));
+    };
+    RayComparison sum;
+    for (const Compared<RayComparison>& run : compared) {
+        add_row(run.name, run.result);
+        sum.add(run.result);
+    }
+    add_row({"all", "", ""}, sum);
+    table.note = fmt::format(
+        "Every frame number {} of each flight over {}, {}x{}, one sample a pixel. Rays meet all "
+        "triangles in double precision, without order. Wrong: no rounding explains what is shown: "
+        "nothing of that number comes within {:.3f} pixel of the pixel's middle, or all of that "
+        "neighbourhood lies behind nearer triangles.",
+        study.every,
+        short_name(study.settings.path.terrain),
+        study.settings.view.size_px.x,
+        study.settings.view.size_px.y,
+        rounding_reach_px);
+    return table;
+}
+
 } // namespace
 
 bool study_hidden_surface(const HiddenSurfaceStudy& study) {
@@ -192,16 +276,27 @@ bool study_hidden_surface(const HiddenSurfaceStudy& study) {
     std::vector<report::HtmlTable> tables;
     bool right = true;
     if (study.race) {
-        tables.push_back(race_table(run_races(study)));
+        const std::vector<Race> races = run_races(study);
+        tables.push_back(race_table(races));
         write_file(study.out / "frames-per-second.csv", report::csv_of(tables.back()));
+        tables.push_back(raster_times(races));
+        write_file(study.out / "raster.csv", report::csv_of(tables.back()));
     }
     if (study.pictures) {
-        const std::vector<Compared> compared = run_comparisons(study);
-        for (const Compared& run : compared) {
+        const auto compared = run_comparisons(study, views, flight::compare_with_depth_buffer);
+        for (const auto& run : compared) {
             right = right && run.result.wrong == 0;
         }
         tables.push_back(picture_table(compared, study));
         write_file(study.out / "pictures.csv", report::csv_of(tables.back()));
+    }
+    if (study.rays) {
+        const auto compared = run_ray_comparisons(study);
+        for (const auto& run : compared) {
+            right = right && run.result.wrong() == 0;
+        }
+        tables.push_back(ray_table(compared, study));
+        write_file(study.out / "rays.csv", report::csv_of(tables.back()));
     }
     std::string markdown;
     for (const report::HtmlTable& table : tables) {

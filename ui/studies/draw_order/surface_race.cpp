@@ -37,6 +37,12 @@ Race race(const settings::RunSettings& settings, int frames, bool quiet) {
         own.drawing.renderer = settings::RendererKind::Gl; // whose depth buffer is a tuned one
         sessions[way] = std::make_unique<flight::Session>(own);
     }
+    std::vector<std::unique_ptr<flight::Session>> raster_sessions;
+    for (const RasterWay& way : raster_ways) {
+        settings::RunSettings own = settings;
+        own.time.frames = frames + warm_up_frames;
+        raster_sessions.push_back(raster_session(own, way));
+    }
     Race raced;
     raced.scene = settings.path.terrain;
     raced.aircraft = static_cast<int>(settings.path.aircraft.size());
@@ -54,6 +60,13 @@ Race race(const settings::RunSettings& settings, int frames, bool quiet) {
             if (frame >= warm_up_frames) {
                 frame_ms[way].push_back(record.frame_ms);
                 draw_calls[way].push_back(record.draw_calls);
+            }
+        }
+        for (std::size_t turn = 0; turn < raster_ways.size(); ++turn) {
+            const std::size_t way = (turn + static_cast<std::size_t>(frame)) % raster_ways.size();
+            const report::FrameRecord record = raster_sessions[way]->draw(frame);
+            if (frame >= warm_up_frames) {
+                raced.raster.add(way, record);
             }
         }
         progress.show(frame + 1);

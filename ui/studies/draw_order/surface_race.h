@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/settings/settings.h"
+#include "ui/studies/draw_order/raster_ways.h"
 
 #include <array>
 #include <string>
@@ -28,7 +29,8 @@ struct Race {
     int width_px = 0;
     int height_px = 0;
     int frames = 0;
-    std::array<RacedWay, raced_ways.size()> ways;
+    std::array<RacedWay, raced_ways.size()> ways; ///< by OpenGL
+    RasterTimes raster;
 
     /// Frames a second of octant order over those of another way, by medians; above 1: octant is
     /// faster.

@@ -1,0 +1,89 @@
+#include "ui/studies/draw_order/raster_ways.h"
+
+#include "ui/flight/make_renderer.h"
+#include "ui/report/frame_times.h"
+#include "ui/report/statistics.h"
+
+#include <cstddef>
+#include <fmt/format.h>
+#include <utility>
+
+namespace octant::ui::studies::draw_order {
+
+namespace {
+
+using Medians = std::array<double, raster_ways.size()>;
+
+Medians medians_of(const std::array<std::vector<double>, raster_ways.size()>& times_ms) {
+    Medians medians{};
+    for (std::size_t way = 0; way < raster_ways.size(); ++way) {
+        medians[way] = report::statistics_of_times(times_ms[way]).p50_ms;
+    }
+    return medians;
+}
+
+std::string factor(const Medians& medians, std::size_t way) {
+    return fmt::format("{:.2f}", medians[raster_depth_buffer] / medians[way]);
+}
+
+} // namespace
+
+std::unique_ptr<flight::Session>
+raster_session(const settings::RunSettings& settings, const RasterWay& way) {
+    settings::RunSettings own = settings;
+    own.drawing.renderer = settings::RendererKind::Raster;
+    own.surface.hidden_surface = way.hidden_surface;
+    own.view.samples = way.samples;
+    auto renderer = flight::make_raster_renderer(own);
+    renderer->walk(way.walk);
+    return std::make_unique<flight::Session>(own, flight::Shows::World, std::move(renderer));
+}
+
+void RasterTimes::add(std::size_t way, const report::FrameRecord& record) {
+    draw_ms[way].push_back(record.draw_ms);
+    frame_ms[way].push_back(record.frame_ms);
+}
+
+report::HtmlTable raster_table(
+    const std::vector<std::string>& name_header,
+    const std::vector<std::vector<std::string>>& names,
+    const std::vector<RasterTimes>& times) {
+    report::HtmlTable table;
+    table.title =
+        "The raster renderer: drawing, ms, and how many times longer a depth buffer takes";
+    table.header = name_header;
+    for (const RasterWay& way : raster_ways) {
+        table.header.push_back(fmt::format("{}, ms", way.name));
+    }
+    for (std::size_t way = 0; way < raster_ways.size(); ++way) {
+        if (way != raster_depth_buffer) {
+            table.header.push_back(fmt::format("depth buffer / {}", raster_ways[way].name));
+        }
+    }
+    table.header.emplace_back("whole frame: depth buffer / octant, near to far");
+    for (std::size_t run = 0; run < times.size(); ++run) {
+        const Medians draw_ms = medians_of(times[run].draw_ms);
+        std::vector<std::string> cells = names[run];
+        for (const double ms : draw_ms) {
+            cells.push_back(fmt::format("{:.2f}", ms));
+        }
+        for (std::size_t way = 0; way < raster_ways.size(); ++way) {
+            if (way != raster_depth_buffer) {
+                cells.push_back(factor(draw_ms, way));
+            }
+        }
+        cells.push_back(factor(medians_of(times[run].frame_ms), 0));
+        table.rows.push_back(std::move(cells));
+    }
+    table.note =
+        "Medians, one sample a pixel where none are named; all ways draw every frame in turn. In "
+        "1989 a depth buffer took 5.6 to 7.1 times as long as octant order (table 5: 5 against 30 "
+        "and 4 against 28.6 frames a second). Then each of its pixels cost a computed depth and a "
+        "second memory access, many times the price of painting it. Here one instruction compares "
+        "the depths of sixteen pixels that lie in the cache, and corners, edges and colours, most "
+        "of the time, cost the same in every way: little is left of the factor. What order buys "
+        "today is sixteen samples for little more than one.";
+    return table;
+}
+
+} // namespace octant::ui::studies::draw_order

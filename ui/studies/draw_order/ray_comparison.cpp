@@ -1,0 +1,71 @@
+#include "ui/studies/draw_order/ray_comparison.h"
+
+#include "ui/flight/session.h"
+#include "ui/studies/draw_order/ray_renderer.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <utility>
+
+namespace octant::ui::studies::draw_order {
+
+namespace scene = visuals::scene;
+using flight::Session;
+using flight::Shows;
+
+long RayComparison::wrong() const {
+    long sum = 0;
+    for (const OfRenderer& one : renderers) {
+        sum += one.wrong;
+    }
+    return sum;
+}
+
+void RayComparison::add(const RayComparison& other) {
+    frames += other.frames;
+    pixels += other.pixels;
+    for (std::size_t i = 0; i < renderers.size(); ++i) {
+        renderers[i].differing += other.renderers[i].differing;
+        renderers[i].wrong += other.renderers[i].wrong;
+    }
+}
+
+RayComparison compare_with_rays(
+    const settings::RunSettings& settings,
+    int every,
+    const std::function<void(int compared, int frames)>& seen) {
+    settings::RunSettings painted = settings;
+    painted.surface.shadows = false;
+    painted.view.samples = 1;
+    settings::RunSettings by_depth = painted;
+    by_depth.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
+    auto renderer = std::make_unique<RayRenderer>(painted.view.size_px);
+    const RayRenderer& rays = *renderer;
+    Session reference(by_depth, Shows::PolygonNumbers, std::move(renderer));
+    std::array<std::unique_ptr<Session>, rayed_renderers.size()> painters;
+    for (std::size_t i = 0; i < painters.size(); ++i) {
+        painted.drawing.renderer = rayed_renderers[i];
+        painters[i] = std::make_unique<Session>(painted, Shows::PolygonNumbers);
+    }
+    RayComparison sum;
+    const int frames = (reference.frames() + every - 1) / every;
+    for (int frame = 0; frame < reference.frames(); frame += every) {
+        reference.draw(frame);
+        for (std::size_t i = 0; i < painters.size(); ++i) {
+            painters[i]->draw(frame);
+            const auto difference = rays.compare(painters[i]->picture(), rounding_reach_px);
+            RayComparison::OfRenderer& own = sum.renderers[i];
+            if (own.wrong == 0 && !difference.wrong.empty()) {
+                const glm::ivec2 at = difference.wrong.front();
+                own.first_wrong = fmt::format("frame {} at {},{}", frame, at.x, at.y);
+            }
+            own.differing += difference.differing;
+            own.wrong += static_cast<long>(difference.wrong.size());
+        }
+        sum.pixels += static_cast<long>(settings.view.size_px.x) * settings.view.size_px.y;
+        seen(++sum.frames, frames);
+    }
+    return sum;
+}
+
+} // namespace octant::ui::studies::draw_order

@@ -1,0 +1,100 @@
+#pragma once
+
+#include "visuals/scene/frame_plan.h"
+#include "visuals/scene/model_buffers.h"
+#include "visuals/scene/renderer.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace octant::ui::studies::draw_order {
+
+/// Finds what the pixels of a plan show by a ray through the middle of each: every triangle in
+/// double precision, no rounding of corners and no painting order. For plans of polygon numbers
+/// (scene::IdPlan) whose surfaces are hidden by depth, which hold all triangles that may be seen.
+/// Clips and overlays are left out.
+class RayRenderer final : public visuals::scene::Renderer {
+public:
+    explicit RayRenderer(const glm::ivec2& size_px);
+
+    const visuals::scene::RendererInfo& info() const override { return info_; }
+
+    std::unique_ptr<visuals::scene::Renderer>
+    beside(const glm::ivec2& size_px, int samples) const override;
+    void resize(const glm::ivec2& size_px, std::optional<int> samples) override;
+    void load_models(std::span<const visuals::scene::ModelBuffers> models) override;
+
+    void load_ground_texture(const visuals::scene::GroundTexture&) override {}
+
+    void warm_up() override {}
+
+    void draw(const visuals::scene::FramePlan& plan) override;
+
+    void draw_inset(const visuals::scene::FramePlan&, const visuals::scene::PixelRect&) override {}
+
+    void finish() override {}
+
+    void finish_and_read(visuals::scene::Picture& picture) override { picture = picture_; }
+
+    int draw_calls() const override { return 0; }
+
+    void aim_at_window(const glm::ivec2&) override {}
+
+    bool is_in_window() const override { return false; }
+
+    void copy_to_window(const glm::ivec2&) override {}
+
+    struct Difference {
+        long differing = 0; ///< pixels that show another number than their ray finds
+        /// Those of them that no rounding of corners explains: no triangle of the number shown
+        /// comes within `reach_px` of the pixel's middle, or all places within that reach lie
+        /// behind nearer ones.
+        std::vector<glm::ivec2> wrong;
+    };
+
+    /// Of another renderer's picture of the last plan, of the same size (asserted).
+    Difference compare(const visuals::scene::Picture& picture, double reach_px) const;
+
+private:
+    /// A triangle as rays meet it. Values at a pixel (column, row, 1) are dot products.
+    struct Target {
+        std::array<glm::dvec3, 3> inwards; ///< how far inside each edge, pixels
+        glm::dvec3 by_w{0.0};              ///< one over the depth along the line of sight, 1/m
+        double most_by_w = 0.0;            ///< within the triangle
+        std::array<glm::dvec2, 3> corners_px{};
+        bool is_placed = false; ///< all corners lie before the near plane: corners_px count
+        glm::ivec2 least{0};    ///< pixels that it may cover, and one more on each side
+        glm::ivec2 most{0};
+        std::uint32_t number = 0;
+
+        double inside_px(const glm::dvec3& at) const;
+        double distance_px(const glm::dvec2& at) const;
+    };
+
+    void add(const std::array<glm::vec3, 3>& corners_m, std::uint32_t number, bool culls);
+    void add_ground(const visuals::scene::FramePlan& plan);
+    void
+    add_aircraft(const visuals::scene::FramePlan& plan, const visuals::scene::AircraftDraw& draw);
+    void see(const Target& target);
+    bool is_wrong(const glm::ivec2& pixel, std::uint32_t number, double reach_px) const;
+
+    visuals::scene::RendererInfo info_;
+    glm::ivec2 size_px_;
+    std::vector<visuals::scene::ModelBuffers> models_;
+    glm::dmat4 world_to_clip_{1.0};
+    double near_m_ = 0.0;
+    std::vector<Target> targets_;
+    std::vector<double> by_w_; ///< of what is seen in each pixel; 0: nothing
+    visuals::scene::Picture picture_;
+};
+
+} // namespace octant::ui::studies::draw_order

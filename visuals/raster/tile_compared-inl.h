@@ -1,0 +1,199 @@
+// The ways that the walk from near to far is compared with, one sample a pixel: from far to near,
+// each triangle over what is there (painter's), and in any order by a depth for each pixel.
+// Included once for each instruction set.
+#if defined(OCTANT_RASTER_COMPARED_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTANT_RASTER_COMPARED_INL
+#undef OCTANT_RASTER_COMPARED_INL
+#else
+#define OCTANT_RASTER_COMPARED_INL
+#endif
+
+#include "visuals/raster/tile_depth-inl.h"
+#include "visuals/raster/tile_levels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+
+namespace octant::visuals::raster {
+namespace HWY_NAMESPACE {
+
+/// How a triangle's depths are compared.
+struct DepthRule {
+    bool compares;
+    bool passes_equal;
+    bool writes;
+    bool colours;
+
+    explicit DepthRule(scene::DepthUse use)
+        : compares(use != scene::DepthUse::None)
+        , passes_equal(use == scene::DepthUse::OnGround || use == scene::DepthUse::InfinitelyFar)
+        , writes(use != scene::DepthUse::InfinitelyFar)
+        , colours(use != scene::DepthUse::DepthOnly) {}
+};
+
+/// Compares a row's pixels, a bit each, with the depths from `depth` on and writes those that pass.
+/// Depths go on from `first` by `per_px`.
+HWY_INLINE std::uint32_t
+nearer_pixels(std::uint32_t pixels, float first, float per_px, DepthRule rule, float* depth) {
+    const Depths real;
+    std::uint32_t passing = 0;
+    for (std::size_t i = 0; i < strip_px; i += hn::Lanes(real)) {
+        std::array<std::uint8_t, 8> bits{};
+        const std::uint32_t some = pixels >> i;
+        std::memcpy(bits.data(), &some, sizeof some);
+        const auto is_drawn = hn::LoadMaskBits(real, bits.data());
+        const auto steps = hn::Iota(real, static_cast<float>(i));
+        const auto here = hn::Add(hn::Set(real, first), hn::Mul(steps, hn::Set(real, per_px)));
+        const auto before = hn::LoadU(real, depth + i);
+        const auto is_nearer = rule.passes_equal ? hn::Ge(here, before) : hn::Gt(here, before);
+        const auto passes = hn::And(is_drawn, is_nearer);
+        if (rule.writes) {
+            hn::StoreU(hn::IfThenElse(passes, here, before), real, depth + i);
+        }
+        bits.fill(0);
+        hn::StoreMaskBits(real, passes, bits.data());
+        passing |= static_cast<std::uint32_t>(bits[0] | bits[1] << 8) << i;
+    }
+    return passing;
+}
+
+/// Colours pixels of a strip, a bit each, whatever is there.
+HWY_INLINE void colour_over(
+    std::uint32_t pixels,
+    const std::array<StripLevel, 3>& levels,
+    std::size_t first,
+    TileBuffer& buffer) {
+    alignas(8) std::array<std::uint8_t, 8> bits{};
+    std::memcpy(bits.data(), &pixels, sizeof pixels);
+    for (std::size_t i = 0; i < strip_parts; ++i) {
+        const std::size_t at = first + i * part_px;
+        const auto is_drawn = hn::LoadMaskBits(Strip(), bits.data() + i * part_px / 8);
+        const auto put = [&](hn::Vec<Strip> value, std::uint16_t* to) HWY_ATTR {
+            hn::StoreU(hn::IfThenElse(is_drawn, value, hn::LoadU(Strip(), to)), Strip(), to);
+        };
+        put(hn::Set(Strip(), 0xffff), buffer.covered.data() + at);
+        for (std::size_t k = 0; k < 3; ++k) {
+            put(hn::ShiftLeft<4>(levels[k].colour(i)), buffer.sums[k].data() + at);
+        }
+    }
+}
+
+/// As paint_strip_of_middles(), over what is there, by depth where the triangle has one.
+HWY_INLINE void paint_strip_over(
+    const TileTriangle& one, const TileJob& job, const TileBox& box, int left, TileBuffer& buffer) {
+    const Triangle& triangle = *one.triangle;
+    const std::uint32_t columns = box.columns_of_strip(left);
+    const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
+    MiddleEdge whole(triangle.whole, triangle.top, first_px);
+    MiddleEdge upper(triangle.upper, triangle.top, first_px);
+    MiddleEdge lower(triangle.lower, triangle.middle, first_px);
+    const std::uint32_t bends_left = triangle.middle_is_left ? ~0U : 0U;
+    const int first_lower = first_row_of(triangle.middle) - job.first_px.y;
+    const DepthRule rule(triangle.depth);
+    std::array levels{
+        StripLevel(triangle.levels, 0, first_px),
+        StripLevel(triangle.levels, 1, first_px),
+        StripLevel(triangle.levels, 2, first_px)};
+    auto pixel = static_cast<std::size_t>(box.first_row * tile_width + left);
+    for (int row = box.first_row; row <= box.last_row; ++row, pixel += tile_width) {
+        const std::uint32_t bent = (row < first_lower ? upper : lower).pixels_from();
+        const std::uint32_t through = whole.pixels_from();
+        std::uint32_t drawn =
+            (bent ^ through) & (through ^ (bends_left & (bent ^ through))) & columns;
+        if (drawn != 0 && rule.compares) {
+            const auto share = static_cast<double>(one.extra->depth_share);
+            const RealPlane& plane = one.extra->depth;
+            drawn = nearer_pixels(
+                drawn,
+                static_cast<float>(plane.at(job.first_px.x + left, job.first_px.y + row) * share),
+                static_cast<float>(plane.per_x * share),
+                rule,
+                buffer.depth.data() + pixel);
+        }
+        if (drawn != 0 && rule.colours) {
+            colour_over(drawn, levels, pixel, buffer);
+        }
+        whole.x += whole.slope;
+        upper.x += upper.slope;
+        lower.x += lower.slope;
+        for (StripLevel& level : levels) {
+            level.at += level.per_row;
+        }
+    }
+}
+
+/// The same for any triangle, pixel by pixel.
+HWY_INLINE void paint_pixels_over(
+    const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+    cover(one, job, lanes, buffer);
+    const DepthRule rule(one.triangle->depth);
+    const Coverage& coverage = buffer.coverage;
+    for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
+        const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
+        const int end = std::min(places.first + places.blocks * 16, job.size_px.x);
+        const std::uint16_t* const masks =
+            buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
+        for (int column = places.first; column < end; ++column) {
+            if (masks[column] == 0) {
+                continue;
+            }
+            const auto pixel = static_cast<std::size_t>(row * tile_width + column);
+            const glm::ivec2 at = job.first_px + glm::ivec2(column, row);
+            if (rule.compares) {
+                const auto here = static_cast<float>(
+                    one.extra->depth.at(at.x, at.y) * static_cast<double>(one.extra->depth_share));
+                float& before = buffer.depth[pixel];
+                if (!(here > before || (rule.passes_equal && here == before))) {
+                    continue;
+                }
+                before = rule.writes ? here : before;
+            }
+            if (!rule.colours) {
+                continue;
+            }
+            const PixelColour colour = colour_of(one, job, at.x, at.y);
+            buffer.covered[pixel] = 0xffff;
+            for (std::size_t k = 0; k < 3; ++k) {
+                buffer.sums[k][pixel] = static_cast<std::uint16_t>(colour[k] * 16U);
+            }
+        }
+    }
+}
+
+/// Whether a tile is painted so: because it is asked for, or because all of it is one group by
+/// depth with nothing behind or before it.
+HWY_INLINE bool is_painted_over(const TileJob& job, const SampleLanes& lanes) {
+    if (!lanes.are_one || job.triangles.empty()) {
+        return false;
+    }
+    const std::uint16_t first = job.triangles.front().triangle->group;
+    return job.far_to_near || (first != 0 && first == job.triangles.back().triangle->group);
+}
+
+/// All triangles of a tile, from the first to the last.
+HWY_NOINLINE void paint_over(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+    std::uint16_t group = 0;
+    for (const TileTriangle& one : job.triangles) {
+        const Triangle& triangle = *one.triangle;
+        if (triangle.group != 0 && triangle.group != group) {
+            group = triangle.group;
+            buffer.depth.assign(TileBuffer::pixels + TileBuffer::padding, 0.0F);
+        }
+        const bool is_plain =
+            triangle.fill == Fill::Levels && (one.extra == nullptr || one.extra->cut_count == 0);
+        if (!is_plain) {
+            paint_pixels_over(one, job, lanes, buffer);
+            continue;
+        }
+        const TileBox box(triangle, job);
+        for (int left = box.left; left <= box.right; left += strip_px) {
+            paint_strip_over(one, job, box, left, buffer);
+        }
+    }
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace octant::visuals::raster
+
+HWY_AFTER_NAMESPACE();
+
+#endif
