@@ -1,8 +1,9 @@
 #include "models/planar/planar_model.h"
 
-#include "models/planar/file_precision.h"
+#include "models/planar/decimal_grid.h"
 #include "models/planar/incidences.h"
 #include "models/planar/near_vertices.h"
+#include "models/planar/own_axes.h"
 #include "models/planar/planarize.h"
 #include "models/polygons/convex_pieces.h"
 #include "models/polygons/polygon_check.h"
@@ -26,7 +27,9 @@ using polygons::Pivot;
 using polygons::PolygonModel;
 using Outline = std::vector<std::uint32_t>;
 
-constexpr double most_reach = 1e-6;
+/// What lies nearer is meant to touch. Files with six decimals or in single precision are no finer,
+/// and of a model that was turned nobody can tell how finely it was written.
+constexpr double reach = 1e-6;
 /// No point moves farther than so many times the reach.
 constexpr double moves_in_reaches = 4.0;
 /// A polygon whose height over its longest side is less has no area.
@@ -38,33 +41,59 @@ glm::dvec3 in_steps(const PlanarModel& frame, const glm::dvec3& point_m) {
     return frame.grid_m > 0.0 ? glm::round(point_m / frame.grid_m) : point_m;
 }
 
-/// The middle of the box around all corners, and the distance of the farthest corner from it.
-void find_frame(const PolygonModel& model, PlanarModel& out) {
-    out.grid_m = decimal_grid(model.vertices_m);
-    const double step_m = out.step_m();
-    glm::dvec3 least(std::numeric_limits<double>::max());
-    glm::dvec3 most(std::numeric_limits<double>::lowest());
-    for (const std::uint32_t vertex : model.corner_vertices) {
-        const glm::dvec3 at = in_steps(out, model.vertices_m[vertex]);
-        least = glm::min(least, at);
-        most = glm::max(most, at);
+/// The box around some points.
+struct Box {
+    glm::dvec3 least{std::numeric_limits<double>::max()};
+    glm::dvec3 most{std::numeric_limits<double>::lowest()};
+
+    void add(const glm::dvec3& point) {
+        least = glm::min(least, point);
+        most = glm::max(most, point);
     }
+
+    glm::dvec3 middle() const { return least + (most - least) / 2.0; }
+};
+
+/// A point in own axes from the base of the frame, in steps.
+glm::dvec3 from_base(const PlanarModel& frame, const glm::dvec3& point_m) {
+    return (in_steps(frame, point_m) - frame.base_steps) * frame.axes; // by the transpose
+}
+
+/// The axes, the middle of the box around all corners along them, and the distance of the farthest
+/// corner from it.
+void find_frame(const PolygonModel& model, Attitude attitude, PlanarModel& out) {
+    out.grid_m = decimal_grid(model.vertices_m);
     if (model.corner_vertices.empty()) {
         return;
     }
-    out.centre_steps = least + (most - least) / 2.0;
+    Box given;
+    for (const std::uint32_t vertex : model.corner_vertices) {
+        given.add(in_steps(out, model.vertices_m[vertex]));
+    }
+    out.base_steps = given.middle();
+    if (attitude == Attitude::Own) {
+        std::vector<glm::dvec3> points;
+        for (const glm::dvec3& vertex_m : model.vertices_m) {
+            points.push_back(from_base(out, vertex_m));
+        }
+        out.axes = own_axes(model, points);
+    }
+    Box own;
+    for (const std::uint32_t vertex : model.corner_vertices) {
+        own.add(from_base(out, model.vertices_m[vertex]));
+    }
+    out.centre_steps = own.middle();
     double farthest = 0.0;
     for (const std::uint32_t vertex : model.corner_vertices) {
-        const glm::dvec3 at = in_steps(out, model.vertices_m[vertex]);
+        const glm::dvec3 at = from_base(out, model.vertices_m[vertex]);
         farthest = std::max(farthest, glm::distance(at, out.centre_steps));
     }
     out.radius_steps = farthest > 0.0 ? farthest : 1.0;
-    out.centre_m = out.centre_steps * step_m;
-    out.radius_m = out.radius_steps * step_m;
+    out.radius_m = out.radius_steps * out.step_m();
 }
 
 glm::dvec3 in_radii(const PlanarModel& frame, const glm::dvec3& point_m) {
-    return (in_steps(frame, point_m) - frame.centre_steps) / frame.radius_steps;
+    return (from_base(frame, point_m) - frame.centre_steps) / frame.radius_steps;
 }
 
 /// For each vertex which part it turns with: 0 for what stands still, and for vertices without a
@@ -81,8 +110,7 @@ std::vector<std::uint32_t> pivots_of_vertices(const PolygonModel& model) {
 }
 
 /// Moves the vertices, in radii, and tells which polygons stay bent.
-std::vector<bool> move_vertices(PolygonModel& model, double precision) {
-    const double reach = std::clamp(2.0 * precision, planar_tolerance, most_reach);
+std::vector<bool> move_vertices(PolygonModel& model) {
     const auto kind = pivots_of_vertices(model);
     const auto places = one_place(model.vertices_m, kind, reach);
     const auto incidences = incidences_of(model, model.vertices_m, places, kind, reach);
@@ -189,21 +217,22 @@ void cut_polygons(PlanarModel& planar, const std::vector<bool>& bent) {
 
 } // namespace
 
-PlanarModel planar_model(const PolygonModel& model) {
+PlanarModel planar_model(const PolygonModel& model, Attitude attitude) {
     PlanarModel planar;
     planar.model = model;
     if (model.vertices_m.empty()) {
         return planar;
     }
-    find_frame(model, planar);
+    find_frame(model, attitude, planar);
     for (glm::dvec3& vertex : planar.model.vertices_m) {
         vertex = in_radii(planar, vertex);
     }
     for (Pivot& pivot : planar.model.pivots) {
-        pivot.point_m = (pivot.point_m - planar.centre_m) / planar.radius_m;
+        const glm::dvec3 point_steps = pivot.point_m / planar.step_m() - planar.base_steps;
+        pivot.point_m = (point_steps * planar.axes - planar.centre_steps) / planar.radius_steps;
+        pivot.axis = pivot.axis * planar.axes;
     }
-    const double precision = file_precision(model.vertices_m) / planar.radius_m;
-    cut_polygons(planar, move_vertices(planar.model, precision));
+    cut_polygons(planar, move_vertices(planar.model));
     return planar;
 }
 

@@ -4,6 +4,7 @@
 #include "sim/base/plane.h"
 
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 namespace octant::models::planar {
@@ -15,36 +16,45 @@ inline constexpr double planar_tolerance = 1e-9;
 /// A polygon model about the middle of its bounding box, in units of its radius there, with planar
 /// convex polygons.
 struct PlanarModel {
-    /// Its lengths are in radii. Vertices keep their numbers; polygons that could not become planar
+    /// Its lengths are in radii, its axes are the columns of `axes`. Vertices keep their numbers; polygons that could not become planar
     /// are cut, which its parents tell; those without an area are missing. It may be empty.
     polygons::PolygonModel model;
-    glm::dvec3 centre_m{0.0};
+    glm::dmat3 axes{1.0};
     double radius_m = 1.0;
 
     /// The step of the decimals of the model as given, of which all coordinates are multiples; 0
     /// where there is none.
     double grid_m = 0.0;
-    /// Centre and radius in these steps, in metres where there is none.
+    /// A point near the model in these steps, in metres where there is none; from there the centre
+    /// in own axes, and the radius. Kept apart, so that far away no digits are lost.
+    glm::dvec3 base_steps{0.0};
     glm::dvec3 centre_steps{0.0};
     double radius_steps = 1.0;
 
     double step_m() const { return grid_m > 0.0 ? grid_m : 1.0; }
 
-    /// From radii to the place, size and unit of the model as given.
-    glm::dvec3 in_given(const glm::dvec3& point) const { return centre_m + point * radius_m; }
+    /// From radii to the place, size, attitude and unit of the model as given.
+    glm::dvec3 in_given(const glm::dvec3& point) const {
+        return (base_steps + axes * (centre_steps + point * radius_steps)) * step_m();
+    }
 
     Plane in_given(const Plane& plane) const {
-        return {plane.normal, plane.offset_m * radius_m - glm::dot(plane.normal, centre_m)};
+        const glm::dvec3 normal = axes * plane.normal;
+        return {normal, plane.offset_m * radius_m - glm::dot(normal, in_given(glm::dvec3(0.0)))};
     }
 
     int cut_polygons = 0;  ///< How many polygons were bent or dented and are cut into pieces.
     int lost_polygons = 0; ///< How many had no area and are left out.
 };
 
-/// Makes a model planar (README.md has the rules). The model has finite coordinates.
-PlanarModel planar_model(const polygons::PolygonModel& model);
+/// Which axes a planar model has: its own (own_axes.h), so that a model that is turned becomes the
+/// same, or those of the model as given.
+enum class Attitude { Own, Given };
 
-/// Back to the place, size and unit of the model as given: vertices that planar_model() did not
+/// Makes a model planar (README.md has the rules). The model has finite coordinates.
+PlanarModel planar_model(const polygons::PolygonModel& model, Attitude attitude = Attitude::Own);
+
+/// Back to the place, size, attitude and unit of the model as given: vertices that planar_model() did not
 /// move have the same bits as there. `changed` is the model of `planar`, or what was made of it by
 /// adding vertices and polygons.
 polygons::PolygonModel as_given(

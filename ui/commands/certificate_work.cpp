@@ -12,38 +12,27 @@
 
 namespace octant::ui::commands {
 
-void write_certificate(
-    const std::string& file,
-    const models::polygons::PolygonModel& model,
-    const visuals::draworder::DrawOrder& order,
-    const models::polygons::FileAxes& axes,
-    bool quiet,
-    base::Figures& figures) {
-    if (model.polygons.empty()) {
-        throw Error("--certificate: expected polygons that can be seen, got none");
-    }
+namespace {
+
+namespace verify = visuals::verify;
+
+std::string certificate_text(const ProvedOrder& proved, bool quiet, base::Figures& figures) {
     Percents percents("seeking proofs", quiet);
     const auto certificate = visuals::certificate::order_certificate(
-        model, order, axes, [&](std::size_t done, std::size_t all) {
+        proved.model, proved.order, proved.axes, [&](std::size_t done, std::size_t all) {
             percents.show(static_cast<double>(done) / static_cast<double>(all));
         });
     figures["certificate_ms"] = percents.finish();
     figures["certificate_unproved"] = certificate.unproved;
-    write_file(file, certificate.text);
-    base::say(quiet, "certificate: " + file);
+    return certificate.text;
 }
 
-bool verified(const std::string& file, bool quiet, base::Figures& figures) {
-    Percents percents("verifying", quiet);
-    const auto certificate = visuals::verify::read_certificate(file);
-    const auto verdict =
-        visuals::verify::verify(certificate, [&](std::size_t done, std::size_t all) {
-            percents.show(static_cast<double>(done) / static_cast<double>(all));
-        });
-    figures["certificate"] = file;
-    figures["polygons"] = certificate.polygons.size();
-    figures["nodes"] = certificate.nodes.size();
-    figures["lists"] = certificate.lists.size();
+/// Checks a certificate without rounding and adds to the figures; whether it proves all.
+bool verified(const verify::Certificate& certificate, Percents& percents, base::Figures& figures) {
+    const std::string file = certificate.path.string();
+    const auto verdict = verify::verify(certificate, [&](std::size_t done, std::size_t all) {
+        percents.show(static_cast<double>(done) / static_cast<double>(all));
+    });
     figures["tolerance_sizes"] = verdict.tolerance_sizes;
     figures["pairs"] = verdict.pairs;
     figures["pairs_by_partings"] = verdict.by_partings;
@@ -52,6 +41,7 @@ bool verified(const std::string& file, bool quiet, base::Figures& figures) {
     figures["claims_never_seen"] = verdict.claims.never_seen;
     figures["unlisted"] = verdict.unlisted;
     figures["unproved"] = verdict.unproved;
+    figures["every_eye"] = verdict.every_eye;
     if (certificate.first_unproved) {
         figures["first_unproved"] = fmt::format("{}:{}", file, *certificate.first_unproved);
     }
@@ -62,6 +52,36 @@ bool verified(const std::string& file, bool quiet, base::Figures& figures) {
     figures["verify_ms"] = percents.finish();
     figures["proved"] = verdict.proved();
     return verdict.proved();
+}
+
+} // namespace
+
+void write_certificate(
+    const std::string& file, const ProvedOrder& proved, bool quiet, base::Figures& figures) {
+    if (proved.model.polygons.empty()) {
+        throw Error("--certificate: expected polygons that can be seen, got none");
+    }
+    write_file(file, certificate_text(proved, quiet, figures));
+    base::say(quiet, "certificate: " + file);
+}
+
+bool is_proved(const ProvedOrder& proved, bool quiet, base::Figures& figures) {
+    if (proved.model.polygons.empty()) {
+        return true;
+    }
+    const std::string text = certificate_text(proved, quiet, figures);
+    Percents percents("verifying", quiet);
+    return verified(verify::certificate_of(text, "certificate"), percents, figures);
+}
+
+bool verified(const std::string& file, bool quiet, base::Figures& figures) {
+    Percents percents("verifying", quiet);
+    const auto certificate = verify::read_certificate(file);
+    figures["certificate"] = file;
+    figures["polygons"] = certificate.polygons.size();
+    figures["nodes"] = certificate.nodes.size();
+    figures["lists"] = certificate.lists.size();
+    return verified(certificate, percents, figures);
 }
 
 } // namespace octant::ui::commands

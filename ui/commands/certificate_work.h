@@ -9,15 +9,21 @@
 
 namespace octant::ui::commands {
 
-/// Writes the certificate of an order that holds for every eye, and adds to the figures what it
-/// leaves unproved.
+/// An order that holds for every eye, or for those that its choices leave
+/// (visuals/certificate/eyes_beyond.h), with the model that it speaks of.
+struct ProvedOrder {
+    const models::polygons::PolygonModel& model;
+    const visuals::draworder::DrawOrder& order;
+    const models::polygons::FileAxes& axes;
+};
+
+/// Writes the certificate of an order, and adds to the figures what it leaves unproved.
 void write_certificate(
-    const std::string& file,
-    const models::polygons::PolygonModel& model,
-    const visuals::draworder::DrawOrder& order,
-    const models::polygons::FileAxes& axes,
-    bool quiet,
-    base::Figures& figures);
+    const std::string& file, const ProvedOrder& proved, bool quiet, base::Figures& figures);
+
+/// Seeks the proofs of an order and checks them without rounding, without a file; adds to the
+/// figures. False where something is not proved.
+bool is_proved(const ProvedOrder& proved, bool quiet, base::Figures& figures);
 
 /// Reads a certificate, checks it without rounding and adds to the figures; whether it proves all.
 /// Throws Error for a file that is no certificate.

@@ -9,6 +9,7 @@
 #include "ui/commands/percents.h"
 #include "ui/settings/settings_text.h"
 #include "ui/world/order_input.h"
+#include "visuals/certificate/eyes_beyond.h"
 #include "visuals/draworder/order_check.h"
 #include "visuals/draworder/order_table.h"
 #include "visuals/draworder/order_text.h"
@@ -39,7 +40,7 @@ struct Work {
     models::polygons::PolygonModel model;
     models::polygons::FileAxes axes;
     draworder::CellOrders orders;
-    std::optional<draworder::DrawOrder> order; ///< as found; nothing if they were read
+    std::optional<draworder::DrawOrder> order; ///< as it is proved; nothing for cells that were read
 };
 
 std::string cell_name(const Work& work, std::size_t cell) {
@@ -84,6 +85,15 @@ ordercache::CachedOrder found(
     return {.ordered = draworder::ordered(std::move(model), options), .file = {}, .notes = {}};
 }
 
+/// The order as it can be proved: of octants that hold from a distance on, nothing is claimed for
+/// nearer eyes.
+draworder::DrawOrder provable(const draworder::OrderedModel& ordered) {
+    return ordered.drawn_by == draworder::DrawnBy::Cells
+               ? visuals::certificate::eyes_beyond(
+                     ordered.order, ordered.centre_m, ordered.min_distance_m)
+               : ordered.order;
+}
+
 /// Finds the orders, or reads those that are to be checked.
 Work prepared(const DrawOrderOptions& options, Figures& figures) {
     world::OrderInput input = world::read_order_input(options.model, options.axes);
@@ -95,6 +105,10 @@ Work prepared(const DrawOrderOptions& options, Figures& figures) {
         const std::size_t faces = input.model.polygons.size();
         Work work{std::move(input.model), input.axes, {}, {}};
         work.orders = draworder::read_order_file(options.check_file, faces, work.axes);
+        if (work.orders.parts) {
+            work.order = work.orders.parts;
+            work.model.parents = work.orders.parents;
+        }
         figures["orders"] = options.check_file;
         figures["polygons"] = faces;
         add_size(figures, work.orders);
@@ -123,7 +137,8 @@ Work prepared(const DrawOrderOptions& options, Figures& figures) {
         figures["notes"] = ordered.notes; // else they are said
     }
     draworder::CellOrders orders = draworder::cell_orders(ordered);
-    return {std::move(ordered.model), input.axes, std::move(orders), std::move(ordered.order)};
+    draworder::DrawOrder order = provable(ordered);
+    return {std::move(ordered.model), input.axes, std::move(orders), std::move(order)};
 }
 
 void export_files(const Work& work, const DrawOrderOptions& options) {
@@ -239,11 +254,11 @@ void draw_order(const DrawOrderOptions& options) {
     export_files(work, options);
     if (!options.certificate.empty()) {
         write_certificate(
-            options.certificate, work.model, *work.order, work.axes, options.quiet, figures);
+            options.certificate, {work.model, *work.order, work.axes}, options.quiet, figures);
     }
     bool good = true;
     if (options.check && work.orders.parts) {
-        base::say(options.quiet, "note: parts are tried with rays; only cells are certified");
+        good = is_proved({work.model, *work.order, work.axes}, options.quiet, figures);
     } else if (options.check) {
         good = certified(work, options, figures);
     }

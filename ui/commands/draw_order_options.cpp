@@ -57,11 +57,10 @@ void refuse_together(const DrawOrderOptions& options) {
             "--certificate: expected orders that this command finds, got those of --check '" +
             printable(options.check_file) + "'");
     }
-    if (options.order.method != Method::Tree && options.order.method != Method::Bsp) {
+    if (options.order.method == Method::Paper) {
         throw Error(
-            "--certificate: expected --method tree or bsp, whose orders hold for every eye, got "
-            "--method " +
-            settings::text_of(options.order.method));
+            "--certificate: expected --method tree, bsp or cells, which are right for all eyes or "
+            "all from a distance on, got --method paper");
     }
 }
 
@@ -107,7 +106,7 @@ void add_result_options(std::vector<Option>& table, DrawOrderOptions& options) {
          text_option(
              "--certificate",
              "FILE",
-             "tree, bsp: write for each pair of polygons what proves that it is painted right",
+             "write for each pair of polygons what proves that it is painted right; not of paper",
              options.certificate),
          text_option(
              "--verify",

@@ -19,8 +19,8 @@ std::string text_of(const Plane& plane) {
     return fmt::format("{} {}", text_of(plane.normal), plane.offset_m + 0.0);
 }
 
-std::string text_of_child(int child) {
-    return child == DrawOrder::nothing ? " nothing"
+std::string text_of_child(int child, const char* if_nothing = " nothing") {
+    return child == DrawOrder::nothing ? if_nothing
            : child < 0                 ? fmt::format(" list {}", ~child)
                                        : fmt::format(" node {}", child);
 }
@@ -67,7 +67,10 @@ void CertificateText::add_tree(const DrawOrder& order, const FileAxes& axes) {
         add_numbers(order.polygons_of(list));
     }
     for (const DrawOrder::Node& node : order.nodes()) {
-        const std::string children = text_of_child(node.front) + text_of_child(node.back);
+        const bool is_choice = node.kind == DrawOrder::Kind::Choice;
+        const char* const if_nothing = is_choice ? " unclaimed" : " nothing";
+        const std::string children =
+            text_of_child(node.front, if_nothing) + text_of_child(node.back, if_nothing);
         if (node.kind == DrawOrder::Kind::Sequence) {
             append(text_, "node sequence{}\n", children);
             continue;

@@ -26,7 +26,7 @@ public:
         const LocalModel& local,
         const models::polygons::FileAxes& axes);
 
-    /// The lists and nodes.
+    /// The lists and nodes. Where a choice has nothing on a side, its eyes are left unclaimed.
     void add_tree(const draworder::DrawOrder& order, const models::polygons::FileAxes& axes);
 
     /// The pairs of one later polygon with the earlier ones of a part: begin, one call a pair in

@@ -181,6 +181,9 @@ private:
     }
 
     void write_side(const Task& task, int child, const Plane& wall) {
+        if (child == DrawOrder::nothing) {
+            return; // unclaimed
+        }
         Task side{child, task.walls, task.expected, false};
         side.walls.push_back(wall);
         Level level{child, side.walls.size(), levels_.back().known};

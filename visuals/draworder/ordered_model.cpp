@@ -287,7 +287,9 @@ OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& o
     if (options.method == Method::Paper) {
         return by_paper(std::move(model), options);
     }
-    const PlanarModel planar = models::planar::planar_model(model);
+    using models::planar::Attitude; // octants are those of the model's own file
+    const PlanarModel planar = models::planar::planar_model(
+        model, options.method == Method::Cells ? Attitude::Given : Attitude::Own);
     return as_given(of_planar(planar.model, options), planar, model);
 }
 

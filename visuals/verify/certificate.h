@@ -41,6 +41,11 @@ struct Node {
 
     /// A child where nothing is painted; else a child >= 0 is a node, one < 0 the list ~child.
     static constexpr int nothing = std::numeric_limits<int>::min();
+    /// A side of a choice of whose eyes nothing is said.
+    static constexpr int unclaimed = nothing + 1;
+
+    /// Whether a child is neither a node nor a list.
+    static bool is_empty(int child) { return child == nothing || child == unclaimed; }
 
     Kind kind = Kind::Choice;
     WrittenPlane plane; ///< Not of a sequence.

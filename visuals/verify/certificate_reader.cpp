@@ -30,8 +30,7 @@ public:
         made_.path = path;
     }
 
-    Certificate read() {
-        const std::string text = read_text_file(made_.path, largest_bytes);
+    Certificate read(std::string_view text) {
         for (const std::string_view line : split_lines(text)) {
             if (words_.take_line(line)) {
                 take();
@@ -229,9 +228,13 @@ private:
         if (!sequence) {
             node.plane = plane();
         }
-        const bool choice = !sequence && !parting;
-        node.front = child(!choice, true);
-        node.back = child(!choice, true);
+        const auto side = [&] {
+            return sequence || parting          ? child(true, true)
+                   : words_.skip("unclaimed") ? Node::unclaimed
+                                              : child(false, true);
+        };
+        node.front = side();
+        node.back = side();
         if (parting) {
             node.along = child(true, false);
             node.against = child(true, false);
@@ -340,7 +343,11 @@ private:
 } // namespace
 
 Certificate read_certificate(const std::filesystem::path& path) {
-    return Reading(path).read();
+    return certificate_of(read_text_file(path, largest_bytes), path);
+}
+
+Certificate certificate_of(std::string_view text, const std::filesystem::path& name) {
+    return Reading(name).read(text);
 }
 
 } // namespace octant::visuals::verify

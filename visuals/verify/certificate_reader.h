@@ -3,6 +3,7 @@
 #include "visuals/verify/certificate.h"
 
 #include <filesystem>
+#include <string_view>
 
 namespace octant::visuals::verify {
 
@@ -11,5 +12,8 @@ namespace octant::visuals::verify {
 /// too many, not finite or out of range, nodes and lists that are no tree, claims about what is not
 /// there.
 Certificate read_certificate(const std::filesystem::path& path);
+
+/// The same of the text of a file; `name` is what errors call it.
+Certificate certificate_of(std::string_view text, const std::filesystem::path& name);
 
 } // namespace octant::visuals::verify

@@ -17,7 +17,7 @@ TreeContents::TreeContents(const Certificate& certificate)
     while (!to_do.empty()) {
         const Visit visit = to_do.back();
         to_do.pop_back();
-        if (visit.child == Node::nothing) {
+        if (Node::is_empty(visit.child)) {
             continue;
         }
         if (visit.child < 0) {
@@ -43,7 +43,7 @@ TreeContents::TreeContents(const Certificate& certificate)
 }
 
 std::vector<std::uint32_t> TreeContents::of(int child) const {
-    if (child == Node::nothing) {
+    if (Node::is_empty(child)) {
         return {};
     }
     const Range range = child < 0 ? of_lists_[static_cast<std::size_t>(~child)]

@@ -178,6 +178,10 @@ private:
             Walls walls = task.walls;
             walls.push_back(in_front ? node.plane : reversed(node.plane));
             const int child = in_front ? node.front : node.back;
+            if (child == Node::unclaimed) {
+                verdict_.every_eye = false;
+                continue;
+            }
             to_do.push_back({child, std::move(walls), task.expected, facts, true, false});
         }
     }

@@ -19,6 +19,7 @@ struct Verdict {
     ClaimCounts claims;
     std::uint64_t unlisted = 0;   ///< Polygons that face away from all eyes of a list or node.
     std::uint64_t unproved = 0;   ///< Claims that the file itself says are not proved.
+    bool every_eye = true;        ///< No choice leaves the eyes on one side of it unclaimed.
     double tolerance_sizes = 0.0; ///< The tolerance, in longest sides of the model's bounding box.
 
     bool proved() const { return !refused && unproved == 0; }

@@ -53,7 +53,7 @@ private:
     }
 
     void reach(int child, std::size_t walls, int line) {
-        if (child == Node::nothing) {
+        if (Node::is_empty(child)) {
             return;
         }
         auto& all = child < 0 ? counts_.of_lists : counts_.of_nodes;

@@ -1,5 +1,5 @@
 #include "models/made/made_up.h"
-#include "models/planar/file_precision.h"
+#include "models/planar/decimal_grid.h"
 #include "models/planar/planar_model.h"
 #include "models/planar/planarize.h"
 #include "models/polygons/polygon_check.h"
@@ -85,19 +85,11 @@ PolygonModel plate() {
 
 } // namespace
 
-TEST_CASE("the precision of a file is the last decimal of its large coordinates") {
-    CHECK(file_precision(std::vector<glm::dvec3>{{12.5, -0.25, 3.0}}) == Approx(0.1));
-    CHECK(file_precision(std::vector<glm::dvec3>{{12.345678, 1e-9, 3.0}}) == Approx(1e-6));
-    CHECK(file_precision(std::vector<glm::dvec3>{{4, 2, 1}}) == 1.0);
+TEST_CASE("the grid of a file is the last decimal that any coordinate needs") {
     CHECK(decimal_grid(std::vector<glm::dvec3>{{12.5, -0.25, 3.0}}) == Approx(0.01));
     CHECK(decimal_grid(std::vector<glm::dvec3>{{1e6 + 0.125, 2e-3, 0.0}}) == Approx(1e-3));
     CHECK(decimal_grid(std::vector<glm::dvec3>{{1.0 / 3.0, 1.0, 0.0}}) == 0.0);
-    const double third = 1.0 / 3.0;
-    CHECK(file_precision(std::vector<glm::dvec3>{{third, third, third}}) < 1e-15);
-    const auto single = static_cast<double>(static_cast<float>(third));
-    CHECK(
-        file_precision(std::vector<glm::dvec3>{{single, single, 0.0}}) ==
-        Approx(4e-8).epsilon(0.1));
+    CHECK(decimal_grid(std::vector<glm::dvec3>{{0.0, 0.0, 0.0}}) == 0.0);
 }
 
 TEST_CASE("quadrangles of a file with six decimals become planar without being cut") {
