@@ -35,8 +35,7 @@ sides_of(const polygons::PolygonModel& model, std::span<const glm::dvec3> points
         const auto corners = model.corners(i);
         const bool turns = polygons::pivot_of(model, i).has_value();
         for (std::size_t k = 0; k < corners.size(); ++k, ++number) {
-            const glm::dvec3 side =
-                points[corners[(k + 1) % corners.size()]] - points[corners[k]];
+            const glm::dvec3 side = points[corners[(k + 1) % corners.size()]] - points[corners[k]];
             const double length = glm::length(side);
             if (!turns && number % step == 0 && length > 0.0) {
                 sides.push_back({side / length, length});

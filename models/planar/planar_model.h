@@ -16,8 +16,9 @@ inline constexpr double planar_tolerance = 1e-9;
 /// A polygon model about the middle of its bounding box, in units of its radius there, with planar
 /// convex polygons.
 struct PlanarModel {
-    /// Its lengths are in radii, its axes are the columns of `axes`. Vertices keep their numbers; polygons that could not become planar
-    /// are cut, which its parents tell; those without an area are missing. It may be empty.
+    /// Its lengths are in radii, its axes are the columns of `axes`. Vertices keep their numbers;
+    /// polygons that could not become planar are cut, which its parents tell; those without an area
+    /// are missing. It may be empty.
     polygons::PolygonModel model;
     glm::dmat3 axes{1.0};
     double radius_m = 1.0;
@@ -54,9 +55,9 @@ enum class Attitude { Own, Given };
 /// Makes a model planar (README.md has the rules). The model has finite coordinates.
 PlanarModel planar_model(const polygons::PolygonModel& model, Attitude attitude = Attitude::Own);
 
-/// Back to the place, size, attitude and unit of the model as given: vertices that planar_model() did not
-/// move have the same bits as there. `changed` is the model of `planar`, or what was made of it by
-/// adding vertices and polygons.
+/// Back to the place, size, attitude and unit of the model as given: vertices that planar_model()
+/// did not move have the same bits as there. `changed` is the model of `planar`, or what was made
+/// of it by adding vertices and polygons.
 polygons::PolygonModel as_given(
     polygons::PolygonModel changed, const PlanarModel& planar, const polygons::PolygonModel& given);
 

@@ -14,7 +14,7 @@ namespace octant::ui::commands {
 
 namespace {
 
-namespace verify = visuals::verify;
+namespace proofs = visuals::verify;
 
 std::string certificate_text(const ProvedOrder& proved, bool quiet, base::Figures& figures) {
     Percents percents("seeking proofs", quiet);
@@ -28,9 +28,9 @@ std::string certificate_text(const ProvedOrder& proved, bool quiet, base::Figure
 }
 
 /// Checks a certificate without rounding and adds to the figures; whether it proves all.
-bool verified(const verify::Certificate& certificate, Percents& percents, base::Figures& figures) {
+bool all_holds(const proofs::Certificate& certificate, Percents& percents, base::Figures& figures) {
     const std::string file = certificate.path.string();
-    const auto verdict = verify::verify(certificate, [&](std::size_t done, std::size_t all) {
+    const auto verdict = proofs::verify(certificate, [&](std::size_t done, std::size_t all) {
         percents.show(static_cast<double>(done) / static_cast<double>(all));
     });
     figures["tolerance_sizes"] = verdict.tolerance_sizes;
@@ -71,17 +71,17 @@ bool is_proved(const ProvedOrder& proved, bool quiet, base::Figures& figures) {
     }
     const std::string text = certificate_text(proved, quiet, figures);
     Percents percents("verifying", quiet);
-    return verified(verify::certificate_of(text, "certificate"), percents, figures);
+    return all_holds(proofs::certificate_of(text, "certificate"), percents, figures);
 }
 
 bool verified(const std::string& file, bool quiet, base::Figures& figures) {
     Percents percents("verifying", quiet);
-    const auto certificate = verify::read_certificate(file);
+    const auto certificate = proofs::read_certificate(file);
     figures["certificate"] = file;
     figures["polygons"] = certificate.polygons.size();
     figures["nodes"] = certificate.nodes.size();
     figures["lists"] = certificate.lists.size();
-    return verified(certificate, percents, figures);
+    return all_holds(certificate, percents, figures);
 }
 
 } // namespace octant::ui::commands

@@ -40,7 +40,8 @@ struct Work {
     models::polygons::PolygonModel model;
     models::polygons::FileAxes axes;
     draworder::CellOrders orders;
-    std::optional<draworder::DrawOrder> order; ///< as it is proved; nothing for cells that were read
+    std::optional<draworder::DrawOrder>
+        order; ///< as it is proved; nothing for cells that were read
 };
 
 std::string cell_name(const Work& work, std::size_t cell) {
@@ -137,8 +138,8 @@ Work prepared(const DrawOrderOptions& options, Figures& figures) {
         figures["notes"] = ordered.notes; // else they are said
     }
     draworder::CellOrders orders = draworder::cell_orders(ordered);
-    draworder::DrawOrder order = provable(ordered);
-    return {std::move(ordered.model), input.axes, std::move(orders), std::move(order)};
+    draworder::DrawOrder proved = provable(ordered);
+    return {std::move(ordered.model), input.axes, std::move(orders), std::move(proved)};
 }
 
 void export_files(const Work& work, const DrawOrderOptions& options) {

@@ -10,7 +10,7 @@ namespace octant::visuals::certificate {
 /// |x| + |y| + |z| >= `distance_m` from there, with one choice more in each octant: nearer eyes are
 /// painted nothing. The first three choices on each path must be planes through the centre across
 /// the axes, as draworder::Method::Cells makes them (asserted).
-draworder::DrawOrder eyes_beyond(
-    const draworder::DrawOrder& order, const glm::dvec3& centre_m, double distance_m);
+draworder::DrawOrder
+eyes_beyond(const draworder::DrawOrder& order, const glm::dvec3& centre_m, double distance_m);
 
 } // namespace octant::visuals::certificate

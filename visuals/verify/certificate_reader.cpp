@@ -229,7 +229,7 @@ private:
             node.plane = plane();
         }
         const auto side = [&] {
-            return sequence || parting          ? child(true, true)
+            return sequence || parting        ? child(true, true)
                    : words_.skip("unclaimed") ? Node::unclaimed
                                               : child(false, true);
         };
