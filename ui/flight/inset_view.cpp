@@ -57,15 +57,14 @@ void InsetView::place(const settings::RunSettings& settings) {
 
 void InsetView::follow(const settings::RunSettings& settings) {
     std::unique_ptr<landscape::GroundMesher> mesher = planner_->take_mesher();
-    settles_ = settles_ || &mesher->ground() != scene_.ground.get() ||
-               !scene::same_detail_control(settings.ground, settings_.ground);
+    const landscape::GroundMesher* const before = mesher.get();
+    const bool same_control = scene::same_detail_control(settings.ground, settings_.ground);
     planner_.reset();
     place(settings);
-    planner_.emplace(
-        scene_,
-        settings_,
-        landscape::mesher_after(
-            std::move(mesher), *scene_.ground, landscape::mesh_settings(settings_)));
+    mesher = landscape::mesher_after(
+        std::move(mesher), *scene_.ground, landscape::mesh_settings(settings_));
+    settles_ = settles_ || !same_control || mesher.get() != before;
+    planner_.emplace(scene_, settings_, std::move(mesher));
 }
 
 const scene::FramePlan& InsetView::plan(

@@ -166,6 +166,7 @@ private:
     void fill_in(const visuals::planning::PlanCounts& counts, report::FrameRecord& record);
     void change_world(const settings::RunSettings& settings);
     void change_picture(const settings::RunSettings& settings);
+    world::SceneGround ground_for(const settings::RunSettings& settings) const;
     void wait_for_meshes();
     void make_renderer_ready(
         const visuals::scene::ViewSettings& view, const visuals::scene::GroundTexture* texture);

@@ -18,7 +18,6 @@
 namespace octant::ui::flight {
 
 namespace landscape = visuals::landscape;
-namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 
 void Session::apply(const settings::RunSettings& wanted) {
@@ -109,30 +108,24 @@ void Session::change_world(const settings::RunSettings& settings) {
     }
 }
 
-namespace {
-
-/// The ground of a scene under other settings: itself, or made of the same heights; nothing where
-/// it, or the texture over it, must be loaded.
-std::shared_ptr<const landscape::Ground>
-kept_ground(const planning::Scene& scene, const settings::RunSettings& settings) {
-    const bool same = scene.ground->suits(settings.ground, settings.air);
-    if (same || scene.ground_texture) {
-        return same ? scene.ground : nullptr;
+/// The ground for pictures by other settings: the one that is there, one made of its heights or, if
+/// neither will do, one loaded. Without a texture where the one that is there stays.
+world::SceneGround Session::ground_for(const settings::RunSettings& settings) const {
+    const settings::RunSettings own = world::ground_settings(settings, world_.ground_place);
+    if (world_.scene.ground->suits(own.ground, own.air)) {
+        world::SceneGround same;
+        same.ground = world_.scene.ground;
+        return same;
     }
-    return scene.ground->remade(settings.ground, settings.air);
+    std::optional<world::SceneGround> remade =
+        world::remade_scene_ground(world_.scene, own, drawn_by());
+    return remade ? std::move(*remade) : world::load_scene_ground(settings, drawn_by());
 }
-
-} // namespace
 
 void Session::change_picture(const settings::RunSettings& settings) {
     settings::check_settings(settings);
     const scene::FixedPoints points = world::fixed_points(settings, world_);
-    world::SceneGround ground;
-    ground.ground =
-        kept_ground(world_.scene, world::ground_settings(settings, world_.ground_place));
-    if (!ground.ground) {
-        ground = world::load_scene_ground(settings, drawn_by());
-    }
+    world::SceneGround ground = ground_for(settings);
     wait_for_meshes();
     make_renderer_ready(settings.view, ground.texture.get());
 
@@ -157,13 +150,12 @@ void Session::change_picture(const settings::RunSettings& settings) {
 /// goes on where both it and its control are the same.
 void Session::follow_ground(bool other_control) {
     std::unique_ptr<landscape::GroundMesher> mesher = planner_->take_mesher();
-    const landscape::Ground& ground = *world_.scene.ground;
-    const bool settles = other_control || &mesher->ground() != &ground;
+    const landscape::GroundMesher* const before = mesher.get();
+    mesher = landscape::mesher_after(
+        std::move(mesher), *world_.scene.ground, landscape::mesh_settings(settings_));
+    const bool settles = other_control || mesher.get() != before;
     planner_.reset();
-    planner_.emplace(
-        world_.scene,
-        settings_,
-        landscape::mesher_after(std::move(mesher), ground, landscape::mesh_settings(settings_)));
+    planner_.emplace(world_.scene, settings_, std::move(mesher));
     if (settles) {
         planner_->settle(now_.camera);
     }

@@ -12,27 +12,27 @@ namespace scene = visuals::scene;
 using scene::GroundShading;
 
 std::optional<scene::GroundTexture> load_ground_texture(
-    const visuals::terrain::GroundSamples& ground,
-    const models::heights::GroundArea& area,
+    const landscape::GroundSource& ground,
     const settings::RunSettings& settings,
-    const std::optional<models::heights::GeoPlace>& place,
     DrawnBy drawn_by,
     std::vector<std::string>& notes) {
-    const visuals::nature::Climate climate = landscape::climate_at(place);
+    const visuals::nature::Climate climate = landscape::climate_at(ground.place);
     if (settings.air.drape) {
         const models::heights::Image drape = models::heights::laid_on_ground(
-            models::heights::read_image(*settings.air.drape), area, landscape::largest_texture);
+            models::heights::read_image(*settings.air.drape),
+            ground.area,
+            landscape::largest_texture);
         if (!drape.note.empty()) {
             notes.push_back(drape.note);
         }
-        return landscape::ground_texture(ground, settings.air, &drape, climate);
+        return landscape::ground_texture(ground.samples, settings.air, &drape, climate);
     }
     const bool textured =
         settings.air.ground_shading == GroundShading::Texture ||
         (settings.air.ground_shading == GroundShading::Auto && drawn_by == DrawnBy::Gpu);
-    return textured
-               ? std::optional(landscape::ground_texture(ground, settings.air, nullptr, climate))
-               : std::nullopt;
+    return textured ? std::optional(
+                          landscape::ground_texture(ground.samples, settings.air, nullptr, climate))
+                    : std::nullopt;
 }
 
 } // namespace octant::ui::world

@@ -1,10 +1,8 @@
 #pragma once
 
-#include "models/heights/height_field.h"
-#include "models/heights/image_on_ground.h"
 #include "ui/settings/settings.h"
+#include "visuals/landscape/ground.h"
 #include "visuals/scene/ground_texture.h"
-#include "visuals/terrain/ground_samples.h"
 
 #include <optional>
 #include <string>
@@ -16,13 +14,11 @@ namespace octant::ui::world {
 enum class DrawnBy { Processor, Gpu };
 
 /// The texture of the ground; nothing where it is drawn by its vertices' colours. What a person
-/// should be told goes to `notes`. `area` and `place`: of the samples. The settings have passed
-/// settings::check_settings. Throws Error for a drape that cannot be read or laid over the ground.
+/// should be told goes to `notes`. The settings have passed settings::check_settings. Throws Error
+/// for a drape that cannot be read or laid over the ground.
 std::optional<visuals::scene::GroundTexture> load_ground_texture(
-    const visuals::terrain::GroundSamples& ground,
-    const models::heights::GroundArea& area,
+    const visuals::landscape::GroundSource& ground,
     const settings::RunSettings& settings,
-    const std::optional<models::heights::GeoPlace>& place,
     DrawnBy drawn_by,
     std::vector<std::string>& notes);
 

@@ -17,70 +17,68 @@
 namespace octant::ui::world {
 
 namespace landscape = visuals::landscape;
+namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 namespace terrain = visuals::terrain;
 
 namespace {
 
-/// What is to be said of a ground; the ground itself and its texture are still to be filled in.
-template <class Field>
-SceneGround described(
-    const Field& field,
-    const std::string& name,
-    const std::optional<models::heights::GeoPlace>& place,
-    std::int64_t filled_voids) {
-    SceneGround loaded;
-    loaded.name = fmt::format(
-        "{}, {} x {} samples, {:.4g} m apart",
-        name,
-        field.columns(),
-        field.rows(),
-        field.spacing_m());
-    loaded.place = place;
-    if (filled_voids > 0) {
-        loaded.notes.push_back(
-            fmt::format("{}: {} samples without data were filled in", name, filled_voids));
+void add_texture(const settings::RunSettings& settings, DrawnBy drawn_by, SceneGround& ground) {
+    const std::optional<landscape::GroundSource> source = ground.ground->source();
+    std::optional<scene::GroundTexture> texture =
+        source ? load_ground_texture(*source, settings, drawn_by, ground.notes) : std::nullopt;
+    if (texture) {
+        ground.texture = std::make_shared<const scene::GroundTexture>(std::move(*texture));
     }
-    return loaded;
 }
 
-void add_texture(
-    const terrain::GroundSamples& samples,
-    const models::heights::GroundArea& area,
+/// With its texture, and with what is to be said of it. The ground has a source.
+SceneGround described(
+    std::shared_ptr<const landscape::Ground> ground,
+    std::int64_t filled_voids,
     const settings::RunSettings& settings,
-    DrawnBy drawn_by,
-    SceneGround& loaded) {
-    std::optional<scene::GroundTexture> texture =
-        load_ground_texture(samples, area, settings, loaded.place, drawn_by, loaded.notes);
-    if (texture) {
-        loaded.texture = std::make_shared<const scene::GroundTexture>(std::move(*texture));
+    DrawnBy drawn_by) {
+    SceneGround loaded;
+    loaded.ground = std::move(ground);
+    const landscape::GroundSource source = loaded.ground->source().value();
+    loaded.name = fmt::format(
+        "{}, {} x {} samples, {:.4g} m apart",
+        source.area.name,
+        source.samples.columns(),
+        source.samples.rows(),
+        source.samples.spacing_m());
+    loaded.place = source.place;
+    if (filled_voids > 0) {
+        loaded.notes.push_back(fmt::format(
+            "{}: {} samples without data were filled in", source.area.name, filled_voids));
+    }
+    add_texture(settings, drawn_by, loaded);
+    if (loaded.texture) {
         loaded.name += settings.air.drape ? ", draped" : ", textured";
     }
+    return loaded;
 }
 
 SceneGround load_imported(const settings::RunSettings& settings, DrawnBy drawn_by) {
     terrain::GroundTiles ground = visuals::groundfile::open_ground(settings.path.terrain);
-    const terrain::GroundFacts& facts = ground.facts();
-    SceneGround loaded = described(ground, facts.name, facts.place, facts.filled_voids);
-    const models::heights::GroundArea area{
-        facts.name, ground.half_extent_m(), ground.spacing_m(), facts.system};
-    const settings::RunSettings own = ground_settings(settings, facts.place);
-    add_texture(terrain::GroundSamples(ground), area, own, drawn_by, loaded);
-    loaded.ground = landscape::ground_from_tiles(std::move(ground), own.air);
-    return loaded;
+    const std::int64_t filled_voids = ground.facts().filled_voids;
+    const settings::RunSettings own = ground_settings(settings, ground.facts().place);
+    return described(
+        landscape::ground_from_tiles(std::move(ground), own.air), filled_voids, own, drawn_by);
 }
 
 SceneGround load_field(const settings::RunSettings& settings, DrawnBy drawn_by) {
     models::heights::HeightField field =
         load_height_field(settings.path.terrain, import_options(settings.path));
-    SceneGround loaded = described(field, field.name, field.place, field.filled_voids);
+    const std::int64_t filled_voids = field.filled_voids;
     const settings::RunSettings own = ground_settings(settings, field.place);
-    add_texture(
-        terrain::GroundSamples(field), models::heights::area_of(field), own, drawn_by, loaded);
-    loaded.ground = scene::ground_metric(settings.ground) == scene::GroundMetric::ScreenError
-                        ? landscape::ground_from_tiles(terrain::ground_of(field), own.air)
-                        : landscape::ground_from_field(std::move(field), own.ground, own.air);
-    return loaded;
+    return described(
+        scene::ground_metric(settings.ground) == scene::GroundMetric::ScreenError
+            ? landscape::ground_from_tiles(terrain::ground_of(field), own.air)
+            : landscape::ground_from_field(std::move(field), own.ground, own.air),
+        filled_voids,
+        own,
+        drawn_by);
 }
 
 SceneGround load_polygons(const settings::RunSettings& settings) {
@@ -102,6 +100,19 @@ settings::RunSettings ground_settings(
         own.air.palette = scene::Palette::Arid;
     }
     return own;
+}
+
+std::optional<SceneGround> remade_scene_ground(
+    const planning::Scene& scene, const settings::RunSettings& settings, DrawnBy drawn_by) {
+    SceneGround remade;
+    remade.ground = scene.ground->remade(settings.ground, settings.air);
+    if (!remade.ground) {
+        return std::nullopt;
+    }
+    if (scene.ground_texture) {
+        add_texture(settings, drawn_by, remade);
+    }
+    return remade;
 }
 
 SceneGround load_scene_ground(const settings::RunSettings& settings, DrawnBy drawn_by) {

@@ -4,6 +4,7 @@
 #include "ui/settings/settings.h"
 #include "ui/world/ground_texture_file.h"
 #include "visuals/landscape/ground.h"
+#include "visuals/planning/scene.h"
 #include "visuals/scene/ground_texture.h"
 
 #include <memory>
@@ -31,5 +32,11 @@ struct SceneGround {
 /// Loads the ground of a run, whose settings have passed settings::check_settings. Throws Error for
 /// what cannot be read.
 SceneGround load_scene_ground(const settings::RunSettings& settings, DrawnBy drawn_by);
+
+/// Ground and texture of a scene as these settings, which are ground_settings(), want them: made of
+/// the heights in memory, in other colours or under another mesh. Terrain is not read again; an
+/// image laid over it is. Nothing where the heights must be loaded. Throws Error for that image.
+std::optional<SceneGround> remade_scene_ground(
+    const visuals::planning::Scene& scene, const settings::RunSettings& settings, DrawnBy drawn_by);
 
 } // namespace octant::ui::world

@@ -67,12 +67,13 @@ bool is_same(const terrain::MeshView& a, const terrain::MeshView& b) {
 /// Heights, their quadtree and their colours.
 class FieldGround final : public Ground {
 public:
+    /// The tree is one of the field.
     FieldGround(
         std::shared_ptr<const models::heights::HeightField> field,
-        const scene::GroundSettings& ground,
+        std::shared_ptr<const terrain::Quadtree> tree,
         const scene::AirSettings& air)
         : field_(std::move(field))
-        , tree_(*field_, quadtree_options(ground))
+        , tree_(std::move(tree))
         , air_(air)
         , colours_(ground_colours(*field_, air))
         , mean_colour_(landscape::mean_colour(colours_)) {
@@ -85,7 +86,7 @@ public:
         }
     }
 
-    const terrain::Quadtree& tree() const { return tree_; }
+    const terrain::Quadtree& tree() const { return *tree_; }
 
     std::span<const std::uint32_t> colours() const { return colours_; }
 
@@ -106,11 +107,16 @@ public:
         return nearest_colour(terrain::GroundSamples(*field_), palette, {x_m, y_m}, footprint_m);
     }
 
+    std::optional<GroundSource> source() const override {
+        return GroundSource{
+            terrain::GroundSamples(*field_), models::heights::area_of(*field_), field_->place};
+    }
+
     bool is_meshed_as(const scene::GroundSettings& settings) const override {
         const terrain::QuadtreeOptions wanted = quadtree_options(settings);
         return ground_metric(settings) != scene::GroundMetric::ScreenError &&
-               wanted.roughness == tree_.options().roughness &&
-               wanted.propagation == tree_.options().propagation;
+               wanted.roughness == tree_->options().roughness &&
+               wanted.propagation == tree_->options().propagation;
     }
 
     bool is_coloured_as(const scene::AirSettings& settings) const override {
@@ -122,14 +128,19 @@ public:
         if (ground_metric(ground) == scene::GroundMetric::ScreenError) {
             return ground_from_tiles(terrain::ground_of(*field_), air);
         }
-        return std::make_shared<FieldGround>(field_, ground, air);
+        return std::make_shared<FieldGround>(
+            field_,
+            is_meshed_as(ground)
+                ? tree_
+                : std::make_shared<const terrain::Quadtree>(*field_, quadtree_options(ground)),
+            air);
     }
 
 private:
     std::unique_ptr<GroundMesher> make_mesher(const MeshSettings& settings) const override;
 
     std::shared_ptr<const models::heights::HeightField> field_;
-    terrain::Quadtree tree_;
+    std::shared_ptr<const terrain::Quadtree> tree_; ///< of that field
     scene::AirSettings air_;
     std::vector<std::uint32_t> colours_; ///< one a sample
     glm::vec3 mean_colour_;
@@ -163,6 +174,16 @@ public:
         if (fixed_resolution_ && first_resolution_ > 0.0) {
             state_ = terrain::starting_at(first_resolution_, control_);
         }
+    }
+
+    bool move_to(const std::shared_ptr<const Ground>& ground) override {
+        auto moved = std::dynamic_pointer_cast<const FieldGround>(ground);
+        if (!moved || &moved->tree() != &ground_->tree()) {
+            return false;
+        }
+        ground_ = std::move(moved);
+        mesher_.colour_by(ground_->colours());
+        return true;
     }
 
     void settle(const GroundRequest& request) override {
@@ -239,8 +260,9 @@ std::shared_ptr<const Ground> ground_from_field(
     models::heights::HeightField field,
     const scene::GroundSettings& ground,
     const scene::AirSettings& air) {
-    return std::make_shared<FieldGround>(
-        std::make_shared<const models::heights::HeightField>(std::move(field)), ground, air);
+    auto shared = std::make_shared<const models::heights::HeightField>(std::move(field));
+    auto tree = std::make_shared<const terrain::Quadtree>(*shared, quadtree_options(ground));
+    return std::make_shared<FieldGround>(std::move(shared), std::move(tree), air);
 }
 
 } // namespace octant::visuals::landscape

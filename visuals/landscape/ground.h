@@ -1,9 +1,11 @@
 #pragma once
 
 #include "models/heights/height_field.h"
+#include "models/heights/image_on_ground.h"
 #include "models/polygons/polygon_model.h"
 #include "visuals/landscape/ground_mesher.h"
 #include "visuals/scene/settings.h"
+#include "visuals/terrain/ground_samples.h"
 #include "visuals/terrain/ground_tiles.h"
 
 #include <glm/vec2.hpp>
@@ -13,6 +15,13 @@
 #include <optional>
 
 namespace octant::visuals::landscape {
+
+/// What a texture of a ground is made of. It refers to the ground, which must outlive it.
+struct GroundSource {
+    terrain::GroundSamples samples;
+    models::heights::GroundArea area;
+    std::optional<models::heights::GeoPlace> place; ///< nothing for made ground
+};
 
 /// What stands below the aircraft: a height field under a quadtree, ground under a mesh by
 /// screen-space error, or polygons painted in one fixed order. Made once at loading, never changed
@@ -44,6 +53,9 @@ public:
     virtual glm::vec3 colour_at(double /*x_m*/, double /*y_m*/, double /*footprint_m*/) const {
         return mean_colour();
     }
+
+    /// The samples as they are drawn; nothing for ground that has none.
+    virtual std::optional<GroundSource> source() const { return std::nullopt; }
 
     /// Whether meshes of this ground are refined by what these settings say.
     virtual bool is_meshed_as(const scene::GroundSettings& /*settings*/) const { return true; }

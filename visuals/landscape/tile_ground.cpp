@@ -61,6 +61,14 @@ public:
         return nearest_colour(samples, palette, {x_m, y_m}, footprint_m);
     }
 
+    std::optional<GroundSource> source() const override {
+        const terrain::GroundFacts& facts = tiles_->facts();
+        return GroundSource{
+            terrain::GroundSamples(*tiles_),
+            {facts.name, tiles_->half_extent_m(), tiles_->spacing_m(), facts.system},
+            facts.place};
+    }
+
     bool is_meshed_as(const scene::GroundSettings& settings) const override {
         return ground_metric(settings) == scene::GroundMetric::ScreenError;
     }

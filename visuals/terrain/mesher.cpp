@@ -25,14 +25,18 @@ namespace octant::visuals::terrain {
 
 Mesher::Mesher(const Quadtree& tree, std::span<const std::uint32_t> colours)
     : tree_(&tree)
-    , colours_(colours)
     , rule_(tree)
     , survey_(tree)
     , in_mesh_(tree.nodes().size(), 0) {
-    assert(
-        colours.size() == static_cast<std::size_t>(tree.field().columns()) *
-                              static_cast<std::size_t>(tree.field().rows()));
+    colour_by(colours);
     assert(tree.levels() <= 16);
+}
+
+void Mesher::colour_by(std::span<const std::uint32_t> colours) {
+    assert(
+        colours.size() == static_cast<std::size_t>(tree_->field().columns()) *
+                              static_cast<std::size_t>(tree_->field().rows()));
+    colours_ = colours;
 }
 
 GroundMesh Mesher::mesh(const MeshView& view, const Detail& detail) {

@@ -32,6 +32,9 @@ public:
     /// (its size is asserted). Tree and colours must outlive the mesher.
     Mesher(const Quadtree& tree, std::span<const std::uint32_t> colours);
 
+    /// Takes these colours in place of those before, from the next mesh on.
+    void colour_by(std::span<const std::uint32_t> colours);
+
     /// The mesh at a given C. `detail.roughness_weight` must be at least 0 and below 1e6
     /// (asserted).
     GroundMesh mesh(const MeshView& view, const Detail& detail);

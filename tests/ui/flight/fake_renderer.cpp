@@ -38,8 +38,12 @@ void FakeRenderer::load_models(std::span<const scene::ModelBuffers> models) {
     called(fmt::format("models {}", models.size()));
 }
 
-void FakeRenderer::load_ground_texture(const scene::GroundTexture& /*texture*/) {
+void FakeRenderer::load_ground_texture(const scene::GroundTexture& texture) {
     called("texture");
+    Hash hash;
+    hash.add(std::as_bytes(std::span(texture.albedo.texels)));
+    hash.add(std::as_bytes(std::span(texture.normal.texels)));
+    log_->texture = hash.value();
 }
 
 void FakeRenderer::add_ground(const scene::FramePlan& plan) {

@@ -17,6 +17,7 @@ struct RendererLog {
     /// The next call whose name this begins with throws Error, once.
     std::optional<std::string> refuses;
     glm::ivec2 size_px{0};
+    std::uint64_t texture = 0; ///< a hash of the last texture's texels
     /// A hash of the ground's corners, colours and triangles in each plan, in the order drawn.
     std::vector<std::uint64_t> grounds;
 };

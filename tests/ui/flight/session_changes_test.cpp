@@ -2,6 +2,7 @@
 #include "sim/base/error.h"
 #include "tests/scratch.h"
 #include "ui/flight/session.h"
+#include "visuals/groundfile/ground_import.h"
 
 #include <catch2/catch.hpp>
 
@@ -237,4 +238,54 @@ TEST_CASE("ground in another light has the colours of ground that was loaded so"
     relit.picture();
     lit.picture();
     CHECK(relit.last_ground() == lit.last_ground());
+}
+
+TEST_CASE("another light, palette or view reads no terrain again, whatever is drawn of it") {
+    const std::filesystem::path map = scratch_folder() / "read_once.tif";
+    const std::filesystem::path imported = scratch_folder() / "read_once.ground";
+    for (const auto& [terrain, mesh] :
+         {std::pair{map, scene::GroundMetric::ScreenError},
+          std::pair{map, scene::GroundMetric::Midpoint},
+          std::pair{imported, scene::GroundMetric::ScreenError}}) {
+        for (const auto shading : {scene::GroundShading::Vertex, scene::GroundShading::Texture}) {
+            CAPTURE(terrain, static_cast<int>(mesh), static_cast<int>(shading));
+            std::filesystem::copy_file(
+                ground_file(), map, std::filesystem::copy_options::overwrite_existing);
+            if (terrain == imported) {
+                std::filesystem::remove(imported);
+                visuals::groundfile::import_ground(
+                    {map}, imported, {}, [](auto /*stage*/, double /*done*/) { return false; });
+            }
+            RunSettings settings = small_settings();
+            settings.path.terrain = terrain.string();
+            settings.ground.mesh = mesh;
+            settings.air.ground_shading = shading;
+            RunSettings changed = settings;
+            changed.air.sun_azimuth_deg = 100.0;
+            changed.air.palette = scene::Palette::Arid;
+            Flown relit(settings);
+            Flown lit(changed);
+            relit.picture();
+            lit.picture();
+            REQUIRE(relit.last_ground() != lit.last_ground());
+            std::filesystem::remove(map);
+            std::filesystem::remove(imported);
+
+            const bool is_textured = shading == scene::GroundShading::Texture;
+            const std::uint64_t texture_of_lit = lit.log().texture;
+            relit.apply(changed);
+            relit.picture();
+            lit.picture();
+            CHECK(relit.last_ground() == lit.last_ground());
+            CHECK(relit.log().texture == texture_of_lit);
+            CHECK((texture_of_lit != 0) == is_textured);
+
+            changed.view.inset = scene::View::Tower;
+            relit.apply(changed);
+            CHECK(relit.log().calls == std::vector<std::string>{"resize 64x48"});
+            const std::size_t grounds = relit.log().grounds.size();
+            relit.picture();
+            CHECK(relit.log().grounds.size() == grounds + 2);
+        }
+    }
 }
