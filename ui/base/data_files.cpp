@@ -1,12 +1,12 @@
 #include "ui/base/data_files.h"
 
-#include "sim/aircraft_kind.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <vector>
 
 namespace octant::ui::base {
 
@@ -26,17 +26,10 @@ bool looks_like_file(const std::string& name) {
            fs::is_regular_file(name, ignored);
 }
 
-/// A shape without a type of its own: the example object of the 1989 paper.
-constexpr const char* concave = "concave";
-
-bool among(const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 [[noreturn]] void refuse_aircraft(const std::string& name) {
     throw Error(fmt::format(
         "aircraft: expected {} or an OBJ file, got '{}'",
-        fmt::join(built_in_models(), ", "),
+        fmt::join(built_in_models, ", "),
         printable(name)));
 }
 
@@ -70,8 +63,8 @@ fs::path aircraft_file(const std::string& name_or_file) {
     if (const sim::AircraftKind* kind = sim::find_aircraft_kind(name_or_file)) {
         return data_folder() / models / kind->model_file;
     }
-    if (name_or_file == concave) {
-        return data_folder() / models / "concave.obj";
+    if (name_or_file == typeless_model) {
+        return data_folder() / models / fmt::format("{}.obj", typeless_model);
     }
     if (looks_like_file(name_or_file)) {
         return name_or_file;
@@ -79,31 +72,18 @@ fs::path aircraft_file(const std::string& name_or_file) {
     refuse_aircraft(name_or_file);
 }
 
-std::vector<std::string> built_in_models() {
-    std::vector<std::string> names;
-    for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
-        names.emplace_back(kind.name);
-    }
-    names.emplace_back(concave);
-    return names;
-}
-
 const sim::AircraftKind& flown_as(const std::string& name_or_file) {
     if (const sim::AircraftKind* kind = sim::find_aircraft_kind(name_or_file)) {
         return *kind;
     }
-    if (name_or_file != concave && !looks_like_file(name_or_file)) {
+    if (name_or_file != typeless_model && !looks_like_file(name_or_file)) {
         refuse_aircraft(name_or_file);
     }
     return sim::aircraft_kind("f15");
 }
 
-std::vector<std::string> built_in_paths() {
-    return {"straight", "jinking", "pop-up", "turn"};
-}
-
 fs::path path_file(const std::string& name_or_file, const std::string& aircraft) {
-    if (among(built_in_paths(), name_or_file)) {
+    if (std::ranges::find(built_in_paths, name_or_file) != built_in_paths.end()) {
         return data_folder() / "flightpaths" /
                fmt::format("{}-{}.toml", flown_as(aircraft).name, name_or_file);
     }
@@ -112,7 +92,7 @@ fs::path path_file(const std::string& name_or_file, const std::string& aircraft)
     }
     throw Error(fmt::format(
         "path: expected {}, a .toml or a .csv file, got '{}'",
-        fmt::join(built_in_paths(), ", "),
+        fmt::join(built_in_paths, ", "),
         printable(name_or_file)));
 }
 

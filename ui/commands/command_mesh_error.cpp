@@ -234,8 +234,8 @@ std::vector<Option> options_of(MeshErrorOptions& options) {
         required(text_option(
             "A",
             "MESH",
-            "the original: globe, torus, machined-part, f15, 500md, concave or a file (.obj, .ply, "
-            ".stl, .gltf, .glb, .ac, .wrl)",
+            "the original: " + world::built_in_meshes() +
+                " or a file (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl)",
             options.a)),
         required(text_option("B", "MESH", "what was made of it", options.b)),
         read_option(

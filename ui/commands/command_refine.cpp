@@ -8,6 +8,7 @@
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/read_option.h"
+#include "ui/world/mesh_input.h"
 #include "ui/world/refine_input.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/partition_mesh.h"
@@ -235,8 +236,8 @@ std::vector<Option> what_options(RefineOptions& options) {
         required(text_option(
             "in",
             "MESH|FILE.pm",
-            "a mesh: globe, torus, machined-part, f15, 500md, concave or a file (.obj, .ply, .stl, "
-            ".gltf, .glb, .ac, .wrl); or a progressive mesh",
+            "a mesh: " + world::built_in_meshes() +
+                " or a file (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl); or a progressive mesh",
             options.input.file)),
         read_option(
             {"base", "N", "meshes: simplify to N vertices and no further [all the way]", 0, 1e9},

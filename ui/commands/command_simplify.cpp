@@ -7,6 +7,7 @@
 #include "ui/commands/commands.h"
 #include "ui/commands/read_option.h"
 #include "ui/commands/simplify_work.h"
+#include "ui/world/mesh_input.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -88,8 +89,8 @@ std::vector<Option> goal_options(SimplifyCommand& command) {
         required(text_option(
             "in",
             "IN",
-            "mesh to simplify: globe, torus, machined-part, f15, 500md, concave or a file: .obj, "
-            ".ply, .stl, .gltf, .glb, .ac, .wrl",
+            "mesh to simplify: " + world::built_in_meshes() +
+                " or a file: .obj, .ply, .stl, .gltf, .glb, .ac, .wrl",
             command.in)),
         required(text_option("out", "OUT", "file to write, its ending says how", command.out)),
         read_option(

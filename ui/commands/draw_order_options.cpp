@@ -2,12 +2,14 @@
 
 #include "sim/base/error.h"
 #include "sim/base/file_status.h"
+#include "ui/base/data_files.h"
 #include "ui/commands/read_option.h"
 #include "ui/settings/settings_text.h"
 
 #include <array>
 #include <cstddef>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <utility>
 
 namespace octant::ui::commands {
@@ -68,7 +70,10 @@ void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
     table.insert(
         table.end(),
         {text_option(
-             "model", "NAME|FILE", "f15, 500md, concave, torus or an OBJ file", options.model),
+             "model",
+             "NAME|FILE",
+             fmt::format("{}, torus or an OBJ file", fmt::join(base::built_in_models, ", ")),
+             options.model),
          text_option("--axes", "X,Y,Z", "where x, y and z of an OBJ file point", options.axes),
          read_option(
              {"method",

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "ui/base/data_files.h"
+#include "ui/settings/listing.h"
 #include "ui/settings/setting_row.h"
 
 #include <array>
@@ -8,26 +10,30 @@
 
 namespace octant::ui::settings {
 
-inline constexpr std::array<std::string_view, 4> built_in_paths{
-    "straight", "jinking", "pop-up", "turn"};
-inline constexpr std::array<std::string_view, 3> built_in_aircraft{"f15", "500md", "concave"};
 inline constexpr std::array<std::string_view, 4> built_in_terrains{
     "hills", "canyon", "background60", "none"};
 
 /// Settings of the group Path. Which path, aircraft and ground.
 inline constexpr std::tuple path_rows{
     setting<&RunSettings::path, &PathSettings::name>(
-        {"path", "NAME|FILE", "path: straight, jinking, pop-up, turn, a .toml or a recorded .csv"},
-        {.group = SettingGroup::Path, .change = SettingsChange::Flight, .known = built_in_paths}),
+        {"path",
+         "NAME|FILE",
+         listing<"path: ", base::built_in_paths, ", a .toml or a recorded .csv">},
+        {.group = SettingGroup::Path,
+         .change = SettingsChange::Flight,
+         .known = base::built_in_paths}),
     setting<&RunSettings::path, &PathSettings::aircraft>(
         {"aircraft",
          "NAME|FILE",
-         "aircraft: f15, 500md, concave, an OBJ file of up to 50,000 polygons (2,000 where nearly "
-         "all are triangles), or a mesh (.obj, .ply, .stl, .glb, .ac, .wrl, .pm, .chain, "
-         "FlightGear's .xml and what --version lists); repeat for wingmen"},
+         listing<
+             "aircraft: ",
+             base::built_in_models,
+             ", an OBJ file of up to 50,000 polygons (2,000 where nearly all are triangles), or a "
+             "mesh (.obj, .ply, .stl, .glb, .ac, .wrl, .pm, .chain, FlightGear's .xml and what "
+             "--version lists); repeat for wingmen">},
         {.group = SettingGroup::Path,
          .change = SettingsChange::Flight,
-         .known = built_in_aircraft}),
+         .known = base::built_in_models}),
     setting<&RunSettings::path, &PathSettings::axes>(
         {"axes",
          "X,Y,Z|auto",
@@ -37,9 +43,11 @@ inline constexpr std::tuple path_rows{
     setting<&RunSettings::path, &PathSettings::terrain>(
         {"terrain",
          "NAME|FILE",
-         "ground: hills, canyon, background60, none, an imported ground, or any map that GDAL "
-         "reads: a "
-         "file, a folder or pattern of tiles, an archive"},
+         listing<
+             "ground: ",
+             built_in_terrains,
+             ", an imported ground, or any map that GDAL reads: a file, a folder or pattern of "
+             "tiles, an archive">},
         {.group = SettingGroup::Path,
          .change = SettingsChange::Flight,
          .known = built_in_terrains}),

@@ -1,6 +1,7 @@
 #include "ui/settings/settings_words.h"
 
 #include "sim/base/error.h"
+#include "ui/base/data_files.h"
 #include "ui/settings/settings_fields.h"
 
 #include <algorithm>
@@ -58,9 +59,9 @@ void set_by_name(
 
 void find_files_from(const fs::path& folder, RunSettings& settings) {
     constexpr std::array<std::string_view, 0> none{};
-    find_from(folder, built_in_paths, settings.path.name);
+    find_from(folder, base::built_in_paths, settings.path.name);
     for (std::string& name : settings.path.aircraft) {
-        find_from(folder, built_in_aircraft, name);
+        find_from(folder, base::built_in_models, name);
     }
     find_from(folder, built_in_terrains, settings.path.terrain);
     if (settings.air.drape) {

@@ -24,14 +24,16 @@ void choose_flight(ViewState& state) {
     constexpr std::array<std::string_view, 1> path{"path"};
     constexpr std::array<std::string_view, 1> terrain{"terrain"};
     constexpr settings::FieldInfo leader_info{
-        "aircraft", "NAME|FILE", "the first aircraft and all of its kind: f15, 500md or a file"};
+        "aircraft",
+        "NAME|FILE",
+        "the first aircraft and all of its kind: a built-in one or a file"};
     ImGui::BeginDisabled(state.recording.has_value());
     ImGui::BeginGroup();
     edit_settings(state.wanted, path);
     std::string leader = state.wanted.path.aircraft.front();
     ImGui::PushID("leader");
     ImGui::SetNextItemWidth(value_width());
-    if (choose_name(leader_info, leader, settings::built_in_aircraft)) {
+    if (choose_name(leader_info, leader, base::built_in_models)) {
         state.wanted.path.aircraft = with_leader(state.wanted.path.aircraft, leader);
     }
     ImGui::SameLine();

@@ -10,10 +10,15 @@
 #include "ui/world/library_mesh.h"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <string>
-#include <vector>
 
 namespace octant::ui::world {
+
+std::string built_in_meshes() {
+    return fmt::format("globe, torus, machined-part, {}", fmt::join(base::built_in_models, ", "));
+}
 
 models::TriangleMesh
 read_mesh_input(const std::string& name_or_file, const models::meshfile::ReadOptions& options) {
@@ -27,8 +32,7 @@ read_mesh_input(const std::string& name_or_file, const models::meshfile::ReadOpt
         if (name_or_file == "torus") {
             return models::polygons::as_triangles(models::made::torus());
         }
-        const std::vector<std::string> shipped = base::built_in_models();
-        if (std::ranges::find(shipped, name_or_file) != shipped.end()) {
+        if (std::ranges::find(base::built_in_models, name_or_file) != base::built_in_models.end()) {
             return models::meshfile::read_mesh(base::aircraft_file(name_or_file), options);
         }
     }

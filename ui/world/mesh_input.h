@@ -7,8 +7,10 @@
 
 namespace octant::ui::world {
 
-/// A triangle mesh by name (globe, torus, machined-part, f15, 500md, concave) or from a file, not
-/// repaired. Throws Error.
+/// Names that read_mesh_input takes, as help lists them: "globe, torus, ...".
+std::string built_in_meshes();
+
+/// A triangle mesh by one of these names or from a file, not repaired. Throws Error.
 models::TriangleMesh
 read_mesh_input(const std::string& name_or_file, const models::meshfile::ReadOptions& options = {});
 

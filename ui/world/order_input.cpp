@@ -36,8 +36,7 @@ bool is_file_name(const std::string& name) {
 
 OrderInput read(const std::string& name, const std::string& axes) {
     const auto file_axes = models::polygons::FileAxes::from_text(axes);
-    const std::vector<std::string> built_in = base::built_in_models();
-    if (std::ranges::find(built_in, name) != built_in.end()) {
+    if (std::ranges::find(base::built_in_models, name) != base::built_in_models.end()) {
         return {models::polygons::read_obj(base::aircraft_file(name)), {}};
     }
     if (name == "torus") {
@@ -46,7 +45,7 @@ OrderInput read(const std::string& name, const std::string& axes) {
     if (!is_file_name(name)) {
         throw Error(fmt::format(
             "model: expected {}, torus or an OBJ file, got '{}'",
-            fmt::join(built_in, ", "),
+            fmt::join(base::built_in_models, ", "),
             printable(name)));
     }
     return {models::polygons::read_obj(name, file_axes), file_axes};

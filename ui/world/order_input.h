@@ -16,7 +16,7 @@ struct OrderInput {
     models::polygons::FileAxes axes;
 };
 
-/// A built-in model (f15, 500md, concave, torus) in the usual axes, or an OBJ file in `axes`.
+/// A built-in model (base::built_in_models, torus) in the usual axes, or an OBJ file in `axes`.
 /// Throws Error, also for more polygons than orders can be found for in reasonable time.
 OrderInput read_order_input(const std::string& name_or_file, const std::string& axes);
 

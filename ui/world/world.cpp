@@ -54,8 +54,8 @@ void note_what_flies(
     const std::string& aircraft,
     const sim::AircraftKind& flown,
     std::vector<std::string>& notes) {
-    const std::vector<std::string> built_in = base::built_in_paths();
-    const bool is_built_in = std::ranges::find(built_in, path) != built_in.end();
+    const bool is_built_in =
+        std::ranges::find(base::built_in_paths, path) != base::built_in_paths.end();
     if (is_built_in && sim::find_aircraft_kind(aircraft) == nullptr) {
         notes.push_back(fmt::format(
             "{} flies the {} path of {}, within its limits: only its own shape is known",

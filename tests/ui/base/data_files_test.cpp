@@ -30,9 +30,9 @@ TEST_CASE("every known aircraft has its model, its cockpit and its four paths") 
     for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
         CHECK(std::filesystem::is_regular_file(models / kind.model_file));
         CHECK(std::filesystem::is_regular_file(models / kind.cockpit_file));
-        for (const std::string& path : ui::base::built_in_paths()) {
+        for (const std::string_view path : ui::base::built_in_paths) {
             CHECK(std::filesystem::is_regular_file(
-                ui::base::path_file(path, std::string(kind.name))));
+                ui::base::path_file(std::string(path), std::string(kind.name))));
         }
     }
 }

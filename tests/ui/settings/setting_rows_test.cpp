@@ -136,11 +136,3 @@ TEST_CASE("settings of one group stand together, in the order of the groups") {
         std::set(groups.begin(), groups.end()).size() ==
         ui::settings::names_of<ui::settings::SettingGroup>().size());
 }
-
-TEST_CASE("the names that path and aircraft rows offer are those that the program has") {
-    const auto same = [](const auto& offered, const std::vector<std::string>& had) {
-        return std::ranges::equal(offered, had);
-    };
-    CHECK(same(ui::settings::built_in_paths, ui::base::built_in_paths()));
-    CHECK(same(ui::settings::built_in_aircraft, ui::base::built_in_models()));
-}

@@ -97,7 +97,8 @@ report::HtmlTable shimmer_table(const ShimmerOptions& options) {
         "4 samples, no geomorphs",
         "4 samples, geomorphs"};
     Change all;
-    for (const std::string& path : base::built_in_paths()) {
+    for (const std::string_view name : base::built_in_paths) {
+        const std::string path(name);
         settings::RunSettings settings = options.settings;
         settings.path.name = path;
         settings.surface.shadows = false;

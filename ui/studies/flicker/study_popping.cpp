@@ -115,7 +115,8 @@ report::HtmlTable popping_table(const PoppingStudyOptions& options) {
     table.title = "Largest jump of a vertex from frame to frame";
     table.header = {"path", "mesh", "frames", "maximum px", "in frame", "99.9 % px", "median px"};
     std::array<Jumps, meshings.size()> all;
-    for (const std::string& path : base::built_in_paths()) {
+    for (const std::string_view name : base::built_in_paths) {
+        const std::string path(name);
         settings::RunSettings settings = options.settings;
         settings.path.name = path;
         const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(settings);
