@@ -20,7 +20,7 @@ namespace octant::models::planar {
 
 namespace {
 
-constexpr int most_sweeps = 400;
+constexpr int most_sweeps = 2'000;
 constexpr std::size_t most_visits = 3'000'000; ///< Of polygons, in one round.
 constexpr int most_rounds = 8;
 constexpr double at_rest = 1e-14; ///< Smaller moves count as none.
@@ -51,10 +51,7 @@ public:
                 return bent_;
             }
         }
-        points_ = given_;
-        for (std::size_t i = 0; i < incidences_.size(); ++i) {
-            bent_[i] = bent_[i] || unevenness(i) > planar_noise;
-        }
+        settle();
         return bent_;
     }
 
@@ -266,6 +263,19 @@ private:
             alone_[polygon] = true;
         }
         return !giving.empty();
+    }
+
+    /// Ends without all of them planar: those that are not keep their corners as they have come,
+    /// or, where a point has moved too far, all points go back.
+    void settle() {
+        for (std::uint32_t point = 0; point < points_.size(); ++point) {
+            if (moved_too_far(point)) {
+                points_ = given_;
+            }
+        }
+        for (std::size_t i = 0; i < incidences_.size(); ++i) {
+            bent_[i] = bent_[i] || unevenness(i) > planar_noise;
+        }
     }
 
     /// How far points of a polygon were from its plane as given.
