@@ -210,6 +210,7 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     draw_plans();
     renderer_->finish();
     record.draw_ms = stage.lap_ms();
+    picture_is_read_ = !presenter_;
     if (presenter_) {
         presenter_(*renderer_);
     } else {
@@ -254,6 +255,9 @@ void Session::fill_in(const planning::PlanCounts& counts, report::FrameRecord& r
 }
 
 void Session::read_picture() {
+    if (picture_is_read_) {
+        return;
+    }
     if (renderer_->is_in_window()) {
         if (plan_ == nullptr) {
             make_plans(nullptr);
@@ -262,6 +266,7 @@ void Session::read_picture() {
         draw_plans();
     }
     renderer_->finish_and_read(picture_);
+    picture_is_read_ = true;
 }
 
 void Session::hash_picture() {

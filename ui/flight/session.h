@@ -193,6 +193,7 @@ private:
     StateSource* source_ = nullptr;
     std::vector<std::string> words_;
     visuals::scene::Picture picture_;
+    bool picture_is_read_ = false; ///< picture_ is the last one
     int last_triangles_ = 0;
     Decider decider_;
     std::optional<int> smooth_target_; ///< of the last picture; nothing: by the settings' share

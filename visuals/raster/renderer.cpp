@@ -65,11 +65,17 @@ void Renderer::resize(const glm::ivec2& size_px, std::optional<int> wanted) {
         lanes_ = SampleLanes(sample_pattern(samples));
         work_.use(sample_pattern(samples));
     }
-    picture_.width = size_px.x;
-    picture_.height = size_px.y;
-    picture_.rgba.assign(
-        std::size_t{4} * static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y),
-        0);
+    size_px_ = size_px;
+    make_picture();
+}
+
+/// Makes room for a picture, unless there is.
+void Renderer::make_picture() {
+    picture_.width = size_px_.x;
+    picture_.height = size_px_.y;
+    picture_.rgba.resize(
+        std::size_t{4} * static_cast<std::size_t>(size_px_.x) *
+        static_cast<std::size_t>(size_px_.y));
 }
 
 void Renderer::load_models(std::span<const scene::ModelBuffers> models) {
@@ -82,6 +88,7 @@ void Renderer::load_ground_texture(const scene::GroundTexture& texture) {
 
 void Renderer::draw(const scene::FramePlan& plan) {
     draw_calls_ = 0;
+    make_picture();
     draw_into(plan, {0, 0, picture_.width, picture_.height});
 }
 
@@ -130,7 +137,7 @@ void Renderer::draw_into(const scene::FramePlan& plan, const scene::PixelRect& r
 }
 
 void Renderer::finish_and_read(scene::Picture& picture) {
-    picture = picture_;
+    std::swap(picture, picture_);
 }
 
 void Renderer::copy_to_window(const glm::ivec2& size_px) {

@@ -64,6 +64,7 @@ public:
     void copy_to_window(const glm::ivec2& size_px) override;
 
 private:
+    void make_picture();
     void draw_into(const scene::FramePlan& plan, const scene::PixelRect& rect);
 
     std::shared_ptr<Workers> workers_;
@@ -84,7 +85,8 @@ private:
     };
 
     std::vector<std::unique_ptr<Desk>> desks_;
-    scene::Picture picture_;
+    glm::ivec2 size_px_{0};
+    scene::Picture picture_; ///< any other one between finish_and_read() and the next draw()
     int draw_calls_ = 0;
 };
 

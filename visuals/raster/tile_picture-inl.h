@@ -70,11 +70,12 @@ HWY_INLINE void resolve_row(
 }
 
 /// Writes a whole line past the caches: the picture is too large for them, and the next tile wants
-/// them.
+/// them. Parts of the caches' lines would be read from memory first.
 HWY_INLINE void stream(const Line& line, std::uint8_t* to) {
-    const hn::FixedTag<std::uint32_t, 4> four;
-    for (std::size_t i = 0; i < tile_width; i += 4) {
-        hn::Stream(hn::Load(four, line.data() + i), four, reinterpret_cast<std::uint32_t*>(to) + i);
+    const Words words;
+    for (std::size_t i = 0; i < tile_width; i += hn::Lanes(words)) {
+        const auto pixels = hn::Load(words, line.data() + i);
+        hn::Stream(pixels, words, reinterpret_cast<std::uint32_t*>(to) + i);
     }
 }
 
@@ -84,7 +85,7 @@ HWY_NOINLINE void resolve(const TileJob& job, TileBuffer& buffer) {
     for (std::size_t k = 0; k < 3; ++k) {
         background[k] = static_cast<std::uint16_t>(job.background[k] * 16);
     }
-    constexpr std::uintptr_t alignment = 16;
+    constexpr std::uintptr_t alignment = 64; // a line of the caches
     const bool may_stream = job.size_px.x == tile_width && job.row_bytes % alignment == 0 &&
                             reinterpret_cast<std::uintptr_t>(job.rgba) % alignment == 0;
     for (int row = 0; row < job.size_px.y; ++row) {

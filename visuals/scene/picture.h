@@ -1,15 +1,40 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <new>
 #include <vector>
 
 namespace octant::visuals::scene {
+
+/// Gives memory that begins where a line of the processor's caches does, so that whoever writes
+/// past the caches writes whole lines.
+template <class Value>
+struct LineAllocator {
+    using value_type = Value;
+    static constexpr std::align_val_t line{64};
+
+    LineAllocator() = default;
+
+    template <class Other>
+    explicit LineAllocator(const LineAllocator<Other>& /*other*/) {}
+
+    Value* allocate(std::size_t count) {
+        return static_cast<Value*>(::operator new(count * sizeof(Value), line));
+    }
+
+    void deallocate(Value* at, std::size_t /*count*/) { ::operator delete(at, line); }
+
+    bool operator==(const LineAllocator&) const = default;
+};
+
+using PictureBytes = std::vector<std::uint8_t, LineAllocator<std::uint8_t>>;
 
 /// A picture in memory: display values.
 struct Picture {
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> rgba; ///< 4 bytes a pixel, rows from the top, no gaps
+    PictureBytes rgba; ///< 4 bytes a pixel, rows from the top, no gaps
 };
 
 /// A part of a picture, pixels from its upper left corner.

@@ -63,7 +63,8 @@ public:
     /// Waits until the picture is drawn. Throws Error when the driver reports one.
     virtual void finish() = 0;
 
-    /// finish(), then copies the picture. `picture` keeps its memory between calls.
+    /// finish(), then hands the picture over, once for each that is drawn; it cannot be copied to
+    /// the window after that. What `picture` held may become the memory of the next one.
     virtual void finish_and_read(Picture& picture) = 0;
 
     /// Of the last draw() and the insets since; consecutive aircraft of a step are one.

@@ -1,4 +1,5 @@
 #include "ui/flight/session.h"
+#include "visuals/scene/picture.h"
 
 #include <catch2/catch.hpp>
 
@@ -7,7 +8,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <vector>
 
 using namespace octant;
 using ui::flight::Session;
@@ -30,7 +30,7 @@ small_flight(const std::string& path, const std::string& aircraft, const std::st
 }
 
 /// Flies from the start in that view; returns the last picture's pixels.
-std::vector<std::uint8_t> flown_in(Session& session, View view) {
+visuals::scene::PictureBytes flown_in(Session& session, View view) {
     ui::settings::RunSettings settings = session.settings();
     settings.view.kind = view;
     session.apply(settings);
@@ -59,7 +59,7 @@ TEST_CASE("every path, aircraft, view and built-in ground flies") {
             INFO(ground << " " << path << " " << aircraft);
             Session session(small_flight(path, aircraft, ground));
             REQUIRE(session.frames() > 5);
-            std::set<std::vector<std::uint8_t>> pictures;
+            std::set<visuals::scene::PictureBytes> pictures;
             for (const View view : views) {
                 INFO("view " << static_cast<int>(view));
                 pictures.insert(flown_in(session, view));
