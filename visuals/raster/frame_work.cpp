@@ -1,5 +1,7 @@
 #include "visuals/raster/frame_work.h"
 
+#include "visuals/raster/ground_corners.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 

@@ -13,8 +13,6 @@ namespace octant::visuals::raster {
 namespace {
 
 constexpr float most_level = 255.0F;
-constexpr float least_fall = 4e-3F; ///< of the haze's density, in powers of e
-constexpr float most_fall = 60.0F;
 
 glm::vec4 unpacked(std::uint32_t colour) {
     const auto byte = [&](unsigned shift) { return static_cast<float>(colour >> shift & 0xffU); };
@@ -34,8 +32,8 @@ Air air_before(const glm::vec3& place_m, const Light& light) {
     const float fallen = place_m.z * light.falloff_per_m;
     const float size = std::abs(fallen);
     float density = 1.0F - 0.5F * fallen;
-    if (size >= least_fall) {
-        const float left = exp_of_minus(std::min(size, most_fall));
+    if (size >= least_haze_fall) {
+        const float left = exp_of_minus(std::min(size, most_haze_fall));
         density = (1.0F - left) / (fallen > 0.0F ? size : size * left);
     }
     const float level_m = place_m.x * light.to_sun_level.x + place_m.y * light.to_sun_level.y;
@@ -82,43 +80,6 @@ Light light_of(const scene::FramePlan& plan) {
         plan.haze.falloff_per_m,
         plan.haze.to_sun_level,
         plan.haze.sunward};
-}
-
-void place_coloured(
-    std::span<const models::ColourVertex> from,
-    const Projection& projection,
-    const Light& light,
-    const ScreenCorners& to) {
-    assert(to.vertices.size() == from.size() && to.clip.size() == from.size());
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        const glm::vec3& at_m = from[i].position_m;
-        to.clip[i] = clip_place(projection, at_m);
-        place(projection, to.clip[i], to.vertices[i]);
-        const glm::vec4 own = unpacked(from[i].colour);
-        glm::vec3 levels(own.x, own.y, own.z);
-        if (light.per_m > 0.0F) {
-            const Air air = air_before(at_m, light);
-            levels = glm::mix(levels, air.levels, air.share);
-        }
-        set_three(levels, to.vertices[i].value);
-    }
-}
-
-void place_textured(
-    std::span<const models::ColourVertex> from,
-    const Projection& projection,
-    const Light& light,
-    const TexelPlace& to_texels,
-    const ScreenCorners& to) {
-    assert(to.vertices.size() == from.size() && to.clip.size() == from.size());
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        const glm::vec3& at_m = from[i].position_m;
-        to.clip[i] = clip_place(projection, at_m);
-        place(projection, to.clip[i], to.vertices[i]);
-        const glm::vec2 texel = to_texels.at_eye + glm::vec2(at_m.x, at_m.y) * to_texels.per_m;
-        const float light_left = static_cast<float>(from[i].colour >> 24U) / most_level;
-        to.vertices[i].value = {texel.x, texel.y, light_left, air_before(at_m, light).share};
-    }
 }
 
 void place_aircraft(

@@ -24,6 +24,11 @@ struct Light {
     glm::vec3 sunward{0.0F}; ///< display values 0..1
 };
 
+// Where the fall of the haze's density is looked at as a straight line, and where it ends; powers
+// of e.
+constexpr float least_haze_fall = 4e-3F;
+constexpr float most_haze_fall = 60.0F;
+
 Light light_of(const scene::FramePlan& plan);
 
 /// Where corners go. All spans are as long as what they are made of.
@@ -34,26 +39,11 @@ struct ScreenCorners {
     std::span<LitCorner> lit{}; ///< of aircraft that are lit in each pixel; else empty
 };
 
-/// Corners that have the colours they show, but for haze; the sky has none.
-void place_coloured(
-    std::span<const models::ColourVertex> from,
-    const Projection& projection,
-    const Light& light,
-    const ScreenCorners& to);
-
-/// Corners of ground that a texture colours: `to_texels` takes x and y in world axes with the eye
-/// subtracted to texels.
+/// Takes x and y in world axes with the eye subtracted to texels.
 struct TexelPlace {
     glm::vec2 at_eye{0.0F};
     glm::vec2 per_m{0.0F};
 };
-
-void place_textured(
-    std::span<const models::ColourVertex> from,
-    const Projection& projection,
-    const Light& light,
-    const TexelPlace& to_texels,
-    const ScreenCorners& to);
 
 /// How the corners of one aircraft are turned and coloured.
 struct AircraftLook {

@@ -35,9 +35,16 @@ scene::FramePlan& FlatPlan::plan() {
     return plan_;
 }
 
-scene::Picture
-drawn(const scene::FramePlan& plan, const glm::ivec2& size_px, int samples, int threads) {
+scene::Picture drawn(
+    const scene::FramePlan& plan,
+    const glm::ivec2& size_px,
+    int samples,
+    int threads,
+    const scene::GroundTexture* texture) {
     Renderer renderer(std::make_shared<Workers>(threads), size_px, samples);
+    if (texture != nullptr) {
+        renderer.load_ground_texture(*texture);
+    }
     scene::Picture picture;
     renderer.draw(plan);
     renderer.finish_and_read(picture);

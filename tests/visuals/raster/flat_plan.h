@@ -3,6 +3,7 @@
 #include "sim/base/dice.h"
 #include "visuals/raster/renderer.h"
 #include "visuals/scene/frame_plan.h"
+#include "visuals/scene/ground_texture.h"
 #include "visuals/scene/picture.h"
 
 #include <glm/vec2.hpp>
@@ -48,8 +49,12 @@ private:
 };
 
 /// The plan's picture.
-scene::Picture
-drawn(const scene::FramePlan& plan, const glm::ivec2& size_px, int samples, int threads = 1);
+scene::Picture drawn(
+    const scene::FramePlan& plan,
+    const glm::ivec2& size_px,
+    int samples,
+    int threads = 1,
+    const scene::GroundTexture* texture = nullptr);
 
 /// A whole number 0 .. most - 1.
 std::uint64_t below(Dice& dice, std::uint64_t most);

@@ -52,24 +52,45 @@ void paint_much(FlatPlan& plan) {
     }
 }
 
-} // namespace
+/// Air that thins out upwards and is brighter towards the sun.
+void put_in_haze(FlatPlan& plan) {
+    plan.plan().haze = {
+        .colour = glm::vec3(0.6F, 0.7F, 0.8F),
+        .visibility_m = 60.0F,
+        .falloff_per_m = 0.02F,
+        .to_sun_level = glm::vec2(0.6F, 0.8F),
+        .sunward = glm::vec3(0.9F, 0.8F, 0.6F)};
+}
 
-TEST_CASE("any number of threads makes the same bytes") {
-    FlatPlan plan(size_px);
-    paint_much(plan);
+/// A texture of noise, and where it lies under the plan's triangles.
+scene::GroundTexture put_on_noise(FlatPlan& plan) {
+    Dice dice(9);
+    const auto noise = [&](int width, int height, int values) {
+        scene::GroundImage image{.width = width, .height = height, .texels = {}};
+        for (int i = 0; i < width * height * values; ++i) {
+            image.texels.push_back(static_cast<std::uint8_t>(below(dice, 256)));
+        }
+        return image;
+    };
+    const scene::TexturePlace place{glm::vec2(0.5F), glm::vec2(0.02F, 0.03F)};
+    plan.plan().ground_texture = {place, place};
+    return {.albedo = noise(150, 90, 3), .normal = noise(40, 50, 2)};
+}
+
+/// Compares pictures of all sample counts on one thread and on several.
+void check_threads(const scene::FramePlan& plan, const scene::GroundTexture* texture) {
     for (const int samples : {1, 4, 16}) {
-        const scene::Picture one = drawn(plan.plan(), size_px, samples, 1);
-        CHECK(drawn(plan.plan(), size_px, samples, 2).rgba == one.rgba);
-        CHECK(drawn(plan.plan(), size_px, samples, 5).rgba == one.rgba);
+        const scene::Picture one = drawn(plan, size_px, samples, 1, texture);
+        CHECK(drawn(plan, size_px, samples, 2, texture).rgba == one.rgba);
+        CHECK(drawn(plan, size_px, samples, 5, texture).rgba == one.rgba);
     }
 }
 
-TEST_CASE("all instruction sets make the same bytes") {
-    FlatPlan plan(size_px);
-    paint_much(plan);
+/// Compares pictures of all sample counts by all instruction sets of the processor.
+void check_sets(const scene::FramePlan& plan, const scene::GroundTexture* texture) {
     const std::int64_t all = hwy::SupportedTargets();
     for (const int samples : {1, 4, 16}) {
-        const scene::Picture best = drawn(plan.plan(), size_px, samples);
+        const scene::Picture best = drawn(plan, size_px, samples, 1, texture);
         int sets = 0;
         for (int bit = 0; bit < 63; ++bit) {
             const std::int64_t target = std::int64_t{1} << bit;
@@ -79,13 +100,34 @@ TEST_CASE("all instruction sets make the same bytes") {
             hwy::SetSupportedTargetsForTest(target);
             hwy::GetChosenTarget().Update(hwy::SupportedTargets());
             CAPTURE(samples, hwy::TargetName(target));
-            CHECK(drawn(plan.plan(), size_px, samples).rgba == best.rgba);
+            CHECK((drawn(plan, size_px, samples, 1, texture).rgba == best.rgba));
             ++sets;
         }
         hwy::SetSupportedTargetsForTest(0);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
         CHECK(sets >= 2);
     }
+}
+
+} // namespace
+
+TEST_CASE("any number of threads makes the same bytes") {
+    FlatPlan plan(size_px);
+    paint_much(plan);
+    check_threads(plan.plan(), nullptr);
+    put_in_haze(plan);
+    const scene::GroundTexture texture = put_on_noise(plan);
+    check_threads(plan.plan(), &texture);
+}
+
+TEST_CASE("all instruction sets make the same bytes") {
+    FlatPlan plan(size_px);
+    paint_much(plan);
+    check_sets(plan.plan(), nullptr);
+    put_in_haze(plan);
+    check_sets(plan.plan(), nullptr);
+    const scene::GroundTexture texture = put_on_noise(plan);
+    check_sets(plan.plan(), &texture);
 }
 
 } // namespace octant::visuals::raster
