@@ -79,12 +79,13 @@ struct Coverage {
 /// what it reads of the next row it writes back unchanged.
 struct TileBuffer {
     static constexpr std::size_t pixels = std::size_t{tile_width} * tile_height;
-    static constexpr std::size_t padding = 64;
+    static constexpr std::size_t padding = 2 * tile_width; ///< two rows may be at hand at once
 
     alignas(64) std::array<std::uint16_t, pixels + padding> covered{};
     std::array<std::array<std::uint16_t, pixels + padding>, 3> sums{}; ///< 1/256 level
-    std::array<std::uint64_t, tile_height> full{}; ///< a bit for each column that is covered whole
-    std::uint32_t full_rows = 0;                   ///< a bit for each row that is covered whole
+    /// A bit for each column that is covered whole; one row more than there are.
+    std::array<std::uint64_t, tile_height + 1> full{};
+    std::uint32_t full_rows = 0; ///< a bit for each row that is covered whole
     /// Of the triangle at hand, what it covers; its rows leave room for blocks that end beyond.
     static constexpr std::size_t mask_row = tile_width + 16;
     alignas(64) std::array<std::uint16_t, mask_row * tile_height + padding> masks{};

@@ -219,9 +219,9 @@ public:
         , lower_(triangle.lower, triangle.middle, first_px, down_, round_up_)
         , columns_(columns)
         , bends_left_(triangle.middle_is_left ? ~std::uint32_t{0} : 0U)
-        , top_(triangle.top - first_px.y * 256)
-        , middle_(triangle.middle - first_px.y * 256)
-        , bottom_(triangle.bottom - first_px.y * 256) {
+        , top_(hn::Set(Lanes(), triangle.top - first_px.y * 256))
+        , middle_(hn::Set(Lanes(), triangle.middle - first_px.y * 256))
+        , bottom_(hn::Set(Lanes(), triangle.bottom - first_px.y * 256)) {
         for (std::size_t i = 0; i < lane_parts; ++i) {
             y_[i] = hn::ShiftLeft<3>(down_[i]); // 1/256 pixel
         }
@@ -229,14 +229,12 @@ public:
 
     /// Of the row at hand.
     HWY_INLINE StripValues samples() const {
-        const Lanes signed_lanes;
         const LaneBits bits;
         const auto bends_left = hn::Set(bits, bends_left_);
         const auto columns = hn::Set(bits, columns_);
         LaneMasks masks;
         for (std::size_t i = 0; i < lane_parts; ++i) {
-            const auto is_before = [&](std::int32_t y)
-                                       HWY_ATTR { return hn::Lt(y_[i], hn::Set(signed_lanes, y)); };
+            const auto is_before = [&](hn::Vec<Lanes> y) HWY_ATTR { return hn::Lt(y_[i], y); };
             const auto bent =
                 pixels_from(hn::IfThenElse(is_before(middle_), upper_.column(i), lower_.column(i)));
             const auto whole = pixels_from(whole_.column(i));
@@ -254,23 +252,23 @@ public:
         whole_.x += whole_.slope;
         upper_.x += upper_.slope;
         lower_.x += lower_.slope;
-        top_ -= 256;
-        middle_ -= 256;
-        bottom_ -= 256;
+        for (std::size_t i = 0; i < lane_parts; ++i) {
+            y_[i] = hn::Add(y_[i], hn::Set(Lanes(), 256));
+        }
     }
 
 private:
     LaneValues down_;
     LaneValues round_up_;
-    LaneValues y_; ///< of the samples, from the row's middle, 1/256 pixel
+    LaneValues y_; ///< of the samples, from the first row's middle, 1/256 pixel
     StripEdge whole_;
     StripEdge upper_;
     StripEdge lower_;
     std::uint32_t columns_;
     std::uint32_t bends_left_; ///< all bits or none
-    std::int32_t top_;         ///< from the row's middle, 1/256 pixel
-    std::int32_t middle_;
-    std::int32_t bottom_;
+    hn::Vec<Lanes> top_;       ///< as y_
+    hn::Vec<Lanes> middle_;
+    hn::Vec<Lanes> bottom_;
 };
 
 } // namespace HWY_NAMESPACE

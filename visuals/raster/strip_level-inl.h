@@ -1,0 +1,107 @@
+// Levels of a strip of 32 pixels, and the part of a tile that a triangle's strips lie in.
+// Included once for each instruction set.
+#if defined(OCTANT_RASTER_STRIP_LEVEL_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTANT_RASTER_STRIP_LEVEL_INL
+#undef OCTANT_RASTER_STRIP_LEVEL_INL
+#else
+#define OCTANT_RASTER_STRIP_LEVEL_INL
+#endif
+
+#include "visuals/raster/tile_strip-inl.h"
+
+#include <algorithm>
+#include <cstring>
+
+HWY_BEFORE_NAMESPACE();
+
+namespace octant::visuals::raster {
+namespace HWY_NAMESPACE {
+
+using StripSigned = hn::RebindToSigned<Strip>;
+constexpr std::size_t part_px = hn::MaxLanes(Strip());
+
+/// The part of a tile in which a triangle may cover something.
+struct TileBox {
+    int left;
+    int right;
+    int first_row;
+    int last_row;
+
+    HWY_INLINE TileBox(const Triangle& triangle, const TileJob& job)
+        : left(std::max(triangle.left - job.first_px.x, 0))
+        , right(std::min(triangle.right - job.first_px.x, job.size_px.x - 1))
+        , first_row(std::max(triangle.first_row - job.first_px.y, 0))
+        , last_row(std::min(triangle.last_row - job.first_px.y, job.size_px.y - 1)) {}
+
+    /// A bit for each column from `left_column` on that belongs to it.
+    std::uint32_t columns_of_strip(int left_column) const {
+        const int width = right - left_column + 1;
+        return width >= strip_px ? ~0U : (1U << width) - 1U;
+    }
+
+    std::uint32_t rows() const {
+        return static_cast<std::uint32_t>(
+            (std::uint64_t{2} << last_row) - (std::uint64_t{1} << first_row));
+    }
+};
+
+/// A plane's level at a column and row of the picture, 2^-16 level, with what rounds it to 1/128.
+HWY_INLINE std::uint32_t first_level(const Levels& levels, std::size_t k, const glm::ivec2& at) {
+    return static_cast<std::uint32_t>(levels.base[k]) + 256U +
+           static_cast<std::uint32_t>(levels.per_x[k]) * static_cast<std::uint32_t>(at.x) +
+           static_cast<std::uint32_t>(levels.per_y[k]) * static_cast<std::uint32_t>(at.y);
+}
+
+/// From 1/128 level, counted from the level 128, to 1/16 level from 0.
+HWY_INLINE hn::Vec<Strip> from_level(hn::Vec<StripSigned> level) {
+    return hn::ShiftRight<3>(hn::Add(hn::BitCast(Strip(), level), hn::Set(Strip(), 128 * 128 + 4)));
+}
+
+/// A level over a strip, row by row: 1/128 level from the level 128, wrapping.
+struct StripLevel {
+    std::uint32_t at; ///< of the strip's first column, 2^-16 level
+    std::uint32_t per_row;
+    hn::Vec<StripSigned> least;
+    hn::Vec<StripSigned> most;
+    std::array<hn::Vec<StripSigned>, strip_parts> steps;
+
+    HWY_INLINE StripLevel(const Levels& levels, std::size_t k, const glm::ivec2& first_px)
+        : at(first_level(levels, k, first_px))
+        , per_row(static_cast<std::uint32_t>(levels.per_y[k]))
+        , least(hn::Set(StripSigned(), levels.least[k]))
+        , most(hn::Set(StripSigned(), levels.most[k])) {
+        const StripSigned sign;
+        const auto per_column = hn::Set(sign, levels.per_column[k]);
+        for (std::size_t i = 0; i < strip_parts; ++i) {
+            steps[i] = hn::Mul(hn::Iota(sign, static_cast<std::int16_t>(i * part_px)), per_column);
+        }
+    }
+
+    /// In 1/16 level from 0.
+    HWY_INLINE hn::Vec<Strip> colour(std::size_t part) const {
+        const StripSigned sign;
+        const auto first = static_cast<std::int16_t>(static_cast<std::int32_t>(at) >> 9);
+        const auto raw = hn::Add(hn::Set(sign, first), steps[part]);
+        return from_level(hn::Min(hn::Max(raw, least), most));
+    }
+};
+
+/// A bit for each pixel of a strip whose value has all bits set.
+HWY_INLINE std::uint32_t full_bits(const StripValues& values) {
+    alignas(8) std::array<std::uint8_t, 16> bytes;
+    constexpr std::size_t bytes_a_part = part_px / 8;
+    for (std::size_t i = 0; i < strip_parts; ++i) {
+        hn::StoreMaskBits(
+            Strip(), hn::Eq(values[i], hn::Set(Strip(), 0xffff)), bytes.data() + i * bytes_a_part);
+    }
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, bytes.data(), sizeof bits);
+    return bits;
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace octant::visuals::raster
+
+HWY_AFTER_NAMESPACE();
+
+#endif
