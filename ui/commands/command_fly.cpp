@@ -13,6 +13,7 @@
 #include "ui/flight/session.h"
 #include "ui/report/packed_recording.h"
 #include "ui/report/video_pipe.h"
+#include "ui/settings/part_text.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
 
@@ -81,6 +82,9 @@ void check_options(const FlyOptions& options) {
     if (options.if_new) {
         throw Error("--if-new: expected no --replay beside it, got one");
     }
+    if (options.settings.time.part) {
+        throw Error("--replay: expected a recording of a whole flight, got one of a part");
+    }
     if (options.record.folder && is_same_file(*options.record.folder, options.replay->folder)) {
         throw Error(fmt::format(
             "--record: expected another folder than that of --replay, got {}",
@@ -108,30 +112,32 @@ void start_replay(const flight::Replay& replay, flight::Session& session, bool q
 std::string
 fly_frames(const FlyOptions& options, flight::Session& session, flight::FlightRecorder& recorder) {
     flight::Sender sender(options.send);
-    base::Progress progress(session.world().flight.title, session.frames(), options.quiet);
+    const std::optional<std::string>& part = options.settings.time.part;
+    const int first = part ? session.begin_part(*settings::part_from_text(*part)).first : 0;
+    const int count = session.frames() - first;
+    base::Progress progress(session.world().flight.title, count, options.quiet);
     const base::Stopwatch since_start;
-    int frame = 0;
-    for (; frame < session.frames() && !(base::StopSignals::came() && frame > 0); ++frame) {
+    int frame = first;
+    for (; frame < session.frames() && !(base::StopSignals::came() && frame > first); ++frame) {
+        const double due_s = (frame - first) / session.rate_hz();
         if (options.settings.time.realtime) {
-            wait_for(since_start, frame / session.rate_hz());
+            wait_for(since_start, due_s);
         }
         report::FrameRecord record = session.draw(frame);
         if (options.settings.time.realtime) {
-            const double late_s = since_start.s() - frame / session.rate_hz();
+            const double late_s = since_start.s() - due_s;
             record.latency_ms = 1000.0 * late_s;
             record.missed = late_s > 1.0 / session.rate_hz() ? 1 : 0;
         }
         sender.send(session);
         recorder.add(record, session);
-        progress.show(frame + 1, fmt::format("{:.1f} ms", record.frame_ms));
+        progress.show(frame + 1 - first, fmt::format("{:.1f} ms", record.frame_ms));
     }
     progress.finish();
-    return frame == session.frames() ? std::string()
-                                     : fmt::format(
-                                           "{} after {} of {} frames",
-                                           base::StopSignals::name(),
-                                           frame,
-                                           session.frames());
+    return frame == session.frames()
+               ? std::string()
+               : fmt::format(
+                     "{} after {} of {} frames", base::StopSignals::name(), frame - first, count);
 }
 
 /// What the automatic share of smooth polygons came to.

@@ -1,3 +1,4 @@
+#include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
 #include "ui/commands/commands.h"
 #include "ui/report/packed_recording.h"
@@ -16,6 +17,7 @@ struct PackOptions {
     std::filesystem::path folder;
     std::optional<std::filesystem::path> out;
     bool with_terrain = false;
+    bool json = false;
     bool quiet = false;
 };
 
@@ -28,6 +30,10 @@ void pack(const PackOptions& options) {
     const report::Packing packing = report::pack_recording(folder, file, options.with_terrain);
     for (const std::string& note : packing.notes) {
         base::say(options.quiet, "note: " + note);
+    }
+    if (options.json) {
+        base::print_figures(
+            {{"file", file.string()}, {"files", packing.files}, {"notes", packing.notes}}, true);
     }
     base::say(options.quiet, fmt::format("packed: {}, {} files", file.string(), packing.files));
 }
@@ -43,6 +49,7 @@ Command pack_command() {
             {required(text_option("folder", "DIR", "folder of a recording", options->folder)),
              showing("DIR.zip", text_option("--out", "FILE.zip", "the file", options->out)),
              flag("--with-terrain", "pack the terrain file too", options->with_terrain),
+             flag("--json", "what was packed as JSON", options->json),
              flag("--quiet", "no notes", options->quiet)},
         .footer =
             "Examples:\n"

@@ -1,12 +1,15 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
 #include "ui/commands/commands.h"
 #include "ui/report/comparison.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/packed_recording.h"
+#include "ui/report/statistics.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
@@ -23,8 +26,36 @@ struct ReportOptions {
     std::vector<std::string> folders;
     std::string out;
     std::string gate;
+    bool json = false;
     bool quiet = false;
 };
+
+base::Figures figures_of(const report::LoadedRecording& recording) {
+    base::Figures summary;
+    for (const report::Figure& figure : report::figures()) {
+        const double value = figure.value(recording.statistics);
+        if (figure.decimals == 0) {
+            summary[figure.key] = static_cast<int>(value);
+        } else {
+            summary[figure.key] = value;
+        }
+    }
+    const auto known = [](const std::string& text) {
+        return text.empty() ? base::Figures() : base::Figures(text);
+    };
+    return {
+        {"folder", recording.folder.string()},
+        {"title", recording.run.title},
+        {"host", recording.run.machine_info.host},
+        {"frames", recording.flight.frames()},
+        {"ended_early", recording.ended_early},
+        {"stopped", known(recording.run.stopped)},
+        {"disagreement", known(recording.disagreement)},
+        {"noise", recording.run.noise},
+        {"state_hash", known(recording.run.state_hash)},
+        {"picture_hash", known(recording.run.picture_hash)},
+        {"summary", summary}};
+}
 
 void make_report(const ReportOptions& options) {
     const std::optional<report::Gate> gate =
@@ -41,7 +72,7 @@ void make_report(const ReportOptions& options) {
                 fmt::format(
                     "note: {} ended early, after {} frames",
                     folder,
-                    recordings.back().records.size()));
+                    recordings.back().flight.frames()));
         }
         if (!recordings.back().disagreement.empty()) {
             base::say(
@@ -61,14 +92,21 @@ void make_report(const ReportOptions& options) {
     write_file(
         file, report::html_report(recordings, {}, std::filesystem::absolute(file).parent_path()));
     base::say(options.quiet, fmt::format("report: {}", file.string()));
-    if (gate) {
-        const std::vector<std::string> faults = report::gate_faults(recordings, *gate);
+    const std::vector<std::string> faults =
+        gate ? report::gate_faults(recordings, *gate) : std::vector<std::string>();
+    if (options.json) {
+        base::Figures list = base::Figures::list({});
+        std::ranges::for_each(
+            recordings, [&](const auto& each) { list.push_back(figures_of(each)); });
+        base::print_figures(
+            {{"report", file.string()}, {"recordings", list}, {"gate_faults", faults}}, true);
+    } else {
         for (const std::string& fault : faults) {
             std::fputs((fault + "\n").c_str(), stdout);
         }
-        if (!faults.empty()) {
-            throw CheckSaidNo();
-        }
+    }
+    if (!faults.empty()) {
+        throw CheckSaidNo();
     }
 }
 
@@ -94,6 +132,7 @@ Command report_command() {
                  "FIGURE=N%,...",
                  "exit code 1 where a recording's figures are above the first one's by more",
                  options->gate),
+             flag("--json", "figures of each recording as JSON", options->json),
              flag("--quiet", "no notes", options->quiet)},
         .footer = "Examples:\n"
                   "  octant report my-flight\n"

@@ -7,16 +7,22 @@
 #include "ui/commands/read_option.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
+#include "ui/report/video_pipe.h"
 #include "ui/sweep/engine.h"
+#include "ui/sweep/split_flight.h"
 #include "ui/sweep/sweep_file.h"
 #include "ui/sweep/sweep_folder.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace octant::ui::commands {
@@ -32,6 +38,7 @@ struct SweepOptions {
     sweep::EngineOptions engine;
     std::optional<int> jobs;
     std::optional<int> tasks;
+    std::optional<int> split;
     std::optional<fs::path> hosts;
     std::optional<fs::path> program;
     int minutes = 60;
@@ -77,10 +84,10 @@ std::unique_ptr<sweep::Engine> engine_of(
 }
 
 std::vector<sweep::RunResult>
-results_of(const sweep::Sweep& sweep, const sweep::SweepFolder& folder) {
+results_of(const sweep::Sweep& sweep, const sweep::SweepFolder& folder, bool with_videos) {
     std::vector<sweep::RunResult> results;
     for (const sweep::Run& run : sweep.runs) {
-        results.push_back(sweep::result_of(folder, run));
+        results.push_back(sweep::result_of(folder, run, with_videos));
     }
     return results;
 }
@@ -155,19 +162,14 @@ void print_end(
     }
 }
 
-void fly_sweep(const SweepOptions& options) {
-    const sweep::Sweep sweep = sweep::read_sweep(options.file);
-    if (options.list) {
-        print_list(sweep, options.json);
-        return;
-    }
+/// Has flown what is not done yet, and tries again what failed. What came of all runs.
+std::vector<sweep::RunResult> fly_all(
+    const SweepOptions& options,
+    const sweep::Sweep& sweep,
+    const sweep::SweepFolder& folder,
+    sweep::Engine& engine) {
     const bool quiet = options.engine.quiet;
-    const sweep::SweepFolder folder(
-        fs::absolute(options.out.value_or(sweep.name)).lexically_normal());
-    folder.prepare(sweep);
-    const std::unique_ptr<sweep::Engine> engine = engine_of(options, sweep, folder);
-    const base::StopSignals stop_signals;
-    std::vector<sweep::RunResult> results = results_of(sweep, folder);
+    std::vector<sweep::RunResult> results = results_of(sweep, folder, options.engine.videos);
     const std::size_t done_before = results.size() - not_done(results).size();
     if (done_before > 0) {
         base::say(quiet, fmt::format("{} flights are done already", done_before));
@@ -181,12 +183,93 @@ void fly_sweep(const SweepOptions& options) {
             base::say(
                 quiet, fmt::format("note: {} flights failed and are tried again", left.size()));
         }
-        engine->fly(left);
-        results = results_of(sweep, folder);
+        engine.fly(left);
+        results = results_of(sweep, folder, options.engine.videos);
+    }
+    return results;
+}
+
+/// Flies the parts of what is not done yet and puts them together; gives what came of the whole
+/// flights, and the manner.
+std::pair<std::vector<sweep::RunResult>, std::string> fly_in_parts(
+    const SweepOptions& options, const sweep::Sweep& sweep, const sweep::SweepFolder& folder) {
+    const auto count = static_cast<std::size_t>(*options.split);
+    const bool videos = options.engine.videos;
+    std::vector<sweep::RunResult> results = results_of(sweep, folder, videos);
+    sweep::Sweep to_fly{sweep.name, {}};
+    for (const std::size_t run : not_done(results)) {
+        to_fly.runs.push_back(sweep.runs[run]);
+    }
+    const sweep::Sweep parts = sweep::split_sweep(to_fly, *options.split, videos);
+    const sweep::SweepFolder part_folder(folder.path() / "parts");
+    part_folder.prepare(parts);
+    SweepOptions of_parts = options;
+    of_parts.engine.videos = false;
+    const std::unique_ptr<sweep::Engine> engine = engine_of(of_parts, parts, part_folder);
+    const auto part_results = fly_all(of_parts, parts, part_folder, *engine);
+    for (std::size_t i = 0; i < to_fly.runs.size(); ++i) {
+        const sweep::Run& whole = to_fly.runs[i];
+        const auto own = std::span(part_results).subspan(i * count, count);
+        const auto failed = std::ranges::find(own, false, &sweep::RunResult::done);
+        auto& result = *std::ranges::find(results, whole.name, &sweep::RunResult::name);
+        if (failed != own.end()) {
+            result.fault = fmt::format("{}: {}", failed->name, failed->fault);
+            continue;
+        }
+        std::vector<fs::path> recordings;
+        for (const sweep::RunResult& part : own) {
+            recordings.push_back(part_folder.recording(part.name));
+        }
+        try {
+            sweep::merge_parts(
+                whole,
+                folder.recording(whole.name),
+                recordings,
+                videos ? std::optional(folder.video(whole.name)) : std::nullopt);
+        } catch (const Error& fault) {
+            result.fault = fault.what();
+            continue;
+        }
+        result = sweep::result_of(folder, whole, videos);
+        for (const fs::path& part : recordings) {
+            std::error_code ignored;
+            fs::remove_all(part, ignored);
+        }
+    }
+    return {
+        std::move(results), fmt::format("each in {} parts, {}", *options.split, engine->manner())};
+}
+
+void fly_sweep(const SweepOptions& options) {
+    const sweep::Sweep sweep = sweep::read_sweep(options.file);
+    if (options.list) {
+        print_list(sweep, options.json);
+        return;
+    }
+    if (options.split) { // before anything is written
+        sweep::split_sweep(sweep, *options.split, options.engine.videos);
+    }
+    const bool quiet = options.engine.quiet;
+    const sweep::SweepFolder folder(
+        fs::absolute(options.out.value_or(sweep.name)).lexically_normal());
+    folder.prepare(sweep);
+    if (options.engine.videos) {
+        make_folder(folder.path() / "videos");
+        report::check_video(folder.video(sweep.runs.front().name));
+    }
+    const base::StopSignals stop_signals;
+    std::vector<sweep::RunResult> results;
+    std::string manner;
+    if (options.split) {
+        std::tie(results, manner) = fly_in_parts(options, sweep, folder);
+    } else {
+        const std::unique_ptr<sweep::Engine> engine = engine_of(options, sweep, folder);
+        results = fly_all(options, sweep, folder, *engine);
+        manner = engine->manner();
     }
     write_results(sweep, folder, results);
     const std::vector<std::string> differences = sweep::differences(sweep, results);
-    print_end(sweep, results, differences, engine->manner(), options.json);
+    print_end(sweep, results, differences, manner, options.json);
     base::say(
         quiet, fmt::format("results: {0}/sweep.csv, {0}/report.html", folder.path().string()));
     if (!differences.empty() || !not_done(results).empty()) {
@@ -230,6 +313,17 @@ Command sweep_command() {
              read_option(
                  {"minutes", "N", "time limit of a task or a flight on engines", 1, 100000},
                  options->minutes),
+             read_option(
+                 {"split",
+                  "N",
+                  "fly each flight in N parts, of consecutive frames, and put these together",
+                  2,
+                  10000},
+                 options->split),
+             flag(
+                 "--video",
+                 "write a video of each flight, videos/NAME.mp4",
+                 options->engine.videos),
              list_option(
                  "--sbatch",
                  "OPTION",
@@ -252,6 +346,7 @@ Command sweep_command() {
             "  octant sweep budgets.toml --out budgets\n"
             "  octant sweep budgets.toml --on slurm --minutes 30 --sbatch=--partition=long\n"
             "  octant sweep budgets.toml --on parallel --hosts machines.txt\n"
+            "  octant sweep long.toml --split 4 --share-cores --video\n"
             "Flights that are done are not flown again. Exit code 1: some failed, or runs that\n"
             "differ in nothing did not show the same.",
         .run = [options] { fly_sweep(*options); }};

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 namespace octant::ui::flight {
 
@@ -60,6 +61,7 @@ report::RunInfo run_info(
     info.commit = base::program_commit();
     info.program_hash = base::program_hash();
     info.device = session.renderer().info().device;
+    info.rate_hz = session.rate_hz();
     info.path_offset_m = {flight.place_m.x, flight.place_m.y, flight.offset_m};
     info.machine = report::read_machine_info(std::chrono::system_clock::now());
     info.facts = {
@@ -83,7 +85,9 @@ report::RunInfo run_info(
 }
 
 bool is_recorded(const RecordOptions& options, const settings::RunSettings& settings) {
-    if (!options.folder || !report::is_run_file(*options.folder / "run.json")) {
+    std::error_code ignored;
+    if (!options.folder || !report::is_run_file(*options.folder / "run.json") ||
+        (options.video && !std::filesystem::is_regular_file(*options.video, ignored))) {
         return false;
     }
     using Json = nlohmann::ordered_json;
@@ -137,7 +141,7 @@ FlightRecorder::FlightRecorder(
 void FlightRecorder::add(report::FrameRecord record, Session& session) {
     const base::Stopwatch writing;
     flown_until_s_ = record.sim_time_s;
-    session.hash_picture();
+    record.picture_hash = session.hash_picture();
     if (recording_ && picture_every_ > 0 && record.frame % picture_every_ == 0) {
         recording_->add_picture(record.frame, view_of(session.picture()));
     }

@@ -32,7 +32,7 @@ struct FlightEnd {
 };
 
 /// True when the folder holds a finished recording of these settings and input files by this very
-/// program file.
+/// program file, and the video is there where one was asked for.
 bool is_recorded(const RecordOptions& options, const settings::RunSettings& settings);
 
 /// What run.json says of a flight that is recorded into a folder. Settings name files absolutely.

@@ -149,6 +149,29 @@ report::FrameRecord Session::draw(int frame) {
     return record;
 }
 
+/// Whether a plan depends on those before it: triangles that are controlled by what earlier frames
+/// had, and meshes that are refined from frame to frame.
+bool Session::plans_have_memory() const {
+    const scene::DetailControl control = settings_.ground.detail;
+    return (control != scene::DetailControl::Exact && control != scene::DetailControl::Fixed) ||
+           std::ranges::any_of(world_.scene.models, [](const auto& model) {
+               return model->progressive != nullptr;
+           });
+}
+
+settings::FrameRange Session::begin_part(const settings::Part& part) {
+    const settings::FrameRange range = settings::frames_of(part, frames());
+    times_.cut_to(static_cast<std::size_t>(range.end));
+    for (int before = 0; before < range.first; ++before) {
+        reach(times_.at_s[static_cast<std::size_t>(before)], before, now_);
+        if (plans_have_memory() || before + 1 == range.first) {
+            last_triangles_ = make_plans(nullptr).ground.triangles;
+        }
+    }
+    since_first_frame_ = base::Stopwatch();
+    return range;
+}
+
 report::FrameRecord Session::draw_at(double time_s, std::optional<double> next_s) {
     return picture_of(drawn_++, time_s, next_s);
 }
@@ -187,6 +210,7 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     record.sim_time_s = time_s;
     record.wall_s = since_first_frame_.s();
 
+    counters_.begin();
     const base::Stopwatch whole;
     base::Stopwatch stage;
     if (next_is_reached_ && next_.time_s == time_s) {
@@ -218,6 +242,8 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     }
     record.read_ms = stage.lap_ms();
     record.frame_ms = whole.ms();
+    record.counters = counters_.lap();
+    record.state_hash = now_.state_hash;
     fill_in(counts, record);
     return record;
 }
@@ -269,8 +295,11 @@ void Session::read_picture() {
     picture_is_read_ = true;
 }
 
-void Session::hash_picture() {
-    picture_hash_.add(std::as_bytes(std::span(picture_.rgba)));
+std::uint64_t Session::hash_picture() {
+    Hash hash;
+    hash.add(std::as_bytes(std::span(picture_.rgba)));
+    picture_hash_.add_word(hash.value());
+    return hash.value();
 }
 
 } // namespace octant::ui::flight

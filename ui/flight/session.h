@@ -5,6 +5,8 @@
 #include "ui/flight/inset_view.h"
 #include "ui/flight/simulation.h"
 #include "ui/report/frame_record.h"
+#include "ui/report/kernel_counters.h"
+#include "ui/settings/part_text.h"
 #include "ui/settings/settings.h"
 #include "ui/world/picture_times.h"
 #include "ui/world/scene_ground.h"
@@ -99,6 +101,12 @@ public:
     /// it was; any other exception leaves a session that cannot go on.
     void apply(const settings::RunSettings& settings);
 
+    /// Before the first draw(): draws only this part of the frames, as if those before it had been
+    /// drawn. They are planned where later pictures depend on that, and the last of them in any
+    /// case. Returns the part's frames; frames() then ends with it. Throws Error where there are
+    /// fewer frames than parts.
+    settings::FrameRange begin_part(const settings::Part& part);
+
     /// To be changed between frames. Begin at another time by begin_at().
     Simulation& simulation() { return *simulation_; }
 
@@ -132,14 +140,14 @@ public:
     }
 
     /// Over the aircraft states at every fixed step so far, to the end of the run once its last
-    /// frame is drawn, and over the pixels of every frame.
+    /// frame is drawn, and over the hashes of every frame's pixels.
     std::uint64_t state_hash() const { return simulation_->state_hash(); }
 
     std::uint64_t picture_hash() const { return picture_hash_.value(); }
 
-    /// Adds the last picture to the picture hash. Apart from draw(), because it is not the frame's
-    /// work.
-    void hash_picture();
+    /// Adds the last picture to the picture hash and returns its own hash. Apart from draw(),
+    /// because it is not the frame's work.
+    std::uint64_t hash_picture();
 
 private:
     /// A frame that is simulated, with its camera chosen.
@@ -161,6 +169,7 @@ private:
     void reach(double time_s, int frame, Moment& moment);
     visuals::scene::Camera camera_of(const settings::RunSettings& settings) const;
     void mesh_ahead();
+    bool plans_have_memory() const;
     visuals::planning::PlanCounts make_plans(std::function<void()> when_refined);
     void draw_plans();
     void fill_in(const visuals::planning::PlanCounts& counts, report::FrameRecord& record);
@@ -199,6 +208,7 @@ private:
     std::optional<int> smooth_target_; ///< of the last picture; nothing: by the settings' share
     int drawn_ = 0;                    ///< pictures drawn by draw_at() so far
     Hash picture_hash_;
+    report::KernelCounters counters_;
     base::Stopwatch since_first_frame_;
 };
 

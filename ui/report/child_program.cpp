@@ -6,6 +6,7 @@
 #include <array>
 #include <cassert>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fmt/format.h>
 #include <spawn.h>
@@ -25,12 +26,13 @@ void close_if_open(int& descriptor) {
     }
 }
 
+/// From the beginning, without moving the place where the program writes.
 std::string all_of(int descriptor) {
     std::string text;
     std::array<char, 65536> piece{};
-    ::lseek(descriptor, 0, SEEK_SET);
     while (true) {
-        const ssize_t got = ::read(descriptor, piece.data(), piece.size());
+        const ssize_t got =
+            ::pread(descriptor, piece.data(), piece.size(), static_cast<off_t>(text.size()));
         if (got > 0) {
             text.append(piece.data(), static_cast<std::size_t>(got));
         } else if (got == 0 || errno != EINTR) {
@@ -118,6 +120,7 @@ ChildProgram::~ChildProgram() {
 
 ChildProgram::ChildProgram(ChildProgram&& other) noexcept
     : process_(std::exchange(other.process_, -1))
+    , status_(other.status_)
     , input_(std::exchange(other.input_, -1))
     , output_(std::exchange(other.output_, -1))
     , complaints_(std::exchange(other.complaints_, -1)) {}
@@ -137,13 +140,31 @@ bool ChildProgram::send(std::string_view bytes) {
 }
 
 int ChildProgram::wait() {
-    int status = 0;
-    if (process_ > 0) {
+    int status = status_.value_or(0);
+    if (process_ > 0 && !status_) {
         while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
         }
-        process_ = -1;
     }
+    process_ = -1;
     return status;
+}
+
+bool ChildProgram::is_running() {
+    int status = 0;
+    if (process_ > 0 && !status_ && ::waitpid(process_, &status, WNOHANG) == process_) {
+        status_ = status;
+    }
+    return process_ > 0 && !status_;
+}
+
+void ChildProgram::signal(int number) {
+    if (is_running()) {
+        ::kill(process_, number);
+    }
+}
+
+std::string ChildProgram::output() const {
+    return all_of(output_);
 }
 
 ProgramEnding ChildProgram::finish() {

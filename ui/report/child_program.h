@@ -35,6 +35,15 @@ public:
     /// ended); raises no SIGPIPE.
     bool send(std::string_view bytes);
 
+    /// Whether it has not ended yet. Does not wait.
+    bool is_running();
+
+    /// Sends it a signal, where it has not ended yet.
+    void signal(int number);
+
+    /// What it has written to its standard output so far.
+    std::string output() const;
+
     /// Ends the input and waits for the program. Once only.
     ProgramEnding finish();
 
@@ -43,6 +52,7 @@ private:
     int wait();
 
     pid_t process_ = -1;
+    std::optional<int> status_; ///< once it has ended
     int input_ = -1;
     int output_ = -1;
     int complaints_ = -1;

@@ -2,58 +2,50 @@
 
 #include "ui/report/statistics.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <vector>
 
 namespace octant::ui::report {
 
-Rows clock_rows(std::span<const FrameRecord> records) {
-    std::vector<double> latency_ms;
-    int missed = 0;
-    for (const FrameRecord& record : records) {
-        if (!record.warm_up && std::isfinite(record.latency_ms)) {
-            latency_ms.push_back(record.latency_ms);
-            missed += record.missed;
-        }
+void ClockTally::add(const FrameRecord& record) {
+    if (!record.warm_up && std::isfinite(record.latency_ms)) {
+        latency_.add(record.latency_ms);
+        missed_ += record.missed;
     }
-    if (latency_ms.empty()) {
-        return {};
-    }
-    std::sort(latency_ms.begin(), latency_ms.end());
-    return {
-        {"latency, median and 99th percentile",
-         fmt::format(
-             "{:.2f} ms, {:.2f} ms", nearest_rank(latency_ms, 500), nearest_rank(latency_ms, 990))},
-        {"deadlines missed", fmt::format("{} of {}", missed, latency_ms.size())}};
 }
 
-Rows link_rows(std::span<const FrameRecord> records) {
-    long packets = 0;
-    long lost = 0;
-    long late = 0;
-    long wrong = 0;
-    long stale = 0;
-    double jitter_ms = 0.0;
-    for (const FrameRecord& record : records) {
-        packets += record.packets;
-        lost += record.packets_lost;
-        late += record.packets_late;
-        wrong += record.packets_wrong;
-        stale += record.stale;
-        jitter_ms += record.jitter_ms;
+Rows ClockTally::rows() const {
+    const Statistics latency = latency_.statistics();
+    if (latency.frames == 0) {
+        return {};
     }
-    if (packets + wrong == 0) {
+    return {
+        {"latency, median and 99th percentile",
+         fmt::format("{:.2f} ms, {:.2f} ms", latency.p50_ms, latency.p99_ms)},
+        {"deadlines missed", fmt::format("{} of {}", missed_, latency.frames)}};
+}
+
+void LinkTally::add(const FrameRecord& record) {
+    ++frames_;
+    packets_ += record.packets;
+    lost_ += record.packets_lost;
+    late_ += record.packets_late;
+    wrong_ += record.packets_wrong;
+    stale_ += record.stale;
+    jitter_ms_ += record.jitter_ms;
+}
+
+Rows LinkTally::rows() const {
+    if (packets_ + wrong_ == 0) {
         return {};
     }
     return {
         {"packets taken, lost, late, wrong",
-         fmt::format("{}, {}, {}, {}", packets, lost, late, wrong)},
+         fmt::format("{}, {}, {}, {}", packets_, lost_, late_, wrong_)},
         {"frames with an aircraft that stood for want of packets",
-         fmt::format("{} of {}", stale, records.size())},
+         fmt::format("{} of {}", stale_, frames_)},
         {"jitter of packets, mean",
-         fmt::format("{:.1f} ms", jitter_ms / static_cast<double>(records.size()))}};
+         fmt::format("{:.1f} ms", jitter_ms_ / static_cast<double>(frames_))}};
 }
 
 } // namespace octant::ui::report

@@ -1,17 +1,40 @@
 #pragma once
 
 #include "ui/report/frame_record.h"
+#include "ui/report/frame_times.h"
 #include "ui/report/run_file.h"
-
-#include <span>
 
 namespace octant::ui::report {
 
 /// How a flight kept up with the clock, without its warm-up frames: latency and missed deadlines.
-/// No rows where it did not follow the clock.
-Rows clock_rows(std::span<const FrameRecord> records);
+class ClockTally {
+public:
+    void add(const FrameRecord& record);
 
-/// What came from outside: packets, losses, jitter, of all frames. No rows where nothing came.
-Rows link_rows(std::span<const FrameRecord> records);
+    /// No rows where the flight did not follow the clock.
+    Rows rows() const;
+
+private:
+    FrameTimes latency_;
+    long missed_ = 0;
+};
+
+/// What came from outside: packets, losses, jitter, of all frames.
+class LinkTally {
+public:
+    void add(const FrameRecord& record);
+
+    /// No rows where nothing came.
+    Rows rows() const;
+
+private:
+    long frames_ = 0;
+    long packets_ = 0;
+    long lost_ = 0;
+    long late_ = 0;
+    long wrong_ = 0;
+    long stale_ = 0;
+    double jitter_ms_ = 0.0;
+};
 
 } // namespace octant::ui::report

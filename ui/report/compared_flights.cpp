@@ -101,7 +101,7 @@ overlaid(Recordings recordings, const std::vector<Indices>& variants, double cei
     for (std::size_t v = 0; v < variants.size(); ++v) {
         for (const std::size_t i : variants[v]) {
             if (plot.series.size() < most_curves) {
-                PlotSeries curve = frame_time_curve(recordings[i].records, 400);
+                PlotSeries curve = recordings[i].flight.frame_ms.series(400);
                 curve.name = label_of(recordings, recordings[i]);
                 curve.colour = run_colours[v % run_colours.size()];
                 plot.series.push_back(std::move(curve));

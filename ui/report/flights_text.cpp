@@ -36,6 +36,9 @@ differing_settings(Recordings recordings, const std::vector<std::size_t>& among)
 }
 
 std::string short_value(const std::string& value) {
+    if (value == unset_value) {
+        return "not set";
+    }
     const bool is_path = value.find('/') != std::string::npos;
     return is_path ? std::filesystem::path(value).filename().string() : value;
 }
@@ -51,7 +54,7 @@ const Figure& figure_named(std::string_view key) {
 double ceiling_of(Recordings recordings, const std::vector<std::size_t>& runs) {
     double ceiling_ms = 0.0;
     for (const std::size_t i : runs) {
-        ceiling_ms = std::max(ceiling_ms, plot_ceiling_ms(recordings[i].records));
+        ceiling_ms = std::max(ceiling_ms, plot_ceiling_ms(recordings[i].statistics));
     }
     return ceiling_ms;
 }

@@ -5,18 +5,23 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
+#include <utility>
 
 namespace octant::ui::report {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-enum class Kind { Whole, Number, MayBeEmpty };
+enum class Kind { Whole, Number, MayBeEmpty, Hash };
 
 struct Column {
     std::string_view name;
@@ -24,6 +29,7 @@ struct Column {
     int decimals;
     double (*get)(const FrameRecord&);
     void (*set)(FrameRecord&, double);
+    std::optional<std::uint64_t> FrameRecord::*hash = nullptr; ///< of Kind::Hash, in place of both
 };
 
 template <auto Member>
@@ -46,6 +52,11 @@ constexpr Column axis_column(std::string_view name) {
         3,
         [](const FrameRecord& record) { return (record.*Member)[axis]; },
         [](FrameRecord& record, double value) { (record.*Member)[axis] = value; }};
+}
+
+constexpr Column
+hash_column(std::string_view name, std::optional<std::uint64_t> FrameRecord::*hash) {
+    return {name, Kind::Hash, 0, nullptr, nullptr, hash};
 }
 
 using R = FrameRecord;
@@ -98,6 +109,8 @@ constexpr std::array frame_columns{
     column<&R::packets_wrong>("packets_wrong"),
     column<&R::stale>("stale"),
     column<&R::jitter_ms>("jitter_ms", Kind::Number, milliseconds),
+    hash_column("state_hash", &R::state_hash),
+    hash_column("picture_hash", &R::picture_hash),
 };
 
 std::string header_line() {
@@ -109,8 +122,24 @@ std::string header_line() {
     return line;
 }
 
-std::string field_text(const Column& column, double value) {
+std::string field_text(const Column& column, const FrameRecord& record) {
+    if (column.kind == Kind::Hash) {
+        const auto& hash = record.*column.hash;
+        return hash ? fmt::format("{:016x}", *hash) : std::string();
+    }
+    const double value = column.get(record);
     return std::isfinite(value) ? fmt::format("{:.{}f}", value, column.decimals) : std::string();
+}
+
+/// 16 hexadecimal digits.
+std::optional<std::uint64_t> hash_from(std::string_view text) {
+    constexpr std::size_t digits = 16;
+    constexpr int hexadecimal = 16;
+    std::uint64_t hash = 0;
+    const char* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, hash, hexadecimal);
+    const bool whole = text.size() == digits && read.ec == std::errc() && read.ptr == end;
+    return whole ? std::optional(hash) : std::nullopt;
 }
 
 /// The column's value from its text, or nothing when the text does not fit the column.
@@ -127,19 +156,37 @@ std::optional<double> field_value(const Column& column, std::string_view text) {
     return finite_number(text);
 }
 
-/// For each field of the header its column, null for one that is not ours.
-std::vector<const Column*> read_header(
+/// Sets the column's value from its text; false when the text does not fit the column.
+bool set_field(const Column& column, std::string_view text, FrameRecord& record) {
+    if (column.kind == Kind::Hash) {
+        record.*column.hash = hash_from(text);
+        return text.empty() || record.*column.hash;
+    }
+    const auto value = field_value(column, text);
+    if (value) {
+        column.set(record, *value);
+    }
+    return value.has_value();
+}
+
+std::string_view wanted_by(Kind kind) {
+    return kind == Kind::Whole ? "whole number" : kind == Kind::Hash ? "hash" : "number";
+}
+
+/// For each field of the header its column's number, one past the last for what is not ours.
+std::vector<std::size_t> read_header(
     const std::filesystem::path& path,
     std::string_view line,
     std::span<const std::string_view> further) {
-    std::vector<const Column*> order;
+    std::vector<std::size_t> order;
     for (const std::string_view name : split_fields(line, ',')) {
         const auto found =
             std::find_if(frame_columns.begin(), frame_columns.end(), [&](const Column& each) {
                 return each.name == name;
             });
-        const Column* column = found == frame_columns.end() ? nullptr : &*found;
-        if (column != nullptr && std::find(order.begin(), order.end(), column) != order.end()) {
+        const auto column = static_cast<std::size_t>(found - frame_columns.begin());
+        if (found != frame_columns.end() &&
+            std::find(order.begin(), order.end(), column) != order.end()) {
             error_at(path, 1, fmt::format("expected column {} once, got it twice", name));
         }
         order.push_back(column);
@@ -148,7 +195,7 @@ std::vector<const Column*> read_header(
         const std::string_view name = frame_columns[i].name;
         const bool required = i < required_columns ||
                               std::find(further.begin(), further.end(), name) != further.end();
-        if (required && std::find(order.begin(), order.end(), &frame_columns[i]) == order.end()) {
+        if (required && std::find(order.begin(), order.end(), i) == order.end()) {
             error_at(
                 path,
                 1,
@@ -162,7 +209,7 @@ FrameRecord read_line(
     const std::filesystem::path& path,
     int line_number,
     std::string_view line,
-    const std::vector<const Column*>& order) {
+    const std::vector<std::size_t>& order) {
     const auto fields = split_fields(line, ',');
     if (fields.size() != order.size()) {
         error_at(
@@ -172,21 +219,20 @@ FrameRecord read_line(
     }
     FrameRecord record;
     for (std::size_t i = 0; i < order.size(); ++i) {
-        if (order[i] == nullptr) {
+        if (order[i] == frame_columns.size()) {
             continue;
         }
-        const auto value = field_value(*order[i], fields[i]);
-        if (!value) {
+        const Column& column = frame_columns[order[i]];
+        if (!set_field(column, fields[i], record)) {
             error_at(
                 path,
                 line_number,
                 fmt::format(
                     "expected a {} in column {}, got '{}'",
-                    order[i]->kind == Kind::Whole ? "whole number" : "number",
-                    order[i]->name,
+                    wanted_by(column.kind),
+                    column.name,
                     printable(std::string(fields[i]))));
         }
-        order[i]->set(record, *value);
     }
     return record;
 }
@@ -201,7 +247,7 @@ std::string frame_csv_line(const FrameRecord& record) {
     std::string line;
     for (const Column& each : frame_columns) {
         line += line.empty() ? "" : ",";
-        line += field_text(each, each.get(record));
+        line += field_text(each, record);
     }
     return line + "\n";
 }
@@ -209,37 +255,53 @@ std::string frame_csv_line(const FrameRecord& record) {
 FrameRecord as_written(const FrameRecord& record) {
     FrameRecord rounded;
     for (const Column& each : frame_columns) {
-        const std::string text = field_text(each, each.get(record));
+        if (each.kind == Kind::Hash) {
+            rounded.*each.hash = record.*each.hash;
+            continue;
+        }
+        const std::string text = field_text(each, record);
         each.set(rounded, finite_number(text).value_or(std::numeric_limits<double>::quiet_NaN()));
     }
+    rounded.counters = record.counters;
     return rounded;
 }
 
-FrameFile
-read_frame_csv(const std::filesystem::path& path, std::span<const std::string_view> further) {
-    LineReader lines(path);
+FrameReader::FrameReader(fs::path path, std::span<const std::string_view> further)
+    : path_(std::move(path))
+    , lines_(path_) {
+    const auto header = lines_.next();
+    torn_ = header && lines_.torn();
+    ended_ = !header || (torn_ && header_line().starts_with(*header));
+    if (!ended_) {
+        columns_ = read_header(path_, *header, further);
+    }
+}
+
+std::optional<FrameRecord> FrameReader::next() {
+    const auto line = ended_ ? std::nullopt : lines_.next();
+    torn_ = line ? lines_.torn() : torn_;
+    if (!line || torn_) {
+        ended_ = true;
+        return std::nullopt;
+    }
+    FrameRecord record = read_line(path_, lines_.number(), *line, columns_);
+    if (last_frame_ && record.frame <= *last_frame_) {
+        error_at(
+            path_,
+            lines_.number(),
+            fmt::format("expected a frame after {}, got {}", *last_frame_, record.frame));
+    }
+    last_frame_ = record.frame;
+    return record;
+}
+
+FrameFile read_frame_csv(const fs::path& path, std::span<const std::string_view> further) {
+    FrameReader reader(path, further);
     FrameFile file;
-    const auto header = lines.next();
-    file.torn = header && lines.torn();
-    if (!header || (file.torn && header_line().starts_with(*header))) {
-        return file;
+    while (const auto record = reader.next()) {
+        file.records.push_back(*record);
     }
-    const auto order = read_header(path, *header, further);
-    while (const auto line = lines.next()) {
-        file.torn = lines.torn();
-        if (file.torn) {
-            break;
-        }
-        const FrameRecord record = read_line(path, lines.number(), *line, order);
-        if (!file.records.empty() && record.frame <= file.records.back().frame) {
-            error_at(
-                path,
-                lines.number(),
-                fmt::format(
-                    "expected a frame after {}, got {}", file.records.back().frame, record.frame));
-        }
-        file.records.push_back(record);
-    }
+    file.torn = reader.torn();
     return file;
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 
+#include "sim/base/text_file.h"
 #include "ui/report/frame_record.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,16 +24,37 @@ std::string frame_csv_line(const FrameRecord& record);
 /// figures computed from the file are the same bit for bit.
 FrameRecord as_written(const FrameRecord& record);
 
+/// frames.csv row by row, in the memory of one of them: columns may stand in any order, unknown
+/// ones are skipped, the sixteen up to `overrun` and those of `further` must be there. An empty
+/// file has no rows. Frames must count upwards. Throws Error "file:line: expected ..., got ..." for
+/// anything else.
+class FrameReader {
+public:
+    explicit FrameReader(
+        std::filesystem::path path, std::span<const std::string_view> further = {});
+
+    /// The next row, nothing at the end.
+    std::optional<FrameRecord> next();
+
+    /// At the end: the last line was cut short (the program was killed) and left out.
+    bool torn() const { return torn_; }
+
+private:
+    std::filesystem::path path_;
+    LineReader lines_;
+    std::vector<std::size_t> columns_; ///< of each field
+    std::optional<int> last_frame_;
+    bool torn_ = false;
+    bool ended_ = false;
+};
+
 /// What a frames.csv holds.
 struct FrameFile {
     std::vector<FrameRecord> records;
     bool torn = false; ///< the last line was cut short (the program was killed) and left out
 };
 
-/// Reads frames.csv by column name: columns may stand in any order, unknown ones are skipped, the
-/// sixteen up to `overrun` and those of `further` must be there. An empty file has no records.
-/// Frames must count upwards; record i stands in line i + 2. Throws Error "file:line: expected ...,
-/// got ..." for anything else.
+/// All rows at once, as FrameReader has them; record i stands in line i + 2.
 FrameFile
 read_frame_csv(const std::filesystem::path& path, std::span<const std::string_view> further = {});
 

@@ -2,9 +2,18 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstdint>
 #include <limits>
+#include <optional>
 
 namespace octant::ui::report {
+
+/// What the kernel counted of this program during a frame. Differs from run to run.
+struct FrameCounters {
+    long page_faults = 0;
+    long switches = 0;      ///< involuntary: another program got the processor
+    double stolen_ms = 0.0; ///< by the host for other machines, in the steps of the kernel's clock
+};
 
 /// One line of frames.csv. Times in milliseconds are wall time; everything else is repeatable.
 struct FrameRecord {
@@ -53,6 +62,10 @@ struct FrameRecord {
     int stale = 0;          ///< 1 when an aircraft stands for want of packets
     double jitter_ms = 0.0; ///< how much later than the quickest packets come, mean
     int missed = 0; ///< by the clock: 1 when the picture came later than the next one was due
+    /// Over the states of all aircraft at every step up to this picture.
+    std::optional<std::uint64_t> state_hash = {};
+    std::optional<std::uint64_t> picture_hash = {}; ///< over this picture's pixels
+    FrameCounters counters = {};                    ///< in counters.csv
 };
 
 } // namespace octant::ui::report

@@ -22,12 +22,15 @@ public:
 
     Statistics statistics() const;
 
+    /// How many frames took so long, by milliseconds.
+    const std::map<double, std::uint64_t>& counts() const { return counts_; }
+
 private:
     double at_rank(std::uint64_t rank) const;
     double low_fps(int permille) const;
     int count_above(double limit_ms) const;
 
-    std::map<double, std::uint64_t> counts_; ///< how many frames took so long
+    std::map<double, std::uint64_t> counts_;
     std::uint64_t frames_ = 0;
     double last_ms_ = 0.0;
     double change_ms_ = 0.0; ///< sum of |change| from frame to frame

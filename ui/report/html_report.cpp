@@ -1,6 +1,5 @@
 #include "ui/report/html_report.h"
 
-#include "ui/report/clock_rows.h"
 #include "ui/report/contact_sheet.h"
 #include "ui/report/flight_plots.h"
 #include "ui/report/html_style.h"
@@ -10,9 +9,10 @@
 #include "ui/report/several_page.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 namespace octant::ui::report {
@@ -95,7 +95,7 @@ std::string overview(const LoadedRecording& recording) {
     html += tile("Longest", fmt::format("{:.2f}", figures_ms.max_ms), "ms");
     html += tile("1 % low", fmt::format("{:.1f}", figures_ms.low_1pct_fps), "frames/s");
     html += tile("Above 16.67 ms", fmt::format("{}", figures_ms.overruns_16ms), "frames");
-    if (const TargetRange targets = triangle_targets_of(recording.records); targets.moved()) {
+    if (const TargetRange targets = recording.flight.triangle_targets(); targets.moved()) {
         html += tile(
             "Triangle target",
             fmt::format("{:.0f}", targets.mean),
@@ -136,24 +136,33 @@ std::string rows_table(const char* first, const Rows& rows) {
     return card(html + "</tbody></table></div>\n");
 }
 
+/// Those that are set; what is not set follows from the others.
+Rows set_ones(const Rows& settings) {
+    Rows rows;
+    std::ranges::copy_if(settings, std::back_inserter(rows), [](const auto& row) {
+        return row.second != unset_value;
+    });
+    return rows;
+}
+
 Rows result_rows(const LoadedRecording& recording) {
     Rows rows{
         {"state hash", recording.run.state_hash},
         {"picture hash", recording.run.picture_hash},
         {"path offset over the ground (x, y, z), m", recording.run.path_offset}};
     rows.insert(rows.end(), recording.run.facts.begin(), recording.run.facts.end());
-    const Rows clock = clock_rows(recording.records);
+    const Rows clock = recording.flight.clock.rows();
     rows.insert(rows.end(), clock.begin(), clock.end());
-    const Rows link = link_rows(recording.records);
+    const Rows link = recording.flight.link.rows();
     rows.insert(rows.end(), link.begin(), link.end());
     return rows;
 }
 
 std::string plots_html(const LoadedRecording& recording) {
-    const double ceiling_ms = plot_ceiling_ms(recording.records);
+    const double ceiling_ms = plot_ceiling_ms(recording.statistics);
     std::string html = "<div class=\"plots\">\n";
     bool first = true;
-    for (Plot& plot : flight_plots(recording.records, ceiling_ms)) {
+    for (Plot& plot : flight_plots(recording.flight, ceiling_ms)) {
         if (plot.x_label.starts_with("simulated time")) {
             plot.marks = recording.run.legs;
         }
@@ -168,13 +177,12 @@ std::string plots_html(const LoadedRecording& recording) {
     return html + "</p>\n";
 }
 
-std::string overrun_summary(std::span<const Overrun> overruns, int frames) {
-    std::array<int, stage_names.size()> counts{};
-    for (const Overrun& overrun : overruns) {
-        ++counts[overrun.longest_stage];
-    }
-    std::string text =
-        fmt::format("{} of {} frames took longer than 16.67 ms.", overruns.size(), frames);
+std::string overrun_summary(const LoadedRecording& recording) {
+    const auto& counts = recording.flight.slow.above_16_ms();
+    std::string text = fmt::format(
+        "{} of {} frames took longer than 16.67 ms.",
+        recording.statistics.overruns_16ms,
+        recording.statistics.frames);
     for (std::size_t i = 0; i < counts.size(); ++i) {
         if (counts[i] > 0) {
             text += fmt::format(" In {} of them {} took most.", counts[i], stage_names[i]);
@@ -184,7 +192,7 @@ std::string overrun_summary(std::span<const Overrun> overruns, int frames) {
 }
 
 /// The slowest frames with their reasons.
-HtmlTable slowest_table(std::span<const Overrun> slowest) {
+HtmlTable slowest_table(std::span<const Overrun> slowest, bool has_counters) {
     HtmlTable table;
     table.header = {
         "frame",
@@ -195,16 +203,30 @@ HtmlTable slowest_table(std::span<const Overrun> slowest) {
         "grew most over its median",
         "triangles",
         "change"};
+    if (has_counters) {
+        table.header.insert(table.header.end(), {"page faults", "switches", "stolen, ms"});
+        table.note = "Switches: how often another program was given the processor. Stolen: by the "
+                     "host for other machines, in the kernel's steps of 10 ms, of all processors.";
+    }
     for (const Overrun& frame : slowest) {
-        table.rows.push_back(
-            {fmt::format("{}", frame.record.frame),
-             fmt::format("{:.2f}", frame.record.sim_time_s),
-             fmt::format("{:.2f}", frame.record.frame_ms),
-             std::string(stage_names[frame.longest_stage]),
-             fmt::format("{:.2f}", frame.stage_ms[frame.longest_stage]),
-             fmt::format("{} by {:.2f} ms", stage_names[frame.grown_stage], frame.growth_ms),
-             fmt::format("{}", frame.record.terrain_triangles),
-             fmt::format("{:+}", frame.record.triangle_change)});
+        std::vector<std::string> row = {
+            fmt::format("{}", frame.record.frame),
+            fmt::format("{:.2f}", frame.record.sim_time_s),
+            fmt::format("{:.2f}", frame.record.frame_ms),
+            std::string(stage_names[frame.longest_stage]),
+            fmt::format("{:.2f}", frame.stage_ms[frame.longest_stage]),
+            fmt::format("{} by {:.2f} ms", stage_names[frame.grown_stage], frame.growth_ms),
+            fmt::format("{}", frame.record.terrain_triangles),
+            fmt::format("{:+}", frame.record.triangle_change)};
+        if (has_counters) {
+            const FrameCounters& counters = frame.record.counters;
+            row.insert(
+                row.end(),
+                {fmt::format("{}", counters.page_faults),
+                 fmt::format("{}", counters.switches),
+                 fmt::format("{:.0f}", counters.stolen_ms)});
+        }
+        table.rows.push_back(std::move(row));
     }
     return table;
 }
@@ -218,17 +240,11 @@ nearest_picture(std::span<const std::filesystem::path> pictures, int frame) {
 }
 
 std::string slowest_html(const LoadedRecording& recording) {
-    constexpr std::size_t most_rows = 12;
     constexpr std::size_t most_pictures = 4;
     constexpr int widest_px = 320;
-    const auto overruns = overruns_of(recording.records);
-    std::vector<Overrun> slowest = overruns_of(recording.records, 0.0);
-    std::ranges::stable_sort(slowest, [](const Overrun& a, const Overrun& b) {
-        return a.record.frame_ms > b.record.frame_ms;
-    });
-    slowest.resize(std::min(slowest.size(), most_rows));
-    std::string html = "<p>" + overrun_summary(overruns, recording.statistics.frames) + "</p>\n" +
-                       html_of(slowest_table(slowest));
+    const std::vector<Overrun>& slowest = recording.slowest;
+    std::string html = "<p>" + overrun_summary(recording) + "</p>\n" +
+                       html_of(slowest_table(slowest, recording.has_counters));
     if (recording.pictures.empty() || slowest.empty()) {
         return card(html);
     }
@@ -256,7 +272,7 @@ std::string one_html(const LoadedRecording& recording) {
     html += heading("Frame times") + figures_table(recording);
     html += heading("The slowest frames and why") + slowest_html(recording);
     html += heading("Results") + rows_table("Result", result_rows(recording));
-    html += heading("Settings") + rows_table("Setting", recording.run.settings);
+    html += heading("Settings") + rows_table("Setting", set_ones(recording.run.settings));
     return html + heading("Program and machine") + rows_table("Entry", recording.run.machine);
 }
 

@@ -71,6 +71,7 @@ th, td { text-align: left; padding: .32rem .8rem .32rem 0; border-bottom: 1px so
 th { color: var(--soft); font-weight: 600; }
 tbody tr:last-child td { border-bottom: 0; }
 td:first-child:not(.number) { min-width: 9rem; width: 22%; }
+
 .number { text-align: right; padding-right: 1.6rem; font-variant-numeric: tabular-nums; white-space: nowrap; }
 table.sortable th { cursor: pointer; white-space: normal; }
 table.sortable th[aria-sort=ascending]::after { content: " \25B2"; }

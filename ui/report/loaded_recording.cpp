@@ -3,7 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/report/frame_csv.h"
-#include "ui/report/frame_times.h"
+#include "ui/report/kernel_counters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,9 +81,14 @@ LoadedRecording load_recording(const fs::path& folder) {
         (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();
     recording.run = read_run_file(folder / "run.json");
     if (fs::exists(folder / "frames.csv", ignored) || recording.run.ended) {
-        recording.records = read_frame_csv(folder / "frames.csv").records;
+        FrameReader rows(folder / "frames.csv");
+        while (const auto row = rows.next()) {
+            recording.flight.add(*row);
+        }
     }
-    recording.statistics = statistics_of(recording.records);
+    recording.statistics = recording.flight.times().statistics();
+    recording.slowest = recording.flight.slow.slowest();
+    recording.has_counters = read_counters(folder / counters_name, recording.slowest);
     recording.ended_early = !recording.run.ended;
     recording.disagreement = disagreement_of(recording.run, recording.statistics);
     recording.pictures = pictures_in(folder);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ui/report/flight_digest.h"
 #include "ui/report/frame_record.h"
 #include "ui/report/run_file.h"
 #include "ui/report/statistics.h"
@@ -17,8 +18,12 @@ struct LoadedRecording {
     std::filesystem::path folder;
     std::string name; ///< the folder's own name
     RunFile run;
-    std::vector<FrameRecord> records;
+    FlightDigest flight;
     Statistics statistics;
+    /// The slowest frames, the slowest first, with what the kernel counted where the recording has
+    /// that.
+    std::vector<Overrun> slowest;
+    bool has_counters = false;
     bool ended_early = false; ///< killed: no summary in run.json
     /// What the summary in run.json says otherwise than the rows do: "frames: 230 in run.json, 120
     /// by its rows; ..."; empty where they agree or where there is no summary.

@@ -1,19 +1,22 @@
 #include "ui/report/overruns.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace octant::ui::report {
 
 namespace {
 
+/// With the decimals of frames.csv, so that there are not many different ones.
 std::array<double, 5> stages_of(const FrameRecord& record) {
+    constexpr double decimals = 1e4;
     const double timed_ms = record.sim_ms + record.plan_ms + record.draw_ms + record.read_ms;
     return {
         record.sim_ms,
         record.plan_ms,
         record.draw_ms,
         record.read_ms,
-        std::max(0.0, record.frame_ms - timed_ms)};
+        std::round(std::max(0.0, record.frame_ms - timed_ms) * decimals) / decimals};
 }
 
 std::size_t index_of_greatest(const std::array<double, 5>& values) {
@@ -21,38 +24,42 @@ std::size_t index_of_greatest(const std::array<double, 5>& values) {
         std::max_element(values.begin(), values.end()) - values.begin());
 }
 
-std::array<double, 5> stage_medians(std::span<const FrameRecord> records) {
-    std::array<std::vector<double>, 5> columns;
-    for (const FrameRecord& record : records) {
-        const auto stage_ms = stages_of(record);
-        for (std::size_t i = 0; i < columns.size() && !record.warm_up; ++i) {
-            columns[i].push_back(stage_ms[i]);
-        }
-    }
-    std::array<double, 5> medians{};
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-        std::sort(columns[i].begin(), columns[i].end());
-        medians[i] = nearest_rank(columns[i], 500);
-    }
-    return medians;
-}
-
 } // namespace
 
-std::vector<Overrun> overruns_of(std::span<const FrameRecord> records, double limit_ms) {
-    const auto medians = stage_medians(records);
+void SlowFrames::add(const FrameRecord& record) {
+    if (record.warm_up) {
+        return;
+    }
+    const std::array<double, 5> stage_ms = stages_of(record);
+    for (std::size_t i = 0; i < stages_.size(); ++i) {
+        stages_[i].add(stage_ms[i]);
+    }
+    if (record.frame_ms > overrun_16_ms) {
+        ++above_16_ms_[index_of_greatest(stage_ms)];
+    }
+    const auto place = std::ranges::find_if(
+        slowest_, [&](const FrameRecord& kept) { return kept.frame_ms < record.frame_ms; });
+    if (place == slowest_.end() && slowest_.size() == most_kept) {
+        return;
+    }
+    slowest_.insert(place, record);
+    slowest_.resize(std::min(slowest_.size(), most_kept));
+}
+
+std::vector<Overrun> SlowFrames::slowest() const {
+    std::array<double, 5> medians_ms{};
+    std::ranges::transform(stages_, medians_ms.begin(), [](const FrameTimes& stage) {
+        return stage.statistics().p50_ms;
+    });
     std::vector<Overrun> overruns;
-    for (const FrameRecord& record : records) {
-        if (record.warm_up || record.frame_ms <= limit_ms) {
-            continue;
-        }
+    for (const FrameRecord& record : slowest_) {
         Overrun overrun;
         overrun.record = record;
         overrun.stage_ms = stages_of(record);
         overrun.longest_stage = index_of_greatest(overrun.stage_ms);
         std::array<double, 5> growth = overrun.stage_ms;
         for (std::size_t i = 0; i < growth.size(); ++i) {
-            growth[i] -= medians[i];
+            growth[i] -= medians_ms[i];
         }
         overrun.grown_stage = index_of_greatest(growth);
         overrun.growth_ms = growth[overrun.grown_stage];

@@ -1,10 +1,11 @@
 #pragma once
 
 #include "ui/report/frame_record.h"
+#include "ui/report/frame_times.h"
 #include "ui/report/statistics.h"
 
 #include <array>
-#include <span>
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -23,8 +24,23 @@ struct Overrun {
     double growth_ms = 0.0;           ///< by that much
 };
 
-/// The counted frames above a time in flight order.
-std::vector<Overrun>
-overruns_of(std::span<const FrameRecord> records, double limit_ms = overrun_16_ms);
+/// The slowest frames of a flight, those of its warm-up left out, in constant memory.
+class SlowFrames {
+public:
+    static constexpr std::size_t most_kept = 12;
+
+    void add(const FrameRecord& record);
+
+    /// At most most_kept, the slowest first.
+    std::vector<Overrun> slowest() const;
+
+    /// Frames above overrun_16_ms by the stage that took most of each.
+    const std::array<int, 5>& above_16_ms() const { return above_16_ms_; }
+
+private:
+    std::vector<FrameRecord> slowest_;
+    std::array<FrameTimes, 5> stages_;
+    std::array<int, 5> above_16_ms_{};
+};
 
 } // namespace octant::ui::report

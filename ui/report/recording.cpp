@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "ui/report/frame_csv.h"
+#include "ui/report/kernel_counters.h"
 #include "ui/report/png_file.h"
 #include "ui/report/recording_names.h"
 #include "ui/report/timing_files.h"
@@ -89,11 +90,13 @@ Recording::Recording(fs::path folder, RunInfo info, int flush_every_frames)
     , flush_every_frames_(flush_every_frames)
     , frames_file_(begun(folder_, info_))
     , mangohud_file_(folder_ / "mangohud.csv")
-    , trace_file_(folder_ / "trace.json") {
+    , trace_file_(folder_ / "trace.json")
+    , counters_file_(folder_ / counters_name) {
     assert(flush_every_frames >= 1);
     frames_file_.append(frame_csv_header());
     mangohud_file_.append(mangohud_head(info_.machine, info_.device));
     trace_file_.append(trace_head());
+    counters_file_.append(counters_header());
     flush();
 }
 
@@ -101,7 +104,19 @@ void Recording::flush() {
     frames_file_.flush();
     mangohud_file_.flush();
     trace_file_.flush();
+    counters_file_.flush();
     unflushed_frames_ = 0;
+}
+
+/// Every frame at first, then only those that were slow: trace viewers take no more.
+void Recording::add_to_trace(const FrameRecord& record) {
+    constexpr std::size_t most_bytes = std::size_t{48} << 20;
+    constexpr std::size_t most_bytes_of_slow_ones = std::size_t{64} << 20;
+    if (trace_bytes_ < (record.overrun != 0 ? most_bytes_of_slow_ones : most_bytes)) {
+        const std::string events = trace_events(record);
+        trace_bytes_ += events.size();
+        trace_file_.append(events);
+    }
 }
 
 void Recording::add(const FrameRecord& record) {
@@ -110,7 +125,8 @@ void Recording::add(const FrameRecord& record) {
     times_.add(written);
     frames_file_.append(frame_csv_line(record));
     mangohud_file_.append(mangohud_line(written));
-    trace_file_.append(trace_events(written));
+    add_to_trace(written);
+    counters_file_.append(counters_line(written));
     const bool many = ++unflushed_frames_ >= flush_every_frames_;
     if (many || record.wall_s - flushed_wall_s_ >= flush_every_s) {
         flush();

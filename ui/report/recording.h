@@ -8,15 +8,17 @@
 #include "ui/report/run_file.h"
 #include "ui/report/statistics.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
 namespace octant::ui::report {
 
-/// A recording being written: run.json at once; frames.csv, mangohud.csv and trace.json as the
-/// flight goes, so that it takes no more memory the longer it is; the summary at the end. A kill
-/// loses the frames of at most half a second; load_recording works on what is left. Nobody else
-/// can record into the folder meanwhile. Reads no clock: time comes with the records.
+/// A recording being written: run.json at once; frames.csv, mangohud.csv, trace.json
+/// and counters.csv as the flight goes, so that it takes no more memory the longer it is; the
+/// summary at the end. A kill loses the frames of at most half a second; load_recording works on
+/// what is left. Nobody else can record into the folder meanwhile. Reads no clock: time comes with
+/// the records.
 class Recording {
 public:
     /// Makes `folder` and its parents. In a folder that is a recording already its files are
@@ -47,6 +49,7 @@ public:
 
 private:
     void flush();
+    void add_to_trace(const FrameRecord& record);
 
     std::filesystem::path folder_;
     FolderLock lock_;
@@ -55,6 +58,8 @@ private:
     GrowingFile frames_file_;
     GrowingFile mangohud_file_;
     GrowingFile trace_file_;
+    GrowingFile counters_file_;
+    std::size_t trace_bytes_ = 0;
     FrameTimes times_;
     int unflushed_frames_ = 0;
     double flushed_wall_s_ = 0.0;

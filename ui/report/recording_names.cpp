@@ -2,6 +2,7 @@
 
 #include "sim/base/output_file.h"
 #include "ui/report/folder_lock.h"
+#include "ui/report/kernel_counters.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +10,7 @@
 namespace octant::ui::report {
 
 bool is_recording_name(std::string_view name) {
-    constexpr std::array<std::string_view, 11> names{
+    constexpr std::array<std::string_view, 12> names{
         lock_name,
         "inputs",
         "run.json",
@@ -19,6 +20,7 @@ bool is_recording_name(std::string_view name) {
         "track.acmi",
         "track.csv",
         "flight.csv",
+        counters_name,
         "packets.bin",
         "report.html"};
     return is_unfinished(name) || (name.starts_with("picture-") && name.ends_with(".png")) ||

@@ -62,6 +62,7 @@ Json start_json(const RunInfo& info) {
         {"machine", machine_json(info)}};
     const glm::dvec3& offset_m = info.path_offset_m;
     json["path_offset_m"] = {offset_m.x, offset_m.y, offset_m.z};
+    json["rate_hz"] = info.rate_hz;
     json["legs"] = Json::array();
     for (const PlotMark& leg : info.legs) {
         json["legs"].push_back({{"time_s", leg.x}, {"label", leg.name}});

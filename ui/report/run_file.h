@@ -18,6 +18,9 @@ namespace octant::ui::report {
 /// Names and values in the order to show.
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
+/// What Rows have of a setting that is not set.
+inline constexpr const char* unset_value = "null";
+
 /// Name of the fact that a recording of a window has: its pictures followed the clock.
 inline constexpr const char* flown_fact = "flown";
 
@@ -29,6 +32,7 @@ struct RunInfo {
     std::string commit;
     std::string program_hash;      ///< of the program's file
     std::string device;            ///< that draws; "gl_renderer" in the file
+    double rate_hz = 0.0;          ///< pictures a simulated second
     glm::dvec3 path_offset_m{0.0}; ///< how the path was moved to stand over the ground
     MachineInfo machine;
     Rows facts;                     ///< anything else the report should show

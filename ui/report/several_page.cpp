@@ -109,10 +109,8 @@ std::string small_multiples(Recordings recordings) {
     double begin_s = 0.0;
     double end_s = 0.0;
     for (const LoadedRecording& recording : recordings) {
-        if (!recording.records.empty()) {
-            begin_s = std::min(begin_s, recording.records.front().sim_time_s);
-            end_s = std::max(end_s, recording.records.back().sim_time_s);
-        }
+        begin_s = std::min(begin_s, recording.flight.begin_s());
+        end_s = std::max(end_s, recording.flight.end_s());
     }
     std::string html = "<div class=\"small-plots\">\n";
     for (const LoadedRecording& recording : recordings) {
@@ -120,7 +118,7 @@ std::string small_multiples(Recordings recordings) {
             label_of(recordings, recording), "simulated time, s", "ms", {}, {}, 0.0, ceiling_ms};
         plot.x_min = begin_s;
         plot.x_max = end_s;
-        PlotSeries curve = frame_time_curve(recording.records, pieces);
+        PlotSeries curve = recording.flight.frame_ms.series(pieces);
         curve.colour = run_colours.front();
         plot.series.push_back(std::move(curve));
         plot.levels = {{"16.67 ms", overrun_16_ms}};
@@ -162,16 +160,20 @@ std::string pictures(Recordings recordings) {
 /// Settings, program and machine where all recordings have the same.
 std::string common_rows(Recordings recordings) {
     const auto table = [&](const char* title, auto rows_of) {
-        HtmlTable common{title, {"name", "value"}, {}, ""};
+        std::string html = fmt::format(
+            "<div class=\"card\">\n<h3>{}</h3>\n<div class=\"scroll\"><table>\n<tbody>\n", title);
         for (const auto& [name, value] : rows_of(recordings.front())) {
             const bool same = std::ranges::all_of(recordings, [&](const LoadedRecording& each) {
                 return value_of(rows_of(each), name) == value;
             });
-            if (same) {
-                common.rows.push_back({name, value});
+            if (same && value != unset_value) {
+                html += fmt::format(
+                    "<tr><td>{}</td><td><code>{}</code></td></tr>\n",
+                    escaped(name),
+                    escaped(value));
             }
         }
-        return "<div class=\"card\">" + html_of(common) + "</div>\n";
+        return html + "</tbody></table></div></div>\n";
     };
     return "<h2>What all have in common</h2>\n" +
            table("Settings", [](const LoadedRecording& each) { return each.run.settings; }) +

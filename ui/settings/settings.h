@@ -49,6 +49,8 @@ struct TimeSettings {
     bool frame_per_sample = false;
     /// How long after the path's own start the flight begins.
     double start_s = 0.0;
+    /// Which part of the frames is drawn, as "K/N"; those before it are flown all the same.
+    std::optional<std::string> part;
     std::optional<int> frames;
     std::optional<double> seconds;
     int warm_up = 10;

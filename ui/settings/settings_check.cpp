@@ -4,6 +4,7 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "sim/sun_position.h"
+#include "ui/settings/part_text.h"
 #include "ui/settings/settings_fields.h"
 #include "ui/settings/terrain_name.h"
 
@@ -38,6 +39,23 @@ void check_time(const scene::AirSettings& air) {
         throw Error(fmt::format(
             "--time: expected a day and an hour as YYYY-MM-DDTHH:MM, got '{}'",
             printable(*air.time)));
+    }
+}
+
+void check_part(const RunSettings& settings) {
+    if (!settings.time.part) {
+        return;
+    }
+    if (!part_from_text(*settings.time.part)) {
+        throw Error(fmt::format(
+            "--part: expected K/N, the Kth of N parts, got '{}'", printable(*settings.time.part)));
+    }
+    if (settings.adapt.terrain || settings.adapt.shading) {
+        throw Error("--part: expected --adapt none beside it, as what follows the clock depends on "
+                    "frames that another part draws, got another");
+    }
+    if (settings.path.name == live_path) {
+        throw Error("--part: expected a path or a track, got what others fly");
     }
 }
 
@@ -126,6 +144,7 @@ void check_settings(const RunSettings& settings) {
     if (settings.view.inset == scene::View::Free && settings.view.kind != scene::View::Free) {
         throw Error("--inset free: expected --view free beside it, got another view");
     }
+    check_part(settings);
     if (settings.adapt.terrain) {
         check_terrain_adaptation(settings.ground, settings.path.terrain);
     }

@@ -17,6 +17,12 @@ inline constexpr std::tuple time_rows{
     setting<&RunSettings::time, &TimeSettings::start_s>(
         {"start", "S", "begin so far into the path", 0.0, 1e6},
         {.group = SettingGroup::Time, .change = SettingsChange::Flight}),
+    setting<&RunSettings::time, &TimeSettings::part>(
+        {"part",
+         "K/N",
+         "draw only the Kth of N parts of the frames, and the one before it, each as it is in the "
+         "whole flight [all]"},
+        {.group = SettingGroup::Time, .change = SettingsChange::Recording}),
     setting<&RunSettings::time, &TimeSettings::frames>(
         {"frames", "N", "stop after so many frames [the whole path]", 1, 100000000},
         {.group = SettingGroup::Time, .change = SettingsChange::Recording, .start = 600.0}),

@@ -15,6 +15,7 @@ struct EngineOptions {
     bool share_cores = false; ///< several at once on a machine, whatever that does to frame times
     int jobs = 0;             ///< at once: on a machine, of an array; 0 = as many as fit
     int tasks = 0;            ///< of a job array; 0 = one a run, at most 1000
+    bool videos = false;      ///< of each flight, as SweepFolder::video has it
     int minutes = 60;         ///< that a task of a job array may take
     std::vector<std::string> sbatch_options; ///< further ones, "--partition=long"
     std::filesystem::path hosts;             ///< GNU parallel's file of machines

@@ -13,12 +13,11 @@ constexpr int most_tasks = 1000; // Slurm's MaxArraySize is 1001 where nobody ch
 /// The command that flies the run whose name is in the shell's `variable`.
 std::string fly_command(const EngineOptions& options, const std::string& variable) {
     return fmt::format(
-        "{} fly --settings \"jobs/{}.json\" --record \"runs/{}\" --if-new --quiet "
-        ">\"logs/{}.log\" 2>&1",
+        "{0} fly --settings \"jobs/{1}.json\" --record \"runs/{1}\" --if-new --quiet{2} "
+        ">\"logs/{1}.log\" 2>&1",
         shell_word(options.program),
         variable,
-        variable,
-        variable);
+        options.videos ? fmt::format(" --video \"videos/{}.mp4\"", variable) : std::string());
 }
 
 } // namespace
@@ -89,7 +88,8 @@ parallel_script(const Sweep& sweep, const SweepFolder& folder, const EngineOptio
         "# Flies the runs of the sweep {} that todo.txt names on the machines of a file.\n",
         sweep.name);
     text += fmt::format("cd {} || exit 2\n", shell_word(folder.path().string()));
-    text += "exec parallel --will-cite --retries 3 --joblog logs/parallel.log --workdir \"$PWD\"";
+    text += "exec parallel --will-cite --retries 3 --joblog logs/parallel.log --workdir \"$PWD\""
+            " --termseq TERM,20000,KILL,25";
     text += fmt::format(" --timeout {}", 60 * options.minutes);
     if (options.jobs > 0) {
         text += fmt::format(" --jobs {}", options.jobs);

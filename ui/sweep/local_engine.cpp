@@ -89,16 +89,19 @@ private:
 };
 
 void LocalEngine::start(const Run& run) {
-    const pid_t process = started(
-        {options_.program,
-         "fly",
-         "--settings",
-         folder_.job(run.name).string(),
-         "--record",
-         folder_.recording(run.name).string(),
-         "--if-new",
-         "--quiet"},
-        folder_.log(run.name));
+    std::vector<std::string> words = {
+        options_.program,
+        "fly",
+        "--settings",
+        folder_.job(run.name).string(),
+        "--record",
+        folder_.recording(run.name).string(),
+        "--if-new",
+        "--quiet"};
+    if (options_.videos) {
+        words.insert(words.end(), {"--video", folder_.video(run.name).string()});
+    }
+    const pid_t process = started(words, folder_.log(run.name));
     flying_.emplace(process, run.name);
 }
 

@@ -8,7 +8,9 @@
 #include "ui/sweep/engine_scripts.h"
 
 #include <chrono>
+#include <csignal>
 #include <fmt/format.h>
+#include <functional>
 #include <thread>
 #include <utility>
 
@@ -18,15 +20,30 @@ namespace {
 
 using report::ChildProgram;
 
-/// Runs a program that must be there and waits; gives its output. What it says when it fails is a
+/// Runs a program that must be there and waits; gives its output. When a signal came, `stop` is
+/// called once with the program, and it is waited for all the same. What it says when it fails is a
 /// note: which runs are done is seen in their folders.
-std::string run_engine(const std::vector<std::string>& words, bool quiet) {
+std::string run_engine(
+    const std::vector<std::string>& words,
+    bool quiet,
+    const std::function<void(ChildProgram&)>& stop) {
+    constexpr auto look_every = std::chrono::milliseconds(50);
     auto child = ChildProgram::start(words);
     if (!child) {
         throw Error(fmt::format("expected the program {}, which is not installed", words.front()));
     }
+    bool told = false;
+    while (child->is_running()) {
+        if (base::StopSignals::came() && !std::exchange(told, true)) {
+            base::say(
+                quiet,
+                fmt::format("note: {}: ending {}", base::StopSignals::name(), words.front()));
+            stop(*child);
+        }
+        std::this_thread::sleep_for(look_every);
+    }
     const report::ProgramEnding ending = child->finish();
-    if (!ending.succeeded) {
+    if (!ending.succeeded && !told) {
         base::say(quiet, fmt::format("note: {}: {}", words.front(), ending.last_complaint));
     }
     return ending.output;
@@ -47,7 +64,7 @@ std::string job_in(const std::string& text) {
 /// when `sbatch --wait` takes the job for ended.
 void wait_for_queue(const std::string& job) {
     constexpr auto look_every = std::chrono::seconds(2);
-    while (!job.empty() && !base::StopSignals::came()) {
+    while (!job.empty()) {
         auto child = ChildProgram::start({"squeue", "--noheader", "--jobs=" + job});
         const report::ProgramEnding ending = child ? child->finish() : report::ProgramEnding();
         if (!ending.succeeded || ending.output.empty()) {
@@ -77,8 +94,20 @@ public:
     void fly(std::span<const std::size_t> runs) override {
         base::say(
             options_.quiet, fmt::format("{} flights by sbatch {}", runs.size(), script().string()));
+        // Tasks that wait are taken out of the queue; those that run end their flights in order.
+        const auto cancel = [](ChildProgram& sbatch) {
+            const std::string job = job_in(sbatch.output());
+            auto scancel = job.empty() ? std::nullopt : ChildProgram::start({"scancel", job});
+            if (scancel) {
+                scancel->finish();
+            } else {
+                sbatch.signal(SIGTERM);
+            }
+        };
         wait_for_queue(job_in(run_engine(
-            {"sbatch", "--wait", "--array=" + array_of(runs), script().string()}, options_.quiet)));
+            {"sbatch", "--wait", "--array=" + array_of(runs), script().string()},
+            options_.quiet,
+            cancel)));
     }
 
     std::string manner() const override {
@@ -116,7 +145,13 @@ public:
         }
         write_file(folder_.path() / "todo.txt", names);
         base::say(options_.quiet, fmt::format("{} flights by {}", runs.size(), script().string()));
-        run_engine({"bash", script().string()}, options_.quiet);
+        // The first signal: no more flights; the second: those that are flown end in order.
+        run_engine({"bash", script().string()}, options_.quiet, [](ChildProgram& parallel) {
+            constexpr auto between = std::chrono::milliseconds(500);
+            parallel.signal(SIGTERM);
+            std::this_thread::sleep_for(between);
+            parallel.signal(SIGTERM);
+        });
     }
 
     std::string manner() const override {

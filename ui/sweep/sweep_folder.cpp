@@ -47,12 +47,43 @@ std::string key_of(const Run& run) {
         .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
+/// Whether a file holds the settings of a run.
+bool is_job(const fs::path& file) {
+    try {
+        settings::read_settings(file);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+/// Whether a folder is empty, or that of a sweep: its jobs.txt names settings of runs that lie in
+/// it. What was killed before it had one has nothing but jobs/ and other empty folders.
+bool is_sweeps(const fs::path& folder) {
+    std::error_code code;
+    const fs::path list = folder / "jobs.txt";
+    if (!fs::is_regular_file(list, code)) {
+        return std::ranges::all_of(fs::directory_iterator(folder, code), [&](const auto& entry) {
+            const std::string name = entry.path().filename().string();
+            return name == "jobs" || ((name == "runs" || name == "logs") && entry.is_directory() &&
+                                      fs::is_empty(entry.path(), code));
+        });
+    }
+    const std::string text = read_file(list);
+    const auto names = split_lines(text);
+    const auto job = [&](std::string_view name) {
+        return folder / "jobs" / (std::string(name) + ".json");
+    };
+    return !names.empty() && is_job(job(names.front())) &&
+           std::ranges::all_of(
+               names, [&](std::string_view name) { return fs::is_regular_file(job(name), code); });
+}
+
 } // namespace
 
 void SweepFolder::prepare(const Sweep& sweep) const {
     std::error_code code;
-    const bool known = fs::is_regular_file(folder_ / "jobs.txt", code);
-    if (fs::exists(folder_, code) && !known && !fs::is_empty(folder_, code)) {
+    if (fs::exists(folder_, code) && !is_sweeps(folder_)) {
         error_in(folder_, "expected an empty folder or that of a sweep, got another");
     }
     for (const char* part : {"jobs", "runs", "logs"}) {
@@ -68,13 +99,16 @@ void SweepFolder::prepare(const Sweep& sweep) const {
     write_file(folder_ / "jobs.txt", names);
 }
 
-RunResult result_of(const SweepFolder& folder, const Run& run) {
+RunResult result_of(const SweepFolder& folder, const Run& run, bool with_video) {
     RunResult result;
     result.name = run.name;
     const fs::path recording = folder.recording(run.name);
     try {
         result.done = flight::is_recorded(
-            {recording, std::nullopt, std::nullopt}, world::with_absolute_files(run.settings));
+            {recording,
+             with_video ? std::optional(folder.video(run.name)) : std::nullopt,
+             std::nullopt},
+            world::with_absolute_files(run.settings));
     } catch (const Error& fault) { // a file of the run is missing: its log says so too
         result.fault = fault.what();
         return result;

@@ -15,6 +15,7 @@ namespace octant::ui::sweep {
 ///   jobs/NAME.json      the settings of a run
 ///   runs/NAME/          its recording
 ///   logs/NAME.log       what it said
+///   videos/NAME.mp4     a video of it, where one was asked for
 ///   sweep.csv           one line a run: how it ended, where, figures, hashes
 ///   report.html         all runs
 class SweepFolder {
@@ -32,6 +33,10 @@ public:
 
     std::filesystem::path log(const std::string& run) const {
         return folder_ / "logs" / (run + ".log");
+    }
+
+    std::filesystem::path video(const std::string& run) const {
+        return folder_ / "videos" / (run + ".mp4");
     }
 
     /// Makes the folder and writes jobs.txt and jobs/. Throws Error, for a folder with other things
@@ -54,8 +59,9 @@ struct RunResult {
 };
 
 /// Looks at a run's recording: it is done when it has its summary, was not stopped, and was flown
-/// with these settings and input files by this very program file.
-RunResult result_of(const SweepFolder& folder, const Run& run);
+/// with these settings and input files by this very program file, and has its video where there is
+/// to be one.
+RunResult result_of(const SweepFolder& folder, const Run& run, bool with_video = false);
 
 /// Runs that differ in nothing but their repeats and do not show the same though no clock decides
 /// what they show: one line each, which names both runs and their machines.

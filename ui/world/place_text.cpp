@@ -1,8 +1,13 @@
 #include "ui/world/place_text.h"
 
 #include "flightpaths/local_tangent.h"
+#include "models/heights/height_source.h"
+#include "models/heights/map_inputs.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "ui/settings/terrain_name.h"
+#include "ui/world/terrain_file.h"
+#include "visuals/groundfile/ground_file.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -35,37 +40,69 @@ std::optional<Part> part_of(std::string_view text, std::string_view letters) {
     return part;
 }
 
-} // namespace
+/// X,Y or LAT,LON as they stand in the text.
+struct Pair {
+    double first = 0.0;
+    double second = 0.0;
+    bool lettered = false; ///< so these are degrees
+};
 
-glm::dvec2 place_from_text(
-    const std::string& text,
-    const std::optional<models::heights::GeoPlace>& map_place,
-    const glm::dvec2& half_extent_m) {
+Pair pair_of(const std::string& text) {
     const auto fields = split_fields(text, ',');
     const auto first = fields.size() == 2 ? part_of(fields[0], "NS") : std::nullopt;
     const auto second = fields.size() == 2 ? part_of(fields[1], "EW") : std::nullopt;
     if (!first || !second || (first->letter == '\0') != (second->letter == '\0')) {
         refuse("X,Y in metres or LAT,LON in degrees", text);
     }
-    const bool lettered = first->letter != '\0';
+    return {first->value, second->value, first->letter != '\0'};
+}
+
+std::optional<models::heights::GeoPlace> place_of(const settings::PathSettings& settings) {
+    const std::string& terrain = settings.terrain;
+    if (settings::is_built_in_ground(terrain)) {
+        return std::nullopt;
+    }
+    if (settings::is_imported_ground(terrain)) {
+        return visuals::groundfile::open_ground(terrain).facts().place;
+    }
+    return models::heights::HeightSource(
+               models::heights::map_inputs({terrain}), import_options(settings))
+        .place();
+}
+
+} // namespace
+
+void check_place(const settings::PathSettings& settings) {
+    if (settings.place && pair_of(*settings.place).lettered) {
+        constexpr glm::dvec2 any_extent_m(1.0);
+        place_from_text(*settings.place, place_of(settings), any_extent_m);
+    }
+}
+
+glm::dvec2 place_from_text(
+    const std::string& text,
+    const std::optional<models::heights::GeoPlace>& map_place,
+    const glm::dvec2& half_extent_m) {
+    const Pair pair = pair_of(text);
+    const glm::dvec2 as_metres(pair.first, pair.second);
     if (!map_place) {
-        if (lettered) {
+        if (pair.lettered) {
             refuse("X,Y in metres on a map without a place on the earth", text);
         }
-        return {first->value, second->value};
+        return as_metres;
     }
-    const bool can_be_degrees = std::abs(first->value) <= 90.0 && std::abs(second->value) <= 360.0;
+    const bool can_be_degrees = std::abs(pair.first) <= 90.0 && std::abs(pair.second) <= 360.0;
     if (!can_be_degrees) {
-        if (lettered) {
+        if (pair.lettered) {
             refuse("latitude up to 90 and longitude up to 360 degrees", text);
         }
-        return {first->value, second->value};
+        return as_metres;
     }
     const glm::dvec2 local_m = flightpaths::local_from_geo(
-        {map_place->latitude_deg, map_place->longitude_deg}, first->value, second->value);
+        {map_place->latitude_deg, map_place->longitude_deg}, pair.first, pair.second);
     const bool on_map =
         std::abs(local_m.x) <= half_extent_m.x && std::abs(local_m.y) <= half_extent_m.y;
-    return lettered || on_map ? local_m : glm::dvec2(first->value, second->value);
+    return pair.lettered || on_map ? local_m : as_metres;
 }
 
 } // namespace octant::ui::world

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/heights/height_field.h"
+#include "ui/settings/settings.h"
 
 #include <glm/vec2.hpp>
 
@@ -17,5 +18,9 @@ glm::dvec2 place_from_text(
     const std::string& text,
     const std::optional<models::heights::GeoPlace>& map_place,
     const glm::dvec2& half_extent_m);
+
+/// Before anything is loaded: throws Error where place_from_text would for this ground whatever its
+/// extent. Reads no more of a map than where it lies.
+void check_place(const settings::PathSettings& settings);
 
 } // namespace octant::ui::world

@@ -254,6 +254,7 @@ scene::FixedPoints fixed_points(const settings::RunSettings& settings, const Wor
 
 World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     settings::check_settings(settings);
+    check_place(settings.path);
     LoadedAircraft aircraft = load_aircraft(settings);
     const bool is_live = settings.path.name == settings::live_path;
     std::optional<Script> script = is_live ? std::nullopt : std::optional(load_script(settings));

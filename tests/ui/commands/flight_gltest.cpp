@@ -2,7 +2,7 @@
 #include "sim/base/text_file.h"
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/commands/printed_json.h"
-#include "ui/report/loaded_recording.h"
+#include "ui/report/frame_csv.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -126,8 +126,8 @@ TEST_CASE("a recorded track can be flown and gives the flight it came from") {
          "--frame-per-sample",
          "--record",
          (folder / "again").string()});
-    const auto first = ui::report::load_recording(folder / "first").records;
-    const auto again = ui::report::load_recording(folder / "again").records;
+    const auto first = ui::report::read_frame_csv(folder / "first/frames.csv").records;
+    const auto again = ui::report::read_frame_csv(folder / "again/frames.csv").records;
     REQUIRE(first.size() == 12);
     REQUIRE(again.size() == 12);
     for (std::size_t i = 0; i < again.size(); ++i) {

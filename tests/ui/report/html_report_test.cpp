@@ -150,7 +150,8 @@ TEST_CASE("a killed and noisy flight, a flight without frames and a bad picture 
     CHECK_THAT(page, Contains("<span class=\"badge bad\">noisy</span>"));
     CHECK_THAT(page, Contains("Other programs used 50.0 %"));
     CHECK_THAT(page, Contains("picture-00000.png: expected a PNG picture"));
-    recording.records.clear();
+    recording.flight = {};
+    recording.slowest.clear();
     recording.statistics = {};
     page = html_report(std::vector{recording});
     CHECK_THAT(page, Contains("no frames"));
@@ -179,17 +180,18 @@ TEST_CASE("a flight whose triangle target moved shows its course and its stress"
         records.back().triangle_target = frame < 2 ? 90 : 100 + 10 * frame; // the first two warm up
         records.back().stress = frame < 2 ? std::nan("") : 0.8;
     }
-    CHECK(triangle_targets_of(records).least == 120);
-    CHECK(triangle_targets_of(records).greatest == 150);
-    CHECK(triangle_targets_of(records).mean == 135.0);
-    const auto plots = flight_plots(records, plot_ceiling_ms(records));
+    const FlightDigest flight = digest_of(records);
+    CHECK(flight.triangle_targets().least == 120);
+    CHECK(flight.triangle_targets().greatest == 150);
+    CHECK(flight.triangle_targets().mean == 135.0);
+    const auto plots = flight_plots(flight, 20.0);
     REQUIRE(plots.size() == 7);
     CHECK(plots[5].title == "Triangle target");
     CHECK(plots[5].series[0].y == std::vector<double>{120.0, 130.0, 140.0, 150.0});
     CHECK(plots[6].title == "Stress");
     LoadedRecording recording = made_up_recording(scratch / "one", "t", 5.0);
     CHECK_THAT(html_report(std::vector{recording}), !Contains("<dt>Triangle target</dt>"));
-    recording.records = records;
+    recording.flight = flight;
     CHECK_THAT(
         html_report(std::vector{recording}),
         Contains("<dt>Triangle target</dt><dd>135 <small>mean of 120 to 150</small>"));
@@ -200,7 +202,7 @@ TEST_CASE("a long flight is thinned without losing its peak") {
     for (int frame = 0; frame < 50'000; ++frame) {
         records.push_back(made_up_frame(frame, frame == 33'333 ? 20.0 : 5.0));
     }
-    const auto plots = flight_plots(records, plot_ceiling_ms(records));
+    const auto plots = flight_plots(digest_of(records), 30.0);
     REQUIRE(plots.size() == 5);
     const PlotSeries& times = plots[0].series[1];
     CHECK(times.x.size() < 3000);
@@ -220,6 +222,40 @@ TEST_CASE("one stray frame does not flatten a flight's plots") {
     for (int frame = 0; frame < 1000; ++frame) {
         records.push_back(made_up_frame(frame, frame == 500 ? 996.5 : 16.5));
     }
-    CHECK(plot_ceiling_ms(records) == Approx(1.05 * 2.5 * 20.0));
+    CHECK(plot_ceiling_ms(statistics_of(records)) == Approx(1.05 * 2.5 * 20.0));
     CHECK(plot_ceiling_ms({}) == Approx(1.05 * 18.0));
+}
+
+TEST_CASE("a curve keeps every peak in the memory of a plot") {
+    Curve curve;
+    for (int i = 0; i < 1'000'000; ++i) {
+        curve.add(i, i == 777'777 ? 9.0 : i == 3 ? -9.0 : i % 2);
+    }
+    const PlotSeries whole = curve.series();
+    CHECK(whole.x.size() <= 2 * Curve::most_pieces);
+    CHECK(std::ranges::is_sorted(whole.x));
+    CHECK(*std::ranges::max_element(whole.y) == 9.0);
+    CHECK(*std::ranges::min_element(whole.y) == -9.0);
+    const PlotSeries few = curve.series(10);
+    CHECK(few.x.size() <= 20);
+    CHECK(*std::ranges::max_element(few.y) == 9.0);
+    Curve gaps;
+    gaps.add(0.0, std::nan(""));
+    gaps.add(1.0, 2.0);
+    CHECK(gaps.series(1).y == std::vector<double>{2.0});
+    CHECK(std::isnan(gaps.series().y.front()));
+}
+
+TEST_CASE("settings that are not set are not shown, and counters are where there are some") {
+    const ScratchFolder scratch;
+    LoadedRecording recording = made_up_recording(scratch / "one", "t", 5.0);
+    CHECK(recording.has_counters);
+    recording.run.settings.emplace_back("frames", unset_value);
+    CHECK_THAT(html_report(std::vector{recording}), !Contains("null</code>"));
+    CHECK_THAT(html_report(std::vector{recording, recording}), !Contains("null</code>"));
+    std::filesystem::remove(scratch / "one/counters.csv");
+    const LoadedRecording older = load_recording(scratch / "one");
+    CHECK_FALSE(older.has_counters);
+    CHECK_THAT(html_report(std::vector{older}), !Contains("page faults"));
+    CHECK_THAT(html_report(std::vector{recording}), Contains("page faults"));
 }

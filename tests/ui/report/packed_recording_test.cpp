@@ -51,7 +51,7 @@ TEST_CASE("a packed recording is the same wherever it is unpacked, and the same 
     record(scratch / "rec");
     write_file(scratch / "rec/notes.txt", "mine");
     const Packing packing = pack_recording(scratch / "rec", scratch / "a.zip", false);
-    CHECK(packing.files == 6);
+    CHECK(packing.files == 7);
     REQUIRE(packing.notes.size() == 1);
     CHECK_THAT(packing.notes[0], Contains("map.bil does not lie in the recording"));
     pack_recording(scratch / "rec", scratch / "b.zip", false);

@@ -2,6 +2,7 @@
 #include "sim/base/text_file.h"
 #include "tests/ui/report/scratch.h"
 #include "ui/report/frame_csv.h"
+#include "ui/report/kernel_counters.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/recording.h"
 
@@ -9,8 +10,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -164,7 +167,7 @@ TEST_CASE("nobody records into a folder that is being recorded into, and a kille
                 folder + ": expected a folder that nobody records into, got one that process " +
                 std::to_string(getpid())));
         recording.finish({});
-        CHECK(load_recording(folder).records.size() == 1);
+        CHECK(load_recording(folder).flight.frames() == 1);
     }
     CHECK_FALSE(std::filesystem::exists(scratch / "rec/recording.lock"));
     write_file(scratch / "rec/recording.lock", "process 1 on a machine that was switched off\n");
@@ -207,9 +210,14 @@ TEST_CASE("an older recording gives way with all its files and nothing else") {
     }
     std::sort(names.begin(), names.end());
     CHECK(
-        names ==
-        std::vector<std::string>{
-            "frames.csv", "mangohud.csv", "notes.txt", "recording.lock", "run.json", "trace.json"});
+        names == std::vector<std::string>{
+                     "counters.csv",
+                     "frames.csv",
+                     "mangohud.csv",
+                     "notes.txt",
+                     "recording.lock",
+                     "run.json",
+                     "trace.json"});
 }
 
 TEST_CASE("a full disk gives one error and leaves a recording that loads") {
@@ -227,7 +235,7 @@ TEST_CASE("a full disk gives one error and leaves a recording that loads") {
     }
     const LoadedRecording loaded = load_recording(scratch / "rec");
     CHECK(loaded.ended_early);
-    CHECK(loaded.records.size() > 5);
+    CHECK(loaded.flight.frames() > 5);
 }
 
 TEST_CASE("a killed recording loads with the figures of what is left") {
@@ -341,4 +349,45 @@ TEST_CASE("the trace holds every frame with its stages one after the other") {
     CHECK(events["C terrain triangles"][2]["args"]["value"] == 1002);
     CHECK(events["C resolution C"].size() == 3);
     CHECK(events["i overrun"].size() == 1);
+}
+
+TEST_CASE("what the kernel counted stands beside the slowest frames") {
+    const ScratchFolder scratch;
+    Recording recording(scratch / "rec", made_up_info());
+    for (int frame = 0; frame < 40; ++frame) {
+        FrameRecord record = made_up_frame(frame, frame == 30 ? 50.0 : 5.0);
+        record.counters = {100 + frame, frame, 10.0 * frame};
+        recording.add(record);
+    }
+    recording.finish({1, 2, {}});
+    const LoadedRecording loaded = load_recording(scratch / "rec");
+    REQUIRE(loaded.has_counters);
+    REQUIRE(loaded.slowest.size() == SlowFrames::most_kept);
+    CHECK(loaded.slowest[0].record.frame == 30);
+    CHECK(loaded.slowest[0].record.counters.page_faults == 130);
+    CHECK(loaded.slowest[0].record.counters.switches == 30);
+    CHECK(loaded.slowest[0].record.counters.stolen_ms == 300.0);
+    KernelCounters counters;
+    counters.begin();
+    constexpr std::size_t bytes = std::size_t{4} << 20;
+    void* const fresh =
+        ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    REQUIRE(fresh != MAP_FAILED);
+    std::memset(fresh, 'x', bytes);
+    CHECK(counters.lap().page_faults > 0);
+    ::munmap(fresh, bytes);
+}
+
+TEST_CASE("the trace of a long flight ends with its slow frames") {
+    const ScratchFolder scratch;
+    Recording recording(scratch / "rec", made_up_info());
+    for (int frame = 0; frame < 100'000; ++frame) {
+        recording.add(made_up_frame(frame, frame == 99'999 ? 50.0 : 5.0));
+    }
+    recording.finish({1, 2, {}});
+    CHECK(std::filesystem::file_size(scratch / "rec/trace.json") < (std::size_t{50} << 20));
+    const std::string trace = read_file(scratch / "rec/trace.json");
+    CHECK(trace.find("\"frame\":1000,") != std::string::npos);
+    CHECK(trace.find("\"frame\":99998,") == std::string::npos);
+    CHECK(trace.find("\"frame\":99999,") != std::string::npos);
 }

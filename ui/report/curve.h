@@ -1,0 +1,41 @@
+#pragma once
+
+#include "ui/report/plots.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace octant::ui::report {
+
+/// A curve over a flight in the memory of a plot: where there are more points than it keeps pieces,
+/// neighbours share one, which keeps its least and its greatest value.
+class Curve {
+public:
+    /// More pieces than a page's plot has pixels.
+    static constexpr std::size_t most_pieces = 900;
+
+    /// `x` not below that of the last point. A value that is not finite is a gap.
+    void add(double x, double y);
+
+    /// Its points in order, two a piece at the most, in at most so many pieces (>= 1).
+    PlotSeries series(std::size_t pieces = most_pieces) const;
+
+private:
+    struct Point {
+        double x = 0.0;
+        double y = 0.0;
+    };
+
+    struct Piece {
+        Point least;
+        Point greatest;
+    };
+
+    static Piece joined(const Piece& a, const Piece& b);
+
+    std::vector<Piece> pieces_;
+    std::size_t points_a_piece_ = 1;
+    std::size_t in_last_ = 0;
+};
+
+} // namespace octant::ui::report

@@ -1,0 +1,47 @@
+#include "ui/report/flight_digest.h"
+
+#include <algorithm>
+
+namespace octant::ui::report {
+
+void FlightDigest::add(const FrameRecord& record) {
+    const double at_s = record.sim_time_s;
+    begin_s_ = frames_ == 0 ? at_s : begin_s_;
+    end_s_ = at_s;
+    ++frames_;
+    times_.add(record);
+    link.add(record);
+    if (record.warm_up) {
+        warm_up_ms.add(at_s, record.frame_ms);
+        return;
+    }
+    frame_ms.add(at_s, record.frame_ms);
+    triangles.add(at_s, record.terrain_triangles);
+    triangle_change.add(at_s, record.triangle_change);
+    triangle_target.add(at_s, record.triangle_target);
+    stress.add(at_s, record.stress);
+    stages.add(record);
+    slow.add(record);
+    clock.add(record);
+    const int target = record.triangle_target;
+    targets_.least = counted_ == 0 ? target : std::min(targets_.least, target);
+    targets_.greatest = std::max(targets_.greatest, target);
+    targets_.mean += target;
+    ++counted_;
+}
+
+TargetRange FlightDigest::triangle_targets() const {
+    TargetRange range = targets_;
+    range.mean = counted_ > 0 ? targets_.mean / static_cast<double>(counted_) : 0.0;
+    return range;
+}
+
+FlightDigest digest_of(std::span<const FrameRecord> records) {
+    FlightDigest digest;
+    for (const FrameRecord& record : records) {
+        digest.add(record);
+    }
+    return digest;
+}
+
+} // namespace octant::ui::report

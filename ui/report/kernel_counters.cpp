@@ -1,0 +1,147 @@
+#include "ui/report/kernel_counters.h"
+
+#include "sim/base/text_file.h"
+
+#include <algorithm>
+#include <array>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <optional>
+#include <string_view>
+#include <sys/resource.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace octant::ui::report {
+
+namespace {
+
+FrameCounters counted_so_far() {
+    rusage use{};
+    getrusage(RUSAGE_SELF, &use);
+    return {use.ru_minflt + use.ru_majflt, use.ru_nivcsw, 0.0};
+}
+
+double tick_ms() {
+    return 1000.0 / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+/// A frame's counters from its line; nothing where the line is not whole.
+std::optional<std::pair<long, FrameCounters>> counters_from(std::string_view line) {
+    const auto fields = split_fields(line, ',');
+    if (fields.size() != 4) {
+        return std::nullopt;
+    }
+    const auto frame = whole_number(fields[0]);
+    const auto faults = whole_number(fields[1]);
+    const auto switches = whole_number(fields[2]);
+    const auto stolen_ms = finite_number(fields[3]);
+    if (!frame || !faults || !switches || !stolen_ms) {
+        return std::nullopt;
+    }
+    return std::pair(*frame, FrameCounters{*faults, *switches, *stolen_ms});
+}
+
+} // namespace
+
+KernelCounters::KernelCounters()
+    : stat_(::open("/proc/stat", O_RDONLY | O_CLOEXEC))
+    , stolen_ticks_(stolen_ticks())
+    , stolen_ticks_told_(stolen_ticks_)
+    , counted_(counted_so_far()) {}
+
+KernelCounters::~KernelCounters() {
+    if (stat_ >= 0) {
+        ::close(stat_);
+    }
+}
+
+/// Of all processors together; 0 where the kernel does not say. The first line is
+/// cpu  user nice system idle iowait irq softirq steal ...
+std::uint64_t KernelCounters::stolen_ticks() {
+    constexpr std::size_t place = 8;
+    std::array<char, 256> text{};
+    const ssize_t read = stat_ < 0 ? 0 : ::pread(stat_, text.data(), text.size(), 0);
+    std::string_view line(text.data(), static_cast<std::size_t>(std::max<ssize_t>(read, 0)));
+    line = line.substr(0, line.find('\n'));
+    const auto words = split_words(line);
+    const auto ticks = words.size() > place ? whole_number(words[place]) : std::nullopt;
+    since_stolen_ = base::Stopwatch();
+    return ticks && *ticks > 0 ? static_cast<std::uint64_t>(*ticks) : 0;
+}
+
+void KernelCounters::begin() {
+    counted_ = counted_so_far();
+}
+
+FrameCounters KernelCounters::lap() {
+    const FrameCounters now = counted_so_far();
+    FrameCounters since{
+        now.page_faults - counted_.page_faults, now.switches - counted_.switches, 0.0};
+    if (since_stolen_.ms() >= tick_ms()) {
+        stolen_ticks_ = std::max(stolen_ticks_, stolen_ticks());
+        since.stolen_ms = tick_ms() * static_cast<double>(stolen_ticks_ - stolen_ticks_told_);
+        stolen_ticks_told_ = stolen_ticks_;
+    }
+    return since;
+}
+
+std::string counters_header() {
+    return "frame,page_faults,switches,stolen_ms\n";
+}
+
+std::string counters_line(const FrameRecord& record) {
+    const FrameCounters& counters = record.counters;
+    return fmt::format(
+        "{},{},{},{:.0f}\n",
+        record.frame,
+        counters.page_faults,
+        counters.switches,
+        counters.stolen_ms);
+}
+
+CounterReader::CounterReader(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) {
+        return;
+    }
+    lines_.emplace(file);
+    const auto header = lines_->next();
+    if (!header || counters_header() != std::string(*header) + "\n") {
+        lines_.reset();
+    }
+}
+
+std::optional<std::pair<long, FrameCounters>> CounterReader::next() {
+    while (const auto line = lines_ ? lines_->next() : std::nullopt) {
+        const auto counters = lines_->torn() ? std::nullopt : counters_from(*line);
+        if (counters) {
+            return counters;
+        }
+    }
+    return std::nullopt;
+}
+
+FrameCounters CounterReader::of(int frame) {
+    while (const auto counters = next()) {
+        if (counters->first >= frame) {
+            return counters->first == frame ? counters->second : FrameCounters();
+        }
+    }
+    return {};
+}
+
+bool read_counters(const std::filesystem::path& file, std::span<Overrun> frames) {
+    CounterReader reader(file);
+    while (const auto counters = reader.next()) {
+        const auto frame = std::ranges::find_if(
+            frames, [&](const Overrun& each) { return each.record.frame == counters->first; });
+        if (frame != frames.end()) {
+            frame->record.counters = counters->second;
+        }
+    }
+    return reader.is_there();
+}
+
+} // namespace octant::ui::report
