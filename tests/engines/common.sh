@@ -46,6 +46,42 @@ fly_locally() {
   [[ $(hashes "$scratch/local" | sort -u | wc -l) -eq 48 ]] || fail "expected 48 flights done locally"
 }
 
+# A sweep of flights that take a minute each is ended by a signal: no more flights begin, those that
+# fly end, and the sweep ends as the signal has it. FOLDER OPTIONS...
+end_by_signal() {
+  local folder=$1 tenth code sweep
+  shift
+  cat >"$scratch/long.toml" <<'EOT'
+name = "long"
+[settings]
+path = "straight"
+terrain = "none"
+size = "48x32"
+realtime = true
+seconds = 60
+[vary]
+fov = { from = 40, to = 60, step = 2 }
+EOT
+  "$octant" sweep "$scratch/long.toml" --out "$folder" "$@" --quiet &
+  sweep=$!
+  for tenth in {1..600}; do
+    [[ $(cat "$folder"/runs/*/frames.csv 2>/dev/null | wc -l) -gt 20 ]] && break
+    sleep 0.1
+  done
+  kill -TERM "$sweep"
+  wait "$sweep"
+  code=$?
+  [[ $code -eq 143 ]] || fail "a sweep that SIGTERM ended has exit code $code"
+  for tenth in {1..100}; do
+    pgrep -f "fly --settings jobs/.*--record runs/" >/dev/null || break
+    sleep 0.1
+  done
+  for process in $(pgrep -f "fly --settings jobs/.*--record runs/"); do
+    [[ $(readlink "/proc/$process/cwd") != "$folder" ]] || fail "a flight goes on after the sweep has ended"
+  done
+  [[ $(ls "$folder/runs" | wc -l) -lt 11 ]] || fail "flights began after the signal"
+}
+
 compare_with_local() {
   diff <(hashes "$scratch/local") <(hashes "$1") >&2 || fail "flights differ from those flown locally"
 }

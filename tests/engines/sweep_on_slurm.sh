@@ -19,4 +19,6 @@ sleep 12 # longer than SlurmdTimeout, so that its tasks are given up
 slurm_start_node n2
 wait "$sweep" || fail "the sweep on Slurm ended with $?: $(tail -n 3 "$scratch"/slurm-runs/logs/*.log)"
 compare_with_local "$scratch/slurm-runs"
-echo "48 of 48 flights, each as locally"
+end_by_signal "$scratch/slurm-ended" --on slurm --minutes 5
+[[ -z $(squeue --noheader --name=octant-long) ]] || fail "tasks are left in the queue"
+echo "48 of 48 flights, each as locally; a signal empties the queue"

@@ -101,6 +101,16 @@ void make(TerrainOptions options) {
             fmt::format("--kind: expected hills or canyon, got '{}'", printable(options.kind)));
     }
     models::heights::write_height_field(options.out, *field);
+    if (options.json) {
+        base::print_figures(
+            {{"file", options.out},
+             {"columns", field->columns()},
+             {"rows", field->rows()},
+             {"spacing_m", field->spacing_m()},
+             {"lowest_m", field->lowest_m()},
+             {"highest_m", field->highest_m()}},
+            true);
+    }
     base::say(
         options.quiet,
         fmt::format(
@@ -146,6 +156,7 @@ Command make_command() {
                  {"spacing", "METRES", "between samples", 0.1, 1000}, options->made.spacing_m),
              read_option({"seed", "S", "another seed, another terrain", 0, 1e9}, options->seed),
              required(text_option("--out", "FILE.tif", "the file to write", options->out)),
+             flag("--json", "what was made as JSON", options->json),
              flag("--quiet", "no notes", options->quiet)},
         .footer =
             "Example:\n  octant terrain make --kind canyon --size 2049 --seed 7 --out made.tif",

@@ -14,6 +14,19 @@ function(compressed file)
 endfunction()
 printed(man "${root}/share/man/man1/octant.1")
 compressed("${root}/share/man/man1/octant.1")
+file(WRITE "${root}/share/man/man1/octant-read-mesh.1" [[
+.TH OCTANT-READ-MESH 1
+.SH NAME
+octant-read-mesh \- reads meshes of other formats for octant
+.SH DESCRIPTION
+Is started by
+.BR octant (1)
+where a mesh is in a format that only other libraries read, so that what crashes them ends no flight.
+Nobody else has a use for it.
+.SH SEE ALSO
+.BR octant (1)
+]])
+compressed("${root}/share/man/man1/octant-read-mesh.1")
 printed(bash "${root}/share/bash-completion/completions/octant")
 printed(zsh "${root}/share/zsh/vendor-completions/_octant")
 configure_file("${octant_changes}" "${root}/share/doc/octant/NEWS.md" COPYONLY)

@@ -6,6 +6,7 @@ install(FILES ${package}/octant.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/app
 install(FILES ${package}/octant.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
 install(FILES ${package}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/octant)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/ui/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/octant)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/ui/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/octant FILES_MATCHING PATTERN "*.json")
 install(CODE "set(octant_program \"$<TARGET_FILE:octant>\")
   set(octant_changes \"${PROJECT_SOURCE_DIR}/CHANGES.md\")
   set(octant_debian_changes \"${package}/changelog\")")
@@ -14,7 +15,7 @@ install(SCRIPT ${package}/install_manual.cmake)
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME octant)
 set(CPACK_PACKAGE_VENDOR "Octant")
-set(CPACK_PACKAGE_CONTACT "Octant's authors <octant@localhost.localdomain>")
+set(CPACK_PACKAGE_CONTACT "Octant's authors <octant@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "flight simulation over level-of-detail terrain, drawn and timed")
 set(CPACK_PACKAGE_DESCRIPTION
   "Octant flies polygon aircraft along scripted paths, recorded tracks or by hand

@@ -1,6 +1,7 @@
 #include "sim/base/axes.h"
 #include "tests/ui/window/driven_viewer.h"
 #include "ui/flight/session.h"
+#include "ui/report/packed_recording.h"
 #include "ui/settings/settings_file.h"
 
 #include <catch2/catch.hpp>
@@ -98,6 +99,16 @@ TEST_CASE(
     CHECK(run["summary"]["frames"].get<int>() > 10);
     CHECK(run["settings"]["path"].get<std::string>().ends_with("flight.csv"));
     CHECK(flown_again(folder) == run["summary"]["state_hash"].get<std::string>());
+    // From the packed file alone, elsewhere.
+    const fs::path elsewhere = folder.parent_path() / "elsewhere";
+    fs::create_directories(elsewhere);
+    ui::report::pack_recording(folder, elsewhere / "by-hand.zip", false);
+    fs::remove_all(folder);
+    CHECK(
+        flown_again(ui::report::recording_folder(elsewhere / "by-hand.zip")) ==
+        run["summary"]["state_hash"].get<std::string>());
+    ui::report::remove_unpacked();
+    fs::remove_all(elsewhere);
 }
 
 TEST_CASE("a recording along a path has the states of the same flight without a window") {

@@ -1,0 +1,88 @@
+#!/bin/bash
+# Makes the Debian package of a build, has lintian look at it, installs it in a bare Debian 12, flies
+# and opens the window there, repeats and reports a recording that was packed here, and removes it.
+#   package_on_bare_debian.sh BUILD [ROOT]
+# ROOT: a bare Debian 12 (debootstrap --variant=minbase bookworm ROOT), which is copied and left as
+# it is; without it one is made. Needs to be root. Takes minutes and some 2 GB in TMPDIR.
+set -u
+build=$(realpath "$1")
+given=${2:-}
+scratch=$(mktemp -d "${TMPDIR:-/tmp}/octant-install-XXXXXX")
+root=$scratch/root
+display=
+fail() { echo "FAILED: $*" >&2; exit 1; }
+skip() { echo "SKIPPED: $*"; exit 0; }
+inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
+tidy() {
+  [[ -z $display ]] || kill "$display"
+  local place
+  for place in proc dev; do mountpoint -q "$root/$place" && umount -l "$root/$place"; done
+  rm -rf --one-file-system "$scratch"
+}
+trap tidy EXIT
+
+[[ $(id -u) -eq 0 ]] || skip "chroot needs root"
+for program in cpack lintian Xvfb xdpyinfo; do
+  command -v "$program" >/dev/null || skip "$program is not installed"
+done
+[[ -n $given ]] || command -v debootstrap >/dev/null || skip "debootstrap is not installed"
+
+# The package.
+(cd "$build" && cpack -B "$scratch/package") >"$scratch/cpack.log" 2>&1 || fail "cpack: $(tail -n 5 "$scratch/cpack.log")"
+package=$(echo "$scratch"/package/octant_*.deb)
+bytes=$(stat -c %s "$package")
+echo "$(basename "$package"): $bytes bytes"
+[[ $bytes -le 15000000 ]] || fail "the package takes more than 15 MB"
+lintian --fail-on error --tag-display-limit 0 "$package" || fail "lintian finds errors"
+
+# A bare system.
+if [[ -n $given ]]; then
+  cp -a "$given" "$root"
+else
+  debootstrap --variant=minbase bookworm "$root" >"$scratch/debootstrap.log" 2>&1 ||
+    skip "no bare Debian can be made here: $(tail -n 1 "$scratch/debootstrap.log")"
+fi
+mount -t proc proc "$root/proc" && mount --bind /dev "$root/dev" || skip "proc and dev cannot be mounted"
+cp /etc/resolv.conf "$root/etc/resolv.conf"
+inside apt-get update -qq >"$scratch/apt.log" 2>&1 || skip "no package lists: $(tail -n 1 "$scratch/apt.log")"
+cp "$package" "$root/root/octant.deb"
+inside apt-get install -y -qq --no-install-recommends /root/octant.deb >>"$scratch/apt.log" 2>&1 ||
+  fail "the package is not installed: $(tail -n 5 "$scratch/apt.log")"
+inside octant --version || fail "octant --version"
+
+# A flight there, and one that was flown and packed here.
+inside octant fly straight --seconds 2 --record /root/flight --quiet || fail "octant fly straight"
+[[ -s $root/root/flight/report.html ]] || fail "there is no report"
+"$build/octant" fly turn --aircraft 500md --terrain canyon --size 320x180 --seconds 2 --record "$scratch/here" --quiet >"$scratch/here.txt" ||
+  fail "the flight here"
+"$build/octant" pack "$scratch/here" --out "$root/root/packed.zip" --quiet || fail "octant pack"
+"$build/octant" report "$root/root/packed.zip" --out "$scratch/here.html" --quiet || fail "the report here"
+inside octant report /root/packed.zip --out /root/there.html --quiet || fail "the report there"
+cmp "$scratch/here.html" "$root/root/there.html" || fail "the reports differ"
+inside octant fly --settings /root/packed.zip --quiet --record /root/again >"$scratch/there.txt" || fail "the flight there"
+for hash in state_hash picture_hash; do
+  one=$(grep -o "\"$hash\": \"[0-9a-f]*\"" "$scratch/here/run.json")
+  two=$(grep -o "\"$hash\": \"[0-9a-f]*\"" "$root/root/again/run.json")
+  [[ -n $one && $one == "$two" ]] || fail "$hash here $one, there $two"
+done
+inside octant fly --replay /root/packed.zip --quiet || fail "the replay there"
+echo "a packed recording: same report, same hashes"
+
+# The window, on a display of ours.
+mkdir -p "$root/tmp/.X11-unix"
+Xvfb -displayfd 3 -screen 0 1280x800x24 -listen tcp 3>"$scratch/display" >/dev/null 2>&1 &
+display=$!
+for tenth in {1..100}; do [[ -s $scratch/display ]] && break; sleep 0.1; done
+number=$(cat "$scratch/display")
+inside env DISPLAY="127.0.0.1:$number" timeout 60 octant view straight --bench 60 --size 640x360 ||
+  fail "octant view"
+echo "octant view: a window of 60 frames"
+
+# Nothing is left.
+inside dpkg -L octant | while read -r file; do [[ -f $root$file ]] && echo "$file"; done >"$scratch/files"
+[[ $(wc -l <"$scratch/files") -gt 20 ]] || fail "expected more than 20 files in the package"
+inside apt-get purge -y -qq octant >>"$scratch/apt.log" 2>&1 || fail "the package is not removed"
+while read -r file; do [[ -e $root$file ]] && fail "$file is left"; done <"$scratch/files"
+left=$(find "$root/usr" "$root/etc" "$root/var/lib" -xdev -path '*octant*' -not -path '*/apt/*' -not -path '*/cache/*')
+[[ -z $left ]] || fail "apt remove leaves $left"
+echo "installed, flown, shown and removed: nothing is left"

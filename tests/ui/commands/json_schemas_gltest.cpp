@@ -1,0 +1,181 @@
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "tests/ui/commands/command_line.h"
+#include "tests/ui/commands/json_schema.h"
+#include "ui/commands/commands.h"
+#include "ui/report/table_text.h"
+#include "ui/window/listen_command.h"
+#include "ui/window/view_command.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+using namespace octant;
+using octant::tests::run_octant;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path schema(const std::string& name) {
+    return fs::path(OCTANT_SOURCE_DIR) / "ui/schemas" / (name + ".json");
+}
+
+/// Runs a command with --json and holds what it prints against a schema.
+void check(const std::string& name, std::vector<std::string> line) {
+    line.emplace_back("--json");
+    const tests::ProgramRun run = run_octant(line);
+    INFO(line[0] << " " << line[1] << ": " << run.err);
+    CHECK(run.exit_code <= 1);
+    CHECK(tests::schema_faults(run.out, schema(name)) == std::vector<std::string>());
+}
+
+/// Names of all commands that have --json, as "terrain info".
+std::set<std::string> printing_commands() {
+    std::set<std::string> names;
+    const auto visit = [&](const auto& self,
+                           const ui::commands::Command& command,
+                           const std::string& before) -> void {
+        const bool has_json = std::ranges::any_of(
+            command.options, [](const auto& option) { return option.name == "--json"; });
+        if (has_json) {
+            names.insert(before + command.name);
+        }
+        for (const auto& inner : command.commands) {
+            self(self, inner, before + command.name + " ");
+        }
+    };
+    const auto program =
+        ui::commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
+    for (const auto& command : program.commands) {
+        visit(visit, command, "");
+    }
+    return names;
+}
+
+} // namespace
+
+TEST_CASE("what recordings and their commands print is as their schemas say") {
+    const auto made = tests::empty_folder("schemas-recording");
+    const std::string rec = (made / "rec").string();
+    const std::vector<std::string> flight = {
+        "fly", "straight", "--size", "32x24", "--frames", "12", "--record", rec, "--quiet"};
+    check("fly", flight);
+    CHECK(tests::schema_faults(read_file(made / "rec/run.json"), schema("run")).empty());
+    check("fly", {"fly", "--replay", rec, "--quiet"});
+    check("report", {"report", rec, "--out", (made / "page.html").string(), "--quiet"});
+    check(
+        "report",
+        {"report",
+         rec,
+         rec,
+         "--gate",
+         "p50=0%",
+         "--out",
+         (made / "page.html").string(),
+         "--quiet"});
+    check("pack", {"pack", rec, "--quiet"});
+    write_file(
+        made / "s.toml", "[settings]\nsize = \"16x16\"\nframes = 2\n[vary]\nfov = [40, 50]\n");
+    const std::string sweep = (made / "s.toml").string();
+    const std::string out = (made / "out").string();
+    check("sweep-list", {"sweep", sweep, "--list"});
+    check("sweep", {"sweep", sweep, "--out", out, "--quiet"});
+    check("sweep", {"sweep", sweep, "--out", (made / "two").string(), "--split", "2", "--quiet"});
+    CHECK(tests::schema_faults(read_file(made / "two/runs/40/run.json"), schema("run")).empty());
+}
+
+TEST_CASE("what commands on models and ground print is as their schemas say") {
+    const auto made = tests::empty_folder("schemas");
+    const auto file = [&](const char* name) { return (made / name).string(); };
+    check("draw-order", {"draw-order", "concave", "--table"});
+    check("draw-order", {"draw-order", "concave", "--export", file("x.order")});
+    check("draw-order-check", {"draw-order", "concave", "--check", file("x.order")});
+    check("model-info", {"model", "info", "f15", "--picture", file("p.png")});
+    check("simplify", {"simplify", "torus", file("s.ply"), "--faces", "300", "--quiet"});
+    check(
+        "simplify", {"simplify", "torus", file("s.chain"), "--faces", "300", "--chain", "--quiet"});
+    check(
+        "simplify",
+        {"simplify", "torus", file("t.ply"), "--faces", "300", "--method", "triangle", "--quiet"});
+    check("mesh-error", {"mesh-error", "torus", file("s.ply"), "--quiet"});
+    check("refine", {"refine", "torus", "--region", "sphere", "0", "0", "0", "1"});
+    check("terrain-make", {"terrain", "make", "--size", "65", "--out", file("m.tif"), "--quiet"});
+    check("terrain-info", {"terrain", "info", file("m.tif")});
+    check("terrain-import", {"terrain", "import", file("m.tif"), "--out", file("m.ground")});
+    check("terrain-info", {"terrain", "info", file("m.ground"), "--verify"});
+    check(
+        "terrain-mesh",
+        {"terrain",
+         "mesh",
+         "hills",
+         "--eye",
+         "0,0,900",
+         "--look",
+         "1000,1000,0",
+         "--triangles",
+         "500",
+         "--out",
+         file("g.ply")});
+    check("terrain-query", {"terrain", "query", "hills", "--at", "0,0", "9e6,0,1"});
+    check(
+        "terrain-query",
+        {"terrain", "query", "hills", "--from", "0,0,900", "--to", "5000,3000,250"});
+    check(
+        "terrain-check",
+        {"terrain", "check", "hills", "--views", "4", "--draw-every", "0", "--quiet"});
+    check(
+        "tables",
+        {"terrain",
+         "error",
+         "hills",
+         "--eye",
+         "0,0,900",
+         "--look",
+         "1000,1000,0",
+         "--triangles",
+         "2000"});
+    check("tables", {"study", "refinement", "--out", file("st"), "--frames", "20", "--quiet"});
+    check("bench", {"bench", "--terrain", "none", "--size", "32x32", "--frames", "3", "--quiet"});
+}
+
+TEST_CASE("every command that prints JSON has a schema, and all tables have one form") {
+    const std::map<std::string, std::string> schemas = {
+        {"fly", "fly"},
+        {"listen", "fly"},
+        {"report", "report"},
+        {"pack", "pack"},
+        {"sweep", "sweep"},
+        {"draw-order", "draw-order"},
+        {"simplify", "simplify"},
+        {"mesh-error", "mesh-error"},
+        {"refine", "refine"},
+        {"model info", "model-info"},
+        {"terrain info", "terrain-info"},
+        {"terrain make", "terrain-make"},
+        {"terrain import", "terrain-import"},
+        {"terrain mesh", "terrain-mesh"},
+        {"terrain query", "terrain-query"},
+        {"terrain check", "terrain-check"},
+        {"terrain error", "tables"},
+        {"bench", "bench"}};
+    for (const std::string& command : printing_commands()) {
+        INFO(command);
+        const auto found = schemas.find(command);
+        const bool is_known = found != schemas.end() || command.starts_with("study ");
+        CHECK(is_known);
+        if (found != schemas.end()) {
+            CHECK(fs::is_regular_file(schema(found->second)));
+        }
+    }
+    CHECK(printing_commands().size() >= schemas.size() + 8);
+    const std::vector<ui::report::HtmlTable> tables{
+        {"T", {"a", "b"}, {{"x", "1.5"}, {"y"}}, "note"}, {}};
+    CHECK(tests::schema_faults(ui::report::json_of(tables), schema("tables")).empty());
+    CHECK_FALSE(tests::schema_faults("[{\"title\": 3}]", schema("tables")).empty());
+    CHECK_FALSE(tests::schema_faults("[", schema("tables")).empty());
+}
