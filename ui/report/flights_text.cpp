@@ -1,5 +1,6 @@
 #include "ui/report/flights_text.h"
 
+#include "ui/report/flight_plots.h"
 #include "ui/report/page_plot.h"
 
 #include <algorithm>
