@@ -149,7 +149,7 @@ Command hidden_surface_command() {
         .footer =
             "Exit code 1 when a pixel is wrong.\n"
             "Examples:\n  octant study hidden-surface --out tables --only pictures --every 10\n"
-            "  octant study hidden-surface --out tables --only rays --every 4 --size 640x360",
+            "  octant study hidden-surface --out tables --only rays --every 14 --size 480x270",
         .run = [study, only] { hidden_surface(*study, *only); }};
 }
 

@@ -26,7 +26,7 @@ constexpr glm::vec3 line_between(24.0F);
 constexpr glm::vec3 cell_ground(34.0F);
 
 /// For each sample of a tile the place of what covers it among the nearest triangles, from 1; 0:
-/// nothing.
+/// nothing. As many triangles as it takes to cover half of all samples.
 std::vector<std::size_t>
 covering(TileJob job, std::span<const TileTriangle> triangles, const SampleLanes& lanes) {
     std::vector<std::size_t> by_sample(TileBuffer::pixels * samples, 0);
@@ -37,9 +37,14 @@ covering(TileJob job, std::span<const TileTriangle> triangles, const SampleLanes
     for (std::size_t count = 1; count <= triangles.size(); ++count) {
         job.triangles = triangles.last(count);
         paint_tile(job, lanes, *buffer);
+        std::size_t covered_samples = 0;
         for (std::size_t i = 0; i < by_sample.size(); ++i) {
             const bool covered = (buffer->covered[i / samples] >> (i % samples) & 1U) != 0;
             by_sample[i] = covered && by_sample[i] == 0 ? count : by_sample[i];
+            covered_samples += covered ? 1 : 0;
+        }
+        if (2 * covered_samples >= by_sample.size()) {
+            break;
         }
     }
     return by_sample;
@@ -86,20 +91,6 @@ private:
     scene::Picture picture_;
 };
 
-int busiest_tile(const FrameWork& work) {
-    std::vector<TileTriangle> list;
-    int busiest = 0;
-    std::size_t most = 0;
-    for (int tile = 0; tile < work.tiles().x * work.tiles().y; ++tile) {
-        const std::size_t count = work.triangles_of(tile, list).size();
-        if (count > most) {
-            most = count;
-            busiest = tile;
-        }
-    }
-    return busiest;
-}
-
 } // namespace
 
 scene::Picture mask_picture(
@@ -112,7 +103,7 @@ scene::Picture mask_picture(
     const SampleLanes lanes(pattern);
     FrameWork work(pattern, workers);
     work.prepare({plan, models, nullptr, size_px});
-    const int tile = busiest_tile(work);
+    const int tile = work.tiles().y / 2 * work.tiles().x + work.tiles().x / 2;
     TileJob job;
     job.first_px = glm::ivec2(tile % work.tiles().x, tile / work.tiles().x) *
                    glm::ivec2(tile_width, tile_height);
@@ -120,7 +111,7 @@ scene::Picture mask_picture(
     job.light = &work.light();
     std::vector<TileTriangle> list;
     const auto triangles = work.triangles_of(tile, list);
-    const auto by_sample = covering(job, triangles.last((triangles.size() + 1) / 2), lanes);
+    const auto by_sample = covering(job, triangles, lanes);
     Canvas canvas;
     for (int y = 0; y < tile_height * cell_px; ++y) {
         for (int x = 0; x < tile_width * cell_px; ++x) {

@@ -2,7 +2,8 @@
 // and crossings are whole numbers and real ones are summed and multiplied one by one.
 #include "visuals/raster/tile.h"
 
-#define HWY_DISABLED_TARGETS HWY_SSSE3
+// SVE's vectors have no size that the compiler knows: they can be no members.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #define HWY_WANT_AVX3_DL
 #define HWY_BROKEN_EMU128 0 // compiled so that it is right, see CMakeLists.txt
 #undef HWY_TARGET_INCLUDE

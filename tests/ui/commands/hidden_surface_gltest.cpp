@@ -1,4 +1,5 @@
 #include "ui/flight/id_comparison.h"
+#include "ui/studies/draw_order/ray_comparison.h"
 #include "ui/studies/draw_order/ridge_tower.h"
 
 #include <catch2/catch.hpp>
@@ -83,4 +84,27 @@ TEST_CASE("an aircraft that goes behind ridges is painted as the depth buffer sh
     CHECK(result.frames_with_cuts > 0);
     CHECK(result.unordered == 0);
     CHECK(result.wrong == 0);
+}
+
+TEST_CASE("both renderers show the polygons that rays find, but for rounding") {
+    using visuals::scene::View;
+    for (const View view : {View::Chase, View::Cockpit}) {
+        const auto result = ui::studies::draw_order::compare_with_rays(
+            canyon_flight("pop-up", "f15", view), 200, [](int, int) {});
+        REQUIRE(result.frames > 5);
+        CHECK(result.wrong() == 0);
+        for (const auto& renderer : result.renderers) {
+            CHECK(renderer.differing < result.pixels / 500);
+        }
+    }
+}
+
+TEST_CASE("a picture in file order has pixels that no rounding explains") {
+    ui::settings::RunSettings settings = canyon_flight("turn", "f15", visuals::scene::View::Orbit);
+    settings.surface.hidden_surface = visuals::scene::HiddenSurface::BackFace;
+    const auto result = ui::studies::draw_order::compare_with_rays(settings, 100, [](int, int) {});
+    for (const auto& renderer : result.renderers) {
+        CHECK(renderer.wrong > 0);
+        CHECK_FALSE(renderer.first_wrong.empty());
+    }
 }

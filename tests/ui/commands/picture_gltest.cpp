@@ -177,6 +177,20 @@ TEST_CASE("pictures of a refined mesh, three in ten smooth, are those that were 
     check_against_golden("ball-turn-hills-levels", ball);
 }
 
+TEST_CASE("pictures lit in each pixel are those that were approved") {
+    RunSettings flown = small("turn", "f15", "hills", View::Orbit);
+    flown.shading.kind = visuals::scene::AircraftShading::Phong;
+    flown.view.zoom = 1.5;
+    check_against_golden("f15-turn-hills-phong", flown);
+    const auto file = tests::scratch_folder() / "ball.ply";
+    models::meshfile::write_mesh(file, ui::studies::hybrid_shading::uneven_ball(24, 49));
+    flown.path.aircraft = {file.string()};
+    flown.view.kind = View::Chase;
+    flown.view.zoom = 1.0;
+    flown.air.sun_azimuth_deg = 45.0; // so that a highlight is seen
+    check_against_golden("ball-turn-hills-phong", flown);
+}
+
 TEST_CASE("pictures of textured ground are those that were approved") {
     RunSettings canyon = small("jinking", "f15", "canyon", View::Chase);
     canyon.view.size_px = {320, 240};

@@ -19,9 +19,9 @@ std::vector<FlatTriangle> many_triangles(std::uint64_t seed) {
     std::vector<FlatTriangle> triangles;
     for (int i = 0; i < 400; ++i) {
         FlatTriangle triangle;
-        const glm::vec2 middle(
-            static_cast<float>(below(dice, 20000)) / 100.0F,
-            static_cast<float>(below(dice, 15000)) / 100.0F);
+        const float across_px = static_cast<float>(below(dice, 20000)) / 100.0F;
+        const float down_px = static_cast<float>(below(dice, 15000)) / 100.0F;
+        const glm::vec2 middle(across_px, down_px);
         triangle.depth_m.fill(2.0F + static_cast<float>(below(dice, 1000)) / 10.0F);
         for (std::size_t k = 0; k < 3; ++k) {
             const auto part = [&] {

@@ -19,9 +19,9 @@ void paint_much(FlatPlan& plan) {
         std::vector<FlatTriangle> triangles;
         for (int i = 0; i < 200; ++i) {
             FlatTriangle triangle;
-            const glm::vec2 middle(
-                static_cast<float>(below(dice, 20000)) / 100.0F,
-                static_cast<float>(below(dice, 15000)) / 100.0F);
+            const float across_px = static_cast<float>(below(dice, 20000)) / 100.0F;
+            const float down_px = static_cast<float>(below(dice, 15000)) / 100.0F;
+            const glm::vec2 middle(across_px, down_px);
             const auto reach = static_cast<float>(1 + below(dice, i % 20 == 0 ? 200 : 12));
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto part = [&] {

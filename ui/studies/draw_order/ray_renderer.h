@@ -20,8 +20,8 @@ namespace octant::ui::studies::draw_order {
 
 /// Finds what the pixels of a plan show by a ray through the middle of each: every triangle in
 /// double precision, no rounding of corners and no painting order. For plans of polygon numbers
-/// (scene::IdPlan) whose surfaces are hidden by depth, which hold all triangles that may be seen.
-/// Clips and overlays are left out.
+/// (planning::IdPlan) whose surfaces are hidden by depth, which hold all triangles that may be
+/// seen. Clips and overlays are left out.
 class RayRenderer final : public visuals::scene::Renderer {
 public:
     explicit RayRenderer(const glm::ivec2& size_px);

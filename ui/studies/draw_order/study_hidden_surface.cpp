@@ -219,7 +219,18 @@ report::HtmlTable picture_table(
 std::vector<Compared<RayComparison>> run_ray_comparisons(const HiddenSurfaceStudy& study) {
     std::vector<StudiedView> all(views.begin(), views.end());
     all.push_back(cockpit);
-    return run_comparisons(study, all, compare_with_rays);
+    return run_comparisons(
+        study, all, [&](const settings::RunSettings& settings, int every, const auto& seen) {
+            RayComparison result = compare_with_rays(settings, every, seen);
+            for (const RayComparison::OfRenderer& one : result.renderers) {
+                if (one.wrong > 0) {
+                    base::say(
+                        study.quiet,
+                        fmt::format("{} wrong pixels, the first: {}", one.wrong, one.first_wrong));
+                }
+            }
+            return result;
+        });
 }
 
 report::HtmlTable

@@ -119,8 +119,8 @@ scene_table(const std::vector<Qualities>& of_scenes, const PictureStudyOptions& 
         table.rows.push_back(noise_cells(name_of(studied_scenes[i]), of_scenes[i]));
     }
     table.note = fmt::format(
-        "{} frames of each path, {}x{}. Against 64 pictures by the same renderer with one sample a "
-        "pixel, each moved by eighths of a pixel. Head-up displays are left out.",
+        "{} frames of each path, {}x{}. Against a picture by the same renderer with one sample a "
+        "pixel, eight times as large in both directions. Head-up displays are left out.",
         options.frames,
         options.settings.view.size_px.x,
         options.settings.view.size_px.y);

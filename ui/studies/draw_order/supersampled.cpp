@@ -21,22 +21,45 @@ moved(const scene::FramePlan& plan, const glm::dvec2& by_px, const glm::ivec2& s
     return result;
 }
 
+namespace {
+
+/// A copy of a plan that shows one of side x side equal parts of its picture, as large as the
+/// whole.
+scene::FramePlan part_of(const scene::FramePlan& plan, const glm::ivec2& part, int side) {
+    scene::FramePlan result = plan;
+    const glm::vec2 across = (2.0F * glm::vec2(part) + 1.0F) / static_cast<float>(side);
+    const glm::vec2 middle(across.x - 1.0F, 1.0F - across.y);
+    for (glm::length_t column = 0; column < 4; ++column) {
+        glm::vec4& clip = result.view_to_clip[column];
+        clip.x = static_cast<float>(side) * (clip.x - middle.x * clip.w);
+        clip.y = static_cast<float>(side) * (clip.y - middle.y * clip.w);
+    }
+    return result;
+}
+
+} // namespace
+
 void Supersampled::draw(
     scene::Renderer& renderer,
     const scene::FramePlan& plan,
     const glm::dvec2& by_px,
     const glm::ivec2& size_px) {
-    sums_.assign(
-        std::size_t{3} * static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y),
-        0);
-    for (int place = 0; place < places; ++place) {
-        const glm::dvec2 within = (glm::dvec2(place % side, place / side) + 0.5) / double{side};
-        renderer.draw(moved(plan, by_px + 0.5 - within, size_px));
+    const auto width = static_cast<std::size_t>(size_px.x);
+    const auto height = static_cast<std::size_t>(size_px.y);
+    sums_.assign(3 * width * height, 0);
+    const scene::FramePlan whole = moved(plan, by_px, size_px);
+    for (int part = 0; part < places; ++part) {
+        const glm::ivec2 at(part % side, part / side);
+        renderer.draw(part_of(whole, at, side));
         renderer.finish_and_read(picture_);
-        for (std::size_t pixel = 0; pixel < sums_.size() / 3; ++pixel) {
-            for (std::size_t part = 0; part < 3; ++part) {
-                sums_[3 * pixel + part] = static_cast<std::uint16_t>(
-                    sums_[3 * pixel + part] + picture_.rgba[4 * pixel + part]);
+        const auto first_column = static_cast<std::size_t>(at.x) * width;
+        const auto first_row = static_cast<std::size_t>(at.y) * height;
+        for (std::size_t i = 0; i < width * height; ++i) {
+            const std::size_t column = (first_column + i % width) / side;
+            const std::size_t row = (first_row + i / width) / side;
+            std::uint16_t* const sum = sums_.data() + 3 * (row * width + column);
+            for (std::size_t k = 0; k < 3; ++k) {
+                sum[k] = static_cast<std::uint16_t>(sum[k] + picture_.rgba[4 * i + k]);
             }
         }
     }

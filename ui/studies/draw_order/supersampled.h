@@ -16,8 +16,9 @@ namespace octant::ui::studies::draw_order {
 visuals::scene::FramePlan
 moved(const visuals::scene::FramePlan& plan, const glm::dvec2& by_px, const glm::ivec2& size_px);
 
-/// What a renderer that samples each pixel once makes of 8 x 8 places in each pixel: the sum of all
-/// 64, red, green and blue of each pixel, rows from the top.
+/// A picture of 8 x 8 samples a pixel: drawn eight times as large in both directions, in 64 parts,
+/// so that textures are filtered for the small pixels, too. The sum of all 64, red, green and blue
+/// of each pixel, rows from the top. For plans that use no depth.
 class Supersampled {
 public:
     static constexpr int side = 8;
