@@ -6,16 +6,24 @@
 // the mesh. So no neighbour needs to be asked, unlike in the paper's restricted quadtree. The order
 // of drawing is that of paint_order.cpp.
 //
-// Geomorphs: a vertex is drawn between its sample and the middle of its two ends as these are
-// drawn. The ends are an edge's corners or, for a child's centre, the parent's centre and the
-// parent's corner; they are always an edge of the mesh without the vertex. The weight of the sample
-// is (f - 1) / (k - 1), from 0 to 1, where f >= 1 is the vertex's error on the screen over the one
-// wanted and k is morph_ratio.
+// Geomorphs: a vertex is drawn between its sample and the middle of its two ends. The ends are an
+// edge's corners or, for a child's centre, the parent's centre and the parent's corner; they are
+// always an edge of the mesh without the vertex. The weight of the sample is
+//   w = (1 - 1 / f) / (1 - r),
+// at most 1, where f >= 1 is the vertex's error on the screen over the one wanted, and r is the
+// largest error of the samples that need it over its own, at least 1 / morph_ratio. So those
+// samples, which appear at r f > 1 at the earliest, find the vertex at rest, and of all vertices
+// that shape a place only the last one moves. The ground there is the mean of two meshes, without
+// the vertex (errors up to f) and with it (up to r f), and its error is at most (1 - w) f + w r f,
+// which is never more than 1: geomorphs keep the bound. Where the eye comes nearer by a small share
+// of its distance, a vertex that lies d wanted errors from the middle of its ends moves by d /
+// (1 - r) times that share at most, and tile_builder_errors.cpp sees to it that this is no more
+// than fastest_move.
 //
 // Deviations:
 // - Where the field's end cuts a node, a centre lies beside the line between its ends. It appears
 //   at the height of the nearest point of that line, so that the ground around it may move a
-//   little.
+//   little; its error includes that.
 // - Corners and centre of the root are always in the mesh, at their samples.
 #include "visuals/terrain/error_mesher.h"
 
@@ -95,7 +103,6 @@ void ErrorMesher::make_room() {
     }
     if (origins_.size() < vertices_.size()) {
         origins_.resize(vertices_.size());
-        height_m_.resize(vertices_.size());
     }
     if (indices_.size() < 24 * count) {
         indices_.resize(30 * count);
@@ -132,33 +139,44 @@ std::uint32_t ErrorMesher::fixed_vertex(Sample at, std::int16_t height) {
             return k;
         }
     }
-    return add_vertex({at, vertex_count_, vertex_count_, 0.5F, height, 0.0F});
+    return add_vertex({at, vertex_count_, vertex_count_, 0.5F, height, 1.0F});
+}
+
+/// The weight of a vertex; `share_below` tells r where it is needed.
+template <typename ShareBelow>
+inline float ErrorMesher::weight_of(float critical, const ShareBelow& share_below) const {
+    const float over = morph_limit_ / critical;
+    if (over >= morph_ratio * morph_ratio) {
+        return 1.0F;
+    }
+    const float below = std::max(share_below(), 1.0F / morph_ratio);
+    const float least = 1.0F - 1.0F / std::sqrt(over);
+    return least >= 1.0F - below ? 1.0F : std::max(least, 0.0F) / (1.0F - below);
 }
 
 /// Adds a vertex between its ends and its sample, lowered by the earth's curvature.
 inline std::uint32_t ErrorMesher::add_vertex(const NewVertex& made) {
     const std::uint32_t vertex = vertex_count_++;
-    float height_m = static_cast<float>(
-        height_base_m_ + ground_->shape().height_unit_m * static_cast<double>(made.height));
-    height_m_[vertex] = height_m; // A vertex that is always there is its own end.
-    const float ratio = std::sqrt(morph_limit_ / made.critical);
-    const float weight = std::clamp((ratio - 1.0F) / (morph_ratio - 1.0F), 0.0F, 1.0F);
-    const float from_a = height_m_[made.end_a];
-    const float from_b = height_m_[made.end_b];
-    const float middle_m = made.share == 0.5F // the same whichever end comes first
-                               ? 0.5F * (from_a + from_b)
-                               : from_a + made.share * (from_b - from_a);
-    height_m += (1.0F - weight) * (middle_m - height_m);
-    height_m_[vertex] = height_m;
     const auto east_m = static_cast<float>(rule_.west_m() + made.at.column * ground_->spacing_m());
     const auto north_m = static_cast<float>(rule_.south_m() + made.at.row * ground_->spacing_m());
-    vertices_[vertex] = {{east_m, north_m, height_m - rule_.drop_m(east_m, north_m)}, 0};
+    float height_m = static_cast<float>(
+        height_base_m_ + ground_->shape().height_unit_m * static_cast<double>(made.height));
+    height_m -= rule_.drop_m(east_m, north_m);
+    if (made.weight < 1.0F) {
+        const float from_a = vertices_[made.end_a].position_m.z;
+        const float from_b = vertices_[made.end_b].position_m.z;
+        const float middle_m = made.share == 0.5F // the same whichever end comes first
+                                   ? 0.5F * (from_a + from_b)
+                                   : from_a + made.share * (from_b - from_a);
+        height_m += (1.0F - made.weight) * (middle_m - height_m);
+    }
+    vertices_[vertex] = {{east_m, north_m, height_m}, 0};
     origins_[vertex] = {
         static_cast<std::uint16_t>(made.at.column),
         static_cast<std::uint16_t>(made.at.row),
         made.end_a,
         made.end_b,
-        weight};
+        made.weight};
     return vertex;
 }
 
@@ -265,7 +283,10 @@ ErrorMesher::EmittedFan ErrorMesher::child_of(const EmittedFan& fan, unsigned qu
 /// Adds the vertex of a fan's centre.
 inline void
 ErrorMesher::add_centre(const FanSamples& samples, std::int16_t height, EmittedFan& fan) {
-    const NewVertex made{samples.at(1, 1), fan.end_a, fan.end_b, 0.5F, height, nodes_[fan.node].on};
+    const ErrorNode& node = nodes_[fan.node];
+    const float weight = weight_of(
+        node.on, [&] { return rule_.share_below_centre(node.level, node.column, node.row); });
+    const NewVertex made{samples.at(1, 1), fan.end_a, fan.end_b, 0.5F, height, weight};
     std::uint32_t& centre = fan.ring[centre_of_ring];
     if (!samples.is_cut()) {
         centre = add_vertex(made);
@@ -299,13 +320,17 @@ inline void ErrorMesher::add_middles(
 
 inline std::uint32_t ErrorMesher::add_middle(
     const FanSamples& samples, std::int16_t height, const EmittedFan& fan, std::size_t edge) {
+    const ErrorNode& node = nodes_[fan.node];
+    const float weight = weight_of(node.middle[edge], [&] {
+        return rule_.share_below_middle(node.level, node.column, node.row, edge);
+    });
     const NewVertex made{
         samples.ring(2 * edge + 1),
         fan.ring[2 * edge],
         fan.ring[(2 * edge + 2) % 8],
         0.5F,
         height,
-        nodes_[fan.node].middle[edge]};
+        weight};
     if (!samples.is_cut()) {
         return add_vertex(made);
     }

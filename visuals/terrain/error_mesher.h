@@ -26,10 +26,10 @@ namespace octant::visuals::terrain {
 /// triangles in the view's painting order. Its memory grows with the mesh, not with the ground.
 ///
 /// The mesh is conforming: triangles neither gap nor overlap nor touch an edge between its ends.
-/// The triangles for a narrower frustum are triangles of the unculled mesh. Without geomorphs every
-/// sample in the picture is within the mesh's error_px of the triangles, where the view has a
-/// direction. With them a vertex appears and disappears in the middle of the edge that it halves,
-/// and samples around it may lie 1.4 times as far off while it moves.
+/// The triangles for a narrower frustum are triangles of the unculled mesh. Every sample in the
+/// picture is within the mesh's error_px of the triangles, where the view has a direction. With
+/// geomorphs a vertex appears and disappears in the middle of the edge that it halves, and moves to
+/// its sample as far as that bound asks.
 class ErrorMesher {
 public:
     /// `ground` must outlive the mesher and stay where it is.
@@ -94,12 +94,14 @@ private:
         std::uint32_t end_b = 0;
         float share = 0.5F;      ///< Where between its ends it appears; 0 is end a and 1 is end b.
         std::int16_t height = 0; ///< The height as stored.
-        float critical = 0.0F;
+        float weight = 1.0F;
     };
 
     void make_room();
     EmittedFan root_fan();
     std::uint32_t fixed_vertex(Sample at, std::int16_t height);
+    template <typename ShareBelow>
+    float weight_of(float critical, const ShareBelow& share_below) const;
     std::uint32_t add_vertex(const NewVertex& made);
     std::uint32_t cut_vertex(NewVertex made);
     void emit(EmittedFan& fan);
@@ -141,8 +143,6 @@ private:
     glm::dvec2 eye_{0.0};               ///< In samples east and north of the field's first sample.
     std::vector<models::ColourVertex> vertices_;
     std::vector<VertexOrigin> origins_;
-    /// The heights of vertices_ relative to the eye, before the earth's curvature lowers them.
-    std::vector<float> height_m_;
     std::vector<std::uint32_t> indices_;
     std::vector<models::ColourVertex> last_vertices_; ///< The vertices of the last mesh but one.
     std::vector<std::uint32_t> last_indices_;

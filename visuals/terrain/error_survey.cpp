@@ -19,20 +19,12 @@ constexpr float least_limit = 1e-30F; ///< Below every critical value but the ro
 /// The error that is tried first when there is no last frame.
 constexpr double first_look_px = 4.0;
 
-/// With geomorphs, how far a fan's vertices may be drawn from their samples, in errors of the fan's
-/// own centre. A vertex drawn away from its sample has an error of less than morph_ratio times the
-/// wanted one, as seen from its region of influence; the vertices in and around the fan therefore
-/// have less than morph_ratio times the error of the centre, which is in the mesh. A vertex stays
-/// within the largest error of those of its ancestors that are not at their samples either, which
-/// again is less than morph_ratio times its own.
-constexpr float morph_margin = morph_ratio * morph_ratio;
-
 } // namespace
 
 float ErrorSurvey::limit_for(const ErrorTarget& target) {
     assert(target.error_px >= 0.0 && target.most_triangles >= 1);
     nodes_tested_ = 0;
-    margin_ = target.geomorphs ? morph_margin : 0.0F;
+    margin_ = target.geomorphs ? 1.0F : 0.0F;
     const float most = std::max(rule_->limit_of(target.error_px), least_limit);
     if (target.most_triangles >= any_triangles) {
         start(most);

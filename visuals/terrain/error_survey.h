@@ -27,9 +27,8 @@ struct ErrorTarget {
 };
 
 /// With geomorphs a vertex is at its own sample when its error, as seen from its region of
-/// influence, is this many times the wanted one, and still between its ends when it is no more than
-/// the wanted one. A vertex in motion is then drawn up to 1.04 times the wanted error away from its
-/// sample. With 2 it would never exceed it, but move half as fast again.
+/// influence, is this many times the wanted one, or earlier where samples need it
+/// (error_mesher.cpp), and still between its ends when it is no more than the wanted one.
 inline constexpr float morph_ratio = 2.5F;
 
 inline constexpr int any_triangles = 1 << 30;
@@ -98,7 +97,8 @@ private:
     StepCount steps_;
     std::array<std::array<HeightGaps, 4>, 16> gaps_; ///< By level and quadrant, during a walk.
     float high_ = 0.0F;
-    /// How far from their samples vertices may be drawn, in errors of the parent's centre.
+    /// How far from their samples vertices of a quadrant's triangles may be drawn, in errors of the
+    /// parent's centre, which all those that move need: 1 with geomorphs.
     float margin_ = 0.0F;
     int most_triangles_ = 0;  ///< A walk stops once it has counted more.
     bool more_above_ = false; ///< Something visible appears only above high_.

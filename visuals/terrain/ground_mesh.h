@@ -72,7 +72,8 @@ struct GroundMesh {
     std::span<const std::uint32_t> indices;
     MeshCounters counters;
     double resolution = 0.0; ///< C it was made with, before magnification.
-    double error_px = 0.0;   ///< The screen-space error it was made for; 0 where C decides.
+    /// How far any sample in the picture may lie from the triangles, in pixels; 0 where C decides.
+    double error_px = 0.0;
     std::span<const VertexOrigin> origins; ///< One for each vertex; empty where C decides.
 };
 

@@ -64,6 +64,10 @@ public:
         return {first[0], first[1], above[0], above[1]};
     }
 
+    std::uint8_t centre_code(int column, int row) const {
+        return *error(spot(column, row), NodePart::Centre);
+    }
+
     /// The stored height of the root's corner in a quadrant.
     std::int16_t corner_height(std::size_t quadrant) const { return heights(corners_)[quadrant]; }
 

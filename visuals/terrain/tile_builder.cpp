@@ -1,14 +1,4 @@
-// Saturated errors of a tile: P. Lindstrom, V. Pascucci, "Terrain Simplification Simplified", 2002,
-// section 3 (errors saturated along the dependencies of longest-edge bisection).
-//
-// Each sample gets the maximum of its own error and the stored errors of the samples that need it:
-// middles of edges from centres one level finer, centres from middles of their own level. Maxima
-// are taken of the one-byte codes, which keep the order.
-//
-// Deviations: the own error is the true largest deviation inside a sample's diamond (17 % fewer
-// triangles at equal error than with that of the middle alone). Diamonds with a half edge above 16
-// samples look at every (half / 16)-th sample in each direction; saturation brings what lies
-// between. A diamond's legs are left to the smaller diamonds on them, which saturation includes.
+// What a tile is made of, and where it lies: heights, and the errors of tile_builder_errors.cpp.
 #include "visuals/terrain/tile_builder.h"
 
 #include <algorithm>
@@ -38,6 +28,7 @@ TileBuilder::TileBuilder(
     , coder_(coder)
     , memory_(memory)
     , children_((2 * most + 2) * (2 * most + 2))
+    , unseen_((most + 2) * (most + 2))
     , souths_((most + 1) * most)
     , wests_((most + 1) * most)
     , centres_(most * most)
@@ -55,6 +46,7 @@ std::span<const std::byte> TileBuilder::build(const TilePlace& place) {
     e.stride = std::max(1, e.half / widest_half);
     choose_lattice();
     fetch_children();
+    fetch_unseen();
     measure_souths();
     measure_wests();
     measure_centres();
@@ -139,97 +131,6 @@ std::uint8_t TileBuilder::children(int column, int row) const {
     const int edge = 2 * most + 2;
     const std::uint8_t* const south_west = &children_[index_of(column, row, edge)];
     return std::max({south_west[0], south_west[1], south_west[edge], south_west[edge + 1]});
-}
-
-/// Measures the own errors of a row of samples: the middles of nodes, of their south edges or of
-/// their west edges.
-void TileBuilder::measure(int row, Diamond diamond, std::span<std::uint8_t> codes) {
-    const Extent& e = extent_;
-    const int count = static_cast<int>(codes.size());
-    const int from_edge = diamond == Diamond::Upright ? 0 : e.half;
-    const int first = e.first_column * e.at.edge + from_edge;
-    // From `begin` to `end` the whole diamond lies within the field.
-    const int begin = first < e.half ? 1 : 0;
-    int end = (heights_.columns - 1 - e.half - first + e.at.edge) / e.at.edge;
-    if (row < e.half || row + e.half > heights_.rows - 1) {
-        end = 0;
-    }
-    end = std::clamp(end, begin, count);
-    const bool falling = diamond == Diamond::Falling;
-    const auto turned = [&](int i) {
-        const bool node = diamond == Diamond::Rising || falling;
-        return node && (i & 1) != 0 ? (falling ? Diamond::Rising : Diamond::Falling) : diamond;
-    };
-    if (end > begin) {
-        const DiamondRow inside = lattice_row(first + begin * e.at.edge, row, end - begin);
-        float* const errors = &errors_[static_cast<std::size_t>(begin)];
-        if (diamond == Diamond::Lying || diamond == Diamond::Upright) {
-            diamond_errors(inside, diamond, errors);
-        } else {
-            node_errors(inside, diamond, errors);
-        }
-    }
-    for (int i = 0; i < count; ++i) {
-        float& error = errors_[static_cast<std::size_t>(i)];
-        if (i < begin || i >= end) {
-            const DiamondPlace place{first + i * e.at.edge, row, e.half, e.stride};
-            error = clamped_error(heights_, place, turned(i));
-        }
-        codes[static_cast<std::size_t>(i)] = coder_.code_of(error);
-    }
-}
-
-/// The stored errors of the middles of south edges.
-void TileBuilder::measure_souths() {
-    const Extent& e = extent_;
-    for (int row = 0; row <= e.rows; ++row) {
-        const std::span codes = std::span(souths_).subspan(
-            index_of(0, row, e.columns), static_cast<std::size_t>(e.columns));
-        measure((e.first_row + row) * e.at.edge, Diamond::Lying, codes);
-        for (int column = 0; column < e.columns; ++column) {
-            std::uint8_t& code = codes[static_cast<std::size_t>(column)];
-            code = std::max(code, children(2 * column + 1, 2 * row));
-        }
-    }
-}
-
-/// The stored errors of the middles of west edges.
-void TileBuilder::measure_wests() {
-    const Extent& e = extent_;
-    for (int row = 0; row < e.rows; ++row) {
-        const std::span codes = std::span(wests_).subspan(
-            index_of(0, row, e.columns + 1), static_cast<std::size_t>(e.columns) + 1);
-        measure((e.first_row + row) * e.at.edge + e.half, Diamond::Upright, codes);
-        for (int column = 0; column <= e.columns; ++column) {
-            std::uint8_t& code = codes[static_cast<std::size_t>(column)];
-            code = std::max(code, children(2 * column, 2 * row + 1));
-        }
-    }
-}
-
-/// The stored errors of the centres, which come last because they need those of the edges.
-void TileBuilder::measure_centres() {
-    const Extent& e = extent_;
-    for (int row = 0; row < e.rows; ++row) {
-        const std::span codes = std::span(centres_).subspan(
-            index_of(0, row, e.columns), static_cast<std::size_t>(e.columns));
-        const bool falling = ((e.first_row + row + e.first_column) & 1) != 0;
-        measure(
-            (e.first_row + row) * e.at.edge + e.half,
-            falling ? Diamond::Falling : Diamond::Rising,
-            codes);
-        for (int column = 0; column < e.columns; ++column) {
-            const std::size_t south = index_of(column, row, e.columns);
-            const std::size_t west = index_of(column, row, e.columns + 1);
-            std::uint8_t& code = codes[static_cast<std::size_t>(column)];
-            code = std::max(
-                {code,
-                 souths_[south],
-                 souths_[south + static_cast<std::size_t>(e.columns)],
-                 wests_[west],
-                 wests_[west + 1]});
-        }
-    }
 }
 
 /// The stored height of a sample, whose place is given in half edges from the field's south-west

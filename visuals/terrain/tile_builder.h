@@ -5,6 +5,7 @@
 #include "visuals/terrain/ground_layout.h"
 #include "visuals/terrain/stored_heights.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -49,14 +50,27 @@ private:
 
     static constexpr int most = GroundLayout::tile_edge;
 
+    /// The middle of two triangles' longest edge, and the ends of that edge, in samples.
+    struct Halved {
+        std::array<int, 2> middle{};
+        std::array<int, 2> end_a{};
+        std::array<int, 2> end_b{};
+    };
+
     void choose_lattice();
     DiamondRow lattice_row(int column, int row, int count) const;
     void fetch_children();
+    void fetch_unseen();
+    std::uint8_t largest_code(int level, int column, int row) const;
+    float unseen(int column, int row) const;
+    float unseen_by(int index, int row, Diamond diamond) const;
     std::uint8_t children(int column, int row) const;
     void measure_souths();
     void measure_wests();
     void measure_centres();
     void measure(int row, Diamond diamond, std::span<std::uint8_t> codes);
+    Halved diagonal_of(int column, int row, bool falling) const;
+    std::uint8_t with_room(std::uint8_t below, const Halved& edge) const;
     std::int16_t height(int column, int row) const;
     void put_heights();
     void put_errors();
@@ -75,6 +89,9 @@ private:
     int lattice_row_ = 0;
     /// The codes of the centres one level finer, one more on each side of the tile.
     std::vector<std::uint8_t> children_;
+    /// For each node, and for one more on each side of the tile, the error that samples beside the
+    /// lattice may have in a mesh of the lattice, in units of the numbers.
+    std::vector<float> unseen_;
     std::vector<std::uint8_t> souths_; ///< Codes, row after row; one row more than nodes.
     std::vector<std::uint8_t> wests_;  ///< Codes, row after row; one column more than nodes.
     std::vector<std::uint8_t> centres_;

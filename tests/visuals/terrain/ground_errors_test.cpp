@@ -1,0 +1,294 @@
+// Errors as they are stored, against their definition in plain loops.
+#include "visuals/terrain/ground_builder.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "ground_fields.h"
+
+namespace octant::visuals::terrain {
+
+namespace {
+
+struct Point {
+    int x;
+    int y;
+};
+
+enum class Look { AsBuilt, AtAll };
+
+/// The codes of every sample's error in the padded square, straight from their definition. Errors
+/// are multiplied by a factor beside 1 before they are coded.
+class PlainErrors {
+public:
+    PlainErrors(const models::heights::HeightField& field, double factor)
+        : field_(field)
+        , factor_(factor)
+        , root_edge_(GroundLayout(field.columns(), field.rows()).level(0).edge)
+        , codes_(static_cast<std::size_t>((root_edge_ + 1) * (root_edge_ + 1))) {
+        for (int half = 1; half < root_edge_; half *= 2) {
+            for_each(half, false);
+            for_each(half, true);
+        }
+    }
+
+    std::uint8_t code(int x, int y) const { return codes_[index(x, y)]; }
+
+    /// The largest deviation of samples from the triangles whose longest edge a sample halves;
+    /// `half`: from the middle to a corner or a side of the square around them.
+    double own(Point middle, int half, Look look) const {
+        const Point end = end_of(middle, half);
+        const Point apex{-end.y, end.x};
+        double error = 0.0;
+        double folded = 0.0;
+        for (const int side : {1, -1}) {
+            std::array<Point, 3> corners = {
+                {{middle.x + end.x, middle.y + end.y},
+                 {middle.x - end.x, middle.y - end.y},
+                 {middle.x + side * apex.x, middle.y + side * apex.y}}};
+            if (!padded(corners[2].x, corners[2].y)) {
+                continue;
+            }
+            for (Point& corner : corners) {
+                corner = moved(corner);
+            }
+            const int stride = look == Look::AtAll ? 1 : std::max(1, half / 16);
+            error = std::max(error, of_triangle(corners, stride));
+            if (cross(corners[0], corners[1], corners[2]) != 0.0 && look == Look::AsBuilt) {
+                folded = std::max(
+                    folded,
+                    std::abs(plane(corners, moved(middle)) - beside(corners, moved(middle))));
+            }
+        }
+        return error + folded;
+    }
+
+private:
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y * (root_edge_ + 1) + x);
+    }
+
+    bool padded(int x, int y) const {
+        return x >= 0 && y >= 0 && x <= root_edge_ && y <= root_edge_;
+    }
+
+    Point moved(Point at) const {
+        return {std::min(at.x, field_.columns() - 1), std::min(at.y, field_.rows() - 1)};
+    }
+
+    static bool is_odd(int x, int half) { return (x / half) % 2 != 0; }
+
+    /// From the middle to one end of the edge that a sample halves.
+    static Point end_of(Point middle, int half) {
+        const bool odd_x = is_odd(middle.x, half);
+        if (!odd_x || !is_odd(middle.y, half)) {
+            return odd_x ? Point{half, 0} : Point{0, half};
+        }
+        // The parent's centre has the coordinates that are odd multiples of two halves.
+        return {
+            is_odd(middle.x + half, 2 * half) ? half : -half,
+            is_odd(middle.y + half, 2 * half) ? half : -half};
+    }
+
+    std::uint8_t coded(double error_m) const {
+        return GroundTiles::error_code_of(static_cast<float>(error_m * factor_));
+    }
+
+    /// All middles of edges that are two halves long, or all centres of such nodes.
+    void for_each(int half, bool centres) {
+        for (int y = 0; y <= root_edge_; y += half) {
+            for (int x = 0; x <= root_edge_; x += half) {
+                const bool odd_x = is_odd(x, half);
+                const bool odd_y = is_odd(y, half);
+                if ((odd_x || odd_y) && (odd_x && odd_y) == centres) {
+                    const double own_m = own({x, y}, half, Look::AsBuilt) + unseen({x, y}, half);
+                    const std::uint8_t below = largest_below({x, y}, half, centres);
+                    codes_[index(x, y)] = std::max(coded(own_m), with_room({x, y}, half, below));
+                }
+            }
+        }
+    }
+
+    std::uint8_t largest_below(Point at, int half, bool centre) const {
+        static constexpr std::array<Point, 4> straight = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+        static constexpr std::array<Point, 4> aslant = {{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
+        const int step = centre ? half : half / 2;
+        std::uint8_t largest = 0;
+        for (const Point& way : centre ? straight : aslant) {
+            const int x = at.x + way.x * step;
+            const int y = at.y + way.y * step;
+            if (step > 0 && padded(x, y) && (centre || has_area(x, y, step))) {
+                largest = std::max(largest, code(x, y));
+            }
+        }
+        return largest;
+    }
+
+    std::uint8_t with_room(Point at, int half, std::uint8_t below) const {
+        const Point end = end_of(at, half);
+        const double ends_m = height(moved({at.x + end.x, at.y + end.y})) +
+                              height(moved({at.x - end.x, at.y - end.y}));
+        const double move_m = std::abs(height(moved(at)) - 0.5 * ends_m);
+        const double below_m = static_cast<double>(GroundTiles::error_m_of(below));
+        return below == 0 || move_m == 0.0 ? below : std::max(below, coded(below_m + move_m / 5.0));
+    }
+
+    /// The largest error of the nodes with an edge of one stride around a sample.
+    double unseen(Point at, int half) const {
+        const int stride = half / 16;
+        if (stride < 2) {
+            return 0.0;
+        }
+        const int node = 2 * half;
+        const int least_x = (at.x - half / 2) / node * node;
+        const int least_y = (at.y - half / 2) / node * node;
+        std::uint8_t largest = 0;
+        for (int y = least_y; y < at.y + half; y += stride) {
+            for (int x = least_x; x < at.x + half; x += stride) {
+                const Point centre{x + stride / 2, y + stride / 2};
+                if (padded(centre.x, centre.y) && has_area(centre.x, centre.y, stride / 2)) {
+                    largest = std::max(largest, code(centre.x, centre.y));
+                }
+            }
+        }
+        return static_cast<double>(GroundTiles::error_m_of(largest));
+    }
+
+    bool has_area(int x, int y, int half) const {
+        return x - half < field_.columns() - 1 && y - half < field_.rows() - 1;
+    }
+
+    static double cross(Point a, Point b, Point c) {
+        return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    }
+
+    double plane(const std::array<Point, 3>& at, Point p) const {
+        return (cross(at[1], at[2], p) * height(at[0]) + cross(at[2], at[0], p) * height(at[1]) +
+                cross(at[0], at[1], p) * height(at[2])) /
+               cross(at[0], at[1], at[2]);
+    }
+
+    /// The height of the point of the first edge that is nearest to a place.
+    double beside(const std::array<Point, 3>& at, Point p) const {
+        const Point edge{at[1].x - at[0].x, at[1].y - at[0].y};
+        const double along = (p.x - at[0].x) * edge.x + (p.y - at[0].y) * edge.y;
+        const double share = std::clamp(along / (edge.x * edge.x + edge.y * edge.y), 0.0, 1.0);
+        return height(at[0]) + share * (height(at[1]) - height(at[0]));
+    }
+
+    /// Over every stride-th sample and those of the field's last column and row.
+    double of_triangle(const std::array<Point, 3>& at, int stride) const {
+        const double area = cross(at[0], at[1], at[2]);
+        double error = 0.0;
+        for (int y = 0; area != 0.0 && y < field_.rows() - 1 + stride; y += stride) {
+            for (int x = 0; x < field_.columns() - 1 + stride; x += stride) {
+                const Point p = moved({x, y});
+                const double a = cross(at[1], at[2], p) / area;
+                const double b = cross(at[2], at[0], p) / area;
+                const double c = cross(at[0], at[1], p) / area;
+                if (a >= 0.0 && b >= 0.0 && c >= 0.0) {
+                    error = std::max(error, std::abs(height(p) - plane(at, p)));
+                }
+            }
+        }
+        return error;
+    }
+
+    double height(Point at) const { return static_cast<double>(field_.height_m(at.x, at.y)); }
+
+    const models::heights::HeightField& field_;
+    double factor_;
+    int root_edge_;
+    std::vector<std::uint8_t> codes_;
+};
+
+/// Calls check(code, sample, half) for each stored error of a ground.
+template <typename Check>
+void for_each_error(const GroundTiles& ground, const Check& check) {
+    for (int level = 0; level < ground.levels(); ++level) {
+        const GroundLayout::Level& at = ground.layout().level(level);
+        const int half = at.edge / 2;
+        for (int y = 0; y <= at.rows; ++y) {
+            for (int x = 0; x <= at.columns; ++x) {
+                const Point corner{x * at.edge, y * at.edge};
+                const auto check_part = [&](NodePart part, Point sample) {
+                    check(ground.error_code(level, part, x, y), sample, half);
+                };
+                if (x < at.columns) {
+                    check_part(NodePart::South, {corner.x + half, corner.y});
+                }
+                if (y < at.rows) {
+                    check_part(NodePart::West, {corner.x, corner.y + half});
+                }
+                if (x < at.columns && y < at.rows) {
+                    check_part(NodePart::Centre, {corner.x + half, corner.y + half});
+                }
+            }
+        }
+    }
+}
+
+/// Number of samples whose stored error is not that of the definition. Rounding may make a
+/// difference where triangles are shrunk at a padded rim.
+int wrong_errors(const models::heights::HeightField& field) {
+    const PlainErrors least(field, 1.0 - 1e-6);
+    const PlainErrors most(field, 1.0 + 1e-6);
+    int wrong = 0;
+    for_each_error(ground_of(field), [&](std::uint8_t code, Point sample, int /*half*/) {
+        wrong += code < least.code(sample.x, sample.y) || code > most.code(sample.x, sample.y);
+    });
+    return wrong;
+}
+
+/// Number of samples with an error below the distance of some sample, whichever.
+int errors_too_small(const models::heights::HeightField& field) {
+    const PlainErrors plain(field, 1.0);
+    int wrong = 0;
+    for_each_error(ground_of(field), [&](std::uint8_t code, Point sample, int half) {
+        const double own_m = plain.own(sample, half, Look::AtAll);
+        wrong += static_cast<double>(GroundTiles::error_m_of(code)) < own_m * (1.0 - 1e-6);
+    });
+    return wrong;
+}
+
+} // namespace
+
+TEST_CASE("errors are the largest deviations in the diamonds, saturated with room to move") {
+    for (const int size : {3, 5, 9, 17, 33, 65, 129}) {
+        INFO(size);
+        CHECK(wrong_errors(rough_field(size, size, static_cast<unsigned>(size))) == 0);
+    }
+}
+
+TEST_CASE("errors are those deviations for odd sizes, too") {
+    constexpr std::array<std::pair<int, int>, 9> sizes = {
+        {{2, 2}, {2, 9}, {6, 11}, {11, 6}, {34, 33}, {18, 40}, {100, 65}, {66, 3}, {77, 140}}};
+    for (const auto& [columns, rows] : sizes) {
+        INFO(columns << " x " << rows);
+        CHECK(wrong_errors(rough_field(columns, rows, 5)) == 0);
+    }
+}
+
+TEST_CASE("no sample lies farther from a triangle than its error says, on no lattice either") {
+    for (const auto& [columns, rows] : {std::pair{129, 129}, {100, 65}, {77, 140}}) {
+        INFO(columns << " x " << rows);
+        CHECK(errors_too_small(rough_field(columns, rows, 7)) == 0);
+        // Slopes with a few spikes, most of which are beside the lattice of large diamonds.
+        std::vector<float> heights_m;
+        for (int row = 0; row < rows; ++row) {
+            for (int column = 0; column < columns; ++column) {
+                const bool spike = (31 * column + 17 * row) % 257 == 0;
+                heights_m.push_back(static_cast<float>(2 * column - row + (spike ? 300 : 0)));
+            }
+        }
+        CHECK(errors_too_small({columns, rows, 30.0, heights_m}) == 0);
+    }
+}
+
+} // namespace octant::visuals::terrain
