@@ -97,9 +97,13 @@ private:
         }
         const long kids = words_.whole("a number of kids", 0, most_count);
         for (long kid = 0; kid < kids; ++kid) {
-            const std::string_view word = words_.word("OBJECT");
+            const std::string_view word = words_.word_or_end();
+            if (word.empty() && mesh_.vertex_count() > 0) {
+                missing_kids_ += kids - kid;
+                break;
+            }
             if (word != "OBJECT") {
-                words_.refuse("OBJECT", in_quotes(word));
+                words_.refuse("OBJECT", word.empty() ? "the end of the file" : in_quotes(word));
             }
             take_object(parent.of(own), depth + 1);
         }
@@ -243,6 +247,12 @@ private:
     }
 
     void add_notes() {
+        if (missing_kids_ > 0) {
+            mesh_.add_note(fmt::format(
+                "{}: the file ends {} objects before what it announces",
+                path_.string(),
+                missing_kids_));
+        }
         if (skipped_ > 0) {
             mesh_.add_note(fmt::format(
                 "{}: {} lines and other surfaces without an area are not read",
@@ -265,6 +275,7 @@ private:
     std::vector<Corner> corners_;
     std::size_t skipped_ = 0;
     std::size_t two_sided_ = 0;
+    long missing_kids_ = 0;    ///< that are announced and not there
     bool is_left_out_ = false; ///< the object at hand
 };
 

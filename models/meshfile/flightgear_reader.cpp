@@ -2,6 +2,7 @@
 // animations, which are read as at rest: all properties 0. Its axes are x back, y right, z up; AC3D
 // files lie in them as (x, -z, y).
 #include "models/meshfile/flightgear_conditions.h"
+#include "models/meshfile/flightgear_paths.h"
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"
@@ -96,28 +97,6 @@ private:
              number(file, *found, "z-m")}};
     }
 
-    /// A path in a model: beside it, or from one of the folders above it, as FlightGear's root is.
-    fs::path found(const fs::path& from, const std::string& name) const {
-        std::error_code ignored;
-        for (fs::path folder = fs::absolute(from).parent_path();; folder = folder.parent_path()) {
-            fs::path named = name;
-            // "Aircraft/NAME/Models/..." where the aircraft's own folder is called something else
-            for (int less = 0; less < 3 && !named.empty(); ++less) {
-                if (fs::is_regular_file(folder / named, ignored)) {
-                    return folder / named;
-                }
-                fs::path shorter;
-                for (auto part = std::next(named.begin()); part != named.end(); ++part) {
-                    shorter /= *part;
-                }
-                named = shorter;
-            }
-            if (folder == folder.parent_path()) {
-                return {};
-            }
-        }
-    }
-
     void take_model(const fs::path& file, const Placement& parent, int depth) {
         if (ending_of(file) != ".xml") {
             add_mesh(file, parent, {});
@@ -151,7 +130,7 @@ private:
         const Placement& placement,
         const std::set<std::string>& hidden,
         int depth) {
-        const fs::path file = found(from, name);
+        const fs::path file = flightgear_file(from, name);
         if (file.empty() && depth == 0 && joined_.triangles.empty()) {
             error_in(from, "expected a file of its path, got none called " + in_quotes(name));
         }

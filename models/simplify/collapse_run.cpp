@@ -1,16 +1,19 @@
 // Edge collapses, the cheapest first. The new vertex always lies where quadrics are least
-// (vertex_quadrics.cpp); the cost decides the order.
+// (vertex_quadrics.cpp), but for Chooser::Volumes; the cost decides the order.
 //
-// - Quality::Fast: the cost is the quadric itself, as in M. Garland, P. Heckbert, "Surface
+// - Chooser::Quadrics: the cost is the quadric itself, as in M. Garland, P. Heckbert, "Surface
 //   Simplification Using Quadric Error Metrics", 1997.
-// - Quality::Surface: the cost is how much the sum of squared distances between points of the
+// - Chooser::Distances: the cost is how much the sum of squared distances between points of the
 //   original surface and the current surface would grow, looked at both ways. This is the distance
 //   to triangles that Y. Kim and B. U. Lee propose ("Error measure for vertex simplification",
 //   2005, section II.2), but against the original surface instead of the mesh before the collapse.
 //   As it is expensive, it is evaluated lazily: a collapse only marks the edges around it as
 //   unchecked, and an unchecked edge is evaluated anew when its old cost reaches the top of the
 //   heap.
+// - Chooser::Volumes: place and cost without memory (volume_place.cpp), evaluated lazily too.
 #include "models/simplify/collapse_run.h"
+
+#include "models/simplify/volume_place.h"
 
 #include <glm/geometric.hpp>
 
@@ -36,10 +39,12 @@ constexpr double least_error = 1e-5;
 CollapseRun::CollapseRun(
     WorkingSurface& surface,
     const WorkingUnits& units,
+    Chooser chooser,
     TrackedPoints* points,
     const SimplifyOptions& options)
     : surface_(surface)
     , units_(units)
+    , chooser_(chooser)
     , points_(points)
     , length_share_(options.length_share)
     , low_may_turn_(options.low_may_turn)
@@ -49,6 +54,7 @@ CollapseRun::CollapseRun(
     , numbers_(surface.mesh.vertex_slots())
     , strictness_(strictness_for(surface))
     , filled_at_(least_error) {
+    assert((chooser == Chooser::Distances) == (points != nullptr));
     std::iota(numbers_.begin(), numbers_.end(), 0U);
 }
 
@@ -121,12 +127,12 @@ bool CollapseRun::next_edge(HalfEdge& h) {
             }
         }
         h = heap_.top();
-        if (points_ != nullptr) {
-            if (checked_[h]) {
-                return true;
-            }
+        if (chooser_ != Chooser::Quadrics && !checked_[h]) {
             update_cost(h);
             continue;
+        }
+        if (chooser_ == Chooser::Distances) {
+            return true;
         }
         if (is_allowed(h, placed(h))) {
             return true;
@@ -136,8 +142,12 @@ bool CollapseRun::next_edge(HalfEdge& h) {
 }
 
 /// Where the vertex goes that an edge collapses into.
-Placement CollapseRun::placed(HalfEdge h) const {
-    return quadrics_.placement(surface_, h);
+Placement CollapseRun::placed(HalfEdge h) {
+    if (chooser_ != Chooser::Volumes) {
+        return quadrics_.placement(surface_, h);
+    }
+    surface_.mesh.ring_of(h, ring_);
+    return volume_placement(surface_, h, ring_);
 }
 
 /// Whether an edge may collapse: link condition first, then the guard against fold-overs and
@@ -153,12 +163,12 @@ bool CollapseRun::is_allowed(HalfEdge h, const Placement& placement) {
 
 /// Puts an edge into the heap with its present cost, or takes it out where it may not collapse.
 void CollapseRun::update_cost(HalfEdge edge) {
+    checked_[edge] = true;
     const Placement placement = placed(edge);
-    if (points_ == nullptr) {
+    if (chooser_ != Chooser::Distances) {
         heap_.set(edge, static_cast<float>(placement.cost + length_cost(edge, placement)));
         return;
     }
-    checked_[edge] = true;
     if (!is_allowed(edge, placement)) {
         heap_.remove(edge);
         return;

@@ -18,13 +18,13 @@ namespace octant::models::simplify {
 /// The greedy loop of edge collapses: always the cheapest edge next.
 class CollapseRun {
 public:
-    /// Without `points` (null) costs are quadrics (Quality::Fast). Of the options length_share and
-    /// low_may_turn count. With `points`, the tracked points of the surface, costs are the growth
-    /// of their squared distances (Quality::Surface). The surface and the points are changed by
-    /// run().
+    /// `points`, the tracked points of the surface, serve Chooser::Distances alone and are null
+    /// otherwise (asserted). Of the options length_share and low_may_turn count. The surface and
+    /// the points are changed by run().
     CollapseRun(
         WorkingSurface& surface,
         const WorkingUnits& units,
+        Chooser chooser,
         TrackedPoints* points,
         const SimplifyOptions& options);
 
@@ -43,14 +43,15 @@ private:
     void update_cost(HalfEdge edge);
     double length_cost(HalfEdge edge, const Placement& placement) const;
     double surface_increase(HalfEdge h, const Placement& placement, double enough);
-    Placement placed(HalfEdge h) const;
+    Placement placed(HalfEdge h);
     bool is_allowed(HalfEdge h, const Placement& placement);
     void collapse(HalfEdge h, const Placement& placement);
     void update_around(std::uint32_t vertex);
 
     WorkingSurface& surface_;
     const WorkingUnits& units_;
-    TrackedPoints* points_; ///< Null: costs are quadrics.
+    Chooser chooser_;
+    TrackedPoints* points_; ///< Null unless distances choose.
     double length_share_;
     bool low_may_turn_;
     VertexQuadrics quadrics_;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace octant::models::simplify {
 
@@ -16,13 +17,17 @@ namespace {
 /// A plain pass is tried where no more than this share of the triangles is to be left: then it
 /// costs a fraction of the other, and the other may go astray.
 constexpr double deep = 0.1;
+/// Quality::Fast tries a second plain pass on meshes of no more triangles, and then takes still
+/// less time than Quality::Surface by far.
+constexpr std::size_t small = 100'000;
 
 bool is_reached(const Simplified& result, const Goal& goal) {
     return (!goal.faces || result.mesh.triangles.size() <= *goal.faces) &&
            (!goal.vertices || result.mesh.vertices_m.size() <= *goal.vertices);
 }
 
-/// How far a result is off: certified distance times root mean square.
+/// How far a result is off: certified distance times root mean square; 0 where it lies on the
+/// original.
 double fault_of(const Simplified& result, const SimplifyOptions& options) {
     measure::DistanceOptions how;
     how.tightness = 1.05;
@@ -31,28 +36,65 @@ double fault_of(const Simplified& result, const SimplifyOptions& options) {
     how.threads = options.threads;
     const measure::MeshDistance distance =
         measure::distance(result.sequence.original, result.mesh, how);
-    return distance.most_hausdorff_m() * distance.rms_m();
+    const double off_m = distance.most_hausdorff_m();
+    return off_m > 2.0 * how.negligible_m ? off_m * distance.rms_m() : 0.0;
 }
 
-/// The better one of two results of one mesh; one that misses the goal is none.
-Simplified better_of(Simplified one, Simplified other, const SimplifyOptions& options) {
-    const bool one_fits = is_reached(one, options.goal);
-    if (one_fits != is_reached(other, options.goal)) {
-        return one_fits ? std::move(one) : std::move(other);
+/// A result and how far it is off; one that misses the goal comes after all that reach it.
+struct Candidate {
+    Simplified result;
+    bool misses = false;
+    double fault = 0.0;
+
+    bool is_better_than(const Candidate& other) const {
+        constexpr double clearly = 0.99;
+        return misses != other.misses ? other.misses : fault < clearly * other.fault;
     }
-    return fault_of(other, options) < fault_of(one, options) ? std::move(other) : std::move(one);
+};
+
+Candidate judged(Simplified result, const SimplifyOptions& options) {
+    const bool misses = !is_reached(result, options.goal);
+    const double fault = fault_of(result, options);
+    return {std::move(result), misses, fault};
+}
+
+/// The plain passes that are tried beside the first one.
+std::vector<Chooser> plain_passes(const Simplified& first, const SimplifyOptions& options) {
+    const std::size_t before = first.sequence.original.triangles.size();
+    const bool coloured = !first.sequence.original.colours.empty();
+    std::vector<Chooser> plain;
+    if (options.quality == Quality::Surface) {
+        const bool is_deep =
+            static_cast<double>(first.mesh.triangles.size()) <= deep * static_cast<double>(before);
+        if (is_deep) {
+            plain.push_back(Chooser::Quadrics);
+        }
+        if (is_deep && !coloured) {
+            plain.push_back(Chooser::Volumes);
+        }
+    } else if (before <= small && !coloured) {
+        plain.push_back(Chooser::Volumes);
+    }
+    return plain;
 }
 
 Simplified
 best_pass(TriangleMesh original, const SimplifyOptions& options, const OnePass& one_pass) {
-    Simplified best = one_pass(std::move(original), options, options.quality);
-    const auto before = static_cast<double>(best.sequence.original.triangles.size());
-    const bool is_deep = static_cast<double>(best.mesh.triangles.size()) <= deep * before;
-    if (options.quality != Quality::Surface || !is_deep || best.mesh.triangles.empty()) {
-        return best;
+    const Chooser usual =
+        options.quality == Quality::Surface ? Chooser::Distances : Chooser::Quadrics;
+    Simplified first = one_pass(std::move(original), options, usual);
+    const std::vector<Chooser> plain = plain_passes(first, options);
+    if (first.mesh.triangles.empty() || first.sequence.collapses.empty() || plain.empty()) {
+        return first;
     }
-    Simplified plain = one_pass(best.sequence.original, options, Quality::Fast);
-    return better_of(std::move(best), std::move(plain), options);
+    Candidate best = judged(std::move(first), options);
+    for (const Chooser chooser : plain) {
+        Candidate next = judged(one_pass(best.result.sequence.original, options, chooser), options);
+        if (next.is_better_than(best)) {
+            best = std::move(next);
+        }
+    }
+    return std::move(best.result);
 }
 
 std::size_t wanted_faces(const Goal& goal) {

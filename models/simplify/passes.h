@@ -9,10 +9,11 @@ namespace octant::models::simplify {
 /// One pass: collapses chosen as `chosen_by` says until the goal of vertices or faces is met or no
 /// edge can collapse any more, then a polish as the options' quality says.
 using OnePass = std::function<Simplified(
-    TriangleMesh original, const SimplifyOptions& options, Quality chosen_by)>;
+    TriangleMesh original, const SimplifyOptions& options, Chooser chosen_by)>;
 
-/// The best of several passes: with Quality::Surface a plain one by quadrics is tried too, where
-/// few faces are to be left and it costs little. Where a goal is out of reach the smallest shells
+/// The best of several passes: with Quality::Surface plain ones by quadrics and volumes are tried
+/// too, where few faces are to be left and they cost little, and with Quality::Fast the one by
+/// volumes, where the mesh is small. Where a goal is out of reach the smallest shells
 /// go first, unless the options keep them.
 Simplified
 best_of_passes(TriangleMesh original, const SimplifyOptions& options, const OnePass& one_pass);

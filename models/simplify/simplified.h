@@ -14,9 +14,8 @@ struct Simplified {
     CollapseSequence sequence; ///< The collapses that led to it, without the polish.
     /// Shells that had to go for the goal, the smallest ones; the sequence begins without them.
     std::size_t shells_gone = 0;
-    /// What chose the collapses: with Quality::Surface the plain quadrics of Quality::Fast where
-    /// their result is the better one.
-    Quality chosen_by = Quality::Surface;
+    /// What chose the collapses: of those that were tried the one with the best result.
+    Chooser chosen_by = Chooser::Distances;
 };
 
 } // namespace octant::models::simplify

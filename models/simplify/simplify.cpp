@@ -251,8 +251,9 @@ std::vector<Collapse> contracted(
     std::optional<TrackedPoints>& points,
     const WorkingUnits& units,
     const Goal& goal,
+    Chooser chooser,
     const SimplifyOptions& options) {
-    CollapseRun run(surface, units, points ? &*points : nullptr, options);
+    CollapseRun run(surface, units, chooser, points ? &*points : nullptr, options);
     run.run(goal, options.show_progress);
     return std::move(run.collapses());
 }
@@ -265,8 +266,9 @@ sequence_to(const Goal& goal, TriangleMesh original, const SimplifyOptions& opti
     if (options.quality == Quality::Surface) {
         points.emplace(surface, least_points);
     }
+    const Chooser chooser = points ? Chooser::Distances : Chooser::Quadrics;
     CollapseSequence sequence;
-    sequence.collapses = contracted(surface, points, units, goal, options);
+    sequence.collapses = contracted(surface, points, units, goal, chooser, options);
     sequence.original = std::move(original);
     return sequence;
 }
@@ -288,18 +290,18 @@ Simplified simplified_to_error(TriangleMesh original, const SimplifyOptions& opt
 
 /// Simplifies to a goal of vertices or faces in one pass (OnePass).
 Simplified
-simplified_to_count(TriangleMesh original, const SimplifyOptions& options, Quality chosen_by) {
+simplified_to_count(TriangleMesh original, const SimplifyOptions& options, Chooser chosen_by) {
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
     const WorkingSurface target(original, units);
     WorkingSurface surface = target;
     std::optional<TrackedPoints> points;
-    if (chosen_by == Quality::Surface) {
+    if (chosen_by == Chooser::Distances) {
         points.emplace(target, least_points);
     }
     Simplified result;
     result.chosen_by = chosen_by;
     CollapseSequence& sequence = result.sequence;
-    sequence.collapses = contracted(surface, points, units, options.goal, options);
+    sequence.collapses = contracted(surface, points, units, options.goal, chosen_by, options);
     sequence.original = std::move(original);
     if (sequence.collapses.empty()) {
         result.mesh = finished(sequence, 0, options);

@@ -22,6 +22,13 @@ enum class Quality {
     Fast     ///< Quadrics, and only a short polish.
 };
 
+/// By what collapses were chosen.
+enum class Chooser {
+    Distances, ///< By distances to the original surface, both ways.
+    Quadrics,  ///< By the sums of squared distances to the original planes.
+    Volumes    ///< By the volumes that triangles sweep, without memory of the original.
+};
+
 /// How a mesh is simplified.
 struct SimplifyOptions {
     Quality quality = Quality::Surface;

@@ -52,6 +52,18 @@ simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diag
     return options;
 }
 
+std::string name_of(simplify::Chooser chooser) {
+    switch (chooser) {
+    case simplify::Chooser::Distances:
+        return "distances";
+    case simplify::Chooser::Quadrics:
+        return "quadrics";
+    case simplify::Chooser::Volumes:
+        break;
+    }
+    return "volumes";
+}
+
 models::TriangleMesh read_repaired(const SimplifyCommand& command, Figures& figures) {
     models::TriangleMesh mesh = world::read_mesh_input(command.in);
     figures["faces_in_file"] = mesh.triangles.size();
@@ -181,8 +193,7 @@ bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
     figures["faces"] = result.mesh.triangles.size();
     figures["vertices"] = result.mesh.vertices_m.size();
     figures["method"] = command.method;
-    figures["chosen_by"] =
-        result.chosen_by == simplify::Quality::Surface ? "distances" : "quadrics";
+    figures["chosen_by"] = name_of(result.chosen_by);
     figures["shells_gone"] = result.shells_gone;
     if (!result.mesh.triangles.empty()) {
         add_distance(figures, original, result.mesh, command.threads);

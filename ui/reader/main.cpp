@@ -5,6 +5,7 @@
 #include "sim/base/error.h"
 #include "ui/reader/library_readers.h"
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -18,6 +19,7 @@ namespace {
 
 constexpr int wrong_input = 2;
 constexpr rlim_t most_bytes = rlim_t{4} << 30U;
+constexpr rlim_t most_file_bytes = rlim_t{2} << 30U;
 constexpr rlim_t most_cpu_s = 25;
 constexpr unsigned most_s = 60;
 
@@ -25,9 +27,12 @@ void limit() {
     const rlimit memory{most_bytes, most_bytes};
     const rlimit cpu{most_cpu_s, most_cpu_s};
     const rlimit core{0, 0};
+    const rlimit file{most_file_bytes, most_file_bytes};
     setrlimit(RLIMIT_AS, &memory);
     setrlimit(RLIMIT_CPU, &cpu);
     setrlimit(RLIMIT_CORE, &core);
+    setrlimit(RLIMIT_FSIZE, &file);
+    std::signal(SIGXFSZ, SIG_IGN); // a write beyond the limit fails, and is told
     alarm(most_s);
 }
 

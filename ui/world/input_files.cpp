@@ -8,6 +8,7 @@
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
 #include "ui/settings/terrain_name.h"
+#include "ui/world/model_files.h"
 #include "visuals/groundfile/ground_file.h"
 
 #include <algorithm>
@@ -73,31 +74,17 @@ std::vector<fs::path> ground_files(const std::string& terrain) {
     return files;
 }
 
-/// Names of material files in an OBJ file, as they stand there.
-std::vector<std::string> material_names(const fs::path& obj) {
-    std::vector<std::string> names;
-    LineReader lines(obj);
-    while (const auto line = lines.next()) {
-        const auto words = split_words(*line);
-        if (words.size() > 1 && words.front() == "mtllib") {
-            names.emplace_back(words[1].data(), line->data() + line->size());
-            names.insert(names.end(), words.begin() + 1, words.end());
+/// The ways from a model's folder to those of the files it names that lie there or below.
+std::vector<fs::path> ways_below(const fs::path& model, const std::vector<fs::path>& named) {
+    const fs::path folder = fs::absolute(model).lexically_normal().parent_path();
+    std::vector<fs::path> ways;
+    for (const fs::path& file : named) {
+        const fs::path way = file.lexically_relative(folder);
+        if (!way.empty() && *way.begin() != "..") {
+            ways.push_back(way);
         }
     }
-    return names;
-}
-
-/// The material files of an OBJ file that lie beside it or below, by their ways from there.
-std::vector<fs::path> materials_below(const fs::path& obj) {
-    std::vector<fs::path> found;
-    for (const std::string& name : material_names(obj)) {
-        const fs::path way = fs::path(name).lexically_normal();
-        if (!way.empty() && way.is_relative() && *way.begin() != ".." &&
-            is_file(obj.parent_path() / way) && std::ranges::find(found, way) == found.end()) {
-            found.push_back(way);
-        }
-    }
-    return found;
+    return ways;
 }
 
 /// Files in the order in which they are found, each once, with names that differ.
@@ -146,18 +133,26 @@ struct Collector {
         }
     }
 
-    /// An aircraft and, of an OBJ file, its materials beside it or in folders below.
+    /// An aircraft and the files that it names: those beside it or in folders below are kept with
+    /// it.
     void add_model(const fs::path& file) {
-        const std::vector<fs::path> materials =
-            ending_of(file) == ".obj" ? materials_below(file) : std::vector<fs::path>();
-        if (!add(file, materials)) {
+        const std::vector<fs::path> named = files_named_by(file);
+        const std::vector<fs::path> below = ways_below(file, named);
+        if (!add(file, below)) {
             return;
         }
         const InputFile model = files.back();
-        for (const fs::path& name : materials) {
-            const std::string kept = (fs::path(model.name).parent_path() / name).string();
+        for (const fs::path& way : below) {
+            const std::string kept = (fs::path(model.name).parent_path() / way).string();
             if (!has_name(kept)) {
-                files.push_back({file.parent_path() / name, kept, model.kept});
+                files.push_back({file.parent_path() / way, kept, model.kept});
+            }
+        }
+        for (const fs::path& other : named) {
+            if (std::ranges::none_of(below, [&](const fs::path& way) {
+                    return (fs::absolute(file).parent_path() / way).lexically_normal() == other;
+                })) {
+                add_outside(other);
             }
         }
     }

@@ -50,6 +50,14 @@ TEST_CASE("materials of AC3D version c are blocks") {
     CHECK(mesh.materials.at(0).colour == glm::vec3(0.0F, 0.0F, 1.0F));
 }
 
+TEST_CASE("an AC3D file that ends before all objects it announces is read, and that is said") {
+    const TriangleMesh mesh = read_mesh(
+        file_with("part.ac", start + "kids 3\nOBJECT poly\n" + corners + surface + "kids 0\n"));
+    CHECK_FALSE(mesh.triangles.empty());
+    REQUIRE(mesh.notes.size() == 1);
+    CHECK_THAT(mesh.notes[0], Catch::Contains("ends 2 objects before"));
+}
+
 TEST_CASE("a faulty AC3D file is refused in one line that says where") {
     CHECK(refused("AC2D\n") == "part.ac:1: expected AC3D, got 'AC2D'");
     CHECK(

@@ -48,6 +48,40 @@ std::string waves(int side) {
     return file;
 }
 
+/// Cubes in a row, each half as large as the one before, as an OBJ file.
+std::string cubes(int count) {
+    models::TriangleMesh mesh;
+    double side = 1.0;
+    for (int i = 0; i < count; ++i, side *= 0.5) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
+        for (int corner = 0; corner < 8; ++corner) {
+            mesh.vertices_m.push_back(
+                {2.0 * i + side * (corner & 1),
+                 side * ((corner >> 1) & 1),
+                 side * ((corner >> 2) & 1)});
+        }
+        const std::vector<models::Triangle> sides{
+            {0, 2, 3},
+            {0, 3, 1},
+            {4, 5, 7},
+            {4, 7, 6},
+            {0, 1, 5},
+            {0, 5, 4},
+            {2, 6, 7},
+            {2, 7, 3},
+            {0, 4, 6},
+            {0, 6, 2},
+            {1, 3, 7},
+            {1, 7, 5}};
+        for (const auto& [a, b, c] : sides) {
+            mesh.triangles.push_back({first + a, first + b, first + c});
+        }
+    }
+    const std::string file = file_named("cubes.obj");
+    models::meshfile::write_mesh(file, mesh);
+    return file;
+}
+
 tests::PrintedJson figures(const std::vector<std::string>& arguments) {
     return tests::figures_of("simplify", arguments);
 }
@@ -100,6 +134,21 @@ TEST_CASE("a mesh is simplified to the faces asked for, and its error is that of
         CHECK(found["error"].number() >= measured["hausdorff_least_units"].number());
         CHECK(found["error"].number() <= 1.5 * measured["hausdorff_least_units"].number());
     }
+}
+
+TEST_CASE("a goal below what all shells need drops the smallest; kept, it is missed with exit 1") {
+    const std::string in = cubes(5);
+    const std::string out = file_named("fewer.obj");
+    const tests::PrintedJson fewer = figures({in, out, "--faces", "12"});
+    CHECK(fewer["faces"] <= 12);
+    CHECK(fewer["shells_gone"] == 3);
+    const tests::ProgramRun kept =
+        run_octant({"simplify", in, out, "--faces", "12", "--keep-shells", "--json"});
+    CHECK(kept.exit_code == 1);
+    CHECK_THAT(kept.err, Catch::Contains("no edge can collapse any more"));
+    CHECK(tests::PrintedJson(kept.out)["faces"] == 20);
+    CHECK(tests::PrintedJson(kept.out)["shells_gone"] == 0);
+    CHECK(models::meshfile::read_mesh(out).triangles.size() == 20);
 }
 
 TEST_CASE("an error that is asked for is certified not to be exceeded") {

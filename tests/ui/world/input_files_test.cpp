@@ -55,6 +55,36 @@ TEST_CASE("materials are kept only where they lie beside their model or below") 
     CHECK(kept[1].first == "inputs/below/in.mtl");
 }
 
+TEST_CASE("pictures, buffers and sub-models of an aircraft are inputs of the run") {
+    const fs::path folder = empty_folder("inputs-named");
+    fs::create_directories(folder / "m/sub");
+    write_file(folder / "m/skin.png", "1");
+    write_file(folder / "m/sub/wing.png", "2");
+    write_file(folder / "shared.ac", "AC3Db\ntexture \"m/sub/wing.png\"\n");
+    write_file(folder / "m/body.ac", "AC3Db\ntexture \"skin.png\"\ntexture \"none.png\"\n");
+    write_file(
+        folder / "m/jet.xml",
+        "<PropertyList><path>body.ac</path><model><path>shared.ac</path></model></PropertyList>");
+    const auto hash = [&] { return input_hashes(flown_by({folder / "m/jet.xml"})); };
+    const auto before = hash();
+    std::set<std::string> names;
+    for (const auto& [name, value] : before) {
+        names.insert(fs::path(name).filename().string());
+    }
+    for (const char* const name : {"jet.xml", "body.ac", "skin.png", "shared.ac", "wing.png"}) {
+        CHECK(names.contains(name));
+    }
+    write_file(folder / "m/skin.png", "3");
+    CHECK(hash() != before);
+    write_file(folder / "m/skin.png", "1");
+    CHECK(hash() == before);
+    const auto kept = files_to_keep(flown_by({folder / "m/jet.xml"}), {});
+    CHECK(kept.size() == 4); // shared.ac lies above, and is only hashed
+    write_file(folder / "m/part.bin", "4");
+    write_file(folder / "m/a.gltf", R"({"buffers":[{"uri":"part.bin"},{"uri":"data:x"}]})");
+    CHECK(files_to_keep(flown_by({folder / "m/a.gltf"}), {}).size() == 2);
+}
+
 TEST_CASE("models whose materials have one name keep their own") {
     const fs::path folder = empty_folder("inputs-two");
     for (const char* const name : {"a", "b"}) {

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace octant::models::meshfile {
+
+/// The file that a path in a FlightGear model means: beside the model, or from one of the folders
+/// above it, as FlightGear's root is. Empty where there is none.
+std::filesystem::path flightgear_file(const std::filesystem::path& model, const std::string& name);
+
+} // namespace octant::models::meshfile
