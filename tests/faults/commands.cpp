@@ -57,6 +57,7 @@ std::span<const TriedCommand> tried_commands() {
           "--quiet"},
          {"made/run.json",
           "made/frames.csv",
+          "made/counters.csv",
           "made/mangohud.csv",
           "made/trace.json",
           "made/track.csv",
