@@ -114,7 +114,8 @@ inline constexpr std::array enum_names<visuals::draworder::DrawnBy>{
     Named{visuals::draworder::DrawnBy::Cells, "cells"},
     Named{visuals::draworder::DrawnBy::Tree, "tree"},
     Named{visuals::draworder::DrawnBy::Parts, "parts"},
-    Named{visuals::draworder::DrawnBy::Bsp, "bsp"}};
+    Named{visuals::draworder::DrawnBy::Bsp, "bsp"},
+    Named{visuals::draworder::DrawnBy::TreeAndParts, "tree-and-parts"}};
 
 /// One thing that can follow the frame time, with the name that people write for it.
 struct NamedAdaptation {

@@ -9,6 +9,7 @@
 #include <cassert>
 #include <fmt/format.h>
 #include <functional>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -96,6 +97,54 @@ std::vector<std::uint32_t> list_of(const RegionGraphs& graphs, const EyeNode& no
     }
     assert(list.size() == count_common(listed.words(), listed.words()));
     return list;
+}
+
+std::vector<std::vector<std::uint32_t>>
+clusters_of(const RegionGraphs& graphs, const EyeNode& node) {
+    const std::size_t count = node.graph.count();
+    const PolygonSet listed = graphs.listed(node.region);
+    std::vector<std::vector<std::uint32_t>> sets(count); // by their first polygons
+    std::vector<std::size_t> set_of(count);
+    std::iota(set_of.begin(), set_of.end(), std::size_t{0});
+    for (const auto& component : node.cycles.components) {
+        for (const std::uint32_t polygon : component) {
+            set_of[polygon] = component.front();
+        }
+    }
+    for_each_bit(listed.words(), [&](std::size_t polygon) {
+        sets[set_of[polygon]].push_back(static_cast<std::uint32_t>(polygon));
+    });
+    const auto for_each_edge = [&](std::size_t set, const auto& visit) {
+        for (const std::uint32_t polygon : sets[set]) {
+            for_each_bit(node.graph.row(polygon), [&](std::size_t later) {
+                if (listed.has(later) && set_of[later] != set) {
+                    visit(set_of[later]);
+                }
+            });
+        }
+    };
+    std::vector<std::uint32_t> waits_for(count, 0);
+    for (std::size_t set = 0; set < count; ++set) {
+        for_each_edge(set, [&](std::size_t later) { ++waits_for[later]; });
+    }
+    std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> ready;
+    for (std::size_t set = 0; set < count; ++set) {
+        if (!sets[set].empty() && waits_for[set] == 0) {
+            ready.push(set);
+        }
+    }
+    std::vector<std::vector<std::uint32_t>> clusters;
+    while (!ready.empty()) {
+        const std::size_t next = ready.top();
+        ready.pop();
+        for_each_edge(next, [&](std::size_t later) {
+            if (--waits_for[later] == 0) {
+                ready.push(later);
+            }
+        });
+        clusters.push_back(std::move(sets[next]));
+    }
+    return clusters;
 }
 
 } // namespace octant::visuals::draworder

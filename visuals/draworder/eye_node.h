@@ -50,4 +50,9 @@ void check_entries(std::size_t entries);
 /// painted first, and the lowest number first where there is a choice.
 std::vector<std::uint32_t> list_of(const RegionGraphs& graphs, const EyeNode& node);
 
+/// The polygons of a node with cycles that face some eye of it, as sets that are painted one after
+/// the other: those that hide one another in a ring are one set, ascending; others stand alone.
+std::vector<std::vector<std::uint32_t>>
+clusters_of(const RegionGraphs& graphs, const EyeNode& node);
+
 } // namespace octant::visuals::draworder

@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 
 namespace octant::visuals::draworder {
@@ -39,8 +40,11 @@ constexpr std::uint64_t units_of_pair = 300;
 
 /// The searches whose results are compared; the last one only where the others split polygons.
 const std::array<TreeSearch, 4> tree_searches{
-    {{.power = 1.0}, {.power = 0.5}, {.power = 1.5}, {.planes_first = true}}};
-const TreeSearch quick_search{.edge_planes = 300, .closer = 48, .exact = 2};
+    {{.power = 1.0, .keeps_part = true},
+     {.power = 0.5, .keeps_part = true},
+     {.power = 1.5, .keeps_part = true},
+     {.planes_first = true, .keeps_part = true}}};
+const TreeSearch quick_search{.edge_planes = 300, .closer = 48, .exact = 2, .keeps_part = true};
 
 OrderedModel by_paper(models::polygons::PolygonModel model, const OrderOptions& options) {
     const OctantOrders orders = paper_orders(model, options.paper);
@@ -65,12 +69,15 @@ struct Orders {
     std::vector<DrawOrder::Node> nodes;
     std::vector<std::vector<std::uint32_t>> lists;
     std::vector<OrderCell> cells;
+    /// As RegionTree has them; empty where every cell has its list.
+    std::vector<std::vector<std::vector<std::uint32_t>>> open = {};
+    std::string why_open = {};
 };
 
-/// Whether one result is better: fewer splits, then fewer cells.
+/// Whether one result is better: whole rather than open, fewer splits, then fewer cells.
 bool fewer(const Orders& a, const Orders& b) {
-    return std::pair(a.work.twins.size(), a.cells.size()) <
-           std::pair(b.work.twins.size(), b.cells.size());
+    return std::tuple(!a.open.empty(), a.work.twins.size(), a.cells.size()) <
+           std::tuple(!b.open.empty(), b.work.twins.size(), b.cells.size());
 }
 
 void keep_better(std::optional<Orders>& best, Orders orders) {
@@ -84,6 +91,10 @@ Orders tree_orders(WorkingModel work, const EyeNode& root, const TreeSearch& sea
     Orders out{std::move(work), std::move(tree.nodes), std::move(tree.lists), {}};
     for (std::vector<Plane>& planes : tree.cell_planes) {
         out.cells.push_back({"", std::move(planes)});
+    }
+    if (!tree.why_open.empty()) {
+        out.open = std::move(tree.open);
+        out.why_open = std::move(tree.why_open);
     }
     return out;
 }
@@ -144,8 +155,45 @@ Orders best_cells(
     return std::move(*best);
 }
 
-/// Finds the orders by Cells or Tree.
-OrderedModel exact(models::polygons::PolygonModel model, const OrderOptions& options) {
+/// Completes orders of which some cells are open by dividing polygons there.
+OrderedModel completed(Orders orders, int penetrating, std::string& why) {
+    const auto found =
+        std::ranges::count_if(orders.open, [](const auto& sets) { return sets.empty(); });
+    why = fmt::format(
+        "{} of {} cells are found, the others drawn by parts: {}",
+        found,
+        orders.cells.size(),
+        orders.why_open);
+    const ModelFaces& faces = orders.work.faces;
+    std::vector<Plane> planes;
+    for (const Face& face : faces.faces) {
+        planes.push_back(face.plane ? faces.in_model(*face.plane) : Plane());
+    }
+    const auto splits = static_cast<int>(orders.work.twins.size());
+    std::vector<std::string> notes = std::move(orders.work.notes);
+    PartedOrder parted = completed_order(
+        std::move(orders.work.model),
+        {std::move(orders.nodes),
+         std::move(orders.lists),
+         std::move(orders.open),
+         std::move(planes)});
+    for (std::string& note : parted.notes) {
+        if (std::ranges::find(notes, note) == notes.end()) {
+            notes.push_back(std::move(note));
+        }
+    }
+    return {
+        .model = std::move(parted.model),
+        .order = std::move(parted.order),
+        .cells = {},
+        .splits = penetrating + splits + parted.splits,
+        .notes = std::move(notes),
+        .drawn_by = DrawnBy::TreeAndParts};
+}
+
+/// Finds the orders by Cells or Tree. `why` says why some cells are drawn by parts, if they are.
+OrderedModel
+exact(models::polygons::PolygonModel model, const OrderOptions& options, std::string& why) {
     SearchBudget budget(options.seconds, options.progress);
     const int penetrating = split_penetrating(model, budget);
     const bool by_cells = options.method == Method::Cells;
@@ -159,6 +207,9 @@ OrderedModel exact(models::polygons::PolygonModel model, const OrderOptions& opt
         for (Plane& plane : cell.planes) {
             plane = faces.in_model(plane);
         }
+    }
+    if (!orders.open.empty()) {
+        return completed(std::move(orders), penetrating, why);
     }
     return {
         .model = std::move(orders.work.model),
@@ -182,8 +233,8 @@ OrderedModel by_parts(models::polygons::PolygonModel model, Parting way) {
         .drawn_by = way == Parting::Single ? DrawnBy::Bsp : DrawnBy::Parts};
 }
 
-/// The orders of the method asked for; nothing where the search for cells is given up. `why` says
-/// why then.
+/// The orders of the method asked for; nothing where the search for cells is given up without any.
+/// `why` says why then, and why some are not found.
 std::optional<OrderedModel> searched(
     const models::polygons::PolygonModel& model, const OrderOptions& options, std::string& why) {
     if (model.polygons.size() > most_polygons_searched) {
@@ -191,7 +242,7 @@ std::optional<OrderedModel> searched(
         return std::nullopt;
     }
     try {
-        return exact(model, options);
+        return exact(model, options, why);
     } catch (const SearchGivenUp& given_up) {
         why = given_up.why;
         return std::nullopt;
@@ -214,7 +265,8 @@ std::string wrong_in_words(const Trial& trial) {
 
 /// What was found by cells or, where that had to split polygons more often, by parts.
 OrderedModel with_fewer_splits(OrderedModel found, const models::polygons::PolygonModel& model) {
-    if (found.drawn_by == DrawnBy::Tree && found.splits > 0) {
+    const bool by_tree = found.drawn_by == DrawnBy::Tree || found.drawn_by == DrawnBy::TreeAndParts;
+    if (by_tree && found.splits > 0) {
         OrderedModel parted = by_parts(model, Parting::Clusters);
         if (parted.splits < found.splits && is_right(parted)) {
             return parted;
@@ -229,7 +281,14 @@ OrderedModel of_planar(models::polygons::PolygonModel model, const OrderOptions&
     if (options.method != Method::Bsp) {
         if (auto found = searched(model, options, why)) {
             if (is_right(*found)) {
-                return with_fewer_splits(std::move(*found), model);
+                OrderedModel best = with_fewer_splits(std::move(*found), model);
+                if (!why.empty()) {
+                    best.notes.push_back(
+                        best.drawn_by == DrawnBy::TreeAndParts
+                            ? why
+                            : "drawn by parts, which cut less than cells: " + why);
+                }
+                return best;
             }
             why = "by cells " + wrong_in_words(found->trial);
         }

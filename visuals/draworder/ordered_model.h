@@ -38,7 +38,9 @@ enum class DrawnBy {
     Cells, ///< Octants divided further.
     Tree,  ///< Cells of a tree of planes over eye space.
     Parts, ///< Polygons divided where they hide one another in rings.
-    Bsp    ///< Polygons divided until each stands alone.
+    Bsp,   ///< Polygons divided until each stands alone.
+    /// Cells of a tree as far as the search came, polygons divided in the others.
+    TreeAndParts
 };
 
 /// The eye points that share a list.
@@ -66,9 +68,10 @@ struct OrderedModel {
 
 /// Finds the painting orders of a model. Meant for loading: it may take seconds.
 ///
-/// There is an answer for any model. Where the search for cells is given up, or the model has more
-/// polygons than are searched, polygons are divided instead (parted_order.h). Every order but that
-/// of Method::Paper is tried by rays before it is returned (order_trial.h); one that is wrong is
+/// There is an answer for any model. Where the search for cells is given up, what was found is
+/// kept, and in the other cells polygons are divided (parted_order.h); all of them where nothing
+/// was found or the model has more polygons than are searched. Every order but that of
+/// Method::Paper is tried by rays before it is returned (order_trial.h); one that is wrong is
 /// replaced in the same way, and in the end by a BSP tree of single polygons. Notes say so.
 OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& options = {});
 

@@ -65,7 +65,127 @@ public:
         return {std::move(model_), DrawOrder(std::move(nodes_), lists_), splits, std::move(notes_)};
     }
 
+    PartedOrder completed(OpenOrder open) {
+        find_turning_parts();
+        nodes_ = std::move(open.nodes);
+        lists_ = std::move(open.lists);
+        made_at_.assign(lists_.size(), model_.polygons.size());
+        for (std::uint32_t i = 0; i < open.planes.size(); ++i) {
+            if (!pieces_[i].pivot) {
+                pieces_.set_plane(i, open.planes[i]);
+            }
+        }
+        std::vector<int> instead(lists_.size());
+        for (std::size_t cell = 0; cell < instead.size(); ++cell) {
+            instead[cell] =
+                open.open[cell].empty() ? ~static_cast<int>(cell) : sequence_of(open.open[cell]);
+        }
+        for (std::size_t list = 0; list < lists_.size(); ++list) {
+            catch_up(lists_[list], made_at_[list]);
+        }
+        replace_cells(instead);
+        const auto splits = static_cast<int>(pieces_.added());
+        pieces_.write_to(model_);
+        return {std::move(model_), DrawOrder(std::move(nodes_), lists_), splits, std::move(notes_)};
+    }
+
 private:
+    /// The child of a node that paints sets one after the other.
+    int sequence_of(const std::vector<Polygons>& sets) {
+        std::vector<int> children;
+        Polygons single;
+        const auto end_singles = [&] {
+            if (!single.empty()) {
+                children.push_back(add_list(std::exchange(single, {})));
+            }
+        };
+        for (const Polygons& set : sets) {
+            if (set.size() == 1) {
+                single.push_back(set.front());
+                continue;
+            }
+            end_singles();
+            children.push_back(parted(set));
+        }
+        end_singles();
+        return sequence_of(children, 0, children.size());
+    }
+
+    int sequence_of(const std::vector<int>& children, std::size_t first, std::size_t end) {
+        if (end - first == 1) {
+            return children[first];
+        }
+        const std::size_t node = nodes_.size();
+        nodes_.push_back({.plane = {}, .kind = DrawOrder::Kind::Sequence});
+        const std::size_t middle = (first + end) / 2;
+        const int front = sequence_of(children, first, middle);
+        const int back = sequence_of(children, middle, end);
+        nodes_[node].front = front;
+        nodes_[node].back = back;
+        return static_cast<int>(node);
+    }
+
+    /// Leads from each cell to what stands in its place, and leaves out lists that are used no
+    /// more.
+    void replace_cells(const std::vector<int>& instead) {
+        std::vector<int> number(lists_.size(), DrawOrder::nothing);
+        std::vector<Polygons> used;
+        const auto settle = [&](int& child) {
+            const auto list = static_cast<std::size_t>(~child);
+            if (child < 0 && child != DrawOrder::nothing && list < instead.size()) {
+                child = instead[list];
+            }
+            if (child >= 0 || child == DrawOrder::nothing) {
+                return;
+            }
+            int& moved = number[static_cast<std::size_t>(~child)];
+            if (moved == DrawOrder::nothing) {
+                moved = ~static_cast<int>(used.size());
+                used.push_back(std::move(lists_[static_cast<std::size_t>(~child)]));
+            }
+            child = moved;
+        };
+        for (DrawOrder::Node& node : nodes_) {
+            for (int* child : {&node.front, &node.back, &node.along, &node.against}) {
+                settle(*child);
+            }
+        }
+        lists_ = std::move(used);
+    }
+
+    int add_list(Polygons list) {
+        lists_.push_back(std::move(list));
+        made_at_.push_back(pieces_.count());
+        return ~static_cast<int>(lists_.size() - 1);
+    }
+
+    /// The child of a node that paints one set, which is divided.
+    int parted(Polygons set) {
+        catch_up(set, model_.polygons.size());
+        tree_ = parting::parting_tree(pieces_, std::move(set), true);
+        for (const Polygons& ring : tree_.unparted) {
+            add_note(ring);
+        }
+        if (tree_.root >= 0) {
+            const std::size_t first = nodes_.size();
+            write_nodes();
+            made_at_.resize(lists_.size(), pieces_.count());
+            return static_cast<int>(first);
+        }
+        return add_list(std::move(tree_.lists[static_cast<std::size_t>(~tree_.root)]));
+    }
+
+    /// Adds to a list the pieces that were cut since there were `count`, behind what they are cut
+    /// from.
+    void catch_up(Polygons& list, std::size_t count) const {
+        for (std::size_t made = count; made < pieces_.count(); ++made) {
+            const auto whole = std::ranges::find(list, pieces_.cut_from(made));
+            if (whole != list.end()) {
+                list.insert(whole + 1, static_cast<std::uint32_t>(made));
+            }
+        }
+    }
+
     void find_turning_parts() {
         for (std::uint32_t pivot = 0; pivot < model_.pivots.size(); ++pivot) {
             Polygons polygons;
@@ -126,19 +246,21 @@ private:
     /// find neighbours side by side.
     void write_nodes() {
         constexpr int nothing = parting::PartingTree::nothing;
-        nodes_.resize(tree_.nodes.size());
-        std::vector<int*> to_do;
-        for (std::size_t i = 0; i < nodes_.size(); ++i) {
-            const auto& from = tree_.nodes[i];
-            nodes_[i] = {
-                from.plane ? pieces_.in_model(*from.plane) : Plane(),
-                from.front,
-                from.back,
-                from.plane ? DrawOrder::Kind::Parting : DrawOrder::Kind::Sequence,
-                from.along,
-                from.against};
+        const std::size_t first = nodes_.size();
+        const auto moved = [&](int child) {
+            return child >= 0 ? child + static_cast<int>(first) : child;
+        };
+        for (const parting::PartingTree::Node& from : tree_.nodes) {
+            nodes_.push_back(
+                {from.plane ? pieces_.in_model(*from.plane) : Plane(),
+                 moved(from.front),
+                 moved(from.back),
+                 from.plane ? DrawOrder::Kind::Parting : DrawOrder::Kind::Sequence,
+                 from.along,
+                 from.against});
         }
-        int root = 0;
+        std::vector<int*> to_do;
+        int root = static_cast<int>(first);
         to_do.push_back(&root);
         while (!to_do.empty()) {
             int& child = *to_do.back();
@@ -166,6 +288,7 @@ private:
     parting::PartingTree tree_;
     std::vector<DrawOrder::Node> nodes_;
     std::vector<Polygons> lists_;
+    std::vector<std::size_t> made_at_; ///< For each list how many pieces there were.
     std::vector<std::string> notes_;
 };
 
@@ -173,6 +296,10 @@ private:
 
 PartedOrder parted_order(PolygonModel model, Parting way) {
     return PartedBuilding(std::move(model), way).order();
+}
+
+PartedOrder completed_order(PolygonModel model, OpenOrder order) {
+    return PartedBuilding(std::move(model), Parting::Clusters).completed(std::move(order));
 }
 
 } // namespace octant::visuals::draworder

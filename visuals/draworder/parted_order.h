@@ -3,6 +3,7 @@
 #include "models/polygons/polygon_model.h"
 #include "visuals/draworder/draw_order.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,5 +27,20 @@ struct PartedOrder {
 /// turns is taken for what it sweeps and never cut, so that the order holds at every angle. Notes
 /// tell of turning parts that no plane parts from others.
 PartedOrder parted_order(models::polygons::PolygonModel model, Parting way = Parting::Clusters);
+
+/// A tree of choices of which some cells have no list yet.
+struct OpenOrder {
+    std::vector<DrawOrder::Node> nodes; ///< As DrawOrder takes them; at least one.
+    std::vector<std::vector<std::uint32_t>> lists;
+    /// For each cell without a list the sets of polygons that are painted one after the other;
+    /// empty for others.
+    std::vector<std::vector<std::vector<std::uint32_t>>> open;
+    /// For each polygon of the model its plane, in body axes: slivers are not asked for theirs.
+    std::vector<Plane> planes;
+};
+
+/// Orders the open cells by dividing their sets: what hides nothing in a ring for the eyes of a
+/// cell is not parted, and found lists take up the pieces that are cut.
+PartedOrder completed_order(models::polygons::PolygonModel model, OpenOrder order);
 
 } // namespace octant::visuals::draworder

@@ -39,6 +39,7 @@ struct Branch {
     std::unique_ptr<Branch> front;
     std::unique_ptr<Branch> back;
     std::vector<std::uint32_t> list;
+    std::vector<std::vector<std::uint32_t>> open; ///< As RegionTree has them.
     std::vector<Plane> planes;
     std::size_t polygons = 0; ///< The number of polygons when the list was made.
 };
@@ -96,7 +97,12 @@ public:
 
     std::unique_ptr<Branch> grow(EyeNode node, std::size_t depth);
 
+    /// Why the search was given up first; empty if it was not.
+    const std::string& why_open() const { return why_open_; }
+
 private:
+    std::unique_ptr<Branch> found(EyeNode& node, std::size_t depth);
+    std::unique_ptr<Branch> open_leaf(EyeNode& node);
     std::unique_ptr<Branch> leaf(const EyeNode& node);
     std::vector<Choice>
     by_sides(const EyeNode& node, std::span<const Plane> planes, std::size_t first_number) const;
@@ -112,6 +118,7 @@ private:
     RegionGraphs graphs_;
     const TreeSearch& search_;
     std::size_t entries_ = 0;
+    std::string why_open_;
 };
 
 /// The cost of a plane that leaves so many cyclic edges in front and behind, of `before`; less is
@@ -295,8 +302,31 @@ std::optional<Fork> TreeBuilder::settle(EyeNode& node) {
     return std::nullopt;
 }
 
+/// The end of a branch where the search is given up.
+std::unique_ptr<Branch> TreeBuilder::open_leaf(EyeNode& node) {
+    work_.catch_up(node);
+    auto out = std::make_unique<Branch>();
+    out->open = clusters_of(graphs_, node);
+    out->planes = node.region.planes();
+    out->polygons = node.graph.count();
+    return out;
+}
+
 /// The branch of a node, recursively.
 std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
+    if (!search_.keeps_part) {
+        return found(node, depth);
+    }
+    try {
+        return found(node, depth);
+    } catch (const SearchGivenUp& given_up) {
+        why_open_ = why_open_.empty() ? given_up.why : why_open_;
+        return open_leaf(node);
+    }
+}
+
+/// The branch of a node. Throws SearchGivenUp.
+std::unique_ptr<Branch> TreeBuilder::found(EyeNode& node, std::size_t depth) {
     if (depth == search_.most_depth) {
         throw SearchGivenUp{
             fmt::format("{} planes one after another make no cell", search_.most_depth)};
@@ -320,7 +350,11 @@ std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
 int flatten(Branch& branch, const WorkingModel& work, RegionTree& out) {
     if (!branch.plane) {
         work.catch_up(branch.list, branch.polygons);
+        for (std::vector<std::uint32_t>& set : branch.open) {
+            work.catch_up(set, branch.polygons);
+        }
         out.lists.push_back(std::move(branch.list));
+        out.open.push_back(std::move(branch.open));
         out.cell_planes.push_back(std::move(branch.planes));
         return ~static_cast<int>(out.lists.size() - 1);
     }
@@ -336,9 +370,14 @@ int flatten(Branch& branch, const WorkingModel& work, RegionTree& out) {
 } // namespace
 
 RegionTree region_tree(WorkingModel& work, const EyeNode& root, const TreeSearch& search) {
-    const auto branch = TreeBuilder(work, search).grow(root, 0);
+    TreeBuilder builder(work, search);
+    const auto branch = builder.grow(root, 0);
+    if (!branch->plane && !builder.why_open().empty()) {
+        throw SearchGivenUp{builder.why_open()};
+    }
     RegionTree tree;
     flatten(*branch, work, tree);
+    tree.why_open = builder.why_open();
     return tree;
 }
 

@@ -34,7 +34,7 @@ static_assert(std::has_unique_object_representations_v<Polygon>);
 static_assert(sizeof(glm::dvec3) == 3 * sizeof(double) && sizeof(Plane) == 4 * sizeof(double));
 
 constexpr auto last_kind = static_cast<std::uint32_t>(DrawOrder::Kind::Sequence);
-constexpr auto last_way = static_cast<std::uint32_t>(draworder::DrawnBy::Bsp);
+constexpr auto last_way = static_cast<std::uint32_t>(draworder::DrawnBy::TreeAndParts);
 
 template <class Enum>
 void add_enum(ByteWriter& out, Enum value) {

@@ -72,6 +72,9 @@ Pieces::Pieces(const models::polygons::PolygonModel& model) {
         }
     }
     first_count_ = model.polygons.size();
+    for (std::size_t i = first_count_; i < pieces_.size(); ++i) {
+        cut_from_.push_back(pieces_[i].source);
+    }
 }
 
 /// The plane of a polygon by Newell's sum about its centre, so that far origins cost no digits; not
@@ -142,6 +145,10 @@ void Pieces::make_swept(
         own.plane.reset();
     }
     find_ball(own);
+}
+
+void Pieces::set_plane(std::uint32_t piece, const Plane& in_model) {
+    pieces_[piece].plane = {in_model.normal, distance_m(in_model, middle_m_) / unit_m_};
 }
 
 void Pieces::add_rigid(std::uint32_t near_one, std::uint32_t far_one) {
@@ -256,6 +263,7 @@ std::uint32_t Pieces::cut(std::uint32_t piece, const Plane& plane) {
     pieces_[piece].corners = std::move(front);
     find_ball(pieces_[piece]);
     pieces_.push_back(std::move(behind));
+    cut_from_.push_back(piece);
     return made;
 }
 

@@ -58,6 +58,9 @@ public:
     /// How many pieces were added since the start.
     std::size_t added() const { return pieces_.size() - first_count_; }
 
+    /// The piece that an added one was cut from, and with which it shares its plane.
+    std::uint32_t cut_from(std::size_t piece) const { return cut_from_[piece - first_count_]; }
+
     /// Makes a piece stand for what its polygon sweeps: corners in body axes, metres. A body is one
     /// that has no plane.
     void make_swept(
@@ -65,6 +68,10 @@ public:
         std::uint32_t pivot,
         std::span<const glm::dvec3> corners_m,
         bool is_body);
+
+    /// Gives a piece another plane, in body axes, metres: that of the polygon of which it is a
+    /// sliver.
+    void set_plane(std::uint32_t piece, const Plane& in_model);
 
     /// Says that one piece hides another of the same pivot at some angle. Others of one pivot do
     /// not hide one another.
@@ -120,6 +127,7 @@ private:
     double unit_m_ = 1.0;
     std::vector<Piece> pieces_;
     std::size_t first_count_ = 0;
+    std::vector<std::uint32_t> cut_from_; ///< For each piece added.
     std::vector<Vertex> vertices_;
     std::vector<Edge> edges_;
     std::unordered_map<std::uint64_t, std::uint32_t> edge_of_ends_;
