@@ -77,6 +77,8 @@ void take(FuzzOptions& options, std::string_view option, Words& words) {
         options.polygons = static_cast<int>(words.whole(option));
     } else if (option == "--rays") {
         options.trial.rays = static_cast<int>(words.whole(option));
+    } else if (option == "--order-seconds") {
+        options.trial.order_s = words.number(option);
     } else if (option == "--cpu-seconds") {
         options.trial.cpu_s = static_cast<int>(words.whole(option));
     } else if (option == "--certify") {
@@ -108,6 +110,7 @@ std::string help_text() {
         "  --kind KIND      again for more: {}; all at first\n"
         "  --polygons N     about so many in a model; 6 to 60 at first\n"
         "  --rays N         for each case, 4000 at first\n"
+        "  --order-seconds N  of search for each order, 20 at first\n"
         "  --cpu-seconds N  for each case, 60 at first\n"
         "  --certify        also prove each order right, without rounding\n"
         "  --keep DIR       write failing models there, reduced\n"

@@ -71,7 +71,9 @@ Report order_and_check(const std::filesystem::path& file, const TrialOptions& op
     try {
         const auto given = models::polygons::read_obj(file);
         const auto begin = std::chrono::steady_clock::now();
-        const auto ordered = visuals::draworder::ordered(given);
+        visuals::draworder::OrderOptions order;
+        order.seconds = options.order_s;
+        const auto ordered = visuals::draworder::ordered(given, order);
         const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
         const PaintingCounts counts = check_painting(given, ordered, {options.rays, options.seed});
         report.outcome = outcome_of(counts);

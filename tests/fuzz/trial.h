@@ -42,6 +42,7 @@ inline std::string_view name_of(Outcome outcome) {
 struct TrialOptions {
     int rays = 4000;
     int cpu_s = 60;         ///< of one trial, all threads together
+    double order_s = 20.0;  ///< OrderOptions::seconds
     std::uint64_t seed = 1; ///< of the rays
     bool certify = false;   ///< also write a certificate and verify it without rounding
 };

@@ -132,6 +132,11 @@ hidden_surface_options(studies::draw_order::HiddenSurfaceStudy& study, std::stri
         size_option(
             study.settings, "picture size of the comparison; the race has 640x480 and 1280x720"),
         context_option(study.settings),
+        text_option(
+            "--aircraft",
+            "NAME|FILE",
+            "compare this one in place of f15 and 500md",
+            study.aircraft),
         read_option({"frames", "N", "timed frames of each race", 10, 100000}, study.race_frames),
         read_option({"every", "N", "every Nth frame is compared", 1, 100000}, study.every)};
 }

@@ -38,7 +38,7 @@ CertificateText::CertificateText(double size_m)
 void CertificateText::add_model(
     const models::polygons::PolygonModel& model, const LocalModel& local, const FileAxes& axes) {
     append(text_, "octant-certificate 1\n");
-    append(text_, "tolerance {}\n", tolerance_sizes * size_m_);
+    append(text_, "tolerance {}\n", local.tolerance * size_m_);
     for (const glm::dvec3& vertex_m : model.vertices_m) {
         append(text_, "vertex {}\n", text_of(axes.file_from_body(vertex_m)));
     }

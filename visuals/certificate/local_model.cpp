@@ -39,10 +39,10 @@ Plane through_middle(const glm::dvec3& normal, const std::vector<glm::dvec3>& co
     return {normal, -glm::dot(normal, middle)};
 }
 
-bool fits(const LocalPolygon& polygon, const Plane& plane) {
+bool fits(const LocalPolygon& polygon, const Plane& plane, double tolerance) {
     return glm::dot(area_of(polygon.corners), plane.normal) > 0.0 &&
            std::ranges::all_of(polygon.corners, [&](const glm::dvec3& corner) {
-               return std::abs(distance_m(plane, corner)) < share_of_borrowed * tolerance_sizes;
+               return std::abs(distance_m(plane, corner)) < share_of_borrowed * tolerance;
            });
 }
 
@@ -56,17 +56,17 @@ void share_planes(const PolygonModel& model, LocalModel& out) {
     }
     for (std::size_t i = 0; i < out.polygons.size(); ++i) {
         const Plane& plane = out.polygons[largest[model.parent_of(i)].second].plane;
-        if (fits(out.polygons[i], plane)) {
+        if (fits(out.polygons[i], plane, out.tolerance)) {
             out.polygons[i].plane = plane;
         }
     }
 }
 
 /// Prepares a polygon that turns about an axis.
-void set_turning(const LocalAxis& axis, LocalPolygon& polygon) {
+void set_turning(const LocalAxis& axis, double tolerance, LocalPolygon& polygon) {
     const double facing = glm::dot(polygon.plane.normal, axis.along);
     const Plane across = through_middle(facing > 0.0 ? axis.along : -axis.along, polygon.corners);
-    polygon.keeps_plane = fits(polygon, across);
+    polygon.keeps_plane = fits(polygon, across, tolerance);
     if (polygon.keeps_plane) {
         polygon.plane = across;
     }
@@ -113,8 +113,10 @@ Plane LocalModel::in_file(const Plane& plane) const {
     return {plane.normal, static_cast<double>(offset)};
 }
 
-LocalModel local_model(const PolygonModel& model, const models::polygons::FileAxes& axes) {
+LocalModel
+local_model(const PolygonModel& model, const models::polygons::FileAxes& axes, double tolerance) {
     LocalModel out;
+    out.tolerance = tolerance;
     const auto corner = [&](std::uint32_t vertex) {
         return axes.file_from_body(model.vertices_m[vertex]);
     };
@@ -145,7 +147,7 @@ LocalModel local_model(const PolygonModel& model, const models::polygons::FileAx
     share_planes(model, out);
     for (LocalPolygon& polygon : out.polygons) {
         if (polygon.axis) {
-            set_turning(out.axes[*polygon.axis], polygon);
+            set_turning(out.axes[*polygon.axis], tolerance, polygon);
         }
     }
     return out;
@@ -154,7 +156,7 @@ LocalModel local_model(const PolygonModel& model, const models::polygons::FileAx
 bool is_behind(const LocalModel& model, std::uint32_t number, const Plane& plane, bool turns) {
     const LocalPolygon& polygon = model.polygons[number];
     const glm::dvec3 size = glm::abs(plane.normal);
-    const double limit = safe * tolerance_sizes * std::max({size.x, size.y, size.z});
+    const double limit = safe * model.tolerance * std::max({size.x, size.y, size.z});
     return std::ranges::all_of(polygon.corners, [&](const glm::dvec3& corner) {
         const double height = turns && polygon.axis
                                   ? highest(plane, model.axes[*polygon.axis], corner)

@@ -37,7 +37,8 @@ struct LocalPolygon {
 struct LocalModel {
     glm::dvec3 middle_m{0.0}; ///< In the file's axes.
     double size_m = 1.0;
-    std::vector<LocalAxis> axes; ///< One for each pivot.
+    double tolerance = tolerance_sizes; ///< Of the certificate.
+    std::vector<LocalAxis> axes;        ///< One for each pivot.
     std::vector<LocalPolygon> polygons;
 
     Plane from_file(const Plane& plane_m) const;
@@ -46,8 +47,10 @@ struct LocalModel {
 
 /// Where it is within the tolerance, pieces of one polygon share the plane of the largest, which is
 /// the one known best, and polygons that turn in their own plane have their axis as normal.
-LocalModel
-local_model(const models::polygons::PolygonModel& model, const models::polygons::FileAxes& axes);
+LocalModel local_model(
+    const models::polygons::PolygonModel& model,
+    const models::polygons::FileAxes& axes,
+    double tolerance = tolerance_sizes);
 
 /// Whether no corner, at any angle where `turns`, is before a plane by more than the tolerance.
 bool is_behind(const LocalModel& model, std::uint32_t polygon, const Plane& plane, bool turns);

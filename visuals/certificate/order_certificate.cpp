@@ -26,11 +26,12 @@ public:
     Writing(
         const models::polygons::PolygonModel& model,
         const DrawOrder& order,
-        const models::polygons::FileAxes& axes)
+        const models::polygons::FileAxes& axes,
+        double tolerance)
         : model_(model)
         , order_(order)
         , axes_(axes)
-        , local_(local_model(model, axes))
+        , local_(local_model(model, axes, tolerance))
         , mark_(model.polygons.size(), 0)
         , text_(local_.size_m) {}
 
@@ -331,7 +332,18 @@ OrderCertificate order_certificate(
     const DrawOrder& order,
     const models::polygons::FileAxes& axes,
     const std::function<void(std::size_t, std::size_t)>& progress) {
-    return Writing(model, order, axes).certificate(progress);
+    OrderCertificate best;
+    for (const double tolerance :
+         {tolerance_sizes, 5.0 * tolerance_sizes, 25.0 * tolerance_sizes}) {
+        OrderCertificate made = Writing(model, order, axes, tolerance).certificate(progress);
+        if (best.text.empty() || made.unproved < best.unproved) {
+            best = std::move(made);
+        }
+        if (best.unproved == 0) {
+            break;
+        }
+    }
+    return best;
 }
 
 } // namespace octant::visuals::certificate

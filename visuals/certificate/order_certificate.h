@@ -18,7 +18,9 @@ struct OrderCertificate {
 
 /// Writes down why an order is right for every eye: for each pair of polygons that it paints one
 /// before the other the plane that proves that nothing is hidden wrongly, and for each polygon that
-/// it leaves out that it faces away. What no proof is found for is marked as such and counted. The
+/// it leaves out that it faces away. What no proof is found for within a tolerance of 2e-9 of the
+/// model's size is sought with one of 1e-8 and then 5e-8, which the text tells; what is left is
+/// marked as such and counted. The
 /// order is one for every eye of the model (draworder::Method::Tree or Bsp), or for those that a
 /// choice with nothing on one side leaves (eyes_beyond.h); of the others nothing is claimed.
 ///

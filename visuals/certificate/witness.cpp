@@ -224,7 +224,8 @@ std::optional<Factors> never(const Question& asked) {
     }
     const Plane sum = sum_of(planes, *found, 0.0);
     const glm::dvec3 size = glm::abs(sum.normal);
-    const bool good = std::max({size.x, size.y, size.z, sum.offset_m}) <= safe * tolerance_sizes;
+    const bool good =
+        std::max({size.x, size.y, size.z, sum.offset_m}) <= safe * asked.model.tolerance;
     return good ? std::optional(factors_of(planes, *found, 0.0, asked.walls.size())) : std::nullopt;
 }
 

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <fmt/format.h>
+#include <span>
 #include <utility>
 
 namespace octant::visuals::draworder {
@@ -70,9 +71,9 @@ public:
         nodes_ = std::move(open.nodes);
         lists_ = std::move(open.lists);
         made_at_.assign(lists_.size(), model_.polygons.size());
-        for (std::uint32_t i = 0; i < open.planes.size(); ++i) {
+        for (std::uint32_t i = 0; i < pieces_.count(); ++i) {
             if (!pieces_[i].pivot) {
-                pieces_.set_plane(i, open.planes[i]);
+                pieces_.set_plane(i, open.planes[pieces_[i].source]);
             }
         }
         std::vector<int> instead(lists_.size());
@@ -92,34 +93,34 @@ public:
 private:
     /// The child of a node that paints sets one after the other.
     int sequence_of(const std::vector<Polygons>& sets) {
-        std::vector<int> children;
-        Polygons single;
-        const auto end_singles = [&] {
-            if (!single.empty()) {
-                children.push_back(add_list(std::exchange(single, {})));
-            }
-        };
+        std::vector<Run> runs;
         for (const Polygons& set : sets) {
-            if (set.size() == 1) {
-                single.push_back(set.front());
-                continue;
+            const bool is_single = set.size() == 1;
+            if (is_single && !runs.empty() && !runs.back().is_ring) {
+                runs.back().polygons.push_back(set.front());
+            } else {
+                runs.push_back({set, !is_single});
             }
-            end_singles();
-            children.push_back(parted(set));
         }
-        end_singles();
-        return sequence_of(children, 0, children.size());
+        return sequence_of(runs);
     }
 
-    int sequence_of(const std::vector<int>& children, std::size_t first, std::size_t end) {
-        if (end - first == 1) {
-            return children[first];
+    /// A ring, or polygons that are painted one after the other.
+    struct Run {
+        Polygons polygons;
+        bool is_ring = false;
+    };
+
+    int sequence_of(std::span<const Run> runs) {
+        if (runs.size() == 1) {
+            const Run& run = runs.front();
+            return run.is_ring ? parted(run.polygons)
+                               : add_list(run.polygons, model_.polygons.size());
         }
-        const std::size_t node = nodes_.size();
+        const std::size_t node = nodes_.size(); // before its children
         nodes_.push_back({.plane = {}, .kind = DrawOrder::Kind::Sequence});
-        const std::size_t middle = (first + end) / 2;
-        const int front = sequence_of(children, first, middle);
-        const int back = sequence_of(children, middle, end);
+        const int front = sequence_of(runs.first(runs.size() / 2));
+        const int back = sequence_of(runs.subspan(runs.size() / 2));
         nodes_[node].front = front;
         nodes_[node].back = back;
         return static_cast<int>(node);
@@ -153,9 +154,10 @@ private:
         lists_ = std::move(used);
     }
 
-    int add_list(Polygons list) {
+    /// `count` is the number of pieces of which the list may have some.
+    int add_list(Polygons list, std::size_t count) {
         lists_.push_back(std::move(list));
-        made_at_.push_back(pieces_.count());
+        made_at_.push_back(count);
         return ~static_cast<int>(lists_.size() - 1);
     }
 
@@ -172,7 +174,8 @@ private:
             made_at_.resize(lists_.size(), pieces_.count());
             return static_cast<int>(first);
         }
-        return add_list(std::move(tree_.lists[static_cast<std::size_t>(~tree_.root)]));
+        return add_list(
+            std::move(tree_.lists[static_cast<std::size_t>(~tree_.root)]), pieces_.count());
     }
 
     /// Adds to a list the pieces that were cut since there were `count`, behind what they are cut

@@ -1,6 +1,7 @@
 #include "visuals/planning/aircraft_model.h"
 
 #include "models/colour_vertex.h"
+#include "models/polygons/repeated_polygons.h"
 #include "visuals/shading/vertex_normals.h"
 
 #include <glm/common.hpp>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -108,8 +108,7 @@ AircraftModel aircraft_model(
     BufferMaker maker(polygons, normals);
     std::vector<std::uint32_t> first_indices = first_indices_of(polygons, order.polygons());
     maker.append(order.polygons());
-    std::vector<std::uint32_t> file_list(polygons.polygons.size());
-    std::iota(file_list.begin(), file_list.end(), 0U);
+    std::vector<std::uint32_t> file_list = models::polygons::polygons_without_repeats(polygons);
     const scene::IndexRange all = maker.append(file_list);
     const double radius_m = models::polygons::radius_m(polygons);
     const HullExtent hull = hull_extent(polygons);

@@ -3,7 +3,9 @@
 #include "visuals/raster/depth_groups.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <limits>
 
 namespace octant::visuals::raster {
 
@@ -73,7 +75,7 @@ void FrameSlices::add_step(const FrameInput& input, const PaintStep& step, DrawS
                 std::span(plan.parts).subspan(draw.first_part),
                 std::span(plan.smooth).subspan(draw.first_smooth),
                 draw.tints};
-            add_mesh(draw.indices, draw.vertices, look, style);
+            add_mesh(std::array{draw.indices}, draw.vertices, look, style);
         }
         break;
     }
@@ -98,32 +100,48 @@ void FrameSlices::add_aircraft(
         draw.tints};
     const std::span<const std::uint32_t> all(model.indices);
     if (draw.ranges.empty()) {
-        add_mesh(all.subspan(draw.first_index, draw.index_count), model.vertices, look, style);
+        const auto indices = all.subspan(draw.first_index, draw.index_count);
+        add_mesh(std::array{indices}, model.vertices, look, style);
+        return;
     }
+    ranges_.clear();
     for (const scene::IndexRange& range : draw.ranges) {
-        add_mesh(all.subspan(range.first_index, range.index_count), model.vertices, look, style);
+        ranges_.push_back(all.subspan(range.first_index, range.index_count));
     }
+    add_mesh(ranges_, model.vertices, look, style);
 }
 
-/// The corners between the first and the last that the triangles name are placed.
+/// The corners between the first and the last that the triangles name are placed, once for all
+/// ranges: of an order by parts there may be thousands.
 void FrameSlices::add_mesh(
-    std::span<const std::uint32_t> indices,
+    std::span<const std::span<const std::uint32_t>> ranges,
     std::span<const scene::ModelVertex> vertices,
     const AircraftLook& look,
     const DrawStyle& style) {
-    if (indices.empty()) {
-        return;
+    std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t most = 0;
+    for (const std::span<const std::uint32_t> indices : ranges) {
+        for (const std::uint32_t index : indices) {
+            least = std::min(least, index);
+            most = std::max(most, index);
+        }
     }
-    const auto [least, most] = std::ranges::minmax(indices);
+    if (least > most) {
+        return; // no triangles
+    }
     CornerBlock& block = add_block(CornerBlock::Kind::Aircraft, most - least + 1);
     block.of_model = vertices.subspan(least, most - least + 1);
     block.look = look;
-    add_slice(
-        {.indices = indices,
-         .style = style,
-         .first_corner = static_cast<std::int64_t>(block.first) - least,
-         .first_flat = static_cast<std::int64_t>(block.first_flat) - least,
-         .is_aircraft = true});
+    FrameSlice slice{
+        .indices = {},
+        .style = style,
+        .first_corner = static_cast<std::int64_t>(block.first) - least,
+        .first_flat = static_cast<std::int64_t>(block.first_flat) - least,
+        .is_aircraft = true};
+    for (const std::span<const std::uint32_t> indices : ranges) {
+        slice.indices = indices;
+        add_slice(slice);
+    }
 }
 
 void FrameSlices::add_slice(const FrameSlice& slice) {

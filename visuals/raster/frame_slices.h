@@ -66,7 +66,7 @@ private:
     void
     add_aircraft(const FrameInput& input, const scene::AircraftDraw& draw, const DrawStyle& style);
     void add_mesh(
-        std::span<const std::uint32_t> indices,
+        std::span<const std::span<const std::uint32_t>> ranges,
         std::span<const scene::ModelVertex> vertices,
         const AircraftLook& look,
         const DrawStyle& style);
@@ -77,6 +77,7 @@ private:
     std::size_t corners_ = 0;
     std::size_t flat_corners_ = 0;
     std::int64_t first_sky_ = 0;
+    std::vector<std::span<const std::uint32_t>> ranges_; ///< of the aircraft at hand
 };
 
 } // namespace octant::visuals::raster

@@ -1,3 +1,6 @@
+#include "models/made/made_up.h"
+#include "models/polygons/obj_writer.h"
+#include "tests/scratch.h"
 #include "ui/flight/id_comparison.h"
 #include "ui/studies/draw_order/ray_comparison.h"
 #include "ui/studies/draw_order/ridge_tower.h"
@@ -6,6 +9,8 @@
 
 #include <cstdint>
 #include <cstring>
+#include <string>
+#include <utility>
 #include <vector>
 
 using namespace octant;
@@ -72,6 +77,46 @@ TEST_CASE("painting in order shows the polygons that the depth buffer shows, ove
             CHECK(result.unordered == 0);
             CHECK(result.wrong == 0);
         }
+    }
+}
+
+TEST_CASE("models of hundreds of polygons are painted as the depth buffer shows them") {
+    // A torus and two that pass through it, the second of which repeats the first polygon by
+    // polygon: rings, cuts and polygons in one plane.
+    auto model = models::made::torus();
+    const std::string file = (tests::scratch_folder() / "rings.obj").string();
+    const models::polygons::PolygonModel once = model;
+    const glm::dvec3 aside{0.7 * models::polygons::radius_m(once), 0.0, 0.0};
+    for (const glm::dvec3& move : {aside, aside}) {
+        const auto first = static_cast<std::uint32_t>(model.vertices_m.size());
+        for (const glm::dvec3& vertex_m : once.vertices_m) {
+            model.vertices_m.push_back(vertex_m + move);
+        }
+        for (models::polygons::Polygon polygon : once.polygons) {
+            polygon.first_corner += static_cast<std::uint32_t>(model.corner_vertices.size());
+            model.polygons.push_back(polygon);
+        }
+        for (const std::uint32_t vertex : once.corner_vertices) {
+            model.corner_vertices.push_back(first + vertex);
+        }
+    }
+    REQUIRE(model.polygons.size() > 1000);
+    models::polygons::write_obj(file, model);
+    for (const auto& [path, view] :
+         {std::pair{"pop-up", visuals::scene::View::Chase},
+          std::pair{"jinking", visuals::scene::View::Tower}}) {
+        ui::settings::RunSettings settings = canyon_flight(path, file.c_str(), view);
+        if (view == visuals::scene::View::Tower) {
+            settings.view.eye_m =
+                ui::studies::draw_order::ridge_tower(ui::world::load_world(settings));
+        }
+        settings.surface.order_seconds = 0.2;
+        constexpr int every = 200;
+        const ui::flight::IdComparison result = compare(settings, every);
+        INFO(path);
+        CHECK(result.frames > 2);
+        CHECK(result.unordered == 0);
+        CHECK(result.wrong == 0);
     }
 }
 

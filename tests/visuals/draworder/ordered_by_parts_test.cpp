@@ -104,6 +104,22 @@ TEST_CASE("a search that has no time left is replaced by parts, and a note tells
     CHECK(std::ranges::equal(again.order.polygons(), found.order.polygons()));
 }
 
+TEST_CASE("cells that were found before the time was spent are kept, and the others are parted") {
+    int kept = 0;
+    for (const auto& model : {shipped("f15"), shipped("500md"), octant::tests::pile(7, 12)}) {
+        for (const double seconds : {0.01, 0.03, 0.1, 0.3}) {
+            OrderOptions options;
+            options.seconds = seconds;
+            const OrderedModel found = ordered(model, options);
+            INFO(model.name << " " << seconds);
+            CHECK(found.trial.wrong == 0);
+            CHECK(count_wrong_rays(found.model, found.order, all_eyes(200)).wrong == 0);
+            kept += found.drawn_by == DrawnBy::TreeAndParts ? 1 : 0;
+        }
+    }
+    CHECK(kept >= 1);
+}
+
 TEST_CASE("parts and single polygons order crossing bars, rings and rotors for every eye") {
     for (const auto& model :
          {octant::tests::three_bars(),

@@ -26,7 +26,6 @@ namespace scene = visuals::scene;
 namespace {
 
 constexpr std::array paths = {"straight", "jinking", "pop-up", "turn"};
-constexpr std::array aircraft_names = {"f15", "500md"};
 
 struct StudiedView {
     scene::View kind;
@@ -132,9 +131,12 @@ auto run_comparisons(
     std::span<const StudiedView> studied_views,
     const Compare& compare) {
     using Result = decltype(compare(study.settings, 1, [](int, int) {}));
+    const std::vector<std::string> aircraft_names = study.aircraft.empty()
+                                                        ? std::vector<std::string>{"f15", "500md"}
+                                                        : std::vector<std::string>{study.aircraft};
     std::vector<Compared<Result>> compared;
     for (const char* path : paths) {
-        for (const char* aircraft : aircraft_names) {
+        for (const std::string& aircraft : aircraft_names) {
             for (const StudiedView& view : studied_views) {
                 settings::RunSettings settings = study.settings;
                 settings.path.name = path;
@@ -143,7 +145,7 @@ auto run_comparisons(
                 if (view.behind_ridges) {
                     settings.view.eye_m = ridge_tower(world::load_world(settings));
                 }
-                Compared<Result> run{{path, aircraft, view.name}, {}};
+                Compared<Result> run{{path, short_name(aircraft), view.name}, {}};
                 std::optional<base::Progress> progress;
                 run.result = compare(settings, study.every, [&](int frame, int frames) {
                     if (!progress) {

@@ -3,6 +3,7 @@
 #include "ui/settings/settings.h"
 
 #include <filesystem>
+#include <string>
 
 namespace octant::ui::studies::draw_order {
 
@@ -13,7 +14,8 @@ struct HiddenSurfaceStudy {
     bool pictures = true;           ///< polygon numbers against the depth buffer
     bool rays = true;               ///< polygon numbers against rays
     int race_frames = 200;
-    int every = 10; ///< every Nth frame is compared
+    int every = 10;       ///< every Nth frame is compared
+    std::string aircraft; ///< compared in place of F-15 and 500MD, unless empty
     bool json = false;
     bool quiet = false;
 };
