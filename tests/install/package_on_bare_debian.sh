@@ -16,7 +16,7 @@ inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root L
 tidy() {
   [[ -z $display ]] || kill "$display"
   local place
-  for place in proc dev; do mountpoint -q "$root/$place" && umount -l "$root/$place"; done
+  for place in mnt proc dev; do mountpoint -q "$root/$place" && umount -l "$root/$place"; done
   rm -rf --one-file-system "$scratch"
 }
 trap tidy EXIT
@@ -68,15 +68,30 @@ done
 inside octant fly --replay /root/packed.zip --quiet || fail "the replay there"
 echo "a packed recording: same report, same hashes"
 
+# A recording that cannot be written to, and a disk that is full.
+mount --bind "$root/root/flight" "$root/mnt" && mount -o remount,bind,ro "$root/mnt" || fail "a read-only place"
+inside octant report /mnt --out /root/elsewhere.html --quiet || fail "the report of a read-only recording"
+inside octant report /mnt --quiet 2>"$scratch/said.txt"
+[[ $? -eq 2 && $(wc -l <"$scratch/said.txt") -eq 1 ]] || fail "a report into a read-only recording: $(cat "$scratch/said.txt")"
+umount "$root/mnt"
+mount -t tmpfs -o size=256k tmpfs "$root/mnt" || fail "a small disk"
+inside octant report /root/flight --out /mnt/page.html --quiet 2>"$scratch/said.txt"
+[[ $? -eq 2 && $(wc -l <"$scratch/said.txt") -eq 1 ]] || fail "a report onto a full disk: $(cat "$scratch/said.txt")"
+[[ -z $(ls -A "$root/mnt") ]] || fail "half a report is left on a full disk: $(ls -A "$root/mnt")"
+inside octant fly straight --size 64x48 --pictures 0 --record /mnt/flight --quiet 2>"$scratch/said.txt"
+[[ $? -eq 2 && $(wc -l <"$scratch/said.txt") -eq 1 ]] || fail "a flight onto a full disk: $(cat "$scratch/said.txt")"
+umount "$root/mnt"
+echo "read-only recordings and full disks: one line each"
+
 # The window, on a display of ours.
 mkdir -p "$root/tmp/.X11-unix"
 Xvfb -displayfd 3 -screen 0 1280x800x24 -listen tcp 3>"$scratch/display" >/dev/null 2>&1 &
 display=$!
 for tenth in {1..100}; do [[ -s $scratch/display ]] && break; sleep 0.1; done
 number=$(cat "$scratch/display")
-inside env DISPLAY="127.0.0.1:$number" timeout 60 octant view straight --bench 60 --size 640x360 ||
+inside env DISPLAY="127.0.0.1:$number" timeout 900 octant view straight --bench 20 --size 320x180 ||
   fail "octant view"
-echo "octant view: a window of 60 frames"
+echo "octant view: a window on a display"
 
 # Nothing is left.
 inside dpkg -L octant | while read -r file; do [[ -f $root$file ]] && echo "$file"; done >"$scratch/files"

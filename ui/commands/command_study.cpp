@@ -43,6 +43,10 @@ Option context_option(settings::RunSettings& settings) {
     return read_option({"context", "KIND", "who draws: osmesa or egl"}, settings.drawing.context);
 }
 
+Option jobs_option(int& jobs, std::string_view meaning) {
+    return read_option({"jobs", "N", meaning, 1, 1000}, jobs);
+}
+
 Command flights_command() {
     auto options = std::make_shared<studies::draw_order::StudyOptions>();
     return {
@@ -53,7 +57,8 @@ Command flights_command() {
             options->json,
             options->quiet,
             {size_option(options->settings, "picture size in pixels"),
-             context_option(options->settings)}),
+             context_option(options->settings),
+             jobs_option(options->jobs, "flights at once; their times then depend on each other")}),
         .footer = "Example:\n  octant study flights --out tables",
         .run = [options] { studies::draw_order::study_flights(*options); }};
 }
@@ -137,6 +142,7 @@ hidden_surface_options(studies::draw_order::HiddenSurfaceStudy& study, std::stri
             "NAME|FILE",
             "compare this one in place of f15 and 500md",
             study.aircraft),
+        jobs_option(study.jobs, "flights compared at once; the race is one at a time"),
         read_option({"frames", "N", "timed frames of each race", 10, 100000}, study.race_frames),
         read_option({"every", "N", "every Nth frame is compared", 1, 100000}, study.every)};
 }
@@ -221,7 +227,8 @@ Command shading_command() {
                  options->meshes),
              read_option(
                  {"size", "PIXELS", "side of the square pictures in pixels", 16, 2048},
-                 options->size_px)}),
+                 options->size_px),
+             jobs_option(options->jobs, "models at once; flights for times are one at a time")}),
         .footer = "Example:\n  octant study shading --out tables --mesh cow.obj",
         .run = [options] { studies::hybrid_shading::study_shading(*options); }};
     command.options.push_back(flag(

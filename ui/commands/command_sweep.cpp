@@ -5,24 +5,19 @@
 #include "ui/base/stop_signals.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/read_option.h"
+#include "ui/commands/sweep_work.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/video_pipe.h"
-#include "ui/sweep/engine.h"
 #include "ui/sweep/split_flight.h"
 #include "ui/sweep/sweep_file.h"
 #include "ui/sweep/sweep_folder.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
-#include <optional>
-#include <span>
 #include <string>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 namespace octant::ui::commands {
@@ -30,22 +25,6 @@ namespace octant::ui::commands {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct SweepOptions {
-    fs::path file;
-    std::optional<fs::path> out;
-    std::string on = "local";
-    sweep::EngineOptions engine;
-    std::optional<int> jobs;
-    std::optional<int> tasks;
-    std::optional<int> split;
-    std::optional<fs::path> hosts;
-    std::optional<fs::path> program;
-    int minutes = 60;
-    int retries = 1;
-    bool list = false;
-    bool json = false;
-};
 
 void print_list(const sweep::Sweep& sweep, bool json) {
     if (json) {
@@ -63,43 +42,6 @@ void print_list(const sweep::Sweep& sweep, bool json) {
     for (const sweep::Run& run : sweep.runs) {
         std::fputs((run.name + "\n").c_str(), stdout);
     }
-}
-
-std::unique_ptr<sweep::Engine> engine_of(
-    const SweepOptions& options, const sweep::Sweep& sweep, const sweep::SweepFolder& folder) {
-    sweep::EngineOptions engine = options.engine;
-    engine.jobs = options.jobs.value_or(0);
-    engine.tasks = options.tasks.value_or(0);
-    engine.minutes = options.minutes;
-    engine.program =
-        options.program ? options.program->string() : fs::read_symlink("/proc/self/exe").string();
-    if (options.hosts) {
-        engine.hosts = fs::absolute(*options.hosts);
-    }
-    if (options.on == "slurm") {
-        return sweep::slurm_engine(sweep, folder, engine);
-    }
-    return options.on == "parallel" ? sweep::parallel_engine(sweep, folder, engine)
-                                    : sweep::local_engine(sweep, folder, engine);
-}
-
-std::vector<sweep::RunResult>
-results_of(const sweep::Sweep& sweep, const sweep::SweepFolder& folder, bool with_videos) {
-    std::vector<sweep::RunResult> results;
-    for (const sweep::Run& run : sweep.runs) {
-        results.push_back(sweep::result_of(folder, run, with_videos));
-    }
-    return results;
-}
-
-std::vector<std::size_t> not_done(const std::vector<sweep::RunResult>& results) {
-    std::vector<std::size_t> runs;
-    for (std::size_t i = 0; i < results.size(); ++i) {
-        if (!results[i].done) {
-            runs.push_back(i);
-        }
-    }
-    return runs;
 }
 
 void write_results(
@@ -162,84 +104,6 @@ void print_end(
     }
 }
 
-/// Has flown what is not done yet, and tries again what failed. What came of all runs.
-std::vector<sweep::RunResult> fly_all(
-    const SweepOptions& options,
-    const sweep::Sweep& sweep,
-    const sweep::SweepFolder& folder,
-    sweep::Engine& engine) {
-    const bool quiet = options.engine.quiet;
-    std::vector<sweep::RunResult> results = results_of(sweep, folder, options.engine.videos);
-    const std::size_t done_before = results.size() - not_done(results).size();
-    if (done_before > 0) {
-        base::say(quiet, fmt::format("{} flights are done already", done_before));
-    }
-    for (int attempt = 0; attempt <= options.retries && !base::StopSignals::came(); ++attempt) {
-        const std::vector<std::size_t> left = not_done(results);
-        if (left.empty()) {
-            break;
-        }
-        if (attempt > 0) {
-            base::say(
-                quiet, fmt::format("note: {} flights failed and are tried again", left.size()));
-        }
-        engine.fly(left);
-        results = results_of(sweep, folder, options.engine.videos);
-    }
-    return results;
-}
-
-/// Flies the parts of what is not done yet and puts them together; gives what came of the whole
-/// flights, and the manner.
-std::pair<std::vector<sweep::RunResult>, std::string> fly_in_parts(
-    const SweepOptions& options, const sweep::Sweep& sweep, const sweep::SweepFolder& folder) {
-    const auto count = static_cast<std::size_t>(*options.split);
-    const bool videos = options.engine.videos;
-    std::vector<sweep::RunResult> results = results_of(sweep, folder, videos);
-    sweep::Sweep to_fly{sweep.name, {}};
-    for (const std::size_t run : not_done(results)) {
-        to_fly.runs.push_back(sweep.runs[run]);
-    }
-    const sweep::Sweep parts = sweep::split_sweep(to_fly, *options.split, videos);
-    const sweep::SweepFolder part_folder(folder.path() / "parts");
-    part_folder.prepare(parts);
-    SweepOptions of_parts = options;
-    of_parts.engine.videos = false;
-    const std::unique_ptr<sweep::Engine> engine = engine_of(of_parts, parts, part_folder);
-    const auto part_results = fly_all(of_parts, parts, part_folder, *engine);
-    for (std::size_t i = 0; i < to_fly.runs.size(); ++i) {
-        const sweep::Run& whole = to_fly.runs[i];
-        const auto own = std::span(part_results).subspan(i * count, count);
-        const auto failed = std::ranges::find(own, false, &sweep::RunResult::done);
-        auto& result = *std::ranges::find(results, whole.name, &sweep::RunResult::name);
-        if (failed != own.end()) {
-            result.fault = fmt::format("{}: {}", failed->name, failed->fault);
-            continue;
-        }
-        std::vector<fs::path> recordings;
-        for (const sweep::RunResult& part : own) {
-            recordings.push_back(part_folder.recording(part.name));
-        }
-        try {
-            sweep::merge_parts(
-                whole,
-                folder.recording(whole.name),
-                recordings,
-                videos ? std::optional(folder.video(whole.name)) : std::nullopt);
-        } catch (const Error& fault) {
-            result.fault = fault.what();
-            continue;
-        }
-        result = sweep::result_of(folder, whole, videos);
-        for (const fs::path& part : recordings) {
-            std::error_code ignored;
-            fs::remove_all(part, ignored);
-        }
-    }
-    return {
-        std::move(results), fmt::format("each in {} parts, {}", *options.split, engine->manner())};
-}
-
 void fly_sweep(const SweepOptions& options) {
     const sweep::Sweep sweep = sweep::read_sweep(options.file);
     if (options.list) {
@@ -258,21 +122,13 @@ void fly_sweep(const SweepOptions& options) {
         report::check_video(folder.video(sweep.runs.front().name));
     }
     const base::StopSignals stop_signals;
-    std::vector<sweep::RunResult> results;
-    std::string manner;
-    if (options.split) {
-        std::tie(results, manner) = fly_in_parts(options, sweep, folder);
-    } else {
-        const std::unique_ptr<sweep::Engine> engine = engine_of(options, sweep, folder);
-        results = fly_all(options, sweep, folder, *engine);
-        manner = engine->manner();
-    }
-    write_results(sweep, folder, results);
-    const std::vector<std::string> differences = sweep::differences(sweep, results);
-    print_end(sweep, results, differences, manner, options.json);
+    const FlownSweep flown = fly_what_is_not_done(options, sweep, folder);
+    write_results(sweep, folder, flown.results);
+    const std::vector<std::string> differences = sweep::differences(sweep, flown.results);
+    print_end(sweep, flown.results, differences, flown.manner, options.json);
     base::say(
         quiet, fmt::format("results: {0}/sweep.csv, {0}/report.html", folder.path().string()));
-    if (!differences.empty() || !not_done(results).empty()) {
+    if (!differences.empty() || !not_done(flown.results).empty()) {
         throw CheckSaidNo();
     }
 }

@@ -149,6 +149,10 @@ int ChildProgram::wait() {
     return status;
 }
 
+void ChildProgram::end_input() {
+    close_if_open(input_);
+}
+
 bool ChildProgram::is_running() {
     int status = 0;
     if (process_ > 0 && !status_ && ::waitpid(process_, &status, WNOHANG) == process_) {
@@ -169,7 +173,7 @@ std::string ChildProgram::output() const {
 
 ProgramEnding ChildProgram::finish() {
     assert(process_ > 0);
-    close_if_open(input_);
+    end_input();
     const int status = wait();
     ProgramEnding ending;
     ending.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;

@@ -35,6 +35,9 @@ public:
     /// ended); raises no SIGPIPE.
     bool send(std::string_view bytes);
 
+    /// Nothing more is sent.
+    void end_input();
+
     /// Whether it has not ended yet. Does not wait.
     bool is_running();
 

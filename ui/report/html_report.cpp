@@ -140,7 +140,7 @@ std::string rows_table(const char* first, const Rows& rows) {
 Rows set_ones(const Rows& settings) {
     Rows rows;
     std::ranges::copy_if(settings, std::back_inserter(rows), [](const auto& row) {
-        return row.second != unset_value;
+        return row.second != unset_value && !row.second.empty();
     });
     return rows;
 }

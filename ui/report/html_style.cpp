@@ -51,7 +51,7 @@ header { margin-bottom: 1rem; }
 .plot h3 { font-size: .9rem; margin: 0 0 .2rem; }
 .plot svg { display: block; max-width: 100%; cursor: crosshair; touch-action: pan-y; }
 .plot text { font: 12px system-ui, "DejaVu Sans", sans-serif; fill: var(--ink); font-variant-numeric: tabular-nums; }
-.plot text.soft { fill: var(--soft); }
+.plot text.soft { fill: var(--soft); paint-order: stroke; stroke: var(--card); stroke-width: 4px; stroke-linejoin: round; }
 .plot .gridline { stroke: var(--line); }
 .plot .axis { stroke: var(--soft); }
 .plot .level { stroke: var(--bad); stroke-dasharray: 5 4; }
@@ -76,9 +76,11 @@ td:first-child:not(.number) { min-width: 9rem; width: 22%; }
 table.sortable th { cursor: pointer; white-space: normal; }
 table.sortable th[aria-sort=ascending]::after { content: " \25B2"; }
 table.sortable th[aria-sort=descending]::after { content: " \25BC"; }
+table.runs { width: auto; }
+table.runs th { overflow-wrap: normal; }
 table.runs td { white-space: nowrap; overflow-wrap: normal; }
 table.runs td:first-child { width: auto; min-width: 0; }
-table.runs .number { padding-right: .9rem; }
+table.runs .number { padding-right: 1.6rem; }
 .card h3 { margin-top: .6rem; }
 .card > h3:first-child, .small-plots h3 { margin-top: 0; }
 a { color: var(--accent); }
@@ -91,6 +93,7 @@ code { font: .86em ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace;
 figure { margin: 0; }
 figure img { display: block; width: 100%; height: auto; border-radius: 6px; border: 1px solid var(--line); }
 figcaption { font-size: .8rem; padding-top: .2rem; }
+.note + .sheet { margin-top: .8rem; }
 .missing { border: 1px dashed var(--line); border-radius: 6px; padding: 1rem; }
 @media (max-width: 800px) {
   .plots { grid-template-columns: minmax(0, 1fr); }

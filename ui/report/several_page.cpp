@@ -166,7 +166,7 @@ std::string common_rows(Recordings recordings) {
             const bool same = std::ranges::all_of(recordings, [&](const LoadedRecording& each) {
                 return value_of(rows_of(each), name) == value;
             });
-            if (same && value != unset_value) {
+            if (same && value != unset_value && !value.empty()) {
                 html += fmt::format(
                     "<tr><td>{}</td><td><code>{}</code></td></tr>\n",
                     escaped(name),

@@ -32,6 +32,7 @@ std::string run_engine(
     if (!child) {
         throw Error(fmt::format("expected the program {}, which is not installed", words.front()));
     }
+    child->end_input();
     bool told = false;
     while (child->is_running()) {
         if (base::StopSignals::came() && !std::exchange(told, true)) {

@@ -1,6 +1,7 @@
 #include "ui/studies/draw_order/study_flights.h"
 
 #include "sim/base/output_file.h"
+#include "sim/base/worker_team.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/flight/flight_recorder.h"
@@ -221,6 +222,12 @@ report::HtmlTable table_6(const std::vector<Measured>& measured, const StudyOpti
         "they see the same machine.",
         options.settings.view.size_px.x,
         options.settings.view.size_px.y);
+    if (options.jobs > 1) {
+        table.note += fmt::format(
+            " {} flights at once shared the cores: compare no times between rows, nor with those "
+            "of flights alone.",
+            options.jobs);
+    }
     return table;
 }
 
@@ -289,10 +296,12 @@ void write_results(const std::vector<Measured>& measured, const StudyOptions& op
 
 void study_flights(const StudyOptions& options) {
     make_folder(options.out);
-    std::vector<Measured> measured;
-    for (const PrintedTime& row : printed_times) {
-        measured.push_back(measure(row, options));
-    }
+    StudyOptions of_row = options;
+    of_row.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
+    std::vector<Measured> measured(printed_times.size());
+    share_out(printed_times.size(), options.jobs, [&](std::size_t row, std::size_t /*worker*/) {
+        measured[row] = measure(printed_times[row], of_row);
+    });
     write_results(measured, options);
 }
 

@@ -11,6 +11,7 @@ struct StudyOptions {
     settings::RunSettings settings; ///< size, samples and context are taken from it
     bool json = false;              ///< print the tables as JSON instead of Markdown
     bool quiet = false;
+    int jobs = 1; ///< flights at once; above 1 their times depend on each other
 };
 
 /// Tables 5 and 6 of the 1989 paper: aircraft alone (100 frames of an orbit) and the four paths

@@ -1,6 +1,7 @@
 #include "ui/studies/draw_order/study_hidden_surface.h"
 
 #include "sim/base/output_file.h"
+#include "sim/base/worker_team.h"
 #include "ui/base/progress.h"
 #include "ui/flight/id_comparison.h"
 #include "ui/report/table_text.h"
@@ -134,30 +135,33 @@ auto run_comparisons(
     const std::vector<std::string> aircraft_names = study.aircraft.empty()
                                                         ? std::vector<std::string>{"f15", "500md"}
                                                         : std::vector<std::string>{study.aircraft};
+    std::vector<settings::RunSettings> flights;
     std::vector<Compared<Result>> compared;
     for (const char* path : paths) {
         for (const std::string& aircraft : aircraft_names) {
             for (const StudiedView& view : studied_views) {
-                settings::RunSettings settings = study.settings;
+                settings::RunSettings& settings = flights.emplace_back(study.settings);
                 settings.path.name = path;
                 settings.path.aircraft = {aircraft};
                 settings.view.kind = view.kind;
                 if (view.behind_ridges) {
                     settings.view.eye_m = ridge_tower(world::load_world(settings));
                 }
-                Compared<Result> run{{path, short_name(aircraft), view.name}, {}};
-                std::optional<base::Progress> progress;
-                run.result = compare(settings, study.every, [&](int frame, int frames) {
-                    if (!progress) {
-                        progress.emplace(
-                            fmt::format("{}", fmt::join(run.name, " ")), frames, study.quiet);
-                    }
-                    progress->show(frame);
-                });
-                compared.push_back(std::move(run));
+                compared.push_back({{path, short_name(aircraft), view.name}, {}});
             }
         }
     }
+    const bool quiet = study.quiet || study.jobs > 1; // progress of one at a time only
+    share_out(flights.size(), study.jobs, [&](std::size_t i, std::size_t /*worker*/) {
+        std::optional<base::Progress> progress;
+        compared[i].result = compare(flights[i], study.every, [&](int frame, int frames) {
+            if (!progress) {
+                progress.emplace(
+                    fmt::format("{}", fmt::join(compared[i].name, " ")), frames, quiet);
+            }
+            progress->show(frame);
+        });
+    });
     return compared;
 }
 

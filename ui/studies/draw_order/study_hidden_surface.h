@@ -18,6 +18,7 @@ struct HiddenSurfaceStudy {
     std::string aircraft; ///< compared in place of F-15 and 500MD, unless empty
     bool json = false;
     bool quiet = false;
+    int jobs = 1; ///< flights compared at once; the race is always one at a time
 };
 
 /// Three tables. Frames a second of octant order, depth buffer and removal of back faces, drawn in

@@ -1,6 +1,7 @@
 #include "ui/studies/hybrid_shading/study_shading.h"
 
 #include "sim/base/output_file.h"
+#include "sim/base/worker_team.h"
 #include "ui/base/progress.h"
 #include "ui/report/plots.h"
 #include "ui/report/png_file.h"
@@ -144,14 +145,16 @@ std::string write_figures(
 void study_shading(const ShadingStudyOptions& options) {
     const std::vector<ShadedModel> models = shading_models(options.meshes);
     make_folder(options.out);
-    std::vector<ShadingRun> runs;
-    for (const ShadedModel& model : models) {
+    std::vector<ShadingRun> runs(models.size());
+    const bool quiet = options.quiet || options.jobs > 1; // progress of one at a time only
+    share_out(models.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
+        const ShadedModel& model = models[i];
         const int views = static_cast<int>(study_eyes(model.polygons).size());
-        base::Progress progress(model.name, views, options.quiet, "views");
+        base::Progress progress(model.name, views, quiet, "views");
         int done = 0;
-        runs.push_back(run_shading(model, options.size_px, [&] { progress.show(++done); }));
+        runs[i] = run_shading(model, options.size_px, [&] { progress.show(++done); });
         progress.finish();
-    }
+    });
     std::vector<report::HtmlTable> tables{
         operation_table(), gain_table(runs), control_table(control_runs())};
     std::vector<std::string> files{"operations", "gain", "control"};

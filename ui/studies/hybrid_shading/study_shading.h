@@ -12,6 +12,7 @@ struct ShadingStudyOptions {
     bool times = true;                         ///< fly too, for frame times
     bool json = false;                         ///< print the tables as JSON instead of Markdown
     bool quiet = false;
+    int jobs = 1; ///< models at once; flights for frame times are always one at a time
 };
 
 /// What H. Kim and H. Park's hybrid of flat and Gouraud shading (2008) shows: its operation counts,
