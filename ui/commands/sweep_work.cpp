@@ -82,6 +82,9 @@ FlownSweep fly_in_parts(
     for (const std::size_t run : not_done(results)) {
         to_fly.runs.push_back(sweep.runs[run]);
     }
+    if (to_fly.runs.empty()) {
+        return {std::move(results), fmt::format("each in {} parts", *options.split)};
+    }
     const sweep::Sweep parts = sweep::split_sweep(to_fly, *options.split, videos);
     const sweep::SweepFolder part_folder(folder.path() / "parts");
     part_folder.prepare(parts);

@@ -92,6 +92,7 @@ TEST_CASE("a flight in four parts is the whole flight, picture by picture, and s
     CHECK_FALSE(fs::exists(made / "parts/parts/runs/one.1of4"));
     const auto when = fs::last_write_time(merged / "run.json");
     fly(sweep, made / "parts", {"--video", "--split", "4"});
+    fly(sweep, made / "parts", {"--video", "--split", "3"});
     CHECK(fs::last_write_time(merged / "run.json") == when);
 }
 

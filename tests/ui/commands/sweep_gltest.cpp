@@ -78,6 +78,14 @@ TEST_CASE("a sweep goes on past flights that fail, and tries them again") {
     CHECK_THAT(run.err, Contains("1 flights failed and are tried again"));
     tests::check_refused(
         "sweep", {file, "--out", made.string()}, "expected an empty folder or that of a sweep");
+    // Others have files of that name too.
+    const fs::path foreign = made / "foreign";
+    fs::create_directories(foreign);
+    write_file(foreign / "jobs.txt", "buy milk\n");
+    tests::check_refused(
+        "sweep", {file, "--out", foreign.string()}, "expected an empty folder or that of a sweep");
+    CHECK(read_file(foreign / "jobs.txt") == "buy milk\n");
+    CHECK_FALSE(fs::exists(foreign / "jobs"));
     tests::check_refused(
         "sweep", {file, "--out", (made / "out").string(), "--jobs", "2"}, "--share-cores");
     tests::check_refused("sweep", {(made / "none.toml").string()}, "expected a file, found none");
