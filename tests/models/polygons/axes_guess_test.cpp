@@ -1,6 +1,7 @@
 #include "models/polygons/axes_guess.h"
 #include "models/polygons/mesh_polygons.h"
 #include "models/polygons/obj_reader.h"
+#include "tests/sample_meshes.h"
 
 #include <catch2/catch.hpp>
 
@@ -22,24 +23,10 @@ TriangleMesh in_file(const PolygonModel& body, const FileAxes& axes) {
 }
 
 TriangleMesh box(const glm::dvec3& half_m) {
-    TriangleMesh mesh;
-    for (int i = 0; i < 8; ++i) {
-        mesh.vertices_m.push_back(
-            half_m * glm::dvec3((i & 1) * 2 - 1, (i & 2) - 1, (i & 4) / 2 - 1));
+    TriangleMesh mesh = octant::tests::cube();
+    for (glm::dvec3& vertex_m : mesh.vertices_m) {
+        vertex_m = half_m * (2.0 * vertex_m - 1.0);
     }
-    mesh.triangles = {
-        {0, 2, 1},
-        {1, 2, 3},
-        {4, 5, 6},
-        {5, 7, 6},
-        {0, 1, 4},
-        {1, 5, 4},
-        {2, 6, 3},
-        {3, 6, 7},
-        {0, 4, 2},
-        {2, 4, 6},
-        {1, 3, 5},
-        {3, 7, 5}};
     return mesh;
 }
 

@@ -1,0 +1,30 @@
+# Headers that no .cpp of the project includes first are compiled alone, each by a file that holds
+# nothing else. The common headers are there already: that every header names those that it uses is
+# what check_headers.cmake sees to.
+file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/sim/*.cpp ${PROJECT_SOURCE_DIR}/flightpaths/*.cpp
+  ${PROJECT_SOURCE_DIR}/models/*.cpp ${PROJECT_SOURCE_DIR}/visuals/*.cpp ${PROJECT_SOURCE_DIR}/ui/*.cpp
+  ${PROJECT_SOURCE_DIR}/tests/*.cpp)
+set(included_first "")
+foreach(source ${sources})
+  file(STRINGS ${source} line REGEX "^#include" LIMIT_COUNT 1)
+  string(REGEX REPLACE "^#include [<\"]([^>\"]+)[>\"].*" "\\1" header "${line}")
+  list(APPEND included_first ${header})
+endforeach()
+
+get_property(rooms GLOBAL PROPERTY octant_rooms)
+set(lone "")
+foreach(room ${rooms})
+  file(GLOB headers RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${room}/*.h)
+  list(FILTER headers EXCLUDE REGEX "-inl\\.h$") # parts of a source that is compiled several times
+  foreach(header ${headers})
+    if(NOT header IN_LIST included_first)
+      string(REPLACE "/" "_" name ${header})
+      file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/lone_headers/${name}.cpp CONTENT "#include \"${header}\"\n")
+      list(APPEND lone ${PROJECT_BINARY_DIR}/lone_headers/${name}.cpp)
+    endif()
+  endforeach()
+endforeach()
+add_library(octant_lone_headers OBJECT EXCLUDE_FROM_ALL ${lone})
+octant_targets(libraries ${rooms})
+target_link_libraries(octant_lone_headers PRIVATE octant_flags ${libraries})
+target_precompile_headers(octant_lone_headers REUSE_FROM octant_common_headers)
