@@ -210,11 +210,6 @@ void PacketWriter::finish() {
     file_.flush();
 }
 
-bool holds_packets(const std::filesystem::path& folder) {
-    std::error_code ignored;
-    return std::filesystem::is_regular_file(folder / packets_name, ignored);
-}
-
 PacketFile read_packets(const std::filesystem::path& folder) {
     const auto file = folder / packets_name;
     const std::string bytes = read_file(file, largest_bytes);

@@ -51,9 +51,6 @@ struct PacketFile {
     std::vector<PacketFrame> frames;
 };
 
-/// Whether a folder holds a recording of a live flight.
-bool holds_packets(const std::filesystem::path& folder);
-
 /// Reads it; what a killed flight left unfinished at its end is left out. Throws Error for a file
 /// that is damaged.
 PacketFile read_packets(const std::filesystem::path& folder);

@@ -19,8 +19,6 @@ public:
     /// 127.0.0.1 or "tacview:ADDRESS:PORT". Opens what is needed. Throws Error.
     explicit Sender(const std::vector<std::string>& targets);
 
-    bool is_idle() const { return targets_.empty() && tacview_.empty(); }
-
     /// Sends the states of the session's last picture. Does not wait; what the network does not
     /// take is lost.
     void send(const Session& session);

@@ -133,26 +133,6 @@ std::optional<std::string> drawn(const std::string& script, std::string_view end
     return std::move(ending.output);
 }
 
-/// `text` without everything from `from` up to and with `to`, wherever it occurs.
-void cut_all(std::string& text, std::string_view from, std::string_view to) {
-    std::size_t at = 0;
-    while ((at = text.find(from, at)) != std::string::npos) {
-        const std::size_t end = text.find(to, at + from.size());
-        if (end == std::string::npos) {
-            return;
-        }
-        text.erase(at, end + to.size() - at);
-    }
-}
-
-void replace_all(std::string& text, std::string_view what, std::string_view with) {
-    std::size_t at = 0;
-    while ((at = text.find(what, at)) != std::string::npos) {
-        text.replace(at, what.size(), with);
-        at += with.size();
-    }
-}
-
 } // namespace
 
 std::string gnuplot_script(const Plot& plot) {
@@ -191,35 +171,6 @@ std::optional<std::string> plot_svg(const Plot& plot) {
 
 std::optional<std::string> plots_png(std::span<const Plot> panels) {
     return drawn(gnuplot_png_script(panels), "IEND");
-}
-
-std::string inline_svg(std::string svg) {
-    svg.erase(0, std::min(svg.find("<svg"), svg.size()));
-    cut_all(svg, "<defs>", "</defs>");
-    cut_all(svg, "<title>Gnuplot", "</title>");
-    cut_all(svg, "<desc>", "</desc>");
-    cut_all(svg, " id=\"", "\"");
-    cut_all(svg, " color=\"", "\"");
-    replace_all(svg, "fill=\"black\"", "fill=\"currentColor\"");
-    replace_all(svg, "stroke='gray'", "stroke='currentColor'");
-    replace_all(svg, "stroke='black'", "stroke='currentColor'");
-    // Groups that hold nothing are most of what gnuplot writes.
-    std::size_t at = 0;
-    while ((at = svg.find(">\n</g>\n", at)) != std::string::npos) {
-        const std::size_t open = svg.rfind('<', at);
-        if (svg.compare(open, 3, "<g ") == 0) {
-            svg.erase(open, at + std::string_view(">\n</g>\n").size() - open);
-            at = open;
-        } else {
-            ++at;
-        }
-    }
-    return svg;
-}
-
-bool gnuplot_installed() {
-    auto gnuplot = ChildProgram::start({"gnuplot", "--version"});
-    return gnuplot && gnuplot->finish().succeeded;
 }
 
 } // namespace octant::ui::report

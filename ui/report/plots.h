@@ -67,11 +67,4 @@ std::optional<std::string> plot_svg(const Plot& plot);
 /// fails.
 std::optional<std::string> plots_png(std::span<const Plot> panels);
 
-/// plot_svg's document made to stand inside a page: without XML head, definitions and names, and
-/// with text, axes and grid in the page's own colour (currentColor).
-std::string inline_svg(std::string svg);
-
-/// True when gnuplot can be started.
-bool gnuplot_installed();
-
 } // namespace octant::ui::report

@@ -143,11 +143,6 @@ void make_cache_folder(const fs::path& folder) {
     }
 }
 
-fs::path
-cache_file(const fs::path& folder, const PolygonModel& model, const OrderOptions& options) {
-    return file_of_key(folder, key_bytes(model, options));
-}
-
 CachedOrder cached_order(const fs::path& folder, PolygonModel model, const OrderOptions& options) {
     const std::string key = key_bytes(model, options);
     const fs::path file = file_of_key(folder, key);

@@ -18,19 +18,13 @@ inline constexpr std::uint32_t order_version = 3;
 struct CachedOrder {
     draworder::OrderedModel ordered;
     bool was_kept = false;          ///< Read, not computed.
-    std::filesystem::path file;     ///< Where it is kept.
+    std::filesystem::path file;     ///< Where it is kept, named by what decides the order.
     std::vector<std::string> notes; ///< A file that could not be used, or not be written.
 };
 
 /// Makes the folder, and its parents, where it is missing. Throws Error where that is not possible
 /// or nothing can be written into it.
 void make_cache_folder(const std::filesystem::path& folder);
-
-/// The file of a model and options: its name is a hash of all that decides the order.
-std::filesystem::path cache_file(
-    const std::filesystem::path& folder,
-    const models::polygons::PolygonModel& model,
-    const draworder::OrderOptions& options);
 
 /// draworder::ordered(), read from the folder where the same model was ordered with the same
 /// options before, else computed and kept there. The result is the same, bit for bit. A file that

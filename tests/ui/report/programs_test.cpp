@@ -164,7 +164,6 @@ TEST_CASE("without gnuplot or without points there is no plot") {
     const ScratchFolder scratch;
     CHECK_FALSE(plot_svg(Plot{}));
     const SearchPath nothing(scratch.path().string());
-    CHECK_FALSE(gnuplot_installed());
     CHECK_FALSE(plot_svg(small_plot()));
 }
 
@@ -175,26 +174,12 @@ TEST_CASE("a gnuplot that fails is an error with its last line") {
     CHECK_THROWS_WITH(plot_svg(small_plot()), "gnuplot: no terminal svg");
 }
 
-TEST_CASE("gnuplot draws the same plot as the same bytes, fit to stand in a page") {
-    if (!gnuplot_installed()) {
+TEST_CASE("gnuplot draws the same plot as the same bytes") {
+    const auto svg = plot_svg(small_plot());
+    if (!svg) {
         std::cout << "SKIPPED: gnuplot is not installed\n";
         return;
     }
-    const auto svg = plot_svg(small_plot());
-    REQUIRE(svg);
     CHECK(plot_svg(small_plot()) == svg);
     CHECK_THAT(*svg, Catch::Contains("a &lt; b"));
-    const std::string inside = inline_svg(*svg);
-    CHECK_THAT(inside, Catch::StartsWith("<svg"));
-    CHECK_THAT(inside, Catch::Contains("</svg>"));
-    for (const char* unwanted : {"<?xml", "<defs", " id=", "gpPt", "\"black\""}) {
-        CHECK_THAT(inside, !Catch::Contains(unwanted));
-    }
-}
-
-TEST_CASE("a drawing loses what cannot stand in a page") {
-    CHECK(
-        inline_svg("<?xml?><svg><title>Gnuplot</title><desc>x</desc><defs>d</defs><g id=\"a\" "
-                   "fill=\"none\" color=\"black\">\n</g>\n<g fill=\"black\"><text>t</text></g>"
-                   "</svg>") == "<svg><g fill=\"currentColor\"><text>t</text></g></svg>");
 }

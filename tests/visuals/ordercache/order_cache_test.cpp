@@ -57,8 +57,7 @@ struct Kept {
 
 Kept kept_plates(const std::string& name) {
     Kept kept{empty_folder(name), {}, {}};
-    cached_order(kept.folder, crossing_plates(), by_bsp);
-    kept.file = cache_file(kept.folder, crossing_plates(), by_bsp);
+    kept.file = cached_order(kept.folder, crossing_plates(), by_bsp).file;
     kept.bytes = read_file(kept.file);
     return kept;
 }
@@ -154,9 +153,8 @@ TEST_CASE("a file of another version, kind or model is computed anew, whatever i
 
     PolygonModel moved = crossing_plates();
     moved.vertices_m[4].x -= 0.25;
-    cached_order(kept.folder, moved, by_bsp);
     CHECK_THAT(
-        note_about(kept, read_file(cache_file(kept.folder, moved, by_bsp))),
+        note_about(kept, read_file(cached_order(kept.folder, moved, by_bsp).file)),
         Contains("got that of another one"));
 }
 
@@ -211,7 +209,7 @@ TEST_CASE("threads that order one model at once all get it, and one whole file s
     constexpr std::size_t threads = 4;
     constexpr int rounds = 20;
     for (int round = 0; round < rounds; ++round) {
-        fs::remove(cache_file(folder, crossing_plates(), by_bsp));
+        empty_folder("threads");
         std::vector<std::optional<CachedOrder>> found(threads);
         {
             std::vector<std::jthread> team;
