@@ -42,7 +42,7 @@ constexpr double beyond_stall_rad = rad_from_deg(4.0);
 constexpr double centred_beyond_rad = rad_from_deg(4.0);
 constexpr double pulled_beyond_rad = rad_from_deg(12.0);
 
-// After a stall.
+// What the aircraft does by itself after a stall, until it flies level again.
 /// The wing has to have this much lift before the nose comes all the way up.
 constexpr double safe_load_factor = 2.5;
 constexpr double dive_rad_per_g = rad_from_deg(25.0);

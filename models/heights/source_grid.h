@@ -54,7 +54,7 @@ public:
     /// Turns places in the frame into columns and rows; NaN where that cannot be.
     void grid_from_frame(std::span<double> x, std::span<double> y) const;
 
-    /// The reverse.
+    /// Turns columns and rows into places in the frame; NaN where that cannot be.
     void frame_from_grid(std::span<double> column, std::span<double> row) const;
 
     /// Heights of a window, row after row from the south; NaN without data and outside the grid.

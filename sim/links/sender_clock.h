@@ -75,7 +75,7 @@ private:
     long arrivals_ = 0;
     int late_in_a_row_ = 0;
     long lost_ = 0;
-    // Delays.
+    // By how much sender and receiver differ, from the least delays of late.
     std::array<double, buckets> least_s_{};
     long bucket_ = 0;
     double offset_s_ = 0.0;

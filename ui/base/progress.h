@@ -22,7 +22,7 @@ public:
     /// `done` of the total are finished; `note` is shown behind the numbers.
     void show(int done, const std::string& note = "");
 
-    /// Ends the line.
+    /// Ends the line that show() has written over again and again.
     void finish();
 
 private:

@@ -25,7 +25,7 @@ struct GroundViewOptions {
     double earth_radius_m = 0.0;
 };
 
-/// Which mesh.
+/// Which mesh of the ground is made, and how finely.
 struct GroundMeshOptions {
     visuals::scene::GroundMetric mesh = visuals::scene::GroundMetric::ScreenError;
     visuals::scene::GroundFans fans = visuals::scene::GroundFans::Partial;

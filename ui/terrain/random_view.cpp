@@ -24,7 +24,7 @@ public:
         return low + (high - low) * (static_cast<double>(next() >> 11U) / steps);
     }
 
-    /// Evenly by magnitude.
+    /// A number between two positive ones whose logarithm is spread evenly.
     double scaled_between(double low, double high) {
         return std::exp(between(std::log(low), std::log(high)));
     }

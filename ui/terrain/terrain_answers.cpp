@@ -25,7 +25,7 @@ std::optional<double> above_m(const PointAnswer& answer) {
                                                : std::nullopt;
 }
 
-/// Empty for nothing.
+/// A number as a CSV cell; an empty cell where there is none.
 std::string cell(const std::optional<double>& number) {
     return number ? fmt::format("{:.10g}", *number) : "";
 }

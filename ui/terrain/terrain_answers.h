@@ -64,7 +64,7 @@ struct DrawnGround {
     }
 };
 
-/// Heights above datum.
+/// Where the asked points lie over the ground as its mesh is drawn; heights are above datum.
 std::vector<PointAnswer>
 answers_as_drawn(const DrawnGround& drawn, std::span<const AskedPoint> points);
 

@@ -50,7 +50,7 @@ public:
     int look_button = 0;
     int stick_button = 1;
     AxisMap gamepad;
-    /// Of the gamepad.
+    /// Buttons or axes of the gamepad that open and close the throttle.
     AxisChoice throttle_up;
     AxisChoice throttle_down;
     /// Of a joystick; unset where its axes are those that its kind usually has.

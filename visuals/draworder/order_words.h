@@ -57,7 +57,7 @@ public:
     /// A whole number within limits.
     long count(const char* what, long least, long most);
 
-    /// In body axes.
+    /// Three numbers: a vector in body axes.
     glm::dvec3 vector(const char* what);
 
     /// A vector that must not be zero.

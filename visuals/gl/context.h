@@ -34,7 +34,7 @@ public:
     /// make_current(), then functions().
     const Functions& current_functions();
 
-    /// What draws.
+    /// The driver and the device that draw.
     const scene::RendererInfo& info() const { return info_; }
 
 protected:

@@ -33,7 +33,7 @@ using terrain::StoredHeights;
 constexpr int samples_a_band = 1 << 22;
 constexpr std::size_t tiles_a_batch = 256;
 
-/// One import.
+/// One import, from the inputs to the finished file.
 class Import {
 public:
     Import(

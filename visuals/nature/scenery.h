@@ -42,7 +42,7 @@ public:
     /// Forgets what grows where.
     void forget();
 
-    /// Begins a frame.
+    /// Begins a frame seen from there: what add() appends is chosen for it.
     void begin(const FineView& view);
 
     /// Appends what stands on a triangle (world axes with the eye subtracted, as drawn) in painting

@@ -19,7 +19,7 @@ struct HullExtent {
     glm::dvec3 most_m{0.0};
 };
 
-/// Loading work.
+/// The extent of a model, at all angles of its pivots. Slow: to be asked once, at loading.
 HullExtent hull_extent(const models::polygons::PolygonModel& model);
 
 /// A box that stands in for one aircraft, or for several: world axes with the eye at the origin.

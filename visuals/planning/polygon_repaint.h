@@ -12,7 +12,7 @@
 namespace octant::visuals::planning {
 
 /// Paints aircraft that no order puts right as wholes: boxes that meet each other or the ground.
-/// Keeps its memory.
+/// It keeps its memory from frame to frame.
 ///
 /// Polygon by polygon: after each polygon P everything painted before is painted once more, in its
 /// order, as far as it lies in the cone of the eye over P and before the plane of P. If the picture

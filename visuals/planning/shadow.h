@@ -53,7 +53,7 @@ public:
     /// To be called after the last cast().
     void sort_pieces();
 
-    /// Ascending once sorted.
+    /// The pieces cast since begin(): by ascending ground triangle after sort_pieces().
     std::span<const ShadowPieces> pieces() const { return pieces_; }
 
     std::span<const std::uint32_t> indices() const { return indices_; }

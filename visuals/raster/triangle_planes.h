@@ -30,7 +30,7 @@ void set_edges(const FallingCorners& corners, Triangle& triangle);
 /// change by more than `most_per_px` it is the corners' mean.
 void set_edges_and_levels(const FallingCorners& corners, double most_per_px, Triangle& triangle);
 
-/// One colour everywhere.
+/// The levels of a triangle that has one colour everywhere.
 Levels even_levels(const std::array<float, 3>& rgb);
 
 } // namespace octant::visuals::raster

@@ -46,7 +46,7 @@ public:
     /// The ground must outlive the rule.
     explicit ErrorRule(const GroundTiles& ground);
 
-    /// Takes a view.
+    /// Judges by this view from now on, until it is given another.
     void look_from(const MeshView& view);
 
     const GroundTiles& ground() const { return *ground_; }

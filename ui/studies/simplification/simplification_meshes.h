@@ -29,7 +29,7 @@ StudyMesh study_mesh_from(const std::filesystem::path& file);
 /// the F-15 with every triangle cut in four until there are 40,000.
 std::vector<StudyMesh> built_in_meshes();
 
-/// Without colours.
+/// The same mesh without the colours of its vertices.
 StudyMesh uncoloured(StudyMesh mesh);
 
 } // namespace octant::ui::studies::simplification
