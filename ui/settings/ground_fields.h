@@ -26,8 +26,8 @@ inline constexpr std::tuple ground_rows{
     setting<&RunSettings::ground, &visuals::scene::GroundSettings::detail>(
         {"detail",
          "CONTROL",
-         "triangle control: exact (counted in each frame), damped (weighted mean), previous, "
-         "literal, or fixed C"},
+         "triangle control: exact (counted in each frame), damped (finds its own gain; with "
+         "control-a the weighted mean as printed), previous, literal, or fixed C"},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
     setting<&RunSettings::ground, &visuals::scene::GroundSettings::triangles>(
         {"triangles",

@@ -50,8 +50,11 @@ terrain::ControlSettings control_settings(const scene::GroundSettings& settings)
     case scene::DetailControl::Literal:
         control.method = terrain::ControlMethod::Literal;
         break;
+    case scene::DetailControl::Damped: // as printed where its a is given
+        control.method = settings.control_a > 0.0 ? terrain::ControlMethod::Damped
+                                                  : terrain::ControlMethod::Tuned;
+        break;
     case scene::DetailControl::Exact:
-    case scene::DetailControl::Damped:
     case scene::DetailControl::Fixed:
         control.method = terrain::ControlMethod::Damped;
         break;
@@ -219,14 +222,16 @@ private:
         if (exact_) {
             return mesher_.mesh_within(view, detail_, budget_);
         }
-        detail_.resolution = state_.resolution;
-        const terrain::GroundMesh mesh = mesher_.mesh(view, detail_);
-        if (!fixed_resolution_) {
-            const bool same_view = last_view_ && is_same(*last_view_, view);
-            state_ = terrain::next_state(state_, control_, mesh.counters.triangles, same_view);
-            last_view_ = view;
+        const auto mesh_with = [&](double resolution) {
+            detail_.resolution = resolution;
+            return mesher_.mesh(view, detail_);
+        };
+        if (fixed_resolution_) {
+            return mesh_with(state_.resolution);
         }
-        return mesh;
+        const bool same_view = last_view_ && is_same(*last_view_, view);
+        last_view_ = view;
+        return terrain::controlled_mesh(state_, control_, same_view, mesh_with);
     }
 
     terrain::MeshView view_of(const GroundRequest& request) const {

@@ -16,6 +16,10 @@
 //   read off between the two points that enclose the target; that ends a slow or ringing loop. N(C)
 //   is a staircase: where nearly all of the difference between the two points is a single step,
 //   that step is the dead band, and its nearer end is held.
+// - Tuned has no source. It looks at the view before it is satisfied: while N misses the target it
+//   meshes the same view again, with the a of equation (4) for which g = 1. The meshes of one view
+//   are points of one curve N(C), so that their difference tells N'(C), and two on both sides of
+//   the target enclose it.
 #include "visuals/terrain/detail_controller.h"
 
 #include <algorithm>
@@ -76,14 +80,15 @@ bool is_enclosed(const DetailState& state) {
     return state.below.resolution > 0.0 && state.above.resolution > state.below.resolution;
 }
 
-/// Whether the two points around the target are the ends of one step of N(C).
-bool is_at_step(const DetailState& state) {
+/// Whether the two points around the target are the ends of one step of N(C), or closer in C than
+/// `narrowest`, a factor.
+bool is_at_step(const DetailState& state, double narrowest) {
     if (!is_enclosed(state)) {
         return false;
     }
     const double width = std::log(state.above.resolution / state.below.resolution);
     const double smooth = 2.0 * width * state.above.triangles;
-    return width < std::log(step_width) ||
+    return width < std::log(narrowest) ||
            state.above.triangles - state.below.triangles > step_steepness * smooth;
 }
 
@@ -107,13 +112,45 @@ double read_beyond(const CountAt& before, const CountAt& nearest, double target)
     return nearest.resolution * std::clamp(ratio, 1.0 / most_change, most_change);
 }
 
+/// p of N ~ C^p with what another mesh of the same view tells about it.
+double tuned_exponent(const DetailState& state, double triangles) {
+    constexpr double least_change = 1e-4; // of C; less tells of single steps only
+    constexpr double trust = 0.3;
+    const double change = std::log(state.resolution / state.last.resolution);
+    if (std::abs(change) < least_change || triangles < 1.0 || state.last.triangles < 1.0) {
+        return state.exponent;
+    }
+    const double seen = std::log(triangles / state.last.triangles) / change;
+    return state.exponent + trust * (std::clamp(seen, smallest_exponent, 4.0) - state.exponent);
+}
+
+/// The C of the mesh after this one, which Tuned wants nearer to the target: the nearer end of a
+/// step, else on the line through the two points around the target (at times in their middle), else
+/// by equation (4) with g = 1.
+double tuned_resolution(const DetailState& state, double target, double triangles) {
+    constexpr double narrowest = 1.00001;
+    if (is_at_step(state, narrowest)) {
+        return nearer_end(state, target).resolution;
+    }
+    if (!is_enclosed(state)) {
+        const double ratio = std::pow(target / std::max(triangles, 1.0), 1.0 / state.exponent);
+        return state.resolution * std::clamp(ratio, 1.0 / most_change, most_change);
+    }
+    const double rise = std::log(state.above.triangles / std::max(state.below.triangles, 1.0));
+    const double share = state.standing_frames % tuned_meshes == 0 || rise <= 0.0
+                             ? 0.5
+                             : std::log(target / std::max(state.below.triangles, 1.0)) / rise;
+    return state.below.resolution *
+           std::pow(state.above.resolution / state.below.resolution, std::clamp(share, 0.02, 0.98));
+}
+
 /// The C at which the points of the view promise the target: between two points on the line through
 /// their logarithms, and in every other frame in the middle, so that they always close in. `before`
 /// is the state without the last point.
 double read_off(const DetailState& before, const DetailState& state, double target) {
     const CountAt& below = state.below;
     const CountAt& above = state.above;
-    if (is_at_step(state)) {
+    if (is_at_step(state, step_width)) {
         return nearer_end(state, target).resolution;
     }
     if (!is_enclosed(state)) {
@@ -157,6 +194,7 @@ DetailState next_state(
     assert(settings.remembered_frames >= 0 && settings.remembered_frames <= max_remembered_frames);
     const double missing = target - triangles;
     DetailState next = measured(state, target, triangles, same_view);
+    next.last = {state.resolution, triangles};
     const bool settles = settings.method == ControlMethod::Damped && settings.dead_band > 0.0;
     if (settles && std::abs(missing) <= settings.dead_band * target) {
         return held(next, triangles);
@@ -164,6 +202,13 @@ DetailState next_state(
     const auto limited = [&](double resolution) {
         return std::clamp(resolution, settings.min_resolution, settings.max_resolution);
     };
+    if (settings.method == ControlMethod::Tuned) {
+        next.exponent = same_view ? tuned_exponent(state, triangles) : state.exponent;
+        if (std::abs(missing) > settings.tuned_band * target) {
+            next.resolution = limited(tuned_resolution(next, target, triangles));
+        }
+        return held(next, triangles);
+    }
     if (settles && same_view && next.standing_frames > settings.remembered_frames) {
         next.resolution = limited(read_off(state, next, target));
         return held(next, triangles);
@@ -180,6 +225,11 @@ DetailState next_state(
     std::shift_right(next.earlier.begin(), next.earlier.end(), 1);
     next.earlier[0] = candidate;
     return next;
+}
+
+bool wants_another(const DetailState& state, const ControlSettings& settings, int meshes) {
+    return settings.method == ControlMethod::Tuned && meshes < tuned_meshes &&
+           state.resolution != state.last.resolution;
 }
 
 } // namespace octant::visuals::terrain

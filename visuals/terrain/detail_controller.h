@@ -22,6 +22,9 @@ struct DetailState {
     CountAt below;
     /// Of those meshes: the smallest C with more triangles than the target.
     CountAt above;
+    CountAt last; ///< The last mesh, of whatever view.
+    /// For Tuned: the p of N ~ C^p around the last meshes, that is N'(C) C / N.
+    double exponent = 1.5;
     /// The results of equation (4), newest first. Only the first remembered_frames of them count.
     std::array<double, max_remembered_frames> earlier{};
 };
@@ -38,5 +41,24 @@ DetailState next_state(
     const ControlSettings& settings,
     double triangles,
     bool same_view = false);
+
+/// For Tuned: whether the frame's mesh is to be made again with `state.resolution`, `meshes` having
+/// been made of it.
+bool wants_another(const DetailState& state, const ControlSettings& settings, int meshes);
+
+/// Makes a frame's mesh: calls make(C), which returns a mesh, once, or up to tuned_meshes times for
+/// Tuned, and takes `state` on to the next frame. `same_view` tells that the frame before had the
+/// same view. Returns the last mesh.
+template <typename Make>
+auto controlled_mesh(
+    DetailState& state, const ControlSettings& settings, bool same_view, const Make& make) {
+    auto mesh = make(state.resolution);
+    state = next_state(state, settings, mesh.counters.triangles, same_view);
+    for (int meshes = 1; wants_another(state, settings, meshes); ++meshes) {
+        mesh = make(state.resolution);
+        state = next_state(state, settings, mesh.counters.triangles, true);
+    }
+    return mesh;
+}
 
 } // namespace octant::visuals::terrain

@@ -55,7 +55,10 @@ struct Detail {
 enum class ControlMethod {
     Previous, ///< Equation (4): C + (target - N) / a.
     Damped,   ///< Equation (5): the weighted mean of the last r + 1 results of (4).
-    Literal   ///< Figure 6: C - (N - N of the frame before) / a. It holds no target.
+    /// Equation (4) with the a that makes g = 1, which is found out while flying: several meshes of
+    /// a frame tell it. No a, r or g is to be chosen.
+    Tuned,
+    Literal ///< Figure 6: C - (N - N of the frame before) / a. It holds no target.
 };
 
 /// How the number of triangles N is held near a target. Only the loop gain g = (dN/dC) / a decides
@@ -83,11 +86,15 @@ struct ControlSettings {
     /// standing view it is reached within 15 frames and kept, for any gain up to 5. From 0 to about
     /// 0.05; 0 is equation (5) as printed. Paper: none.
     double dead_band = 0.005;
+    /// For Tuned: a frame's mesh is made again, up to tuned_meshes in all, while N misses the
+    /// target by more than this share of it and C can still bring it nearer.
+    double tuned_band = 0.0004;
     double min_resolution = 2.0;    ///< C is kept at or above it; it is the quadtree's C_min.
     double max_resolution = 1000.0; ///< C is kept at or below it.
 };
 
 inline constexpr int max_remembered_frames = 8;
+inline constexpr int tuned_meshes = 4;
 
 /// How many triangles a mesh may have. The paper has no budget; it steers by the meshes of earlier
 /// frames.

@@ -152,3 +152,63 @@ TEST_CASE("an automatic a reaches the target however N grows with C") {
         }
     }
 }
+
+namespace {
+
+/// A mesh as far as the control looks at it.
+struct CountedMesh {
+    struct {
+        int triangles = 0;
+    } counters;
+};
+
+} // namespace
+
+TEST_CASE("with its own gain the control meets the target in every frame, however N grows") {
+    ControlSettings settings;
+    settings.method = ControlMethod::Tuned;
+    settings.target_triangles = 32000.0;
+    for (const double exponent : {0.6, 1.0, 1.5, 2.0, 2.6}) {
+        INFO("exponent " << exponent);
+        DetailState state = starting_at(16.0, settings);
+        double changes = 0.0;
+        double last = 0.0;
+        int most_meshes = 0;
+        for (int frame = 0; frame < 300; ++frame) {
+            // The view alone changes N by one per cent to and fro.
+            const double wave = 1.0 + 0.01 * std::sin(1.3 * frame) + 0.005 * std::sin(0.1 * frame);
+            int meshes = 0;
+            const auto make = [&](double resolution) {
+                ++meshes;
+                const double smooth = 900.0 * wave * std::pow(resolution, exponent);
+                return CountedMesh{{static_cast<int>(smooth / 6.0) * 6}};
+            };
+            const double triangles =
+                controlled_mesh(state, settings, false, make).counters.triangles;
+            changes += frame >= 20 ? std::abs(triangles - last) : 0.0;
+            last = triangles;
+            most_meshes = std::max(most_meshes, meshes);
+        }
+        CHECK(changes / 280.0 < 0.001 * settings.target_triangles);
+        CHECK(most_meshes <= tuned_meshes);
+        CHECK(state.exponent == Approx(exponent).epsilon(0.25));
+    }
+}
+
+TEST_CASE("with its own gain the control stands still at a view that stands still") {
+    ControlSettings settings;
+    settings.method = ControlMethod::Tuned;
+    settings.target_triangles = target;
+    for (const double first : {2.0, 16.0, 500.0}) {
+        DetailState state = starting_at(first, settings);
+        std::vector<double> all;
+        for (int frame = 0; frame < 120; ++frame) {
+            const auto make = [](double resolution) {
+                return CountedMesh{{static_cast<int>(staircase(resolution))}};
+            };
+            all.push_back(controlled_mesh(state, settings, frame > 0, make).counters.triangles);
+        }
+        CHECK(all.back() == Approx(target).epsilon(0.01));
+        CHECK(std::all_of(all.end() - 100, all.end(), [&](double n) { return n == all.back(); }));
+    }
+}

@@ -64,14 +64,21 @@ FrameMaker controlled(
             last_view = std::optional<terrain::MeshView>(),
             last = CountedFrame()](const terrain::MeshView& view) mutable {
         const bool same_view = last_view && same(*last_view, view);
-        if (!same_view || last.resolution != state.resolution) {
-            terrain::Detail with_resolution = detail;
-            with_resolution.resolution = state.resolution;
-            const terrain::GroundMesh mesh = ground.mesher.mesh(view, with_resolution);
-            last = {mesh.counters.triangles, mesh.counters.fans, state.resolution};
-        }
         last_view = view;
-        state = terrain::next_state(state, control, last.triangles, same_view);
+        if (same_view && last.resolution == state.resolution) {
+            state = terrain::next_state(state, control, last.triangles, same_view);
+            return last;
+        }
+        const terrain::GroundMesh mesh =
+            terrain::controlled_mesh(state, control, same_view, [&](double resolution) {
+                terrain::Detail with_resolution = detail;
+                with_resolution.resolution = resolution;
+                return ground.mesher.mesh(view, with_resolution);
+            });
+        last = {mesh.counters.triangles, mesh.counters.fans, mesh.resolution};
+        last.believed_gain = control.method == terrain::ControlMethod::Tuned
+                                 ? state.exponent * mesh.counters.triangles / mesh.resolution
+                                 : control.triangles_per_resolution;
         return last;
     };
 }
@@ -87,6 +94,10 @@ FrameMaker damped_as_printed(FlickerGround& ground, const FlickerSettings& setti
 FrameMaker damped(FlickerGround& ground, const FlickerSettings& settings) {
     return controlled(
         ground, settings, terrain::ControlMethod::Damped, terrain::ControlSettings().dead_band);
+}
+
+FrameMaker tuned(FlickerGround& ground, const FlickerSettings& settings) {
+    return controlled(ground, settings, terrain::ControlMethod::Tuned, 0.0);
 }
 
 FrameMaker literal(FlickerGround& ground, const FlickerSettings& settings) {
@@ -116,6 +127,7 @@ constexpr std::array all_ways = {
     FlickerWay{"previous (4)", true, previous},
     FlickerWay{"damped (5), as printed", true, damped_as_printed},
     FlickerWay{"damped, dead band", true, damped},
+    FlickerWay{"damped, own gain", true, tuned},
     FlickerWay{"literal (4)", false, literal},
     FlickerWay{"exact", true, exact},
     FlickerWay{"screen error (default)", true, by_screen_error}};
@@ -147,6 +159,7 @@ FlickerRun run_along(
         run.triangles.push_back(frame.triangles);
         run.fans.push_back(frame.fans);
         run.resolution.push_back(frame.resolution);
+        run.believed_gain.push_back(frame.believed_gain);
     }
     return run;
 }

@@ -39,6 +39,8 @@ struct CountedFrame {
     int triangles = 0;
     int fans = 0;
     double resolution = 0.0; ///< C; 0 for a way that has none
+    /// The N'(C) by which C is changed, triangles for a unit of C; 0 for a way that has none.
+    double believed_gain = 0.0;
 };
 
 /// Makes the mesh of the next frame.
@@ -55,12 +57,13 @@ struct FlickerWay {
 inline constexpr std::size_t previous_way = 0; ///< of flicker_ways
 inline constexpr std::size_t damped_way = 1;
 inline constexpr std::size_t settling_way = 2;
-inline constexpr std::size_t literal_way = 3;
-inline constexpr std::size_t exact_way = 4;
-inline constexpr std::size_t error_way = 5;
+inline constexpr std::size_t tuned_way = 3;
+inline constexpr std::size_t literal_way = 4;
+inline constexpr std::size_t exact_way = 5;
+inline constexpr std::size_t error_way = 6;
 
-/// Previous, damped as printed, damped with dead band, literal and exact, all with the paper's
-/// mesh, and the default mesh: the numbers above.
+/// Previous, damped as printed, damped with dead band, damped with its own gain, literal and exact,
+/// all with the paper's mesh, and the default mesh: the numbers above.
 std::span<const FlickerWay> flicker_ways();
 
 /// A run: each frame's count.
@@ -68,6 +71,7 @@ struct FlickerRun {
     std::vector<int> triangles;
     std::vector<int> fans;
     std::vector<double> resolution;
+    std::vector<double> believed_gain;
 };
 
 FlickerRun run_along(

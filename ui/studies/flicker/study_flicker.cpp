@@ -6,6 +6,7 @@
 #include "ui/studies/flicker/flicker_figures.h"
 #include "ui/studies/flicker/flicker_runs.h"
 #include "ui/studies/flicker/flicker_tables.h"
+#include "ui/studies/flicker/relief_runs.h"
 #include "ui/world/terrain_file.h"
 #include "visuals/terrain/count_series.h"
 #include "visuals/terrain/settled_resolution.h"
@@ -178,7 +179,10 @@ void study_flicker(const FlickerStudyOptions& options) {
     const FlickerRuns runs = run_all(options);
     std::string markdown;
     std::vector<report::HtmlTable> tables;
-    for (NamedTable& made : flicker_tables(runs)) {
+    std::vector<NamedTable> made_tables = flicker_tables(runs);
+    base::say(options.quiet, "grounds from flats to high mountains");
+    made_tables.push_back({"relief", relief_table(options)});
+    for (NamedTable& made : made_tables) {
         write_file(options.out / (made.file + ".csv"), report::csv_of(made.table));
         markdown += report::markdown_of(made.table) + "\n";
         tables.push_back(std::move(made.table));
