@@ -44,7 +44,9 @@ struct FrameRecord {
     glm::dvec3 aircraft_m{0.0};  ///< first aircraft, world
     double aircraft_agl_m = 0.0; ///< first aircraft above the ground below it
     int triangle_target = 0;     ///< terrain triangles that this frame was to have
-    double error_px = 0.0;       ///< screen-space error the terrain was made for; 0 where C decides
+    /// How far any sample of the terrain in the picture may lie from its triangles, but for detail
+    /// that is made up near the eye; 0 where C decides.
+    double error_px = 0.0;
     /// By the clock only, else not finite: from the input that the frame shows, or from the moment
     /// that it was due, to the picture finished.
     double latency_ms = std::numeric_limits<double>::quiet_NaN();
