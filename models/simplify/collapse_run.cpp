@@ -50,6 +50,7 @@ CollapseRun::CollapseRun(
     , low_may_turn_(options.low_may_turn)
     , quadrics_(surface, points != nullptr ? EdgeWeights{} : fast_weights)
     , heap_(surface.mesh.face_slots() * 3)
+    , has_parked_(surface.mesh.vertex_slots(), false)
     , checked_(surface.mesh.face_slots() * 3, false)
     , numbers_(surface.mesh.vertex_slots())
     , strictness_(strictness_for(surface))
@@ -138,6 +139,8 @@ bool CollapseRun::next_edge(HalfEdge& h) {
             return true;
         }
         heap_.remove(h);
+        has_parked_[surface_.mesh.origin(h)] = true;
+        has_parked_[surface_.mesh.target(h)] = true;
     }
 }
 
@@ -247,11 +250,16 @@ void CollapseRun::collapse(HalfEdge h, const Placement& placement) {
     update_around(kept);
 }
 
-/// Updates the edges at a vertex, and marks all edges one ring further as unchecked.
+/// Updates the edges at a vertex, marks all edges one ring further as unchecked, and puts those of
+/// them that are not there back into the heap.
 void CollapseRun::update_around(std::uint32_t vertex) {
     const CollapsibleMesh& mesh = surface_.mesh;
     mesh.edges_around(vertex, [&](HalfEdge h) {
         const std::uint32_t other = mesh.origin(h) == vertex ? mesh.target(h) : mesh.origin(h);
+        if (chooser_ == Chooser::Quadrics && !has_parked_[other]) {
+            return;
+        }
+        has_parked_[other] = false;
         mesh.edges_around(other, [&](HalfEdge far) {
             const HalfEdge edge = mesh.edge_of(far);
             checked_[edge] = false;

@@ -56,6 +56,9 @@ private:
     bool low_may_turn_;
     VertexQuadrics quadrics_;
     EdgeHeap heap_;
+    /// For each vertex slot whether edges at it may have been taken out of the heap; kept for
+    /// Chooser::Quadrics, which has nothing else to do one ring further.
+    std::vector<bool> has_parked_;
     std::vector<bool> checked_; ///< For each edge whether its cost and permission are up to date.
     /// For each vertex slot its number in the collapse sequence.
     std::vector<std::uint32_t> numbers_;

@@ -4,9 +4,11 @@
 
 #include "models/measure/mesh_distance.h"
 #include "models/simplify/shells.h"
+#include "sim/base/worker_team.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -29,6 +31,12 @@ bool is_reached(const Simplified& result, const Goal& goal) {
 /// How far a result is off: certified distance times root mean square; 0 where it lies on the
 /// original.
 double fault_of(const Simplified& result, const SimplifyOptions& options) {
+    if (result.mesh.triangles.empty()) {
+        return std::numeric_limits<double>::infinity();
+    }
+    if (result.sequence.collapses.empty()) {
+        return 0.0;
+    }
     measure::DistanceOptions how;
     how.tightness = 1.05;
     how.samples = 50'000;
@@ -58,47 +66,45 @@ Candidate judged(Simplified result, const SimplifyOptions& options) {
     return {std::move(result), misses, fault};
 }
 
-/// The plain passes that are tried beside the first one.
-std::vector<Chooser> plain_passes(const Simplified& first, const SimplifyOptions& options) {
-    const std::size_t before = first.sequence.original.triangles.size();
-    const bool coloured = !first.sequence.original.colours.empty();
-    std::vector<Chooser> plain;
-    if (options.quality == Quality::Surface) {
-        const bool is_deep =
-            static_cast<double>(first.mesh.triangles.size()) <= deep * static_cast<double>(before);
-        if (is_deep) {
-            plain.push_back(Chooser::Quadrics);
-        }
-        if (is_deep && !coloured) {
-            plain.push_back(Chooser::Volumes);
-        }
-    } else if (before <= small && !coloured) {
-        plain.push_back(Chooser::Volumes);
-    }
-    return plain;
-}
-
-Simplified
-best_pass(TriangleMesh original, const SimplifyOptions& options, const OnePass& one_pass) {
-    const Chooser usual =
-        options.quality == Quality::Surface ? Chooser::Distances : Chooser::Quadrics;
-    Simplified first = one_pass(std::move(original), options, usual);
-    const std::vector<Chooser> plain = plain_passes(first, options);
-    if (first.mesh.triangles.empty() || first.sequence.collapses.empty() || plain.empty()) {
-        return first;
-    }
-    Candidate best = judged(std::move(first), options);
-    for (const Chooser chooser : plain) {
-        Candidate next = judged(one_pass(best.result.sequence.original, options, chooser), options);
-        if (next.is_better_than(best)) {
-            best = std::move(next);
-        }
-    }
-    return std::move(best.result);
-}
-
 std::size_t wanted_faces(const Goal& goal) {
     return goal.faces.value_or(2 * goal.vertices.value_or(0));
+}
+
+/// What chooses the collapses of each pass that is tried; the usual one first.
+std::vector<Chooser> choosers_for(const TriangleMesh& original, const SimplifyOptions& options) {
+    const auto before = static_cast<double>(original.triangles.size());
+    const bool is_deep = static_cast<double>(wanted_faces(options.goal)) <= deep * before;
+    const bool is_fast = options.quality == Quality::Fast;
+    std::vector<Chooser> choosers{is_fast ? Chooser::Quadrics : Chooser::Distances};
+    if (!is_fast && is_deep) {
+        choosers.push_back(Chooser::Quadrics);
+    }
+    if (original.colours.empty() && (is_fast ? original.triangles.size() <= small : is_deep)) {
+        choosers.push_back(Chooser::Volumes);
+    }
+    return choosers;
+}
+
+/// Tries the passes side by side and returns the best result, the first one where none is clearly
+/// better.
+Simplified
+best_pass(TriangleMesh original, const SimplifyOptions& options, const OnePass& one_pass) {
+    const std::vector<Chooser> choosers = choosers_for(original, options);
+    if (choosers.size() == 1) {
+        return one_pass(std::move(original), options, choosers.front());
+    }
+    SimplifyOptions quiet = options;
+    quiet.show_progress = nullptr;
+    std::vector<Candidate> tried(choosers.size());
+    share_out(choosers.size(), options.threads, [&](std::size_t i, std::size_t) {
+        const SimplifyOptions& how = i == 0 ? options : quiet;
+        tried[i] = judged(one_pass(original, how, choosers[i]), how);
+    });
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < tried.size(); ++i) {
+        best = tried[i].is_better_than(tried[best]) ? i : best;
+    }
+    return std::move(tried[best].result);
 }
 
 } // namespace
