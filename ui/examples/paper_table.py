@@ -68,7 +68,8 @@ for number, way in enumerate(ways):
     over_rows.bar(place, 1000 * table[f"ours, s, {way}"] / table["frames"], 0.25, label=way)
 over_rows.set_xticks(range(len(table)), names, rotation=30, ha="right")
 over_rows.set(ylabel="mean frame time, ms", title="Table 6, ours")
-over_rows.legend(fontsize=8)
+over_rows.margins(y=0.3)
+over_rows.legend(fontsize=8, loc="upper right")
 points = over_time.scatter(
     frames.sim_time_s, frames.frame_ms, c=frames.draw_cell, s=6, cmap="turbo"
 )
