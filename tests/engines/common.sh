@@ -72,7 +72,7 @@ EOT
   wait "$sweep"
   code=$?
   [[ $code -eq 143 ]] || fail "a sweep that SIGTERM ended has exit code $code"
-  for tenth in {1..100}; do
+  for tenth in {1..1200}; do
     pgrep -f "fly --settings jobs/.*--record runs/" >/dev/null || break
     sleep 0.1
   done

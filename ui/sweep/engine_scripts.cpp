@@ -89,7 +89,7 @@ parallel_script(const Sweep& sweep, const SweepFolder& folder, const EngineOptio
         sweep.name);
     text += fmt::format("cd {} || exit 2\n", shell_word(folder.path().string()));
     text += "exec parallel --will-cite --retries 3 --joblog logs/parallel.log --workdir \"$PWD\""
-            " --termseq TERM,20000,KILL,25";
+            " --termseq TERM,120000,KILL,25";
     text += fmt::format(" --timeout {}", 60 * options.minutes);
     if (options.jobs > 0) {
         text += fmt::format(" --jobs {}", options.jobs);

@@ -114,7 +114,11 @@ RunResult result_of(const SweepFolder& folder, const Run& run, bool with_video) 
         return result;
     }
     if (!result.done) {
-        const std::string words = last_words(folder.log(run.name));
+        const fs::path file = recording / "run.json";
+        const std::string stopped =
+            report::is_run_file(file) ? report::read_run_file(file).stopped : std::string();
+        const std::string words =
+            stopped.empty() ? last_words(folder.log(run.name)) : "ended by " + stopped;
         result.fault = words.empty() ? "was not flown to its end" : words;
         return result;
     }
