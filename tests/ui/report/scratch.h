@@ -2,6 +2,7 @@
 
 #include "ui/report/frame_record.h"
 #include "ui/report/png_file.h"
+#include "ui/report/recording.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -58,6 +59,25 @@ public:
 private:
     std::string before_;
 };
+
+/// A run of two aircraft, with something in every field.
+inline RunInfo made_up_info() {
+    RunInfo info;
+    info.title = "a flight";
+    info.settings_json = R"({"path":"turn","aircraft":["f15","500md"],"rate":60,"nested":{"a":1}})";
+    info.version = "0.1.0";
+    info.commit = "abc1234";
+    info.device = "some, renderer";
+    info.path_offset_m = {0, 0, 412.5};
+    info.machine.cpu = "cpu, fast";
+    info.machine.cores = 2;
+    info.machine.os = "system";
+    info.machine.kernel = "kernel 1";
+    info.machine.memory_kb = 1024;
+    info.machine.cpu_times = {1000, 500, 10, 100};
+    info.facts = {{"lowest height", "61 m"}};
+    return info;
+}
 
 /// A frame with easily told numbers: sim 1, plan 2, draw `draw_ms`, read 0.5 ms.
 inline FrameRecord made_up_frame(int frame, double draw_ms) {
