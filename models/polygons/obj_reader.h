@@ -31,9 +31,9 @@ namespace octant::models::polygons {
 /// Polygons without an area are left out, those whose sides meet become triangles, with a note.
 ///
 /// Throws Error "file:line: expected ..., got ..." for anything else: other keywords, numbers that
-/// cannot be read, NaN and infinity, indices out of range, a material that none of the material files knows
-/// although all are there, a pivot of a part without polygons or without an axis, more than
-/// obj_limits.h allows; "file: ..." for binary data and a file without polygons.
+/// cannot be read, NaN and infinity, indices out of range, a material that none of the material
+/// files knows although all are there, a pivot of a part without polygons or without an axis, more
+/// than obj_limits.h allows; "file: ..." for binary data and a file without polygons.
 PolygonModel read_obj(const std::filesystem::path& path, const FileAxes& axes = {});
 
 } // namespace octant::models::polygons

@@ -3,10 +3,11 @@
 #include "sim/base/error.h"
 #include "sim/base/units.h"
 
-#include <algorithm>
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 #include "scratch.h"
 

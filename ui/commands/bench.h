@@ -9,7 +9,7 @@
 namespace octant::ui::commands {
 
 struct BenchOptions {
-    settings::RunSettings settings; ///< size, samples, triangles, aircraft and drawing are used
+    settings::RunSettings settings;    ///< size, samples, triangles, aircraft and drawing are used
     std::vector<std::string> terrains; ///< one scene each, and each renderer if none is asked for
     int frames = 300;                  ///< timed, of each scene
     bool quiet = false;
@@ -30,7 +30,8 @@ struct BenchResult {
 };
 
 /// Draws all scenes in turn, frame by frame, the platform's floor first: a lit grid of 20,000
-/// triangles over the whole picture, by OpenGL with one sample a pixel, read back. The floor is the first result. Throws Error.
+/// triangles over the whole picture, by OpenGL with one sample a pixel, read back. The floor is the
+/// first result. Throws Error.
 std::vector<BenchResult> run_bench(const BenchOptions& options);
 
 } // namespace octant::ui::commands

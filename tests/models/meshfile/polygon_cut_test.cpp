@@ -1,8 +1,9 @@
 #include "models/meshfile/polygon_cut.h"
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
+
+#include <algorithm>
 #include <utility>
 
 using namespace octant::models::meshfile;

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
+
 #include <utility>
 
 using namespace octant::models;
