@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ui/report/html_text.h"
-#include "ui/studies/flicker/study_flicker.h"
+#include "ui/studies/flicker/study_options.h"
 
 namespace octant::ui::studies::flicker {
 
