@@ -65,9 +65,7 @@ void light_row(
 }
 
 GroundImage::Level half_of(const GroundImage::Level& from) {
-    GroundImage::Level to;
-    to.width = std::max(from.width / 2, 2);
-    to.height = std::max(from.height / 2, 2);
+    GroundImage::Level to(std::max(from.width / 2, 2), std::max(from.height / 2, 2));
     to.texels.reserve(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height));
     const auto texel = [&](int x, int y) {
         return from.texels
@@ -105,7 +103,7 @@ void GroundImage::light(const Light& light) {
     light_ = light;
     const scene::GroundImage& albedo = texture_.albedo;
     levels_.clear();
-    levels_.push_back({std::max(albedo.width, 2), std::max(albedo.height, 2), {}});
+    levels_.emplace_back(std::max(albedo.width, 2), std::max(albedo.height, 2));
     Level& level = levels_.back();
     level.texels.resize(
         static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height));

@@ -3,6 +3,7 @@
 #include "visuals/raster/vertex_stage.h"
 #include "visuals/scene/ground_texture.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -14,8 +15,15 @@ class GroundImage {
 public:
     /// At least two texels each way.
     struct Level {
-        int width = 0;
-        int height = 0;
+        Level(int columns, int rows)
+            : width(columns)
+            , height(rows)
+            , last_place{(columns - 1) * 65536.0 - 1.0, (rows - 1) * 65536.0 - 1.0} {}
+
+        int width;
+        int height;
+        /// Across and up, with a texel right and above: 2^-16 texel; the rest are 0.
+        alignas(32) std::array<double, 4> last_place;
         std::vector<std::uint32_t> texels; ///< red in the lowest byte; rows from the south
     };
 

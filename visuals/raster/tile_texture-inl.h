@@ -32,49 +32,102 @@ HWY_INLINE std::uint32_t set_bits(const StripValues& values) {
 struct TextureBlock {
     glm::ivec2 at;               ///< column and row of the picture
     int last_column;             ///< of the strip's pixels that the triangle covers
-    std::uint32_t fresh;         ///< a bit for each of sixteen pixels that has new samples
-    const std::uint16_t* counts; ///< how many, for each pixel
+    const std::uint16_t* counts; ///< of new samples of each of its sixteen pixels
     std::size_t pixel;           ///< of the tile
 
     int px() const { return std::clamp(last_column - at.x, 1, block_px); }
 };
 
+using Reals = hn::CappedTag<double, 4>;
+constexpr std::size_t four_parts = 4 / hn::MaxLanes(Reals());
+
+/// Four values of a corner or a pixel.
+using Four = std::array<hn::Vec<Reals>, four_parts>;
+
+template <class Of>
+HWY_INLINE Four four(const Of& of) {
+    Four result;
+    for (std::size_t i = 0; i < four_parts; ++i) {
+        result[i] = of(i);
+    }
+    return result;
+}
+
+HWY_INLINE hn::Vec<Reals> real(double value) {
+    return hn::Set(Reals(), value);
+}
+
 /// What a textured triangle has at a pixel: its place in texels, light left and share of haze.
 struct TexturePoint {
     double w;
-    std::array<double, 4> value;
+    Four value;
+};
 
-    HWY_INLINE TexturePoint(const TriangleExtra& extra, int column, int row)
-        : w(1.0 / std::max(extra.by_w[4].at(column, row), 1e-30)) {
-        for (std::size_t i = 0; i < value.size(); ++i) {
-            value[i] = extra.by_w[i].at(column, row) * w;
+/// The planes of a textured triangle, its four values next to each other.
+struct TexturePlanes {
+    RealPlane by_w;
+    Four base;
+    Four per_x;
+    Four per_y;
+
+    HWY_INLINE explicit TexturePlanes(const TriangleExtra& extra)
+        : by_w(extra.by_w[4])
+        , base(values_of(extra, &RealPlane::base))
+        , per_x(values_of(extra, &RealPlane::per_x))
+        , per_y(values_of(extra, &RealPlane::per_y)) {}
+
+    HWY_INLINE TexturePoint at(int column, int row) const {
+        const double w = 1.0 / std::max(by_w.at(column, row), 1e-30);
+        const auto x = real(column);
+        const auto y = real(row);
+        return {w, four([&](std::size_t i) HWY_ATTR {
+                    const auto across = hn::Add(base[i], hn::Mul(per_x[i], x));
+                    return hn::Mul(hn::Add(across, hn::Mul(per_y[i], y)), real(w));
+                })};
+    }
+
+private:
+    static HWY_INLINE Four values_of(const TriangleExtra& extra, double RealPlane::*part) {
+        alignas(32) std::array<double, 4> values;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            values[i] = extra.by_w[i].*part;
         }
+        return four([&](std::size_t i)
+                        HWY_ATTR { return hn::Load(Reals(), &values[i * hn::MaxLanes(Reals())]); });
     }
 };
 
 /// Values of 32 bits along a block.
 struct BlockWalk {
-    std::int32_t first;
-    std::int32_t per_px;
-};
+    alignas(16) std::array<std::int32_t, 4> first;
+    alignas(16) std::array<std::int32_t, 4> per_px;
 
-/// `share`: one over the pixels between both.
-HWY_INLINE BlockWalk walk_between(double from, double to, double share) {
-    return {static_cast<std::int32_t>(from), static_cast<std::int32_t>((to - from) * share)};
-}
+    /// `share`: one over the pixels between both.
+    HWY_INLINE BlockWalk(const Four& from, const Four& to, double share) {
+        const hn::Rebind<std::int32_t, Reals> whole;
+        for (std::size_t i = 0; i < four_parts; ++i) {
+            const std::size_t at = i * hn::MaxLanes(Reals());
+            const auto step = hn::Mul(hn::Sub(to[i], from[i]), real(share));
+            hn::StoreU(hn::DemoteTo(whole, from[i]), whole, &first[at]);
+            hn::StoreU(hn::DemoteTo(whole, step), whole, &per_px[at]);
+        }
+    }
+};
 
 /// How many texels of the finest level a pixel is wide, squared.
 HWY_INLINE double
-footprint2(const TriangleExtra& extra, const std::array<TexturePoint, 2>& ends, double share) {
+footprint2(const TexturePlanes& planes, const std::array<TexturePoint, 2>& ends, double share) {
     const auto& [here, end] = ends;
-    const auto down = [&](std::size_t i) HWY_ATTR {
-        return (extra.by_w[i].per_y - here.value[i] * extra.by_w[4].per_y) * here.w;
+    const Reals reals;
+    // The first two values are the place.
+    const auto squared = [&](hn::Vec<Reals> step) HWY_ATTR {
+        const auto squares = hn::Mul(step, step);
+        return hn::GetLane(hn::Add(squares, hn::Reverse2(reals, squares)));
     };
-    const double across_x = (end.value[0] - here.value[0]) * share;
-    const double across_y = (end.value[1] - here.value[1]) * share;
-    const double down_x = down(0);
-    const double down_y = down(1);
-    return std::max(across_x * across_x + across_y * across_y, down_x * down_x + down_y * down_y);
+    const auto across = hn::Mul(hn::Sub(end.value[0], here.value[0]), real(share));
+    const auto down = hn::Mul(
+        hn::Sub(planes.per_y[0], hn::Mul(here.value[0], real(planes.by_w.per_y))), real(here.w));
+    return std::max(squared(across), squared(down));
 }
 
 /// Which levels of the texture a block is coloured by.
@@ -106,66 +159,116 @@ HWY_INLINE TextureLevels levels_of(double size2, std::size_t count) {
     return {whole, static_cast<std::uint16_t>(share * 65535.0)};
 }
 
-/// Four texels around a place, mixed: red, green, blue and nothing in 1/128 level, 32,640 at most.
-HWY_INLINE void mix_texels(
-    const std::uint32_t* low, int width, std::uint16_t right, std::uint16_t up, std::uint16_t* to) {
-    const hn::FixedTag<std::uint8_t, 8> bytes;
-    const hn::FixedTag<std::uint16_t, 8> two;
-    const hn::FixedTag<std::uint64_t, 2> halves;
-    const auto texels = [&](const std::uint32_t* from) HWY_ATTR {
-        return hn::PromoteTo(two, hn::LoadU(bytes, reinterpret_cast<const std::uint8_t*>(from)));
-    };
-    const auto up_share = hn::Set(two, up);
-    const auto column = hn::Add(
-        hn::Mul(texels(low), hn::Sub(hn::Set(two, 128), up_share)),
-        hn::Mul(texels(low + width), up_share));
-    // The left texel has what the right one leaves of 65,535.
-    alignas(16) static constexpr std::array<std::uint16_t, 8> left{
-        0xffff, 0xffff, 0xffff, 0xffff, 0, 0, 0, 0};
-    const auto weighed =
-        hn::MulHigh(column, hn::Xor(hn::Set(two, right), hn::Load(two, left.data())));
-    const auto swapped = hn::BitCast(two, hn::Shuffle01(hn::BitCast(halves, weighed)));
-    hn::StoreU(hn::LowerHalf(hn::Add(weighed, swapped)), hn::Half<decltype(two)>(), to);
+/// Red, green and blue of a block's pixels, 1/128 level, 32,640 at most.
+struct BlockColours {
+    alignas(32) std::array<std::array<std::uint16_t, block_px>, 3> level;
+};
+
+using Texels = hn::CappedTag<std::uint32_t, block_px>;
+using TexelHalves = hn::Repartition<std::uint16_t, Texels>;
+
+/// Two bytes of each texel, those that lie `shift` bits up and sixteen further.
+template <int shift>
+HWY_INLINE hn::Vec<TexelHalves> two_bytes(hn::Vec<Texels> texels) {
+    const auto low = shift == 0 ? texels : hn::ShiftRight<shift>(texels);
+    return hn::BitCast(TexelHalves(), hn::And(low, hn::Set(Texels(), 0x00ff00ffU)));
 }
 
-/// The texture's colours along a block, from one of its levels: 1/128 level, four values a pixel.
+/// The same sixteen bits in both halves.
+HWY_INLINE hn::Vec<TexelHalves> in_both_halves(hn::Vec<Texels> value) {
+    return hn::BitCast(TexelHalves(), hn::Or(value, hn::ShiftLeft<16>(value)));
+}
+
+/// Texels around places: those left below, right below, left above and right above.
+struct TexelSquares {
+    std::array<hn::Vec<Texels>, 4> corner;
+    hn::Vec<TexelHalves> right; ///< share of the right ones, 2^-16
+    hn::Vec<TexelHalves> up;    ///< share of the upper ones, 1/128
+
+    /// `x`, `y`: places in 2^-16 texel, at least a texel within the rim above and right.
+    HWY_INLINE TexelSquares(
+        const GroundImage::Level& level,
+        hn::Vec<hn::RebindToSigned<Texels>> x,
+        hn::Vec<hn::RebindToSigned<Texels>> y) {
+        const Texels texels;
+        const hn::RebindToSigned<Texels> sign;
+        const auto first = hn::Add(
+            hn::Mul(hn::ShiftRight<16>(y), hn::Set(sign, level.width)), hn::ShiftRight<16>(x));
+        const std::uint32_t* const from = level.texels.data();
+        corner = {
+            hn::GatherIndex(texels, from, first),
+            hn::GatherIndex(texels, from + 1, first),
+            hn::GatherIndex(texels, from + level.width, first),
+            hn::GatherIndex(texels, from + level.width + 1, first)};
+        const auto part = [&](auto place) HWY_ATTR {
+            return hn::And(hn::BitCast(texels, place), hn::Set(texels, 0xffffU));
+        };
+        right = in_both_halves(part(x));
+        up = in_both_halves(hn::ShiftRight<9>(part(y)));
+    }
+
+    /// Two of their colours, mixed.
+    template <int shift>
+    HWY_INLINE hn::Vec<Texels> mixed() const {
+        const TexelHalves halves;
+        const auto column = [&](std::size_t side) HWY_ATTR {
+            return hn::Add(
+                hn::Mul(two_bytes<shift>(corner[side]), hn::Sub(hn::Set(halves, 128), up)),
+                hn::Mul(two_bytes<shift>(corner[side + 2]), up));
+        };
+        // The left texel has what the right one leaves of 65,535.
+        return hn::BitCast(
+            Texels(),
+            hn::Add(hn::MulHigh(column(0), hn::Not(right)), hn::MulHigh(column(1), right)));
+    }
+};
+
+/// The texture's colours along a block, from one of its levels.
 HWY_INLINE void sample_texture(
     const GroundImage& image,
     std::size_t number,
     const std::array<TexturePoint, 2>& ends,
     double share,
-    std::uint32_t pixels,
-    std::uint16_t* to) {
+    BlockColours& to) {
     const GroundImage::Level& level = image.levels()[number];
     const double scale = 65536.0 / static_cast<double>(std::uint64_t{1} << number);
-    const auto walk = [&](std::size_t i, int size) HWY_ATTR {
-        const auto at = [&](const TexturePoint& end) HWY_ATTR {
-            const double place = (end.value[i] + 0.5) * scale - 32768.0;
-            return std::clamp(place, 0.0, (size - 1) * 65536.0 - 1.0);
-        };
-        return walk_between(at(ends[0]), at(ends[1]), share);
+    const auto places = [&](const TexturePoint& end) HWY_ATTR {
+        return four([&](std::size_t i) HWY_ATTR {
+            const auto place =
+                hn::Sub(hn::Mul(hn::Add(end.value[i], real(0.5)), real(scale)), real(32768.0));
+            const auto limit = hn::Load(Reals(), &level.last_place[i * hn::MaxLanes(Reals())]);
+            return hn::Min(hn::Max(place, real(0.0)), limit);
+        });
     };
-    const BlockWalk x = walk(0, level.width);
-    const BlockWalk y = walk(1, level.height);
-    const std::int32_t most_x = (level.width - 1) * 65536 - 1;
-    const std::int32_t most_y = (level.height - 1) * 65536 - 1;
-    const int last = 31 - std::countl_zero(pixels);
-    for (int i = std::countr_zero(pixels); i <= last; ++i) {
-        const std::int32_t at_x = std::clamp(x.first + i * x.per_px, 0, most_x);
-        const std::int32_t at_y = std::clamp(y.first + i * y.per_px, 0, most_y);
-        const std::ptrdiff_t first = std::ptrdiff_t{at_y >> 16} * level.width + (at_x >> 16);
-        mix_texels(
-            level.texels.data() + first,
-            level.width,
-            static_cast<std::uint16_t>(at_x),
-            static_cast<std::uint16_t>((at_y & 0xffff) >> 9),
-            to + 4 * i);
+    const BlockWalk walk(places(ends[0]), places(ends[1]), share);
+    const hn::RebindToSigned<Texels> sign;
+    const hn::Rebind<std::uint16_t, Texels> halves;
+    for (std::size_t i = 0; i < block_px; i += hn::MaxLanes(Texels())) {
+        const auto steps = hn::Iota(sign, static_cast<std::int32_t>(i));
+        const auto place = [&](std::size_t k, int size) HWY_ATTR {
+            const auto at = hn::Add(
+                hn::Set(sign, walk.first[k]), hn::Mul(steps, hn::Set(sign, walk.per_px[k])));
+            return hn::Min(hn::Max(at, hn::Zero(sign)), hn::Set(sign, (size - 1) * 65536 - 1));
+        };
+        const TexelSquares around(level, place(0, level.width), place(1, level.height));
+        const auto store = [&](std::size_t k, hn::Vec<Texels> values) HWY_ATTR {
+            hn::StoreU(hn::DemoteTo(halves, hn::BitCast(sign, values)), halves, &to.level[k][i]);
+        };
+        const auto red_blue = around.mixed<0>();
+        const auto green = around.mixed<8>();
+        const auto lower_half = hn::Set(Texels(), 0xffffU);
+        store(0, hn::And(red_blue, lower_half));
+        store(1, hn::And(green, lower_half));
+        store(2, hn::ShiftRight<16>(red_blue));
     }
 }
 
 /// Colours a block.
 HWY_INLINE void add_texture(
-    const TriangleExtra& extra, const TileJob& job, const TextureBlock& block, TileBuffer& buffer) {
+    const TexturePlanes& planes,
+    const TileJob& job,
+    const TextureBlock& block,
+    TileBuffer& buffer) {
     static constexpr auto one_over = [] {
         std::array<double, block_px + 1> shares{};
         for (int px = 1; px <= block_px; ++px) {
@@ -175,31 +278,28 @@ HWY_INLINE void add_texture(
     }();
     const double by_px = one_over[static_cast<std::size_t>(block.px())];
     const std::array ends{
-        TexturePoint(extra, block.at.x, block.at.y),
-        TexturePoint(extra, block.at.x + block.px(), block.at.y)};
+        planes.at(block.at.x, block.at.y), planes.at(block.at.x + block.px(), block.at.y)};
     const TextureLevels chosen =
-        levels_of(footprint2(extra, ends, by_px), job.ground->levels().size());
-    alignas(64) std::array<std::uint16_t, std::size_t{4} * block_px> own{};
-    alignas(64) std::array<std::uint16_t, std::size_t{4} * block_px> coarse;
-    sample_texture(*job.ground, chosen.fine, ends, by_px, block.fresh, own.data());
+        levels_of(footprint2(planes, ends, by_px), job.ground->levels().size());
+    BlockColours own;
+    BlockColours coarse;
+    sample_texture(*job.ground, chosen.fine, ends, by_px, own);
     if (chosen.coarse_share > 0) {
-        coarse.fill(0);
-        sample_texture(*job.ground, chosen.fine + 1, ends, by_px, block.fresh, coarse.data());
+        sample_texture(*job.ground, chosen.fine + 1, ends, by_px, coarse);
     }
     const Pixels values;
-    const auto share = [&](std::size_t i) HWY_ATTR {
-        const auto at_end = [&](std::size_t end) HWY_ATTR {
-            return std::clamp(ends[end].value[i], 0.0, 1.0) * 65535.0;
-        };
-        return walk_between(at_end(0), at_end(1), by_px);
+    const auto shares = [&](const TexturePoint& end) HWY_ATTR {
+        return four([&](std::size_t i) HWY_ATTR {
+            const auto within = hn::Min(hn::Max(end.value[i], real(0.0)), real(1.0));
+            return hn::Mul(within, real(65535.0));
+        });
     };
-    const BlockWalk light = share(2);
-    const BlockWalk haze = share(3);
-    const auto along = [&](const BlockWalk& walk, std::size_t i) HWY_ATTR {
+    const BlockWalk share(shares(ends[0]), shares(ends[1]), by_px);
+    const auto along = [&](std::size_t which, std::size_t i) HWY_ATTR {
         const auto steps = hn::Iota(values, static_cast<std::uint16_t>(i));
         return hn::Add(
-            hn::Set(values, static_cast<std::uint16_t>(walk.first)),
-            hn::Mul(steps, hn::Set(values, static_cast<std::uint16_t>(walk.per_px))));
+            hn::Set(values, static_cast<std::uint16_t>(share.first[which])),
+            hn::Mul(steps, hn::Set(values, static_cast<std::uint16_t>(share.per_px[which]))));
     };
     const auto coarse_share = hn::Set(values, chosen.coarse_share);
     const auto part_of =
@@ -207,23 +307,18 @@ HWY_INLINE void add_texture(
             return hn::Add(hn::Sub(from, hn::MulHigh(from, how_much)), hn::MulHigh(to, how_much));
         };
     for (std::size_t i = 0; i < block_px; i += hn::Lanes(values)) {
-        std::array<hn::Vec<Pixels>, 4> mine;
-        hn::LoadInterleaved4(values, own.data() + 4 * i, mine[0], mine[1], mine[2], mine[3]);
-        if (chosen.coarse_share > 0) {
-            std::array<hn::Vec<Pixels>, 4> next;
-            hn::LoadInterleaved4(values, coarse.data() + 4 * i, next[0], next[1], next[2], next[3]);
-            for (std::size_t k = 0; k < 3; ++k) {
-                mine[k] = part_of(mine[k], next[k], coarse_share);
-            }
-        }
-        const auto light_left = along(light, i);
-        const auto haze_share = along(haze, i);
+        const auto light_left = along(2, i);
+        const auto haze_share = along(3, i);
         const auto count = hn::LoadU(values, block.counts + i);
         for (std::size_t k = 0; k < 3; ++k) {
+            auto mine = hn::LoadU(values, &own.level[k][i]);
+            if (chosen.coarse_share > 0) {
+                mine = part_of(mine, hn::LoadU(values, &coarse.level[k][i]), coarse_share);
+            }
             const auto haze_level = hn::Set(
                 values,
                 static_cast<std::uint16_t>(job.haze[static_cast<glm::length_t>(k)] * 128.0F));
-            const auto seen = part_of(hn::MulHigh(mine[k], light_left), haze_level, haze_share);
+            const auto seen = part_of(hn::MulHigh(mine, light_left), haze_level, haze_share);
             const auto colour = hn::ShiftRight<3>(hn::Add(seen, hn::Set(values, 4)));
             std::uint16_t* const sums = buffer.sums[k].data() + block.pixel + i;
             hn::StoreU(hn::Add(hn::LoadU(values, sums), hn::Mul(colour, count)), values, sums);
@@ -233,7 +328,7 @@ HWY_INLINE void add_texture(
 
 /// Colours what is new in a row of a strip.
 HWY_INLINE void add_textured_row(
-    const TriangleExtra& extra,
+    const TexturePlanes& planes,
     const TileJob& job,
     const glm::ivec2& at,
     const StripValues& masks,
@@ -257,10 +352,9 @@ HWY_INLINE void add_textured_row(
             const TextureBlock block{
                 at + glm::ivec2(first, 0),
                 at.x + last,
-                in_block,
                 counts.data() + first,
                 pixel + static_cast<std::size_t>(first)};
-            add_texture(extra, job, block, buffer);
+            add_texture(planes, job, block, buffer);
         }
     }
 }
@@ -277,6 +371,7 @@ HWY_INLINE void paint_textured_strip(
     const std::uint64_t wide_columns = std::uint64_t{columns} << left;
     const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
     StripCoverage coverage(*one.triangle, first_px, columns, lanes);
+    const TexturePlanes planes(*one.extra);
     for (int row = box.first_row; row <= box.last_row; ++row) {
         std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
         if ((wide_columns & ~full) != 0) {
@@ -294,7 +389,7 @@ HWY_INLINE void paint_textured_strip(
             full |= std::uint64_t{full_bits(after)} << left;
             buffer.full_rows |= std::uint32_t{(full & job.full_row()) == job.full_row()} << row;
             const glm::ivec2 at = job.first_px + glm::ivec2(left, row);
-            add_textured_row(*one.extra, job, at, masks, fresh, pixel, buffer);
+            add_textured_row(planes, job, at, masks, fresh, pixel, buffer);
         }
         coverage.next_row();
     }
