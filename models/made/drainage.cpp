@@ -15,10 +15,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <cstddef>
 #include <limits>
-#include <queue>
-#include <utility>
+#include <vector>
 
 namespace octant::models::made {
 
@@ -139,21 +138,78 @@ void order_upstream(Drainage& water) {
     }
 }
 
+/// The cells from which water is looked for uphill, lowest first, of equal ones the first of the
+/// grid. A heap whose nodes have four children: half as deep as that of std::priority_queue.
+class Front {
+public:
+    struct Entry {
+        double height_m = 0.0;
+        int cell = 0;
+
+        bool is_before(const Entry& other) const {
+            return height_m < other.height_m || (height_m == other.height_m && cell < other.cell);
+        }
+    };
+
+    bool empty() const { return heap_.empty(); }
+
+    void push(const Entry& entry) {
+        std::size_t at = heap_.size();
+        heap_.push_back(entry);
+        while (at > 0 && entry.is_before(heap_[(at - 1) / children])) {
+            heap_[at] = heap_[(at - 1) / children];
+            at = (at - 1) / children;
+        }
+        heap_[at] = entry;
+    }
+
+    Entry pop() {
+        const Entry lowest = heap_.front();
+        const Entry last = heap_.back();
+        heap_.pop_back();
+        if (!heap_.empty()) {
+            sink(last);
+        }
+        return lowest;
+    }
+
+private:
+    static constexpr std::size_t children = 4;
+
+    /// Puts an entry into the place that is free at the top.
+    void sink(const Entry& entry) {
+        std::size_t at = 0;
+        for (std::size_t first = 1; first < heap_.size(); first = children * at + 1) {
+            const std::size_t end = std::min(first + children, heap_.size());
+            std::size_t lowest = first;
+            for (std::size_t child = first + 1; child < end; ++child) {
+                lowest = heap_[child].is_before(heap_[lowest]) ? child : lowest;
+            }
+            if (!heap_[lowest].is_before(entry)) {
+                break;
+            }
+            heap_[at] = heap_[lowest];
+            at = lowest;
+        }
+        heap_[at] = entry;
+    }
+
+    std::vector<Entry> heap_;
+};
+
 } // namespace
 
 void fill_pits(TerrainGrid& ground, const std::vector<char>& is_outlet) {
-    using Entry = std::pair<double, int>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+    Front front;
     std::vector<char> reached = is_outlet;
     for (std::size_t i = 0; i < is_outlet.size(); ++i) {
         if (is_outlet[i] != 0) {
-            front.emplace(ground.values[i], static_cast<int>(i));
+            front.push({ground.values[i], static_cast<int>(i)});
         }
     }
     const double trace_m = 1e-5 * ground.cell_m;
     while (!front.empty()) {
-        const auto [height, cell] = front.top();
-        front.pop();
+        const auto [height, cell] = front.pop();
         for (const Step& n : circle) {
             const int x = cell % ground.side + n.dx;
             const int y = cell / ground.side + n.dy;
@@ -163,7 +219,7 @@ void fill_pits(TerrainGrid& ground, const std::vector<char>& is_outlet) {
             const std::size_t i = ground.index(x, y);
             reached[i] = 1;
             ground.values[i] = std::max(ground.values[i], height + trace_m);
-            front.emplace(ground.values[i], static_cast<int>(i));
+            front.push({ground.values[i], static_cast<int>(i)});
         }
     }
 }

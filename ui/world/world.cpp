@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <future>
 #include <utility>
 
 namespace octant::ui::world {
@@ -255,10 +256,14 @@ scene::FixedPoints fixed_points(const settings::RunSettings& settings, const Wor
 World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     settings::check_settings(settings);
     check_place(settings.path);
+    // Beside the aircraft, whose draw order is one thread's work. What is wrong with them is told
+    // first.
+    std::future<SceneGround> coming_ground =
+        std::async(std::launch::async, [&] { return load_scene_ground(settings, drawn_by); });
     LoadedAircraft aircraft = load_aircraft(settings);
     const bool is_live = settings.path.name == settings::live_path;
     std::optional<Script> script = is_live ? std::nullopt : std::optional(load_script(settings));
-    SceneGround ground = load_scene_ground(settings, drawn_by);
+    SceneGround ground = coming_ground.get();
     World world;
     world.notes = std::move(aircraft.notes);
     world.order_files = std::move(aircraft.order_files);
