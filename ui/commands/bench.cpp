@@ -13,8 +13,11 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace octant::ui::commands {
 
@@ -117,12 +120,20 @@ BenchResult result_of(const Timed& timed, double floor_ms) {
         .hash = timed.hash.value()};
 }
 
+/// "f15+500md"; "10 f15" where all are alike.
+std::string names_of(const std::vector<std::string>& aircraft) {
+    const bool are_alike =
+        std::ranges::adjacent_find(aircraft, std::not_equal_to<>()) == aircraft.end();
+    return are_alike && aircraft.size() > 1 ? fmt::format("{} {}", aircraft.size(), aircraft[0])
+                                            : fmt::format("{}", fmt::join(aircraft, "+"));
+}
+
 std::string name_of(const settings::RunSettings& settings) {
     const bool gl = settings.drawing.renderer == settings::RendererKind::Gl;
     return fmt::format(
         "{}, {}, {}",
         std::filesystem::path(settings.path.terrain).filename().string(),
-        fmt::join(settings.path.aircraft, "+"),
+        names_of(settings.path.aircraft),
         gl ? "OpenGL" : "raster");
 }
 
