@@ -9,10 +9,11 @@ namespace octant::visuals::raster {
 
 namespace {
 
-std::int32_t reversed_bits(std::int32_t four_bits) {
-    return (four_bits & 1) << 3 | (four_bits & 2) << 1 | (four_bits & 4) >> 1 |
-           (four_bits & 8) >> 3;
-}
+/// Columns of the rows from above. Found by search among all rooks: the one whose share of samples
+/// comes nearest to the share of area for half planes and strips of all directions (root mean
+/// square 0.028 and 0.041 of a pixel; reversed bits have 0.036 and 0.050).
+constexpr std::array<std::int32_t, SamplePattern::lanes> columns{
+    12, 4, 7, 1, 15, 8, 3, 10, 13, 5, 0, 9, 14, 6, 2, 11};
 
 } // namespace
 
@@ -24,7 +25,7 @@ SamplePattern sample_pattern(int samples) {
     for (std::int32_t lane = 0; lane < SamplePattern::lanes; ++lane) {
         const auto i = static_cast<std::size_t>(lane);
         if (samples == 16) {
-            pattern.x[i] = 2 * reversed_bits(lane) - 15;
+            pattern.x[i] = 2 * columns[i] - 15;
             pattern.y[i] = 2 * lane - 15;
         } else if (samples == 4) {
             pattern.x[i] = four_x[i / 4];

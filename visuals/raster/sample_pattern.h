@@ -18,8 +18,8 @@ struct SamplePattern {
 };
 
 /// For 1, 4 or 16 samples a pixel. One lies in the middle. Four lie as OpenGL's drivers put them.
-/// Sixteen are rooks: one in each of sixteen rows and sixteen columns, the row's bits reversed
-/// being its column.
+/// Sixteen are rooks: one in each of sixteen rows and sixteen columns, spread so that edges and
+/// thin lines of all directions are met by about as many as their area.
 SamplePattern sample_pattern(int samples);
 
 } // namespace octant::visuals::raster

@@ -37,11 +37,8 @@ Place sample_of(int samples, int number) {
     default:
         break;
     }
-    int column = 0;
-    for (int bit = 0; bit < 4; ++bit) {
-        column |= (number >> bit & 1) << (3 - bit);
-    }
-    return place(2 * column - 15, 2 * number - 15);
+    constexpr std::array<int, 16> columns{12, 4, 7, 1, 15, 8, 3, 10, 13, 5, 0, 9, 14, 6, 2, 11};
+    return place(2 * columns[i] - 15, 2 * number - 15);
 }
 
 /// Whether a place lies right of an edge, or on it.

@@ -13,6 +13,20 @@ namespace scene = visuals::scene;
 using flight::Session;
 using flight::Shows;
 
+namespace {
+
+std::string text_of(const RayRenderer::WrongPixel& wrong, int frame) {
+    return fmt::format(
+        "frame {} at {},{}: {}",
+        frame,
+        wrong.at.x,
+        wrong.at.y,
+        wrong.nearer ? fmt::format("the ray's is nearer by {:.1e} of the depth", *wrong.nearer)
+                     : "what is shown is not there");
+}
+
+} // namespace
+
 long RayComparison::wrong() const {
     long sum = 0;
     for (const OfRenderer& one : renderers) {
@@ -56,8 +70,7 @@ RayComparison compare_with_rays(
             const auto difference = rays.compare(painters[i]->picture(), rounding_reach_px);
             RayComparison::OfRenderer& own = sum.renderers[i];
             if (own.wrong == 0 && !difference.wrong.empty()) {
-                const glm::ivec2 at = difference.wrong.front();
-                own.first_wrong = fmt::format("frame {} at {},{}", frame, at.x, at.y);
+                own.first_wrong = text_of(difference.wrong.front(), frame);
             }
             own.differing += difference.differing;
             own.wrong += static_cast<long>(difference.wrong.size());

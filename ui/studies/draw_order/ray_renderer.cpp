@@ -219,15 +219,16 @@ RayRenderer::Difference RayRenderer::compare(const scene::Picture& picture, doub
                 continue;
             }
             ++difference.differing;
-            if (is_wrong({column, row}, number, reach_px)) {
-                difference.wrong.emplace_back(column, row);
+            if (const auto fault = fault_at({column, row}, number, reach_px)) {
+                difference.wrong.push_back(*fault);
             }
         }
     }
     return difference;
 }
 
-bool RayRenderer::is_wrong(const glm::ivec2& pixel, std::uint32_t number, double reach_px) const {
+std::optional<RayRenderer::WrongPixel>
+RayRenderer::fault_at(const glm::ivec2& pixel, std::uint32_t number, double reach_px) const {
     constexpr int places = 2; // of a square grid within reach, on each side of the middle
     const glm::dvec2 middle(pixel);
     const glm::dvec3 at(middle, 1.0);
@@ -247,7 +248,7 @@ bool RayRenderer::is_wrong(const glm::ivec2& pixel, std::uint32_t number, double
         }
     }
     if (shown_by_w < 0.0) {
-        return true;
+        return WrongPixel{pixel, std::nullopt};
     }
     const auto hides = [&](const glm::dvec3& place) {
         return std::ranges::any_of(others, [&](const Target* other) {
@@ -260,11 +261,12 @@ bool RayRenderer::is_wrong(const glm::ivec2& pixel, std::uint32_t number, double
         for (int x = -places; x <= places; ++x) {
             const glm::dvec2 place = middle + glm::dvec2(x, y) * (reach_px / places);
             if (!hides({place, 1.0})) {
-                return false;
+                return std::nullopt;
             }
         }
     }
-    return true;
+    const double found_by_w = by_w_[index_of(pixel, size_px_)];
+    return WrongPixel{pixel, found_by_w / shown_by_w - 1.0};
 }
 
 } // namespace octant::ui::studies::draw_order

@@ -53,15 +53,22 @@ public:
 
     void copy_to_window(const glm::ivec2&) override {}
 
-    struct Difference {
-        long differing = 0; ///< pixels that show another number than their ray finds
-        /// Those of them that no rounding of corners explains: no triangle of the number shown
-        /// comes within `reach_px` of the pixel's middle, or all places within that reach lie
-        /// behind nearer ones.
-        std::vector<glm::ivec2> wrong;
+    /// A pixel that shows what no rounding of corners explains: no triangle of that number comes
+    /// within reach of the pixel's middle, or all places within reach lie behind nearer ones.
+    struct WrongPixel {
+        glm::ivec2 at{0};
+        /// How much nearer what the ray finds is, as a share of the depth; nothing: what is shown
+        /// is not within reach.
+        std::optional<double> nearer;
     };
 
-    /// Of another renderer's picture of the last plan, of the same size (asserted).
+    struct Difference {
+        long differing = 0; ///< pixels that show another number than their ray finds
+        std::vector<WrongPixel> wrong;
+    };
+
+    /// Of another renderer's picture of the last plan, of the same size (asserted). A pixel's
+    /// middle may lie `reach_px` from what it shows.
     Difference compare(const visuals::scene::Picture& picture, double reach_px) const;
 
 private:
@@ -85,7 +92,8 @@ private:
     void
     add_aircraft(const visuals::scene::FramePlan& plan, const visuals::scene::AircraftDraw& draw);
     void see(const Target& target);
-    bool is_wrong(const glm::ivec2& pixel, std::uint32_t number, double reach_px) const;
+    std::optional<WrongPixel>
+    fault_at(const glm::ivec2& pixel, std::uint32_t number, double reach_px) const;
 
     visuals::scene::RendererInfo info_;
     glm::ivec2 size_px_;
