@@ -54,15 +54,12 @@ int samples_of(const heights::Image& picture, const std::array<glm::vec2, 3>& pl
     return static_cast<int>(std::clamp<double>(wanted, least_samples, most_samples));
 }
 
-/// Adds what a triangle shows around each of its corners.
-void add_picture(
-    const heights::Image& picture,
-    const std::array<glm::vec2, 3>& places,
-    const glm::dvec3& tint,
-    double area,
-    const std::array<Sum*, 3>& sums) {
+/// Calls `visit(share, colour, there)` for samples spread over a triangle: the shares of its
+/// corners, the picture's colour, and how much of it is there, 0..1. Returns the number of samples.
+template <typename Visit>
+int for_each_sample(
+    const heights::Image& picture, const std::array<glm::vec2, 3>& places, const Visit& visit) {
     const int steps = samples_of(picture, places);
-    const double weight = 2.0 * area / (static_cast<double>(steps) * (steps + 1));
     for (int i = 0; i < steps; ++i) {
         for (int j = 0; i + j < steps; ++j) {
             const glm::dvec3 share(
@@ -73,12 +70,28 @@ void add_picture(
                                      share.y * glm::dvec2(places[1]) +
                                      share.z * glm::dvec2(places[2]);
             const auto [colour, there] = pixel_at(picture, place);
+            visit(share, colour, there);
+        }
+    }
+    return steps * (steps + 1) / 2;
+}
+
+/// Adds what a triangle shows around each of its corners.
+void add_picture(
+    const heights::Image& picture,
+    const std::array<glm::vec2, 3>& places,
+    const glm::dvec3& tint,
+    double area,
+    const std::array<Sum*, 3>& sums) {
+    const int steps = samples_of(picture, places);
+    const double weight = 2.0 * area / (static_cast<double>(steps) * (steps + 1));
+    for_each_sample(
+        picture, places, [&](const glm::dvec3& share, const glm::dvec3& colour, double there) {
             for (int k = 0; k < 3; ++k) {
                 sums.at(static_cast<std::size_t>(k))
                     ->add(tint * colour, weight * there * share[k] * share[k]);
             }
-        }
-    }
+        });
 }
 
 bool is_good(const std::array<glm::vec2, 3>& places) {
@@ -126,6 +139,28 @@ std::uint32_t BakedPictures::picture(const std::string& name, std::string_view b
 
 void BakedPictures::add_triangle(std::uint32_t picture, const std::array<glm::vec2, 3>& places) {
     triangles_.push_back({is_good(places) ? picture : none, places});
+}
+
+std::vector<bool> BakedPictures::mostly_transparent() const {
+    constexpr double half = 0.5;
+    std::vector<bool> found;
+    for (const Pictured& triangle : triangles_) {
+        double there = 0.0;
+        int samples = 0;
+        if (triangle.picture != none) {
+            samples = for_each_sample(
+                pictures_[triangle.picture],
+                triangle.places,
+                [&](const glm::dvec3&, const glm::dvec3&, double more) { there += more; });
+        }
+        found.push_back(there < half * samples);
+    }
+    return found;
+}
+
+void BakedPictures::take_out(const std::vector<bool>& gone) {
+    std::size_t t = 0;
+    std::erase_if(triangles_, [&](const Pictured&) { return gone[t++]; });
 }
 
 void BakedPictures::bake(TriangleMesh& mesh) const {

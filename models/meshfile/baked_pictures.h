@@ -36,6 +36,12 @@ public:
     /// shares of width and height from the upper left corner; beyond 0..1 the picture repeats.
     void add_triangle(std::uint32_t picture, const std::array<glm::vec2, 3>& places);
 
+    /// For each triangle added whether its picture is mostly transparent on it.
+    std::vector<bool> mostly_transparent() const;
+
+    /// Takes out triangles that were added; `gone` has one entry for each.
+    void take_out(const std::vector<bool>& gone);
+
     bool is_empty() const { return pictures_.empty(); }
 
     /// Gives the vertices of a mesh the mean colour around them: of the pictures, times the colour

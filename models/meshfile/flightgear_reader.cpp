@@ -149,6 +149,7 @@ private:
         const fs::path& file, const Placement& placement, const std::set<std::string>& hidden) {
         ReadOptions options = options_;
         options.left_out = hidden;
+        options.is_part = true;
         TriangleMesh mesh;
         try {
             mesh = read_mesh(file, options);

@@ -99,6 +99,7 @@ TriangleMesh MeshBuilder::finish() {
     }
     finish_normals();
     finish_materials();
+    leave_out_transparent();
     bake_pictures();
     finish_backs();
     return std::move(mesh_);
@@ -111,6 +112,38 @@ void MeshBuilder::finish_backs() {
         mesh_.notes.push_back(
             fmt::format("{}: {} triangles of two-sided sheets got a back", path_.string(), added));
     }
+}
+
+void MeshBuilder::leave_out_transparent() {
+    if (pictures_.is_empty() || !mesh_.colours.empty()) {
+        return;
+    }
+    const std::vector<bool> gone = pictures_.mostly_transparent();
+    const auto count = static_cast<std::size_t>(std::ranges::count(gone, true));
+    const bool is_all = count == gone.size();
+    if (is_all && options_.is_part) {
+        error_in(path_, "expected a surface that hides what lies behind it, got none");
+    }
+    if (count == 0 || is_all) {
+        return;
+    }
+    const auto take_out = [&gone](auto& list) {
+        std::size_t t = 0;
+        std::erase_if(list, [&](const auto&) { return gone[t++]; });
+    };
+    take_out(mesh_.triangles);
+    if (!mesh_.corner_normals.empty()) {
+        take_out(mesh_.corner_normals);
+    }
+    if (!mesh_.triangle_materials.empty()) {
+        take_out(mesh_.triangle_materials);
+    }
+    take_out(two_sided_);
+    pictures_.take_out(gone);
+    mesh_.notes.push_back(fmt::format(
+        "{}: {} triangles whose picture is mostly transparent are left out",
+        path_.string(),
+        count));
 }
 
 void MeshBuilder::bake_pictures() {

@@ -79,6 +79,7 @@ public:
 
 private:
     void add_triangle(const std::array<Corner, 3>& corners, std::uint32_t material);
+    void leave_out_transparent();
     void bake_pictures();
     void finish_backs();
     void finish_normals();

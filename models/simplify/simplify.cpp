@@ -39,7 +39,8 @@ constexpr double close_enough = 0.03;
 /// How thoroughly to polish.
 PolishOptions polish_options(
     const WorkingSurface& surface, const WorkingSurface& target, const SimplifyOptions& options) {
-    constexpr std::size_t many = 9; // Triangles of the target for each one of the surface.
+    constexpr std::size_t many = 9;    // Triangles of the target for each one of the surface.
+    constexpr std::size_t few = 3'000; // Triangles of a surface that is soon polished.
     PolishOptions polish;
     polish.threads = options.threads;
     if (options.quality == Quality::Fast) {
@@ -48,6 +49,9 @@ PolishOptions polish_options(
         polish.extremes = false;
     } else if (target.mesh.face_count() > many * surface.mesh.face_count()) {
         polish.fields = 4;
+    }
+    if (options.quality == Quality::Surface && surface.mesh.face_count() <= few) {
+        polish.rounds = 12;
     }
     return polish;
 }

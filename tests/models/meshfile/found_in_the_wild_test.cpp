@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -52,6 +53,41 @@ std::string red_and_blue() {
     return bytes;
 }
 
+/// A TIFF of one pixel of this opacity.
+std::string tiff_of_opacity(std::uint32_t opacity) {
+    std::string bytes = "II";
+    const auto add = [&](std::uint32_t number, int size) {
+        for (int i = 0; i < size; ++i) {
+            bytes += static_cast<char>(number >> (8 * i) & 0xffU);
+        }
+    };
+    add(42, 2);
+    add(20, 4);                         // where the directory stands
+    add(0x00ff00U | opacity << 24U, 4); // the pixel, at byte 8
+    add(0x00080008U, 4);                // bits of its parts, at byte 12
+    add(0x00080008U, 4);
+    constexpr std::uint32_t entries[][3] = {
+        {256, 1, 1},
+        {257, 1, 1},
+        {258, 4, 12},
+        {259, 1, 1},
+        {262, 1, 2},
+        {273, 1, 8},
+        {277, 1, 4},
+        {278, 1, 1},
+        {279, 1, 4},
+        {338, 1, 2}};
+    add(std::size(entries), 2);
+    for (const auto& [tag, count, value] : entries) {
+        add(tag, 2);
+        add(3, 2); // a short number
+        add(count, 4);
+        add(value, 4);
+    }
+    add(0, 4);
+    return bytes;
+}
+
 /// A square in x and y with a picture over it.
 std::string square(const std::string& flags, const std::string& name = "square") {
     return "AC3Db\nMATERIAL \"white\" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0\n"
@@ -74,6 +110,27 @@ TEST_CASE("the picture of an AC3D surface colours its vertices, if it is asked f
     CHECK(mesh.colours[0].y == 0.0F);
     CHECK(mesh.colours[1].z > 0.75F);
     CHECK(mesh.colours[2].z > 0.75F);
+}
+
+TEST_CASE("what is mostly transparent is left out, unless nothing else is there") {
+    const std::string plain = "OBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\n"
+                              "mat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n";
+    std::string two = square("0x0");
+    two.replace(two.find("kids 1"), 6, "kids 2");
+    for (const std::uint32_t opacity : {255U, 20U}) {
+        file_with("two.bmp", tiff_of_opacity(opacity));
+        const bool is_clear = opacity < 128U;
+        const TriangleMesh mesh = read_mesh(file_with("two.ac", two + plain), {.pictures = true});
+        CHECK(mesh.triangles.size() == (is_clear ? 1U : 3U));
+        CHECK(mesh.notes.size() == (is_clear ? 1U : 0U));
+        const auto alone = file_with("alone.ac", square("0x0"));
+        CHECK(read_mesh(alone, {.pictures = true}).triangles.size() == 2);
+        if (is_clear) {
+            CHECK_THROWS_WITH(
+                read_mesh(alone, {.pictures = true, .is_part = true}),
+                Catch::Contains("expected a surface that hides what lies behind it"));
+        }
+    }
 }
 
 TEST_CASE("a picture that is missing is told, and the material's colour stays") {
