@@ -29,7 +29,7 @@ struct AircraftModel {
     /// Where each polygon of order.polygons() begins in the index buffer, and the last one ends.
     std::vector<std::uint32_t> first_indices;
     scene::IndexRange file_order;
-    std::vector<std::uint32_t> file_list; ///< 0, 1, 2, ...: what file_order draws
+    std::vector<std::uint32_t> file_list; ///< what file_order draws: no repeats
     HullExtent hull;                      ///< of polygons and meshes
     scene::Subject subject;
     shading::ShadedPolygons shaded; ///< the polygons
