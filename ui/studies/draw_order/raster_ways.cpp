@@ -79,10 +79,12 @@ report::HtmlTable raster_table(
         "Medians, one sample a pixel where none are named; all ways draw every frame in turn. In "
         "1989 a depth buffer took 5.6 to 7.1 times as long as octant order (table 5: 5 against 30 "
         "and 4 against 28.6 frames a second). Then each of its pixels cost a computed depth and a "
-        "second memory access, many times the price of painting it. Here one instruction compares "
-        "the depths of sixteen pixels that lie in the cache, and corners, edges and colours, most "
-        "of the time, cost the same in every way: little is left of the factor. What order buys "
-        "today is sixteen samples for little more than one.";
+        "second memory access, many times the price of painting it. The depth buffer here is not "
+        "tuned as the rest is: each triangle's plane of depth is solved in double precision, and "
+        "where perspective is corrected its pixels are compared one by one. With both tuned alike, "
+        "sixteen pixels compared at once, a depth buffer took 1.2 to 1.3 times as long as near to "
+        "far; that is what order saves today with one sample, the rest of the factor is ours. What "
+        "order buys is sixteen samples for little more than one.";
     return table;
 }
 
