@@ -163,9 +163,8 @@ report::HtmlTable shading_times_table(std::span<const std::string> aircraft, boo
         "triangles as they are refined. Planning: without refining; the choice of smooth polygons "
         "and the writing of refined meshes included. Times are the machine's, not the same twice. "
         "In the paper's count of operations Gouraud costs 1.3 times as much as flat, on devices "
-        "that divided for each pixel. Here a colour that changes takes the same three planes and "
-        "the same steps as one that does not, in every renderer: Gouraud is free where "
-        "--adapt shading finds no gain, and light in each pixel (Phong) is what has a price.",
+        "that divided for each pixel; the columns say what it costs here, and what light in each "
+        "pixel (Phong) does.",
         frames - warm_up_frames);
     return table;
 }
