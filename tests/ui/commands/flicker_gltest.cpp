@@ -63,10 +63,10 @@ TEST_CASE("the flicker study writes its tables and figures, the same bytes each 
     REQUIRE(run.exit_code == 0);
     CHECK(run.err.empty());
     const tests::PrintedJson tables = tests::PrintedJson(run.out);
-    REQUIRE(tables.size() == 5);
-    CHECK(tables[0]["rows"].size() == 24); // four c, six controls
-    CHECK(tables[2]["rows"].size() == 10); // two fields, five controls that hold a target
-    const tests::PrintedJson by_error = tables[0]["rows"][5];
+    REQUIRE(tables.size() == 6);
+    CHECK(tables[0]["rows"].size() == 28); // four c, seven controls
+    CHECK(tables[2]["rows"].size() == 12); // two fields, six controls that hold a target
+    const tests::PrintedJson by_error = tables[0]["rows"][6];
     CHECK(by_error["control"] == "screen error (default)");
     CHECK(by_error["mean abs dn, last 50"] == 0);
     CHECK(is_number_to_15(by_error["dn = 0 for ever after, frames"]));
@@ -76,6 +76,19 @@ TEST_CASE("the flicker study writes its tables and figures, the same bytes each 
             CHECK(is_number_to_15(row[first]));
         }
     }
+    const tests::PrintedJson reliefs = tables[5]["rows"];
+    CHECK(reliefs.size() == 15); // five grounds, three controls
+    int met = 0;
+    for (const tests::PrintedJson& row : reliefs.elements()) {
+        const bool has_enough = row["g, mean"].is_number(); // triangles for N, or g has no value
+        if (row["control"] == "damped, own gain" && has_enough) {
+            INFO(row);
+            CHECK(row["fixed view, mean abs dn"] == 0);
+            CHECK(row["path, % of N"].number() <= 0.1);
+            ++met;
+        }
+    }
+    CHECK(met == 3);
     CHECK(study("b").out == run.out);
     for (const char* file :
          {"fixed-rugged.csv",
@@ -83,6 +96,7 @@ TEST_CASE("the flicker study writes its tables and figures, the same bytes each 
           "path.csv",
           "damping.csv",
           "stability.csv",
+          "relief.csv",
           "path-gentle.csv",
           "path-rugged.csv",
           "flicker.md"}) {
