@@ -4,6 +4,8 @@
 #include "ui/window/panels.h"
 #include "ui/window/view_keys.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -81,6 +83,13 @@ void help_panel(ViewState& state) {
     line_of(
         name_of_button(keys.stick_button) + " button",
         "by hand: the pointer is the stick, from the window's middle");
+    for (std::size_t i = 0; i < keys.pad_commands.size(); ++i) {
+        if (const auto& what = keys.pad_commands[i]) {
+            line_of(
+                "gamepad " + name_of_pad_button(static_cast<int>(i)),
+                std::ranges::find(view_keys(), *what, &ViewKey::command)->meaning);
+        }
+    }
     line_of("gamepad", "by hand: left stick; triggers throttle; bumpers or right stick rudder");
     line_of("joystick", "by hand: stick, twist, lever");
     ImGui::EndTable();

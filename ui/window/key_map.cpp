@@ -69,6 +69,14 @@ KeyMap::KeyMap()
     , throttle_up{GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER}
     , throttle_down{GLFW_GAMEPAD_AXIS_LEFT_TRIGGER}
     , joystick_throttle{3} {
+    pad_commands[GLFW_GAMEPAD_BUTTON_START] = ViewCommand::PlayOrPause;
+    pad_commands[GLFW_GAMEPAD_BUTTON_BACK] = ViewCommand::ToBeginning;
+    pad_commands[GLFW_GAMEPAD_BUTTON_X] = ViewCommand::ByHand;
+    pad_commands[GLFW_GAMEPAD_BUTTON_Y] = ViewCommand::LevelOff;
+    pad_commands[GLFW_GAMEPAD_BUTTON_DPAD_UP] = ViewCommand::Cockpit;
+    pad_commands[GLFW_GAMEPAD_BUTTON_DPAD_DOWN] = ViewCommand::Chase;
+    pad_commands[GLFW_GAMEPAD_BUTTON_DPAD_LEFT] = ViewCommand::Orbit;
+    pad_commands[GLFW_GAMEPAD_BUTTON_DPAD_RIGHT] = ViewCommand::Tower;
     for (const ViewKey& each : view_keys()) {
         commands_.push_back(each.key);
     }
@@ -115,6 +123,16 @@ std::optional<std::string> KeyMap::choose_key(int& chosen, std::string_view inpu
     std::ranges::replace(commands_, *key, GLFW_KEY_UNKNOWN);
     std::ranges::replace(held_, *key, GLFW_KEY_UNKNOWN);
     chosen = *key;
+    return std::nullopt;
+}
+
+std::optional<std::string> KeyMap::choose_pad_button(int button, std::string_view input) {
+    const auto command = std::ranges::find(view_keys(), input, &ViewKey::id);
+    if (command == view_keys().end() && input != "none") {
+        return expected("what a key does, such as play, or none", input);
+    }
+    pad_commands.at(static_cast<std::size_t>(button)) =
+        input == "none" ? std::nullopt : std::optional(command->command);
     return std::nullopt;
 }
 
@@ -167,7 +185,13 @@ std::optional<std::string> KeyMap::choose(std::string_view id, std::string_view 
         (id == "mouse look" ? look_button : stick_button) = *button;
         return std::nullopt;
     }
-    if (id.starts_with("gamepad ") || id.starts_with("joystick ")) {
+    constexpr std::string_view pad = "gamepad ";
+    if (id.starts_with(pad)) {
+        if (const auto pressed = pad_button_of_name(id.substr(pad.size()))) {
+            return choose_pad_button(*pressed, input);
+        }
+    }
+    if (id.starts_with(pad) || id.starts_with("joystick ")) {
         return choose_axis(id, input);
     }
     return expected("something that keys, mouse or sticks do", id);
@@ -214,6 +238,24 @@ std::array<float, 6> gamepad_axes(const KeyMap& keys, std::span<const float, 6> 
         value_of(keys.throttle_up, axes)};
 }
 
+std::vector<ViewCommand>
+pad_commands(const KeyMap& keys, const PadButtons& before, const PadButtons& now) {
+    std::vector<ViewCommand> commands;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        if (now[i] != 0 && before[i] == 0 && keys.pad_commands[i]) {
+            commands.push_back(*keys.pad_commands[i]);
+        }
+    }
+    return commands;
+}
+
+PadButtons flying_buttons(const KeyMap& keys, PadButtons buttons) {
+    for (std::size_t i = 0; i < buttons.size(); ++i) {
+        buttons[i] = keys.pad_commands[i] ? 0 : buttons[i];
+    }
+    return buttons;
+}
+
 JoystickState joystick_of(const KeyMap& keys, std::span<const float> axes) {
     JoystickState joystick;
     if (keys.joystick) {
@@ -252,6 +294,13 @@ std::string text_of_key_map(const KeyMap& keys) {
     pad("rudder", keys.gamepad.rudder);
     pad("throttle up", keys.throttle_up);
     pad("throttle down", keys.throttle_down);
+    for (std::size_t i = 0; i < keys.pad_commands.size(); ++i) {
+        const auto& command = keys.pad_commands[i];
+        text += fmt::format(
+            "gamepad {} = {}\n",
+            name_of_pad_button(static_cast<int>(i)),
+            command ? std::ranges::find(view_keys(), *command, &ViewKey::command)->id : "none");
+    }
     if (!keys.joystick) {
         return text + "# joystick roll = 1\n# joystick pitch = 2\n# joystick rudder = 3\n"
                       "# joystick throttle = 4\n";

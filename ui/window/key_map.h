@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace octant::ui::window {
@@ -53,16 +54,21 @@ public:
     /// Buttons or axes of the gamepad that open and close the throttle.
     AxisChoice throttle_up;
     AxisChoice throttle_down;
+    /// What a button of the gamepad commands when it is pressed; nothing for most.
+    std::array<std::optional<ViewCommand>, std::tuple_size_v<PadButtons>> pad_commands;
     /// Of a joystick; unset where its axes are those that its kind usually has.
     std::optional<AxisMap> joystick;
     AxisChoice joystick_throttle;
 
 private:
     std::optional<std::string> choose_key(int& chosen, std::string_view input);
+    std::optional<std::string> choose_pad_button(int button, std::string_view input);
     std::optional<std::string> choose_axis(std::string_view id, std::string_view input);
 
-    std::vector<int> commands_; ///< keys, in the order of view_keys()
-    std::vector<int> held_;     ///< keys, in the order of held_keys()
+    /// Keys, in the order of view_keys().
+    std::vector<int> commands_;
+    /// Keys, in the order of held_keys().
+    std::vector<int> held_;
 };
 
 /// What a file of keys says.
@@ -78,6 +84,13 @@ KeyMapFile read_key_map(const std::filesystem::path& file);
 /// Returns the axes of a gamepad, in the order of GLFWgamepadstate, where the usual ones stand:
 /// roll, pitch, rudder, nothing, throttle down, throttle up.
 std::array<float, 6> gamepad_axes(const KeyMap& keys, std::span<const float, 6> axes);
+
+/// Returns the commands of the buttons that are pressed `now` and were not `before`.
+std::vector<ViewCommand>
+pad_commands(const KeyMap& keys, const PadButtons& before, const PadButtons& now);
+
+/// Returns the buttons without those that have a command: what is left to fly with.
+PadButtons flying_buttons(const KeyMap& keys, PadButtons buttons);
 
 /// Returns the axes of a joystick where the usual ones stand. An axis that it does not have is 0.
 JoystickState joystick_of(const KeyMap& keys, std::span<const float> axes);

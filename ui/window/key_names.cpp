@@ -58,6 +58,23 @@ constexpr std::array buttons{
     Named{GLFW_MOUSE_BUTTON_RIGHT, "right"},
     Named{GLFW_MOUSE_BUTTON_MIDDLE, "middle"}};
 
+constexpr std::array pad_buttons{
+    Named{GLFW_GAMEPAD_BUTTON_A, "a"},
+    Named{GLFW_GAMEPAD_BUTTON_B, "b"},
+    Named{GLFW_GAMEPAD_BUTTON_X, "x"},
+    Named{GLFW_GAMEPAD_BUTTON_Y, "y"},
+    Named{GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, "left bumper"},
+    Named{GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER, "right bumper"},
+    Named{GLFW_GAMEPAD_BUTTON_BACK, "back"},
+    Named{GLFW_GAMEPAD_BUTTON_START, "start"},
+    Named{GLFW_GAMEPAD_BUTTON_GUIDE, "guide"},
+    Named{GLFW_GAMEPAD_BUTTON_LEFT_THUMB, "left stick"},
+    Named{GLFW_GAMEPAD_BUTTON_RIGHT_THUMB, "right stick"},
+    Named{GLFW_GAMEPAD_BUTTON_DPAD_UP, "up"},
+    Named{GLFW_GAMEPAD_BUTTON_DPAD_RIGHT, "right"},
+    Named{GLFW_GAMEPAD_BUTTON_DPAD_DOWN, "down"},
+    Named{GLFW_GAMEPAD_BUTTON_DPAD_LEFT, "left"}};
+
 constexpr std::array axes{
     Named{GLFW_GAMEPAD_AXIS_LEFT_X, "left x"},
     Named{GLFW_GAMEPAD_AXIS_LEFT_Y, "left y"},
@@ -124,6 +141,14 @@ std::string name_of_axis(int axis) {
 
 std::optional<int> axis_of_name(std::string_view name) {
     return number_in(axes, name);
+}
+
+std::string name_of_pad_button(int button) {
+    return name_in(pad_buttons, button);
+}
+
+std::optional<int> pad_button_of_name(std::string_view name) {
+    return number_in(pad_buttons, name);
 }
 
 } // namespace octant::ui::window

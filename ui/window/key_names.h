@@ -22,4 +22,9 @@ std::optional<int> button_of_name(std::string_view name);
 std::string name_of_axis(int axis);
 std::optional<int> axis_of_name(std::string_view name);
 
+/// The same for the buttons of a gamepad ("a", "left bumper", "start"), in the order of
+/// GLFWgamepadstate.
+std::string name_of_pad_button(int button);
+std::optional<int> pad_button_of_name(std::string_view name);
+
 } // namespace octant::ui::window

@@ -24,6 +24,7 @@ Panel::Panel(const char* title, PanelColumns& columns, bool& open)
     const ImVec2 at = ImGui::GetWindowPos();
     const ImVec2 size = ImGui::GetWindowSize();
     columns.lies(title, {{at.x, at.y}, {size.x, size.y}});
+    ImGui::PushTextWrapPos();
 }
 
 Panel::~Panel() {
@@ -33,12 +34,13 @@ Panel::~Panel() {
             title_, ImGui::GetCursorPosY() - style.ItemSpacing.y + style.WindowPadding.y);
     }
     if (begun_) {
+        ImGui::PopTextWrapPos();
         ImGui::End();
     }
 }
 
 float value_width() {
-    constexpr float widest_name_letters = 18.0F;
+    constexpr float widest_name_letters = 19.0F;
     constexpr float least_share = 0.4F;
     const float all = ImGui::GetContentRegionAvail().x;
     const float name = widest_name_letters * ImGui::CalcTextSize("n").x;

@@ -212,6 +212,11 @@ void Viewer::take_events(double wall_s) {
         }
         move_free_camera(wall_s);
     }
+    const PadButtons pressed = input_->pad_buttons();
+    for (const ViewCommand what : pad_commands(state_.keys, pad_before_, pressed)) {
+        command(what);
+    }
+    pad_before_ = pressed;
     fly_by_hand(wall_s, typing);
     if (!gui_->wants_pointer()) {
         const auto height = static_cast<float>(std::max(input_->size().y, 1));

@@ -133,6 +133,8 @@ private:
     double input_s_ = 0.0;
     /// When the input of the next picture was read.
     double shown_input_s_ = 0.0;
+    /// Buttons of the gamepad that were pressed a turn ago.
+    PadButtons pad_before_{};
     /// When the last picture was shown.
     double presented_s_ = 0.0;
     double refresh_hz_ = 60.0;

@@ -48,7 +48,9 @@ void Viewer::press(const WindowEvents::Key& key) {
     }
 }
 
+/// Whoever uses a key has begun: the first steps no longer cover the picture.
 void Viewer::command(ViewCommand what) {
+    state_.open.first_steps = false;
     if (!view_command(what) && !panel_command(what)) {
         flight_command(what);
     }

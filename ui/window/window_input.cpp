@@ -53,6 +53,18 @@ bool WindowInput::is_down(int key) const {
     return key != GLFW_KEY_UNKNOWN && glfwGetKey(window_, key) == GLFW_PRESS;
 }
 
+PadButtons WindowInput::pad_buttons() const {
+    PadButtons buttons{};
+    for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
+        GLFWgamepadstate gamepad;
+        if (glfwGetGamepadState(id, &gamepad) == GLFW_TRUE) {
+            std::ranges::copy(gamepad.buttons, buttons.begin());
+            break;
+        }
+    }
+    return buttons;
+}
+
 PilotDevices WindowInput::pilot_devices(const KeyMap& keys) const {
     PilotDevices devices;
     const auto is_held = [&](HeldAction action) { return is_down(keys.key_of(action)); };
@@ -76,7 +88,7 @@ PilotDevices WindowInput::pilot_devices(const KeyMap& keys) const {
         if (!devices.gamepad && glfwGetGamepadState(id, &gamepad) == GLFW_TRUE) {
             devices.gamepad.emplace();
             devices.gamepad->axes = gamepad_axes(keys, gamepad.axes);
-            std::ranges::copy(gamepad.buttons, devices.gamepad->buttons.begin());
+            devices.gamepad->buttons = flying_buttons(keys, pad_buttons());
         } else if (!devices.joystick && glfwJoystickPresent(id) == GLFW_TRUE) {
             int axes = 0;
             const float* const values = glfwGetJoystickAxes(id, &axes);

@@ -52,6 +52,9 @@ public:
     /// stand where those of the usual ones do.
     PilotDevices pilot_devices(const KeyMap& keys) const;
 
+    /// Returns which buttons of the first gamepad are pressed; none where there is no gamepad.
+    PadButtons pad_buttons() const;
+
     /// Returns the size of the window's picture in pixels, which is 0 while it is minimised.
     glm::ivec2 size_px() const;
     /// Returns the size of the window in the display's units.

@@ -1,5 +1,7 @@
 #include "tests/ui/window/driven_viewer.h"
 
+#include "sim/base/output_file.h"
+
 #include <cstdio>
 #include <unistd.h>
 
@@ -15,26 +17,32 @@ ui::settings::RunSettings small_flight() {
     return settings;
 }
 
-std::unique_ptr<DrivenViewer> DrivenViewer::open(const ui::settings::RunSettings& settings) {
+std::unique_ptr<DrivenViewer>
+DrivenViewer::open(const ui::settings::RunSettings& settings, const std::string& layout) {
     std::unique_ptr<VirtualDisplay> display = VirtualDisplay::start();
     if (!display) {
         std::puts("SKIPPED: Xvfb is not installed");
         return nullptr;
     }
-    return std::unique_ptr<DrivenViewer>(new DrivenViewer(std::move(display), settings));
+    return std::unique_ptr<DrivenViewer>(new DrivenViewer(std::move(display), settings, layout));
 }
 
 DrivenViewer::DrivenViewer(
-    std::unique_ptr<VirtualDisplay> display, const ui::settings::RunSettings& settings)
+    std::unique_ptr<VirtualDisplay> display,
+    const ui::settings::RunSettings& settings,
+    const std::string& layout)
     : display_(std::move(display))
     , folder_(fs::temp_directory_path() / ("octant-window-" + std::to_string(getpid()))) {
-    fs::create_directories(folder_);
+    fs::create_directories(folder_ / "kept");
     ui::window::ViewOptions options;
     options.settings = settings;
     options.panels = false;
     options.vsync = false;
     options.records_into = folder_;
     options.keeps_into = folder_ / "kept";
+    if (!layout.empty()) {
+        write_file(options.keeps_into / "layout.ini", layout);
+    }
     viewer_ = std::make_unique<ui::window::Viewer>(options);
     turns(3);
     display_->focus();

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 using namespace octant;
 using namespace octant::ui::window;
@@ -63,6 +64,30 @@ TEST_CASE(
     const KeyMapFile again = read(text_of_key_map(keys));
     CHECK(again.faults.empty());
     CHECK(text_of_key_map(again.keys) == text_of_key_map(keys));
+}
+
+TEST_CASE("a button of a gamepad gives its command once, and then no longer moves the rudder") {
+    const KeyMapFile changed =
+        read("gamepad left bumper = record\ngamepad start = none\ngamepad a = none\n");
+    REQUIRE(changed.faults.empty());
+    PadButtons pressed{};
+    CHECK(pad_commands(changed.keys, pressed, pressed).empty());
+    pressed[GLFW_GAMEPAD_BUTTON_LEFT_BUMPER] = 1;
+    pressed[GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER] = 1;
+    pressed[GLFW_GAMEPAD_BUTTON_START] = 1;
+    CHECK(pad_commands(changed.keys, {}, pressed) == std::vector{ViewCommand::Record});
+    CHECK(pad_commands(changed.keys, pressed, pressed).empty());
+    CHECK(pad_commands(KeyMap(), {}, pressed) == std::vector{ViewCommand::PlayOrPause});
+    const PadButtons flying = flying_buttons(changed.keys, pressed);
+    CHECK(flying[GLFW_GAMEPAD_BUTTON_LEFT_BUMPER] == 0);
+    CHECK(flying[GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER] == 1);
+
+    const KeyMapFile again = read(text_of_key_map(changed.keys));
+    CHECK(again.faults.empty());
+    CHECK(again.keys.pad_commands == changed.keys.pad_commands);
+    CHECK_THAT(
+        read("gamepad b = dance\n").faults.at(0),
+        Catch::Contains("keys:1: expected what a key does"));
 }
 
 TEST_CASE("lines that are wrong are told with their numbers, and count for nothing") {

@@ -183,6 +183,34 @@ TEST_CASE("each panel opens by its key and is seen in the window") {
     }
 }
 
+TEST_CASE(
+    "a layout file that is damaged or another program's is read without harm, once and again") {
+    for (const std::string& layout :
+         {std::string("[Table][0x00000001,999999999]\n"),
+          std::string("[Window][Flight]\nPos=1e9,nan\nSize=-1,-1\n[Table][0xFFFFFFFF,-1]\n"),
+          std::string(1000, '\0'),
+          std::string("# octant panels: title = x y width height\nFlight = 1e308 nan -5 0\n")}) {
+        const auto driven = DrivenViewer::open(small_flight(), layout);
+        if (!driven) {
+            return;
+        }
+        driven->strike("F4");
+        driven->turns(3);
+        CHECK(driven->state().open.terrain);
+        CHECK_FALSE(driven->state().open.first_steps);
+    }
+}
+
+TEST_CASE("the first steps leave the picture free once a key was used") {
+    const auto driven = DrivenViewer::open(small_flight());
+    if (!driven) {
+        return;
+    }
+    CHECK(driven->state().open.first_steps);
+    driven->strike("3");
+    CHECK_FALSE(driven->state().open.first_steps);
+}
+
 TEST_CASE("a click on the flight panel's button pauses the flight") {
     RunSettings settings = small_flight();
     settings.view.size_px = {1000, 700};
