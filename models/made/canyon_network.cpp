@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 namespace octant::models::made {
 
@@ -34,17 +36,20 @@ struct Network {
     std::vector<glm::dvec2> river;  ///< along the river, in the turned frame
 };
 
-std::vector<glm::dvec2> winding_river(double extent_m, std::uint64_t seed) {
+Places winding_river(double extent_m, std::uint64_t seed) {
     const Fractal course = {seed + 301, 9000.0, 2, 0.4};
     const Warp meanders = {seed + 307, 3600.0, 2};
-    std::vector<glm::dvec2> river;
     const int steps = static_cast<int>(extent_m * 1.2 / 40.0);
+    Places river(static_cast<std::size_t>(steps) + 1);
     for (int i = 0; i <= steps; ++i) {
-        const double x_m = -0.1 * extent_m + i * 40.0;
-        const double y_m = 0.5 * extent_m + 3000.0 * course.at(x_m, 0.0);
-        river.emplace_back(
-            x_m + 2.2 * meanders.east_m(x_m, y_m), y_m + 2.2 * meanders.north_m(x_m, y_m));
+        river.x_m[static_cast<std::size_t>(i)] = -0.1 * extent_m + i * 40.0;
     }
+    std::vector<double> aside(river.x_m.size());
+    course.at(river.x_m, river.y_m, aside);
+    for (std::size_t i = 0; i < aside.size(); ++i) {
+        river.y_m[i] = 0.5 * extent_m + 3000.0 * aside[i];
+    }
+    meanders.move(river.x_m, river.y_m, 2.2);
     return river;
 }
 
@@ -58,25 +63,28 @@ Network first_network(double extent_m, std::uint64_t seed) {
     const Fractal plateau = {seed + 311, 5200.0, 5, 0.55};
     const Warp warp = {seed + 313, 28.0 * ground.cell_m, 4};
     by_rows(side, [&](int row) {
+        Places places = places_of_row(ground, row);
+        const std::span<double> line = ground.row(row);
+        plateau.at(places.x_m, places.y_m, line);
+        warp.move(places.x_m, places.y_m, bend);
         for (int column = 0; column < side; ++column) {
-            const std::size_t i = ground.index(column, row);
-            const double x_m = column * ground.cell_m;
-            const double y_m = row * ground.cell_m;
-            ground.values[i] = 400.0 + 160.0 * plateau.at(x_m, y_m);
-            network.places[i] = {
-                x_m + bend * warp.east_m(x_m, y_m), y_m + bend * warp.north_m(x_m, y_m)};
+            const auto i = static_cast<std::size_t>(column);
+            line[i] = 400.0 + 160.0 * line[i];
+            network.places[ground.index(column, row)] = {places.x_m[i], places.y_m[i]};
         }
     });
-    for (const glm::dvec2& point : winding_river(extent_m, seed)) {
-        const int column = static_cast<int>(std::floor(point.x / ground.cell_m + 0.5));
-        const int row = static_cast<int>(std::floor(point.y / ground.cell_m + 0.5));
-        network.river.emplace_back(
-            point.x + bend * warp.east_m(point.x, point.y),
-            point.y + bend * warp.north_m(point.x, point.y));
+    Places river = winding_river(extent_m, seed);
+    for (std::size_t i = 0; i < river.x_m.size(); ++i) {
+        const int column = static_cast<int>(std::floor(river.x_m[i] / ground.cell_m + 0.5));
+        const int row = static_cast<int>(std::floor(river.y_m[i] / ground.cell_m + 0.5));
         if (column >= 0 && row >= 0 && column < side && row < side) {
             network.is_river[ground.index(column, row)] = 1;
             ground.values[ground.index(column, row)] = 0.0;
         }
+    }
+    warp.move(river.x_m, river.y_m, bend);
+    for (std::size_t i = 0; i < river.x_m.size(); ++i) {
+        network.river.emplace_back(river.x_m[i], river.y_m[i]);
     }
     return network;
 }

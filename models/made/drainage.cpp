@@ -1,226 +1,187 @@
 // Source: J. Braun and S. Willett, A very efficient O(n), implicit and parallel method to solve the
 // stream power equation, Geomorphology 180-181, 2013 (receivers, stack order, implicit step with
 // n = 1, m = 0.5); R. Barnes, C. Lehman and D. Mulla, Priority-Flood, Computers & Geosciences 62,
-// 2014 (filling of pits, algorithm 3 with its trace of slope).
-// The direction of descent is that of D. Tarboton, A new method for the determination of flow
-// directions and upslope areas in grid DEMs, Water Resources Research 33(2), 1997 (facets).
-// Deviations: water is not shared between the two neighbours of a facet but given to one of them,
-// with the chance that leads in the facet's direction on average (after Fairfield and Leymarie's
-// Rho8, 1991): streams do not run along the grid. The stack order is built breadth first.
+// 2014 (filling of pits, algorithm 3 with its trace of slope). The direction of descent is that of
+// flow_direction.cpp.
+// Deviations: the stack order is built breadth first. The priority queue has buckets of heights, of
+// which only the lowest is a heap: what is pushed is never lower than what was popped.
 #include "models/made/drainage.h"
 
 #include "models/made/by_rows.h"
-#include "models/made/terrain_noise.h"
+#include "models/made/flow_direction.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <queue>
 #include <vector>
 
 namespace octant::models::made {
 
 namespace {
 
-struct Step {
-    int dx = 0;
-    int dy = 0;
-};
-
-constexpr double diagonal = 1.4142135623730951;
-
-/// The eight neighbours in a circle; even ones share a side with the cell.
-constexpr std::array<Step, 8> circle = {
-    {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
-
-bool is_inside(const TerrainGrid& grid, int column, int row) {
-    return column >= 0 && row >= 0 && column < grid.side && row < grid.side;
+/// From a cell to its neighbours, in the order of a grid whose rows are so many cells apart.
+std::array<std::ptrdiff_t, 8> steps_around(int row_step) {
+    const std::ptrdiff_t row = row_step;
+    return {-row - 1, -row, -row + 1, -1, 1, row - 1, row, row + 1};
 }
 
-/// Heights of a cell's neighbours in a circle, NaN beyond the grid.
-std::array<double, 8> heights_around(const TerrainGrid& ground, int column, int row) {
-    constexpr double beyond = std::numeric_limits<double>::quiet_NaN();
-    const bool is_inner =
-        column > 0 && row > 0 && column + 1 < ground.side && row + 1 < ground.side;
-    std::array<double, 8> heights{};
-    for (std::size_t n = 0; n < circle.size(); ++n) {
-        const int x = column + circle[n].dx;
-        const int y = row + circle[n].dy;
-        heights[n] = is_inner || is_inside(ground, x, y) ? ground.at(x, y) : beyond;
-    }
-    return heights;
-}
-
-/// A facet is a triangle of a cell, a neighbour that shares a side with it and one at its corner.
-/// Returns the slope of the steepest descent within it, a cell; NaN where one of the drops is.
-double steepest_within(double to_side, double side_to_corner) {
-    const double between = std::sqrt(to_side * to_side + side_to_corner * side_to_corner);
-    const double by_corner = (to_side + side_to_corner) / diagonal;
-    const double inner = side_to_corner >= to_side ? by_corner : between;
-    return side_to_corner <= 0.0 ? to_side : inner;
-}
-
-/// Share of corner steps that leads in the direction of the steepest descent within a facet.
-double corner_chance(double to_side, double side_to_corner) {
-    if (side_to_corner <= 0.0) {
-        return 0.0;
-    }
-    return side_to_corner >= to_side ? 1.0 : side_to_corner / to_side;
-}
-
-/// Facet n lies between neighbours n and n + 1 of the circle, of which one shares a side.
-constexpr std::size_t side_of_facet(std::size_t n) {
-    return (n + 1) % circle.size() & ~std::size_t{1};
-}
-
-constexpr std::size_t corner_of_facet(std::size_t n) {
-    return n | 1U;
-}
-
-void choose_receiver(
-    const TerrainGrid& ground, int column, int row, double chance, Drainage& water) {
-    const std::size_t i = ground.index(column, row);
-    const std::array<double, 8> around = heights_around(ground, column, row);
-    std::array<double, 8> to_side{};
-    std::array<double, 8> side_to_corner{};
-    std::array<double, 8> slopes{};
-    for (std::size_t n = 0; n < circle.size(); ++n) {
-        to_side[n] = ground.values[i] - around[side_of_facet(n)];
-        side_to_corner[n] = around[side_of_facet(n)] - around[corner_of_facet(n)];
-        slopes[n] = steepest_within(to_side[n], side_to_corner[n]);
-    }
-    double steepest = 0.0;
-    std::size_t facet = circle.size();
-    for (std::size_t n = 0; n < circle.size(); ++n) {
-        facet = slopes[n] > steepest ? n : facet;
-        steepest = slopes[n] > steepest ? slopes[n] : steepest;
-    }
-    if (facet == circle.size()) {
-        return;
-    }
-    const bool by_corner = chance < corner_chance(to_side[facet], side_to_corner[facet]);
-    const Step step = circle[by_corner ? corner_of_facet(facet) : side_of_facet(facet)];
-    water.receiver[i] = static_cast<int>(ground.index(column + step.dx, row + step.dy));
-    water.length_m[i] = by_corner ? diagonal * ground.cell_m : ground.cell_m;
+/// For each cell a bit for each neighbour, as in steps_around(), that drains to it.
+std::vector<std::uint8_t> donors_of(const std::vector<int>& receiver, int side) {
+    const auto steps = steps_around(side);
+    std::vector<std::uint8_t> donors(receiver.size(), 0);
+    by_rows(side, [&](int row) {
+        const auto first = static_cast<std::ptrdiff_t>(row) * side;
+        for (int column = 0; column < side; ++column) {
+            const std::ptrdiff_t cell = first + column;
+            const bool is_inner = row > 0 && column > 0 && row + 1 < side && column + 1 < side;
+            unsigned bits = 0;
+            for (std::size_t n = 0; n < steps.size(); ++n) {
+                // Beyond an end of a row lies the end of another, which is no neighbour.
+                const std::ptrdiff_t other = cell + steps[n];
+                const bool is_cell = is_inner || (other >= 0 && other < std::ssize(receiver));
+                bits |= is_cell && receiver[static_cast<std::size_t>(other)] == cell ? 1U << n : 0U;
+            }
+            donors[static_cast<std::size_t>(cell)] = static_cast<std::uint8_t>(bits);
+        }
+    });
+    return donors;
 }
 
 /// Fills `upstream` from `receiver`: outlets and pits first, then always the donors of what stands
 /// already.
-void order_upstream(Drainage& water) {
+void order_upstream(int side, Drainage& water) {
+    const auto steps = steps_around(side);
+    const std::vector<std::uint8_t> donors = donors_of(water.receiver, side);
     const std::size_t count = water.receiver.size();
-    std::vector<int> first_donor(count + 1, 0);
+    water.upstream.resize(count);
+    std::size_t end = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const auto receiver = static_cast<std::size_t>(water.receiver[i]);
-        if (receiver != i) {
-            ++first_donor[receiver + 1];
-        }
+        water.upstream[end] = static_cast<int>(i);
+        end += water.receiver[i] == static_cast<int>(i) ? 1U : 0U;
     }
-    for (std::size_t i = 0; i < count; ++i) {
-        first_donor[i + 1] += first_donor[i];
-    }
-    std::vector<int> donors(count);
-    std::vector<int> next = first_donor;
-    water.upstream.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto receiver = static_cast<std::size_t>(water.receiver[i]);
-        if (receiver != i) {
-            donors[static_cast<std::size_t>(next[receiver]++)] = static_cast<int>(i);
-        } else {
-            water.upstream.push_back(static_cast<int>(i));
-        }
-    }
-    for (std::size_t at = 0; at < water.upstream.size(); ++at) {
-        const auto i = static_cast<std::size_t>(water.upstream[at]);
-        for (int d = first_donor[i]; d < first_donor[i + 1]; ++d) {
-            water.upstream.push_back(donors[static_cast<std::size_t>(d)]);
+    for (std::size_t at = 0; at < end; ++at) {
+        const int cell = water.upstream[at];
+        for (unsigned left = donors[static_cast<std::size_t>(cell)]; left != 0; left &= left - 1) {
+            const auto n = static_cast<std::size_t>(std::countr_zero(left));
+            water.upstream[end++] = cell + static_cast<int>(steps[n]);
         }
     }
 }
 
 /// The cells from which water is looked for uphill, lowest first, of equal ones the first of the
-/// grid. A heap whose nodes have four children: half as deep as that of std::priority_queue.
+/// grid. None is pushed that would have come before the last popped.
 class Front {
 public:
     struct Entry {
         double height_m = 0.0;
         int cell = 0;
 
-        bool is_before(const Entry& other) const {
-            return height_m < other.height_m || (height_m == other.height_m && cell < other.cell);
+        bool operator>(const Entry& other) const {
+            return height_m > other.height_m || (height_m == other.height_m && cell > other.cell);
         }
     };
 
-    bool empty() const { return heap_.empty(); }
-
-    void push(const Entry& entry) {
-        std::size_t at = heap_.size();
-        heap_.push_back(entry);
-        while (at > 0 && entry.is_before(heap_[(at - 1) / children])) {
-            heap_[at] = heap_[(at - 1) / children];
-            at = (at - 1) / children;
-        }
-        heap_[at] = entry;
+    /// `cells`: above all numbers of cells.
+    Front(double lowest_m, double highest_m, std::size_t cells)
+        : lowest_m_(lowest_m)
+        , first_(cells / cells_a_bucket + 2, none)
+        , waiting_(cells) {
+        const double range_m = std::max(highest_m - lowest_m, 1e-6);
+        per_m_ = static_cast<double>(first_.size() - 2) / range_m;
     }
 
-    Entry pop() {
-        const Entry lowest = heap_.front();
-        const Entry last = heap_.back();
-        heap_.pop_back();
-        if (!heap_.empty()) {
-            sink(last);
+    void push(const Entry& entry) {
+        const double at = std::min((entry.height_m - lowest_m_) * per_m_, last_bucket());
+        const auto bucket = static_cast<std::size_t>(at);
+        if (bucket <= opened_) {
+            lowest_.push(entry);
+            return;
         }
-        return lowest;
+        waiting_[static_cast<std::size_t>(entry.cell)] = {entry.height_m, first_[bucket]};
+        first_[bucket] = entry.cell;
+    }
+
+    /// The next one; nothing where there is none.
+    std::optional<Entry> pop() {
+        while (lowest_.empty() && opened_ + 1 < first_.size()) {
+            ++opened_;
+            for (int cell = first_[opened_]; cell != none;) {
+                const Waiting& one = waiting_[static_cast<std::size_t>(cell)];
+                lowest_.push({one.height_m, cell});
+                cell = one.next;
+            }
+        }
+        if (lowest_.empty()) {
+            return std::nullopt;
+        }
+        const Entry entry = lowest_.top();
+        lowest_.pop();
+        return entry;
     }
 
 private:
-    static constexpr std::size_t children = 4;
+    static constexpr std::size_t cells_a_bucket = 8;
+    static constexpr int none = -1;
 
-    /// Puts an entry into the place that is free at the top.
-    void sink(const Entry& entry) {
-        std::size_t at = 0;
-        for (std::size_t first = 1; first < heap_.size(); first = children * at + 1) {
-            const std::size_t end = std::min(first + children, heap_.size());
-            std::size_t lowest = first;
-            for (std::size_t child = first + 1; child < end; ++child) {
-                lowest = heap_[child].is_before(heap_[lowest]) ? child : lowest;
-            }
-            if (!heap_[lowest].is_before(entry)) {
-                break;
-            }
-            heap_[at] = heap_[lowest];
-            at = lowest;
-        }
-        heap_[at] = entry;
-    }
+    struct Waiting {
+        double height_m = 0.0;
+        int next = none; ///< cell of the same bucket
+    };
 
-    std::vector<Entry> heap_;
+    double last_bucket() const { return static_cast<double>(first_.size() - 1); }
+
+    double lowest_m_;
+    double per_m_ = 0.0;
+    std::size_t opened_ = 0;       ///< bucket; lowest_ has all up to it
+    std::vector<int> first_;       ///< cell of each bucket
+    std::vector<Waiting> waiting_; ///< by cell
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> lowest_;
 };
 
 } // namespace
 
 void fill_pits(TerrainGrid& ground, const std::vector<char>& is_outlet) {
-    Front front;
-    std::vector<char> reached = is_outlet;
-    for (std::size_t i = 0; i < is_outlet.size(); ++i) {
-        if (is_outlet[i] != 0) {
-            front.push({ground.values[i], static_cast<int>(i)});
+    // A rim of cells that are never looked at saves the question which neighbours there are.
+    const int wide = ground.side + 2;
+    const auto steps = steps_around(wide);
+    const auto cells = static_cast<std::size_t>(wide) * static_cast<std::size_t>(wide);
+    std::vector<double> height_m(cells);
+    std::vector<char> reached(cells, 1);
+    const auto rimmed = [&](int row) { return (static_cast<std::ptrdiff_t>(row) + 1) * wide + 1; };
+    const auto [lowest, highest] = std::ranges::minmax(ground.values);
+    Front front(lowest, highest, cells);
+    for (int row = 0; row < ground.side; ++row) {
+        const auto from = static_cast<std::ptrdiff_t>(ground.index(0, row));
+        std::copy_n(ground.values.begin() + from, ground.side, height_m.begin() + rimmed(row));
+        std::copy_n(is_outlet.begin() + from, ground.side, reached.begin() + rimmed(row));
+        for (std::ptrdiff_t i = rimmed(row); i < rimmed(row) + ground.side; ++i) {
+            if (reached[static_cast<std::size_t>(i)] != 0) {
+                front.push({height_m[static_cast<std::size_t>(i)], static_cast<int>(i)});
+            }
         }
     }
     const double trace_m = 1e-5 * ground.cell_m;
-    while (!front.empty()) {
-        const auto [height, cell] = front.pop();
-        for (const Step& n : circle) {
-            const int x = cell % ground.side + n.dx;
-            const int y = cell / ground.side + n.dy;
-            if (!is_inside(ground, x, y) || reached[ground.index(x, y)] != 0) {
-                continue;
+    while (const auto here = front.pop()) {
+        for (const std::ptrdiff_t step : steps) {
+            const auto i = static_cast<std::size_t>(here->cell + step);
+            if (reached[i] == 0) {
+                reached[i] = 1;
+                height_m[i] = std::max(height_m[i], here->height_m + trace_m);
+                front.push({height_m[i], static_cast<int>(i)});
             }
-            const std::size_t i = ground.index(x, y);
-            reached[i] = 1;
-            ground.values[i] = std::max(ground.values[i], height + trace_m);
-            front.push({ground.values[i], static_cast<int>(i)});
         }
+    }
+    for (int row = 0; row < ground.side; ++row) {
+        std::copy_n(
+            height_m.begin() + rimmed(row),
+            ground.side,
+            ground.values.begin() + static_cast<std::ptrdiff_t>(ground.index(0, row)));
     }
 }
 
@@ -229,18 +190,21 @@ drained(const TerrainGrid& ground, const std::vector<char>& is_outlet, std::uint
     Drainage water;
     const std::size_t count = ground.values.size();
     water.receiver.resize(count);
-    water.length_m.assign(count, ground.cell_m);
+    water.length_m.resize(count);
     water.area_m2.assign(count, ground.cell_m * ground.cell_m);
     by_rows(ground.side, [&](int row) {
-        for (int column = 0; column < ground.side; ++column) {
-            const std::size_t i = ground.index(column, row);
-            water.receiver[i] = static_cast<int>(i);
-            if (is_outlet[i] == 0) {
-                choose_receiver(ground, column, row, hashed_unit(seed, column, row), water);
+        const std::size_t first = ground.index(0, row);
+        const auto side = static_cast<std::size_t>(ground.side);
+        choose_receivers(
+            ground, row, seed, {{&water.receiver[first], side}, {&water.length_m[first], side}});
+        for (std::size_t i = first; i < first + side; ++i) {
+            if (is_outlet[i] != 0) {
+                water.receiver[i] = static_cast<int>(i);
+                water.length_m[i] = ground.cell_m;
             }
         }
     });
-    order_upstream(water);
+    order_upstream(ground.side, water);
     for (std::size_t at = count; at-- > 0;) {
         const auto i = static_cast<std::size_t>(water.upstream[at]);
         const auto receiver = static_cast<std::size_t>(water.receiver[i]);

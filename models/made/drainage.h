@@ -7,7 +7,7 @@
 
 namespace octant::models::made {
 
-/// Where water runs on a grid; one entry a cell.
+/// Where water runs on a grid of at least 3 x 3 cells; one entry a cell.
 struct Drainage {
     std::vector<int> receiver;    ///< cell that a cell drains to; itself for an outlet or a pit
     std::vector<int> upstream;    ///< all cells, every receiver before its donors

@@ -16,7 +16,9 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace octant::models::made {
 
@@ -83,12 +85,15 @@ EvenRock unlimited(double field_m, double spacing_m, std::uint64_t seed) {
     std::fill(rock.height_m.values.begin(), rock.height_m.values.end(), 1e9);
     const Fractal weathering = {seed + 101, 1100.0, 4, 0.6};
     by_rows(side, [&](int row) {
-        for (int column = 0; column < side; ++column) {
-            const double n = weathering.at(
-                column * cell_m - rock.margin_m - 0.5 * field_m,
-                row * cell_m - rock.margin_m - 0.5 * field_m);
-            rock.slope.values[rock.slope.index(column, row)] =
-                wall_slope * std::clamp(1.0 + 1.4 * n, 0.5, 1.9);
+        Places places = places_of_row(rock.slope, row);
+        for (std::size_t i = 0; i < places.x_m.size(); ++i) {
+            places.x_m[i] = places.x_m[i] - rock.margin_m - 0.5 * field_m;
+            places.y_m[i] = places.y_m[i] - rock.margin_m - 0.5 * field_m;
+        }
+        const std::span<double> line = rock.slope.row(row);
+        weathering.at(places.x_m, places.y_m, line);
+        for (double& value : line) {
+            value = wall_slope * std::clamp(1.0 + 1.4 * value, 0.5, 1.9);
         }
     });
     return rock;
@@ -171,17 +176,27 @@ public:
         , rubble_{seed + 225, 1600.0, 3, 0.5}
         , stones_{seed + 227, 150.0, 3, 0.55} {}
 
-    /// Height at a place from the field's centre.
-    double at(double x_m, double y_m) const {
-        const double even_m =
-            std::max(0.0, rock_.height_m.smooth_at(x_m + shift_m_, y_m + shift_m_));
-        const double away = smooth_step(0.0, 220.0, even_m);
-        const double rough_m = std::max(0.0, even_m + away * 75.0 * gullies_.at(x_m, y_m));
-        const double covered = away * smooth_step(0.0, 0.45, rubble_.at(x_m, y_m));
-        const double fold = folds_.at(x_m, y_m);
-        const double top = smooth_step(900.0, 1500.0, even_m);
-        return river_m + (1.0 - covered) * layered(rough_m) + covered * blurred(rough_m) +
-               (away * 30.0 + top * 60.0) * fold + (0.3 + away) * 4.0 * stones_.at(x_m, y_m);
+    /// Heights at places from the field's centre, as many.
+    void heights(const Places& at, std::span<float> heights_m) const {
+        std::vector<double> gully(heights_m.size());
+        std::vector<double> rubble(heights_m.size());
+        std::vector<double> fold(heights_m.size());
+        std::vector<double> stones(heights_m.size());
+        gullies_.at(at.x_m, at.y_m, gully);
+        rubble_.at(at.x_m, at.y_m, rubble);
+        folds_.at(at.x_m, at.y_m, fold);
+        stones_.at(at.x_m, at.y_m, stones);
+        for (std::size_t i = 0; i < heights_m.size(); ++i) {
+            const double even_m =
+                std::max(0.0, rock_.height_m.smooth_at(at.x_m[i] + shift_m_, at.y_m[i] + shift_m_));
+            const double away = smooth_step(0.0, 220.0, even_m);
+            const double rough_m = std::max(0.0, even_m + away * 75.0 * gully[i]);
+            const double covered = away * smooth_step(0.0, 0.45, rubble[i]);
+            const double top = smooth_step(900.0, 1500.0, even_m);
+            heights_m[i] = static_cast<float>(
+                river_m + (1.0 - covered) * layered(rough_m) + covered * blurred(rough_m) +
+                (away * 30.0 + top * 60.0) * fold[i] + (0.3 + away) * 4.0 * stones[i]);
+        }
     }
 
 private:
@@ -217,12 +232,13 @@ heights::HeightField made_canyon(const MadeOptions& options) {
     const auto size = static_cast<std::size_t>(options.size);
     std::vector<float> heights_m(size * size);
     by_rows(options.size, [&](int row) {
-        float* const line = heights_m.data() + static_cast<std::size_t>(row) * size;
+        Places places(size);
         for (int column = 0; column < options.size; ++column) {
-            const double x_m = column * options.spacing_m - half_m;
-            const double y_m = row * options.spacing_m - half_m;
-            line[column] = static_cast<float>(surface.at(x_m, y_m));
+            const auto i = static_cast<std::size_t>(column);
+            places.x_m[i] = column * options.spacing_m - half_m;
+            places.y_m[i] = row * options.spacing_m - half_m;
         }
+        surface.heights(places, {&heights_m[static_cast<std::size_t>(row) * size], size});
     });
     heights::HeightField field(options.size, options.size, options.spacing_m, std::move(heights_m));
     field.name = "canyon";

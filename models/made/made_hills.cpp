@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace octant::models::made {
 
@@ -42,10 +44,11 @@ TerrainGrid first_ground(double extent_m, std::uint64_t seed) {
     TerrainGrid ground(side, extent_m / (side - 1));
     const Fractal lowland = {seed + 11, 7000.0, 3, 0.5};
     by_rows(side, [&](int row) {
-        for (int column = 0; column < side; ++column) {
-            const double x_m = column * ground.cell_m;
-            const double y_m = row * ground.cell_m;
-            ground.values[ground.index(column, row)] = 130.0 + 120.0 * lowland.at(x_m, y_m);
+        const Places places = places_of_row(ground, row);
+        const std::span<double> line = ground.row(row);
+        lowland.at(places.x_m, places.y_m, line);
+        for (double& value : line) {
+            value = 130.0 + 120.0 * value;
         }
     });
     return ground;
@@ -56,9 +59,11 @@ std::vector<double> uplift_of(const TerrainGrid& ground, std::uint64_t seed) {
     const Fractal ranges = {seed + 23, 6500.0, 3, 0.45};
     std::vector<double> uplift(ground.values.size());
     by_rows(ground.side, [&](int row) {
-        for (int column = 0; column < ground.side; ++column) {
-            const double n = ranges.at(column * ground.cell_m, row * ground.cell_m);
-            uplift[ground.index(column, row)] = 0.22 + 0.95 * smooth_step(-0.35, 0.5, n);
+        const Places places = places_of_row(ground, row);
+        const std::span<double> line(&uplift[ground.index(0, row)], places.x_m.size());
+        ranges.at(places.x_m, places.y_m, line);
+        for (double& value : line) {
+            value = 0.22 + 0.95 * smooth_step(-0.35, 0.5, value);
         }
     });
     return uplift;
@@ -130,17 +135,20 @@ heights::HeightField made_hills(const MadeOptions& options) {
     const auto size = static_cast<std::size_t>(options.size);
     std::vector<float> heights_m(size * size);
     by_rows(options.size, [&](int row) {
-        float* const line = heights_m.data() + static_cast<std::size_t>(row) * size;
-        for (int column = 0; column < options.size; ++column) {
-            const double east_m = column * options.spacing_m - 0.5 * field_m;
+        Places places(size);
+        for (std::size_t column = 0; column < size; ++column) {
+            const double east_m = static_cast<double>(column) * options.spacing_m - 0.5 * field_m;
             const double north_m = row * options.spacing_m - 0.5 * field_m;
-            const double x_m = 0.5 * extent_m + turned_east * east_m - turned_north * north_m;
-            const double y_m = 0.5 * extent_m + turned_north * east_m + turned_east * north_m;
-            const double warped_x_m = x_m + warp.east_m(x_m, y_m);
-            const double warped_y_m = y_m + warp.north_m(x_m, y_m);
-            const double height_m =
-                ground.smooth_at(warped_x_m, warped_y_m) + 9.0 * detail.at(x_m, y_m);
-            line[column] = static_cast<float>(height_m);
+            places.x_m[column] = 0.5 * extent_m + turned_east * east_m - turned_north * north_m;
+            places.y_m[column] = 0.5 * extent_m + turned_north * east_m + turned_east * north_m;
+        }
+        std::vector<double> rough(size);
+        detail.at(places.x_m, places.y_m, rough);
+        warp.move(places.x_m, places.y_m, 1.0);
+        float* const line = heights_m.data() + static_cast<std::size_t>(row) * size;
+        for (std::size_t column = 0; column < size; ++column) {
+            line[column] = static_cast<float>(
+                ground.smooth_at(places.x_m[column], places.y_m[column]) + 9.0 * rough[column]);
         }
     });
     heights::HeightField field(options.size, options.size, options.spacing_m, std::move(heights_m));

@@ -40,14 +40,24 @@ double TerrainGrid::smooth_at(double x_m, double y_m) const {
     return sum;
 }
 
+Places places_of_row(const TerrainGrid& grid, int row) {
+    Places places(static_cast<std::size_t>(grid.side));
+    for (int column = 0; column < grid.side; ++column) {
+        const auto i = static_cast<std::size_t>(column);
+        places.x_m[i] = column * grid.cell_m;
+        places.y_m[i] = row * grid.cell_m;
+    }
+    return places;
+}
+
 TerrainGrid refined(const TerrainGrid& grid, const Warp& warp) {
     TerrainGrid fine(2 * grid.side - 1, grid.cell_m / 2.0);
     by_rows(fine.side, [&](int row) {
+        Places places = places_of_row(fine, row);
+        warp.move(places.x_m, places.y_m, 1.0);
         for (int column = 0; column < fine.side; ++column) {
-            const double x_m = column * fine.cell_m;
-            const double y_m = row * fine.cell_m;
-            fine.values[fine.index(column, row)] =
-                grid.smooth_at(x_m + warp.east_m(x_m, y_m), y_m + warp.north_m(x_m, y_m));
+            const auto i = static_cast<std::size_t>(column);
+            fine.values[fine.index(column, row)] = grid.smooth_at(places.x_m[i], places.y_m[i]);
         }
     });
     return fine;
@@ -56,13 +66,13 @@ TerrainGrid refined(const TerrainGrid& grid, const Warp& warp) {
 void diffuse(TerrainGrid& grid, double share) {
     const std::vector<double> old = grid.values;
     const auto step = static_cast<std::size_t>(grid.side);
-    for (int row = 1; row + 1 < grid.side; ++row) {
+    by_rows(grid.side - 2, [&](int from_second) {
         for (int column = 1; column + 1 < grid.side; ++column) {
-            const std::size_t i = grid.index(column, row);
+            const std::size_t i = grid.index(column, from_second + 1);
             const double around = old[i - 1] + old[i + 1] + old[i - step] + old[i + step];
             grid.values[i] = old[i] + share * (around - 4.0 * old[i]);
         }
-    }
+    });
 }
 
 } // namespace octant::models::made

@@ -3,6 +3,7 @@
 #include "models/made/terrain_noise.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace octant::models::made {
@@ -27,9 +28,26 @@ struct TerrainGrid {
 
     double at(int column, int row) const { return values[index(column, row)]; }
 
+    std::span<double> row(int number) {
+        return {&values[index(0, number)], static_cast<std::size_t>(side)};
+    }
+
     /// Smooth value (Catmull-Rom) at a place in metres from sample (0, 0); the rim's beyond it.
     double smooth_at(double x_m, double y_m) const;
 };
+
+/// Places in metres, one after the other.
+struct Places {
+    std::vector<double> x_m;
+    std::vector<double> y_m; ///< as many
+
+    explicit Places(std::size_t count)
+        : x_m(count)
+        , y_m(count) {}
+};
+
+/// Of a row's samples, from sample (0, 0).
+Places places_of_row(const TerrainGrid& grid, int row);
 
 /// The same ground with half the cell, interpolated smoothly and bent by the warp.
 TerrainGrid refined(const TerrainGrid& grid, const Warp& warp);

@@ -1,98 +1,163 @@
-// Source: K. Perlin, Improving Noise, SIGGRAPH 2002 (quintic fade, gradients at lattice points);
-// the integer mixer is SplitMix64's finalizer (Steele, Lea and Flood 2014).
+// Source: K. Perlin, Improving Noise, SIGGRAPH 2002 (quintic fade, gradients at lattice points).
 // Deviations: gradients are hashed vectors of any length up to 1.4, not a table of twelve, so that
-// no direction of the lattice is favoured. Only + - * / and conversions are used: the same bits in
-// every build.
+// no direction of the lattice is favoured.
+// Compiled once for each instruction set. Only + - * / and conversions are used, one by one: the
+// same bits in every build and on every processor.
 #include "models/made/terrain_noise.h"
 
+// SVE's vectors have no size that the compiler knows.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
+#define HWY_BROKEN_EMU128 0 // compiled so that it is right, see CMakeLists.txt
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "models/made/terrain_noise.cpp"
+// clang-format off: foreach_target.h must come before all that includes highway.h
+#include <hwy/foreach_target.h>
+// clang-format on
+
+#include "models/made/lattice_hash-inl.h"
+
 #include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
 
 namespace octant::models::made {
+namespace HWY_NAMESPACE {
 
-namespace {
-
-std::uint64_t mixed(std::uint64_t value) {
-    value += 0x9e3779b97f4a7c15ULL;
-    value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-    value = (value ^ (value >> 27U)) * 0x94d049bb133111ebULL;
-    return value ^ (value >> 31U);
+HWY_INLINE Real fade(Real t) {
+    const Real inner = hn::Add(hn::Mul(t, hn::Sub(hn::Mul(t, real(6.0)), real(15.0))), real(10.0));
+    return hn::Mul(hn::Mul(hn::Mul(t, t), t), inner);
 }
 
-std::uint64_t hashed(std::uint64_t seed, std::int64_t x, std::int64_t y) {
-    const auto a = static_cast<std::uint64_t>(x) * 0xd6e8feb86659fd93ULL;
-    const auto b = static_cast<std::uint64_t>(y) * 0xa0761d6478bd642fULL;
-    return mixed(seed * 0x9fb21c651e98df25ULL ^ a ^ (b + (b >> 29U)));
-}
-
-/// The same as a double, of at most 63 bits: processors convert signed numbers only.
-double as_double(std::uint64_t bits) {
-    return static_cast<double>(static_cast<std::int64_t>(bits));
-}
-
-inline double slope_term(std::uint64_t seed, std::int64_t x, std::int64_t y, double dx, double dy) {
+/// The height that a lattice point's gradient gives a place so far from it.
+HWY_INLINE Real slope_term(Word bits, Real dx, Real dy) {
     constexpr double to_unit = 1.0 / 2147483648.0;
-    const std::uint64_t bits = hashed(seed, x, y);
-    const double gx = as_double(bits & 0xffffffffU) * to_unit - 1.0;
-    const double gy = as_double(bits >> 32U) * to_unit - 1.0;
-    return gx * dx + gy * dy;
+    const auto unit = [](Word half) HWY_ATTR {
+        return hn::Sub(hn::Mul(real_of_word(half), real(to_unit)), real(1.0));
+    };
+    const Real gx = unit(hn::And(bits, word(0xffffffffU)));
+    const Real gy = unit(hn::ShiftRight<32>(bits));
+    return hn::Add(hn::Mul(gx, dx), hn::Mul(gy, dy));
 }
 
-/// std::floor without its call, for what fits the type.
-std::int64_t floor_of(double value) {
-    const auto whole = static_cast<std::int64_t>(value);
-    return static_cast<double>(whole) > value ? whole - 1 : whole;
+/// Smooth noise of one wavelength in about [-1, 1], zero on average. Coordinates in wavelengths.
+HWY_INLINE Real gradient_noise(std::uint64_t seed, Real x, Real y) {
+    const Real west = hn::Floor(x);
+    const Real south = hn::Floor(y);
+    const Word column = word_of_real(west);
+    const Word row = word_of_real(south);
+    const std::array columns{column_part(column), column_part(hn::Add(column, word(1)))};
+    const std::array rows{row_part(row), row_part(hn::Add(row, word(1)))};
+    const Real dx = hn::Sub(x, west);
+    const Real dy = hn::Sub(y, south);
+    const Real u = fade(dx);
+    const auto along_row = [&](std::size_t upper, Real up) HWY_ATTR {
+        const Real left = slope_term(hashed(seed, columns[0], rows[upper]), dx, up);
+        const Real right =
+            slope_term(hashed(seed, columns[1], rows[upper]), hn::Sub(dx, real(1.0)), up);
+        return hn::Add(hn::Mul(left, hn::Sub(real(1.0), u)), hn::Mul(right, u));
+    };
+    const Real low = along_row(0, dy);
+    const Real high = along_row(1, hn::Sub(dy, real(1.0)));
+    const Real v = fade(dy);
+    const Real between = hn::Add(hn::Mul(low, hn::Sub(real(1.0), v)), hn::Mul(high, v));
+    return hn::Mul(real(1.6), between);
 }
 
-double fade(double t) {
-    return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
-}
-
-} // namespace
-
-double hashed_unit(std::uint64_t seed, std::int64_t x, std::int64_t y) {
-    return as_double(hashed(seed, x, y) >> 11U) * (1.0 / 9007199254740992.0);
-}
-
-double gradient_noise(std::uint64_t seed, double x, double y) {
-    const std::int64_t column = floor_of(x);
-    const std::int64_t row = floor_of(y);
-    const double dx = x - static_cast<double>(column);
-    const double dy = y - static_cast<double>(row);
-    const double u = fade(dx);
-    const double low = slope_term(seed, column, row, dx, dy) * (1.0 - u) +
-                       slope_term(seed, column + 1, row, dx - 1.0, dy) * u;
-    const double high = slope_term(seed, column, row + 1, dx, dy - 1.0) * (1.0 - u) +
-                        slope_term(seed, column + 1, row + 1, dx - 1.0, dy - 1.0) * u;
-    const double v = fade(dy);
-    return 1.6 * (low * (1.0 - v) + high * v);
-}
-
-double Fractal::at(double x_m, double y_m) const {
-    double sum = 0.0;
+HWY_INLINE Real fractal_at(const Fractal& fractal, Real x_m, Real y_m) {
+    Real sum = real(0.0);
     double weight = 1.0;
     double weights = 0.0;
-    double x = x_m / wavelength_m;
-    double y = y_m / wavelength_m;
-    for (int octave = 0; octave < octaves; ++octave) {
-        sum += weight * gradient_noise(seed + static_cast<std::uint64_t>(octave) * 1013U, x, y);
+    Real x = hn::Div(x_m, real(fractal.wavelength_m));
+    Real y = hn::Div(y_m, real(fractal.wavelength_m));
+    for (int octave = 0; octave < fractal.octaves; ++octave) {
+        const std::uint64_t seed = fractal.seed + static_cast<std::uint64_t>(octave) * 1013U;
+        sum = hn::Add(sum, hn::Mul(real(weight), gradient_noise(seed, x, y)));
         weights += weight;
-        weight *= gain;
+        weight *= fractal.gain;
         // Each octave is turned by the angle of (3, 4, 5), so that lattices never line up.
-        const double turned = 2.0 * (0.8 * x - 0.6 * y);
-        y = 2.0 * (0.6 * x + 0.8 * y) + 17.3;
-        x = turned - 5.7;
+        const auto turned = [&](double of_x, double of_y) HWY_ATTR {
+            return hn::Mul(real(2.0), hn::Add(hn::Mul(real(of_x), x), hn::Mul(real(of_y), y)));
+        };
+        const Real next_x = hn::Sub(turned(0.8, -0.6), real(5.7));
+        y = hn::Add(turned(0.6, 0.8), real(17.3));
+        x = next_x;
     }
-    return sum / weights;
+    return hn::Div(sum, real(weights));
 }
 
-double Warp::east_m(double x_m, double y_m) const {
-    const Fractal shift = {seed, wavelength_m, octaves, 0.5};
-    return 0.25 * wavelength_m * shift.at(x_m, y_m);
+/// So many of the values from a place on, then zeros.
+HWY_INLINE Real load_some(const double* from, std::size_t count) {
+    if (count == at_once) {
+        return hn::LoadU(Reals(), from);
+    }
+    alignas(64) std::array<double, at_once> room{};
+    std::copy_n(from, count, room.begin());
+    return hn::Load(Reals(), room.data());
 }
 
-double Warp::north_m(double x_m, double y_m) const {
-    const Fractal shift = {seed + 500009U, wavelength_m, octaves, 0.5};
-    return 0.25 * wavelength_m * shift.at(x_m, y_m);
+HWY_INLINE void store_some(Real values, double* to, std::size_t count) {
+    if (count == at_once) {
+        hn::StoreU(values, Reals(), to);
+        return;
+    }
+    alignas(64) std::array<double, at_once> room;
+    hn::Store(values, Reals(), room.data());
+    std::copy_n(room.begin(), count, to);
+}
+
+void FractalAt(
+    const Fractal& fractal,
+    std::span<const double> x_m,
+    std::span<const double> y_m,
+    std::span<double> values) {
+    for (std::size_t i = 0; i < values.size(); i += at_once) {
+        const std::size_t count = std::min(values.size() - i, at_once);
+        const Real x = load_some(&x_m[i], count);
+        const Real y = load_some(&y_m[i], count);
+        store_some(fractal_at(fractal, x, y), &values[i], count);
+    }
+}
+
+void WarpMove(const Warp& warp, std::span<double> x_m, std::span<double> y_m, double times) {
+    const Fractal east = {warp.seed, warp.wavelength_m, warp.octaves, 0.5};
+    const Fractal north = {warp.seed + 500009U, warp.wavelength_m, warp.octaves, 0.5};
+    for (std::size_t i = 0; i < x_m.size(); i += at_once) {
+        const std::size_t count = std::min(x_m.size() - i, at_once);
+        const Real x = load_some(&x_m[i], count);
+        const Real y = load_some(&y_m[i], count);
+        const auto moved = [&](Real from, const Fractal& shift) HWY_ATTR {
+            const Real by_m = hn::Mul(real(0.25 * warp.wavelength_m), fractal_at(shift, x, y));
+            return hn::Add(from, hn::Mul(real(times), by_m));
+        };
+        store_some(moved(x, east), &x_m[i], count);
+        store_some(moved(y, north), &y_m[i], count);
+    }
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace octant::models::made
+
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace octant::models::made {
+
+HWY_EXPORT(FractalAt);
+HWY_EXPORT(WarpMove);
+
+void Fractal::at(
+    std::span<const double> x_m, std::span<const double> y_m, std::span<double> values) const {
+    assert(x_m.size() == values.size() && y_m.size() == values.size());
+    HWY_DYNAMIC_DISPATCH(FractalAt)(*this, x_m, y_m, values);
+}
+
+void Warp::move(std::span<double> x_m, std::span<double> y_m, double times) const {
+    assert(x_m.size() == y_m.size());
+    HWY_DYNAMIC_DISPATCH(WarpMove)(*this, x_m, y_m, times);
 }
 
 double smooth_step(double low, double high, double value) {
@@ -101,3 +166,4 @@ double smooth_step(double low, double high, double value) {
 }
 
 } // namespace octant::models::made
+#endif

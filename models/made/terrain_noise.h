@@ -1,24 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 namespace octant::models::made {
 
-/// Uniform in [0, 1), from integer arithmetic alone.
-double hashed_unit(std::uint64_t seed, std::int64_t x, std::int64_t y);
-
-/// Smooth noise of one wavelength in about [-1, 1], zero on average. Coordinates in wavelengths.
-double gradient_noise(std::uint64_t seed, double x, double y);
-
-/// Octaves of gradient_noise from `wavelength_m` down, each half as long and `gain` times as high;
-/// about [-1, 1].
+/// Octaves of smooth noise from `wavelength_m` down, each half as long and `gain` times as high;
+/// about [-1, 1], zero on average.
 struct Fractal {
     std::uint64_t seed = 0;
     double wavelength_m = 1000.0;
     int octaves = 4;
     double gain = 0.5;
 
-    double at(double x_m, double y_m) const;
+    /// Values at many places, metres; all three are of one length.
+    void
+    at(std::span<const double> x_m, std::span<const double> y_m, std::span<double> values) const;
 };
 
 /// A sideways displacement that bends straight lines: three octaves from `wavelength_m` down, each
@@ -28,8 +25,8 @@ struct Warp {
     double wavelength_m = 1000.0;
     int octaves = 3;
 
-    double east_m(double x_m, double y_m) const;
-    double north_m(double x_m, double y_m) const;
+    /// Moves places, metres, by so many times their displacement. Both are of one length.
+    void move(std::span<double> x_m, std::span<double> y_m, double times) const;
 };
 
 /// 0 below `low`, 1 above `high`, a smooth transition between them.

@@ -3,13 +3,17 @@
 #include "models/made/made_terrain.h"
 #include "models/made/terrain_grid.h"
 #include "models/made/terrain_noise.h"
+#include "sim/base/dice.h"
 #include "sim/base/hash.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <hwy/targets.h>
+#include <utility>
 #include <vector>
 
 using namespace octant;
@@ -47,6 +51,13 @@ std::vector<double> slopes_deg(const HeightField& field) {
 
 double share_of(const std::vector<double>& sorted, double share) {
     return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+std::vector<double>
+noise_at(const Fractal& noise, const std::vector<double>& x_m, const std::vector<double>& y_m) {
+    std::vector<double> values(x_m.size());
+    noise.at(x_m, y_m, values);
+    return values;
 }
 
 } // namespace
@@ -209,16 +220,92 @@ TEST_CASE("a stream in balance has the slope of its steepness over the root of i
 }
 
 TEST_CASE("noise is zero at lattice points, bounded, smooth and without a mean") {
-    double sum = 0.0;
-    for (int i = 0; i < 20000; ++i) {
-        const double x = 0.137 * i;
-        const double y = 0.071 * i - 300.0;
-        const double value = gradient_noise(5, x, y);
-        CHECK(std::abs(value) < 1.7);
-        CHECK(std::abs(gradient_noise(5, x + 1e-4, y) - value) < 1e-3);
-        sum += value;
+    const Fractal noise = {5, 1.0, 1, 0.5};
+    constexpr std::size_t count = 20000;
+    std::vector<double> x(count);
+    std::vector<double> y(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        x[i] = 0.137 * static_cast<double>(i);
+        y[i] = 0.071 * static_cast<double>(i) - 300.0;
     }
-    CHECK(std::abs(sum / 20000) < 0.02);
-    CHECK(gradient_noise(5, 3.0, -4.0) == 0.0);
-    CHECK(gradient_noise(5, 3.5, -4.0) != gradient_noise(6, 3.5, -4.0));
+    const std::vector<double> values = noise_at(noise, x, y);
+    for (double& place : x) {
+        place += 1e-4;
+    }
+    const std::vector<double> beside = noise_at(noise, x, y);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        CHECK(std::abs(values[i]) < 1.7);
+        CHECK(std::abs(beside[i] - values[i]) < 1e-3);
+        sum += values[i];
+    }
+    CHECK(std::abs(sum / count) < 0.02);
+    CHECK(noise_at(noise, {3.0}, {-4.0})[0] == 0.0);
+    CHECK(noise_at(noise, {3.5}, {-4.0}) != noise_at({6, 1.0, 1, 0.5}, {3.5}, {-4.0}));
+}
+
+TEST_CASE("noise is the same one by one and many at once") {
+    const Fractal noise = {11, 300.0, 4, 0.5};
+    std::vector<double> x;
+    std::vector<double> y;
+    for (int i = 0; i < 21; ++i) {
+        x.push_back(37.0 * i - 200.0);
+        y.push_back(19.0 * i);
+    }
+    const std::vector<double> values = noise_at(noise, x, y);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        CHECK(noise_at(noise, {x[i]}, {y[i]})[0] == values[i]);
+    }
+}
+
+TEST_CASE("all instruction sets make the same ground") {
+    const std::uint64_t hills = hash_of(made_hills({65, 60.0, 3}));
+    const std::uint64_t canyon = hash_of(made_canyon({65, 60.0, 3}));
+    const std::int64_t all = hwy::SupportedTargets();
+    int sets = 0;
+    for (int bit = 0; bit < 63; ++bit) {
+        const std::int64_t target = std::int64_t{1} << bit;
+        if ((all & target) != 0) {
+            hwy::SetSupportedTargetsForTest(target);
+            hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+            CAPTURE(hwy::TargetName(target));
+            CHECK(hash_of(made_hills({65, 60.0, 3})) == hills);
+            CHECK(hash_of(made_canyon({65, 60.0, 3})) == canyon);
+            ++sets;
+        }
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    CHECK(sets >= 2);
+}
+
+TEST_CASE("water is let out of pits where the plainest way of filling them lets it out") {
+    // Every cell looks at its neighbours until nothing changes.
+    Dice dice(3);
+    TerrainGrid ground(23, 50.0);
+    for (double& height_m : ground.values) {
+        height_m = std::floor(dice.between(0.0, 40.0));
+    }
+    std::vector<char> outlet(ground.values.size(), 0);
+    outlet[ground.index(0, 7)] = 1;
+    outlet[ground.index(22, 22)] = 1;
+    std::vector<double> plain(ground.values.size(), 1e9);
+    for (bool changes = true; std::exchange(changes, false);) {
+        for (int row = 0; row < 23; ++row) {
+            for (int column = 0; column < 23; ++column) {
+                const std::size_t i = ground.index(column, row);
+                double lowest_m = outlet[i] != 0 ? ground.values[i] : 1e9;
+                for (int y = std::max(row - 1, 0); y <= std::min(row + 1, 22); ++y) {
+                    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, 22); ++x) {
+                        lowest_m = std::min(
+                            lowest_m, std::max(ground.values[i], plain[ground.index(x, y)] + 5e-4));
+                    }
+                }
+                changes = changes || lowest_m < plain[i];
+                plain[i] = std::min(plain[i], lowest_m);
+            }
+        }
+    }
+    fill_pits(ground, outlet);
+    CHECK(ground.values == plain);
 }
