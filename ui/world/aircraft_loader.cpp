@@ -11,6 +11,7 @@
 #include "ui/world/mesh_aircraft.h"
 #include "visuals/draworder/ordered_model.h"
 #include "visuals/ordercache/order_cache.h"
+#include "visuals/planning/cockpit_dials.h"
 #include "visuals/shading/piece_normals.h"
 #include "visuals/shading/vertex_normals.h"
 
@@ -212,6 +213,8 @@ LoadedAircraft load_aircraft(const settings::RunSettings& settings) {
     }
     if (auto cockpit = load_cockpit(settings.path.aircraft.front())) {
         loaded.cockpit = static_cast<std::uint32_t>(loaded.models.size());
+        loaded.dials = planning::dials_of(
+            cockpit->polygons, sim::aircraft_kind(settings.path.aircraft.front()).limits);
         add(std::move(*cockpit));
     }
     loaded.notes = std::move(told.notes);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/settings/settings.h"
+#include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/aircraft_model.h"
 
 #include <cstdint>
@@ -17,6 +18,7 @@ struct LoadedAircraft {
     std::vector<std::shared_ptr<const visuals::planning::AircraftModel>> models;
     std::vector<std::uint32_t> aircraft;
     std::optional<std::uint32_t> cockpit;
+    visuals::overlay::InstrumentLayout dials;       ///< of the cockpit
     std::vector<std::string> notes;                 ///< what a person should be told
     std::vector<std::filesystem::path> order_files; ///< kept painting orders that were used
 };

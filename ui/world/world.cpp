@@ -278,7 +278,8 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
         std::move(ground.texture),
         std::move(aircraft.models),
         std::move(aircraft.aircraft),
-        aircraft.cockpit};
+        aircraft.cockpit,
+        std::move(aircraft.dials)};
     world.leader_kind = sim::find_aircraft_kind(settings.path.aircraft.front());
     world.ground_name = std::move(ground.name);
     world.ground_place = ground.place;

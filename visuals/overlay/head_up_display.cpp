@@ -8,6 +8,7 @@
 
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
+#include "visuals/overlay/caption.h"
 #include "visuals/overlay/head_up_glass.h"
 #include "visuals/overlay/pitch_ladder.h"
 #include "visuals/overlay/stroke_letters.h"
@@ -18,9 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 #include <string_view>
-#include <utility>
 
 namespace octant::visuals::overlay {
 
@@ -63,24 +62,6 @@ OverlayBox whole_of(const HeadUpGlass& glass) {
     const OverlayBox box = scaled(whole, glass.unit_px);
     return {glm::min(box.least, -least_whole_px), glm::max(box.most, least_whole_px)};
 }
-
-/// A few letters on the stack.
-class Caption {
-public:
-    template <typename... Values>
-    explicit Caption(fmt::format_string<Values...> format, Values&&... values)
-        : size_(std::min(
-              fmt::format_to_n(
-                  letters_.data(), letters_.size(), format, std::forward<Values>(values)...)
-                  .size,
-              letters_.size())) {}
-
-    std::string_view text() const { return {letters_.data(), size_}; }
-
-private:
-    std::array<char, 16> letters_{};
-    std::size_t size_;
-};
 
 /// To whole numbers, of at most six digits.
 long rounded(double value, double step = 1.0) {

@@ -55,12 +55,13 @@ void OverlayCanvas::begin(const glm::mat3& to_picture, const OverlayPen& pen) {
     constexpr float far = std::numeric_limits<float>::max();
     clip_ = {glm::vec2(-far), glm::vec2(far)};
     vertices_.clear();
+    areas_.clear();
     shade_.indices.clear();
     lines_.indices.clear();
     letters_.indices.clear();
     const float shade_px = 0.5F * pen.width_px + pen.shade_px;
     shade_.points = {{{-shade_px, pen.shade}, {shade_px, pen.shade}, {}, {}}};
-    shade_.count = 2;
+    shade_.count = pen.shade >> 24U != 0 ? 2 : 0;
     shade_.beyond_ends_px = shade_px;
     // Lines narrower than their edges would be are that wide and fainter.
     const std::uint32_t full = with_alpha(pen.colour, std::min(pen.width_px / edge_px, 1.0F));
@@ -79,6 +80,21 @@ void OverlayCanvas::begin(const glm::mat3& to_picture, const OverlayPen& pen) {
         letters_.count = 3;
     }
     writing_ = false;
+}
+
+glm::vec2 OverlayCanvas::seen_at(const glm::vec2& at) const {
+    const glm::vec3 seen = to_picture_ * glm::vec3(at, 1.0F);
+    return glm::vec2(seen) / seen.z;
+}
+
+void OverlayCanvas::fill(std::span<const glm::vec2> corners, std::uint32_t colour) {
+    const auto first = static_cast<std::uint32_t>(vertices_.size());
+    for (const glm::vec2& corner : corners) {
+        vertices_.push_back({seen_at(corner), colour});
+    }
+    for (std::uint32_t i = 2; i < corners.size(); ++i) {
+        areas_.insert(areas_.end(), {first, first + i - 1, first + i});
+    }
 }
 
 void OverlayCanvas::polyline(std::span<const glm::vec2> points) {
@@ -112,8 +128,7 @@ void OverlayCanvas::cut_line(const glm::vec2& from, const glm::vec2& to) {
 }
 
 void OverlayCanvas::add_to_run(const glm::vec2& at) {
-    const glm::vec3 seen = to_picture_ * glm::vec3(at, 1.0F);
-    const glm::vec2 at_px = glm::vec2(seen) / seen.z;
+    const glm::vec2 at_px = seen_at(at);
     if (run_.empty() || glm::distance(run_.back(), at_px) > least_length_px) {
         run_.push_back(at_px);
     }
@@ -121,7 +136,9 @@ void OverlayCanvas::add_to_run(const glm::vec2& at) {
 
 void OverlayCanvas::end_run() {
     if (run_.size() > 1) {
-        stroke(shade_);
+        if (shade_.count > 0) {
+            stroke(shade_);
+        }
         stroke(writing_ ? letters_ : lines_);
     }
     run_.clear();
@@ -224,7 +241,8 @@ void OverlayCanvas::text(const TextPlace& place, std::string_view text) {
 }
 
 scene::OverlayDraw OverlayCanvas::finish() {
-    std::vector<std::uint32_t>& all = shade_.indices;
+    std::vector<std::uint32_t>& all = areas_;
+    all.insert(all.end(), shade_.indices.begin(), shade_.indices.end());
     all.insert(all.end(), lines_.indices.begin(), lines_.indices.end());
     all.insert(all.end(), letters_.indices.begin(), letters_.indices.end());
     return {vertices_, all};

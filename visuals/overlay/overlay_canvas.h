@@ -30,7 +30,7 @@ struct OverlayPen {
     float width_px = 1.5F;
     float shade_px = 1.5F; ///< how much farther than the core the shade reaches
     std::uint32_t colour = 0;
-    std::uint32_t shade = 0;
+    std::uint32_t shade = 0; ///< of alpha 0: none is drawn
 };
 
 /// Where a text goes. `height` is that of a capital.
@@ -41,7 +41,8 @@ struct TextPlace {
     glm::vec2 along{1.0F, 0.0F}; ///< unit vector to the right of the text
 };
 
-/// Collects lines and letters as the triangles of an OverlayDraw: shades, then lines, then letters.
+/// Collects areas, lines and letters as the triangles of an OverlayDraw: areas, then shades, then
+/// lines, then letters.
 /// One draws on a plane, x to the right and y down, that is then seen in the picture.
 class OverlayCanvas {
 public:
@@ -56,6 +57,9 @@ public:
     void polyline(std::span<const glm::vec2> points);
 
     void line(const glm::vec2& from, const glm::vec2& to) { polyline(std::array{from, to}); }
+
+    /// A convex area, whole: the clip box does not cut it. Its edges are not softened.
+    void fill(std::span<const glm::vec2> corners, std::uint32_t colour);
 
     void box(const OverlayBox& box);
     void circle(const glm::vec2& centre, float radius);
@@ -80,6 +84,7 @@ private:
         std::vector<std::uint32_t> indices;
     };
 
+    glm::vec2 seen_at(const glm::vec2& at) const;
     void cut_line(const glm::vec2& from, const glm::vec2& to);
     void add_to_run(const glm::vec2& at);
     void end_run();
@@ -88,6 +93,7 @@ private:
     void join_last_rows(Strips& strips);
 
     glm::mat3 to_picture_{1.0F};
+    std::vector<std::uint32_t> areas_; ///< indices
     Strips shade_;
     Strips lines_;
     Strips letters_;

@@ -35,10 +35,8 @@ std::string fitting(const std::string& line, float letter_px, float width_px) {
 
 } // namespace
 
-scene::OverlayDraw PictureText::draw(
-    std::span<const std::string> lines,
-    const glm::ivec2& size_px,
-    const scene::OverlayDraw& under) {
+scene::OverlayDraw
+PictureText::draw(std::span<const std::string> lines, const glm::ivec2& size_px) {
     const glm::vec2 size(size_px);
     const float letter_px = std::max(size.y / letters_a_picture, least_letter_px);
     canvas_.begin(
@@ -52,15 +50,7 @@ scene::OverlayDraw PictureText::draw(
         canvas_.text({at, letter_px}, fitting(line, letter_px, size.x - 2.0F * letter_px));
         at.y += lines_apart * letter_px;
     }
-    const scene::OverlayDraw own = canvas_.finish();
-    vertices_.assign(under.vertices.begin(), under.vertices.end());
-    indices_.assign(under.indices.begin(), under.indices.end());
-    const auto first = static_cast<std::uint32_t>(vertices_.size());
-    vertices_.insert(vertices_.end(), own.vertices.begin(), own.vertices.end());
-    for (const std::uint32_t index : own.indices) {
-        indices_.push_back(first + index);
-    }
-    return {vertices_, indices_};
+    return canvas_.finish();
 }
 
 } // namespace octant::visuals::overlay

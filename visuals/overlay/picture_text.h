@@ -5,10 +5,8 @@
 
 #include <glm/vec2.hpp>
 
-#include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace octant::visuals::overlay {
 
@@ -16,17 +14,11 @@ namespace octant::visuals::overlay {
 /// small letters become capitals. A line that is too long for the picture is cut.
 class PictureText {
 public:
-    /// The lines over what the picture shows otherwise. Sizes go with the picture's height. Valid
-    /// until the next call.
-    scene::OverlayDraw draw(
-        std::span<const std::string> lines,
-        const glm::ivec2& size_px,
-        const scene::OverlayDraw& under);
+    /// Sizes go with the picture's height. Valid until the next call.
+    scene::OverlayDraw draw(std::span<const std::string> lines, const glm::ivec2& size_px);
 
 private:
     OverlayCanvas canvas_;
-    std::vector<scene::OverlayVertex> vertices_;
-    std::vector<std::uint32_t> indices_;
 };
 
 } // namespace octant::visuals::overlay

@@ -142,19 +142,13 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
     plan_.clips.clear();
     plan_.repaint_indices.clear();
     plan_.depth_boxes.clear();
-    plan_.overlay = {};
     ground_ = {
         mesher_->triangles(ground_request(camera, request.triangle_target), counts.ground), {}, {}};
     write_parts();
     cast_shadows(camera);
     plan_haze(camera);
     plan_sky(camera);
-    if (settings_.view.kind == scene::View::Cockpit && settings_.view.head_up_display) {
-        plan_head_up_display(camera, request.states.front());
-    }
-    if (!request.words.empty()) {
-        plan_.overlay = text_.draw(request.words, settings_.view.size_px, plan_.overlay);
-    }
+    plan_overlay(request);
     const SmoothChoice::Count shaded = smooth_.choose(
         placed_,
         refined_,
@@ -219,12 +213,29 @@ void Planner::cast_shadows(const scene::Camera& camera) {
     ground_.shadow_indices = shadows_.indices();
 }
 
-void Planner::plan_head_up_display(const scene::Camera& camera, const sim::AircraftState& state) {
+overlay::HeadUpInputs Planner::shown_inputs(const sim::AircraftState& state) const {
     overlay::HeadUpInputs inputs{state, state.position_m.z, {}};
     if (const auto ground_m = scene_.ground->height_at(state.position_m.x, state.position_m.y)) {
         inputs.height_above_ground_m = state.position_m.z - *ground_m;
     }
-    plan_.overlay = head_up_display_.draw(inputs, camera, settings_.view.size_px);
+    return inputs;
+}
+
+/// What lies over the picture: dials, head-up display, words.
+void Planner::plan_overlay(const PlanRequest& request) {
+    const glm::ivec2& size_px = settings_.view.size_px;
+    overlays_.clear();
+    if (settings_.view.kind == scene::View::Cockpit) {
+        const overlay::HeadUpInputs inputs = shown_inputs(request.states.front());
+        overlays_.add(instruments_.draw(scene_.dials, inputs, request.camera, size_px));
+        if (settings_.view.head_up_display) {
+            overlays_.add(head_up_display_.draw(inputs, request.camera, size_px));
+        }
+    }
+    if (!request.words.empty()) {
+        overlays_.add(text_.draw(request.words, size_px));
+    }
+    plan_.overlay = overlays_.all();
 }
 
 void Planner::count_aircraft(PlanCounts& counts) const {

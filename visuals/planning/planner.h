@@ -3,6 +3,8 @@
 #include "sim/aircraft_state.h"
 #include "visuals/landscape/ground_mesher.h"
 #include "visuals/overlay/head_up_display.h"
+#include "visuals/overlay/instrument_panel.h"
+#include "visuals/overlay/overlay_layers.h"
 #include "visuals/overlay/picture_text.h"
 #include "visuals/planning/aircraft_hull.h"
 #include "visuals/planning/ground_frame.h"
@@ -125,7 +127,8 @@ private:
     void paint_knot(const Knot& knot, const scene::Camera& camera, PlanCounts& counts);
     void paint_members(const Knot& knot, PlanCounts& counts);
     void paint_members_by_depth(const Knot& knot);
-    void plan_head_up_display(const scene::Camera& camera, const sim::AircraftState& state);
+    void plan_overlay(const PlanRequest& request);
+    overlay::HeadUpInputs shown_inputs(const sim::AircraftState& state) const;
     void count_aircraft(PlanCounts& counts) const;
 
     const Scene& scene_;
@@ -156,8 +159,10 @@ private:
     std::vector<std::uint32_t> facing_indices_;
     scene::FramePlan plan_;
     StepWriter steps_;
+    overlay::InstrumentPanel instruments_;
     overlay::HeadUpDisplay head_up_display_;
     overlay::PictureText text_;
+    overlay::OverlayLayers overlays_;
 };
 
 } // namespace octant::visuals::planning

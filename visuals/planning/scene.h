@@ -1,6 +1,7 @@
 #pragma once
 
 #include "visuals/landscape/ground.h"
+#include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/aircraft_model.h"
 #include "visuals/scene/ground_texture.h"
 
@@ -24,6 +25,7 @@ struct Scene {
     std::vector<std::shared_ptr<const AircraftModel>> models;
     std::vector<std::uint32_t> aircraft;  ///< model of each aircraft
     std::optional<std::uint32_t> cockpit; ///< model of what the first pilot sees around the eye
+    overlay::InstrumentLayout dials;      ///< of that cockpit
 
     const AircraftModel& model_of(std::size_t number) const { return *models[aircraft[number]]; }
 
