@@ -31,7 +31,8 @@ public:
         : path_(path)
         , options_(options)
         , words_(path, text, 1)
-        , mesh_(path, options) {}
+        , mesh_(path, options)
+        , is_chosen_(options.only.empty()) {}
 
     TriangleMesh read() {
         const std::string_view magic = words_.word("AC3D");
@@ -61,6 +62,7 @@ private:
         Placement own;
         ObjectPicture picture;
         const bool was_left_out = is_left_out_;
+        const bool was_chosen = is_chosen_;
         const std::size_t first_vertex = mesh_.vertex_count();
         while (true) {
             const std::string_view word = words_.word("kids");
@@ -77,8 +79,9 @@ private:
                 take_surfaces(first_vertex, parent.of(own).mirrors(), picture);
             } else if (word == "name") {
                 std::string_view rest = words_.rest_of_line();
-                is_left_out_ =
-                    is_left_out_ || options_.left_out.contains(taken_ac3d_name(rest, words_));
+                const std::string name = taken_ac3d_name(rest, words_);
+                is_left_out_ = is_left_out_ || options_.left_out.contains(name);
+                is_chosen_ = is_chosen_ || options_.only.contains(name);
             } else if (word == "texture") {
                 take_picture(picture);
             } else if (word == "texrep" || word == "texoff") {
@@ -108,6 +111,7 @@ private:
             take_object(parent.of(own), depth + 1);
         }
         is_left_out_ = was_left_out;
+        is_chosen_ = was_chosen;
     }
 
     /// How an object's picture lies on its surfaces.
@@ -234,7 +238,7 @@ private:
             ++skipped_;
             return;
         }
-        if (is_left_out_) {
+        if (is_left_out_ || !is_chosen_) {
             return;
         }
         const bool is_two_sided = (kind & 0x20U) != 0;
@@ -277,6 +281,7 @@ private:
     std::size_t two_sided_ = 0;
     long missing_kids_ = 0;    ///< that are announced and not there
     bool is_left_out_ = false; ///< the object at hand
+    bool is_chosen_;           ///< it is one that is read
 };
 
 } // namespace

@@ -1,26 +1,33 @@
 // FlightGear's model files: a PropertyList that names a mesh, other models with their offsets, and
-// animations, which are read as at rest: all properties 0. Its axes are x back, y right, z up; AC3D
-// files lie in them as (x, -z, y).
+// animations, which are read as at rest: all properties 0, but for what turns in flight. Its axes
+// are x back, y right, z up; AC3D files lie in them as (x, -z, y).
+#include "models/meshfile/flightgear_animations.h"
 #include "models/meshfile/flightgear_conditions.h"
+#include "models/meshfile/flightgear_numbers.h"
 #include "models/meshfile/flightgear_paths.h"
+#include "models/meshfile/flightgear_tree.h"
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"
 #include "models/meshfile/placement.h"
+#include "models/meshfile/turning_model.h"
 #include "models/meshfile/word_scanner.h"
 #include "models/meshfile/xml_tree.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
 
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace octant::models::meshfile {
 
@@ -28,7 +35,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t largest_file_bytes = std::size_t{64} << 20U;
 constexpr int most_depth = 8;
 constexpr std::size_t most_models = 500;
 
@@ -48,163 +54,204 @@ public:
         : path_(path)
         , options_(options) {}
 
-    TriangleMesh read() {
-        take_model(path_, {}, 0);
-        TriangleMesh mesh = std::move(joined_);
-        mesh.name = path_.stem().string();
-        if (mesh.triangles.empty()) {
+    TurningModel read() {
+        take_model(path_, {}, nullptr, 0);
+        if (model_.body.triangles.empty()) { // all of it turns: then none of it does
+            for (TurningPart& part : std::exchange(model_.parts, {})) {
+                join_mesh(model_.body, std::move(part.mesh), {});
+            }
+        }
+        if (model_.body.triangles.empty()) {
             error_in(path_, "expected a model with a mesh, got none");
         }
+        model_.body.name = path_.stem().string();
         if (!at_rest_.empty()) {
             std::string kinds;
             for (const auto& [kind, count] : at_rest_) {
                 kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", count, printable(kind));
             }
-            mesh.notes.push_back(
+            model_.body.notes.push_back(
                 fmt::format("{}: animations are left at rest: {}", path_.string(), kinds));
         }
-        return mesh;
+        return std::move(model_);
     }
 
 private:
-    double number(const fs::path& file, const XmlElement& parent, std::string_view name) const {
-        const XmlElement* found = parent.find(name);
-        if (found == nullptr || found->text.empty()) {
-            return 0.0;
-        }
-        const auto value = finite_number(found->text);
-        if (!value || std::abs(*value) > most_coordinate) {
-            error_at(file, found->line, "expected a number, got " + in_quotes(found->text));
-        }
-        return *value;
-    }
-
     Placement offsets(const fs::path& file, const XmlElement& parent) const {
         const XmlElement* found = parent.find("offsets");
         if (found == nullptr) {
             return {};
         }
         const auto angle_rad = [&](std::string_view name) {
-            return rad_from_deg(number(file, *found, name));
+            return rad_from_deg(number_in(file, *found, name));
         };
         const glm::dmat3 turn = turn_about(2, angle_rad("heading-deg")) *
                                 turn_about(1, angle_rad("pitch-deg")) *
                                 turn_about(0, angle_rad("roll-deg"));
         return {
             turn,
-            {number(file, *found, "x-m"),
-             number(file, *found, "y-m"),
-             number(file, *found, "z-m")}};
+            {number_in(file, *found, "x-m"),
+             number_in(file, *found, "y-m"),
+             number_in(file, *found, "z-m")}};
     }
 
-    void take_model(const fs::path& file, const Placement& parent, int depth) {
+    /// `about`: what turns all of it; null for what does not turn as a whole.
+    void
+    take_model(const fs::path& file, const Placement& parent, const TurningAxis* about, int depth) {
         if (ending_of(file) != ".xml") {
-            add_mesh(file, parent, {});
+            add_mesh(file, parent, {}, about);
             return;
         }
         if (depth > most_depth || ++models_ > most_models) {
             error_in(file, fmt::format("expected models at most {} deep, got more", most_depth));
         }
-        const std::string text = read_text_file(file, largest_file_bytes);
-        const XmlElement root = xml_tree(file, text);
+        const XmlElement root = flightgear_tree(file);
         const Placement own = parent.of(offsets(file, root));
-        const std::set<std::string> hidden = hidden_objects(file, root);
-        if (hidden.contains("") && depth > 0) {
+        const FlightGearAnimations animated = animations_of(file, root, own);
+        if (animated.hidden.contains("") && depth > 0) {
             return;
         }
+        about = about == nullptr ? animated.axis_of("") : about;
         if (const std::string name(root.text_of("path")); !name.empty()) {
-            take_named(file, name, own, hidden, depth);
+            take_named(file, name, own, animated, about, depth);
         }
         for (const XmlElement& child : root.children) {
-            const std::string name(child.text_of("path"));
-            const bool is_shown = holds_at_rest(child) && !is_hidden_model(child, hidden);
-            if (child.name == "model" && !name.empty() && is_shown) {
-                take_named(file, name, own.of(offsets(file, child)), {}, depth);
+            const std::string path(child.text_of("path"));
+            const std::string name(child.text_of("name"));
+            const bool is_hidden = !name.empty() && animated.hidden.contains(name);
+            if (child.name == "model" && !path.empty() && !is_hidden && holds_at_rest(child)) {
+                const TurningAxis* turned =
+                    about == nullptr && !name.empty() ? animated.axis_of(name) : about;
+                take_named(file, path, own.of(offsets(file, child)), {}, turned, depth);
             }
         }
+    }
+
+    FlightGearAnimations
+    animations_of(const fs::path& file, const XmlElement& root, const Placement& own) {
+        FlightGearAnimations animated = flightgear_animations(file, root);
+        for (FlightGearTurn& turn : animated.turns) {
+            turn.about.point_m = own.turn * turn.about.point_m + own.shift_m;
+            turn.about.direction = own.turn * turn.about.direction;
+        }
+        for (const auto& [kind, count] : animated.at_rest) {
+            at_rest_[kind] += count;
+        }
+        std::ranges::for_each(animated.notes, [&](const std::string& note) { note_once(note); });
+        return animated;
     }
 
     void take_named(
         const fs::path& from,
         const std::string& name,
         const Placement& placement,
-        const std::set<std::string>& hidden,
+        const FlightGearAnimations& animated,
+        const TurningAxis* about,
         int depth) {
         const fs::path file = flightgear_file(from, name);
-        if (file.empty() && depth == 0 && joined_.triangles.empty()) {
+        if (file.empty() && depth == 0 && model_.body.triangles.empty()) {
             error_in(from, "expected a file of its path, got none called " + in_quotes(name));
         }
         if (file.empty()) {
             note_once(fmt::format("{}: no file of path '{}'", from.string(), printable(name)));
         } else if (ending_of(file) == ".xml") {
-            take_model(file, placement, depth + 1);
+            take_sub_model(file, placement, about, depth + 1);
         } else if (is_mesh_file(file)) {
-            add_mesh(file, placement, hidden);
+            add_mesh(file, placement, animated, about);
         } else {
             note_once(file.string() + ": sub-models of this kind are left out");
         }
     }
 
-    void add_mesh(
-        const fs::path& file, const Placement& placement, const std::set<std::string>& hidden) {
-        ReadOptions options = options_;
-        options.left_out = hidden;
-        options.is_part = true;
-        TriangleMesh mesh;
+    /// A faulty file below the first one costs itself alone.
+    void take_sub_model(
+        const fs::path& file, const Placement& placement, const TurningAxis* about, int depth) {
         try {
-            mesh = read_mesh(file, options);
+            take_model(file, placement, about, depth);
         } catch (const Error& fault) {
-            note_once(fmt::format("{}; this sub-model is left out", fault.what()));
-            return;
+            note_once(fmt::format("{}; what else is in there is left out", fault.what()));
         }
-        const bool is_ac3d = ending_of(file) == ".ac";
+    }
+
+    void add_mesh(
+        const fs::path& file,
+        const Placement& placement,
+        const FlightGearAnimations& animated,
+        const TurningAxis* about) {
+        ReadOptions options = options_;
+        options.is_part = true;
+        std::set<std::string> turned;
+        bool any_turns = false;
+        for (const FlightGearTurn& turn : animated.turns) {
+            if (about == nullptr && !turn.objects.empty()) {
+                options.only = turn.objects;
+                options.left_out = animated.hidden;
+                options.left_out.insert(turned.begin(), turned.end());
+                any_turns = add_part(file, placement, options, turn.about) || any_turns;
+                turned.insert(turn.objects.begin(), turn.objects.end());
+            }
+        }
+        options.only.clear();
+        options.left_out = animated.hidden;
+        options.left_out.insert(turned.begin(), turned.end());
+        try {
+            TriangleMesh mesh = read_mesh(file, options);
+            join_mesh(
+                about == nullptr ? model_.body : part_about(*about),
+                std::move(mesh),
+                in_model(file, placement));
+        } catch (const Error& fault) {
+            if (!any_turns) { // else the rest of it may well be nothing
+                note_once(fmt::format("{}; this sub-model is left out", fault.what()));
+            }
+        }
+    }
+
+    /// The objects of a mesh file that one animation turns. False where it has none of them.
+    bool add_part(
+        const fs::path& file,
+        const Placement& placement,
+        const ReadOptions& options,
+        const TurningAxis& about) {
+        try {
+            TriangleMesh mesh = read_mesh(file, options);
+            mesh.notes.clear(); // the body's say the same
+            join_mesh(part_about(about), std::move(mesh), in_model(file, placement));
+            return true;
+        } catch (const Error&) {
+            return false;
+        }
+    }
+
+    static Placement in_model(const fs::path& file, const Placement& placement) {
         const glm::dmat3 from_ac3d(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
-        join_mesh(joined_, std::move(mesh), placement.of({is_ac3d ? from_ac3d : glm::dmat3(1.0)}));
+        return placement.of({ending_of(file) == ".ac" ? from_ac3d : glm::dmat3(1.0)});
+    }
+
+    /// The mesh of what turns about an axis: of several blades it is the same.
+    TriangleMesh& part_about(const TurningAxis& about) {
+        constexpr double near_m = 0.01;
+        for (TurningPart& part : model_.parts) {
+            const glm::dvec3 across_m =
+                glm::cross(part.about.direction, about.point_m - part.about.point_m);
+            if (glm::dot(part.about.direction, about.direction) > 1.0 - 1e-6 &&
+                glm::length(across_m) < near_m &&
+                std::abs(part.about.turns_per_s - about.turns_per_s) < 1e-9) {
+                return part.mesh;
+            }
+        }
+        return model_.parts.emplace_back(TurningPart{{}, about}).mesh;
     }
 
     void note_once(const std::string& note) {
         if (told_.insert(note).second) {
-            joined_.notes.push_back(note);
+            model_.body.notes.push_back(note);
         }
-    }
-
-    static bool is_hidden_model(const XmlElement& model, const std::set<std::string>& hidden) {
-        const std::string name(model.text_of("name"));
-        return !name.empty() && hidden.contains(name);
-    }
-
-    /// Objects that a range shows only to eyes farther away, or that a select hides at rest; an
-    /// empty name stands for all of the model. Other animations are counted.
-    std::set<std::string> hidden_objects(const fs::path& file, const XmlElement& root) {
-        std::set<std::string> objects;
-        for (const XmlElement& child : root.children) {
-            if (child.name != "animation") {
-                continue;
-            }
-            const std::string kind(child.text_of("type"));
-            const bool is_range = kind == "range";
-            if (!is_range && kind != "select") {
-                ++at_rest_[kind.empty() ? "without a type" : kind];
-                continue;
-            }
-            if (is_range ? number(file, child, "min-m") <= 0.0 : holds_at_rest(child)) {
-                continue;
-            }
-            if (child.find("object-name") == nullptr) {
-                objects.insert("");
-            }
-            for (const XmlElement& named : child.children) {
-                if (named.name == "object-name") {
-                    objects.insert(named.text);
-                }
-            }
-        }
-        return objects;
     }
 
     fs::path path_;
     ReadOptions options_;
-    TriangleMesh joined_;
+    TurningModel model_;
     std::size_t models_ = 0;
     std::map<std::string, int> at_rest_; ///< animations, by their types
     std::set<std::string> told_;
@@ -212,8 +259,19 @@ private:
 
 } // namespace
 
+TurningModel read_turning_model(const fs::path& path, const ReadOptions& options) {
+    if (ending_of(path) == ".xml") {
+        return FlightGearReading(path, options).read();
+    }
+    return {read_mesh(path, options), {}};
+}
+
 TriangleMesh read_flightgear_model(const fs::path& path, const ReadOptions& options) {
-    return FlightGearReading(path, options).read();
+    TurningModel model = read_turning_model(path, options);
+    for (TurningPart& part : model.parts) {
+        join_mesh(model.body, std::move(part.mesh), {});
+    }
+    return std::move(model.body);
 }
 
 } // namespace octant::models::meshfile

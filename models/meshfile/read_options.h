@@ -19,6 +19,9 @@ struct ReadOptions {
     bool is_part = false;
     /// Objects of .ac files that are left out, by their names, with what hangs on them.
     std::set<std::string> left_out = {};
+    /// Objects of .ac files that alone are read, by their names, with what hangs on them; none:
+    /// all are.
+    std::set<std::string> only = {};
 };
 
 } // namespace octant::models::meshfile

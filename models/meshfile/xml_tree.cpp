@@ -106,6 +106,26 @@ private:
         return tag.substr(0, std::min(tag.find_first_of(" \t\r\n/"), tag.size()));
     }
 
+    /// The value of an attribute of a tag; empty where it has none.
+    static std::string attribute_of(std::string_view tag, std::string_view name) {
+        std::string value;
+        for (std::size_t at = tag.find(name); at != tag.npos; at = tag.find(name, at + 1)) {
+            std::string_view rest = tag.substr(at + name.size());
+            const bool is_word = at > 0 && blanks.find(tag[at - 1]) != blanks.npos;
+            rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+            if (is_word && rest.starts_with('=')) {
+                const std::size_t open = rest.find_first_of("\"'");
+                const std::size_t close =
+                    open == rest.npos ? open : rest.find(rest[open], open + 1);
+                if (close != rest.npos) {
+                    add_text(value, rest.substr(open + 1, close - open - 1));
+                }
+                return value;
+            }
+        }
+        return value;
+    }
+
     XmlElement element(int depth) {
         if (depth > most_depth) {
             refuse(fmt::format("elements at most {} deep", most_depth), "a deeper one");
@@ -114,6 +134,7 @@ private:
         made.line = line_;
         const std::string_view tag = take_tag();
         made.name = name_of(tag);
+        made.include = attribute_of(tag, "include");
         if (made.name.empty()) {
             refuse("the name of an element", in_quotes(tag));
         }

@@ -8,10 +8,11 @@
 namespace octant::models::meshfile {
 
 /// An element of an XML file: its name, the text right inside it without blanks at its ends, and
-/// the elements in it. Attributes are left out.
+/// the elements in it. Of its attributes only `include` is kept.
 struct XmlElement {
     std::string name;
     std::string text;
+    std::string include; ///< the attribute of that name; empty where there is none
     std::vector<XmlElement> children;
     int line = 0;
 

@@ -2,14 +2,19 @@
 
 #include "models/measure/mesh_distance.h"
 #include "models/polygons/mesh_polygons.h"
+#include "sim/base/text_file.h"
 #include "ui/base/stopwatch.h"
 #include "ui/world/aircraft_axes.h"
 #include "ui/world/refine_input.h"
+#include "ui/world/turning_parts.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/selective_refiner.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <fmt/format.h>
 #include <utility>
+#include <vector>
 
 namespace octant::ui::world {
 
@@ -22,16 +27,6 @@ namespace {
 
 /// Few enough polygons for a painting order.
 constexpr std::size_t far_faces = 250;
-
-/// Into body axes: a rotation, so that no triangle turns over.
-void turn(models::TriangleMesh& mesh, const models::polygons::FileAxes& axes) {
-    for (glm::dvec3& vertex_m : mesh.vertices_m) {
-        vertex_m = axes.body_from_file(vertex_m);
-    }
-    for (glm::vec3& normal : mesh.normals) {
-        normal = glm::vec3(axes.body_from_file(glm::dvec3(normal)));
-    }
-}
 
 std::shared_ptr<const refine::ProgressiveMesh>
 turned(const refine::ProgressiveMesh& mesh, const models::polygons::FileAxes& axes) {
@@ -75,11 +70,24 @@ void add_note(MeshAircraft& aircraft, const AircraftAxes& axes, const std::files
     }
 }
 
+/// A hierarchy from its file, or made of a mesh; what turns beside it, in axes of the file.
+RefineMesh
+hierarchy_in(const std::filesystem::path& file, std::vector<meshfile::TurningPart>& turning) {
+    const RefineInput input{.file = file.string(), .base = 0, .quiet = true};
+    if (ending_of(file) != ".xml") {
+        return read_refine_mesh(input);
+    }
+    meshfile::TurningModel model =
+        meshfile::read_turning_model(file, {.pictures = true, .backs = true});
+    turning = std::move(model.parts);
+    return made_refine_mesh(input, std::move(model.body));
+}
+
 MeshAircraft from_hierarchy(const std::filesystem::path& file, const std::string& setting) {
     const base::Stopwatch watch;
-    RefineMesh input = read_refine_mesh({.file = file.string(), .base = 0, .quiet = true});
-    const AircraftAxes axes = aircraft_axes(setting, file, finest_mesh(*input.mesh));
     MeshAircraft aircraft;
+    RefineMesh input = hierarchy_in(file, aircraft.turning);
+    const AircraftAxes axes = aircraft_axes(setting, file, finest_mesh(*input.mesh));
     aircraft.notes = std::move(input.notes);
     add_note(aircraft, axes, file);
     aircraft.hierarchy = turned(*input.mesh, axes.axes);
@@ -90,6 +98,15 @@ MeshAircraft from_hierarchy(const std::filesystem::path& file, const std::string
     aircraft.polygons_error_m =
         measure::distance(finest_mesh(*aircraft.hierarchy), far, loosely).most_hausdorff_m();
     aircraft.polygons = models::polygons::as_polygons(far);
+    for (meshfile::TurningPart& part : aircraft.turning) {
+        turn_part(part, axes.axes);
+    }
+    aircraft.polygons_error_m =
+        std::max(aircraft.polygons_error_m, add_far_parts(aircraft.turning, aircraft.polygons));
+    if (!aircraft.turning.empty()) {
+        aircraft.notes.push_back(
+            fmt::format("{}: {} parts turn in flight", file.string(), aircraft.turning.size()));
+    }
     aircraft.notes.push_back(fmt::format(
         "{}: {} triangles made ready to be refined in {:.1f} s",
         file.string(),
@@ -118,7 +135,7 @@ MeshAircraft from_chain(const std::filesystem::path& file, const std::string& se
     }
     for (meshfile::ChainLevel& level : chain.levels) {
         if (level.error_m < aircraft.polygons_error_m) {
-            turn(level.mesh, axes);
+            turn_mesh(level.mesh, axes);
             aircraft.levels.push_back(std::move(level));
         }
     }
@@ -134,6 +151,11 @@ MeshAircraft read_mesh_aircraft(const std::filesystem::path& file, const std::st
 void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
     if (aircraft.hierarchy) {
         planning::add_progressive(model, aircraft.hierarchy, aircraft.polygons_error_m);
+        std::vector<planning::TurningMesh> parts;
+        for (const meshfile::TurningPart& part : aircraft.turning) {
+            parts.push_back({&part.mesh, static_cast<std::uint32_t>(parts.size())});
+        }
+        planning::add_turning(model, parts);
         return;
     }
     std::vector<planning::MeshSource> sources;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/meshfile/level_chain.h"
+#include "models/meshfile/turning_model.h"
 #include "models/polygons/polygon_model.h"
 #include "visuals/planning/aircraft_model.h"
 #include "visuals/refine/progressive_mesh.h"
@@ -17,6 +18,8 @@ namespace octant::ui::world {
 struct MeshAircraft {
     std::vector<models::meshfile::ChainLevel> levels; ///< finest first; none with a hierarchy
     std::shared_ptr<const visuals::refine::ProgressiveMesh> hierarchy; ///< null with levels
+    /// What turns beside the hierarchy; its pivots are those of the polygons.
+    std::vector<models::meshfile::TurningPart> turning;
     models::polygons::PolygonModel polygons;
     double polygons_error_m = 0.0; ///< certified
     std::vector<std::string> notes;

@@ -131,6 +131,9 @@ private:
     }
 
     void follow_elements(const fs::path& file, const models::meshfile::XmlElement& element) {
+        if (!element.include.empty()) {
+            add(models::meshfile::flightgear_file(file, element.include));
+        }
         for (const models::meshfile::XmlElement& child : element.children) {
             if (child.name == "path") {
                 add(models::meshfile::flightgear_file(file, child.text));

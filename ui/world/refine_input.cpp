@@ -52,12 +52,14 @@ void refuse_too_many(const std::string& file, const models::TriangleMesh& mesh) 
     }
 }
 
-refine::ProgressiveMesh made_hierarchy(const RefineInput& input, std::vector<std::string>& notes) {
-    models::repair::RepairedMesh repaired =
-        models::repair::repaired(read_mesh_input(input.file, {.pictures = true, .backs = true}));
-    notes = repaired.mesh.notes;
+} // namespace
+
+RefineMesh made_refine_mesh(const RefineInput& input, models::TriangleMesh mesh) {
+    models::repair::RepairedMesh repaired = models::repair::repaired(std::move(mesh));
+    RefineMesh result;
+    result.notes = repaired.mesh.notes;
     for (const std::string& line : models::repair::in_words(repaired.counts)) {
-        notes.push_back(input.file + ": " + line);
+        result.notes.push_back(input.file + ": " + line);
     }
     if (repaired.mesh.triangles.empty()) {
         error_in(input.file, "expected a mesh with triangles, got none");
@@ -76,10 +78,9 @@ refine::ProgressiveMesh made_hierarchy(const RefineInput& input, std::vector<std
     const models::CollapseSequence sequence =
         models::simplify::fast_sequence(std::move(repaired.mesh), options);
     progress.finish();
-    return refine::ProgressiveMesh(sequence);
+    result.mesh = std::make_shared<const refine::ProgressiveMesh>(sequence);
+    return result;
 }
-
-} // namespace
 
 RefineMesh read_refine_mesh(const RefineInput& input) {
     RefineMesh result;
@@ -91,8 +92,8 @@ RefineMesh read_refine_mesh(const RefineInput& input) {
         }
         result.notes = result.mesh->parts().notes;
     } else {
-        result.mesh =
-            std::make_shared<const refine::ProgressiveMesh>(made_hierarchy(input, result.notes));
+        result =
+            made_refine_mesh(input, read_mesh_input(input.file, {.pictures = true, .backs = true}));
     }
     return result;
 }

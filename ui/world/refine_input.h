@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/triangle_mesh.h"
 #include "visuals/refine/progressive_mesh.h"
 
 #include <cstddef>
@@ -25,6 +26,9 @@ struct RefineMesh {
 
 /// Reads, or makes by repair and simplification, a hierarchy. Throws Error.
 RefineMesh read_refine_mesh(const RefineInput& input);
+
+/// Makes a hierarchy of a mesh that has been read from the input's file. Throws Error.
+RefineMesh made_refine_mesh(const RefineInput& input, models::TriangleMesh mesh);
 
 /// Reads or makes a hierarchy as read_refine_mesh does, and prints its notes to stderr. Throws
 /// Error.

@@ -20,18 +20,6 @@ void widen(HullExtent& extent, const glm::dvec3& least_m, const glm::dvec3& most
     extent.most_m = glm::max(extent.most_m, most_m);
 }
 
-/// Corners of the circle that a point runs about the axis of a pivot.
-void widen_by_circle(
-    HullExtent& extent, const models::polygons::Pivot& pivot, const glm::dvec3& point_m) {
-    const glm::dvec3 arm_m = point_m - pivot.point_m;
-    const glm::dvec3 along_m = pivot.axis * glm::dot(arm_m, pivot.axis);
-    const double radius_m = glm::length(arm_m - along_m);
-    const glm::dvec3 reach_m =
-        radius_m * glm::sqrt(glm::max(1.0 - pivot.axis * pivot.axis, glm::dvec3(0.0)));
-    const glm::dvec3 centre_m = pivot.point_m + along_m;
-    widen(extent, centre_m - reach_m, centre_m + reach_m);
-}
-
 glm::dvec3 signs_of(int corner) {
     return {
         (corner & 1) != 0 ? 1.0 : -1.0,
@@ -95,6 +83,16 @@ bool apart_on_screen(const SightCone& cone, const std::array<glm::dvec3, 8>& cor
 
 } // namespace
 
+HullExtent circle_of(const models::polygons::Pivot& pivot, const glm::dvec3& point_m) {
+    const glm::dvec3 arm_m = point_m - pivot.point_m;
+    const glm::dvec3 along_m = pivot.axis * glm::dot(arm_m, pivot.axis);
+    const double radius_m = glm::length(arm_m - along_m);
+    const glm::dvec3 reach_m =
+        radius_m * glm::sqrt(glm::max(1.0 - pivot.axis * pivot.axis, glm::dvec3(0.0)));
+    const glm::dvec3 centre_m = pivot.point_m + along_m;
+    return {centre_m - reach_m, centre_m + reach_m};
+}
+
 HullExtent hull_extent(const models::polygons::PolygonModel& model) {
     HullExtent extent{glm::dvec3(infinite), glm::dvec3(-infinite)};
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
@@ -103,7 +101,8 @@ HullExtent hull_extent(const models::polygons::PolygonModel& model) {
             const glm::dvec3& point_m = model.vertices_m[vertex];
             widen(extent, point_m, point_m);
             if (pivot) {
-                widen_by_circle(extent, model.pivots[*pivot], point_m);
+                const HullExtent circle = circle_of(model.pivots[*pivot], point_m);
+                widen(extent, circle.least_m, circle.most_m);
             }
         }
     }

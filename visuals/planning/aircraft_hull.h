@@ -22,6 +22,9 @@ struct HullExtent {
 /// The extent of a model, at all angles of its pivots. Slow: to be asked once, at loading.
 HullExtent hull_extent(const models::polygons::PolygonModel& model);
 
+/// The smallest box around the circle that a point runs about the axis of a pivot.
+HullExtent circle_of(const models::polygons::Pivot& pivot, const glm::dvec3& point_m);
+
 /// A box that stands in for one aircraft, or for several: world axes with the eye at the origin.
 struct HullBox {
     glm::dvec3 centre_m{0.0};

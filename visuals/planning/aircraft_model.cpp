@@ -125,7 +125,8 @@ AircraftModel aircraft_model(
         std::move(shaded),
         {},
         nullptr,
-        {0.0}};
+        {0.0},
+        {}};
 }
 
 namespace {
@@ -164,6 +165,25 @@ void add_progressive(
     model.progressive = std::move(mesh);
     model.errors_m = {0.0, polygons_error_m};
     model.buffers.has_meshes = true;
+}
+
+void add_turning(AircraftModel& model, std::span<const TurningMesh> parts) {
+    assert(model.progressive != nullptr && model.turning.index_count == 0);
+    model.turning.first_index = static_cast<std::uint32_t>(model.buffers.indices.size());
+    for (const TurningMesh& part : parts) {
+        const models::polygons::Pivot& pivot = model.polygons.pivots[part.pivot];
+        const std::size_t first = model.buffers.vertices.size();
+        const MeshLevel level = append_level(model.buffers, {part.mesh, 0.0});
+        model.turning.index_count += level.range.index_count;
+        model.turning.polygons += level.range.polygons;
+        for (scene::ModelVertex& vertex : std::span(model.buffers.vertices).subspan(first)) {
+            vertex.part = part.pivot + 1;
+            vertex.polygon = 0;
+            const HullExtent circle = circle_of(pivot, glm::dvec3(vertex.position_m));
+            include(model, circle.least_m);
+            include(model, circle.most_m);
+        }
+    }
 }
 
 glm::dvec3 pilot_eye_m(const models::polygons::PolygonModel& model) {

@@ -38,6 +38,9 @@ struct AircraftModel {
     std::shared_ptr<const refine::ProgressiveMesh> progressive;
     /// Of each representation: the levels or the progressive mesh, then the polygons.
     std::vector<double> errors_m;
+    /// With a progressive mesh: triangles of what turns beside it, by the pivots of the polygons.
+    /// Their polygons have the number 0 each: all smooth, or all flat.
+    scene::IndexRange turning{};
 
     /// Number of the representation by polygons.
     std::size_t as_polygons() const { return errors_m.size() - 1; }
@@ -69,6 +72,15 @@ void add_progressive(
     AircraftModel& model,
     std::shared_ptr<const refine::ProgressiveMesh> mesh,
     double polygons_error_m);
+
+/// A part of a mesh aircraft that turns by a pivot of its polygons.
+struct TurningMesh {
+    const models::TriangleMesh* mesh = nullptr; ///< body axes, as at the time 0
+    std::uint32_t pivot = 0;                    ///< index into PolygonModel::pivots
+};
+
+/// Gives a model with a progressive mesh the parts that turn beside it. Loading work.
+void add_turning(AircraftModel& model, std::span<const TurningMesh> parts);
 
 /// Where a pilot's eye may be in an aircraft of which only the shape is known, body axes: a quarter
 /// of the length behind the nose at the height of the top.

@@ -241,6 +241,7 @@ void Planner::plan_overlay(const PlanRequest& request) {
 void Planner::count_aircraft(PlanCounts& counts) const {
     for (const PlacedAircraft& aircraft : placed_) {
         counts.aircraft_polygons += aircraft.polygon_count;
+        counts.aircraft_polygons += is_refined(aircraft) ? aircraft.model->turning.polygons : 0;
     }
     counts.refine_splits = refine_splits_;
     counts.refine_collapses = refine_collapses_;

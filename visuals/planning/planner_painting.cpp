@@ -79,6 +79,11 @@ void Planner::paint(const PlacedAircraft& aircraft, scene::DepthUse depth) {
     draw.first_smooth = smooth_.refined_word();
     draw.tints = aircraft.tints;
     steps_.paint(draw);
+    if (const scene::IndexRange& turning = aircraft.model->turning; turning.index_count > 0) {
+        scene::AircraftDraw beside = draw_of(aircraft, turning.first_index, turning.index_count);
+        beside.first_smooth = smooth_.turning_word();
+        steps_.paint(beside, scene::DepthUse::Nearest);
+    }
 }
 
 void Planner::paint_knots(const scene::Camera& camera, PlanCounts& counts) {

@@ -107,7 +107,7 @@ SmoothChoice::SmoothChoice(
             choosers_[i].emplace_back(model.shaded_as(as), rule_of(settings));
         }
     }
-    bits_.assign(words, settings.kind == scene::AircraftShading::Flat ? 0U : ~0U);
+    bits_.assign(words + 1, settings.kind == scene::AircraftShading::Flat ? 0U : ~0U);
     bits_.push_back(1);
 }
 

@@ -48,6 +48,9 @@ public:
     /// RefinedDraw::first_smooth of all that is refined.
     std::uint32_t refined_word() const { return static_cast<std::uint32_t>(bits_.size() - 1); }
 
+    /// AircraftDraw::first_smooth of parts that turn beside what is refined.
+    std::uint32_t turning_word() const { return static_cast<std::uint32_t>(bits_.size() - 2); }
+
     /// Of how many polygons, and how many of them.
     struct Count {
         int polygons = 0;

@@ -1,5 +1,6 @@
 #include "models/meshfile/format_axes.h"
 #include "models/meshfile/mesh_file.h"
+#include "models/meshfile/turning_model.h"
 #include "models/meshfile/xml_tree.h"
 #include "models/repair/repair.h"
 #include "sim/base/error.h"
@@ -164,7 +165,8 @@ TEST_CASE("FlightGear's models bring their sub-models, moved and turned") {
         "plane.xml",
         "<PropertyList>\n <path>square.ac</path>\n <model n=\"1\"><path>part.xml</path><offsets>"
         "<x-m>10</x-m><heading-deg>90</heading-deg></offsets></model>\n"
-        "<animation><type>spin</type></animation></PropertyList>");
+        "<animation><type>spin</type><property>gear/rollspeed-ms</property></animation>"
+        "</PropertyList>");
     const TriangleMesh mesh = read_mesh(file);
     REQUIRE(mesh.vertices_m.size() == 8);
     CHECK(mesh.vertices_m[2].x == Approx(1.0)); // AC3D's y is up
@@ -174,6 +176,102 @@ TEST_CASE("FlightGear's models bring their sub-models, moved and turned") {
     CHECK(mesh.vertices_m[6].z == Approx(4.0));
     CHECK_THAT(mesh.notes.back(), Catch::Contains("left at rest: 1 spin"));
     CHECK(axes_of_format(file)->text() == "back,right,up");
+}
+
+TEST_CASE("propellers and rotors of a FlightGear model turn, wheels stay with the body") {
+    const auto object = [](const std::string& name, const std::string& kids) {
+        return "OBJECT poly\nname \"" + name +
+               "\"\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\nmat 0\nrefs 3\n"
+               "0 0 0\n1 0 0\n2 0 0\nkids " +
+               kids + "\n";
+    };
+    file_with(
+        "parts.ac",
+        "AC3Db\nMATERIAL \"w\" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0\n"
+        "OBJECT world\nkids 5\n" +
+            object("hull", "0") + object("wheel", "0") + object("hub", "1") + object("blade", "0") +
+            object("blade2", "0") + object("rotor", "0"));
+    const auto animation = [](const std::string& kind,
+                              const std::string& property,
+                              const std::string& objects,
+                              const std::string& rest) {
+        return "<animation><type>" + kind + "</type><property>" + property + "</property>" +
+               objects + rest + "</animation>";
+    };
+    const auto named = [](const std::string& name) {
+        return "<object-name>" + name + "</object-name>";
+    };
+    const std::string forward = "<factor>-2</factor><center><x-m>1</x-m><z-m>3</z-m></center>"
+                                "<axis><x>-4</x><y>0</y><z>0</z></axis>";
+    const std::string upwards =
+        "<axis><x1-m>5</x1-m><y1-m>0</y1-m><z1-m>1</z1-m><x2-m>5</x2-m><y2-m>0</y2-m>"
+        "<z2-m>2</z2-m></axis>";
+    const auto file = file_with(
+        "parts.xml",
+        "<PropertyList><path>parts.ac</path><offsets><y-m>10</y-m></offsets>" +
+            animation("spin", "gear/gear/rollspeed-ms", named("wheel"), forward) +
+            animation("spin", "engines/engine[0]/rpm", named("hub"), forward) +
+            animation("spin", "engines/engine[0]/rpm", named("blade2"), forward) +
+            animation("rotate", "rotors/main/blade/position-deg", named("rotor"), upwards) +
+            animation("rotate", "rotors/main/blade/flap-deg", named("rotor"), upwards) +
+            animation("rotate", "gear/position-norm", named("wheel"), "<factor>1.2.3</factor>") +
+            animation("spin", "engines/engine/rpm", named("hull"), "<factor>1,5</factor>") +
+            "</PropertyList>");
+    const TurningModel model = read_turning_model(file, {});
+    CHECK(model.body.triangles.size() == 2); // hull and wheel
+    REQUIRE(model.parts.size() == 2);
+    CHECK(model.parts[0].mesh.triangles.size() == 3); // the hub, what hangs on it, blade2
+    CHECK(model.parts[0].about.turns_per_s == Approx(-80.0));
+    CHECK(model.parts[0].about.direction == glm::dvec3(-1.0, 0.0, 0.0));
+    CHECK(model.parts[0].about.point_m == glm::dvec3(1.0, 10.0, 3.0));
+    CHECK(model.parts[1].mesh.triangles.size() == 1);
+    CHECK(model.parts[1].about.turns_per_s == Approx(6.5));
+    CHECK(model.parts[1].about.direction == glm::dvec3(0.0, 0.0, 1.0));
+    CHECK_THAT(model.body.notes.back(), Catch::Contains("left at rest: 2 rotate, 2 spin"));
+    CHECK_THAT(
+        model.body.notes.front(),
+        Catch::Contains("expected a number, got '1,5'; what it turns is left at rest"));
+    CHECK(read_mesh(file).triangles.size() == 6); // as one mesh all of it is there
+    CHECK(read_turning_model(file.parent_path() / "parts.ac", {}).parts.empty());
+}
+
+TEST_CASE("a FlightGear model includes files and names groups of objects") {
+    file_with("square.ac", square("0x0", "blade"));
+    file_with(
+        "spin.xml",
+        "<PropertyList><type>spin</type><property>rotors/tail/rpm</property><axis><y>1</y></axis>"
+        "</PropertyList>");
+    file_with(
+        "common.xml",
+        "<PropertyList><model><path>square.ac</path></model><animation><name>all</name>"
+        "<object-name>blade</object-name></animation></PropertyList>");
+    const auto file = file_with(
+        "including.xml",
+        "<PropertyList include=\"common.xml\"><path>square.ac</path><animation n='3' include = "
+        "'spin.xml'><object-name>all</object-name></animation><animation include='gone.xml'/>"
+        "</PropertyList>");
+    const TurningModel model = read_turning_model(file, {});
+    CHECK(model.body.triangles.size() == 2); // the sub-model
+    REQUIRE(model.parts.size() == 1);
+    CHECK(model.parts[0].about.direction == glm::dvec3(0.0, 1.0, 0.0));
+    CHECK_THROWS_WITH(
+        read_mesh(file_with(
+            "endless.xml", "<PropertyList include='endless.xml'><path>x.ac</path></PropertyList>")),
+        Catch::Contains("expected includes at most 8 deep, got more"));
+}
+
+TEST_CASE("a sub-model turns as the model that holds it says by its name") {
+    file_with("square.ac", square("0x0"));
+    const auto file = file_with(
+        "holder.xml",
+        "<PropertyList><path>square.ac</path><model><name>fan</name><path>square.ac</path>"
+        "</model><animation><type>spin</type><object-name>fan</object-name>"
+        "<property>/engines/engine/n1</property><axis><x>1</x></axis></animation></PropertyList>");
+    const TurningModel model = read_turning_model(file, {});
+    CHECK(model.body.triangles.size() == 2);
+    REQUIRE(model.parts.size() == 1);
+    CHECK(model.parts[0].mesh.triangles.size() == 2);
+    CHECK(model.parts[0].about.turns_per_s == Approx(1.5));
 }
 
 TEST_CASE("what a range shows from afar only is left out of a FlightGear model") {

@@ -96,6 +96,14 @@ std::vector<glm::vec3> places(const scene::RefinedDraw& draw) {
     return found;
 }
 
+int triangles_in(const scene::RefinedDraw& draw) {
+    int triangles = 0;
+    for (std::size_t i = 0; i + 2 < draw.indices.size(); i += 3) {
+        triangles += draw.indices[i] != draw.indices[i + 1] ? 1 : 0;
+    }
+    return triangles;
+}
+
 int smooth_in(const scene::RefinedDraw& draw) {
     int smooth = 0;
     for (std::size_t i = 0; i + 2 < draw.indices.size(); i += 3) {
@@ -231,4 +239,52 @@ TEST_CASE("far away, where its polygons are good enough, a refined aircraft is d
     REQUIRE(model.errors_m.size() == 2);
     CHECK(drawn_at(100.0) == 0);
     CHECK(drawn_at(1000.0) == static_cast<int>(model.as_polygons()));
+}
+
+TEST_CASE("what turns beside a refined aircraft is drawn after it by the same depth, turned") {
+    models::polygons::PolygonModel polygons = box_model({4.0, 4.0, 1.0});
+    polygons.parts.emplace_back("propeller");
+    polygons.pivots.push_back({1, {5.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.25});
+    planning::AircraftModel model = convex_aircraft(polygons);
+    planning::add_progressive(model, hierarchy(), 0.2);
+    models::TriangleMesh blade;
+    blade.vertices_m = {{5, 0, 0}, {5, 1, 6}, {5, -1, 6}};
+    blade.triangles = {{0, 1, 2}, {0, 2, 1}};
+    const std::array<planning::TurningMesh, 1> parts{{{&blade, 0}}};
+    planning::add_turning(model, parts);
+    CHECK(model.hull.most_m.y == Approx(std::sqrt(37.0))); // wherever the blade points
+    CHECK(model.hull.least_m.z == Approx(-std::sqrt(37.0)));
+
+    planning::Scene scene;
+    scene.ground = triangle_ground({});
+    scene.add_model(std::move(model));
+    scene.aircraft = {0};
+    for (const auto kind : {scene::AircraftShading::Hybrid, scene::AircraftShading::Flat}) {
+        scene::Settings settings = plain_settings();
+        settings.shading.kind = kind;
+        planning::Planner planner(scene, settings);
+        std::array states{state_at({0, 30, 0})};
+        states[0].time_s = 1.0; // a quarter turn
+        const planning::PlannedFrame frame =
+            planner.plan({scene::camera_looking_at({0, 0, 0}, {0, 30, 0}), states});
+        const scene::FramePlan& plan = frame.plan;
+        REQUIRE(plan.steps.size() == 3);
+        CHECK(plan.steps[0].what == scene::PaintStep::What::ClearDepth);
+        CHECK(plan.steps[1].what == scene::PaintStep::What::Refined);
+        REQUIRE(plan.refined.size() == 1);
+        CHECK(frame.counts.aircraft_polygons == triangles_in(plan.refined[0]) + 2);
+        CHECK(plan.steps[2].what == scene::PaintStep::What::Aircraft);
+        CHECK(plan.steps[2].depth == scene::DepthUse::Nearest);
+        REQUIRE(plan.aircraft.size() == 1);
+        const scene::AircraftDraw& draw = plan.aircraft[0];
+        CHECK(draw.index_count == 6);
+        CHECK(plan.smooth[draw.first_smooth] % 2 == (kind == scene::AircraftShading::Flat ? 0 : 1));
+        const scene::ModelBuffers& buffers = scene.models[0]->buffers;
+        const scene::ModelVertex& tip = buffers.vertices[buffers.indices[draw.first_index + 1]];
+        CHECK(tip.part == 1);
+        const glm::vec3 turned(
+            plan.parts[draw.first_part + tip.part] * glm::vec4(tip.position_m, 1.0F));
+        const glm::vec3 still(plan.parts[draw.first_part] * glm::vec4(5.0F, -6.0F, 1.0F, 1.0F));
+        CHECK(glm::distance(turned, still) < 1e-4F);
+    }
 }

@@ -1,0 +1,135 @@
+#include "models/meshfile/flightgear_animations.h"
+
+#include "models/meshfile/flightgear_conditions.h"
+#include "models/meshfile/flightgear_numbers.h"
+#include "sim/base/error.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <fmt/format.h>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+namespace octant::models::meshfile {
+
+namespace {
+
+using Names = std::set<std::string>;
+using Groups = std::map<std::string, Names>;
+
+void add_names(const XmlElement& animation, Names& names) {
+    if (animation.find("object-name") == nullptr) {
+        names.insert("");
+    }
+    for (const XmlElement& named : animation.children) {
+        if (named.name == "object-name") {
+            names.insert(named.text);
+        }
+    }
+}
+
+/// Animations without a type give several objects one name.
+Groups groups_in(const XmlElement& root) {
+    Groups groups;
+    for (const XmlElement& child : root.children) {
+        const std::string name(child.text_of("name"));
+        if (child.name == "animation" && child.text_of("type").empty() && !name.empty()) {
+            add_names(child, groups[name]);
+        }
+    }
+    return groups;
+}
+
+/// Adds the members of all groups that are named, and of groups among them.
+void expand(Names& names, const Groups& groups) {
+    for (std::size_t before = 0; before != names.size();) {
+        before = names.size();
+        for (const auto& [group, members] : groups) {
+            if (names.contains(group)) {
+                names.insert(members.begin(), members.end());
+            }
+        }
+    }
+}
+
+bool is_shadow(const std::string& name) {
+    std::string lower = name;
+    std::ranges::transform(
+        lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return lower.find("shadow") != lower.npos;
+}
+
+/// Sheets that FlightGear's older models move along the ground below them.
+void add_shadows(const XmlElement& animation, Names& hidden) {
+    Names names;
+    add_names(animation, names);
+    std::ranges::copy_if(names, std::inserter(hidden, hidden.end()), is_shadow);
+}
+
+/// Turns of objects about the same axis become one: each costs a reading of the mesh.
+void add_turn(FlightGearTurn turn, std::vector<FlightGearTurn>& turns) {
+    const auto found = std::ranges::find_if(turns, [&](const FlightGearTurn& other) {
+        return other.objects.empty() == turn.objects.empty() &&
+               other.about.point_m == turn.about.point_m &&
+               other.about.direction == turn.about.direction &&
+               other.about.turns_per_s == turn.about.turns_per_s;
+    });
+    if (found != turns.end()) {
+        found->objects.merge(turn.objects);
+    } else {
+        turns.push_back(std::move(turn));
+    }
+}
+
+/// One whose numbers are faulty is left at rest.
+std::optional<FlightGearTurn> turn_of(
+    const std::filesystem::path& file,
+    const XmlElement& animation,
+    std::vector<std::string>& notes) {
+    try {
+        return turn_in_flight(file, animation);
+    } catch (const Error& fault) {
+        notes.push_back(fmt::format("{}; what it turns is left at rest", fault.what()));
+        return std::nullopt;
+    }
+}
+
+} // namespace
+
+const TurningAxis* FlightGearAnimations::axis_of(const std::string& object) const {
+    const auto found = std::ranges::find_if(turns, [&](const FlightGearTurn& turn) {
+        return object.empty() ? turn.objects.empty() : turn.objects.contains(object);
+    });
+    return found == turns.end() ? nullptr : &found->about;
+}
+
+FlightGearAnimations
+flightgear_animations(const std::filesystem::path& file, const XmlElement& root) {
+    const Groups groups = groups_in(root);
+    FlightGearAnimations animated;
+    for (const XmlElement& child : root.children) {
+        const std::string kind(child.text_of("type"));
+        if (child.name != "animation" || kind.empty()) {
+            continue;
+        }
+        if (kind == "range" || kind == "select") {
+            if (kind == "range" ? number_in(file, child, "min-m") > 0.0 : !holds_at_rest(child)) {
+                add_names(child, animated.hidden);
+            }
+        } else if (auto turn = turn_of(file, child, animated.notes)) {
+            expand(turn->objects, groups);
+            add_turn(std::move(*turn), animated.turns);
+        } else {
+            ++animated.at_rest[kind];
+            if (kind == "translate" || kind == "rotate") {
+                add_shadows(child, animated.hidden);
+            }
+        }
+    }
+    expand(animated.hidden, groups);
+    return animated;
+}
+
+} // namespace octant::models::meshfile

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "models/meshfile/flightgear_turns.h"
+#include "models/meshfile/xml_tree.h"
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace octant::models::meshfile {
+
+/// What the animations of one FlightGear model do to the objects of its mesh and to its
+/// sub-models, by their names; axes of that model.
+struct FlightGearAnimations {
+    /// What a range shows only to eyes farther away, what a select hides at rest, and what is moved
+    /// along the ground as a shadow. An empty name stands for all of the model.
+    std::set<std::string> hidden;
+    std::vector<FlightGearTurn> turns;  ///< of objects about the same axis only one
+    std::map<std::string, int> at_rest; ///< how many others there are, by their types
+    std::vector<std::string> notes;     ///< faults in them; often none
+
+    /// What turns an object; the empty name stands for all of the model. Null for what stays.
+    const TurningAxis* axis_of(const std::string& object) const;
+};
+
+/// `root`: of flightgear_tree(file). Throws Error for ranges with faulty numbers.
+FlightGearAnimations
+flightgear_animations(const std::filesystem::path& file, const XmlElement& root);
+
+} // namespace octant::models::meshfile

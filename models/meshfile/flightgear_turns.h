@@ -1,0 +1,26 @@
+#pragma once
+
+#include "models/meshfile/turning_model.h"
+#include "models/meshfile/xml_tree.h"
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+
+namespace octant::models::meshfile {
+
+/// An animation by which something turns in flight; axes of the FlightGear model.
+struct FlightGearTurn {
+    std::set<std::string> objects; ///< by name; empty: all of the model
+    TurningAxis about;
+};
+
+/// What an animation turns while the aircraft flies: `spin` of engines and rotors, `rotate` by a
+/// rotor's angle. They turn as at cruise, since a file says by which property only: propellers at
+/// 2400 turns a minute, main rotors at 390, tail rotors at 2000, turbines at 90 per cent. Nothing
+/// for wheels, instruments and all other animations. Throws Error for faulty numbers.
+std::optional<FlightGearTurn>
+turn_in_flight(const std::filesystem::path& file, const XmlElement& animation);
+
+} // namespace octant::models::meshfile

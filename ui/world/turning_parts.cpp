@@ -1,0 +1,85 @@
+#include "ui/world/turning_parts.h"
+
+#include "models/measure/mesh_distance.h"
+#include "models/polygons/mesh_polygons.h"
+#include "models/repair/repair.h"
+#include "models/simplify/simplify.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <fmt/format.h>
+#include <utility>
+
+namespace octant::ui::world {
+
+namespace {
+
+using models::meshfile::TurningPart;
+using models::polygons::Polygon;
+using models::polygons::PolygonModel;
+
+/// Triangles of all parts together, and of one at least.
+constexpr std::size_t far_faces_of_parts = 120;
+constexpr std::size_t least_far_faces = 12;
+
+void append(PolygonModel& to, const PolygonModel& from, std::uint32_t part) {
+    const auto first_vertex = static_cast<std::uint32_t>(to.vertices_m.size());
+    const auto first_corner = static_cast<std::uint32_t>(to.corner_vertices.size());
+    const auto first_material = static_cast<std::uint32_t>(to.materials.size());
+    to.vertices_m.insert(to.vertices_m.end(), from.vertices_m.begin(), from.vertices_m.end());
+    to.materials.insert(to.materials.end(), from.materials.begin(), from.materials.end());
+    for (const std::uint32_t vertex : from.corner_vertices) {
+        to.corner_vertices.push_back(first_vertex + vertex);
+    }
+    for (Polygon polygon : from.polygons) {
+        polygon.first_corner += first_corner;
+        polygon.material += first_material;
+        polygon.part = part;
+        to.polygons.push_back(polygon);
+    }
+}
+
+} // namespace
+
+void turn_mesh(models::TriangleMesh& mesh, const models::polygons::FileAxes& axes) {
+    for (glm::dvec3& vertex_m : mesh.vertices_m) {
+        vertex_m = axes.body_from_file(vertex_m);
+    }
+    for (glm::vec3& normal : mesh.normals) {
+        normal = glm::vec3(axes.body_from_file(glm::dvec3(normal)));
+    }
+}
+
+void turn_part(TurningPart& part, const models::polygons::FileAxes& axes) {
+    turn_mesh(part.mesh, axes);
+    part.about.point_m = axes.body_from_file(part.about.point_m);
+    part.about.direction = axes.body_from_file(part.about.direction);
+}
+
+double add_far_parts(std::span<const TurningPart> parts, PolygonModel& polygons) {
+    double error_m = 0.0;
+    for (const TurningPart& part : parts) {
+        const auto number = static_cast<std::uint32_t>(polygons.parts.size());
+        polygons.parts.push_back(fmt::format("turning-{}", number));
+        polygons.pivots.push_back(
+            {number, part.about.point_m, part.about.direction, part.about.turns_per_s});
+        const models::TriangleMesh whole = models::repair::repaired(part.mesh).mesh;
+        if (whole.triangles.empty()) {
+            continue;
+        }
+        models::simplify::SimplifyOptions options;
+        options.quality = models::simplify::Quality::Fast;
+        options.goal.faces = std::max(least_far_faces, far_faces_of_parts / parts.size());
+        const models::TriangleMesh far = models::simplify::simplified(whole, options).mesh;
+        models::measure::DistanceOptions loosely;
+        loosely.tightness = 1.4;
+        loosely.samples = 0;
+        error_m =
+            std::max(error_m, models::measure::distance(whole, far, loosely).most_hausdorff_m());
+        append(polygons, models::polygons::as_polygons(far), number);
+    }
+    return error_m;
+}
+
+} // namespace octant::ui::world

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "models/meshfile/turning_model.h"
+#include "models/polygons/file_axes.h"
+#include "models/polygons/polygon_model.h"
+
+#include <span>
+
+namespace octant::ui::world {
+
+/// Turns a mesh from its file's axes into body axes: a rotation, so that no triangle turns over.
+void turn_mesh(models::TriangleMesh& mesh, const models::polygons::FileAxes& axes);
+
+/// Turns a part with its axis from its file's axes into body axes.
+void turn_part(models::meshfile::TurningPart& part, const models::polygons::FileAxes& axes);
+
+/// Adds parts that turn to the polygons that stand in for an aircraft far away: a pivot for each,
+/// in their order, and as few triangles as a part far away needs. Body axes. Returns the largest
+/// certified distance, in metres, between a part and its polygons.
+double add_far_parts(
+    std::span<const models::meshfile::TurningPart> parts, models::polygons::PolygonModel& polygons);
+
+} // namespace octant::ui::world
