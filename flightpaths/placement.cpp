@@ -241,6 +241,10 @@ LiftedPath following(
 
 } // namespace
 
+sim::Trajectory placed_beside(const sim::Trajectory& path, const PlacedPath& placed) {
+    return raised(moved(path, {placed.heading_rad, placed.origin_m}), placed.offset_m);
+}
+
 void check_over_ground(const sim::Trajectory& in_world, const GroundHeight& ground) {
     const std::vector<double> times_s = step_times(in_world);
     const std::vector<glm::dvec3> places_m = places_along(in_world, times_s);

@@ -62,6 +62,9 @@ PlacedPath place_over_ground(
     double min_clearance_m,
     const std::optional<sim::AircraftLimits>& limits);
 
+/// Another path in the axes of one that was placed, moved, turned and lifted as that one was.
+sim::Trajectory placed_beside(const sim::Trajectory& path, const PlacedPath& placed);
+
 /// Looks at a path in world axes, every 1/120 s along the trajectory's curve as place_over_ground
 /// does. Throws its Error with time and place when the path leaves the map or meets the ground.
 void check_over_ground(const sim::Trajectory& in_world, const GroundHeight& ground);

@@ -47,7 +47,7 @@ sim::AircraftState between(const sim::AircraftState& a, const sim::AircraftState
 
 Simulation::Simulation(const world::World& world)
     : world_(world)
-    , formation_(world::formation_of(world.scene))
+    , formation_(world::formation_of(world.scene, world.flight))
     , states_(world.scene.aircraft.size()) {
     for (std::size_t i = 0; i < world.scene.aircraft.size(); ++i) {
         reach_down_m_.push_back(reach_below_m(world.scene.model_of(i)));
@@ -63,7 +63,7 @@ void Simulation::begin_at(double time_s) {
     log_.clear();
     time_s_ = time_s;
     next_step_ = sim::step_at(time_s);
-    states_from(world_.flight.trajectory.state_at(time_s));
+    states_from(world_.flight.trajectory.state_at(time_s), time_s);
     rig_ = scene::advanced({}, states_.front());
 }
 
@@ -71,11 +71,8 @@ long Simulation::step() const {
     return next_step_ - 1;
 }
 
-void Simulation::states_from(const sim::AircraftState& leader) {
-    states_.front() = leader;
-    for (std::size_t i = 1; i < states_.size(); ++i) {
-        states_[i] = formation_.wingman_of(leader, static_cast<int>(i));
-    }
+void Simulation::states_from(const sim::AircraftState& leader, double time_s) {
+    world::states_beside(world_.flight, formation_, leader, time_s, states_);
 }
 
 void Simulation::add_to_hash() {
@@ -85,7 +82,8 @@ void Simulation::add_to_hash() {
 }
 
 void Simulation::take_step() {
-    states_from(world_.flight.trajectory.state_at(sim::time_of_step(next_step_)));
+    const double time_s = sim::time_of_step(next_step_);
+    states_from(world_.flight.trajectory.state_at(time_s), time_s);
     step_done();
 }
 
@@ -100,11 +98,11 @@ void Simulation::take_step_by_hand() {
     pilot_->step(controls_);
     sim::AircraftState state = pilot_->state();
     state.time_s = sim::time_of_step(next_step_);
-    states_from(state);
+    states_from(state, state.time_s);
     end_ = end_among(states_);
     if (end_) {
         levelling_.reset();
-        states_from(last_two_.back());
+        states_from(last_two_.back(), sim::time_of_step(step()));
         return;
     }
     last_two_ = {last_two_.back(), state};
@@ -123,6 +121,9 @@ void Simulation::step_done() {
 std::optional<Simulation::End>
 Simulation::end_among(std::span<const sim::AircraftState> states) const {
     for (std::size_t i = 0; i < states.size(); ++i) {
+        if (world_.flight.others.contains(i)) {
+            continue;
+        }
         const glm::dvec3& at_m = states[i].position_m;
         const auto ground_m = world_.scene.ground->height_at(at_m.x, at_m.y);
         if (!ground_m) {
@@ -162,12 +163,14 @@ void Simulation::advance_to(double time_s) {
         }
     }
     if (!by_hand()) {
-        states_from(world_.flight.trajectory.state_at(time_s));
+        states_from(world_.flight.trajectory.state_at(time_s), time_s);
         return;
     }
     const double since_step_s = time_s - sim::time_of_step(step());
-    states_from(between(
-        last_two_.front(), last_two_.back(), std::clamp(since_step_s / sim::step_s, 0.0, 1.0)));
+    states_from(
+        between(
+            last_two_.front(), last_two_.back(), std::clamp(since_step_s / sim::step_s, 0.0, 1.0)),
+        time_s);
 }
 
 void Simulation::start_log() {
@@ -179,7 +182,7 @@ void Simulation::start_log() {
     assert(next_step_ > sim::step_at(time_s_));
     const std::vector<sim::AircraftState> shown = states_;
     const sim::AircraftState leader = at_last_step();
-    states_from(leader);
+    states_from(leader, sim::time_of_step(step()));
     hash_ = {};
     add_to_hash();
     states_ = shown;

@@ -128,7 +128,7 @@ private:
     void take_step_by_hand();
     void step_done();
     std::optional<End> end_among(std::span<const sim::AircraftState> states) const;
-    void states_from(const sim::AircraftState& leader);
+    void states_from(const sim::AircraftState& leader, double time_s);
     void add_to_hash();
     sim::AircraftState at_last_step() const;
     void hand_to_pilot(const sim::AircraftKind& kind, const sim::AircraftState& start);

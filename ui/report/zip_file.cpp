@@ -155,19 +155,21 @@ std::vector<ZipEntry> zip_entries(const fs::path& zip) {
     return entries;
 }
 
-void extract(const fs::path& zip, const std::string& name, const fs::path& out) {
+namespace {
+
+/// Gives a file of a zip file to take() in pieces. Throws Error.
+template <class Take>
+void read_entry(const fs::path& zip, const std::string& name, Take&& take) {
     const Quiet quiet;
     const std::unique_ptr<VSILFILE, CloseFile> in(VSIFOpenL(inside(zip, name).c_str(), "rb"));
     if (!in) {
         is_no_zip(zip);
     }
-    GrowingFile file(out);
     std::string piece(piece_bytes, '\0');
     std::uint64_t taken = 0;
     for (;;) {
         const std::size_t read = VSIFReadL(piece.data(), 1, piece.size(), in.get());
-        file.append(std::string_view(piece).substr(0, read));
-        file.flush();
+        take(std::string_view(piece).substr(0, read));
         taken += read;
         if (read < piece.size()) {
             break;
@@ -179,6 +181,29 @@ void extract(const fs::path& zip, const std::string& name, const fs::path& out) 
     if (!whole || CPLGetLastErrorType() >= CE_Failure) {
         error_in(zip, fmt::format("expected '{}' whole, got damaged bytes", printable(name)));
     }
+}
+
+} // namespace
+
+void extract(const fs::path& zip, const std::string& name, const fs::path& out) {
+    GrowingFile file(out);
+    read_entry(zip, name, [&file](std::string_view piece) {
+        file.append(piece);
+        file.flush();
+    });
+}
+
+std::string zip_text(const fs::path& zip, const std::string& name, std::size_t largest_bytes) {
+    std::string text;
+    read_entry(zip, name, [&](std::string_view piece) {
+        text += piece;
+        if (text.size() > largest_bytes) {
+            error_in(
+                zip,
+                fmt::format("expected at most {} bytes in '{}'", largest_bytes, printable(name)));
+        }
+    });
+    return text;
 }
 
 } // namespace octant::ui::report

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -52,5 +53,9 @@ std::vector<ZipEntry> zip_entries(const std::filesystem::path& zip);
 /// does not fit too.
 void extract(
     const std::filesystem::path& zip, const std::string& name, const std::filesystem::path& out);
+
+/// What a file of a zip file holds. Throws Error, as extract() and for one that is larger.
+std::string
+zip_text(const std::filesystem::path& zip, const std::string& name, std::size_t largest_bytes);
 
 } // namespace octant::ui::report

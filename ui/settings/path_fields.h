@@ -18,19 +18,20 @@ inline constexpr std::tuple path_rows{
     setting<&RunSettings::path, &PathSettings::name>(
         {"path",
          "NAME|FILE",
-         listing<"path: ", base::built_in_paths, ", a .toml or a recorded .csv">},
+         listing<"path: ", base::built_in_paths, ", a .toml, a recorded .csv or a Tacview tape (.acmi)">},
         {.group = SettingGroup::Path,
          .change = SettingsChange::Flight,
          .known = base::built_in_paths}),
     setting<&RunSettings::path, &PathSettings::aircraft>(
         {"aircraft",
-         "NAME|FILE",
+         "NAME|FILE[=PATH[@Ns]]",
          listing<
              "aircraft: ",
              base::built_in_models,
              ", an OBJ file of up to 50,000 polygons (2,000 where nearly all are triangles), or a "
              "mesh (.obj, .ply, .stl, .glb, .ac, .wrl, .pm, .chain, FlightGear's .xml and what "
-             "--version lists); repeat for wingmen">},
+             "--version lists); repeat for wingmen, or =PATH for one with a path of its own, from N s "
+             "on, such as 500md=turn@10s">},
         {.group = SettingGroup::Path,
          .change = SettingsChange::Flight,
          .known = base::built_in_models}),

@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "ui/base/data_files.h"
+#include "ui/settings/flown_aircraft.h"
 #include "ui/settings/settings_fields.h"
 
 #include <algorithm>
@@ -61,7 +62,12 @@ void find_files_from(const fs::path& folder, RunSettings& settings) {
     constexpr std::array<std::string_view, 0> none{};
     find_from(folder, base::built_in_paths, settings.path.name);
     for (std::string& name : settings.path.aircraft) {
-        find_from(folder, base::built_in_models, name);
+        FlownAircraft flown = flown_aircraft(name);
+        find_from(folder, base::built_in_models, flown.shape);
+        if (flown.path) {
+            find_from(folder, base::built_in_paths, *flown.path);
+        }
+        name = text_of(flown);
     }
     find_from(folder, built_in_terrains, settings.path.terrain);
     if (settings.air.drape) {

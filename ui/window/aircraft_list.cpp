@@ -1,12 +1,14 @@
 #include "ui/window/aircraft_list.h"
 
+#include "ui/settings/flown_aircraft.h"
+
 #include <algorithm>
 #include <cstddef>
 
 namespace octant::ui::window {
 
 std::vector<std::string> with_count(std::vector<std::string> aircraft, int count) {
-    const std::string first = aircraft.front();
+    const std::string first = settings::shape_of(aircraft.front());
     aircraft.resize(static_cast<std::size_t>(std::max(count, 1)), first);
     return aircraft;
 }

@@ -1,6 +1,7 @@
 #include "sim/base/utf8.h"
 #include "sim/fixed_step.h"
 #include "ui/base/data_files.h"
+#include "ui/settings/flown_aircraft.h"
 #include "ui/settings/path_fields.h"
 #include "ui/window/aircraft_list.h"
 #include "ui/window/control_display.h"
@@ -30,7 +31,7 @@ void choose_flight(ViewState& state) {
     ImGui::BeginDisabled(state.recording.has_value());
     ImGui::BeginGroup();
     edit_settings(state.wanted, path);
-    std::string leader = state.wanted.path.aircraft.front();
+    std::string leader = settings::shape_of(state.wanted.path.aircraft.front());
     ImGui::PushID("leader");
     ImGui::SetNextItemWidth(value_width());
     if (choose_name(leader_info, leader, base::built_in_models)) {
@@ -136,7 +137,9 @@ void choose_view(ViewState& state, const flight::Session& session) {
 void show_hand_flight(const ViewState& state, const flight::Simulation& simulation) {
     const sim::HandFlight& pilot = simulation.pilot();
     show_controls(
-        base::flown_as(state.wanted.path.aircraft.front()), pilot.state(), simulation.controls());
+        base::flown_as(settings::shape_of(state.wanted.path.aircraft.front())),
+        pilot.state(),
+        simulation.controls());
     const char* warning = "";
     ImVec4 colour{1.0F, 0.35F, 0.25F, 1.0F};
     if (simulation.end_of_flight()) {

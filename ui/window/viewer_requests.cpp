@@ -4,6 +4,7 @@
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/id_comparison.h"
 #include "ui/report/png_file.h"
+#include "ui/settings/flown_aircraft.h"
 #include "ui/window/look_control.h"
 #include "ui/window/view_keys.h"
 #include "ui/window/viewer.h"
@@ -225,7 +226,7 @@ void Viewer::toggle_hand() {
     flight::Simulation& simulation = session_->simulation();
     if (!simulation.by_hand()) {
         simulation.advance_to(simulation.time_s());
-        const std::string& aircraft = session_->settings().path.aircraft.front();
+        const std::string aircraft = settings::shape_of(session_->settings().path.aircraft.front());
         const sim::AircraftKind& kind = base::flown_as(aircraft);
         simulation.take_over(kind);
         state_.playback.playing = true;

@@ -193,7 +193,8 @@ std::optional<planning::AircraftModel> load_cockpit(const std::string& aircraft)
 
 } // namespace
 
-LoadedAircraft load_aircraft(const settings::RunSettings& settings) {
+LoadedAircraft
+load_aircraft(const settings::RunSettings& settings, const std::vector<std::string>& shapes) {
     if (settings.surface.order_cache) {
         ordercache::make_cache_folder(*settings.surface.order_cache);
     }
@@ -203,7 +204,7 @@ LoadedAircraft load_aircraft(const settings::RunSettings& settings) {
         loaded.models.push_back(std::make_shared<const planning::AircraftModel>(std::move(model)));
     };
     std::vector<std::string> names;
-    for (const std::string& name : settings.path.aircraft) {
+    for (const std::string& name : shapes) {
         const auto found = std::find(names.begin(), names.end(), name);
         loaded.aircraft.push_back(static_cast<std::uint32_t>(found - names.begin()));
         if (found == names.end()) {
@@ -211,7 +212,7 @@ LoadedAircraft load_aircraft(const settings::RunSettings& settings) {
             add(load_model(name, settings, told));
         }
     }
-    if (auto cockpit = load_cockpit(settings.path.aircraft.front())) {
+    if (auto cockpit = load_cockpit(shapes.front())) {
         loaded.cockpit = static_cast<std::uint32_t>(loaded.models.size());
         loaded.dials = planning::dials_of(
             cockpit->polygons, sim::aircraft_kind(settings.path.aircraft.front()).limits);

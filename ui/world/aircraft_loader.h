@@ -23,8 +23,10 @@ struct LoadedAircraft {
     std::vector<std::filesystem::path> order_files; ///< kept painting orders that were used
 };
 
-/// Loads the aircraft of a run, and the cockpit of the first one where it has one: polygon models
-/// with their painting orders, chains of levels, and meshes, which get levels here. Throws Error.
-LoadedAircraft load_aircraft(const settings::RunSettings& settings);
+/// Loads aircraft of these shapes, names or files, and the cockpit of the first one where it has
+/// one: polygon models with their painting orders, chains of levels, and meshes, which get levels
+/// here. Throws Error.
+LoadedAircraft
+load_aircraft(const settings::RunSettings& settings, const std::vector<std::string>& shapes);
 
 } // namespace octant::ui::world

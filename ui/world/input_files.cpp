@@ -7,6 +7,7 @@
 #include "sim/base/hash.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
+#include "ui/settings/flown_aircraft.h"
 #include "ui/settings/terrain_name.h"
 #include "ui/world/model_files.h"
 #include "visuals/groundfile/ground_file.h"
@@ -53,6 +54,12 @@ bool is_live(const settings::RunSettings& settings) {
 
 bool is_folder_or_pattern(const std::string& name) {
     return models::heights::is_many(name) && !models::heights::is_name_within_file(name);
+}
+
+void make_path_absolute(std::string& path, const std::string& aircraft) {
+    if (base::path_file(path, aircraft) == path) {
+        path = absolute(path);
+    }
 }
 
 /// All files of this computer that the heights of a terrain come from.
@@ -162,14 +169,19 @@ struct Collector {
 
 settings::RunSettings with_absolute_files(settings::RunSettings settings) {
     // A name that is built in comes first everywhere, also where a file of that name lies about.
-    const std::string pilot = settings.path.aircraft.front();
-    if (!is_live(settings) && base::path_file(settings.path.name, pilot) == settings.path.name) {
-        settings.path.name = absolute(settings.path.name);
+    const std::string pilot = settings::shape_of(settings.path.aircraft.front());
+    if (!is_live(settings)) {
+        make_path_absolute(settings.path.name, pilot);
     }
     for (std::string& name : settings.path.aircraft) {
-        if (base::aircraft_file(name) == name) {
-            name = absolute(name);
+        settings::FlownAircraft flown = settings::flown_aircraft(name);
+        if (base::aircraft_file(flown.shape) == flown.shape) {
+            flown.shape = absolute(flown.shape);
         }
+        if (flown.path) {
+            make_path_absolute(*flown.path, flown.shape);
+        }
+        name = settings::text_of(flown);
     }
     if (!settings::is_built_in_ground(settings.path.terrain) &&
         (is_file(settings.path.terrain) || is_folder_or_pattern(settings.path.terrain))) {
@@ -187,10 +199,15 @@ settings::RunSettings with_absolute_files(settings::RunSettings settings) {
 std::vector<InputFile> input_files(const settings::RunSettings& settings) {
     Collector found;
     if (!is_live(settings)) {
-        found.add(base::path_file(settings.path.name, settings.path.aircraft.front()));
+        const std::string pilot = settings::shape_of(settings.path.aircraft.front());
+        found.add(base::path_file(settings.path.name, pilot));
     }
     for (const std::string& name : settings.path.aircraft) {
-        found.add_model(base::aircraft_file(name));
+        const settings::FlownAircraft flown = settings::flown_aircraft(name);
+        found.add_model(base::aircraft_file(flown.shape));
+        if (flown.path) {
+            found.add(base::path_file(*flown.path, flown.shape));
+        }
     }
     for (const fs::path& file : ground_files(settings.path.terrain)) {
         found.add_outside(file);
@@ -235,7 +252,14 @@ settings::RunSettings as_recorded(const settings::RunSettings& settings, const f
     };
     settings::RunSettings renamed = settings;
     rename(renamed.path.name);
-    std::ranges::for_each(renamed.path.aircraft, rename);
+    for (std::string& name : renamed.path.aircraft) {
+        settings::FlownAircraft flown = settings::flown_aircraft(name);
+        rename(flown.shape);
+        if (flown.path) {
+            rename(*flown.path);
+        }
+        name = settings::text_of(flown);
+    }
     rename(renamed.path.terrain);
     if (renamed.air.drape) {
         rename(*renamed.air.drape);

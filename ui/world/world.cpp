@@ -1,16 +1,16 @@
 #include "ui/world/world.h"
 
-#include "flightpaths/path_script.h"
 #include "flightpaths/placement.h"
-#include "flightpaths/recorded_track.h"
 #include "sim/aircraft_kind.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
-#include "ui/base/data_files.h"
+#include "ui/settings/flown_aircraft.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/aircraft_loader.h"
+#include "ui/world/flight_script.h"
 #include "ui/world/place_text.h"
+#include "ui/world/placed_flight.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/sun_of_time.h"
 
@@ -27,150 +27,38 @@ namespace scene = visuals::scene;
 
 namespace {
 
-/// Lowest clearance of a recorded track that is lifted over ground: it names none itself.
-constexpr double track_clearance_m = 50.0;
+/// Where nobody sees an aircraft.
+constexpr double out_of_sight_m = -1e5;
 
-/// A path before it is laid over ground.
-struct Script {
-    sim::Trajectory trajectory;
-    double rate_hz = 0.0;
-    double min_clearance_m = 0.0;
-    std::optional<sim::AircraftLimits> limits;    ///< of what flies, where they are known
-    std::optional<flightpaths::GeoOrigin> origin; ///< of a track that knows where it was flown
-    std::vector<flightpaths::LegBegin> legs;
-    std::vector<std::string> notes;
-};
-
-const sim::AircraftKind& flown_kind(const flightpaths::PathScript& script) {
-    try {
-        return sim::aircraft_kind(script.aircraft);
-    } catch (const Error& fault) {
-        error_at(script.file, script.aircraft_line, fault.what());
+double largest_radius_m(const planning::Scene& scene) {
+    double largest_m = 0.0;
+    for (const std::uint32_t model : scene.aircraft) {
+        largest_m = std::max(largest_m, scene.models[model]->subject.radius_m);
     }
-}
-
-/// What a person should be told where an aircraft without a row of its own flies a built-in path.
-void note_what_flies(
-    const std::string& path,
-    const std::string& aircraft,
-    const sim::AircraftKind& flown,
-    std::vector<std::string>& notes) {
-    const bool is_built_in =
-        std::ranges::find(base::built_in_paths, path) != base::built_in_paths.end();
-    if (is_built_in && sim::find_aircraft_kind(aircraft) == nullptr) {
-        notes.push_back(fmt::format(
-            "{} flies the {} path of {}, within its limits: only its own shape is known",
-            printable(aircraft),
-            path,
-            flown.name));
-    }
-}
-
-Script load_script(const settings::RunSettings& settings) {
-    const std::filesystem::path file =
-        base::path_file(settings.path.name, settings.path.aircraft.front());
-    if (file.extension() == ".toml") {
-        const flightpaths::PathScript script = flightpaths::read_path_script(file);
-        const sim::AircraftKind& kind = flown_kind(script);
-        flightpaths::FlownPath flown = flightpaths::fly(script, kind, settings.path.lenient);
-        note_what_flies(settings.path.name, settings.path.aircraft.front(), kind, flown.notes);
-        return {
-            std::move(flown.trajectory),
-            static_cast<double>(script.rate_hz),
-            script.min_clearance_m,
-            kind.limits,
-            {},
-            std::move(flown.legs),
-            std::move(flown.notes)};
-    }
-    flightpaths::RecordedTrack track = flightpaths::read_recorded_track(file);
-    const auto samples = track.trajectory.samples();
-    const double mean_step_s =
-        (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
-    const sim::AircraftKind* kind = sim::find_aircraft_kind(settings.path.aircraft.front());
-    return {
-        std::move(track.trajectory),
-        1.0 / mean_step_s,
-        track_clearance_m,
-        kind == nullptr ? std::nullopt : std::optional(kind->limits),
-        track.origin,
-        {},
-        {}};
-}
-
-flightpaths::HeightMode placement_mode(settings::HeightMode mode) {
-    switch (mode) {
-    case settings::HeightMode::Clear:
-        return flightpaths::HeightMode::Clear;
-    case settings::HeightMode::Follow:
-        return flightpaths::HeightMode::Follow;
-    case settings::HeightMode::Datum:
-        break;
-    }
-    return flightpaths::HeightMode::Datum;
-}
-
-flightpaths::Placement placement_of(
-    const settings::RunSettings& settings, const Script& script, const SceneGround& ground) {
-    flightpaths::Placement placement;
-    const glm::dvec2 half_extent_m = ground.ground->half_extent_m();
-    const bool at_its_own_place = script.origin && ground.place && !settings.path.place;
-    if (settings.path.place) {
-        placement.place_m = place_from_text(*settings.path.place, ground.place, half_extent_m);
-    } else if (at_its_own_place) {
-        placement.place_m = flightpaths::local_from_geo(
-            {ground.place->latitude_deg, ground.place->longitude_deg},
-            script.origin->latitude_deg,
-            script.origin->longitude_deg);
-        placement.heading_rad = 0.0;
-    }
-    if (settings.path.heading_deg) {
-        placement.heading_rad = rad_from_deg(*settings.path.heading_deg);
-    }
-    placement.mode = placement_mode(settings.path.height_mode.value_or(
-        at_its_own_place ? settings::HeightMode::Datum : settings::HeightMode::Clear));
-    if (placement.mode == flightpaths::HeightMode::Follow && !script.limits) {
-        throw Error(fmt::format(
-            "--height-mode follow: expected an aircraft with known limits beside a recorded track, "
-            "got '{}'",
-            printable(settings.path.aircraft.front())));
-    }
-    return placement;
+    return largest_m;
 }
 
 void add(std::vector<std::string>& notes, const std::vector<std::string>& more) {
     notes.insert(notes.end(), more.begin(), more.end());
 }
 
-Flight place_flight(
-    const settings::RunSettings& settings,
-    Script script,
-    const SceneGround& ground,
-    std::vector<std::string>& notes) {
-    flightpaths::PlacedPath placed = flightpaths::place_over_ground(
-        script.trajectory,
-        placement_of(settings, script, ground),
-        [&](double x_m, double y_m) { return ground.ground->height_at(x_m, y_m); },
-        script.min_clearance_m,
-        script.limits);
-    add(notes, placed.notes);
-    const auto stem = [](const std::string& name) {
-        return std::filesystem::path(name).stem().string();
-    };
-    return {
-        .trajectory = std::move(placed.trajectory),
-        .title = fmt::format(
-            "{} {} over {}",
-            stem(settings.path.aircraft.front()),
-            stem(settings.path.name),
-            stem(settings.path.terrain)),
-        .rate_hz = script.rate_hz,
-        .place_m = placed.origin_m,
-        .heading_rad = placed.heading_rad,
-        .offset_m = placed.offset_m,
-        .lowest_clearance_m = placed.lowest_clearance_m,
-        .lowest_clearance_s = placed.lowest_clearance_at_s,
-        .legs = std::move(script.legs)};
+void add_own_paths(const settings::RunSettings& settings, const SceneGround& ground, World& world) {
+    const sim::AircraftState start = world.flight.trajectory.samples().front();
+    const std::vector<std::string>& aircraft = settings.path.aircraft;
+    const Formation abreast(static_cast<int>(aircraft.size()), largest_radius_m(world.scene));
+    for (std::size_t i = 1; i < aircraft.size(); ++i) {
+        const settings::FlownAircraft flown = settings::flown_aircraft(aircraft[i]);
+        if (!flown.path) {
+            continue;
+        }
+        const glm::dvec2 begin_m(abreast.wingman_of(start, static_cast<int>(i)).position_m);
+        try {
+            world.flight.others.insert_or_assign(
+                i, own_path(settings, flown, begin_m, ground, world.flight, world.notes));
+        } catch (const Error& fault) {
+            throw Error(fmt::format("{}: {}", printable(aircraft[i]), fault.what()));
+        }
+    }
 }
 
 /// The first aircraft stands where its path would begin until somebody moves it.
@@ -193,16 +81,22 @@ Flight live_flight(const settings::RunSettings& settings, const SceneGround& gro
         .rate_hz = usual_rate_hz,
         .place_m = place_m,
         .lowest_clearance_m = above_ground_m,
-        .legs = {}};
+        .legs = {},
+        .others = {}};
 }
 
 /// The leader's path has been laid over the ground; those beside him must clear it too.
 void check_wingmen(const World& world) {
-    const Formation formation = formation_of(world.scene);
-    for (std::size_t number = 1; number < world.scene.aircraft.size(); ++number) {
+    const Formation formation = formation_of(world.scene, world.flight);
+    int number = 0;
+    for (std::size_t i = 1; i < world.scene.aircraft.size(); ++i) {
+        if (world.flight.others.contains(i)) {
+            continue;
+        }
+        ++number;
         std::vector<sim::AircraftState> states;
         for (const sim::AircraftState& leader : world.flight.trajectory.samples()) {
-            states.push_back(formation.wingman_of(leader, static_cast<int>(number)));
+            states.push_back(formation.wingman_of(leader, number));
         }
         try {
             flightpaths::check_over_ground(
@@ -217,14 +111,60 @@ void check_wingmen(const World& world) {
     }
 }
 
+/// The shapes of all aircraft of a run: those that are asked for, then those of its tape.
+std::vector<std::string>
+shapes_of(const settings::RunSettings& settings, const std::vector<std::string>& of_tape) {
+    std::vector<std::string> shapes;
+    for (const std::string& aircraft : settings.path.aircraft) {
+        shapes.push_back(settings::shape_of(aircraft));
+    }
+    for (std::size_t i = shapes.size() - 1; i < of_tape.size(); ++i) {
+        shapes.push_back(of_tape[i]);
+    }
+    return shapes;
+}
+
+/// Throws Error where aircraft that others fly, or the first one, are to do what they cannot.
+void check_own_paths(const settings::RunSettings& settings, bool is_live) {
+    for (std::size_t i = 0; i < settings.path.aircraft.size(); ++i) {
+        const settings::FlownAircraft flown = settings::flown_aircraft(settings.path.aircraft[i]);
+        if (flown.path && (is_live || (i == 0 && flown.from_s > 0.0))) {
+            throw Error(fmt::format(
+                "aircraft: expected {}, got '{}'",
+                is_live ? "no path for one that others fly" : "the first one to begin at 0 s",
+                printable(settings.path.aircraft[i])));
+        }
+    }
+}
+
 } // namespace
 
-Formation formation_of(const planning::Scene& scene) {
-    double largest_m = 0.0;
-    for (const std::uint32_t model : scene.aircraft) {
-        largest_m = std::max(largest_m, scene.models[model]->subject.radius_m);
+Formation formation_of(const planning::Scene& scene, const Flight& flight) {
+    const std::size_t own = std::min(flight.others.size(), scene.aircraft.size() - 1);
+    return {static_cast<int>(scene.aircraft.size() - own), largest_radius_m(scene)};
+}
+
+void states_beside(
+    const Flight& flight,
+    const Formation& formation,
+    const sim::AircraftState& leader,
+    double time_s,
+    std::span<sim::AircraftState> states) {
+    states.front() = leader;
+    int number = 0;
+    for (std::size_t i = 1; i < states.size(); ++i) {
+        const auto own = flight.others.find(i);
+        if (own == flight.others.end()) {
+            states[i] = formation.wingman_of(leader, ++number);
+            continue;
+        }
+        const sim::Trajectory& path = own->second;
+        states[i] = path.state_at(time_s);
+        states[i].time_s = leader.time_s;
+        if (time_s < path.start_s() || time_s > path.end_s()) {
+            states[i].position_m.z = out_of_sight_m;
+        }
     }
-    return {static_cast<int>(scene.aircraft.size()), largest_m};
 }
 
 scene::FixedPoints fixed_points(const settings::RunSettings& settings, const World& world) {
@@ -256,13 +196,21 @@ scene::FixedPoints fixed_points(const settings::RunSettings& settings, const Wor
 World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     settings::check_settings(settings);
     check_place(settings.path);
+    const bool is_live = settings.path.name == settings::live_path;
+    check_own_paths(settings, is_live);
     // Beside the aircraft, whose draw order is one thread's work. What is wrong with them is told
     // first.
     std::future<SceneGround> coming_ground =
         std::async(std::launch::async, [&] { return load_scene_ground(settings, drawn_by); });
-    LoadedAircraft aircraft = load_aircraft(settings);
-    const bool is_live = settings.path.name == settings::live_path;
-    std::optional<Script> script = is_live ? std::nullopt : std::optional(load_script(settings));
+    std::optional<FlightScript> script;
+    if (!is_live) {
+        script = load_script(
+            path_of(settings),
+            settings::shape_of(settings.path.aircraft.front()),
+            settings.path.lenient);
+    }
+    LoadedAircraft aircraft = load_aircraft(
+        settings, shapes_of(settings, script ? script->other_shapes : std::vector<std::string>()));
     SceneGround ground = coming_ground.get();
     World world;
     world.notes = std::move(aircraft.notes);
@@ -274,20 +222,21 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     world.flight = script ? place_flight(settings, std::move(*script), ground, world.notes)
                           : live_flight(settings, ground);
     world.scene = {
-        std::move(ground.ground),
-        std::move(ground.texture),
+        ground.ground,
+        ground.texture,
         std::move(aircraft.models),
         std::move(aircraft.aircraft),
         aircraft.cockpit,
         std::move(aircraft.dials)};
-    world.leader_kind = sim::find_aircraft_kind(settings.path.aircraft.front());
+    if (!is_live) {
+        add_own_paths(settings, ground, world);
+        check_wingmen(world);
+    }
+    world.leader_kind = sim::find_aircraft_kind(settings::shape_of(settings.path.aircraft.front()));
     world.ground_name = std::move(ground.name);
     world.ground_place = ground.place;
     if (auto night = note_of_night(settings, ground.place)) {
         world.notes.push_back(std::move(*night));
-    }
-    if (!is_live) {
-        check_wingmen(world);
     }
     world.points = fixed_points(settings, world);
     return world;

@@ -55,7 +55,7 @@ TEST_CASE(
     CHECK(world.scene.model_of(1).polygons.name == "f15");
     CHECK(world.scene.models.size() == 2U + (world.scene.cockpit ? 1U : 0U));
     CHECK(world.flight.title == "500md straight over none");
-    CHECK(ui::world::formation_of(world.scene).framed_radius_m(1.0) > 1.0);
+    CHECK(ui::world::formation_of(world.scene, world.flight).framed_radius_m(1.0) > 1.0);
 }
 
 TEST_CASE("a file is no known aircraft because of its name, and says whose path it borrows") {
@@ -102,6 +102,62 @@ TEST_CASE("a path is laid over ground from a file with the clearance that it ask
         REQUIRE(ground_m);
         CHECK(sample.position_m.z - *ground_m > 140.0);
     }
+}
+
+TEST_CASE("aircraft with paths of their own begin beside the first one, by its clock") {
+    RunSettings settings = over(rolling_ground());
+    settings.path.aircraft = {"f15=pop-up", "500md=turn@2s", "f15", "f15=jinking"};
+    const ui::world::World world = ui::world::load_world(settings);
+    const ui::world::Flight& flight = world.flight;
+    CHECK(flight.title == "f15 pop-up over rolling");
+    REQUIRE(flight.others.size() == 2);
+    const sim::Trajectory& turn = flight.others.at(1);
+    const sim::Trajectory& jinking = flight.others.at(3);
+    CHECK(turn.start_s() == 2.0);
+    CHECK(jinking.start_s() == 0.0);
+    const auto start = flight.trajectory.samples().front();
+    const glm::dvec3 beside_m = jinking.samples().front().position_m - start.position_m;
+    CHECK(glm::length(glm::dvec2(beside_m)) > 10.0);
+    CHECK(glm::length(glm::dvec2(beside_m)) < 100.0);
+
+    const ui::world::Formation formation = ui::world::formation_of(world.scene, flight);
+    std::vector<sim::AircraftState> states(4);
+    ui::world::states_beside(flight, formation, start, 0.0, states);
+    CHECK(states[1].position_m.z < -1e4);
+    CHECK(states[2].position_m == formation.wingman_of(start, 1).position_m);
+    CHECK(states[3].position_m == jinking.samples().front().position_m);
+    ui::world::states_beside(flight, formation, start, 5.0, states);
+    CHECK(states[1].position_m == turn.state_at(5.0).position_m);
+    CHECK(states[1].time_s == start.time_s);
+
+    settings.path.aircraft = {"f15=turn@2s"};
+    CHECK_THROWS_WITH(
+        ui::world::load_world(settings), Catch::Contains("the first one to begin at 0 s"));
+    settings.path.aircraft = {"f15", "500md=no-such-path"};
+    CHECK_THROWS_AS(ui::world::load_world(settings), Error);
+}
+
+TEST_CASE("a tape's aircraft fly as they flew beside each other, each as what its type says") {
+    const std::filesystem::path file = tests::scratch_folder() / "two.acmi";
+    write_file(
+        file,
+        "FileType=text/acmi/tacview\nFileVersion=2.2\n#5\n1,T=8|47|900,Type=Air+FixedWing\n"
+        "2,T=8|47.001|950,Type=Air+Rotorcraft\n3,T=8|47|0,Type=Sea+Watercraft\n#6\n"
+        "1,T=8|47.001|900\n2,T=8|47.0012|950\n#9\n1,T=8|47.004|900\n");
+    RunSettings settings = over(rolling_ground());
+    settings.path.name = file.string();
+    settings.path.heading_deg = 90.0;
+    const ui::world::World world = ui::world::load_world(settings);
+    CHECK(world.scene.aircraft.size() == 2);
+    CHECK(world.scene.model_of(1).polygons.name == "500md");
+    REQUIRE(world.flight.others.size() == 1);
+    const sim::AircraftState& first = world.flight.trajectory.samples().front();
+    const sim::AircraftState& other = world.flight.others.at(1).samples().front();
+    const glm::dvec3 apart_m = other.position_m - first.position_m;
+    CHECK(apart_m.x == Approx(111.2).margin(0.1)); // north, turned to the east
+    CHECK(apart_m.y == Approx(0.0).margin(1e-6));
+    CHECK(apart_m.z == Approx(50.0));
+    CHECK(world.flight.lowest_clearance_m == Approx(50.0));
 }
 
 TEST_CASE("what cannot be loaded is said before anything is flown") {

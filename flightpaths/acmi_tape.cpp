@@ -1,0 +1,168 @@
+#include "flightpaths/acmi_tape.h"
+
+#include "flightpaths/acmi_text.h"
+#include "flightpaths/motion_fill.h"
+#include "sim/base/axes.h"
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "sim/base/units.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+#include <utility>
+
+namespace octant::flightpaths {
+
+namespace {
+
+constexpr double fastest_mps = 3000.0;
+constexpr double furthest_m = 1e6;
+constexpr double highest_m = 1e6;
+
+/// What is left out.
+struct Omitted {
+    long samples = 0;
+    int once = 0; ///< objects
+    int far = 0;
+    int many = 0;
+    int others = 0; ///< that are no aircraft
+};
+
+bool flies(const TapedObject& object) {
+    const auto tags = split_fields(object.type, '+');
+    return object.type.empty() || std::ranges::find(tags, "Air") != tags.end();
+}
+
+bool is_on_earth(const TapedPlace& place) {
+    return std::abs(place.latitude_deg) <= 89.0 && std::abs(place.longitude_deg) <= 360.0 &&
+           std::abs(place.altitude_m) <= highest_m;
+}
+
+/// In order of time, the last of those of one time, those on the earth alone.
+std::vector<TapedPlace> in_order(std::vector<TapedPlace> places, Omitted& omitted) {
+    omitted.samples += static_cast<long>(
+        std::erase_if(places, [](const TapedPlace& place) { return !is_on_earth(place); }));
+    std::ranges::stable_sort(places, {}, &TapedPlace::time_s);
+    std::vector<TapedPlace> ordered;
+    for (const TapedPlace& place : places) {
+        if (!ordered.empty() && ordered.back().time_s == place.time_s) {
+            ordered.back() = place;
+        } else {
+            ordered.push_back(place);
+        }
+    }
+    return ordered;
+}
+
+double span_s(const std::vector<TapedPlace>& places) {
+    return places.back().time_s - places.front().time_s;
+}
+
+sim::AircraftState state_of(const TapedPlace& place, const GeoOrigin& origin, double begin_s) {
+    sim::AircraftState state;
+    state.time_s = place.time_s - begin_s;
+    const glm::dvec2 at_m = local_from_geo(origin, place.latitude_deg, place.longitude_deg);
+    state.position_m = glm::dvec3(at_m, place.altitude_m);
+    state.body_to_world = body_to_world_from_euler(
+        {rad_from_deg(place.heading_deg),
+         rad_from_deg(place.pitch_deg),
+         rad_from_deg(place.roll_deg)});
+    return state;
+}
+
+/// Nothing where it is too far away or fewer than two samples are left.
+std::optional<sim::Trajectory> trajectory_of(
+    const std::vector<TapedPlace>& places,
+    bool has_attitude,
+    const GeoOrigin& origin,
+    double begin_s,
+    Omitted& omitted) {
+    std::vector<sim::AircraftState> samples;
+    for (const TapedPlace& place : places) {
+        const sim::AircraftState state = state_of(place, origin, begin_s);
+        const bool near = glm::length(glm::dvec2(state.position_m)) <= furthest_m;
+        const bool follows =
+            samples.empty() || glm::distance(samples.back().position_m, state.position_m) <=
+                                   fastest_mps * (state.time_s - samples.back().time_s);
+        if (near && follows) {
+            samples.push_back(state);
+        } else {
+            ++omitted.samples;
+        }
+    }
+    if (samples.size() < 2) {
+        ++omitted.far;
+        return std::nullopt;
+    }
+    fill_velocities(samples);
+    if (!has_attitude) {
+        fill_attitudes(samples);
+    }
+    fill_load_factors(samples);
+    return sim::Trajectory(std::move(samples));
+}
+
+std::vector<std::string> notes_of(const Omitted& omitted, const std::filesystem::path& file) {
+    std::vector<std::string> notes;
+    const auto tell = [&](long count, std::string_view what) {
+        if (count > 0) {
+            notes.push_back(fmt::format("{}: left out {} {}", file.string(), count, what));
+        }
+    };
+    tell(omitted.others, "objects that are no aircraft");
+    tell(omitted.once, "aircraft that are seen at one time alone");
+    tell(omitted.far, "aircraft more than 1,000 km away");
+    tell(omitted.many, fmt::format("aircraft beyond {}", most_taped_aircraft));
+    tell(omitted.samples, "samples off the earth or faster than 3,000 m/s");
+    return notes;
+}
+
+} // namespace
+
+AcmiTape acmi_tape(std::string_view text, const std::filesystem::path& file) {
+    std::vector<TapedObject> objects = acmi_objects(text, file);
+    Omitted omitted;
+    const auto count = static_cast<int>(objects.size());
+    std::erase_if(objects, [](const TapedObject& object) { return !flies(object); });
+    omitted.others = count - static_cast<int>(objects.size());
+    for (TapedObject& object : objects) {
+        object.places = in_order(std::move(object.places), omitted);
+    }
+    omitted.once = static_cast<int>(
+        std::erase_if(objects, [](const TapedObject& object) { return object.places.size() < 2; }));
+    if (objects.empty()) {
+        error_in(
+            file, fmt::format("expected aircraft that move, got none among {} objects", count));
+    }
+    const auto longest = std::ranges::max_element(
+        objects, {}, [](const TapedObject& object) { return span_s(object.places); });
+    std::rotate(objects.begin(), longest, longest + 1);
+    double begin_s = objects.front().places.front().time_s;
+    for (const TapedObject& object : objects) {
+        begin_s = std::min(begin_s, object.places.front().time_s);
+    }
+    const TapedPlace& first = objects.front().places.front();
+    AcmiTape tape{{}, {first.latitude_deg, first.longitude_deg}, {}};
+    for (TapedObject& object : objects) {
+        if (tape.aircraft.size() == most_taped_aircraft) {
+            ++omitted.many;
+            continue;
+        }
+        auto trajectory =
+            trajectory_of(object.places, object.has_attitude, tape.origin, begin_s, omitted);
+        if (trajectory) {
+            tape.aircraft.push_back(
+                {std::move(object.name), std::move(object.type), std::move(*trajectory)});
+        } else if (tape.aircraft.empty()) {
+            error_in(file, "expected an aircraft that moves slower than 3,000 m/s, got none");
+        }
+    }
+    tape.notes = notes_of(omitted, file);
+    return tape;
+}
+
+} // namespace octant::flightpaths

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "flightpaths/local_tangent.h"
+#include "sim/trajectory.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace octant::flightpaths {
+
+/// An aircraft of a Tacview tape: at least 2 samples, in metres east, north and above the sea of
+/// the tape's origin, seconds since the first sample of any.
+struct TapedAircraft {
+    std::string name; ///< as the tape has it, empty where it has none
+    std::string type; ///< its tags, such as "Air+Rotorcraft"; empty where it has none
+    sim::Trajectory trajectory;
+};
+
+struct AcmiTape {
+    /// The one seen longest comes first, the others in the order in which they appear. Not empty.
+    std::vector<TapedAircraft> aircraft;
+    GeoOrigin origin; ///< where the first one is seen first
+    /// What was left out, and why, a line each.
+    std::vector<std::string> notes;
+};
+
+inline constexpr std::size_t most_taped_aircraft = 256;
+
+/// Reads Tacview's ACMI 2.x text ("Technical Reference - ACMI flight recordings 2.2"): objects
+/// whose tags have Air among them, or that have none. What moves by fewer than 2 samples, lies more
+/// than 1,000 km from the first or is one of too many is left out, so are samples that would need
+/// more than 3,000 m/s. Missing attitudes and velocities are made from the motion (motion_fill.h).
+/// `file` names the tape in messages. Throws Error with file and line for other text, what is no
+/// number where one belongs, more than a day, and a tape without any aircraft.
+AcmiTape acmi_tape(std::string_view text, const std::filesystem::path& file);
+
+} // namespace octant::flightpaths

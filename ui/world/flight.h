@@ -1,0 +1,31 @@
+#pragma once
+
+#include "flightpaths/fly_script.h"
+#include "sim/trajectory.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace octant::ui::world {
+
+/// A path as it is flown over the ground of a run.
+struct Flight {
+    sim::Trajectory trajectory; ///< world axes
+    std::string title;
+    double rate_hz = 20.0;    ///< samples a second
+    glm::dvec2 place_m{0.0};  ///< where the path's origin lies
+    double heading_rad = 0.0; ///< how far the path was turned, clockwise
+    double offset_m = 0.0;    ///< how far it was lifted
+    double lowest_clearance_m = 0.0;
+    double lowest_clearance_s = 0.0; ///< when
+    std::vector<flightpaths::LegBegin> legs;
+    /// Of aircraft that fly a path of their own, by their numbers and by the first one's clock, in
+    /// world axes; before its start and after its end such an aircraft is not there.
+    std::map<std::size_t, sim::Trajectory> others;
+};
+
+} // namespace octant::ui::world

@@ -1,0 +1,155 @@
+#include "ui/world/flight_script.h"
+
+#include "flightpaths/acmi_tape.h"
+#include "flightpaths/path_script.h"
+#include "flightpaths/recorded_track.h"
+#include "sim/aircraft_kind.h"
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "ui/base/data_files.h"
+#include "ui/report/zip_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <utility>
+
+namespace octant::ui::world {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Lowest clearance of a recorded track that is lifted over ground: it names none itself.
+constexpr double track_clearance_m = 50.0;
+
+const sim::AircraftKind& flown_kind(const flightpaths::PathScript& script) {
+    try {
+        return sim::aircraft_kind(script.aircraft);
+    } catch (const Error& fault) {
+        error_at(script.file, script.aircraft_line, fault.what());
+    }
+}
+
+/// What a person should be told where an aircraft without a row of its own flies a built-in path.
+void note_what_flies(
+    const std::string& path,
+    const std::string& shape,
+    const sim::AircraftKind& flown,
+    std::vector<std::string>& notes) {
+    const bool is_built_in =
+        std::ranges::find(base::built_in_paths, path) != base::built_in_paths.end();
+    if (is_built_in && sim::find_aircraft_kind(shape) == nullptr) {
+        notes.push_back(fmt::format(
+            "{} flies the {} path of {}, within its limits: only its own shape is known",
+            printable(shape),
+            path,
+            flown.name));
+    }
+}
+
+double mean_rate_hz(const sim::Trajectory& trajectory) {
+    const auto steps = static_cast<double>(trajectory.samples().size() - 1);
+    return 1.0 / ((trajectory.end_s() - trajectory.start_s()) / steps);
+}
+
+FlightScript from_track(flightpaths::RecordedTrack track, const std::string& shape) {
+    const double rate_hz = mean_rate_hz(track.trajectory);
+    const sim::AircraftKind* kind = sim::find_aircraft_kind(shape);
+    return {
+        std::move(track.trajectory),
+        rate_hz,
+        track_clearance_m,
+        kind == nullptr ? std::nullopt : std::optional(kind->limits),
+        track.origin,
+        {},
+        {},
+        {},
+        {},
+        false};
+}
+
+/// A tape as it is, or the first one in a zip file.
+std::string tape_text(const fs::path& file) {
+    constexpr std::size_t largest_bytes = std::size_t{256} << 20;
+    const std::string bytes = read_file(file, largest_bytes);
+    if (!bytes.starts_with("PK")) {
+        return bytes;
+    }
+    const std::vector<report::ZipEntry> entries = report::zip_entries(file);
+    const auto tape = std::ranges::find_if(entries, [](const report::ZipEntry& entry) {
+        return ending_of(entry.name) == ".acmi" || ending_of(entry.name) == ".txt";
+    });
+    if (tape == entries.end() || tape->bytes > largest_bytes) {
+        error_in(file, "expected a tape of at most 256 MiB in it (.acmi), got none");
+    }
+    return report::zip_text(file, tape->name, largest_bytes);
+}
+
+/// The known aircraft that has this type in Tacview, the first one for any other.
+const sim::AircraftKind& shown_as(const std::string& type) {
+    const auto tags = split_fields(type, '+');
+    const auto kinds = sim::aircraft_kinds();
+    const auto same = std::ranges::find_if(kinds, [&](const sim::AircraftKind& kind) {
+        const auto wanted = split_fields(kind.tacview_type, '+');
+        return std::ranges::all_of(wanted, [&](std::string_view tag) {
+            return std::ranges::find(tags, tag) != tags.end();
+        });
+    });
+    return same == kinds.end() ? kinds.front() : *same;
+}
+
+/// What a person should be told of who is who.
+std::string note_of(const flightpaths::TapedAircraft& first, const std::string& shape) {
+    const std::string_view usual = shown_as(first.type).name;
+    return fmt::format(
+        "{}{}{} is followed, as {}{}",
+        printable(first.name.empty() ? "an aircraft" : first.name),
+        first.type.empty() ? "" : ", ",
+        printable(first.type),
+        printable(shape),
+        shape == usual ? "" : fmt::format("; --aircraft {} is of its type", usual));
+}
+
+FlightScript from_tape(const fs::path& file, const std::string& shape) {
+    flightpaths::AcmiTape tape = flightpaths::acmi_tape(tape_text(file), file);
+    FlightScript script =
+        from_track({std::move(tape.aircraft.front().trajectory), tape.origin}, shape);
+    script.is_tape = true;
+    script.notes = std::move(tape.notes);
+    script.notes.push_back(note_of(tape.aircraft.front(), shape));
+    for (std::size_t i = 1; i < tape.aircraft.size(); ++i) {
+        script.others.push_back(std::move(tape.aircraft[i].trajectory));
+        script.other_shapes.emplace_back(shown_as(tape.aircraft[i].type).name);
+    }
+    return script;
+}
+
+} // namespace
+
+FlightScript load_script(const std::string& path, const std::string& shape, bool lenient) {
+    const fs::path file = base::path_file(path, shape);
+    if (ending_of(file) == ".acmi") {
+        return from_tape(file, shape);
+    }
+    if (file.extension() != ".toml") {
+        return from_track(flightpaths::read_recorded_track(file), shape);
+    }
+    const flightpaths::PathScript script = flightpaths::read_path_script(file);
+    const sim::AircraftKind& kind = flown_kind(script);
+    flightpaths::FlownPath flown = flightpaths::fly(script, kind, lenient);
+    note_what_flies(path, shape, kind, flown.notes);
+    return {
+        std::move(flown.trajectory),
+        static_cast<double>(script.rate_hz),
+        script.min_clearance_m,
+        kind.limits,
+        {},
+        std::move(flown.legs),
+        std::move(flown.notes),
+        {},
+        {},
+        false};
+}
+
+} // namespace octant::ui::world

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "flightpaths/fly_script.h"
+#include "flightpaths/local_tangent.h"
+#include "sim/aircraft_limits.h"
+#include "sim/trajectory.h"
+#include "ui/settings/settings.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace octant::ui::world {
+
+/// A path before it is laid over ground.
+struct FlightScript {
+    sim::Trajectory trajectory;
+    double rate_hz = 0.0;
+    double min_clearance_m = 0.0;
+    std::optional<sim::AircraftLimits> limits;    ///< of what flies, where they are known
+    std::optional<flightpaths::GeoOrigin> origin; ///< of a track that knows where it was flown
+    std::vector<flightpaths::LegBegin> legs;
+    std::vector<std::string> notes;
+    /// Of a tape with several aircraft, those that fly beside this one, in its axes and by its
+    /// clock, and the built-in aircraft that each is shown as.
+    std::vector<sim::Trajectory> others;
+    std::vector<std::string> other_shapes;
+    bool is_tape = false;
+};
+
+/// What an aircraft of this shape flies by a path's name or file. Throws Error.
+FlightScript load_script(const std::string& path, const std::string& shape, bool lenient);
+
+} // namespace octant::ui::world

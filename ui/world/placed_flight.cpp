@@ -1,0 +1,161 @@
+#include "ui/world/placed_flight.h"
+
+#include "flightpaths/placement.h"
+#include "sim/base/error.h"
+#include "sim/base/units.h"
+#include "ui/world/place_text.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <fmt/format.h>
+#include <map>
+#include <utility>
+
+namespace octant::ui::world {
+
+namespace {
+
+flightpaths::HeightMode placement_mode(settings::HeightMode mode) {
+    switch (mode) {
+    case settings::HeightMode::Clear:
+        return flightpaths::HeightMode::Clear;
+    case settings::HeightMode::Follow:
+        return flightpaths::HeightMode::Follow;
+    case settings::HeightMode::Datum:
+        break;
+    }
+    return flightpaths::HeightMode::Datum;
+}
+
+flightpaths::Placement placement_of(
+    const settings::RunSettings& settings, const FlightScript& script, const SceneGround& ground) {
+    flightpaths::Placement placement;
+    const glm::dvec2 half_extent_m = ground.ground->half_extent_m();
+    const bool at_its_own_place = script.origin && ground.place && !settings.path.place;
+    if (settings.path.place) {
+        placement.place_m = place_from_text(*settings.path.place, ground.place, half_extent_m);
+    } else if (at_its_own_place) {
+        placement.place_m = flightpaths::local_from_geo(
+            {ground.place->latitude_deg, ground.place->longitude_deg},
+            script.origin->latitude_deg,
+            script.origin->longitude_deg);
+        placement.heading_rad = 0.0;
+    }
+    if (settings.path.heading_deg) {
+        placement.heading_rad = rad_from_deg(*settings.path.heading_deg);
+    }
+    placement.mode = placement_mode(settings.path.height_mode.value_or(
+        at_its_own_place ? settings::HeightMode::Datum : settings::HeightMode::Clear));
+    if (placement.mode == flightpaths::HeightMode::Follow && !script.limits) {
+        throw Error(fmt::format(
+            "--height-mode follow: expected an aircraft with known limits beside a recorded track, "
+            "got '{}'",
+            printable(settings::shape_of(settings.path.aircraft.front()))));
+    }
+    return placement;
+}
+
+void add(std::vector<std::string>& notes, const std::vector<std::string>& more) {
+    notes.insert(notes.end(), more.begin(), more.end());
+}
+
+flightpaths::GroundHeight heights_of(const SceneGround& ground) {
+    return [&ground](double x_m, double y_m) { return ground.ground->height_at(x_m, y_m); };
+}
+
+/// A tape's aircraft may stand on a ground that lies a little lower than ours: where its heights
+/// meet ours, all of the tape is lifted clear, and a note says so.
+flightpaths::PlacedPath
+placed(const FlightScript& script, flightpaths::Placement placement, const SceneGround& ground) {
+    const auto heights = heights_of(ground);
+    if (!script.is_tape || placement.mode != flightpaths::HeightMode::Datum) {
+        return flightpaths::place_over_ground(
+            script.trajectory, placement, heights, script.min_clearance_m, script.limits);
+    }
+    constexpr double least_m = 2.0;
+    placement.mode = flightpaths::HeightMode::Clear;
+    flightpaths::PlacedPath lifted = flightpaths::place_over_ground(
+        script.trajectory, placement, heights, least_m, script.limits);
+    if (lifted.offset_m > 0.0) {
+        lifted.notes.push_back(fmt::format(
+            "the tape's first aircraft meets this ground: all are lifted by {:.1f} m",
+            lifted.offset_m));
+        return lifted;
+    }
+    placement.mode = flightpaths::HeightMode::Datum;
+    return flightpaths::place_over_ground(
+        script.trajectory, placement, heights, script.min_clearance_m, script.limits);
+}
+
+/// A path as it is flown from another time on.
+sim::Trajectory begun_at(const sim::Trajectory& path, double time_s) {
+    std::vector<sim::AircraftState> samples(path.samples().begin(), path.samples().end());
+    for (sim::AircraftState& state : samples) {
+        state.time_s += time_s - path.start_s();
+    }
+    return sim::Trajectory(std::move(samples));
+}
+
+} // namespace
+
+std::string path_of(const settings::RunSettings& settings) {
+    return settings::flown_aircraft(settings.path.aircraft.front())
+        .path.value_or(settings.path.name);
+}
+
+Flight place_flight(
+    const settings::RunSettings& settings,
+    FlightScript script,
+    const SceneGround& ground,
+    std::vector<std::string>& notes) {
+    flightpaths::PlacedPath path = placed(script, placement_of(settings, script, ground), ground);
+    add(notes, path.notes);
+    std::map<std::size_t, sim::Trajectory> others;
+    for (std::size_t i = 0; i < script.others.size(); ++i) {
+        others.emplace(i + 1, flightpaths::placed_beside(script.others[i], path));
+    }
+    const auto stem = [](const std::string& name) {
+        return std::filesystem::path(name).stem().string();
+    };
+    return {
+        .trajectory = std::move(path.trajectory),
+        .title = fmt::format(
+            "{} {} over {}",
+            stem(settings::shape_of(settings.path.aircraft.front())),
+            stem(path_of(settings)),
+            stem(settings.path.terrain)),
+        .rate_hz = script.rate_hz,
+        .place_m = path.origin_m,
+        .heading_rad = path.heading_rad,
+        .offset_m = path.offset_m,
+        .lowest_clearance_m = path.lowest_clearance_m,
+        .lowest_clearance_s = path.lowest_clearance_at_s,
+        .legs = std::move(script.legs),
+        .others = std::move(others)};
+}
+
+sim::Trajectory own_path(
+    const settings::RunSettings& settings,
+    const settings::FlownAircraft& flown,
+    const glm::dvec2& begin_m,
+    const SceneGround& ground,
+    const Flight& first,
+    std::vector<std::string>& notes) {
+    const FlightScript script = load_script(*flown.path, flown.shape, settings.path.lenient);
+    add(notes, script.notes);
+    flightpaths::Placement placement = placement_of(settings, script, ground);
+    const bool at_its_own_place = script.origin && ground.place && !settings.path.place;
+    if (!at_its_own_place) {
+        placement.heading_rad = first.heading_rad;
+        const glm::dvec3 start_m = script.trajectory.samples().front().position_m;
+        const glm::dquat turn = glm::angleAxis(-first.heading_rad, glm::dvec3(0.0, 0.0, 1.0));
+        placement.place_m = begin_m - glm::dvec2(turn * start_m);
+    }
+    flightpaths::PlacedPath path = placed(script, placement, ground);
+    add(notes, path.notes);
+    return begun_at(path.trajectory, first.trajectory.start_s() + flown.from_s);
+}
+
+} // namespace octant::ui::world
