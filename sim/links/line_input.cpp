@@ -40,7 +40,9 @@ void StandardInput::drain(double now_s, std::vector<Datagram>& into) {
     }
 }
 
-LineServer::LineServer(std::uint32_t address, std::uint16_t port) {
+LineServer::LineServer(
+    std::uint32_t address, std::uint16_t port, std::optional<std::uint32_t> only_from)
+    : only_from_(only_from) {
     std::tie(socket_, port_) = listening_socket(address, port);
 }
 
@@ -56,11 +58,13 @@ LineServer::~LineServer() {
 LineServer::LineServer(LineServer&& other) noexcept
     : socket_(std::exchange(other.socket_, -1))
     , port_(other.port_)
+    , only_from_(other.only_from_)
     , clients_(std::exchange(other.clients_, {})) {}
 
 LineServer& LineServer::operator=(LineServer&& other) noexcept {
     std::swap(socket_, other.socket_);
     std::swap(port_, other.port_);
+    std::swap(only_from_, other.only_from_);
     std::swap(clients_, other.clients_);
     return *this;
 }
@@ -69,6 +73,10 @@ LineServer& LineServer::operator=(LineServer&& other) noexcept {
 void LineServer::take_clients() {
     const auto now = std::chrono::steady_clock::now();
     while (auto client = accepted_client(socket_)) {
+        if (only_from_ && client->second.address != *only_from_) {
+            ::close(client->first);
+            continue;
+        }
         if (clients_.size() == most_clients) {
             const auto silent = std::ranges::find(clients_, false, &Client::has_sent);
             if (silent == clients_.end()) {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -71,8 +72,10 @@ public:
     /// A client that has never sent anything is let go after this.
     static constexpr std::chrono::seconds silent_at_first{10};
 
-    /// Throws Error where the port is taken; 0 = any free one.
-    LineServer(std::uint32_t address, std::uint16_t port);
+    /// Throws Error where the port is taken; 0 = any free one. Clients from other addresses than
+    /// `only_from`, where there is one, are turned away before they hold a place.
+    LineServer(
+        std::uint32_t address, std::uint16_t port, std::optional<std::uint32_t> only_from = {});
     ~LineServer();
     LineServer(LineServer&& other) noexcept;
     LineServer& operator=(LineServer&& other) noexcept;
@@ -98,6 +101,7 @@ private:
 
     int socket_ = -1;
     std::uint16_t port_ = 0;
+    std::optional<std::uint32_t> only_from_;
     std::vector<Client> clients_;
 };
 

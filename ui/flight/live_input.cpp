@@ -23,14 +23,14 @@ LiveInput::LiveInput(const LiveInputOptions& options)
         cigi_ = Cigi{ports_.size(), links::peer_from_text(options.cigi_host)};
         open(links::Protocol::Cigi, "CIGI", options.cigi_port);
     }
+    if (!options.only_from.empty()) {
+        only_from_ = links::address_from_text(options.only_from);
+    }
     if (options.lines_port >= 0) {
-        line_server_.emplace(address, static_cast<std::uint16_t>(options.lines_port));
+        line_server_.emplace(address, static_cast<std::uint16_t>(options.lines_port), only_from_);
     }
     if (options.standard_input) {
         standard_input_.emplace();
-    }
-    if (!options.only_from.empty()) {
-        only_from_ = links::address_from_text(options.only_from);
     }
 }
 
