@@ -1,25 +1,10 @@
 #include "sim/links/cigi_answers.h"
 
-#include "sim/base/units.h"
+#include "sim/links/cigi_begin.h"
 
 namespace octant::sim::links {
 
 namespace {
-
-constexpr std::uint16_t magic = 0x8000;
-
-/// Adds a packet of zeros with its opcode and size; says where it begins.
-std::size_t begin_packet(WireWriter& message, std::uint8_t opcode, std::uint8_t size) {
-    const std::size_t at = message.size();
-    message.add_zeros(size);
-    message.set(at, opcode);
-    message.set(at + 1, size);
-    return at;
-}
-
-void set_angle(WireWriter& message, std::size_t at, double angle_rad) {
-    message.set(at, static_cast<float>(deg_from_rad(angle_rad)));
-}
 
 std::uint8_t flags_of(const CigiAnswerHead& head, unsigned more) {
     constexpr unsigned nibble = 4;
@@ -28,8 +13,8 @@ std::uint8_t flags_of(const CigiAnswerHead& head, unsigned more) {
 }
 
 void set_surface_angles(WireWriter& message, std::size_t at, const CigiSurface& surface) {
-    set_angle(message, at, surface.azimuth_rad);
-    set_angle(message, at + 4, surface.elevation_rad);
+    set_cigi_angle(message, at, surface.azimuth_rad);
+    set_cigi_angle(message, at + 4, surface.elevation_rad);
 }
 
 } // namespace
@@ -38,21 +23,21 @@ void add_start_of_frame(WireWriter& message, const CigiStartOfFrame& frame) {
     constexpr std::uint8_t major = 3;
     constexpr unsigned minor = 3;
     constexpr unsigned timestamp_valid = 1U << 2U;
-    const std::size_t at = begin_packet(message, 101, 24);
+    const std::size_t at = begin_cigi_packet(message, 101, 24);
     message.set(at + 2, major);
     message.set(at + 3, frame.database);
     message.set(
         at + 5,
         static_cast<std::uint8_t>(
             static_cast<unsigned>(frame.mode) | timestamp_valid | minor << 4U));
-    message.set(at + 6, magic);
+    message.set(at + 6, cigi_magic);
     message.set(at + 8, frame.ig_frame);
     message.set(at + 12, frame.timestamp);
     message.set(at + 16, frame.host_frame);
 }
 
 void add_height(WireWriter& message, const CigiAnswerHead& head, CigiHeight kind, double height_m) {
-    const std::size_t at = begin_packet(message, 102, 16);
+    const std::size_t at = begin_cigi_packet(message, 102, 16);
     message.set(at + 2, head.id);
     message.set(at + 4, flags_of(head, kind == CigiHeight::Hot ? 2U : 0U));
     message.set(at + 8, head.valid ? height_m : 0.0);
@@ -60,7 +45,7 @@ void add_height(WireWriter& message, const CigiAnswerHead& head, CigiHeight kind
 
 void add_heights(
     WireWriter& message, const CigiAnswerHead& head, double hat_m, const CigiSurface& surface) {
-    const std::size_t at = begin_packet(message, 103, 40);
+    const std::size_t at = begin_cigi_packet(message, 103, 40);
     message.set(at + 2, head.id);
     message.set(at + 4, flags_of(head, 0));
     if (head.valid) {
@@ -76,7 +61,7 @@ void add_sight(
     const auto count = static_cast<std::uint8_t>(1);
     const double range_m = sight.range_m.value_or(0.0);
     if (!extended) {
-        const std::size_t at = begin_packet(message, 104, 16);
+        const std::size_t at = begin_cigi_packet(message, 104, 16);
         message.set(at + 2, head.id);
         message.set(at + 4, flags_of(head, visible << 2U));
         message.set(at + 5, count);
@@ -84,7 +69,7 @@ void add_sight(
         return;
     }
     const unsigned range_valid = sight.range_m ? 1U << 2U : 0U;
-    const std::size_t at = begin_packet(message, 105, 56);
+    const std::size_t at = begin_cigi_packet(message, 105, 56);
     message.set(at + 2, head.id);
     message.set(at + 4, flags_of(head, range_valid | visible << 3U));
     message.set(at + 5, count);
@@ -99,14 +84,14 @@ void add_sight(
 
 void add_position(
     WireWriter& message, std::uint16_t entity, const glm::dvec3& place, const EulerAngles& angles) {
-    const std::size_t at = begin_packet(message, 108, 48);
+    const std::size_t at = begin_cigi_packet(message, 108, 48);
     message.set(at + 2, entity);
     message.set(at + 8, place.x);
     message.set(at + 16, place.y);
     message.set(at + 24, place.z);
-    set_angle(message, at + 32, angles.roll_rad);
-    set_angle(message, at + 36, angles.pitch_rad);
-    set_angle(message, at + 40, angles.heading_rad);
+    set_cigi_angle(message, at + 32, angles.roll_rad);
+    set_cigi_angle(message, at + 36, angles.pitch_rad);
+    set_cigi_angle(message, at + 40, angles.heading_rad);
 }
 
 } // namespace octant::sim::links

@@ -4,6 +4,7 @@
 #include "sim/links/cigi_packets.h"
 
 #include "sim/base/units.h"
+#include "sim/links/cigi_begin.h"
 
 #include <algorithm>
 #include <array>
@@ -19,8 +20,6 @@ namespace {
 constexpr std::uint8_t ig_control = 1;
 constexpr std::size_t ig_control_bytes = 24;
 constexpr std::size_t magic_at = 6;
-constexpr std::uint16_t magic = 0x8000;
-constexpr std::uint16_t swapped_magic = 0x0080;
 constexpr std::size_t header_bytes = 2;
 
 double rad_at(const WireReader& reader, std::size_t at) {
@@ -54,6 +53,14 @@ bool finite(const glm::dvec3& v) {
 bool finite(const EulerAngles& angles) {
     return finite(glm::dvec3(angles.heading_rad, angles.pitch_rad, angles.roll_rad));
 }
+
+bool within(const glm::dvec3& v, double most) {
+    return finite(v) && std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= most;
+}
+
+constexpr double furthest_m = 1e6;
+constexpr double fastest_mps = 20000.0;
+constexpr double fastest_turn_radps = 100.0;
 
 using Read = std::optional<CigiPacket> (*)(const WireReader&);
 
@@ -99,7 +106,9 @@ std::optional<CigiPacket> read_rate(const WireReader& reader) {
     rate.local = bits(reader, 5, 1, 1) != 0;
     rate.mps = floats(reader, 8);
     rate.radps = {rad_at(reader, 20), rad_at(reader, 24), rad_at(reader, 28)};
-    return finite(rate.mps) && finite(rate.radps) ? std::optional<CigiPacket>(rate) : std::nullopt;
+    return within(rate.mps, fastest_mps) && within(rate.radps, fastest_turn_radps)
+               ? std::optional<CigiPacket>(rate)
+               : std::nullopt;
 }
 
 std::optional<CigiPacket> read_part(const WireReader& reader) {
@@ -112,13 +121,15 @@ std::optional<CigiPacket> read_part(const WireReader& reader) {
 }
 
 std::optional<CigiPacket> read_celestial(const WireReader& reader) {
-    return CigiCelestial{
+    const CigiCelestial celestial{
         reader.at<std::uint8_t>(2), reader.at<std::uint8_t>(3), reader.at<std::uint32_t>(8)};
+    const bool is_time = celestial.hour < 24 && celestial.minute < 60;
+    return is_time ? std::optional<CigiPacket>(celestial) : std::nullopt;
 }
 
 std::optional<CigiPacket> read_atmosphere(const WireReader& reader) {
     const auto visibility_m = static_cast<double>(reader.at<float>(8));
-    return std::isfinite(visibility_m)
+    return visibility_m >= 0.0 && visibility_m <= furthest_m
                ? std::optional<CigiPacket>(CigiAtmosphere{bits(reader, 2, 0, 1) != 0, visibility_m})
                : std::nullopt;
 }
@@ -134,7 +145,7 @@ std::optional<CigiPacket> read_view_control(const WireReader& reader) {
     };
     const glm::dvec3 offset_m = floats(reader, 8);
     const EulerAngles angles = angles_at(reader, 20);
-    if (!finite(offset_m) || !finite(angles)) {
+    if (!within(offset_m, furthest_m) || !finite(angles)) {
         return std::nullopt;
     }
     view.offset_m = offset_m * glm::dvec3(enabled(0), enabled(1), enabled(2));
@@ -245,10 +256,10 @@ Verdict check_head(Bytes message, ByteOrder& order) {
     }
     const auto word = big.at<std::uint16_t>(magic_at);
     if (big.at<std::uint8_t>(0) != ig_control || big.at<std::uint8_t>(1) != ig_control_bytes ||
-        (word != magic && word != swapped_magic)) {
+        (word != cigi_magic && word != swapped_cigi_magic)) {
         return {Fault::NotOurs, big.at<std::uint8_t>(0), size};
     }
-    order = word == magic ? ByteOrder::Big : ByteOrder::Little;
+    order = word == cigi_magic ? ByteOrder::Big : ByteOrder::Little;
     const auto major = big.at<std::uint8_t>(2);
     constexpr std::uint8_t ours = 3;
     return {major == ours ? Fault::None : Fault::WrongVersion, major, size};

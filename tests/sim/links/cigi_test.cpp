@@ -268,6 +268,65 @@ TEST_CASE("answers that do not fit into a message wait for the next one") {
     CHECK(answers == 100);
 }
 
+TEST_CASE("values that nothing can have are left out of a message, the rest of it counts") {
+    const auto packets_of = [](const HostMessage& message) {
+        std::vector<CigiPacket> packets;
+        REQUIRE(decode_cigi(message.bytes(), packets).fault == Fault::None);
+        return packets.size() - 1; // without IG Control
+    };
+    for (const float value : {-1.0F, 2e6F, std::nanf("")}) {
+        HostMessage message(ByteOrder::Big, 1);
+        message.begin(10, 32).set(2, std::uint8_t{1}).set(8, value);
+        CHECK(packets_of(message) == 0);
+    }
+    HostMessage hour(ByteOrder::Big, 1);
+    hour.begin(9, 16).set(2, std::uint8_t{24});
+    CHECK(packets_of(hour) == 0);
+    HostMessage rate(ByteOrder::Little, 1);
+    rate.begin(8, 32).set(8, 30000.0F);
+    rate.begin(8, 32).set(20, 6000.0F);
+    rate.begin(8, 32).set(8, 300.0F);
+    CHECK(packets_of(rate) == 1);
+    HostMessage view(ByteOrder::Big, 1);
+    view.begin(16, 32).set(8, 1e7F);
+    CHECK(packets_of(view) == 0);
+}
+
+TEST_CASE("twenty heights and five lines of sight a frame are all answered within two frames") {
+    const FlatGround ground;
+    CigiImageGenerator generator(&ground);
+    std::vector<Fix> moved;
+    constexpr std::size_t questions = 25;
+    std::size_t asked = 0;
+    std::size_t answered = 0;
+    for (std::uint32_t frame = 1; frame <= 60; ++frame) {
+        HostMessage message(ByteOrder::Big, frame);
+        for (std::uint16_t i = 0; i < 20; ++i) {
+            message.begin(24, 32)
+                .set(2, i)
+                .set(4, std::uint8_t{2})
+                .set(8, 1.0)
+                .set(16, 1.0)
+                .set(24, 500.0);
+        }
+        for (std::uint16_t i = 0; i < 5; ++i) {
+            message.begin(25, 64)
+                .set(2, i)
+                .set(4, std::uint8_t{1})
+                .set(8, 1.0)
+                .set(16, 1.0)
+                .set(24, 500.0)
+                .set(32, 1.1)
+                .set(40, 1.0)
+                .set(48, 500.0);
+        }
+        generator.take(message.bytes(), moved);
+        asked += questions;
+        answered += parts_of(generator.message_for(frame, frame / 60.0)).size() - 1;
+        CHECK(asked - answered <= questions);
+    }
+}
+
 TEST_CASE("what is no message of a CIGI 3 host is refused, and unknown packets are counted") {
     CigiImageGenerator generator(nullptr);
     std::vector<Fix> moved;
