@@ -116,6 +116,9 @@ fly_frames(const FlyOptions& options, flight::Session& session, flight::FlightRe
     const int first = part ? session.begin_part(*settings::part_from_text(*part)).first : 0;
     const int count = session.frames() - first;
     base::Progress progress(session.world().flight.title, count, options.quiet);
+    for (const std::string& line : sender.channels().await_first()) {
+        base::say(false, line);
+    }
     const base::Stopwatch since_start;
     int frame = first;
     for (; frame < session.frames() && !(base::StopSignals::came() && frame > first); ++frame) {
@@ -130,6 +133,7 @@ fly_frames(const FlyOptions& options, flight::Session& session, flight::FlightRe
             record.missed = late_s > 1.0 / session.rate_hz() ? 1 : 0;
         }
         sender.send(session);
+        record.skew_frames = sender.channels().await_pictures();
         recorder.add(record, session);
         progress.show(frame + 1 - first, fmt::format("{:.1f} ms", record.frame_ms));
     }
@@ -255,9 +259,12 @@ std::vector<Option> options_of(FlyOptions& options) {
              }},
         list_option(
             "--send",
-            "fdm|dis|tacview:HOST:PORT",
+            "fdm|dis|cigi|tacview:HOST:PORT",
             "send each picture's aircraft to another program, as fast as the clock goes: "
             "fdm: the first one as FlightGear's native FDM; dis: all as DIS entity states; "
+            "cigi:HOST:PORT[:OWN]: all and the camera to an image generator that answers to port "
+            "OWN "
+            "[8005], whose picture is waited for, so that several show one frame; "
             "tacview:PORT: for readers of Tacview's telemetry",
             Takes::OneWordAgain,
             options.send),
@@ -288,7 +295,8 @@ Command fly_command() {
             "  octant fly turn --adapt terrain --rate 120 --record fitted\n"
             "  octant fly jinking --aircraft my-aircraft.ply --aircraft-error-px 0.5\n"
             "  octant fly --replay fitted\n"
-            "  octant fly turn --send fdm:127.0.0.1:5550",
+            "  octant fly turn --send fdm:127.0.0.1:5550\n"
+            "  octant fly turn --send cigi:127.0.0.1:8004 --send cigi:127.0.0.1:8014",
         .run = [options] { fly(*options); }};
 }
 

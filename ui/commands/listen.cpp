@@ -199,6 +199,28 @@ std::vector<Option> listen_options(ListenOptions& options) {
             "--step",
             "with --headless: one picture for each packet that moves something, of what it says",
             options.listener.live.step),
+        {.name = "--channel",
+         .form = "CHANNEL",
+         .meaning = "left, front or right: one of three pictures side by side of one world; left "
+                    "and right are turned by the picture's own width [front]",
+         .read =
+             [&options](const Words& words) {
+                 const auto channel = flight::live_channel_from(words.front());
+                 if (!channel) {
+                     throw Error(fmt::format(
+                         "--channel: expected {}, got '{}'",
+                         flight::live_channel_names,
+                         printable(words.front())));
+                 }
+                 options.listener.live.channel = *channel;
+             }},
+        read_option(
+            {"vehicles",
+             "N",
+             "show as many vehicles: those beyond the --aircraft given look like the last one",
+             1,
+             256},
+            options.vehicles),
         read_option(
             {"delay",
              "S",
@@ -223,7 +245,7 @@ std::vector<Option> listen_options(ListenOptions& options) {
              }},
         list_option(
             "--send",
-            "fdm|dis|tacview:HOST:PORT",
+            "fdm|dis|cigi|tacview:HOST:PORT",
             "send each picture's aircraft on to another program, as octant fly --send",
             Takes::OneWordAgain,
             options.send),

@@ -14,6 +14,7 @@ namespace octant::ui::commands {
 struct ListenOptions {
     settings::RunSettings settings;
     flight::ListenerOptions listener;
+    int vehicles = 16;             ///< that are shown, at least as many as there are aircraft
     std::vector<std::string> send; ///< to whom, as flight::Sender has it
     flight::RecordOptions record;  ///< without a window
     bool json = false;

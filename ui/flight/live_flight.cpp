@@ -5,7 +5,10 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace octant::ui::flight {
 
@@ -17,7 +20,20 @@ namespace {
 constexpr glm::dvec3 out_of_sight_m(0.0, 0.0, sim::links::LiveTraffic::hidden_m);
 constexpr double usual_fov_rad = 0.785398163397448;
 
+constexpr std::array<std::pair<LiveChannel, std::string_view>, 3> channels{
+    {{LiveChannel::Front, "front"}, {LiveChannel::Left, "left"}, {LiveChannel::Right, "right"}}};
+
 } // namespace
+
+std::optional<LiveChannel> live_channel_from(std::string_view name) {
+    const auto found =
+        std::ranges::find(channels, name, [](const auto& each) { return each.second; });
+    return found == channels.end() ? std::nullopt : std::optional(found->first);
+}
+
+std::string_view name_of(LiveChannel channel) {
+    return channels.at(static_cast<std::size_t>(channel)).second;
+}
 
 LiveFlight::LiveFlight(const LiveOptions& options, const world::World& world)
     : options_(options)
@@ -30,19 +46,55 @@ LiveFlight::LiveFlight(const LiveOptions& options, const world::World& world)
           &cigi_ground_) {}
 
 void LiveFlight::states_at(double time_s, std::span<sim::AircraftState> states) {
-    const std::size_t shown = options_.step ? traffic_.show_newest(time_s, states)
-                                            : traffic_.show(time_s, options_.delay_s, states);
-    for (std::size_t i = std::max<std::size_t>(shown, 1); i < states.size(); ++i) {
+    of_vehicles_.resize(states.size());
+    const std::size_t shown = options_.step ? traffic_.show_newest(time_s, of_vehicles_)
+                                            : traffic_.show(time_s, options_.delay_s, of_vehicles_);
+    give_places(shown, states.size());
+    for (std::size_t i = 1; i < states.size(); ++i) {
         states[i].position_m = out_of_sight_m;
+    }
+    for (std::size_t i = 0; i < shown; ++i) {
+        states[places_[i]] = of_vehicles_[i];
     }
     for (sim::AircraftState& state : states) {
         state.time_s = time_s;
     }
 }
 
+/// Gives the first vehicles an aircraft each; those that have one keep it.
+void LiveFlight::give_places(std::size_t vehicles, std::size_t aircraft) {
+    const auto is_taken = [this](std::size_t place) {
+        return std::ranges::find(places_, place) != places_.end();
+    };
+    while (places_.size() < vehicles) {
+        const sim::links::VehicleKey& key = traffic_.vehicles()[places_.size()].key();
+        std::size_t place = 0;
+        if (key.protocol == sim::links::Protocol::Cigi && key.vehicle < aircraft) {
+            place = static_cast<std::size_t>(key.vehicle);
+        }
+        for (; is_taken(place); place = (place + 1) % aircraft) {
+        }
+        places_.push_back(place);
+    }
+}
+
+/// The host's camera or the usual one, turned to this channel's side.
+scene::Camera LiveFlight::camera(
+    std::span<const sim::AircraftState> states, const scene::Camera& usual, double aspect) const {
+    scene::Camera camera = camera_of_host(states).value_or(usual);
+    if (options_.channel != LiveChannel::Front) {
+        const double width_rad = 2.0 * std::atan(std::tan(0.5 * camera.vertical_fov_rad) * aspect);
+        const double side = options_.channel == LiveChannel::Left ? 1.0 : -1.0;
+        camera.view_to_world =
+            camera.view_to_world * glm::angleAxis(side * width_rad, glm::dvec3(0.0, 1.0, 0.0));
+    }
+    return camera;
+}
+
 /// The lowest of a CIGI host's views, where he has told one: from its entity, turned and moved,
 /// with the middle of its frustum ahead.
-std::optional<scene::Camera> LiveFlight::camera(std::span<const sim::AircraftState> states) const {
+std::optional<scene::Camera>
+LiveFlight::camera_of_host(std::span<const sim::AircraftState> states) const {
     const auto& views = traffic_.cigi().views();
     const auto& definitions = traffic_.cigi().definitions();
     if (views.empty()) {
@@ -56,10 +108,11 @@ std::optional<scene::Camera> LiveFlight::camera(std::span<const sim::AircraftSta
             return vehicle.key().protocol == sim::links::Protocol::Cigi &&
                    vehicle.key().vehicle == entity;
         });
-    const auto index = static_cast<std::size_t>(of_entity - vehicles.begin());
-    if (of_entity == vehicles.end() || index >= states.size()) {
+    const auto vehicle = static_cast<std::size_t>(of_entity - vehicles.begin());
+    if (of_entity == vehicles.end() || vehicle >= places_.size()) {
         return std::nullopt;
     }
+    const std::size_t index = places_[vehicle];
     EulerAngles angles = view.angles;
     scene::Camera camera;
     camera.vertical_fov_rad = usual_fov_rad;
@@ -97,6 +150,10 @@ void LiveFlight::fill_in(report::FrameRecord& record, double finished_s) {
     record.packets_late = since(&sim::links::TrafficCounts::late);
     record.packets_wrong = since(&sim::links::TrafficCounts::wrong);
     counted_ = now;
+    if (traffic_.cigi().has_host()) {
+        constexpr std::uint32_t positive = 0x7fffffff;
+        record.host_frame = static_cast<int>(traffic_.cigi().host_frame() & positive);
+    }
     record.stale = traffic_.is_stale() ? 1 : 0;
     if (!traffic_.vehicles().empty()) {
         record.jitter_ms = 1000.0 * traffic_.vehicles().front().clock().jitter_s();

@@ -11,9 +11,19 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace octant::ui::flight {
+
+/// Which of several pictures side by side this one is: left and right are turned by its own width.
+enum class LiveChannel { Front, Left, Right };
+
+inline constexpr std::string_view live_channel_names = "left, front or right";
+
+/// The channel of a name, nothing for another one; and back.
+std::optional<LiveChannel> live_channel_from(std::string_view name);
+std::string_view name_of(LiveChannel channel);
 
 /// How motion from outside is shown.
 struct LiveOptions {
@@ -21,10 +31,12 @@ struct LiveOptions {
     std::optional<LiveHeight> height;
     /// Each packet that moves something is one picture, of what it says and no more.
     bool step = false;
+    LiveChannel channel = LiveChannel::Front;
 };
 
 /// Flies a session's aircraft by packets: the vehicle that came first is the first aircraft, and so
-/// on; aircraft that nobody flies yet are not seen, the first one waits at its place. Reads no
+/// on, but a CIGI host's entity N is aircraft N, counted from 0, where there are as many; aircraft
+/// that nobody flies yet are not seen, the first one waits at its place. Reads no
 /// clock: the same packets and times give the same states.
 class LiveFlight final : public StateSource {
 public:
@@ -55,20 +67,28 @@ public:
         return traffic_.cigi().message_for(picture, time_s);
     }
 
-    std::optional<visuals::scene::Camera>
-    camera(std::span<const sim::AircraftState> states) const override;
+    visuals::scene::Camera camera(
+        std::span<const sim::AircraftState> states,
+        const visuals::scene::Camera& usual,
+        double aspect) const override;
 
     const sim::links::LiveTraffic& traffic() const { return traffic_; }
 
     const LivePlace& place() const { return place_; }
 
 private:
+    std::optional<visuals::scene::Camera>
+    camera_of_host(std::span<const sim::AircraftState> states) const;
+    void give_places(std::size_t vehicles, std::size_t aircraft);
+
     LiveOptions options_;
     LivePlace place_;
     CigiOverWorld cigi_ground_;
     sim::links::LiveTraffic traffic_;
     sim::links::TrafficCounts counted_;
-    double newest_s_ = -1.0; ///< packet of the last frame
+    double newest_s_ = -1.0;          ///< packet of the last frame
+    std::vector<std::size_t> places_; ///< which aircraft shows each vehicle
+    std::vector<sim::AircraftState> of_vehicles_;
 };
 
 } // namespace octant::ui::flight

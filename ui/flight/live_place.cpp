@@ -83,6 +83,10 @@ glm::dvec3 LivePlace::world_from(const sim::links::VehicleKey& key, const sim::l
         const glm::dvec2 own_m = place_m + *fix.local_m;
         return {own_m, height_of(key, fix, own_m)};
     }
+    if (!origin_ &&
+        ground_m(flightpaths::local_from_geo({}, fix.latitude_deg, fix.longitude_deg))) {
+        origin_ = models::heights::GeoPlace{}; // As we send from ground without a place.
+    }
     if (!origin_) {
         // The world's origin, so that this fix comes to lie at the flight's place.
         const flightpaths::GeoOrigin origin =

@@ -28,7 +28,8 @@ std::optional<LiveHeight> live_height_from(std::string_view name);
 std::string_view name_of(LiveHeight height);
 
 /// Where fixes lie over the ground of a run. On ground with a place of its own they lie there; else
-/// the first fix is laid over the flight's place and the others around it.
+/// the first fix is laid over the flight's place and the others around it; but fixes that would lie
+/// on the map if its middle were 0 N, 0 E mean that, as another octant does on such a ground.
 class LivePlace {
 public:
     /// The world must outlive this. Without a height it is Msl over ground that knows its place,

@@ -150,15 +150,18 @@ private:
 
 LiveOptions options_of(const std::filesystem::path& file, std::string_view line) {
     const auto words = split_words(line);
-    const auto delay_s = words.size() == 3 ? finite_number(words[0]) : std::nullopt;
-    if (!delay_s) {
+    const bool has_channel = words.size() == 4;
+    const auto delay_s = words.size() == 3 || has_channel ? finite_number(words[0]) : std::nullopt;
+    const auto channel = live_channel_from(has_channel ? words[3] : name_of(LiveChannel::Front));
+    if (!delay_s || !channel) {
         error_at(
             file,
             1,
             fmt::format(
-                "expected a delay, a height and a step, got '{}'", printable(std::string(line))));
+                "expected a delay, a height, a step and a channel, got '{}'",
+                printable(std::string(line))));
     }
-    return {*delay_s, live_height_from(words[1]), words[2] == "step"};
+    return {*delay_s, live_height_from(words[1]), words[2] == "step", *channel};
 }
 
 } // namespace
@@ -166,11 +169,12 @@ LiveOptions options_of(const std::filesystem::path& file, std::string_view line)
 PacketWriter::PacketWriter(const std::filesystem::path& folder, const LiveOptions& options)
     : file_(folder / packets_name) {
     file_.append(fmt::format(
-        "{}{} {} {}\n",
+        "{}{} {} {} {}\n",
         magic,
         options.delay_s,
         options.height ? name_of(*options.height) : "usual",
-        options.step ? "step" : "clock"));
+        options.step ? "step" : "clock",
+        name_of(options.channel)));
     file_.flush();
 }
 

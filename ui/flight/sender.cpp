@@ -1,15 +1,13 @@
 #include "ui/flight/sender.h"
 
-#include "flightpaths/local_tangent.h"
-#include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
 #include "sim/links/dis_entity.h"
 #include "sim/links/flightgear_fdm.h"
+#include "ui/flight/session_fix.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
 #include <optional>
@@ -21,21 +19,6 @@ namespace octant::ui::flight {
 namespace links = sim::links;
 
 namespace {
-
-flightpaths::GeoOrigin origin_of(const Session& session) {
-    std::optional<models::heights::GeoPlace> place = session.world().ground_place;
-    if (session.simulation().is_live()) {
-        place = session.simulation().source().origin();
-    }
-    return place ? flightpaths::GeoOrigin{place->latitude_deg, place->longitude_deg}
-                 : flightpaths::GeoOrigin{};
-}
-
-/// Microseconds as a clock that wraps around.
-std::uint32_t ticks_at(double time_s) {
-    constexpr double per_second = 1e6;
-    return static_cast<std::uint32_t>(std::llround(time_s * per_second) & 0xffffffffLL);
-}
 
 /// Of "tacview:PORT" or "tacview:ADDRESS:PORT".
 links::Source reader_address(const std::string& target) {
@@ -62,24 +45,6 @@ std::string tacview_head(const Session& session) {
 
 } // namespace
 
-links::Fix fix_of(const Session& session, const sim::AircraftState& state) {
-    const glm::dvec3& at_m = state.position_m;
-    const flightpaths::GeoOrigin place =
-        flightpaths::geo_from_local(origin_of(session), glm::dvec2(at_m.x, at_m.y));
-    links::Fix fix;
-    fix.latitude_deg = std::clamp(place.latitude_deg, -90.0, 90.0);
-    fix.longitude_deg = place.longitude_deg;
-    fix.altitude_m = at_m.z;
-    if (const auto ground_m = session.world().scene.ground->height_at(at_m.x, at_m.y)) {
-        fix.above_ground_m = at_m.z - *ground_m;
-    }
-    fix.attitude = euler_from_body_to_world(state.body_to_world);
-    fix.velocity_ned_mps =
-        glm::dvec3(state.velocity_mps.y, state.velocity_mps.x, -state.velocity_mps.z);
-    fix.ticks = ticks_at(state.time_s);
-    return fix;
-}
-
 Sender::Sender(const std::vector<std::string>& targets) {
     for (const std::string& target : targets) {
         const std::string_view text = target;
@@ -88,12 +53,17 @@ Sender::Sender(const std::vector<std::string>& targets) {
             tacview_.emplace_back(own.address, own.port, "Octant");
             continue;
         }
+        if (text.starts_with("cigi:")) {
+            channels_.add(target);
+            continue;
+        }
         const auto form = text.starts_with("fdm:")   ? std::optional(Form::Fdm)
                           : text.starts_with("dis:") ? std::optional(Form::Dis)
                                                      : std::nullopt;
         if (!form) {
             throw Error(fmt::format(
-                "--send: expected fdm:HOST:PORT, dis:HOST:PORT or tacview:PORT, got '{}'",
+                "--send: expected fdm:HOST:PORT, dis:HOST:PORT, cigi:HOST:PORT or tacview:PORT, "
+                "got '{}'",
                 printable(target)));
         }
         constexpr std::size_t prefix = 4;
@@ -154,6 +124,7 @@ void Sender::send(const Session& session) {
     if (!tacview_.empty()) {
         send_tacview(session);
     }
+    channels_.send(session);
     for (const Target& target : targets_) {
         const auto states = session.states();
         const std::size_t count = target.form == Form::Fdm ? 1 : states.size();

@@ -114,7 +114,9 @@ scene::Camera Session::camera_of(const settings::RunSettings& settings) const {
 void Session::look(Moment& moment) const {
     moment.camera = camera_of(settings_);
     if (source_ != nullptr) {
-        moment.camera = source_->camera(simulation_->states()).value_or(moment.camera);
+        const glm::dvec2 size_px(settings_.view.size_px);
+        moment.camera =
+            source_->camera(simulation_->states(), moment.camera, size_px.x / size_px.y);
     }
     if (inset_) {
         moment.inset_camera = camera_of(inset_->settings());

@@ -34,10 +34,12 @@ public:
     /// call, or where the aircraft stand at the beginning.
     virtual void states_at(double time_s, std::span<sim::AircraftState> states) = 0;
 
-    /// Where the next picture is to be taken from, for aircraft in these states; nothing where the
-    /// settings say that.
-    virtual std::optional<visuals::scene::Camera>
-    camera(std::span<const sim::AircraftState> states) const = 0;
+    /// Where the next picture of this width over height is to be taken from, for aircraft in these
+    /// states; `usual` is what the settings say.
+    virtual visuals::scene::Camera camera(
+        std::span<const sim::AircraftState> states,
+        const visuals::scene::Camera& usual,
+        double aspect) const = 0;
 
     /// Where the world's origin lies on the earth, once that is known.
     virtual std::optional<models::heights::GeoPlace> origin() const = 0;

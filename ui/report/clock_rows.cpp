@@ -2,6 +2,7 @@
 
 #include "ui/report/statistics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -33,19 +34,43 @@ void LinkTally::add(const FrameRecord& record) {
     wrong_ += record.packets_wrong;
     stale_ += record.stale;
     jitter_ms_ += record.jitter_ms;
+    if (record.host_frame >= 0) {
+        first_host_frame_ = hosted_ == 0 ? record.host_frame : first_host_frame_;
+        last_host_frame_ = record.host_frame;
+        ++hosted_;
+    }
+    if (record.skew_frames >= 0) {
+        ++sent_;
+        most_skew_ = std::max(most_skew_, record.skew_frames);
+        skewed_ += record.skew_frames > 0 ? 1 : 0;
+    }
 }
 
 Rows LinkTally::rows() const {
-    if (packets_ + wrong_ == 0) {
-        return {};
+    Rows rows;
+    if (sent_ > 0) {
+        rows.emplace_back(
+            "channels: skew at most, frames with any",
+            fmt::format("{} frames, {} of {}", most_skew_, skewed_, sent_));
     }
-    return {
+    if (hosted_ > 0) {
+        rows.emplace_back(
+            "frames of the CIGI host",
+            fmt::format(
+                "{} pictures of frames {} to {}", hosted_, first_host_frame_, last_host_frame_));
+    }
+    if (packets_ + wrong_ == 0) {
+        return rows;
+    }
+    const Rows of_packets{
         {"packets taken, lost, late, wrong",
          fmt::format("{}, {}, {}, {}", packets_, lost_, late_, wrong_)},
         {"frames with an aircraft that stood for want of packets",
          fmt::format("{} of {}", stale_, frames_)},
         {"jitter of packets, mean",
          fmt::format("{:.1f} ms", jitter_ms_ / static_cast<double>(frames_))}};
+    rows.insert(rows.end(), of_packets.begin(), of_packets.end());
+    return rows;
 }
 
 } // namespace octant::ui::report

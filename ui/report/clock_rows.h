@@ -35,6 +35,12 @@ private:
     long wrong_ = 0;
     long stale_ = 0;
     double jitter_ms_ = 0.0;
+    long hosted_ = 0; ///< pictures of CIGI hosts' frames
+    int first_host_frame_ = -1;
+    int last_host_frame_ = -1;
+    long sent_ = 0; ///< frames to image generators
+    int most_skew_ = 0;
+    long skewed_ = 0;
 };
 
 } // namespace octant::ui::report

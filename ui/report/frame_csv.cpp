@@ -109,6 +109,8 @@ constexpr std::array frame_columns{
     column<&R::packets_wrong>("packets_wrong"),
     column<&R::stale>("stale"),
     column<&R::jitter_ms>("jitter_ms", Kind::Number, milliseconds),
+    column<&R::host_frame>("host_frame"),
+    column<&R::skew_frames>("skew_frames"),
     hash_column("state_hash", &R::state_hash),
     hash_column("picture_hash", &R::picture_hash),
 };

@@ -7,6 +7,8 @@
 #include "ui/window/viewer.h"
 #include "ui/world/input_files.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <fmt/format.h>
 #include <iterator>
 #include <memory>
@@ -46,6 +48,10 @@ void listen_in_window(ListenWork work) {
 void listen(ListenWork work) {
     settings::RunSettings& settings = work.listen.settings;
     settings.path.name = settings::live_path;
+    const auto vehicles = static_cast<std::size_t>(work.listen.vehicles);
+    std::vector<std::string>& aircraft = settings.path.aircraft;
+    const std::string last = aircraft.back();
+    aircraft.resize(std::max(aircraft.size(), vehicles), last);
     settings = world::with_absolute_files(settings);
     if (work.headless) {
         commands::listen_without_window(work.listen);

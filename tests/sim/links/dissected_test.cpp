@@ -4,6 +4,7 @@
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
 #include "sim/links/cigi_answers.h"
+#include "sim/links/cigi_host.h"
 #include "sim/links/dis_entity.h"
 
 #include <catch2/catch.hpp>
@@ -178,6 +179,69 @@ TEST_CASE("Wireshark reads CIGI answers as they are meant") {
     CHECK(number(sights[8]) == 700.0);
     CHECK(number(sights[9]) == Approx(-10.0));
     CHECK(number(sights[10]) == Approx(90.0));
+}
+
+TEST_CASE("Wireshark reads what a CIGI host sends as it is meant, in both byte orders") {
+    if (!has_tshark()) {
+        std::cout << "SKIPPED: tshark is not installed\n";
+        return;
+    }
+    for (const ByteOrder order : {ByteOrder::Big, ByteOrder::Little}) {
+        WireWriter message(order);
+        add_ig_control(message, {2, CigiMode::Operate, true, 4321, 250000, 99});
+        CigiEntityControl entity;
+        entity.entity = 3;
+        entity.state = 1;
+        entity.type = 12;
+        entity.attitude = {rad_from_deg(275.0), rad_from_deg(5.0), rad_from_deg(-30.0)};
+        entity.place = {47.25, -8.5, 1234.5};
+        add_entity(message, entity);
+        CigiViewDefinition frustum;
+        frustum.view = 6;
+        frustum.left_rad = rad_from_deg(-31.0);
+        frustum.right_rad = rad_from_deg(32.0);
+        frustum.top_rad = rad_from_deg(20.0);
+        frustum.bottom_rad = rad_from_deg(-21.0);
+        add_view_definition(message, frustum);
+        CigiViewControl view;
+        view.view = 6;
+        view.entity = 3;
+        view.offset_m = {-40.5, 0.25, -8.0};
+        view.angles = {rad_from_deg(10.0), rad_from_deg(-12.0), rad_from_deg(1.0)};
+        add_view_control(message, view);
+
+        const auto values = dissected(
+            message.bytes(),
+            8004,
+            "cigi",
+            {"cigi.ig_control.host_frame_number",
+             "cigi.ig_control.last_ig_frame_number",
+             "cigi.ig_control.minor_version",
+             "cigi.entity_control.entity_id",
+             "cigi.entity_control.entity_type",
+             "cigi.entity_control.roll",
+             "cigi.entity_control.pitch",
+             "cigi.entity_control.yaw",
+             "cigi.entity_control.lat_xoff",
+             "cigi.entity_control.lon_yoff",
+             "cigi.entity_control.alt_zoff",
+             "cigi.view_def.left",
+             "cigi.view_def.right",
+             "cigi.view_def.top",
+             "cigi.view_def.bottom",
+             "cigi.view_control.entity_id",
+             "cigi.view_control.xoff",
+             "cigi.view_control.zoff",
+             "cigi.view_control.yaw",
+             "cigi.view_control.pitch"});
+        const std::vector<double> meant{4321,  99,    3,     3,      12,    -30.0, 5.0,
+                                        275.0, 47.25, -8.5,  1234.5, -31.0, 32.0,  20.0,
+                                        -21.0, 3,     -40.5, -8.0,   10.0,  -12.0};
+        for (std::size_t i = 0; i < meant.size(); ++i) {
+            CAPTURE(i);
+            CHECK(number(values[i]) == Approx(meant[i]));
+        }
+    }
 }
 
 TEST_CASE("Wireshark reads DIS entity states as they are meant") {

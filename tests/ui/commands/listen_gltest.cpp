@@ -161,6 +161,7 @@ TEST_CASE("octant listen refuses what it cannot do in one line") {
         {{"--bind", "192.0.2.1"}, "192.0.2.1:"},
         {{"--height", "low"}, "--height: expected msl, agl or offset, got 'low'"},
         {{"--from", "here"}, "expected an IPv4 address"},
+        {{"--channel", "up"}, "--channel: expected left, front or right, got 'up'"},
         {{"--delay", "-1"}, "--delay"}};
     for (const Case& wrong : cases) {
         std::vector<std::string> line{"listen", "--headless", "--seconds", "1"};

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "sim/aircraft_state.h"
+#include "sim/links/datagram.h"
+#include "sim/links/udp_port.h"
+#include "ui/flight/session.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace octant::ui::flight {
+
+/// Image generators that show what a session shows, as their CIGI 3.3 host: all aircraft as
+/// entities by their numbers (48 at most, as many as one packet takes) with their rates, their
+/// shapes as types (1 = the first aircraft's), and the camera as view 0 of entity 0 with its
+/// frustum.
+class CigiChannels {
+public:
+    /// Where Start of Frame comes in, unless a channel says otherwise.
+    static constexpr std::uint16_t usual_own_port = 8005;
+
+    /// Adds "cigi:HOST:PORT" or "cigi:HOST:PORT:OWN", OWN the port on which they answer. Throws
+    /// Error.
+    void add(const std::string& target);
+
+    bool empty() const { return channels_.empty(); }
+
+    /// Waits until each has sent a Start of Frame, for ten seconds at most. Returns a line for each
+    /// that has not.
+    std::vector<std::string> await_first();
+
+    /// Sends the last picture to all. Does not wait.
+    void send(const Session& session);
+
+    /// Waits until all that have ever answered show what was sent last, for a second at most; one
+    /// that does not is not waited for until it answers again. Returns how many host frames lie
+    /// between the pictures of those that answer, -1 where none does.
+    int await_pictures();
+
+private:
+    struct Channel {
+        sim::links::Source peer;
+        bool answers = false;
+        std::uint32_t shows = 0;    ///< host frame
+        std::uint32_t ig_frame = 0; ///< its own
+    };
+
+    void listen();
+    std::vector<std::byte> message_for(const Session& session, std::uint32_t last_ig_frame) const;
+
+    std::vector<Channel> channels_;
+    std::uint16_t own_port_ = usual_own_port;
+    std::optional<sim::links::UdpPort> socket_;
+    std::vector<sim::links::Datagram> heard_;
+    std::uint32_t host_frame_ = 0;
+    std::vector<sim::AircraftState> before_; ///< in the picture that was sent last
+};
+
+} // namespace octant::ui::flight
