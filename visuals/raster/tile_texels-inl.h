@@ -58,7 +58,7 @@ struct TexturePlanes {
         , per_x(values_of(extra, &RealPlane::per_x))
         , per_y(values_of(extra, &RealPlane::per_y)) {}
 
-    HWY_INLINE TexturePoint at(int column, int row) const {
+    HWY_INLINE TexturePoint at(double column, double row) const {
         const double w = 1.0 / std::max(by_w.at(column, row), 1e-30);
         const auto x = real(column);
         const auto y = real(row);
@@ -176,17 +176,34 @@ struct TexelSquares {
         const hn::RebindToSigned<Texels> sign;
         const auto first = hn::Add(
             hn::Mul(hn::ShiftRight<16>(y), hn::Set(sign, level.width)), hn::ShiftRight<16>(x));
-        const std::uint32_t* const from = level.texels.data();
-        corner = {
-            hn::GatherIndex(texels, from, first),
-            hn::GatherIndex(texels, from + 1, first),
-            hn::GatherIndex(texels, from + level.width, first),
-            hn::GatherIndex(texels, from + level.width + 1, first)};
+        load_neighbours(level, first, corner[0], corner[1]);
+        load_neighbours(level, hn::Add(first, hn::Set(sign, level.width)), corner[2], corner[3]);
         const auto part = [&](auto place) HWY_ATTR {
             return hn::And(hn::BitCast(texels, place), hn::Set(texels, 0xffffU));
         };
         right = in_both_halves(part(x));
         up = in_both_halves(hn::ShiftRight<9>(part(y)));
+    }
+
+    /// Texels by their numbers in the level, and those right of them: both are loaded at once.
+    static HWY_INLINE void load_neighbours(
+        const GroundImage::Level& level,
+        hn::Vec<hn::RebindToSigned<Texels>> number,
+        hn::Vec<Texels>& left_ones,
+        hn::Vec<Texels>& right_ones) {
+        const Texels texels;
+        const hn::Repartition<std::uint64_t, Texels> pairs;
+        const hn::RebindToSigned<decltype(pairs)> offsets;
+        const hn::Half<hn::RebindToSigned<Texels>> half;
+        const auto* const from = reinterpret_cast<const std::uint64_t*>(level.texels.data());
+        const auto load = [&](auto some) HWY_ATTR {
+            const auto bytes = hn::ShiftLeft<2>(hn::PromoteTo(offsets, some));
+            return hn::BitCast(texels, hn::GatherOffset(pairs, from, bytes));
+        };
+        const auto low = load(hn::LowerHalf(half, number));
+        const auto high = load(hn::UpperHalf(half, number));
+        left_ones = hn::ConcatEven(texels, high, low);
+        right_ones = hn::ConcatOdd(texels, high, low);
     }
 
     /// Two of their colours, mixed.
@@ -205,31 +222,22 @@ struct TexelSquares {
     }
 };
 
-/// The texture's colours along a block, from one of its levels.
-HWY_INLINE void sample_texture(
-    const GroundImage& image,
-    std::size_t number,
-    const std::array<TexturePoint, 2>& ends,
-    double share,
-    BlockColours& to) {
-    const GroundImage::Level& level = image.levels()[number];
-    const double scale = 65536.0 / static_cast<double>(std::uint64_t{1} << number);
-    const auto places = [&](const TexturePoint& end) HWY_ATTR {
-        return four([&](std::size_t i) HWY_ATTR {
-            const auto place =
-                hn::Sub(hn::Mul(hn::Add(end.value[i], real(0.5)), real(scale)), real(32768.0));
-            const auto limit = hn::Load(Reals(), &level.last_place[i * hn::MaxLanes(Reals())]);
-            return hn::Min(hn::Max(place, real(0.0)), limit);
-        });
-    };
-    const BlockWalk walk(places(ends[0]), places(ends[1]), share);
+/// Places of a level along a block, 2^-16 texel: at its first pixel and from each to the next.
+struct TexelLine {
+    std::array<std::int32_t, 2> first;
+    std::array<std::int32_t, 2> per_px;
+};
+
+/// A level's colours along a block. Places beyond the texture's rim have the rim's.
+HWY_INLINE void
+sample_line(const GroundImage::Level& level, const TexelLine& line, BlockColours& to) {
     const hn::RebindToSigned<Texels> sign;
     const hn::Rebind<std::uint16_t, Texels> halves;
     for (std::size_t i = 0; i < block_px; i += hn::MaxLanes(Texels())) {
         const auto steps = hn::Iota(sign, static_cast<std::int32_t>(i));
         const auto place = [&](std::size_t k, int size) HWY_ATTR {
             const auto at = hn::Add(
-                hn::Set(sign, walk.first[k]), hn::Mul(steps, hn::Set(sign, walk.per_px[k])));
+                hn::Set(sign, line.first[k]), hn::Mul(steps, hn::Set(sign, line.per_px[k])));
             return hn::Min(hn::Max(at, hn::Zero(sign)), hn::Set(sign, (size - 1) * 65536 - 1));
         };
         const TexelSquares around(level, place(0, level.width), place(1, level.height));
@@ -243,6 +251,32 @@ HWY_INLINE void sample_texture(
         store(1, hn::And(green, lower_half));
         store(2, hn::ShiftRight<16>(red_blue));
     }
+}
+
+/// Steps of a level's places, 2^-16 texel, in a texel of the finest level.
+HWY_INLINE double texel_scale(std::size_t level) {
+    return 65536.0 / static_cast<double>(std::uint64_t{1} << level);
+}
+
+/// The texture's colours along a block, from one of its levels.
+HWY_INLINE void sample_texture(
+    const GroundImage& image,
+    std::size_t number,
+    const std::array<TexturePoint, 2>& ends,
+    double share,
+    BlockColours& to) {
+    const GroundImage::Level& level = image.levels()[number];
+    const double scale = texel_scale(number);
+    const auto places = [&](const TexturePoint& end) HWY_ATTR {
+        return four([&](std::size_t i) HWY_ATTR {
+            const auto place =
+                hn::Sub(hn::Mul(hn::Add(end.value[i], real(0.5)), real(scale)), real(32768.0));
+            const auto limit = hn::Load(Reals(), &level.last_place[i * hn::MaxLanes(Reals())]);
+            return hn::Min(hn::Max(place, real(0.0)), limit);
+        });
+    };
+    const BlockWalk walk(places(ends[0]), places(ends[1]), share);
+    sample_line(level, {{walk.first[0], walk.first[1]}, {walk.per_px[0], walk.per_px[1]}}, to);
 }
 
 } // namespace HWY_NAMESPACE

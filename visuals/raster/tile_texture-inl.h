@@ -1,6 +1,6 @@
-// Paints a textured triangle: places in the texture are corrected for perspective
-// at both ends of sixteen pixels and even in between, and so are light and haze.
-// Included once for each instruction set.
+// Paints a textured triangle: places in the texture are planes where that is as good (tile_affine),
+// else they are corrected for perspective at both ends of sixteen pixels and even in between; and
+// so are light and haze. Included once for each instruction set.
 #if defined(OCTANT_RASTER_TEXTURE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_TEXTURE_INL
 #undef OCTANT_RASTER_TEXTURE_INL
@@ -8,12 +8,13 @@
 #define OCTANT_RASTER_TEXTURE_INL
 #endif
 
+#include "visuals/raster/tile_affine-inl.h"
 #include "visuals/raster/tile_fill-inl.h"
 #include "visuals/raster/tile_levels-inl.h"
 #include "visuals/raster/tile_texels-inl.h"
 
 #include <bit>
-#include <cstring>
+#include <vector>
 
 HWY_BEFORE_NAMESPACE();
 
@@ -39,7 +40,78 @@ struct TextureBlock {
     int px() const { return std::clamp(last_column - at.x, 1, block_px); }
 };
 
-/// Colours a block.
+/// What a block's pixels have beside their places.
+struct BlockShares {
+    alignas(32) std::array<std::uint16_t, block_px> light_left; ///< 2^-16
+    alignas(32) std::array<std::uint16_t, block_px> haze;
+};
+
+/// A block's colours by the texture's levels: the second one's share is none if it is not there.
+struct BlockTexels {
+    BlockColours fine;
+    BlockColours coarse;
+    std::uint16_t coarse_share; ///< 2^-16
+};
+
+/// Adds a block's colours to the sums.
+HWY_INLINE void add_colours(
+    const BlockTexels& texels,
+    const BlockShares& shares,
+    const TileJob& job,
+    const TextureBlock& block,
+    TileBuffer& buffer) {
+    const Pixels values;
+    const auto coarse_share = hn::Set(values, texels.coarse_share);
+    const auto part_of =
+        [&](hn::Vec<Pixels> from, hn::Vec<Pixels> to, hn::Vec<Pixels> how_much) HWY_ATTR {
+            return hn::Add(hn::Sub(from, hn::MulHigh(from, how_much)), hn::MulHigh(to, how_much));
+        };
+    for (std::size_t i = 0; i < block_px; i += hn::Lanes(values)) {
+        const auto light_left = hn::LoadU(values, &shares.light_left[i]);
+        const auto haze_share = hn::LoadU(values, &shares.haze[i]);
+        const auto count = hn::LoadU(values, block.counts + i);
+        for (std::size_t k = 0; k < 3; ++k) {
+            auto mine = hn::LoadU(values, &texels.fine.level[k][i]);
+            if (texels.coarse_share > 0) {
+                mine = part_of(mine, hn::LoadU(values, &texels.coarse.level[k][i]), coarse_share);
+            }
+            const auto haze_level = hn::Set(
+                values,
+                static_cast<std::uint16_t>(job.haze[static_cast<glm::length_t>(k)] * 128.0F));
+            const auto seen = part_of(hn::MulHigh(mine, light_left), haze_level, haze_share);
+            const auto colour = hn::ShiftRight<3>(hn::Add(seen, hn::Set(values, 4)));
+            std::uint16_t* const sums = buffer.sums[k].data() + block.pixel + i;
+            hn::StoreU(hn::Add(hn::LoadU(values, sums), hn::Mul(colour, count)), values, sums);
+        }
+    }
+}
+
+/// Light and haze, even between both ends of a block.
+HWY_INLINE BlockShares shares_between(const std::array<TexturePoint, 2>& ends, double share_of_px) {
+    const auto sixteen_bits = [&](const TexturePoint& end) HWY_ATTR {
+        return four([&](std::size_t i) HWY_ATTR {
+            const auto within = hn::Min(hn::Max(end.value[i], real(0.0)), real(1.0));
+            return hn::Mul(within, real(65535.0));
+        });
+    };
+    const BlockWalk walk(sixteen_bits(ends[0]), sixteen_bits(ends[1]), share_of_px);
+    const Pixels values;
+    BlockShares shares;
+    const auto along = [&](std::size_t which, std::array<std::uint16_t, block_px>& to) HWY_ATTR {
+        for (std::size_t i = 0; i < block_px; i += hn::Lanes(values)) {
+            const auto steps = hn::Iota(values, static_cast<std::uint16_t>(i));
+            const auto at = hn::Add(
+                hn::Set(values, static_cast<std::uint16_t>(walk.first[which])),
+                hn::Mul(steps, hn::Set(values, static_cast<std::uint16_t>(walk.per_px[which]))));
+            hn::StoreU(at, values, &to[i]);
+        }
+    };
+    along(2, shares.light_left);
+    along(3, shares.haze);
+    return shares;
+}
+
+/// Colours a block, right in perspective at both of its ends.
 HWY_INLINE void add_texture(
     const TexturePlanes& planes,
     const TileJob& job,
@@ -57,60 +129,42 @@ HWY_INLINE void add_texture(
         planes.at(block.at.x, block.at.y), planes.at(block.at.x + block.px(), block.at.y)};
     const TextureLevels chosen =
         levels_of(footprint2(planes, ends, by_px), job.ground->levels().size());
-    BlockColours own;
-    BlockColours coarse;
-    sample_texture(*job.ground, chosen.fine, ends, by_px, own);
+    BlockTexels texels;
+    texels.coarse_share = chosen.coarse_share;
+    sample_texture(*job.ground, chosen.fine, ends, by_px, texels.fine);
     if (chosen.coarse_share > 0) {
-        sample_texture(*job.ground, chosen.fine + 1, ends, by_px, coarse);
+        sample_texture(*job.ground, chosen.fine + 1, ends, by_px, texels.coarse);
     }
-    const Pixels values;
-    const auto shares = [&](const TexturePoint& end) HWY_ATTR {
-        return four([&](std::size_t i) HWY_ATTR {
-            const auto within = hn::Min(hn::Max(end.value[i], real(0.0)), real(1.0));
-            return hn::Mul(within, real(65535.0));
-        });
-    };
-    const BlockWalk share(shares(ends[0]), shares(ends[1]), by_px);
-    const auto along = [&](std::size_t which, std::size_t i) HWY_ATTR {
-        const auto steps = hn::Iota(values, static_cast<std::uint16_t>(i));
-        return hn::Add(
-            hn::Set(values, static_cast<std::uint16_t>(share.first[which])),
-            hn::Mul(steps, hn::Set(values, static_cast<std::uint16_t>(share.per_px[which]))));
-    };
-    const auto coarse_share = hn::Set(values, chosen.coarse_share);
-    const auto part_of =
-        [&](hn::Vec<Pixels> from, hn::Vec<Pixels> to, hn::Vec<Pixels> how_much) HWY_ATTR {
-            return hn::Add(hn::Sub(from, hn::MulHigh(from, how_much)), hn::MulHigh(to, how_much));
-        };
-    for (std::size_t i = 0; i < block_px; i += hn::Lanes(values)) {
-        const auto light_left = along(2, i);
-        const auto haze_share = along(3, i);
-        const auto count = hn::LoadU(values, block.counts + i);
-        for (std::size_t k = 0; k < 3; ++k) {
-            auto mine = hn::LoadU(values, &own.level[k][i]);
-            if (chosen.coarse_share > 0) {
-                mine = part_of(mine, hn::LoadU(values, &coarse.level[k][i]), coarse_share);
-            }
-            const auto haze_level = hn::Set(
-                values,
-                static_cast<std::uint16_t>(job.haze[static_cast<glm::length_t>(k)] * 128.0F));
-            const auto seen = part_of(hn::MulHigh(mine, light_left), haze_level, haze_share);
-            const auto colour = hn::ShiftRight<3>(hn::Add(seen, hn::Set(values, 4)));
-            std::uint16_t* const sums = buffer.sums[k].data() + block.pixel + i;
-            hn::StoreU(hn::Add(hn::LoadU(values, sums), hn::Mul(colour, count)), values, sums);
-        }
-    }
+    add_colours(texels, shares_between(ends, by_px), job, block, buffer);
 }
 
-/// Colours what is new in a row of a strip.
-HWY_INLINE void add_textured_row(
-    const TexturePlanes& planes,
+/// Colours a block of a triangle whose places are planes.
+HWY_INLINE void add_affine_texture(
+    const AffineTexture& affine,
     const TileJob& job,
+    const TextureBlock& block,
+    TileBuffer& buffer) {
+    BlockTexels texels;
+    texels.coarse_share = affine.chosen.coarse_share;
+    const std::vector<GroundImage::Level>& levels = job.ground->levels();
+    sample_line(levels[affine.chosen.fine], affine.line(0, block.at), texels.fine);
+    if (affine.chosen.coarse_share > 0) {
+        sample_line(levels[affine.chosen.fine + 1], affine.line(1, block.at), texels.coarse);
+    }
+    BlockShares shares;
+    affine.share(0, block.at, shares.light_left);
+    affine.share(1, block.at, shares.haze);
+    add_colours(texels, shares, job, block, buffer);
+}
+
+/// Colours what is new in a row of a strip, each block by add_block().
+template <class AddBlock>
+HWY_INLINE void add_textured_row(
+    const AddBlock& add_block,
     const glm::ivec2& at,
     const StripValues& masks,
     const StripValues& fresh,
-    std::size_t pixel,
-    TileBuffer& buffer) {
+    std::size_t pixel) {
     const std::uint32_t fresh_bits = set_bits(fresh);
     if (fresh_bits == 0) {
         return;
@@ -130,14 +184,16 @@ HWY_INLINE void add_textured_row(
                 at.x + last,
                 counts.data() + first,
                 pixel + static_cast<std::size_t>(first)};
-            add_texture(planes, job, block, buffer);
+            add_block(block);
         }
     }
 }
 
 /// Paints the strip of a textured triangle that begins at a column of the tile.
+template <class AddBlock>
 HWY_INLINE void paint_textured_strip(
-    const TileTriangle& one,
+    const Triangle& triangle,
+    const AddBlock& add_block,
     const TileJob& job,
     const SampleLanes& lanes,
     const TileBox& box,
@@ -146,8 +202,7 @@ HWY_INLINE void paint_textured_strip(
     const std::uint32_t columns = box.columns_of_strip(left);
     const std::uint64_t wide_columns = std::uint64_t{columns} << left;
     const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
-    StripCoverage coverage(*one.triangle, first_px, columns, lanes);
-    const TexturePlanes planes(*one.extra);
+    StripCoverage coverage(triangle, first_px, columns, lanes);
     for (int row = box.first_row; row <= box.last_row; ++row) {
         std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
         if ((wide_columns & ~full) != 0) {
@@ -165,7 +220,7 @@ HWY_INLINE void paint_textured_strip(
             full |= std::uint64_t{full_bits(after)} << left;
             buffer.full_rows |= std::uint32_t{(full & job.full_row()) == job.full_row()} << row;
             const glm::ivec2 at = job.first_px + glm::ivec2(left, row);
-            add_textured_row(planes, job, at, masks, fresh, pixel, buffer);
+            add_textured_row(add_block, at, masks, fresh, pixel);
         }
         coverage.next_row();
     }
@@ -178,8 +233,18 @@ HWY_NOINLINE void paint_texture(
     if ((box.rows() & ~buffer.full_rows) == 0) {
         return;
     }
+    const TexturePlanes planes(*one.extra);
+    AffineRows affine_rows(planes, *job.ground, job.first_px, box);
+    const auto add = [&](const TextureBlock& block) HWY_ATTR {
+        const AffineTexture& affine = affine_rows.of(block.at.y - job.first_px.y);
+        if (affine.is_near_enough) {
+            add_affine_texture(affine, job, block, buffer);
+        } else {
+            add_texture(planes, job, block, buffer);
+        }
+    };
     for (int left = box.left; left <= box.right; left += strip_px) {
-        paint_textured_strip(one, job, lanes, box, left, buffer);
+        paint_textured_strip(*one.triangle, add, job, lanes, box, left, buffer);
     }
 }
 

@@ -1,0 +1,115 @@
+#include "tests/visuals/raster/flat_plan.h"
+
+#include <catch2/catch.hpp>
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace octant::visuals::raster {
+
+namespace {
+
+constexpr glm::ivec2 size_px{256, 192};
+constexpr int texels = 512;
+constexpr int levels_a_texel = 16;
+
+/// Up and down in steps of levels_a_texel.
+int zigzag(int texel) {
+    const int along = texel * levels_a_texel % 480;
+    return along <= 240 ? along : 480 - along;
+}
+
+/// Red rises and falls from west to east, green from south to north.
+scene::GroundTexture zigzag_texture() {
+    scene::GroundTexture texture;
+    texture.albedo = {.width = texels, .height = texels, .texels = {}};
+    for (int row = 0; row < texels; ++row) {
+        for (int column = 0; column < texels; ++column) {
+            texture.albedo.texels.push_back(static_cast<std::uint8_t>(zigzag(column)));
+            texture.albedo.texels.push_back(static_cast<std::uint8_t>(zigzag(row)));
+            texture.albedo.texels.push_back(100);
+        }
+    }
+    texture.normal = {.width = 2, .height = 2, .texels = std::vector<std::uint8_t>(8, 128)};
+    return texture;
+}
+
+/// One over the distance of a slope that falls away from the lower left corner.
+double nearness(const glm::dvec2& at_px) {
+    return 1.0 / 12.0 - 0.04 * at_px.x / size_px.x + 0.03 * at_px.y / size_px.y;
+}
+
+/// The slope, cut into triangles of so many pixels, west to east and north to south.
+void paint_slope(FlatPlan& plan, const glm::ivec2& cell_px) {
+    std::vector<FlatTriangle> triangles;
+    const auto add = [&](const std::array<glm::ivec2, 3>& at_px) {
+        FlatTriangle triangle;
+        for (std::size_t i = 0; i < 3; ++i) {
+            triangle.at_px[i] = glm::vec2(at_px[i]);
+            triangle.depth_m[i] = static_cast<float>(1.0 / nearness(glm::dvec2(at_px[i])));
+        }
+        triangles.push_back(triangle);
+    };
+    for (int y = 0; y < size_px.y; y += cell_px.y) {
+        for (int x = 0; x < size_px.x; x += cell_px.x) {
+            const int right = x + cell_px.x;
+            const int below_it = y + cell_px.y;
+            add({glm::ivec2(x, y), {right, y}, {x, below_it}});
+            add({glm::ivec2(right, y), {right, below_it}, {x, below_it}});
+        }
+    }
+    plan.paint(triangles);
+    plan.plan().ambient = glm::vec3(1.0F);
+    plan.plan().sunlight = glm::vec3(0.0F);
+}
+
+/// The level that the zigzag has at a place in texels, whose middles lie at whole numbers.
+double level_at(double texel) {
+    const int low = static_cast<int>(std::floor(texel));
+    const double part = texel - low;
+    return zigzag(low) * (1.0 - part) + zigzag(low + 1) * part;
+}
+
+} // namespace
+
+TEST_CASE("places in a texture are right to a sixteenth of a texel in small triangles, a fifth in "
+          "large") {
+    const scene::GroundTexture texture = zigzag_texture();
+
+    struct Case {
+        glm::ivec2 cell_px;
+        double most_texels_wrong;
+    };
+
+    // Small triangles take their places from planes, large ones from the ends of sixteen pixels.
+    for (const auto& [cell_px, most_texels_wrong] :
+         {Case{glm::ivec2(8, 6), 1.0 / 16.0}, Case{glm::ivec2(64, 96), 1.0 / 5.0}}) {
+        FlatPlan plan(size_px);
+        paint_slope(plan, cell_px);
+        constexpr float per_m = 0.0078125F;
+        const scene::TexturePlace place{glm::vec2(0.5F), glm::vec2(per_m)};
+        plan.plan().ground_texture = {place, place};
+        const scene::Picture picture = drawn(plan.plan(), size_px, 16, 1, &texture);
+        double worst = 0.0;
+        for (int y = 0; y < size_px.y; ++y) {
+            for (int x = 0; x < size_px.x; ++x) {
+                const glm::dvec2 at_px(x + 0.5, y + 0.5);
+                const glm::dvec2 share = at_px / glm::dvec2(size_px) * 2.0 - 1.0;
+                const glm::dvec2 at_m = glm::dvec2(share.x, -share.y) / nearness(at_px);
+                const glm::dvec2 texel = (0.5 + at_m * double{per_m}) * double{texels} - 0.5;
+                const glm::ivec3 seen = pixel(picture, x, y);
+                worst = std::max(worst, std::abs(seen.x - level_at(texel.x)));
+                worst = std::max(worst, std::abs(seen.y - level_at(texel.y)));
+            }
+        }
+        CAPTURE(cell_px.x, cell_px.y);
+        CHECK(worst < levels_a_texel * most_texels_wrong + 1.0);
+    }
+}
+
+} // namespace octant::visuals::raster
