@@ -214,8 +214,8 @@ load_aircraft(const settings::RunSettings& settings, const std::vector<std::stri
     }
     if (auto cockpit = load_cockpit(shapes.front())) {
         loaded.cockpit = static_cast<std::uint32_t>(loaded.models.size());
-        loaded.dials = planning::dials_of(
-            cockpit->polygons, sim::aircraft_kind(settings.path.aircraft.front()).limits);
+        loaded.dials =
+            planning::dials_of(cockpit->polygons, sim::aircraft_kind(shapes.front()).limits);
         add(std::move(*cockpit));
     }
     loaded.notes = std::move(told.notes);

@@ -16,6 +16,7 @@
 #include <memory>
 #include <ogr_srs_api.h>
 #include <random>
+#include <utility>
 
 using namespace octant;
 using namespace octant::models::heights;

@@ -206,7 +206,7 @@ TEST_CASE("rows that cannot be replayed are refused with their line") {
     write_file(damaged / "frames.csv", renamed);
     check_refused(replay(damaged), "frames.csv:1: expected a column triangle_target");
     write_file(damaged / "frames.csv", text + "60,x\n");
-    check_refused(replay(damaged), "frames.csv:62: expected 47 fields, got 2");
+    check_refused(replay(damaged), "frames.csv:62: expected 49 fields, got 2");
     fs::remove(damaged / "frames.csv");
     check_refused(replay(damaged), "frames.csv: expected a file, found none");
 }
