@@ -6,6 +6,7 @@
 #include "sim/links/cigi_answers.h"
 #include "sim/links/cigi_host.h"
 #include "sim/links/dis_entity.h"
+#include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
 
@@ -66,7 +67,7 @@ std::vector<std::string> dissected(
     std::uint16_t port,
     const std::string& protocol,
     const std::vector<std::string>& fields) {
-    const fs::path file = fs::path(OCTANT_BUILD_DIR) / fmt::format("dissected-{}.pcap", protocol);
+    const fs::path file = tests::scratch_folder() / fmt::format("dissected-{}.pcap", protocol);
     write_file(file, capture_of(datagram, port));
     const std::string command = fmt::format(
         "tshark -r '{}' -d udp.port=={},{} -T fields -E separator=';' -E occurrence=a -e {} "
