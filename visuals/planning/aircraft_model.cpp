@@ -1,6 +1,7 @@
 #include "visuals/planning/aircraft_model.h"
 
 #include "models/colour_vertex.h"
+#include "models/planar/side_corners.h"
 #include "models/polygons/repeated_polygons.h"
 #include "visuals/shading/vertex_normals.h"
 
@@ -18,6 +19,44 @@ namespace octant::visuals::planning {
 
 namespace {
 
+/// A triangle of a fan with less than this share of its polygon's area is a sliver: its corners may
+/// come to lie on one line, and drivers differ about which way such a triangle faces.
+constexpr double sliver_share = 1e-6;
+
+/// The corner around which a polygon's triangles have no slivers: the first one, or where several
+/// corners lie on one side with it, the one whose least triangle is largest.
+std::uint32_t fan_corner(const models::polygons::PolygonModel& model, std::uint32_t polygon) {
+    const auto corners = model.corners(polygon);
+    const auto at_m = [&](std::size_t corner) -> const glm::dvec3& {
+        return model.vertices_m[corners[corner % corners.size()]];
+    };
+    const glm::dvec3 normal = models::polygons::normal_of(model, polygon);
+    double whole_m2 = 0.0;
+    const auto least_area_m2 = [&](std::size_t from) {
+        double least_m2 = std::numeric_limits<double>::max();
+        whole_m2 = 0.0;
+        for (std::size_t k = from + 1; k + 1 < from + corners.size(); ++k) {
+            const glm::dvec3 cross_m2 = glm::cross(at_m(k) - at_m(from), at_m(k + 1) - at_m(from));
+            const double area_m2 = glm::dot(cross_m2, normal);
+            least_m2 = std::min(least_m2, area_m2);
+            whole_m2 += area_m2;
+        }
+        return least_m2;
+    };
+    double most_m2 = least_area_m2(0);
+    std::uint32_t best = 0;
+    if (corners.size() == 3 || most_m2 >= sliver_share * whole_m2) {
+        return best;
+    }
+    for (std::uint32_t corner = 1; corner < corners.size(); ++corner) {
+        if (const double least_m2 = least_area_m2(corner); least_m2 > most_m2) {
+            most_m2 = least_m2;
+            best = corner;
+        }
+    }
+    return best;
+}
+
 class BufferMaker {
 public:
     BufferMaker(const models::polygons::PolygonModel& model, std::span<const glm::vec3> normals)
@@ -34,11 +73,13 @@ public:
         scene::IndexRange range;
         range.first_index = static_cast<std::uint32_t>(buffers_.indices.size());
         for (const std::uint32_t polygon : polygons) {
-            const std::uint32_t first = model_.polygons[polygon].first_corner;
-            for (std::uint32_t corner = 2; corner < model_.polygons[polygon].corner_count;
-                 ++corner) {
+            const auto [first, count] = std::pair(
+                model_.polygons[polygon].first_corner, model_.polygons[polygon].corner_count);
+            const std::uint32_t apex = fan_corner(model_, polygon);
+            for (std::uint32_t corner = apex + 2; corner < apex + count; ++corner) {
                 buffers_.indices.insert(
-                    buffers_.indices.end(), {first, first + corner - 1, first + corner});
+                    buffers_.indices.end(),
+                    {first + apex, first + (corner - 1) % count, first + corner % count});
             }
             ++range.polygons;
         }
@@ -72,6 +113,38 @@ private:
     scene::ModelBuffers buffers_;
 };
 
+/// Makes what touches a side of a polygon a corner of it, so that both are rounded alike on the
+/// screen: where a side has no corner of its own in such a place, single pixels between the two may
+/// belong to neither. Normals there are those of the side.
+void close_sides(models::polygons::PolygonModel& model, std::vector<glm::vec3>& normals) {
+    const auto on_sides = models::planar::side_corners(model);
+    if (on_sides.empty()) {
+        return;
+    }
+    std::vector<std::uint32_t> corners;
+    std::vector<glm::vec3> corner_normals;
+    auto next = on_sides.begin();
+    for (models::polygons::Polygon& polygon : model.polygons) {
+        const std::size_t first = polygon.first_corner;
+        const std::size_t count = polygon.corner_count;
+        polygon.first_corner = static_cast<std::uint32_t>(corners.size());
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t corner = first + k;
+            corners.push_back(model.corner_vertices[corner]);
+            corner_normals.push_back(normals[corner]);
+            const glm::vec3& end = normals[first + (k + 1) % count];
+            for (; next != on_sides.end() && next->corner == corner; ++next) {
+                const auto share = static_cast<float>(next->share);
+                corners.push_back(next->vertex);
+                corner_normals.push_back(glm::mix(normals[corner], end, share));
+            }
+        }
+        polygon.corner_count = static_cast<std::uint32_t>(corners.size()) - polygon.first_corner;
+    }
+    model.corner_vertices = std::move(corners);
+    normals = std::move(corner_normals);
+}
+
 /// Where the triangles of each polygon of a list begin, and where those of the last one end.
 std::vector<std::uint32_t>
 first_indices_of(const models::polygons::PolygonModel& model, std::span<const std::uint32_t> list) {
@@ -104,6 +177,7 @@ AircraftModel aircraft_model(
         normals = shading::corner_normals(polygons);
     }
     assert(normals.size() == polygons.corner_vertices.size());
+    close_sides(polygons, normals);
     shading::ShadedPolygons shaded = shading::shaded_polygons(polygons, normals);
     BufferMaker maker(polygons, normals);
     std::vector<std::uint32_t> first_indices = first_indices_of(polygons, order.polygons());

@@ -1,0 +1,126 @@
+#include "models/planar/side_corners.h"
+
+#include "models/planar/near_vertices.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace octant::models::planar {
+
+namespace {
+
+using polygons::PolygonModel;
+
+/// In sizes of the model; as for vertices that are meant to touch polygons (planar_model.cpp).
+constexpr double reach_sizes = 1e-6;
+
+/// The corners of one turning part, or of all that stands still.
+struct PartCorners {
+    std::vector<std::uint32_t> vertices; ///< each once
+    std::vector<glm::dvec3> places_m;
+};
+
+std::vector<PartCorners> corners_of_parts(const PolygonModel& model) {
+    std::vector<PartCorners> parts(model.pivots.size() + 1);
+    std::vector<std::size_t> last_part(model.vertices_m.size(), parts.size());
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        const auto pivot = polygons::pivot_of(model, i);
+        const std::size_t part = pivot ? *pivot + 1 : 0;
+        for (const std::uint32_t vertex : model.corners(i)) {
+            if (std::exchange(last_part[vertex], part) != part) {
+                parts[part].vertices.push_back(vertex);
+                parts[part].places_m.push_back(model.vertices_m[vertex]);
+            }
+        }
+    }
+    return parts;
+}
+
+double size_m_of(const PolygonModel& model) {
+    glm::dvec3 least_m(std::numeric_limits<double>::max());
+    glm::dvec3 most_m(std::numeric_limits<double>::lowest());
+    for (const std::uint32_t vertex : model.corner_vertices) {
+        least_m = glm::min(least_m, model.vertices_m[vertex]);
+        most_m = glm::max(most_m, model.vertices_m[vertex]);
+    }
+    return model.corner_vertices.empty() ? 0.0 : glm::distance(least_m, most_m);
+}
+
+/// Finds what lies on sides, side after side.
+class Search {
+public:
+    explicit Search(const PolygonModel& model)
+        : model_(model)
+        , reach_m_(reach_sizes * size_m_of(model))
+        , parts_(corners_of_parts(model)) {
+        for (const PartCorners& part : parts_) {
+            near_.emplace_back(part.places_m);
+        }
+    }
+
+    std::vector<SideCorner> all() {
+        for (std::size_t i = 0; i < model_.polygons.size(); ++i) {
+            const auto pivot = polygons::pivot_of(model_, i);
+            const polygons::Polygon& polygon = model_.polygons[i];
+            for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {
+                const std::uint32_t next = k + 1 < polygon.corner_count ? k + 1 : 0;
+                add_on_side(
+                    pivot ? *pivot + 1 : 0, polygon.first_corner + k, polygon.first_corner + next);
+            }
+        }
+        return std::move(found_);
+    }
+
+private:
+    const glm::dvec3& place_m(std::uint32_t vertex) const { return model_.vertices_m[vertex]; }
+
+    void add_on_side(std::size_t part, std::size_t from, std::size_t to) {
+        const glm::dvec3& from_m = place_m(model_.corner_vertices[from]);
+        const glm::dvec3& to_m = place_m(model_.corner_vertices[to]);
+        const glm::dvec3 along_m = to_m - from_m;
+        const double length2 = glm::dot(along_m, along_m);
+        if (length2 == 0.0) {
+            return;
+        }
+        boxed_.clear();
+        near_[part].append_in_box(
+            glm::min(from_m, to_m) - reach_m_, glm::max(from_m, to_m) + reach_m_, boxed_);
+        const std::size_t first = found_.size();
+        for (const std::uint32_t number : boxed_) {
+            const std::uint32_t vertex = parts_[part].vertices[number];
+            const glm::dvec3& at_m = place_m(vertex);
+            const double share = glm::dot(at_m - from_m, along_m) / length2;
+            if (share > 0.0 && share < 1.0 && at_m != from_m && at_m != to_m &&
+                glm::distance(at_m, from_m + along_m * share) <= reach_m_) {
+                found_.push_back({from, vertex, share});
+            }
+        }
+        const auto begin = found_.begin() + static_cast<std::ptrdiff_t>(first);
+        std::sort(begin, found_.end(), [](const SideCorner& a, const SideCorner& b) {
+            return std::pair(a.share, a.vertex) < std::pair(b.share, b.vertex);
+        });
+        const auto in_one_place = [&](const SideCorner& a, const SideCorner& b) {
+            return place_m(a.vertex) == place_m(b.vertex);
+        };
+        found_.erase(std::unique(begin, found_.end(), in_one_place), found_.end());
+    }
+
+    const PolygonModel& model_;
+    double reach_m_;
+    std::vector<PartCorners> parts_;
+    std::vector<NearVertices> near_; ///< of each part
+    std::vector<std::uint32_t> boxed_;
+    std::vector<SideCorner> found_;
+};
+
+} // namespace
+
+std::vector<SideCorner> side_corners(const PolygonModel& model) {
+    return Search(model).all();
+}
+
+} // namespace octant::models::planar

@@ -1,0 +1,55 @@
+#include "models/planar/side_corners.h"
+#include "models/polygons/obj_reader.h"
+#include "tests/visuals/planning/small_world.h"
+#include "visuals/planning/aircraft_model.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <cstddef>
+#include <filesystem>
+
+using namespace octant;
+
+TEST_CASE("what touches a side of a polygon is a corner of it as it is drawn") {
+    models::polygons::PolygonModel model = tests::box_model(glm::dvec3(1.0));
+    model.vertices_m.insert(model.vertices_m.end(), {{1.0, 0.25, 1.0}, {2.0, 0, 1}, {2.0, 1, 1}});
+    model.polygons.push_back({24, 3, 0, 0});
+    model.corner_vertices.insert(model.corner_vertices.end(), {24, 25, 26});
+    const visuals::planning::AircraftModel aircraft = tests::convex_aircraft(model);
+    int with_five = 0;
+    for (const auto& polygon : aircraft.polygons.polygons) {
+        with_five += polygon.corner_count == 5 ? 1 : 0;
+    }
+    CHECK(with_five == 2); // the sides of two squares meet there
+    CHECK(models::planar::side_corners(aircraft.polygons).empty());
+    CHECK(aircraft.buffers.vertices.size() == 6 * 4 + 2 + 3);
+    CHECK(aircraft.file_order.index_count == 3 * (2 * 3 + 4 * 2 + 1));
+    CHECK(aircraft.first_indices.back() == aircraft.file_order.index_count);
+}
+
+TEST_CASE("no corner of the F-15 as it is drawn lies on a side without one") {
+    const auto given =
+        models::polygons::read_obj(std::filesystem::path(OCTANT_SOURCE_DIR) / "models" / "f15.obj");
+    REQUIRE(models::planar::side_corners(given).size() == 6);
+    const auto aircraft = tests::convex_aircraft(given);
+    CHECK(aircraft.polygons.polygons.size() == given.polygons.size());
+    CHECK(models::planar::side_corners(aircraft.polygons).empty());
+}
+
+TEST_CASE("no triangle of a polygon with several corners on one side is a sliver") {
+    models::polygons::PolygonModel model = tests::box_model(glm::dvec3(1.0));
+    model.vertices_m.insert(
+        model.vertices_m.end(), {{1.0, 0.25, 1.0}, {1.0, 0.5, 1.0}, {2.0, 0, 1}, {2.0, 1, 1}});
+    model.polygons.push_back({24, 4, 0, 0});
+    model.corner_vertices.insert(model.corner_vertices.end(), {24, 26, 27, 25});
+    const visuals::planning::AircraftModel aircraft = tests::convex_aircraft(model);
+    const auto& buffers = aircraft.buffers;
+    REQUIRE(!buffers.indices.empty());
+    for (std::size_t i = 0; i < buffers.indices.size(); i += 3) {
+        const auto at_m = [&](std::size_t k) {
+            return buffers.vertices[buffers.indices[i + k]].position_m;
+        };
+        CHECK(glm::length(glm::cross(at_m(1) - at_m(0), at_m(2) - at_m(0))) > 0.01F);
+    }
+}
