@@ -9,9 +9,9 @@
 
 namespace octant::visuals::draworder {
 
-/// Painting orders as text. Planes are absolute: N.p + D >= 0 for points p as they stand in the
-/// exported model, in the axes and from the origin of its file, not from `center`. Line by line,
-/// `#` starts a comment, polygons counted from 0:
+/// Painting orders as text, in which planes are absolute, in the axes of the exported model:
+/// N.p + D >= 0 for points p as they stand in its file, from its origin and not from `center`.
+/// Line by line, `#` starts a comment, polygons counted from 0:
 ///     draworder 1
 ///     center CX CY CZ          default 0 0 0
 ///     metric l1 | l2           of min and max: |eye - center|; default l2
