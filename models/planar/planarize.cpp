@@ -21,8 +21,12 @@ namespace octant::models::planar {
 namespace {
 
 constexpr int most_sweeps = 2'000;
-constexpr std::size_t most_visits = 3'000'000; ///< Of polygons, in one round.
+constexpr std::size_t most_visits = 1'000'000; ///< Of polygons, in one round.
+constexpr std::size_t most_visits_in_all = 4 * most_visits;
 constexpr int most_rounds = 8;
+/// A polygon whose corners lie farther from their plane than they may move, so many times, gives up
+/// at once.
+constexpr double hopeless_moves = 2.0;
 constexpr double at_rest = 1e-14; ///< Smaller moves count as none.
 
 /// One run of planarize().
@@ -40,13 +44,16 @@ public:
             const auto& [corners, touching] = incidences[i];
             const double uneven = most_height(i, corners);
             misfits_.push_back({uneven, std::max(uneven, most_height(i, touching))});
+            bent_[i] = alone_[i] = uneven > hopeless_moves * most_move;
         }
     }
 
     std::vector<bool> run() {
-        for (int round = 0; round < most_rounds; ++round) {
+        std::size_t visits = 0;
+        for (int round = 0; round < most_rounds && visits < most_visits_in_all; ++round) {
             points_ = given_;
             sweep_to_rest();
+            visits += clock_;
             if (!give_up()) {
                 return bent_;
             }
@@ -265,12 +272,12 @@ private:
         return !giving.empty();
     }
 
-    /// Ends without all of them planar: those that are not keep their corners as they have come,
-    /// or, where a point has moved too far, all points go back.
+    /// Ends without all of them planar: those that are not keep their corners as they have come.
+    /// Points that have moved too far go back.
     void settle() {
         for (std::uint32_t point = 0; point < points_.size(); ++point) {
             if (moved_too_far(point)) {
-                points_ = given_;
+                points_[point] = given_[point];
             }
         }
         for (std::size_t i = 0; i < incidences_.size(); ++i) {

@@ -104,7 +104,10 @@ OrderInput read_order_input(const std::string& name_or_file, const std::string& 
 }
 
 PlaneTests plane_tests(const draworder::OrderedModel& ordered) {
-    constexpr int eyes = 10000;
+    constexpr std::size_t most_tests_in_all = 20'000'000;
+    const std::size_t nodes = ordered.order.nodes().size();
+    const int eyes =
+        static_cast<int>(std::clamp<std::size_t>(most_tests_in_all / (nodes + 1), 100, 10'000));
     PlaneTests tests;
     tests.most = most_tests(ordered.order);
     Dice dice(1989);
