@@ -1,5 +1,6 @@
 #include "sim/base/units.h"
 #include "sim/links/cigi_host.h"
+#include "tests/sim/links/cigi_samples.h"
 
 #include <catch2/catch.hpp>
 
@@ -12,28 +13,8 @@ using namespace octant::sim::links;
 TEST_CASE("what a host sends is read again as it was meant, in both byte orders") {
     for (const ByteOrder order : {ByteOrder::Big, ByteOrder::Little}) {
         WireWriter message(order);
-        add_ig_control(message, {2, CigiMode::Operate, true, 77, 123456, 70});
-        CigiEntityControl entity;
-        entity.entity = 3;
-        entity.state = 1;
-        entity.type = 12;
-        entity.attitude = {rad_from_deg(-90.0), rad_from_deg(5.0), rad_from_deg(-30.0)};
-        entity.place = {47.25, -8.5, 1234.5};
-        add_entity(message, entity);
-        CigiViewDefinition frustum;
-        frustum.view = 1;
-        frustum.left_rad = rad_from_deg(-30.0);
-        frustum.right_rad = rad_from_deg(30.0);
-        frustum.top_rad = rad_from_deg(20.0);
-        frustum.bottom_rad = rad_from_deg(-20.0);
-        add_view_definition(message, frustum);
-        CigiViewControl view;
-        view.view = 1;
-        view.entity = 3;
-        view.offset_m = {-40.5, 0.25, -8.0};
-        view.angles = {rad_from_deg(10.0), rad_from_deg(-12.0), 0.0};
-        add_view_control(message, view);
-
+        const test::HostScene scene;
+        scene.add_to(message, {2, CigiMode::Operate, true, 77, 123456, 70});
         CigiRate rate;
         rate.entity = 3;
         rate.local = true;
@@ -53,15 +34,15 @@ TEST_CASE("what a host sends is read again as it was meant, in both byte orders"
         const auto& read = std::get<CigiEntityControl>(packets[1]);
         CHECK(read.entity == 3);
         CHECK(read.type == 12);
-        CHECK(read.place == entity.place);
-        CHECK(deg_from_rad(read.attitude.heading_rad) == Approx(270.0));
+        CHECK(read.place == scene.entity.place);
+        CHECK(deg_from_rad(read.attitude.heading_rad) == Approx(275.0));
         CHECK(deg_from_rad(read.attitude.roll_rad) == Approx(-30.0));
         const auto& sides = std::get<CigiViewDefinition>(packets[2]);
-        CHECK(deg_from_rad(sides.right_rad) == Approx(30.0));
-        CHECK(deg_from_rad(sides.bottom_rad) == Approx(-20.0));
+        CHECK(deg_from_rad(sides.right_rad) == Approx(32.0));
+        CHECK(deg_from_rad(sides.bottom_rad) == Approx(-21.0));
         const auto& from = std::get<CigiViewControl>(packets[3]);
         CHECK(from.entity == 3);
-        CHECK(from.offset_m == view.offset_m);
+        CHECK(from.offset_m == scene.view.offset_m);
         CHECK(deg_from_rad(from.angles.pitch_rad) == Approx(-12.0));
         const auto& rates = std::get<CigiRate>(packets[4]);
         CHECK(rates.local);

@@ -7,6 +7,7 @@
 #include "sim/links/cigi_host.h"
 #include "sim/links/dis_entity.h"
 #include "tests/scratch.h"
+#include "tests/sim/links/cigi_samples.h"
 
 #include <catch2/catch.hpp>
 
@@ -189,28 +190,7 @@ TEST_CASE("Wireshark reads what a CIGI host sends as it is meant, in both byte o
     }
     for (const ByteOrder order : {ByteOrder::Big, ByteOrder::Little}) {
         WireWriter message(order);
-        add_ig_control(message, {2, CigiMode::Operate, true, 4321, 250000, 99});
-        CigiEntityControl entity;
-        entity.entity = 3;
-        entity.state = 1;
-        entity.type = 12;
-        entity.attitude = {rad_from_deg(275.0), rad_from_deg(5.0), rad_from_deg(-30.0)};
-        entity.place = {47.25, -8.5, 1234.5};
-        add_entity(message, entity);
-        CigiViewDefinition frustum;
-        frustum.view = 6;
-        frustum.left_rad = rad_from_deg(-31.0);
-        frustum.right_rad = rad_from_deg(32.0);
-        frustum.top_rad = rad_from_deg(20.0);
-        frustum.bottom_rad = rad_from_deg(-21.0);
-        add_view_definition(message, frustum);
-        CigiViewControl view;
-        view.view = 6;
-        view.entity = 3;
-        view.offset_m = {-40.5, 0.25, -8.0};
-        view.angles = {rad_from_deg(10.0), rad_from_deg(-12.0), rad_from_deg(1.0)};
-        add_view_control(message, view);
-
+        test::HostScene().add_to(message, {2, CigiMode::Operate, true, 4321, 250000, 99});
         const auto values = dissected(
             message.bytes(),
             8004,
