@@ -165,15 +165,24 @@ std::vector<Option> listen_options(ListenOptions& options) {
         read_option(
             {"fdm-port",
              "PORT",
-             "UDP port for FlightGear's FGNetFDM; 0 = any free one, -1 = closed",
+             "UDP port for FlightGear's FGNetFDM; 0 = any free one, -1 = closed [5550; none with "
+             "--channel]",
              -1,
              65535},
             options.listener.input.fdm_port),
         read_option(
-            {"mavlink-port", "PORT", "UDP port for MAVLink 1 and 2; -1 = closed", -1, 65535},
+            {"mavlink-port",
+             "PORT",
+             "UDP port for MAVLink 1 and 2; -1 = closed [14550; none with --channel]",
+             -1,
+             65535},
             options.listener.input.mavlink_port),
         read_option(
-            {"dis-port", "PORT", "UDP port for DIS entity states; -1 = closed", -1, 65535},
+            {"dis-port",
+             "PORT",
+             "UDP port for DIS entity states; -1 = closed [3000; none with --channel]",
+             -1,
+             65535},
             options.listener.input.dis_port),
         read_option(
             {"cigi-port",
@@ -202,7 +211,7 @@ std::vector<Option> listen_options(ListenOptions& options) {
         {.name = "--channel",
          .form = "CHANNEL",
          .meaning = "left, front or right: one of three pictures side by side of one world; left "
-                    "and right are turned by the picture's own width [front]",
+                    "and right are turned by the picture's own width; a CIGI host alone drives it",
          .read =
              [&options](const Words& words) {
                  const auto channel = flight::live_channel_from(words.front());
@@ -213,6 +222,7 @@ std::vector<Option> listen_options(ListenOptions& options) {
                          printable(words.front())));
                  }
                  options.listener.live.channel = *channel;
+                 options.listener.input.is_channel = true;
              }},
         read_option(
             {"vehicles",

@@ -1,5 +1,9 @@
 #include "ui/flight/live_input.h"
 
+#include "sim/links/dis_entity.h"
+#include "sim/links/flightgear_fdm.h"
+#include "sim/links/mavlink.h"
+
 #include <cmath>
 #include <fmt/format.h>
 
@@ -10,15 +14,19 @@ namespace links = sim::links;
 LiveInput::LiveInput(const LiveInputOptions& options)
     : bind_(options.bind) {
     const std::uint32_t address = links::address_from_text(options.bind);
+    const auto usual = [&](std::uint16_t port) { return options.is_channel ? -1 : int{port}; };
     const auto open = [&](links::Protocol protocol, const char* name, int port) {
         if (port >= 0) {
             ports_.push_back(
                 {protocol, name, links::UdpPort(address, static_cast<std::uint16_t>(port))});
         }
     };
-    open(links::Protocol::Fdm, "FlightGear FDM", options.fdm_port);
-    open(links::Protocol::MavLink, "MAVLink", options.mavlink_port);
-    open(links::Protocol::Dis, "DIS", options.dis_port);
+    open(links::Protocol::Fdm, "FlightGear FDM", options.fdm_port.value_or(usual(links::fdm_port)));
+    open(
+        links::Protocol::MavLink,
+        "MAVLink",
+        options.mavlink_port.value_or(usual(links::mavlink_port)));
+    open(links::Protocol::Dis, "DIS", options.dis_port.value_or(usual(links::dis_port)));
     if (options.cigi_port >= 0) {
         cigi_ = Cigi{ports_.size(), links::peer_from_text(options.cigi_host)};
         open(links::Protocol::Cigi, "CIGI", options.cigi_port);

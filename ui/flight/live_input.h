@@ -15,12 +15,14 @@
 
 namespace octant::ui::flight {
 
-/// Where to listen. A port of -1 is not opened, 0 is any free one.
+/// Where to listen. A port of -1 is not opened, 0 is any free one; one that is unset is the usual one
+/// of its protocol, which is closed where a channel is driven by its CIGI host alone.
 struct LiveInputOptions {
     std::string bind = "127.0.0.1";
-    int fdm_port = 5550;
-    int mavlink_port = 14550;
-    int dis_port = 3000;
+    std::optional<int> fdm_port;
+    std::optional<int> mavlink_port;
+    std::optional<int> dis_port;
+    bool is_channel = false;
     int lines_port = -1;
     int cigi_port = 8004;
     /// Who gets the messages of CIGI, as "HOST:PORT".
