@@ -37,6 +37,7 @@ Groups groups_in(const XmlElement& root) {
         const std::string name(child.text_of("name"));
         if (child.name == "animation" && child.text_of("type").empty() && !name.empty()) {
             add_names(child, groups[name]);
+            groups[name].erase(""); // of a group without members
         }
     }
     return groups;

@@ -182,8 +182,12 @@ private:
         options.is_part = true;
         std::set<std::string> turned;
         bool any_turns = false;
+        const bool has_objects = ending_of(file) == ".ac";
+        if (!animated.turns.empty() && !has_objects) {
+            note_once(file.string() + ": its objects are not told apart, so none of them turns");
+        }
         for (const FlightGearTurn& turn : animated.turns) {
-            if (about == nullptr && !turn.objects.empty()) {
+            if (about == nullptr && has_objects && !turn.objects.empty()) {
                 options.only = turn.objects;
                 options.left_out = animated.hidden;
                 options.left_out.insert(turned.begin(), turned.end());

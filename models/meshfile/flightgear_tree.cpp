@@ -18,10 +18,11 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t largest_file_bytes = std::size_t{64} << 20U;
 constexpr int most_depth = 8;
+constexpr int most_files = 500;
 
-XmlElement tree_of(const fs::path& file, int depth);
+XmlElement tree_of(const fs::path& file, int depth, int& files);
 
-void include_into(XmlElement& element, const fs::path& file, int depth) {
+void include_into(XmlElement& element, const fs::path& file, int depth, int& files) {
     const fs::path included =
         element.include.empty() ? fs::path() : flightgear_file(file, element.include);
     if (included.empty()) {
@@ -31,27 +32,32 @@ void include_into(XmlElement& element, const fs::path& file, int depth) {
         error_at(
             file, element.line, fmt::format("expected includes at most {} deep, got more", depth));
     }
-    XmlElement other = tree_of(included, depth + 1);
+    if (++files > most_files) {
+        error_at(
+            file, element.line, fmt::format("expected at most {} includes, got more", most_files));
+    }
+    XmlElement other = tree_of(included, depth + 1, files);
     element.children.insert(
         element.children.end(),
         std::make_move_iterator(other.children.begin()),
         std::make_move_iterator(other.children.end()));
 }
 
-XmlElement tree_of(const fs::path& file, int depth) {
+XmlElement tree_of(const fs::path& file, int depth, int& files) {
     const std::string text = read_text_file(file, largest_file_bytes);
     XmlElement root = xml_tree(file, text);
     for (XmlElement& child : root.children) {
-        include_into(child, file, depth);
+        include_into(child, file, depth, files);
     }
-    include_into(root, file, depth);
+    include_into(root, file, depth, files);
     return root;
 }
 
 } // namespace
 
 XmlElement flightgear_tree(const fs::path& file) {
-    return tree_of(file, 0);
+    int files = 0;
+    return tree_of(file, 0, files);
 }
 
 } // namespace octant::models::meshfile

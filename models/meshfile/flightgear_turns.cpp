@@ -27,7 +27,17 @@ constexpr std::array cruise_values{
     CruiseValue{"/n1", 90.0},
     CruiseValue{"/n2", 90.0}};
 
+/// Whether a property is one of an engine or rotor itself, not of a dial that shows it.
+bool is_of_engine(std::string_view property) {
+    return property.find("instrument") == property.npos &&
+           (property.find("engine") != property.npos || property.find("rotor") != property.npos ||
+            property.find("propeller") != property.npos);
+}
+
 double at_cruise(std::string_view property) {
+    if (!is_of_engine(property)) {
+        return 0.0;
+    }
     const auto* const found = std::ranges::find_if(cruise_values, [&](const CruiseValue& one) {
         return property.find(one.part_of_name) != property.npos;
     });

@@ -106,24 +106,27 @@ private:
         return tag.substr(0, std::min(tag.find_first_of(" \t\r\n/"), tag.size()));
     }
 
-    /// The value of an attribute of a tag; empty where it has none.
+    /// The value of an attribute of a tag; empty where it has none. What stands in another
+    /// attribute's quotes is none.
     static std::string attribute_of(std::string_view tag, std::string_view name) {
-        std::string value;
-        for (std::size_t at = tag.find(name); at != tag.npos; at = tag.find(name, at + 1)) {
-            std::string_view rest = tag.substr(at + name.size());
-            const bool is_word = at > 0 && blanks.find(tag[at - 1]) != blanks.npos;
-            rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
-            if (is_word && rest.starts_with('=')) {
-                const std::size_t open = rest.find_first_of("\"'");
-                const std::size_t close =
-                    open == rest.npos ? open : rest.find(rest[open], open + 1);
-                if (close != rest.npos) {
-                    add_text(value, rest.substr(open + 1, close - open - 1));
-                }
+        std::string_view rest = tag.substr(name_of(tag).size());
+        for (;;) {
+            const std::size_t equals = rest.find('=');
+            const std::size_t open = rest.find_first_of("\"'", std::min(equals, rest.size()));
+            const std::size_t close = open == rest.npos ? open : rest.find(rest[open], open + 1);
+            if (close == rest.npos) {
+                return {};
+            }
+            std::string_view word = rest.substr(0, equals);
+            word.remove_prefix(std::min(word.find_first_not_of(blanks), word.size()));
+            word = word.substr(0, word.find_last_not_of(blanks) + 1);
+            if (word == name) {
+                std::string value;
+                add_text(value, rest.substr(open + 1, close - open - 1));
                 return value;
             }
+            rest.remove_prefix(close + 1);
         }
-        return value;
     }
 
     XmlElement element(int depth) {

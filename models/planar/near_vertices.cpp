@@ -77,6 +77,21 @@ void NearVertices::append_in_box(
     }
 }
 
+void NearVertices::append_along(
+    const glm::dvec3& from,
+    const glm::dvec3& to,
+    double reach,
+    std::vector<std::uint32_t>& out) const {
+    constexpr double most_pieces = 4.0 * most_cells_an_axis;
+    const double pieces = std::clamp(std::ceil(glm::distance(from, to) / cell_), 1.0, most_pieces);
+    for (double i = 0.0; i < pieces; ++i) {
+        const glm::dvec3 begin = glm::mix(from, to, i / pieces);
+        const glm::dvec3 end = glm::mix(from, to, (i + 1.0) / pieces);
+        // Twice the reach: places between the pieces' ends are rounded.
+        append_in_box(glm::min(begin, end) - 2.0 * reach, glm::max(begin, end) + 2.0 * reach, out);
+    }
+}
+
 std::vector<std::uint32_t>
 one_place(std::span<const glm::dvec3> points, std::span<const std::uint32_t> kind, double reach) {
     const NearVertices near(points);

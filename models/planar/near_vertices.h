@@ -17,6 +17,14 @@ public:
     void append_in_box(
         const glm::dvec3& least, const glm::dvec3& most, std::vector<std::uint32_t>& out) const;
 
+    /// Appends the numbers of all points that may lie within `reach` of a line from one place to
+    /// another; some of them more than once, and others that lie farther off.
+    void append_along(
+        const glm::dvec3& from,
+        const glm::dvec3& to,
+        double reach,
+        std::vector<std::uint32_t>& out) const;
+
 private:
     std::span<const glm::dvec3> points_;
     glm::dvec3 least_{0.0};

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace octant::models::planar {
@@ -15,7 +16,7 @@ namespace {
 
 using polygons::PolygonModel;
 
-/// In sizes of the model; as for vertices that are meant to touch polygons (planar_model.cpp).
+/// In diagonals of the model's box.
 constexpr double reach_sizes = 1e-6;
 
 /// The corners of one turning part, or of all that stands still.
@@ -69,7 +70,10 @@ public:
             for (std::uint32_t k = 0; k < polygon.corner_count; ++k) {
                 const std::uint32_t next = k + 1 < polygon.corner_count ? k + 1 : 0;
                 add_on_side(
-                    pivot ? *pivot + 1 : 0, polygon.first_corner + k, polygon.first_corner + next);
+                    pivot ? *pivot + 1 : 0,
+                    model_.corners(i),
+                    polygon.first_corner + k,
+                    polygon.first_corner + next);
             }
         }
         return std::move(found_);
@@ -78,7 +82,15 @@ public:
 private:
     const glm::dvec3& place_m(std::uint32_t vertex) const { return model_.vertices_m[vertex]; }
 
-    void add_on_side(std::size_t part, std::size_t from, std::size_t to) {
+    /// Whether a place is as good as that of one of a polygon's own corners.
+    bool is_own(std::span<const std::uint32_t> corners, const glm::dvec3& at_m) const {
+        return std::ranges::any_of(corners, [&](std::uint32_t vertex) {
+            return glm::distance(place_m(vertex), at_m) <= reach_m_;
+        });
+    }
+
+    void add_on_side(
+        std::size_t part, std::span<const std::uint32_t> own, std::size_t from, std::size_t to) {
         const glm::dvec3& from_m = place_m(model_.corner_vertices[from]);
         const glm::dvec3& to_m = place_m(model_.corner_vertices[to]);
         const glm::dvec3 along_m = to_m - from_m;
@@ -87,15 +99,14 @@ private:
             return;
         }
         boxed_.clear();
-        near_[part].append_in_box(
-            glm::min(from_m, to_m) - reach_m_, glm::max(from_m, to_m) + reach_m_, boxed_);
+        near_[part].append_along(from_m, to_m, reach_m_, boxed_);
         const std::size_t first = found_.size();
         for (const std::uint32_t number : boxed_) {
             const std::uint32_t vertex = parts_[part].vertices[number];
             const glm::dvec3& at_m = place_m(vertex);
             const double share = glm::dot(at_m - from_m, along_m) / length2;
-            if (share > 0.0 && share < 1.0 && at_m != from_m && at_m != to_m &&
-                glm::distance(at_m, from_m + along_m * share) <= reach_m_) {
+            if (share > 0.0 && share < 1.0 &&
+                glm::distance(at_m, from_m + along_m * share) <= reach_m_ && !is_own(own, at_m)) {
                 found_.push_back({from, vertex, share});
             }
         }

@@ -39,12 +39,12 @@ DialScale load_scale_g(double least_load_factor, double most_load_factor) {
 double number_step(const DialScale& scale) {
     const double most_numbers = scale.most >= 100.0 && scale.most < 400.0 ? 5.0 : 9.0;
     const double least_step = (scale.most - scale.least) / (most_numbers - 1.0);
-    for (const double step : {1.0, 2.0, 5.0, 10.0, 20.0, 40.0, 50.0, 100.0, 200.0}) {
+    for (const double step : {1.0, 2.0, 5.0, 10.0, 20.0, 40.0, 100.0, 200.0, 500.0}) {
         if (step >= least_step) {
             return step;
         }
     }
-    return 500.0;
+    return 1000.0 * std::ceil(least_step / 1000.0);
 }
 
 } // namespace octant::visuals::overlay

@@ -76,7 +76,7 @@ public:
 
     void show_scale(const DialScale& scale, double value, std::string_view caption) {
         const double step = number_step(scale);
-        const double unit = scale.most >= 400.0 ? 100.0 : 1.0; // hundreds, as on the real ones
+        const double unit = step >= 100.0 ? 100.0 : 1.0; // hundreds, as on the real ones
         const double half = 0.5 * step;
         for (double at = std::ceil(scale.least / half) * half; at <= scale.most; at += half) {
             const bool numbered = std::abs(std::remainder(at, step)) < 1e-6;

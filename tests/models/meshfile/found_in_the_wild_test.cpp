@@ -260,6 +260,37 @@ TEST_CASE("a FlightGear model includes files and names groups of objects") {
         Catch::Contains("expected includes at most 8 deep, got more"));
 }
 
+TEST_CASE("includes that multiply are refused, and words in other attributes include nothing") {
+    for (int i = 3; i > 0; --i) {
+        std::string text = "<PropertyList>";
+        for (int k = 0; k < 10; ++k) {
+            text += "<a include='many" + std::to_string(i) + ".xml'/>";
+        }
+        file_with("many" + std::to_string(i - 1) + ".xml", text + "</PropertyList>");
+    }
+    file_with("many3.xml", "<PropertyList/>");
+    CHECK_THROWS_WITH(
+        read_mesh(file_with(
+            "most.xml", "<PropertyList include='many0.xml'><path>x.ac</path></PropertyList>")),
+        Catch::Contains("expected at most 500 includes, got more"));
+    const auto quoted =
+        file_with("quoted.xml", "<PropertyList note=\"use include='gone.xml'\" n='1'/>");
+    CHECK(xml_tree(quoted, "<a note=\"use include='b.xml'\" n='1'/>").include.empty());
+    CHECK(xml_tree(quoted, "<a n='1' include = \"b.xml\"/>").include == "b.xml");
+}
+
+TEST_CASE("of a mesh whose objects are not told apart nothing turns, and it is there once") {
+    file_with("plate.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const auto file = file_with(
+        "plate.xml",
+        "<PropertyList><path>plate.obj</path><animation><type>spin</type>"
+        "<object-name>Prop</object-name><property>engines/engine/rpm</property>"
+        "<axis><x>1</x></axis></animation></PropertyList>");
+    const TurningModel model = read_turning_model(file, {});
+    CHECK(model.body.triangles.size() == 1);
+    CHECK(model.parts.empty());
+}
+
 TEST_CASE("a sub-model turns as the model that holds it says by its name") {
     file_with("square.ac", square("0x0"));
     const auto file = file_with(

@@ -44,6 +44,18 @@ TEST_CASE("a corner between the ends of another polygon's side is found once") {
     CHECK(side_corners(three_plates(1e-3)).empty());
 }
 
+TEST_CASE("a sliver's own corner does not lie on its side") {
+    PolygonModel model;
+    model.vertices_m = {{0, 0, 0}, {10, 0, 0}, {5, 1e-5, 0}, {5, -4, 0}};
+    model.corner_vertices = {0, 1, 2, 0, 3, 1};
+    model.parts = {"all"};
+    model.polygons = {{0, 3, 0, 0}, {3, 3, 0, 0}};
+    const auto found = side_corners(model);
+    REQUIRE(found.size() == 1);
+    CHECK(found.front().corner == 5);
+    CHECK(found.front().vertex == 2);
+}
+
 TEST_CASE("of a part that turns no corner belongs to a side of another part") {
     PolygonModel model = three_plates(0.0);
     model.parts = {"all", "rotor"};

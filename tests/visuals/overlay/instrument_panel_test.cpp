@@ -134,6 +134,8 @@ TEST_CASE("scales hold the limits of the aircraft and have few round numbers") {
     CHECK(speed_scale_kt(mps_from_kt(152.0)) == DialScale{0.0, 160.0});
     CHECK(load_scale_g(-3.0, 7.33) == DialScale{-4.0, 9.0});
     CHECK(load_scale_g(0.3, 2.0) == DialScale{-1.0, 3.0});
+    CHECK(number_step(speed_scale_kt(mps_from_kt(390.0))) == 100.0);
+    CHECK(number_step({0.0, 8000.0}) == 1000.0);
     CHECK(number_step({0.0, 800.0}) == 100.0);
     CHECK(number_step({0.0, 160.0}) == 40.0);
     CHECK(number_step({-1.0, 3.0}) == 1.0);
