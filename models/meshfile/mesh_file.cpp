@@ -68,12 +68,13 @@ const Format& format_of(const std::filesystem::path& path) {
         for (const Format& format : formats) {
             known += fmt::format("{}{}", known.empty() ? "" : ", ", format.ending);
         }
+        const std::string ending = printable(path.extension().string());
         error_in(
             path,
             fmt::format(
-                "expected a mesh file ({}), got '{}'",
+                "expected a mesh file ({}), got {}",
                 known,
-                printable(path.extension().string())));
+                ending.empty() ? "a name without an ending" : fmt::format("'{}'", ending)));
     }
     return *found;
 }

@@ -150,4 +150,5 @@ TEST_CASE("a file of an unknown kind is refused by its ending") {
     CHECK_FALSE(is_mesh_file("b.txt"));
     CHECK_FALSE(is_mesh_file("obj"));
     CHECK_THAT(error_of("part.txt", ""), Catch::StartsWith("part.txt: expected a mesh file (.obj"));
+    CHECK_THAT(error_of("part", ""), Catch::EndsWith("got a name without an ending"));
 }
