@@ -31,8 +31,8 @@ inline constexpr std::tuple surface_rows{
     setting<&RunSettings::surface, &visuals::scene::SurfaceSettings::order_cache>(
         {"order-cache",
          "DIR",
-         "painting orders are kept in this folder, and read where the same model is ordered again "
-         "[none are kept]"},
+         "painting orders and meshes made ready to be refined are kept in this folder, and read "
+         "where the same model comes again [none are kept]"},
         {.group = SettingGroup::Surface, .change = SettingsChange::Recording}),
     setting<&RunSettings::surface, &visuals::scene::SurfaceSettings::shadows>(
         {"shadows", "", "shadows of aircraft on the ground"},

@@ -172,7 +172,8 @@ load_model(const std::string& name, const settings::RunSettings& settings, Found
             {most_polygons_of_a_model, settings.surface.order_seconds},
             found);
     }
-    MeshAircraft mesh = read_mesh_aircraft(file, settings.path.axes);
+    MeshAircraft mesh = read_mesh_aircraft(
+        file, settings.path.axes, settings.surface.order_cache.value_or(std::string()));
     found.note(mesh.notes);
     planning::AircraftModel model = far_model(mesh, settings, found);
     add_meshes(model, mesh);

@@ -5,9 +5,12 @@
 #include "sim/base/text_file.h"
 #include "ui/base/stopwatch.h"
 #include "ui/world/aircraft_axes.h"
+#include "ui/world/mesh_input.h"
+#include "ui/world/prepared_meshes.h"
 #include "ui/world/refine_input.h"
 #include "ui/world/turning_parts.h"
 #include "visuals/refine/active_mesh.h"
+#include "visuals/refine/progressive_file.h"
 #include "visuals/refine/selective_refiner.h"
 
 #include <algorithm>
@@ -71,22 +74,33 @@ void add_note(MeshAircraft& aircraft, const AircraftAxes& axes, const std::files
 }
 
 /// A hierarchy from its file, or made of a mesh; what turns beside it, in axes of the file.
-RefineMesh
-hierarchy_in(const std::filesystem::path& file, std::vector<meshfile::TurningPart>& turning) {
+RefineMesh hierarchy_in(
+    const std::filesystem::path& file,
+    const std::filesystem::path& cache,
+    std::vector<meshfile::TurningPart>& turning) {
     const RefineInput input{.file = file.string(), .base = 0, .quiet = true};
-    if (ending_of(file) != ".xml") {
+    if (refine::is_progressive_file(file)) {
         return read_refine_mesh(input);
     }
-    meshfile::TurningModel model =
-        meshfile::read_turning_model(file, {.pictures = true, .backs = true});
-    turning = std::move(model.parts);
-    return made_refine_mesh(input, std::move(model.body));
+    const meshfile::ReadOptions options{.pictures = true, .backs = true};
+    meshfile::TurningModel model;
+    if (ending_of(file) == ".xml") {
+        model = meshfile::read_turning_model(file, options);
+        turning = std::move(model.parts);
+    } else {
+        model.body = read_mesh_input(input.file, options);
+    }
+    return cache.empty() ? made_refine_mesh(input, std::move(model.body))
+                         : prepared_refine_mesh(cache, input, std::move(model.body));
 }
 
-MeshAircraft from_hierarchy(const std::filesystem::path& file, const std::string& setting) {
+MeshAircraft from_hierarchy(
+    const std::filesystem::path& file,
+    const std::string& setting,
+    const std::filesystem::path& cache) {
     const base::Stopwatch watch;
     MeshAircraft aircraft;
-    RefineMesh input = hierarchy_in(file, aircraft.turning);
+    RefineMesh input = hierarchy_in(file, cache, aircraft.turning);
     const AircraftAxes axes = aircraft_axes(setting, file, finest_mesh(*input.mesh));
     aircraft.notes = std::move(input.notes);
     add_note(aircraft, axes, file);
@@ -144,8 +158,12 @@ MeshAircraft from_chain(const std::filesystem::path& file, const std::string& se
 
 } // namespace
 
-MeshAircraft read_mesh_aircraft(const std::filesystem::path& file, const std::string& axes) {
-    return meshfile::is_chain_file(file) ? from_chain(file, axes) : from_hierarchy(file, axes);
+MeshAircraft read_mesh_aircraft(
+    const std::filesystem::path& file,
+    const std::string& axes,
+    const std::filesystem::path& cache) {
+    return meshfile::is_chain_file(file) ? from_chain(file, axes)
+                                         : from_hierarchy(file, axes, cache);
 }
 
 void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {

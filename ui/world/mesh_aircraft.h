@@ -26,8 +26,12 @@ struct MeshAircraft {
 };
 
 /// Reads a chain of levels (.chain), a progressive mesh (.pm) or any other mesh file, of which a
-/// hierarchy is made here. `axes`: as aircraft_axes takes them. Throws Error.
-MeshAircraft read_mesh_aircraft(const std::filesystem::path& file, const std::string& axes);
+/// hierarchy is made here, or read where `cache`, a folder, has it of before; empty: none. `axes`:
+/// as aircraft_axes takes them. Throws Error.
+MeshAircraft read_mesh_aircraft(
+    const std::filesystem::path& file,
+    const std::string& axes,
+    const std::filesystem::path& cache = {});
 
 /// Gives the model that was made of its polygons the rest of a mesh aircraft.
 void add_meshes(visuals::planning::AircraftModel& model, const MeshAircraft& aircraft);

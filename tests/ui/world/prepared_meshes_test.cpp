@@ -1,0 +1,84 @@
+#include "models/made/made_globe.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "tests/scratch.h"
+#include "ui/world/prepared_meshes.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+using namespace octant;
+using namespace octant::ui::world;
+using visuals::refine::ProgressiveMesh;
+
+namespace {
+
+/// A coarse ball whose colour is that of its first vertex.
+models::TriangleMesh ball(const glm::vec3& colour) {
+    models::TriangleMesh mesh = models::made::globe();
+    mesh.triangles.resize(3000);
+    mesh.colours.front() = colour;
+    return mesh;
+}
+
+std::filesystem::path empty_folder(const std::string& name) {
+    const std::filesystem::path folder = tests::scratch_folder() / name;
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    return folder;
+}
+
+void check_same(const ProgressiveMesh& a, const ProgressiveMesh& b) {
+    CHECK(a.parts().origin_m == b.parts().origin_m);
+    CHECK(std::ranges::equal(a.faces(), b.faces()));
+    REQUIRE(a.node_count() == b.node_count());
+    std::size_t different = 0;
+    for (std::uint32_t node = 0; node < a.node_count(); ++node) {
+        different += a.position_m(node) != b.position_m(node) ? 1U : 0U;
+        different += a.error_m(node) != b.error_m(node) ? 1U : 0U;
+    }
+    CHECK(different == 0);
+    CHECK(std::ranges::equal(a.coarsest_first(), b.coarsest_first()));
+}
+
+constexpr std::size_t most_bytes = std::size_t{1} << 24U;
+
+} // namespace
+
+TEST_CASE("a mesh that was made ready before is read, the same to the bit") {
+    const auto folder = empty_folder("prepared");
+    const RefineInput input{.file = "ball", .base = 0, .quiet = true};
+    const models::TriangleMesh mesh = ball({1.0F, 0.0F, 0.0F});
+    const auto file = prepared_file(folder, mesh);
+    const RefineMesh made = prepared_refine_mesh(folder, input, mesh);
+    REQUIRE(std::filesystem::is_regular_file(file));
+    const auto written = std::filesystem::last_write_time(file);
+    const RefineMesh kept = prepared_refine_mesh(folder, input, mesh);
+    CHECK(std::filesystem::last_write_time(file) == written);
+    check_same(*made.mesh, *kept.mesh);
+    check_same(*made.mesh, *made_refine_mesh(input, mesh).mesh);
+    CHECK(prepared_file(folder, ball({0.0F, 1.0F, 0.0F})) != file);
+}
+
+TEST_CASE("a prepared mesh that is damaged or cut off is made anew and replaced, with a note") {
+    const auto folder = empty_folder("damaged");
+    const RefineInput input{.file = "ball", .base = 0, .quiet = true};
+    const models::TriangleMesh mesh = ball({1.0F, 0.0F, 0.0F});
+    const auto file = prepared_file(folder, mesh);
+    const RefineMesh made = prepared_refine_mesh(folder, input, mesh);
+    const std::string whole = read_file(file, most_bytes);
+    std::string flipped = whole;
+    flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 4);
+    for (const std::string& bad : {flipped, whole.substr(0, whole.size() - 9), std::string("x")}) {
+        write_file(file, bad);
+        const RefineMesh anew = prepared_refine_mesh(folder, input, mesh);
+        REQUIRE_FALSE(anew.notes.empty());
+        CHECK_THAT(anew.notes.back(), Catch::Contains("made anew"));
+        check_same(*made.mesh, *anew.mesh);
+        CHECK(read_file(file, most_bytes) == whole);
+    }
+}

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "models/triangle_mesh.h"
+#include "ui/world/refine_input.h"
+
+#include <filesystem>
+
+namespace octant::ui::world {
+
+/// Raised whenever made_refine_mesh() gives any mesh another hierarchy, or a .pm file another
+/// layout: what was kept before is then made anew.
+inline constexpr unsigned prepared_version = 1;
+
+/// The file of a folder in which the hierarchy of a mesh is kept, named by two hashes of all that
+/// decides it: places, triangles, colours and materials.
+std::filesystem::path
+prepared_file(const std::filesystem::path& folder, const models::TriangleMesh& mesh);
+
+/// made_refine_mesh(), read from the folder where the same mesh was made ready before, else made
+/// and kept there. The hierarchy is the same, bit for bit. A file that is damaged or cut off is
+/// made anew and replaced, with a note. Processes may share a folder: files appear whole.
+RefineMesh prepared_refine_mesh(
+    const std::filesystem::path& folder, const RefineInput& input, models::TriangleMesh mesh);
+
+} // namespace octant::ui::world
