@@ -30,7 +30,22 @@ struct AircraftKind {
     /// OBJ files in the program's folder of models.
     std::string_view model_file;
     std::string_view cockpit_file;
+    /// The plain aircraft of the same type, whose built-in paths it flies and as which it is drawn
+    /// far away; empty = it is one. No point of one model is farther than `plain_error_m` from the
+    /// other.
+    std::string_view plain_name = {};
+    double plain_error_m = 0.0;
 };
+
+/// The same type in more detail: its model near, the plain one far away.
+constexpr AircraftKind
+in_detail(AircraftKind kind, std::string_view name, std::string_view file, double plain_error_m) {
+    kind.plain_name = kind.name;
+    kind.plain_error_m = plain_error_m;
+    kind.name = name;
+    kind.model_file = file;
+    return kind;
+}
 
 // Limits of the F-15C: -3..+7.33 g without the overload warning system, about 200 deg/s of roll, g
 // onset of 6 g/s (general knowledge); 800 kt low down; climb of the 50,000 ft/min class. 120 m/s is
@@ -83,6 +98,10 @@ inline constexpr AircraftKind md500_kind{
 
 /// The types that the program knows, one row each, in the order in which lists name them. A new
 /// type is a row here and its files: models, and paths of its name in flightpaths.
-inline constexpr std::array known_aircraft{f15_kind, md500_kind};
+inline constexpr std::array known_aircraft{
+    f15_kind,
+    md500_kind,
+    in_detail(f15_kind, "f15-detailed", "f15-detailed.obj", 0.66),
+    in_detail(md500_kind, "500md-detailed", "500md-detailed.obj", 0.69)};
 
 } // namespace octant::sim

@@ -84,8 +84,9 @@ const sim::AircraftKind& flown_as(const std::string& name_or_file) {
 
 fs::path path_file(const std::string& name_or_file, const std::string& aircraft) {
     if (std::ranges::find(built_in_paths, name_or_file) != built_in_paths.end()) {
-        return data_folder() / "flightpaths" /
-               fmt::format("{}-{}.toml", flown_as(aircraft).name, name_or_file);
+        const sim::AircraftKind& kind = flown_as(aircraft);
+        const std::string_view whose = kind.plain_name.empty() ? kind.name : kind.plain_name;
+        return data_folder() / "flightpaths" / fmt::format("{}-{}.toml", whose, name_or_file);
     }
     if (looks_like_file(name_or_file)) {
         return name_or_file;

@@ -21,7 +21,8 @@ inline constexpr auto built_in_models = [] {
     return names;
 }();
 
-/// Built-in paths, of which each known aircraft has its own, in the order of the 1989 paper.
+/// Built-in paths, of which each known aircraft has its own or another's, in the order of the 1989
+/// paper.
 inline constexpr std::array<std::string_view, 4> built_in_paths{
     "straight", "jinking", "pop-up", "turn"};
 

@@ -213,6 +213,20 @@ load_aircraft(const settings::RunSettings& settings, const std::vector<std::stri
             add(load_model(name, settings, told));
         }
     }
+    for (std::uint32_t i = 0; i < names.size(); ++i) {
+        const sim::AircraftKind* kind = sim::find_aircraft_kind(names[i]);
+        if (kind == nullptr || kind->plain_name.empty()) {
+            continue;
+        }
+        const std::string plain(kind->plain_name);
+        const auto found = std::find(names.begin(), names.end(), plain);
+        loaded.far_models.push_back(
+            {i, static_cast<std::uint32_t>(found - names.begin()), kind->plain_error_m});
+        if (found == names.end()) {
+            names.push_back(plain);
+            add(load_model(plain, settings, told));
+        }
+    }
     if (auto cockpit = load_cockpit(shapes.front())) {
         loaded.cockpit = static_cast<std::uint32_t>(loaded.models.size());
         loaded.dials =

@@ -3,6 +3,7 @@
 #include "ui/settings/settings.h"
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/aircraft_model.h"
+#include "visuals/planning/scene.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,6 +18,7 @@ namespace octant::ui::world {
 struct LoadedAircraft {
     std::vector<std::shared_ptr<const visuals::planning::AircraftModel>> models;
     std::vector<std::uint32_t> aircraft;
+    std::vector<visuals::planning::FarModel> far_models;
     std::optional<std::uint32_t> cockpit;
     visuals::overlay::InstrumentLayout dials;       ///< of the cockpit
     std::vector<std::string> notes;                 ///< what a person should be told

@@ -226,6 +226,7 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
         ground.texture,
         std::move(aircraft.models),
         std::move(aircraft.aircraft),
+        std::move(aircraft.far_models),
         aircraft.cockpit,
         std::move(aircraft.dials)};
     if (!is_live) {

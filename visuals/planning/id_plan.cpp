@@ -93,7 +93,21 @@ IdPlan::IdPlan(const Scene& scene) {
             model.levels.empty() ? 0 : static_cast<std::uint32_t>(model.buffers.vertices.size());
     };
     for (const std::uint32_t model : scene.aircraft) {
+        const auto far = std::ranges::find(scene.far_models, model, &FarModel::model);
+        const std::size_t first_part = model_of_part_.size();
         add(*scene.models[model]);
+        if (far != scene.far_models.end()) {
+            // Both have the same parts in a plan, of which it draws one.
+            const std::size_t parts = model_of_part_.size() - first_part;
+            far_of_part_.push_back(
+                {static_cast<std::uint32_t>(first_part),
+                 far->far_model,
+                 static_cast<std::uint32_t>(models_.size())});
+            add(*scene.models[far->far_model]);
+            const std::size_t far_parts = model_of_part_.size() - first_part - parts;
+            model_of_part_.resize(
+                first_part + std::max(parts, far_parts), model_of_part_[first_part]);
+        }
     }
     if (scene.cockpit) {
         add(*scene.models[*scene.cockpit]);
@@ -130,7 +144,10 @@ const scene::FramePlan& IdPlan::of(const scene::FramePlan& plan) {
     });
     std::ranges::fill(plan_.smooth, 0U); // a flat polygon has one colour
     for (scene::AircraftDraw& draw : plan_.aircraft) {
-        draw.model = model_of_part_[draw.first_part];
+        const auto far = std::ranges::find_if(far_of_part_, [&](const FarNumbers& one) {
+            return one.first_part == draw.first_part && one.far_model == draw.model;
+        });
+        draw.model = far != far_of_part_.end() ? far->numbered : model_of_part_[draw.first_part];
         draw.tints = {};
     }
     add_ground(plan, plan.ground.indices);

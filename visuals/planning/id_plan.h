@@ -29,8 +29,17 @@ public:
 private:
     void add_ground(const scene::FramePlan& plan, std::span<const std::uint32_t> indices);
 
-    std::vector<scene::ModelBuffers> models_;  ///< one for each aircraft, then the cockpit
+    std::vector<scene::ModelBuffers> models_;  ///< one or two for each aircraft, then the cockpit
     std::vector<std::uint32_t> model_of_part_; ///< by AircraftDraw::first_part
+
+    /// An aircraft that a plan may draw as another model of the scene, which has numbers too.
+    struct FarNumbers {
+        std::uint32_t first_part = 0;
+        std::uint32_t far_model = 0; ///< index into Scene::models
+        std::uint32_t numbered = 0;  ///< index into models_
+    };
+
+    std::vector<FarNumbers> far_of_part_;
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;
     scene::FramePlan plan_;

@@ -17,6 +17,12 @@ namespace octant::visuals::planning {
 struct PlacedAircraft {
     const AircraftModel* model = nullptr;
     std::uint32_t model_index = 0;
+    /// What it may be drawn as: itself, and another one far away, where there is one.
+    const AircraftModel* near_model = nullptr;
+    const AircraftModel* far_model = nullptr;
+    std::uint32_t near_index = 0;
+    std::uint32_t far_index = 0;
+    double far_error_m = 0.0;
     /// Polygons in the order of the index buffer: what IndexRange::first_polygon counts in. Empty
     /// for a mesh.
     std::span<const std::uint32_t> list;
@@ -32,6 +38,11 @@ struct PlacedAircraft {
     /// Body axes to world axes with the eye at the origin: the body, then each pivot turned.
     std::span<const glm::dmat4> parts;
 };
+
+/// Whether an aircraft is drawn as what stands in for it far away.
+inline bool is_far(const PlacedAircraft& aircraft) {
+    return aircraft.far_model != nullptr && aircraft.model == aircraft.far_model;
+}
 
 /// Whether an aircraft is drawn as a mesh, which has no painting order: its hidden surfaces are
 /// removed by depth.

@@ -54,8 +54,18 @@ places_for(const Scene& scene, scene::View view, std::vector<glm::dmat4>& parts)
         PlacedAircraft& aircraft = placed.emplace_back();
         aircraft.model = scene.models[model].get();
         aircraft.model_index = model;
+        aircraft.near_model = aircraft.model;
+        aircraft.near_index = model;
         aircraft.first_part = static_cast<std::uint32_t>(parts.size());
-        parts.resize(parts.size() + aircraft.model->polygons.pivots.size() + 1);
+        std::size_t pivots = aircraft.model->polygons.pivots.size();
+        const auto far = std::ranges::find(scene.far_models, model, &FarModel::model);
+        if (far != scene.far_models.end()) {
+            aircraft.far_model = scene.models[far->far_model].get();
+            aircraft.far_index = far->far_model;
+            aircraft.far_error_m = far->error_m;
+            pivots = std::max(pivots, aircraft.far_model->polygons.pivots.size());
+        }
+        parts.resize(parts.size() + pivots + 1);
     };
     for (const std::uint32_t model : scene.aircraft) {
         add(model);
@@ -247,7 +257,8 @@ void Planner::count_aircraft(PlanCounts& counts) const {
     counts.refine_collapses = refine_collapses_;
     if (!placed_.empty()) {
         counts.draw_cell = placed_.front().cell;
-        counts.aircraft_level = static_cast<int>(placed_.front().representation);
+        counts.aircraft_level =
+            static_cast<int>(placed_.front().representation) + (is_far(placed_.front()) ? 1 : 0);
     }
 }
 

@@ -115,6 +115,7 @@ private:
     void plan_sky(const scene::Camera& camera);
     void place_aircraft(const scene::Camera& camera, std::span<const sim::AircraftState> states);
     void place(PlacedAircraft& aircraft, const sim::AircraftState& state, const glm::dvec3& eye_m);
+    void choose_model(PlacedAircraft& aircraft, double distance_m) const;
     void represent(PlacedAircraft& aircraft);
     void choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m);
     void refine_meshes(const scene::Camera& camera);

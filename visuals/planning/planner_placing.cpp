@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 // Where each aircraft of a frame is, and as what it is drawn: polygons in the order of its eye
@@ -45,8 +46,9 @@ scene::Tints tints_of(const PlacedAircraft& aircraft, scene::ModelLook look) {
     }
     const double radius_m =
         model.progressive ? model.progressive->half_diagonal_m() : model.subject.radius_m;
-    const std::uint32_t colour =
-        scene::level_colour(model.errors_m[aircraft.representation], radius_m);
+    const double error_m =
+        is_far(aircraft) ? aircraft.far_error_m : model.errors_m[aircraft.representation];
+    const std::uint32_t colour = scene::level_colour(error_m, radius_m);
     return {colour, colour};
 }
 
@@ -83,6 +85,7 @@ void Planner::place_aircraft(
 
 void Planner::place(
     PlacedAircraft& aircraft, const sim::AircraftState& state, const glm::dvec3& eye_m) {
+    choose_model(aircraft, glm::length(state.position_m - eye_m));
     const AircraftModel& model = *aircraft.model;
     place_parts(
         model.polygons,
@@ -99,6 +102,24 @@ void Planner::place(
     for (const scene::IndexRange& range : aircraft.ranges) {
         aircraft.polygon_count += range.polygons;
     }
+}
+
+/// Chooses between an aircraft's own model and the one that stands in for it, by the rule for
+/// levels of detail.
+void Planner::choose_model(PlacedAircraft& aircraft, double distance_m) const {
+    if (aircraft.far_model == nullptr) {
+        return;
+    }
+    const double nearest_m = std::max(distance_m - aircraft.near_model->subject.radius_m, 0.0);
+    const std::array errors_m{0.0, aircraft.far_error_m};
+    const bool far = chosen_level(
+                         errors_m,
+                         settings_.surface.aircraft_error_px * pixel_rad_ * nearest_m,
+                         is_far(aircraft) ? 1 : 0) == 1;
+    aircraft.model = far ? aircraft.far_model : aircraft.near_model;
+    aircraft.model_index = far ? aircraft.far_index : aircraft.near_index;
+    aircraft.parts =
+        std::span(parts_).subspan(aircraft.first_part, aircraft.model->polygons.pivots.size() + 1);
 }
 
 /// Chooses what of an aircraft's index buffer is drawn; of a refined mesh nothing.

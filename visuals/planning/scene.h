@@ -14,6 +14,13 @@
 
 namespace octant::visuals::planning {
 
+/// What a model is drawn as from where nobody sees the difference: both are painted in order.
+struct FarModel {
+    std::uint32_t model = 0;     ///< index into Scene::models
+    std::uint32_t far_model = 0; ///< index into Scene::models; without levels of detail
+    double error_m = 0.0;        ///< no point of one is farther from the other
+};
+
 /// Everything that is loaded once and looked at in every frame, by one view or by several. What is
 /// large is shared and never changes: a copy costs little.
 struct Scene {
@@ -24,6 +31,7 @@ struct Scene {
     /// Each once, however many aircraft fly it.
     std::vector<std::shared_ptr<const AircraftModel>> models;
     std::vector<std::uint32_t> aircraft;  ///< model of each aircraft
+    std::vector<FarModel> far_models;     ///< for some of the models
     std::optional<std::uint32_t> cockpit; ///< model of what the first pilot sees around the eye
     overlay::InstrumentLayout dials;      ///< of that cockpit
 

@@ -102,10 +102,17 @@ SmoothChoice::SmoothChoice(
     for (std::size_t i = 0; i < placed.size(); ++i) {
         const AircraftModel& model = *placed[i].model;
         placed[i].first_smooth = static_cast<std::uint32_t>(words);
-        words += words_for(model);
+        std::size_t needed = words_for(model);
         for (std::size_t as = 0; chooses_ && as <= model.levels.size(); ++as) {
             choosers_[i].emplace_back(model.shaded_as(as), rule_of(settings));
         }
+        if (placed[i].far_model != nullptr) {
+            needed = std::max(needed, words_for(*placed[i].far_model));
+            if (chooses_) {
+                choosers_[i].emplace_back(placed[i].far_model->shaded, rule_of(settings));
+            }
+        }
+        words += needed;
     }
     bits_.assign(words + 1, settings.kind == scene::AircraftShading::Flat ? 0U : ~0U);
     bits_.push_back(1);
@@ -165,8 +172,9 @@ SmoothChoice::Count SmoothChoice::choose(
 
 shading::ShadingSelector&
 SmoothChoice::chooser_of(std::size_t aircraft, const PlacedAircraft& placed) {
-    const bool polygons = !is_solid(placed);
-    return polygons ? choosers_[aircraft].back() : choosers_[aircraft][placed.representation];
+    const std::size_t polygons = placed.near_model->levels.size();
+    const std::size_t as_it_is = is_solid(placed) ? placed.representation : polygons;
+    return choosers_[aircraft][is_far(placed) ? polygons + 1 : as_it_is];
 }
 
 void SmoothChoice::write_bits(

@@ -70,7 +70,8 @@ public:
         std::vector<std::uint32_t>& smooth);
 
 private:
-    /// Of one aircraft: its levels, then its polygons; empty where all polygons are alike.
+    /// Of one aircraft: its levels, then its polygons, then those of what stands in for it; empty
+    /// where all polygons are alike.
     using Choosers = std::vector<shading::ShadingSelector>;
 
     int wanted_of(std::span<const PlacedAircraft> placed, const SmoothWish& wish);

@@ -96,7 +96,14 @@ bool is_flat_plate(const PolygonModel& model, std::uint32_t part) {
 } // namespace
 
 TEST_CASE("the shipped models are read without notes and without cuts") {
-    for (const char* name : {"f15", "500md", "concave", "f15-cockpit", "500md-cockpit"}) {
+    for (const char* name :
+         {"f15",
+          "500md",
+          "concave",
+          "f15-cockpit",
+          "500md-cockpit",
+          "f15-detailed",
+          "500md-detailed"}) {
         const PolygonModel model = shipped(name);
         CHECK(model.notes.empty());
         CHECK(model.parents.empty());

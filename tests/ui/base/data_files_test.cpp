@@ -19,7 +19,8 @@ TEST_CASE("built-in names lead to files, files stay what they are, other names a
     CHECK(ui::base::path_file("turn", "mine.obj").filename() == "f15-turn.toml");
     CHECK_THROWS_WITH(
         ui::base::aircraft_file("f16"),
-        "aircraft: expected f15, 500md, concave or an OBJ file, got 'f16'");
+        "aircraft: expected f15, 500md, f15-detailed, 500md-detailed, concave or an OBJ file, got "
+        "'f16'");
     CHECK_THROWS_WITH(
         ui::base::path_file("loop", "f15"),
         Catch::Contains("expected straight, jinking, pop-up, turn"));

@@ -118,7 +118,8 @@ TEST_CASE("a drape that cannot be laid over the ground is refused in one line wi
 TEST_CASE("a wrong aircraft is refused in one line with exit code 2") {
     check_refused(
         {"straight", "--aircraft", "f16"},
-        "aircraft: expected f15, 500md, concave or an OBJ file, got 'f16'");
+        "aircraft: expected f15, 500md, f15-detailed, 500md-detailed, concave or an OBJ file, got "
+        "'f16'");
     check_refused(
         {"straight", "--aircraft", "/nowhere/a.obj"},
         "/nowhere/a.obj: expected a file, found none");

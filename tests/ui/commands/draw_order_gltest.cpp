@@ -140,7 +140,10 @@ TEST_CASE("rays alone find the file order of a missing cell") {
 
 TEST_CASE("draw-order refuses wrong input in one line with exit code 2") {
     check_refused({}, "model");
-    check_refused({"f16"}, "model: expected f15, 500md, concave, torus or an OBJ file, got 'f16'");
+    check_refused(
+        {"f16"},
+        "model: expected f15, 500md, f15-detailed, 500md-detailed, concave, torus or an OBJ "
+        "file, got 'f16'");
     check_refused({"/nowhere/a.obj"}, "/nowhere/a.obj: expected a file, found none");
     write_file(file("empty.obj"), "");
     check_refused({file("empty.obj")}, "empty.obj");

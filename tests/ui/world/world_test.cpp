@@ -86,7 +86,8 @@ TEST_CASE("a path file of an unknown aircraft is refused with its line") {
     settings.path.name = file.string();
     CHECK_THROWS_WITH(
         ui::world::load_world(settings),
-        Catch::Contains("kite.toml:2: expected aircraft f15 or 500md, got 'kite'"));
+        Catch::Contains("kite.toml:2: expected aircraft f15 or 500md or f15-detailed or "
+                        "500md-detailed, got 'kite'"));
 }
 
 TEST_CASE("a path is laid over ground from a file with the clearance that it asks for") {

@@ -118,6 +118,8 @@ TEST_CASE("lists by cells and by the tree keep the precedences that the paper's 
 TEST_CASE("the shipped aircraft have a right list for every eye, and few of them") {
     check_tree(shipped("f15"), 1500, 6);
     check_tree(shipped("500md"), 1500, 10);
+    check_tree(shipped("f15-detailed"), 1500, 80);
+    check_tree(shipped("500md-detailed"), 1500, 140);
     CHECK(by(Method::Tree, shipped("f15")).splits == 0);
     CHECK(by(Method::Tree, shipped("500md")).splits == 0);
 }
