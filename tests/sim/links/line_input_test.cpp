@@ -17,7 +17,7 @@ using namespace octant::sim::links;
 
 namespace {
 
-constexpr std::uint32_t loopback = 0x7f000001;
+constexpr std::uint32_t this_machine = 0x7f000001;
 constexpr std::uint32_t another = 0x7f000002;
 
 sockaddr generic_of(std::uint32_t address, std::uint16_t port) {
@@ -36,7 +36,7 @@ public:
     Client(std::uint32_t address, std::uint16_t port)
         : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
         const sockaddr own = generic_of(address, 0);
-        const sockaddr to = generic_of(loopback, port);
+        const sockaddr to = generic_of(this_machine, port);
         REQUIRE(::bind(socket_, &own, sizeof(own)) == 0);
         REQUIRE(::connect(socket_, &to, sizeof(to)) == 0);
     }
@@ -57,7 +57,7 @@ private:
 } // namespace
 
 TEST_CASE("clients of other machines than the one that counts hold no place") {
-    LineServer server(loopback, 0, loopback);
+    LineServer server(this_machine, 0, this_machine);
     std::vector<std::unique_ptr<Client>> others;
     for (std::size_t i = 0; i < 2 * LineServer::most_clients; ++i) {
         others.push_back(std::make_unique<Client>(another, server.port()));
@@ -65,12 +65,12 @@ TEST_CASE("clients of other machines than the one that counts hold no place") {
     }
     std::vector<Datagram> lines;
     server.drain(0.0, lines);
-    const Client good(loopback, server.port());
+    const Client good(this_machine, server.port());
     good.say("t_s,north_m\n");
     for (int i = 0; i < 500 && lines.empty(); ++i) {
         server.drain(0.0, lines);
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     REQUIRE(lines.size() == 1);
-    CHECK(lines.front().source.address == loopback);
+    CHECK(lines.front().source.address == this_machine);
 }

@@ -25,7 +25,7 @@ models::TriangleMesh ball(const glm::vec3& colour) {
     return mesh;
 }
 
-std::filesystem::path empty_folder(const std::string& name) {
+std::filesystem::path empty_cache(const std::string& name) {
     const std::filesystem::path folder = tests::scratch_folder() / name;
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
@@ -50,7 +50,7 @@ constexpr std::size_t most_bytes = std::size_t{1} << 24U;
 } // namespace
 
 TEST_CASE("a mesh that was made ready before is read, the same to the bit") {
-    const auto folder = empty_folder("prepared");
+    const auto folder = empty_cache("prepared");
     const RefineInput input{.file = "ball", .base = 0, .quiet = true};
     const models::TriangleMesh mesh = ball({1.0F, 0.0F, 0.0F});
     const auto file = prepared_file(folder, mesh);
@@ -65,7 +65,7 @@ TEST_CASE("a mesh that was made ready before is read, the same to the bit") {
 }
 
 TEST_CASE("a prepared mesh that is damaged or cut off is made anew and replaced, with a note") {
-    const auto folder = empty_folder("damaged");
+    const auto folder = empty_cache("damaged");
     const RefineInput input{.file = "ball", .base = 0, .quiet = true};
     const models::TriangleMesh mesh = ball({1.0F, 0.0F, 0.0F});
     const auto file = prepared_file(folder, mesh);

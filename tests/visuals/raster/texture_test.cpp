@@ -14,7 +14,7 @@ namespace octant::visuals::raster {
 
 namespace {
 
-constexpr glm::ivec2 size_px{256, 192};
+constexpr glm::ivec2 small_px{256, 192};
 constexpr int texels = 512;
 constexpr int levels_a_texel = 16;
 
@@ -41,7 +41,7 @@ scene::GroundTexture zigzag_texture() {
 
 /// One over the distance of a slope that falls away from the lower left corner.
 double nearness(const glm::dvec2& at_px) {
-    return 1.0 / 12.0 - 0.04 * at_px.x / size_px.x + 0.03 * at_px.y / size_px.y;
+    return 1.0 / 12.0 - 0.04 * at_px.x / small_px.x + 0.03 * at_px.y / small_px.y;
 }
 
 /// The slope, cut into triangles of so many pixels, west to east and north to south.
@@ -55,8 +55,8 @@ void paint_slope(FlatPlan& plan, const glm::ivec2& cell_px) {
         }
         triangles.push_back(triangle);
     };
-    for (int y = 0; y < size_px.y; y += cell_px.y) {
-        for (int x = 0; x < size_px.x; x += cell_px.x) {
+    for (int y = 0; y < small_px.y; y += cell_px.y) {
+        for (int x = 0; x < small_px.x; x += cell_px.x) {
             const int right = x + cell_px.x;
             const int below_it = y + cell_px.y;
             add({glm::ivec2(x, y), {right, y}, {x, below_it}});
@@ -89,17 +89,17 @@ TEST_CASE("places in a texture are right to a sixteenth of a texel in small tria
     // Small triangles take their places from planes, large ones from the ends of sixteen pixels.
     for (const auto& [cell_px, most_texels_wrong] :
          {Case{glm::ivec2(8, 6), 1.0 / 16.0}, Case{glm::ivec2(64, 96), 1.0 / 5.0}}) {
-        FlatPlan plan(size_px);
+        FlatPlan plan(small_px);
         paint_slope(plan, cell_px);
         constexpr float per_m = 0.0078125F;
         const scene::TexturePlace place{glm::vec2(0.5F), glm::vec2(per_m)};
         plan.plan().ground_texture = {place, place};
-        const scene::Picture picture = drawn(plan.plan(), size_px, 16, 1, &texture);
+        const scene::Picture picture = drawn(plan.plan(), small_px, 16, 1, &texture);
         double worst = 0.0;
-        for (int y = 0; y < size_px.y; ++y) {
-            for (int x = 0; x < size_px.x; ++x) {
+        for (int y = 0; y < small_px.y; ++y) {
+            for (int x = 0; x < small_px.x; ++x) {
                 const glm::dvec2 at_px(x + 0.5, y + 0.5);
-                const glm::dvec2 share = at_px / glm::dvec2(size_px) * 2.0 - 1.0;
+                const glm::dvec2 share = at_px / glm::dvec2(small_px) * 2.0 - 1.0;
                 const glm::dvec2 at_m = glm::dvec2(share.x, -share.y) / nearness(at_px);
                 const glm::dvec2 texel = (0.5 + at_m * double{per_m}) * double{texels} - 0.5;
                 const glm::ivec3 seen = pixel(picture, x, y);
