@@ -1,25 +1,18 @@
 // The three ways to the orders of a model, and the choice among several results. The exact methods
-// first cut polygons that pass through one another (split.cpp), then search over regions of eyes.
-// As the searches are greedy, small models are searched several times with other weights or other
-// centres; the result with the fewest splits, then with the fewest cells, is kept.
+// first cut polygons that pass through one another (split.cpp), then search over regions of eyes
+// (cell_search.cpp).
 #include "visuals/draworder/ordered_model.h"
 
 #include "models/planar/planar_model.h"
-#include "visuals/draworder/cell_centres.h"
-#include "visuals/draworder/octant_cells.h"
+#include "visuals/draworder/cell_search.h"
 #include "visuals/draworder/parted_order.h"
-#include "visuals/draworder/region_tree.h"
 #include "visuals/draworder/split.h"
 #include "visuals/draworder/working_model.h"
 
 #include <algorithm>
-#include <array>
-#include <cassert>
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
-#include <span>
-#include <tuple>
 #include <utility>
 
 namespace octant::visuals::draworder {
@@ -28,23 +21,8 @@ namespace {
 
 using models::planar::PlanarModel;
 
-/// In larger models the octants always meet at the origin.
-constexpr std::size_t most_polygons_with_choice = 200;
 /// Larger models are divided at once: their graphs alone would take seconds.
 constexpr std::size_t most_polygons_searched = 2'000;
-/// Models with more cyclic edges get one quick search only.
-constexpr std::size_t most_edges_searched_again = 2'000;
-
-/// About the work of testing a pair of polygons (SearchBudget).
-constexpr std::uint64_t units_of_pair = 300;
-
-/// The searches whose results are compared; the last one only where the others split polygons.
-const std::array<TreeSearch, 4> tree_searches{
-    {{.power = 1.0, .keeps_part = true},
-     {.power = 0.5, .keeps_part = true},
-     {.power = 1.5, .keeps_part = true},
-     {.planes_first = true, .keeps_part = true}}};
-const TreeSearch quick_search{.edge_planes = 300, .closer = 48, .exact = 2, .keeps_part = true};
 
 OrderedModel by_paper(models::polygons::PolygonModel model, const OrderOptions& options) {
     const OctantOrders orders = paper_orders(model, options.paper);
@@ -63,100 +41,8 @@ OrderedModel by_paper(models::polygons::PolygonModel model, const OrderOptions& 
     return out;
 }
 
-/// The cells and lists of a model, with planes in the space of its faces.
-struct Orders {
-    WorkingModel work;
-    std::vector<DrawOrder::Node> nodes;
-    std::vector<std::vector<std::uint32_t>> lists;
-    std::vector<OrderCell> cells;
-    /// As RegionTree has them; empty where every cell has its list.
-    std::vector<std::vector<std::vector<std::uint32_t>>> open = {};
-    std::string why_open = {};
-};
-
-/// Whether one result is better: whole rather than open, fewer splits, then fewer cells.
-bool fewer(const Orders& a, const Orders& b) {
-    return std::tuple(!a.open.empty(), a.work.twins.size(), a.cells.size()) <
-           std::tuple(!b.open.empty(), b.work.twins.size(), b.cells.size());
-}
-
-void keep_better(std::optional<Orders>& best, Orders orders) {
-    if (!best || fewer(orders, *best)) {
-        best = std::move(orders);
-    }
-}
-
-Orders tree_orders(WorkingModel work, const EyeNode& root, const TreeSearch& search) {
-    RegionTree tree = region_tree(work, root, search);
-    Orders out{std::move(work), std::move(tree.nodes), std::move(tree.lists), {}};
-    for (std::vector<Plane>& planes : tree.cell_planes) {
-        out.cells.push_back({"", std::move(planes)});
-    }
-    if (!tree.why_open.empty()) {
-        out.open = std::move(tree.open);
-        out.why_open = std::move(tree.why_open);
-    }
-    return out;
-}
-
-Orders best_tree(const models::polygons::PolygonModel& model, SearchBudget& budget) {
-    WorkingModel work(model, glm::dvec3(0.0));
-    work.budget = &budget;
-    work.spend(units_of_pair * model.polygons.size() * model.polygons.size());
-    RegionGraphs graphs(work.faces);
-    const EyeNode root = eye_node(graphs, EyeRegion::everywhere());
-    if (root.cycles.edges > most_edges_searched_again) {
-        return tree_orders(work, root, quick_search);
-    }
-    std::optional<Orders> best;
-    for (const TreeSearch& search : tree_searches) {
-        if (best && best->work.twins.empty() && search.planes_first) {
-            break;
-        }
-        try {
-            keep_better(best, tree_orders(work, root, search));
-        } catch (const SearchGivenUp&) {
-            if (!best) {
-                throw;
-            }
-        }
-    }
-    return std::move(*best);
-}
-
-Orders cell_orders(WorkingModel work, double least_distance) {
-    OctantCells cells = octant_cells(work, least_distance);
-    Orders out{std::move(work), std::move(cells.nodes), std::move(cells.lists), {}};
-    for (std::size_t i = 0; i < cells.paths.size(); ++i) {
-        out.cells.push_back({std::move(cells.paths[i]), std::move(cells.cell_planes[i])});
-    }
-    return out;
-}
-
-Orders best_cells(
-    const models::polygons::PolygonModel& model, double least_distance, SearchBudget& budget) {
-    budget.spend(3 * units_of_pair * model.polygons.size() * model.polygons.size());
-    std::optional<Orders> best;
-    const auto centres = cell_centres(WorkingModel(model, glm::dvec3(0.0)));
-    for (const glm::dvec3& centre_m : centres) {
-        if (best && model.polygons.size() > most_polygons_with_choice) {
-            break;
-        }
-        WorkingModel work(model, centre_m);
-        work.budget = &budget;
-        try {
-            keep_better(best, cell_orders(std::move(work), least_distance));
-        } catch (const SearchGivenUp&) {
-            if (!best) {
-                throw;
-            }
-        }
-    }
-    return std::move(*best);
-}
-
 /// Completes orders of which some cells are open by dividing polygons there.
-OrderedModel completed(Orders orders, int penetrating, std::string& why) {
+OrderedModel completed(FoundCells orders, int penetrating, std::string& why) {
     const auto found =
         std::ranges::count_if(orders.open, [](const auto& sets) { return sets.empty(); });
     why = fmt::format(
@@ -197,7 +83,7 @@ exact(models::polygons::PolygonModel model, const OrderOptions& options, std::st
     SearchBudget budget(options.seconds, options.progress);
     const int penetrating = split_penetrating(model, budget);
     const bool by_cells = options.method == Method::Cells;
-    Orders orders =
+    FoundCells orders =
         by_cells ? best_cells(model, options.min_distance_radii, budget) : best_tree(model, budget);
     const ModelFaces& faces = orders.work.faces;
     for (DrawOrder::Node& node : orders.nodes) {

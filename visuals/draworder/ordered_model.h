@@ -1,9 +1,9 @@
 #pragma once
 
 #include "models/polygons/polygon_model.h"
-#include "sim/base/plane.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/octant_order.h"
+#include "visuals/draworder/order_cell.h"
 #include "visuals/draworder/order_trial.h"
 #include "visuals/draworder/search_budget.h"
 
@@ -41,13 +41,6 @@ enum class DrawnBy {
     Bsp,   ///< Polygons divided until each stands alone.
     /// Cells of a tree as far as the search came, polygons divided in the others.
     TreeAndParts
-};
-
-/// The eye points that share a list.
-struct OrderCell {
-    std::string path; ///< Paper, Cells: "+-+/0/3"; empty for a cell of a tree.
-    /// The cell is the intersection of the half-spaces in front of them; unit normals, body axes.
-    std::vector<Plane> planes;
 };
 
 /// A model with its painting orders, in body axes.

@@ -1,0 +1,119 @@
+// The searches for cells, and the choice among their results. As the searches are greedy, small
+// models are searched several times with other weights or other centres; the result with the fewest
+// splits, then with the fewest cells, is kept.
+#include "visuals/draworder/cell_search.h"
+
+#include "visuals/draworder/cell_centres.h"
+#include "visuals/draworder/eye_node.h"
+#include "visuals/draworder/octant_cells.h"
+#include "visuals/draworder/region_tree.h"
+
+#include <array>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace octant::visuals::draworder {
+
+namespace {
+
+/// In larger models the octants always meet at the origin.
+constexpr std::size_t most_polygons_with_choice = 200;
+/// Models with more cyclic edges get one quick search only.
+constexpr std::size_t most_edges_searched_again = 2'000;
+
+/// About the work of testing a pair of polygons (SearchBudget).
+constexpr std::uint64_t units_of_pair = 300;
+
+/// The searches whose results are compared; the last one only where the others split polygons.
+const std::array<TreeSearch, 4> tree_searches{
+    {{.power = 1.0, .keeps_part = true},
+     {.power = 0.5, .keeps_part = true},
+     {.power = 1.5, .keeps_part = true},
+     {.planes_first = true, .keeps_part = true}}};
+const TreeSearch quick_search{.edge_planes = 300, .closer = 48, .exact = 2, .keeps_part = true};
+
+/// Whether one result is better: whole rather than open, fewer splits, then fewer cells.
+bool fewer(const FoundCells& a, const FoundCells& b) {
+    return std::tuple(!a.open.empty(), a.work.twins.size(), a.cells.size()) <
+           std::tuple(!b.open.empty(), b.work.twins.size(), b.cells.size());
+}
+
+void keep_better(std::optional<FoundCells>& best, FoundCells orders) {
+    if (!best || fewer(orders, *best)) {
+        best = std::move(orders);
+    }
+}
+
+FoundCells tree_orders(WorkingModel work, const EyeNode& root, const TreeSearch& search) {
+    RegionTree tree = region_tree(work, root, search);
+    FoundCells out{std::move(work), std::move(tree.nodes), std::move(tree.lists), {}};
+    for (std::vector<Plane>& planes : tree.cell_planes) {
+        out.cells.push_back({"", std::move(planes)});
+    }
+    if (!tree.why_open.empty()) {
+        out.open = std::move(tree.open);
+        out.why_open = std::move(tree.why_open);
+    }
+    return out;
+}
+
+FoundCells cell_orders(WorkingModel work, double least_distance) {
+    OctantCells cells = octant_cells(work, least_distance);
+    FoundCells out{std::move(work), std::move(cells.nodes), std::move(cells.lists), {}};
+    for (std::size_t i = 0; i < cells.paths.size(); ++i) {
+        out.cells.push_back({std::move(cells.paths[i]), std::move(cells.cell_planes[i])});
+    }
+    return out;
+}
+
+} // namespace
+
+FoundCells best_tree(const models::polygons::PolygonModel& model, SearchBudget& budget) {
+    WorkingModel work(model, glm::dvec3(0.0));
+    work.budget = &budget;
+    work.spend(units_of_pair * model.polygons.size() * model.polygons.size());
+    RegionGraphs graphs(work.faces);
+    const EyeNode root = eye_node(graphs, EyeRegion::everywhere());
+    if (root.cycles.edges > most_edges_searched_again) {
+        return tree_orders(work, root, quick_search);
+    }
+    std::optional<FoundCells> best;
+    for (const TreeSearch& search : tree_searches) {
+        if (best && best->work.twins.empty() && search.planes_first) {
+            break;
+        }
+        try {
+            keep_better(best, tree_orders(work, root, search));
+        } catch (const SearchGivenUp&) {
+            if (!best) {
+                throw;
+            }
+        }
+    }
+    return std::move(*best);
+}
+
+FoundCells best_cells(
+    const models::polygons::PolygonModel& model, double least_distance, SearchBudget& budget) {
+    budget.spend(3 * units_of_pair * model.polygons.size() * model.polygons.size());
+    std::optional<FoundCells> best;
+    const auto centres = cell_centres(WorkingModel(model, glm::dvec3(0.0)));
+    for (const glm::dvec3& centre_m : centres) {
+        if (best && model.polygons.size() > most_polygons_with_choice) {
+            break;
+        }
+        WorkingModel work(model, centre_m);
+        work.budget = &budget;
+        try {
+            keep_better(best, cell_orders(std::move(work), least_distance));
+        } catch (const SearchGivenUp&) {
+            if (!best) {
+                throw;
+            }
+        }
+    }
+    return std::move(*best);
+}
+
+} // namespace octant::visuals::draworder

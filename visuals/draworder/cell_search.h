@@ -1,0 +1,35 @@
+#pragma once
+
+#include "models/polygons/polygon_model.h"
+#include "visuals/draworder/draw_order.h"
+#include "visuals/draworder/order_cell.h"
+#include "visuals/draworder/search_budget.h"
+#include "visuals/draworder/working_model.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace octant::visuals::draworder {
+
+/// The cells and lists of a model, with planes in the space of its faces.
+struct FoundCells {
+    WorkingModel work; ///< The model, with the polygons that were split.
+    std::vector<DrawOrder::Node> nodes;
+    std::vector<std::vector<std::uint32_t>> lists;
+    std::vector<OrderCell> cells;
+    /// As RegionTree has them; empty where every cell has its list.
+    std::vector<std::vector<std::vector<std::uint32_t>>> open = {};
+    std::string why_open = {};
+};
+
+/// The best of several searches for a tree of planes over eye space. Throws SearchGivenUp when none
+/// finds anything.
+FoundCells best_tree(const models::polygons::PolygonModel& model, SearchBudget& budget);
+
+/// The best of several searches for octants that are divided further, for eyes of
+/// |x|+|y|+|z| >= `least_distance` radii. Throws SearchGivenUp when none finds anything.
+FoundCells best_cells(
+    const models::polygons::PolygonModel& model, double least_distance, SearchBudget& budget);
+
+} // namespace octant::visuals::draworder
