@@ -12,14 +12,13 @@
 //   bounds of all blocks (nodes with height bounds, of v's level where that has them) that the
 //   square overlaps.
 // - D2 is at least 1 m^2.
-// - In a flat picture an error counts for more beside its middle than D tells. At a place p of
-// depth
-//   z = p f, where f is the direction of view, an error e moves a pixel by F e n / (z (z + e f_z)),
-//   with n^2 = (p_h f_h)^2 + f_z^2 p_h^2 (h: horizontal part). So D is replaced by a lower bound of
-//   z^2 / n over what a picture can see of the box: z is at least the least of the box, and at
-//   least D by the cosine of the picture's corners; n is at most the most of the box, and at most z
-//   by its most in the picture. All are nested as D is. The term e f_z is at most the wanted error:
-//   it adds one to F / wanted error.
+// - In a flat picture an error counts for more beside its middle than D tells. At a place p, whose
+//   depth is z = p f, where f is the direction of view, an error e moves a pixel by F e n / (z (z +
+//   e f_z)), with n^2 = (p_h f_h)^2 + f_z^2 p_h^2 (h: horizontal part). So D is replaced by a lower
+//   bound of z^2 / n over what a picture can see of the box: z is at least the least of the box,
+//   and at least D by the cosine of the picture's corners; n is at most the most of the box, and at
+//   most z by its most in the picture. All are nested as D is. The term e f_z is at most the wanted
+//   error: it adds one to F / wanted error.
 // - On a curved earth, e(v) is the stored error plus what the edge that v halves rises above the
 //   curve, L^2 / (8 R); the heights in D2 are not lowered.
 //
@@ -49,8 +48,6 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
-
 /// An eye farther from the field than this, in samples, is treated as being there, so that whole
 /// numbers of samples stay exact in float.
 constexpr double farthest_eye = 4194304.0;
@@ -74,50 +71,11 @@ int whole_below(double place) {
     return static_cast<int>(std::floor(std::clamp(place, -farthest_eye, farthest_eye)));
 }
 
-/// The squared distances along one axis from the eye to four boxes that reach from `before` to
-/// `after`, in samples^2.
-inline FourFloats squared_distance(FourFloats before, FourFloats after) {
-    const FourFloats off = larger(larger(before, -after), four(0.0F));
-    return off * off;
-}
-
-/// The larger square of the ends of four boxes.
-inline FourFloats squared_reach(FourFloats before, FourFloats after) {
-    return larger(before * before, after * after);
-}
-
-/// The least of a linear function over what reaches from `before` to `after`.
-inline FourFloats least_along(FourFloats before, FourFloats after, float slope) {
-    return four(slope) * (slope > 0.0F ? before : after);
-}
-
-/// A number of a block and its neighbours, row after row from the south-west.
-using NineBlocks = std::array<float, 9>;
-
-/// The least of the block's own number and those of neighbours, indexed as HeightGaps::squared_m2.
-std::array<float, 16> least_by_reach(const NineBlocks& of) {
-    std::array<float, 16> least{};
-    for (unsigned reach = 0; reach < 16; ++reach) {
-        const int west = (reach & 1U) != 0 ? 0 : 1;
-        const int east = (reach & 2U) != 0 ? 2 : 1;
-        const int south = (reach & 4U) != 0 ? 0 : 1;
-        const int north = (reach & 8U) != 0 ? 2 : 1;
-        least[reach] = infinite;
-        for (int row = south; row <= north; ++row) {
-            for (int column = west; column <= east; ++column) {
-                least[reach] =
-                    std::min(least[reach], of[static_cast<std::size_t>(3 * row + column)]);
-            }
-        }
-    }
-    return least;
-}
-
 } // namespace
 
 ErrorRule::ErrorRule(const GroundTiles& ground)
     : ground_(&ground)
-    , spacing_squared_m2_(static_cast<float>(ground.spacing_m() * ground.spacing_m()))
+    , reach_(ground.spacing_m())
     , range_level_(ground.layout().range_level()) {
     for (unsigned code = 0; code < 256; ++code) {
         error_m_[code] = GroundTiles::error_m_of(static_cast<std::uint8_t>(code));
@@ -142,7 +100,7 @@ void ErrorRule::look_from(const MeshView& view) {
     eye_east_ = static_cast<float>(std::clamp(column - origin_column_, 0.0, 1.0));
     eye_north_ = static_cast<float>(std::clamp(row - origin_row_, 0.0, 1.0));
     half_curvature_per_m_ = half_curvature(view.earth_radius_m);
-    take_direction();
+    reach_.look(view.ahead, view.corner_cos);
     // An edge that is halved by a node's side is 2h long, one by its child's centre sqrt(2) h.
     const double spacing_squared = ground_->spacing_m() * ground_->spacing_m();
     for (Level& level : levels_) {
@@ -153,29 +111,13 @@ void ErrorRule::look_from(const MeshView& view) {
     }
 }
 
-/// What the bounds need to know of where the picture looks.
-void ErrorRule::take_direction() {
-    const glm::dvec3& ahead = view_.ahead;
-    in_picture_ = ahead != glm::dvec3(0.0);
-    ahead_east_m_ = static_cast<float>(ahead.x * ground_->spacing_m());
-    ahead_north_m_ = static_cast<float>(ahead.y * ground_->spacing_m());
-    ahead_up_ = static_cast<float>(ahead.z);
-    tilt_m2_ = static_cast<float>(ahead.z * ahead.z) * spacing_squared_m2_;
-    const double cosine = view_.corner_cos;
-    corner_cos_squared_ = static_cast<float>(cosine * cosine);
-    const double level = std::hypot(ahead.x, ahead.y);
-    const double most_across =
-        level + std::abs(ahead.z) * std::sqrt(1.0 - cosine * cosine) / cosine;
-    near_factor_ = static_cast<float>(1.0 / (most_across * most_across));
-}
-
 float ErrorRule::limit_of(double error_px) const {
-    const double ratio = view_.focal_px / error_px + (in_picture_ ? 1.0 : 0.0);
+    const double ratio = view_.focal_px / error_px + (reach_.in_picture() ? 1.0 : 0.0);
     return static_cast<float>(ratio * ratio);
 }
 
 double ErrorRule::error_px_of(float limit) const {
-    const double ratio = std::sqrt(static_cast<double>(limit)) - (in_picture_ ? 1.0 : 0.0);
+    const double ratio = std::sqrt(static_cast<double>(limit)) - (reach_.in_picture() ? 1.0 : 0.0);
     return view_.focal_px / std::max(ratio, 1e-6);
 }
 
@@ -185,54 +127,8 @@ float ErrorRule::root_error_m() const {
 }
 
 HeightGaps ErrorRule::gaps_around(int level, int column, int row) const {
-    const LevelMemory& at = memory(level);
-    NineBlocks gap{};
-    NineBlocks ahead{};
-    for (int j = 0; j < 3; ++j) {
-        for (int i = 0; i < 3; ++i) {
-            const int c = column + i - 1;
-            const int r = row + j - 1;
-            const auto to = static_cast<std::size_t>(3 * j + i);
-            gap[to] = infinite;
-            ahead[to] = infinite;
-            if (c >= 0 && r >= 0 && c < at.columns() && r < at.rows()) {
-                const float low = ground_->lowest_m(level, c, r) - eye_z_m_;
-                const float high = ground_->highest_m(level, c, r) - eye_z_m_;
-                const float off = std::max({low, -high, 0.0F});
-                gap[to] = off * off;
-                ahead[to] = ahead_up_ * (ahead_up_ > 0.0F ? low : high);
-            }
-        }
-    }
-    HeightGaps gaps;
-    gaps.lowest_m = ground_->lowest_m(level, column, row);
-    gaps.highest_m = ground_->highest_m(level, column, row);
-    gaps.squared_m2 = least_by_reach(gap);
-    gaps.ahead_m = least_by_reach(ahead);
-    return gaps;
-}
-
-/// The squares of lower bounds of m, where an error e anywhere in a box is at most focal length *
-/// e / m pixels.
-inline FourFloats ErrorRule::reach_squared_m2(const FourBoxes& b) const {
-    const FourFloats distance_m2 = larger(
-        four(spacing_squared_m2_) *
-                (squared_distance(b.west, b.east) + squared_distance(b.south, b.north)) +
-            b.gap_m2,
-        four(1.0F));
-    if (!in_picture_) {
-        return distance_m2;
-    }
-    const FourFloats level_m =
-        least_along(b.west, b.east, ahead_east_m_) + least_along(b.south, b.north, ahead_north_m_);
-    const FourFloats most_level_m = least_along(b.west, b.east, -ahead_east_m_) +
-                                    least_along(b.south, b.north, -ahead_north_m_);
-    const FourFloats depth_m = larger(level_m + b.ahead_m, four(0.0F));
-    const FourFloats depth_m2 = larger(depth_m * depth_m, four(corner_cos_squared_) * distance_m2);
-    const FourFloats across_m2 =
-        larger(level_m * level_m, most_level_m * most_level_m) +
-        four(tilt_m2_) * (squared_reach(b.west, b.east) + squared_reach(b.south, b.north));
-    return depth_m2 * larger(depth_m2 / across_m2, four(near_factor_));
+    return height_gaps(
+        *ground_, {level, column, row}, {eye_z_m_, static_cast<float>(view_.ahead.z)});
 }
 
 FanCriticals ErrorRule::criticals_of(const ErrorPlace& place) const {
@@ -243,22 +139,21 @@ FanCriticals ErrorRule::criticals_of(const ErrorPlace& place) const {
     const auto end = [&at](float start, FourFloats halves, float eye) {
         return four(start) + halves * four(at.half_edge) - four(eye);
     };
-    FourBoxes middles{
+    BoxReach::FourBoxes middles{
         end(x, west_of_middles, eye_east_),
         end(x, east_of_middles, eye_east_),
         end(y, south_of_middles, eye_north_),
         end(y, north_of_middles, eye_north_),
         {},
         {}};
-    FourBoxes centres{
+    BoxReach::FourBoxes centres{
         end(x, west_of_centres, eye_east_),
         end(x, east_of_centres, eye_east_),
         end(y, south_of_centres, eye_north_),
         end(y, north_of_centres, eye_north_),
         {},
         {}};
-    // On which sides the boxes of influence reach beyond the block.
-    // The last node along a side of the block.
+    // On which sides the boxes of influence reach beyond the block: at its first and last node.
     const int last = (1 << std::max(place.level - range_level_, 0)) - 1;
     const auto reach = [&](int along) {
         const int within = along & last;
@@ -287,16 +182,16 @@ FanCriticals ErrorRule::criticals_of(const ErrorPlace& place) const {
     FanCriticals criticals;
     const FourFloats middle_error_m =
         metres_of(at.memory.middle_codes(place.column, place.row)) + four(at.middle_error_m);
-    criticals.middle = reach_squared_m2(middles) / (middle_error_m * middle_error_m);
+    criticals.middle = reach_.squared_m2(middles) / (middle_error_m * middle_error_m);
     if (place.level + 1 == ground_->levels()) {
-        criticals.quadrant = four(infinite);
+        criticals.quadrant = four(std::numeric_limits<float>::infinity());
         criticals.quadrant_error_m = four(0.0F);
         return criticals;
     }
     const LevelMemory& below = levels_[static_cast<std::size_t>(place.level) + 1].memory;
     const FourFloats error_m =
         metres_of(below.child_codes(2 * place.column, 2 * place.row)) + four(at.quadrant_error_m);
-    criticals.quadrant = reach_squared_m2(centres) / (error_m * error_m);
+    criticals.quadrant = reach_.squared_m2(centres) / (error_m * error_m);
     criticals.quadrant_error_m = error_m;
     return criticals;
 }

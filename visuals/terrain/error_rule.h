@@ -1,8 +1,10 @@
 #pragma once
 
+#include "visuals/terrain/box_reach.h"
 #include "visuals/terrain/four_floats.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/height_gaps.h"
 #include "visuals/terrain/level_memory.h"
 
 #include <array>
@@ -11,19 +13,6 @@
 #include <vector>
 
 namespace octant::visuals::terrain {
-
-/// The vertical distance of the eye from the ground around a block, which is a node with height
-/// bounds.
-struct HeightGaps {
-    /// The least squared distance to the block and to some of its neighbours. The index is a sum: 1
-    /// includes those beyond its west side, 2 east, 4 south, 8 north.
-    std::array<float, 16> squared_m2{};
-    /// The same for how far ahead of the eye the block's heights alone bring it, at least: their
-    /// share of the depth in the picture.
-    std::array<float, 16> ahead_m{};
-    float lowest_m = 0.0F; ///< The lowest of the block's own samples.
-    float highest_m = 0.0F;
-};
 
 /// A node, with what its ancestors know about it.
 struct ErrorPlace {
@@ -105,20 +94,7 @@ private:
         float quadrant_error_m = 0.0F;
     };
 
-    /// The boxes of influence of four samples: their ends in samples from the eye, and the least
-    /// vertical share of their distance squared and of their depth.
-    struct FourBoxes {
-        FourFloats west;
-        FourFloats east;
-        FourFloats south;
-        FourFloats north;
-        FourFloats gap_m2;
-        FourFloats ahead_m;
-    };
-
-    void take_direction();
     FourFloats metres_of(const LevelMemory::FourCodes& codes) const;
-    FourFloats reach_squared_m2(const FourBoxes& boxes) const;
 
     const GroundTiles* ground_;
     MeshView view_;
@@ -127,15 +103,8 @@ private:
     double west_m_ = 0.0;
     double south_m_ = 0.0;
     double half_curvature_per_m_ = 0.0;
-    float spacing_squared_m2_ = 0.0F;
+    BoxReach reach_;
     float eye_z_m_ = 0.0F;
-    bool in_picture_ = false;   ///< The view has a direction.
-    float ahead_east_m_ = 0.0F; ///< What a sample east brings ahead.
-    float ahead_north_m_ = 0.0F;
-    float ahead_up_ = 0.0F; ///< What a metre up brings ahead.
-    float tilt_m2_ = 0.0F;  ///< The square of the sine of the pitch, times a sample's.
-    float corner_cos_squared_ = 1.0F;
-    float near_factor_ = 1.0F;
     int range_level_ = 0;
     int origin_column_ = 0; ///< The sample at the eye or next to it in the south-west.
     int origin_row_ = 0;
