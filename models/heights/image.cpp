@@ -25,14 +25,16 @@ using std::filesystem::path;
 }
 
 Dataset open(const path& file, const GdalSession& gdal) {
-    constexpr std::array<const char*, 5> drivers = {"GTiff", "PNG", "JPEG", "BMP", nullptr};
+    constexpr std::array drivers = {
+        "GTiff", "PNG", "JPEG", "BMP", "SGI", "TGA", static_cast<const char*>(nullptr)};
     constexpr unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
     Dataset dataset(GDALOpenEx(file.c_str(), flags, drivers.data(), nullptr, nullptr));
     if (!dataset) {
         error_unreadable(
             file,
-            gdal.names_no_format() ? "another kind of file (GeoTIFF, PNG, JPEG and BMP are read)"
-                                   : gdal.reason(file));
+            gdal.names_no_format()
+                ? "another kind of file (GeoTIFF, PNG, JPEG, BMP, SGI and TGA are read)"
+                : gdal.reason(file));
     }
     return dataset;
 }

@@ -5,6 +5,8 @@
 
 #include <array>
 #include <fstream>
+#include <string>
+#include <utility>
 
 using namespace octant::models;
 using namespace octant::models::heights;
@@ -95,6 +97,24 @@ TEST_CASE("a placed image says where it lies") {
     CHECK(image.transform == std::array<double, 6>{500000, 10, 0, 5400000, 0, -10});
 }
 
+TEST_CASE("textures of FlightGear's models are read: SGI and TGA with alpha") {
+    // Two pixels: half transparent red, opaque green. SGI has planes, TGA blue before red.
+    std::string sgi("\x01\xda\x00\x01\x00\x03\x00\x02\x00\x01\x00\x04", 12);
+    sgi += std::string("\0\0\0\0\0\0\0\xff", 8);
+    sgi.resize(512, '\0');
+    sgi += std::string("\xff\x00\x00\xff\x00\x00\x80\xff", 8);
+    std::string tga("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\1\0\x20\x28", 18);
+    tga += std::string("\x00\x00\xff\x80\x00\xff\x00\xff", 8);
+    for (const auto& [name, bytes] : {std::pair{"two.rgb", sgi}, std::pair{"two.tga", tga}}) {
+        const auto file = scratch_file(name);
+        std::ofstream(file, std::ios::binary) << bytes;
+        const Image image = read_image(file);
+        REQUIRE(image.width == 2);
+        CHECK(colour(image, 0, 0) == Colour{255, 0, 0, 128});
+        CHECK(colour(image, 1, 0) == Colour{0, 255, 0, 255});
+    }
+}
+
 TEST_CASE("what is no image of 8 bits is refused in one line") {
     const auto deep = scratch_file("deep.png");
     write_raster(deep, "PNG", {.columns = 1, .rows = 1, .values = {300}, .type = GDT_UInt16});
@@ -105,7 +125,7 @@ TEST_CASE("what is no image of 8 bits is refused in one line") {
     CHECK_THROWS_WITH(
         read_image(text),
         text.string() + ": expected an image that GDAL can read, got another kind of file "
-                        "(GeoTIFF, PNG, JPEG and BMP are read)");
+                        "(GeoTIFF, PNG, JPEG, BMP, SGI and TGA are read)");
     const auto missing = scratch_file("missing.png");
     CHECK_THROWS_WITH(read_image(missing), missing.string() + ": expected a file, found none");
     const auto cut = scratch_file("cut.png");
