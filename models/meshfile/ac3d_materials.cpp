@@ -17,6 +17,11 @@ float colour_part(std::string_view word, const WordScanner& words) {
     return static_cast<float>(*value);
 }
 
+/// Of a transparency as the file has it; words that are no numbers are opaque.
+float opacity_of(std::string_view trans) {
+    return 1.0F - static_cast<float>(std::clamp(finite_number(trans).value_or(0.0), 0.0, 1.0));
+}
+
 } // namespace
 
 std::string taken_ac3d_name(std::string_view& line, const WordScanner& words) {
@@ -52,20 +57,26 @@ void Ac3dMaterials::take_line(WordScanner& words) {
     for (int part = 0; part < 3; ++part) {
         material.colour[part] = colour_part(parts[static_cast<std::size_t>(part) + 1], words);
     }
-    materials_.push_back({std::move(material)});
+    const auto trans = std::ranges::find(parts, "trans");
+    const bool has_trans = trans != parts.end() && trans + 1 != parts.end();
+    materials_.push_back({std::move(material), has_trans ? opacity_of(*(trans + 1)) : 1.0F});
 }
 
 /// Reads MAT "name", lines such as rgb R G B, ENDMAT, which version c of the format has.
 void Ac3dMaterials::take_block(WordScanner& words) {
     std::string_view rest = words.rest_of_line();
     Material material{.name = taken_ac3d_name(rest, words)};
+    float opacity = 1.0F;
     for (std::string_view word; (word = words.word("ENDMAT")) != "ENDMAT";) {
         for (int part = 0; word == "rgb" && part < 3; ++part) {
             material.colour[part] = colour_part(words.word("a part of a colour"), words);
         }
-        words.rest_of_line();
+        const auto rest_words = split_words(words.rest_of_line());
+        if (word == "trans" && !rest_words.empty()) {
+            opacity = opacity_of(rest_words[0]);
+        }
     }
-    materials_.push_back({std::move(material)});
+    materials_.push_back({std::move(material), opacity});
 }
 
 std::uint32_t Ac3dMaterials::used(std::uint32_t number, MeshBuilder& mesh) {
@@ -74,7 +85,7 @@ std::uint32_t Ac3dMaterials::used(std::uint32_t number, MeshBuilder& mesh) {
     }
     FileMaterial& material = materials_[number];
     if (material.used_as == no_index) {
-        material.used_as = mesh.add_material(material.material);
+        material.used_as = mesh.add_material(material.material, material.opacity);
     }
     return material.used_as;
 }

@@ -28,6 +28,7 @@ public:
 private:
     struct FileMaterial {
         Material material;
+        float opacity = 1.0F;
         std::uint32_t used_as = no_index;
     };
 

@@ -31,10 +31,10 @@ public:
         : path_(path)
         , options_(options)
         , words_(path, text, 1)
-        , mesh_(path, options)
-        , is_chosen_(options.only.empty()) {}
+        , mesh_(path, options) {}
 
-    TriangleMesh read() {
+    /// What the file holds, to be finished.
+    MeshBuilder read() {
         const std::string_view magic = words_.word("AC3D");
         if (!magic.starts_with("AC3D")) {
             words_.refuse("AC3D", in_quotes(magic));
@@ -49,7 +49,7 @@ public:
         }
         take_object({}, 0);
         add_notes();
-        return mesh_.finish();
+        return std::move(mesh_);
     }
 
 private:
@@ -62,7 +62,7 @@ private:
         Placement own;
         ObjectPicture picture;
         const bool was_left_out = is_left_out_;
-        const bool was_chosen = is_chosen_;
+        const std::uint32_t group_before = group_;
         const std::size_t first_vertex = mesh_.vertex_count();
         while (true) {
             const std::string_view word = words_.word("kids");
@@ -81,7 +81,7 @@ private:
                 std::string_view rest = words_.rest_of_line();
                 const std::string name = taken_ac3d_name(rest, words_);
                 is_left_out_ = is_left_out_ || options_.left_out.contains(name);
-                is_chosen_ = is_chosen_ || options_.only.contains(name);
+                take_group(name);
             } else if (word == "texture") {
                 take_picture(picture);
             } else if (word == "texrep" || word == "texoff") {
@@ -111,7 +111,15 @@ private:
             take_object(parent.of(own), depth + 1);
         }
         is_left_out_ = was_left_out;
-        is_chosen_ = was_chosen;
+        group_ = group_before;
+    }
+
+    void take_group(const std::string& name) {
+        const auto found = std::ranges::find_if(
+            options_.groups, [&](const auto& group) { return group.contains(name); });
+        if (group_ == no_index && found != options_.groups.end()) {
+            group_ = static_cast<std::uint32_t>(found - options_.groups.begin());
+        }
     }
 
     /// How an object's picture lies on its surfaces.
@@ -238,12 +246,13 @@ private:
             ++skipped_;
             return;
         }
-        if (is_left_out_ || !is_chosen_) {
+        if (is_left_out_) {
             return;
         }
         const bool is_two_sided = (kind & 0x20U) != 0;
         two_sided_ += static_cast<std::size_t>(is_two_sided && !mesh_.takes_backs());
         mesh_.set_two_sided(is_two_sided);
+        mesh_.set_group(group_);
         if (mirrored) {
             std::ranges::reverse(corners_);
         }
@@ -279,16 +288,21 @@ private:
     std::vector<Corner> corners_;
     std::size_t skipped_ = 0;
     std::size_t two_sided_ = 0;
-    long missing_kids_ = 0;    ///< that are announced and not there
-    bool is_left_out_ = false; ///< the object at hand
-    bool is_chosen_;           ///< it is one that is read
+    long missing_kids_ = 0;          ///< that are announced and not there
+    bool is_left_out_ = false;       ///< the object at hand
+    std::uint32_t group_ = no_index; ///< its
 };
 
 } // namespace
 
 TriangleMesh read_ac3d_mesh(const std::filesystem::path& path, const ReadOptions& options) {
     const std::string text = read_text_file(path, largest_file_bytes);
-    return Ac3dReading(path, text, options).read();
+    return Ac3dReading(path, text, options).read().finish();
+}
+
+MeshParts read_ac3d_parts(const std::filesystem::path& path, const ReadOptions& options) {
+    const std::string text = read_text_file(path, largest_file_bytes);
+    return Ac3dReading(path, text, options).read().finish_parts();
 }
 
 } // namespace octant::models::meshfile

@@ -108,7 +108,7 @@ std::uint32_t BakedPictures::kept(const std::string& name, Read&& read) {
     const auto [at, is_new] = known_.try_emplace(name, none);
     if (is_new) {
         try {
-            pictures_.push_back(read());
+            pictures_.push_back(std::make_shared<const heights::Image>(read()));
             at->second = static_cast<std::uint32_t>(pictures_.size() - 1);
         } catch (const Error& fault) {
             notes_.push_back(
@@ -149,7 +149,7 @@ std::vector<bool> BakedPictures::mostly_transparent() const {
         int samples = 0;
         if (triangle.picture != none) {
             samples = for_each_sample(
-                pictures_[triangle.picture],
+                *pictures_[triangle.picture],
                 triangle.places,
                 [&](const glm::dvec3&, const glm::dvec3&, double more) { there += more; });
         }
@@ -179,7 +179,7 @@ void BakedPictures::bake(TriangleMesh& mesh) const {
                 sum->add(own, area / 6.0);
             }
         } else {
-            add_picture(pictures_[triangles_[t].picture], triangles_[t].places, own, area, at);
+            add_picture(*pictures_[triangles_[t].picture], triangles_[t].places, own, area, at);
         }
     }
     mesh.colours.assign(mesh.vertices_m.size(), Material().colour);

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -62,7 +63,7 @@ private:
     std::uint32_t kept(const std::string& name, Read&& read);
 
     std::filesystem::path mesh_file_;
-    std::vector<heights::Image> pictures_;
+    std::vector<std::shared_ptr<const heights::Image>> pictures_; ///< copies share them
     std::map<std::string, std::uint32_t> known_;
     std::vector<Pictured> triangles_;
     std::vector<std::string> notes_;

@@ -97,6 +97,23 @@ std::optional<FlightGearTurn> turn_of(
     }
 }
 
+/// Whether a range or select hides what it names from near eyes at rest. One whose numbers are
+/// faulty hides nothing.
+bool hides(
+    const std::filesystem::path& file,
+    const XmlElement& animation,
+    std::vector<std::string>& notes) {
+    if (animation.text_of("type") == "select") {
+        return !holds_at_rest(animation);
+    }
+    try {
+        return number_in(file, animation, "min-m") > 0.0;
+    } catch (const Error& fault) {
+        notes.push_back(fmt::format("{}; what it names is always shown", fault.what()));
+        return false;
+    }
+}
+
 } // namespace
 
 const TurningAxis* FlightGearAnimations::axis_of(const std::string& object) const {
@@ -116,7 +133,7 @@ flightgear_animations(const std::filesystem::path& file, const XmlElement& root)
             continue;
         }
         if (kind == "range" || kind == "select") {
-            if (kind == "range" ? number_in(file, child, "min-m") > 0.0 : !holds_at_rest(child)) {
+            if (hides(file, child, animated.notes)) {
                 add_names(child, animated.hidden);
             }
         } else if (auto turn = turn_of(file, child, animated.notes)) {

@@ -25,7 +25,7 @@ struct FlightGearAnimations {
     const TurningAxis* axis_of(const std::string& object) const;
 };
 
-/// `root`: of flightgear_tree(file). Throws Error for ranges with faulty numbers.
+/// `root`: of flightgear_tree(file).
 FlightGearAnimations
 flightgear_animations(const std::filesystem::path& file, const XmlElement& root);
 

@@ -9,6 +9,7 @@
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"
+#include "models/meshfile/mesh_parts.h"
 #include "models/meshfile/placement.h"
 #include "models/meshfile/turning_model.h"
 #include "models/meshfile/word_scanner.h"
@@ -60,6 +61,9 @@ public:
             for (TurningPart& part : std::exchange(model_.parts, {})) {
                 join_mesh(model_.body, std::move(part.mesh), {});
             }
+        }
+        if (model_.body.triangles.empty()) {
+            join_mesh(model_.body, std::exchange(model_.clear, {}).mesh, {});
         }
         if (model_.body.triangles.empty()) {
             error_in(path_, "expected a model with a mesh, got none");
@@ -178,53 +182,45 @@ private:
         const Placement& placement,
         const FlightGearAnimations& animated,
         const TurningAxis* about) {
-        ReadOptions options = options_;
-        options.is_part = true;
-        std::set<std::string> turned;
-        bool any_turns = false;
-        const bool has_objects = ending_of(file) == ".ac";
-        if (!animated.turns.empty() && !has_objects) {
+        if (!animated.turns.empty() && ending_of(file) != ".ac") {
             note_once(file.string() + ": its objects are not told apart, so none of them turns");
         }
+        ReadOptions options = options_;
+        options.left_out = animated.hidden;
         for (const FlightGearTurn& turn : animated.turns) {
-            if (about == nullptr && has_objects && !turn.objects.empty()) {
-                options.only = turn.objects;
-                options.left_out = animated.hidden;
-                options.left_out.insert(turned.begin(), turned.end());
-                any_turns = add_part(file, placement, options, turn.about) || any_turns;
-                turned.insert(turn.objects.begin(), turn.objects.end());
+            if (about == nullptr) {
+                options.groups.push_back(turn.objects);
             }
         }
-        options.only.clear();
-        options.left_out = animated.hidden;
-        options.left_out.insert(turned.begin(), turned.end());
         try {
-            TriangleMesh mesh = read_mesh(file, options);
+            MeshParts parts = read_parts(file, options);
+            const Placement placed = in_model(file, placement);
             join_mesh(
-                about == nullptr ? model_.body : part_about(*about),
-                std::move(mesh),
-                in_model(file, placement));
-        } catch (const Error& fault) {
-            if (!any_turns) { // else the rest of it may well be nothing
-                note_once(fmt::format("{}; this sub-model is left out", fault.what()));
+                about == nullptr ? model_.body : part_about(*about), std::move(parts.body), placed);
+            for (std::size_t i = 0; i < parts.groups.size(); ++i) {
+                if (!parts.groups[i].triangles.empty()) {
+                    join_mesh(
+                        part_about(animated.turns[i].about), std::move(parts.groups[i]), placed);
+                }
             }
+            join_clear(std::move(parts.clear), placed);
+        } catch (const Error& fault) {
+            note_once(fmt::format("{}; this sub-model is left out", fault.what()));
         }
     }
 
-    /// The objects of a mesh file that one animation turns. False where it has none of them.
-    bool add_part(
-        const fs::path& file,
-        const Placement& placement,
-        const ReadOptions& options,
-        const TurningAxis& about) {
-        try {
-            TriangleMesh mesh = read_mesh(file, options);
-            mesh.notes.clear(); // the body's say the same
-            join_mesh(part_about(about), std::move(mesh), in_model(file, placement));
-            return true;
-        } catch (const Error&) {
-            return false;
+    void join_clear(ClearSurfaces more, const Placement& placed) {
+        const std::size_t count = more.mesh.triangles.size();
+        if (count == 0) {
+            return;
         }
+        ClearSurfaces& all = model_.clear;
+        join_mesh(all.mesh, std::move(more.mesh), placed);
+        const float share =
+            static_cast<float>(count) / static_cast<float>(all.mesh.triangles.size());
+        all.opacity = all.mesh.triangles.size() == count
+                          ? more.opacity
+                          : all.opacity + (more.opacity - all.opacity) * share;
     }
 
     static Placement in_model(const fs::path& file, const Placement& placement) {
@@ -267,7 +263,11 @@ TurningModel read_turning_model(const fs::path& path, const ReadOptions& options
     if (ending_of(path) == ".xml") {
         return FlightGearReading(path, options).read();
     }
-    return {read_mesh(path, options), {}};
+    MeshParts parts = read_parts(path, options);
+    if (parts.body.triangles.empty()) { // then nothing is to be seen through the rest
+        return {read_mesh(path, options), {}, {}};
+    }
+    return {std::move(parts.body), {}, std::move(parts.clear)};
 }
 
 TriangleMesh read_flightgear_model(const fs::path& path, const ReadOptions& options) {
@@ -275,6 +275,7 @@ TriangleMesh read_flightgear_model(const fs::path& path, const ReadOptions& opti
     for (TurningPart& part : model.parts) {
         join_mesh(model.body, std::move(part.mesh), {});
     }
+    join_mesh(model.body, std::move(model.clear.mesh), {});
     return std::move(model.body);
 }
 

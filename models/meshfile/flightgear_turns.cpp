@@ -2,12 +2,19 @@
 
 #include "models/meshfile/flightgear_numbers.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace octant::models::meshfile {
 
@@ -19,11 +26,16 @@ struct CruiseValue {
     double value = 0.0;
 };
 
+/// Turns a minute.
+constexpr double main_rotor = 390.0;
+constexpr double tail_rotor = 2000.0;
+constexpr double propeller = 2400.0;
+
 /// The first one that fits counts.
 constexpr std::array cruise_values{
-    CruiseValue{"rotors/main", 390.0},
-    CruiseValue{"rotors/tail", 2000.0},
-    CruiseValue{"rpm", 2400.0},
+    CruiseValue{"rotors/main", main_rotor},
+    CruiseValue{"rotors/tail", tail_rotor},
+    CruiseValue{"rpm", propeller},
     CruiseValue{"/n1", 90.0},
     CruiseValue{"/n2", 90.0}};
 
@@ -51,6 +63,54 @@ double turns_per_minute(std::string_view kind, std::string_view property) {
         return 0.0;
     }
     return kind == "spin" || kind == "rotate" ? at_cruise(property) : 0.0;
+}
+
+/// Turns a minute of what is called a rotor or propeller, about an axis mostly along x, y or z;
+/// 0 for what is called otherwise.
+double rate_by_name(const XmlElement& animation, const glm::dvec3& direction) {
+    const auto named = [](const XmlElement& child) {
+        std::string name = child.name == "object-name" ? child.text : "";
+        std::ranges::transform(name, name.begin(), [](unsigned char letter) {
+            return static_cast<char>(std::tolower(letter));
+        });
+        return std::ranges::any_of(std::array{"rotor", "prop", "blade"}, [&](const char* part) {
+            return name.find(part) != name.npos;
+        });
+    };
+    if (std::ranges::none_of(animation.children, named)) {
+        return 0.0;
+    }
+    const glm::dvec3 along = glm::abs(direction);
+    const bool upright = along.z > std::max(along.x, along.y);
+    return upright ? main_rotor : along.x > along.y ? propeller : tail_rotor;
+}
+
+/// Whether a property is one of what turns on the ground or in the cockpit.
+bool is_of_other_wheels(std::string_view property) {
+    return std::ranges::any_of(
+        std::array<std::string_view, 4>{"gear", "wheel", "roll", "instrument"},
+        [&](std::string_view part) { return property.find(part) != property.npos; });
+}
+
+/// What a table of an animation makes of a property's value; the value itself without one.
+double interpolated(const std::filesystem::path& file, const XmlElement& animation, double value) {
+    const XmlElement* table = animation.find("interpolation");
+    std::vector<std::pair<double, double>> entries;
+    for (std::size_t i = 0; table != nullptr && i < table->children.size(); ++i) {
+        const XmlElement& entry = table->children[i];
+        entries.emplace_back(number_in(file, entry, "ind"), number_in(file, entry, "dep"));
+    }
+    std::ranges::sort(entries);
+    const auto next =
+        std::ranges::upper_bound(entries, value, {}, [](const auto& entry) { return entry.first; });
+    if (entries.empty()) {
+        return value;
+    }
+    if (next == entries.begin() || next == entries.end()) {
+        return next == entries.begin() ? next->second : entries.back().second;
+    }
+    const auto& [from, start] = *std::prev(next);
+    return start + (value - from) / (next->first - from) * (next->second - start);
 }
 
 glm::dvec3 vector_in(
@@ -86,7 +146,12 @@ TurningAxis axis_in(const std::filesystem::path& file, const XmlElement& animati
 std::optional<FlightGearTurn>
 turn_in_flight(const std::filesystem::path& file, const XmlElement& animation) {
     const std::string_view kind = animation.text_of("type");
-    const double rate = turns_per_minute(kind, animation.text_of("property"));
+    const std::string_view property = animation.text_of("property");
+    double rate = turns_per_minute(kind, property);
+    const bool by_name = rate == 0.0 && kind == "spin" && !is_of_other_wheels(property);
+    if (by_name) {
+        rate = rate_by_name(animation, glm::dvec3(0, 0, 1));
+    }
     if (rate == 0.0) { // then its numbers do not count: files have faulty ones
         return std::nullopt;
     }
@@ -96,10 +161,13 @@ turn_in_flight(const std::filesystem::path& file, const XmlElement& animation) {
     if (factor == 0.0 || !(length > 0.0)) {
         return std::nullopt;
     }
-    // An angle's factor only says which way round.
-    const double times = kind == "spin" ? factor : std::copysign(1.0, factor);
     turn.about.direction /= length;
-    turn.about.turns_per_s = rate * times / 60.0;
+    if (by_name) {
+        rate = rate_by_name(animation, turn.about.direction);
+    }
+    // An angle's factor only says which way round.
+    turn.about.turns_per_s = kind == "spin" ? interpolated(file, animation, rate) * factor / 60.0
+                                            : std::copysign(rate, factor) / 60.0;
     for (const XmlElement& named : animation.children) {
         if (named.name == "object-name") {
             turn.objects.insert(named.text);

@@ -27,7 +27,8 @@ public:
         , mesh_(path, options)
         , materials_(data_.count_of("materials"), no_index) {}
 
-    TriangleMesh read() {
+    /// What the file holds, to be finished.
+    MeshBuilder read() {
         refuse_packed_meshes();
         for (const PlacedMesh& placed : placed_meshes(data_)) {
             take_mesh(placed.mesh, placed.placement);
@@ -36,7 +37,7 @@ public:
             mesh_.add_note(fmt::format(
                 "{}: {} primitives of points and lines are not read", path_.string(), skipped_));
         }
-        return mesh_.finish();
+        return std::move(mesh_);
     }
 
 private:
@@ -265,6 +266,7 @@ private:
         Material made{
             .name = name.is_string() ? name.get<std::string>() : fmt::format("material {}", index)};
         made.colour = glm::vec3(1.0F); // as glTF has it
+        float opacity = 1.0F;
         const auto rough = json.find("pbrMetallicRoughness");
         if (rough != json.end() && rough->is_object()) {
             const auto c = data_.numbers(*rough, "baseColorFactor", {1.0, 1.0, 1.0, 1.0}, where);
@@ -274,8 +276,11 @@ private:
                 }
             }
             made.colour = glm::vec3(display_from_linear({c[0], c[1], c[2]}));
+            if (json.value("alphaMode", Json()) == "BLEND") {
+                opacity = static_cast<float>(std::clamp(c[3], 0.0, 1.0));
+            }
         }
-        return materials_[index] = mesh_.add_material(std::move(made));
+        return materials_[index] = mesh_.add_material(std::move(made), opacity);
     }
 
     std::filesystem::path path_;
@@ -291,7 +296,11 @@ private:
 } // namespace
 
 TriangleMesh read_gltf_mesh(const std::filesystem::path& path, const ReadOptions& options) {
-    return GltfReading(path, options).read();
+    return GltfReading(path, options).read().finish();
+}
+
+MeshParts read_gltf_parts(const std::filesystem::path& path, const ReadOptions& options) {
+    return GltfReading(path, options).read().finish_parts();
 }
 
 } // namespace octant::models::meshfile

@@ -21,6 +21,37 @@ constexpr double unit_tolerance = 1e-6;
 
 constexpr glm::dvec3 upwards(0.0, 0.0, 1.0);
 
+/// Opacities of what is opaque, and of what is seen at all.
+constexpr float opaque_from = 0.98F;
+constexpr float seen_from = 0.02F;
+
+/// Takes out the vertices that no triangle uses.
+void drop_unused_vertices(TriangleMesh& mesh) {
+    std::vector<std::uint32_t> places(mesh.vertices_m.size(), no_index);
+    std::uint32_t count = 0;
+    for (const Triangle& triangle : mesh.triangles) {
+        for (const std::uint32_t vertex : triangle) {
+            places[vertex] = 0;
+        }
+    }
+    for (std::size_t v = 0; v < places.size(); ++v) {
+        if (places[v] != no_index) {
+            mesh.vertices_m[count] = mesh.vertices_m[v];
+            if (!mesh.colours.empty()) {
+                mesh.colours[count] = mesh.colours[v];
+            }
+            places[v] = count++;
+        }
+    }
+    mesh.vertices_m.resize(count);
+    mesh.colours.resize(mesh.colours.empty() ? 0 : count);
+    for (Triangle& triangle : mesh.triangles) {
+        for (std::uint32_t& vertex : triangle) {
+            vertex = places[vertex];
+        }
+    }
+}
+
 } // namespace
 
 MeshBuilder::MeshBuilder(const std::filesystem::path& path, const ReadOptions& options)
@@ -51,8 +82,9 @@ std::uint32_t MeshBuilder::add_normal(const glm::dvec3& normal) {
     return static_cast<std::uint32_t>(mesh_.normals.size() - 1);
 }
 
-std::uint32_t MeshBuilder::add_material(Material material) {
+std::uint32_t MeshBuilder::add_material(Material material, float opacity) {
     mesh_.materials.push_back(std::move(material));
+    opacities_.push_back(opacity);
     return static_cast<std::uint32_t>(mesh_.materials.size() - 1);
 }
 
@@ -85,6 +117,7 @@ void MeshBuilder::add_triangle(const std::array<Corner, 3>& corners, std::uint32
     mesh_.corner_normals.push_back({a.normal, b.normal, c.normal});
     mesh_.triangle_materials.push_back(material);
     two_sided_.push_back(is_two_sided_);
+    groups_.push_back(group_);
     has_normals_ =
         has_normals_ || a.normal != no_index || b.normal != no_index || c.normal != no_index;
     has_materials_ = has_materials_ || material != no_index;
@@ -97,12 +130,114 @@ TriangleMesh MeshBuilder::finish() {
     if (!mesh_.colours.empty()) {
         mesh_.colours.resize(mesh_.vertices_m.size(), glm::vec3(1.0F));
     }
+    finish_part();
+    return std::move(mesh_);
+}
+
+void MeshBuilder::finish_part() {
     finish_normals();
     finish_materials();
     leave_out_transparent();
     bake_pictures();
     finish_backs();
-    return std::move(mesh_);
+}
+
+float MeshBuilder::opacity_of(std::size_t triangle) const {
+    const std::uint32_t material = mesh_.triangle_materials[triangle];
+    return material == no_index ? 1.0F : opacities_[material];
+}
+
+bool MeshBuilder::is_clear(std::size_t triangle) const {
+    return opacity_of(triangle) < opaque_from;
+}
+
+/// Unless all is invisible or clear: then all of it is drawn as if it were not.
+void MeshBuilder::drop_invisible() {
+    std::vector<bool> gone;
+    bool any_opaque = false;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+        gone.push_back(opacity_of(t) < seen_from);
+        any_opaque = any_opaque || !is_clear(t);
+    }
+    if (any_opaque) {
+        take_out(gone);
+    } else {
+        std::ranges::fill(opacities_, 1.0F);
+    }
+}
+
+/// The triangles for which `is_kept(number)` holds, finished on their own.
+template <typename Kept>
+TriangleMesh MeshBuilder::part_of(const Kept& is_kept, std::vector<std::string>& notes) const {
+    std::vector<bool> gone;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+        gone.push_back(!is_kept(t));
+    }
+    if (std::ranges::find(gone, false) == gone.end()) {
+        return {};
+    }
+    MeshBuilder part(*this);
+    part.mesh_.notes.clear();
+    part.take_out(gone);
+    part.is_part_ = true;
+    part.finish_part();
+    drop_unused_vertices(part.mesh_);
+    for (std::string& note : std::exchange(part.mesh_.notes, {})) {
+        if (std::ranges::find(notes, note) == notes.end()) {
+            notes.push_back(std::move(note));
+        }
+    }
+    return std::move(part.mesh_);
+}
+
+MeshParts MeshBuilder::finish_parts() {
+    if (mesh_.triangles.empty()) {
+        error_in(path_, "expected at least one triangle, got none");
+    }
+    drop_invisible();
+    if (!mesh_.colours.empty()) {
+        mesh_.colours.resize(mesh_.vertices_m.size(), glm::vec3(1.0F));
+    }
+    MeshParts parts;
+    std::vector<std::string> notes = mesh_.notes;
+    parts.body =
+        part_of([&](std::size_t t) { return groups_[t] == no_index && !is_clear(t); }, notes);
+    for (std::uint32_t group = 0; group < options_.groups.size(); ++group) {
+        parts.groups.push_back(
+            part_of([&](std::size_t t) { return groups_[t] == group && !is_clear(t); }, notes));
+    }
+    parts.clear.mesh = part_of([&](std::size_t t) { return is_clear(t); }, notes);
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+        if (is_clear(t)) {
+            sum += static_cast<double>(opacity_of(t));
+            ++count;
+        }
+    }
+    parts.clear.opacity = count == 0 ? 1.0F : static_cast<float>(sum / static_cast<double>(count));
+    parts.body.name = path_.stem().string();
+    parts.body.notes = std::move(notes);
+    return parts;
+}
+
+void MeshBuilder::take_out(const std::vector<bool>& gone) {
+    const auto take = [&gone](auto& list) {
+        std::size_t t = 0;
+        std::erase_if(list, [&](const auto&) { return gone[t++]; });
+    };
+    take(mesh_.triangles);
+    if (!mesh_.corner_normals.empty()) {
+        take(mesh_.corner_normals);
+    }
+    if (!mesh_.triangle_materials.empty()) {
+        take(mesh_.triangle_materials);
+    }
+    take(two_sided_);
+    take(groups_);
+    if (options_.pictures) {
+        pictures_.take_out(gone);
+    }
 }
 
 void MeshBuilder::finish_backs() {
@@ -121,25 +256,10 @@ void MeshBuilder::leave_out_transparent() {
     const std::vector<bool> gone = pictures_.mostly_transparent();
     const auto count = static_cast<std::size_t>(std::ranges::count(gone, true));
     const bool is_all = count == gone.size();
-    if (is_all && options_.is_part) {
-        error_in(path_, "expected a surface that hides what lies behind it, got none");
-    }
-    if (count == 0 || is_all) {
+    if (count == 0 || (is_all && !is_part_)) {
         return;
     }
-    const auto take_out = [&gone](auto& list) {
-        std::size_t t = 0;
-        std::erase_if(list, [&](const auto&) { return gone[t++]; });
-    };
-    take_out(mesh_.triangles);
-    if (!mesh_.corner_normals.empty()) {
-        take_out(mesh_.corner_normals);
-    }
-    if (!mesh_.triangle_materials.empty()) {
-        take_out(mesh_.triangle_materials);
-    }
-    take_out(two_sided_);
-    pictures_.take_out(gone);
+    take_out(gone);
     mesh_.notes.push_back(fmt::format(
         "{}: {} triangles whose picture is mostly transparent are left out",
         path_.string(),

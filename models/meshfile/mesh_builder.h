@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/meshfile/baked_pictures.h"
+#include "models/meshfile/mesh_parts.h"
 #include "models/meshfile/read_options.h"
 #include "models/no_index.h"
 #include "models/triangle_mesh.h"
@@ -63,7 +64,11 @@ public:
     /// corner by the triangle's own normal.
     std::uint32_t add_normal(const glm::dvec3& normal);
 
-    std::uint32_t add_material(Material material);
+    /// `opacity`: how much it hides of what lies behind, 0..1.
+    std::uint32_t add_material(Material material, float opacity = 1.0F);
+
+    /// The group of the options that polygons from now on belong to; no_index: none.
+    void set_group(std::uint32_t group) { group_ = group; }
 
     /// Adds a polygon, cut into triangles by cut_polygon (polygon_cut.h).
     /// `picture`: a number of pictures().
@@ -77,7 +82,17 @@ public:
     /// The finished mesh. Throws Error when it has no triangle.
     TriangleMesh finish();
 
+    /// The same with its parts apart.
+    MeshParts finish_parts();
+
 private:
+    bool is_clear(std::size_t triangle) const;
+    float opacity_of(std::size_t triangle) const;
+    void drop_invisible();
+    template <typename Kept>
+    TriangleMesh part_of(const Kept& is_kept, std::vector<std::string>& notes) const;
+    void finish_part();
+    void take_out(const std::vector<bool>& gone);
     void add_triangle(const std::array<Corner, 3>& corners, std::uint32_t material);
     void leave_out_transparent();
     void bake_pictures();
@@ -90,9 +105,13 @@ private:
     BakedPictures pictures_;
     TriangleMesh mesh_;
     std::vector<bool> faulty_normals_;
-    std::vector<glm::dvec3> places_m_; ///< corners of the polygon at hand
-    std::vector<bool> two_sided_;      ///< one a triangle
+    std::vector<glm::dvec3> places_m_;  ///< corners of the polygon at hand
+    std::vector<float> opacities_;      ///< one a material
+    std::vector<bool> two_sided_;       ///< one a triangle
+    std::vector<std::uint32_t> groups_; ///< one a triangle
+    std::uint32_t group_ = no_index;
     bool is_two_sided_ = false;
+    bool is_part_ = false; ///< of a larger mesh
     bool has_normals_ = false;
     bool has_materials_ = false;
 };

@@ -9,6 +9,7 @@
 #include <array>
 #include <fmt/format.h>
 #include <string_view>
+#include <vector>
 
 namespace octant::models::meshfile {
 
@@ -38,6 +39,7 @@ TriangleMesh read_plainly(const std::filesystem::path& path, const ReadOptions& 
 struct Format {
     std::string_view ending;
     TriangleMesh (*read)(const std::filesystem::path&, const ReadOptions&);
+    MeshParts (*parts)(const std::filesystem::path&, const ReadOptions&); ///< null: all is body
     void (*write)(const std::filesystem::path&, const TriangleMesh&);
 };
 
@@ -46,14 +48,14 @@ void refuse_to_write(const std::filesystem::path& path, const TriangleMesh& /*me
 }
 
 constexpr std::array formats{
-    Format{".obj", read_obj_mesh, write_obj_mesh},
-    Format{".ply", read_plainly<read_ply_mesh>, write_one_file<ply_bytes>},
-    Format{".stl", read_plainly<read_stl_mesh>, write_one_file<stl_bytes>},
-    Format{".gltf", read_gltf_mesh, write_one_file<gltf_text>},
-    Format{".glb", read_gltf_mesh, write_one_file<glb_bytes>},
-    Format{".ac", read_ac3d_mesh, write_one_file<ac3d_text>},
-    Format{".wrl", read_plainly<read_vrml_mesh>, write_one_file<vrml_text>},
-    Format{".xml", read_flightgear_model, refuse_to_write}};
+    Format{".obj", read_obj_mesh, nullptr, write_obj_mesh},
+    Format{".ply", read_plainly<read_ply_mesh>, nullptr, write_one_file<ply_bytes>},
+    Format{".stl", read_plainly<read_stl_mesh>, nullptr, write_one_file<stl_bytes>},
+    Format{".gltf", read_gltf_mesh, read_gltf_parts, write_one_file<gltf_text>},
+    Format{".glb", read_gltf_mesh, read_gltf_parts, write_one_file<glb_bytes>},
+    Format{".ac", read_ac3d_mesh, read_ac3d_parts, write_one_file<ac3d_text>},
+    Format{".wrl", read_plainly<read_vrml_mesh>, nullptr, write_one_file<vrml_text>},
+    Format{".xml", read_flightgear_model, nullptr, refuse_to_write}};
 
 const Format* find_format(const std::filesystem::path& path) {
     const std::string ending = ending_of(path);
@@ -83,6 +85,14 @@ const Format& format_of(const std::filesystem::path& path) {
 
 TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
     return format_of(path).read(path, options);
+}
+
+MeshParts read_parts(const std::filesystem::path& path, const ReadOptions& options) {
+    const Format& format = format_of(path);
+    if (format.parts != nullptr) {
+        return format.parts(path, options);
+    }
+    return {format.read(path, options), std::vector<TriangleMesh>(options.groups.size()), {}};
 }
 
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {

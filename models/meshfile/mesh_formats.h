@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/meshfile/mesh_parts.h"
 #include "models/meshfile/read_options.h"
 #include "models/triangle_mesh.h"
 
@@ -17,6 +18,10 @@ TriangleMesh read_gltf_mesh(const std::filesystem::path& path, const ReadOptions
 TriangleMesh read_ac3d_mesh(const std::filesystem::path& path, const ReadOptions& options);
 TriangleMesh read_flightgear_model(const std::filesystem::path& path, const ReadOptions& options);
 TriangleMesh read_vrml_mesh(const std::filesystem::path& path);
+
+/// Those behind read_parts.
+MeshParts read_ac3d_parts(const std::filesystem::path& path, const ReadOptions& options);
+MeshParts read_gltf_parts(const std::filesystem::path& path, const ReadOptions& options);
 
 /// OBJ and MTL text of a mesh; `mtl_name` is what the OBJ text calls its material file (no mtllib
 /// line without materials). Numbers have the digits that it takes to read them back bit for bit.

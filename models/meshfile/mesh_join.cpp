@@ -47,6 +47,10 @@ Triangle shifted(const Triangle& triangle, std::uint32_t by) {
 } // namespace
 
 void join_mesh(TriangleMesh& to, TriangleMesh from, const Placement& placement) {
+    if (from.triangles.empty()) {
+        to.notes.insert(to.notes.end(), from.notes.begin(), from.notes.end());
+        return;
+    }
     place(from, placement);
     if (!to.colours.empty() || !from.colours.empty()) {
         colour_vertices(to);

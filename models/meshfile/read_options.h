@@ -2,6 +2,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 namespace octant::models::meshfile {
 
@@ -14,14 +15,11 @@ struct ReadOptions {
     bool pictures = false;
     /// Sheets that .ac and glTF files call two-sided get backs (sheet_backs.h).
     bool backs = false;
-    /// The mesh is a part of a larger one: with `pictures`, Error is thrown where all of it is
-    /// mostly transparent.
-    bool is_part = false;
     /// Objects of .ac files that are left out, by their names, with what hangs on them.
     std::set<std::string> left_out = {};
-    /// Objects of .ac files that alone are read, by their names, with what hangs on them; none:
-    /// all are.
-    std::set<std::string> only = {};
+    /// Objects of .ac files that read_parts gives apart, by their names, with what hangs on them:
+    /// of nested ones the outermost counts, of several groups the first.
+    std::vector<std::set<std::string>> groups = {};
 };
 
 } // namespace octant::models::meshfile

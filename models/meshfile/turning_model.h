@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/meshfile/mesh_parts.h"
 #include "models/meshfile/read_options.h"
 #include "models/triangle_mesh.h"
 
@@ -23,10 +24,11 @@ struct TurningPart {
     TurningAxis about;
 };
 
-/// A model with what turns in flight apart from what does not.
+/// A model with what turns in flight, and what is clear, apart from all else.
 struct TurningModel {
     TriangleMesh body; ///< never without a triangle
     std::vector<TurningPart> parts;
+    ClearSurfaces clear;
 };
 
 /// As read_mesh, for the same files; only FlightGear's models have parts. Throws Error.

@@ -2,9 +2,10 @@
 
 #include "models/measure/mesh_distance.h"
 #include "models/polygons/mesh_polygons.h"
-#include "sim/base/text_file.h"
+#include "sim/base/file_status.h"
 #include "ui/base/stopwatch.h"
 #include "ui/world/aircraft_axes.h"
+#include "ui/world/library_mesh.h"
 #include "ui/world/mesh_input.h"
 #include "ui/world/prepared_meshes.h"
 #include "ui/world/refine_input.h"
@@ -73,20 +74,20 @@ void add_note(MeshAircraft& aircraft, const AircraftAxes& axes, const std::files
     }
 }
 
-/// A hierarchy from its file, or made of a mesh; what turns beside it, in axes of the file.
+/// A hierarchy from its file, or made of a mesh; what turns or is clear beside it goes to
+/// `aircraft`, in axes of the file.
 RefineMesh hierarchy_in(
-    const std::filesystem::path& file,
-    const std::filesystem::path& cache,
-    std::vector<meshfile::TurningPart>& turning) {
+    const std::filesystem::path& file, const std::filesystem::path& cache, MeshAircraft& aircraft) {
     const RefineInput input{.file = file.string(), .base = 0, .quiet = true};
     if (refine::is_progressive_file(file)) {
         return read_refine_mesh(input);
     }
     const meshfile::ReadOptions options{.pictures = true, .backs = true};
     meshfile::TurningModel model;
-    if (ending_of(file) == ".xml") {
+    if (is_there(file) && !is_library_file(file) && meshfile::is_mesh_file(file)) {
         model = meshfile::read_turning_model(file, options);
-        turning = std::move(model.parts);
+        aircraft.turning = std::move(model.parts);
+        aircraft.clear = std::move(model.clear);
     } else {
         model.body = read_mesh_input(input.file, options);
     }
@@ -100,7 +101,7 @@ MeshAircraft from_hierarchy(
     const std::filesystem::path& cache) {
     const base::Stopwatch watch;
     MeshAircraft aircraft;
-    RefineMesh input = hierarchy_in(file, cache, aircraft.turning);
+    RefineMesh input = hierarchy_in(file, cache, aircraft);
     const AircraftAxes axes = aircraft_axes(setting, file, finest_mesh(*input.mesh));
     aircraft.notes = std::move(input.notes);
     add_note(aircraft, axes, file);
@@ -115,8 +116,11 @@ MeshAircraft from_hierarchy(
     for (meshfile::TurningPart& part : aircraft.turning) {
         turn_part(part, axes.axes);
     }
-    aircraft.polygons_error_m =
-        std::max(aircraft.polygons_error_m, add_far_parts(aircraft.turning, aircraft.polygons));
+    turn_mesh(aircraft.clear.mesh, axes.axes);
+    aircraft.polygons_error_m = std::max(
+        {aircraft.polygons_error_m,
+         add_far_parts(aircraft.turning, aircraft.polygons),
+         add_far_clear(aircraft.clear.mesh, aircraft.polygons)});
     if (!aircraft.turning.empty()) {
         aircraft.notes.push_back(
             fmt::format("{}: {} parts turn in flight", file.string(), aircraft.turning.size()));
@@ -174,6 +178,9 @@ void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
             parts.push_back({&part.mesh, static_cast<std::uint32_t>(parts.size())});
         }
         planning::add_turning(model, parts);
+        if (!aircraft.clear.mesh.triangles.empty()) {
+            planning::add_clear(model, aircraft.clear.mesh, aircraft.clear.opacity);
+        }
         return;
     }
     std::vector<planning::MeshSource> sources;

@@ -20,6 +20,7 @@ struct MeshAircraft {
     std::shared_ptr<const visuals::refine::ProgressiveMesh> hierarchy; ///< null with levels
     /// What turns beside the hierarchy; its pivots are those of the polygons.
     std::vector<models::meshfile::TurningPart> turning;
+    models::meshfile::ClearSurfaces clear; ///< beside the hierarchy; often none
     models::polygons::PolygonModel polygons;
     double polygons_error_m = 0.0; ///< certified
     std::vector<std::string> notes;

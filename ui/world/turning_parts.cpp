@@ -22,6 +22,7 @@ using models::polygons::PolygonModel;
 /// Triangles of all parts together, and of one at least.
 constexpr std::size_t far_faces_of_parts = 120;
 constexpr std::size_t least_far_faces = 12;
+constexpr std::size_t far_faces_of_clear = 60;
 
 void append(PolygonModel& to, const PolygonModel& from, std::uint32_t part) {
     const auto first_vertex = static_cast<std::uint32_t>(to.vertices_m.size());
@@ -38,6 +39,24 @@ void append(PolygonModel& to, const PolygonModel& from, std::uint32_t part) {
         polygon.part = part;
         to.polygons.push_back(polygon);
     }
+}
+
+/// Adds a mesh to a part, simplified to so many triangles. Returns their certified distance.
+double append_far(
+    const models::TriangleMesh& mesh, std::size_t faces, std::uint32_t part, PolygonModel& to) {
+    const models::TriangleMesh whole = models::repair::repaired(mesh).mesh;
+    if (whole.triangles.empty()) {
+        return 0.0;
+    }
+    models::simplify::SimplifyOptions options;
+    options.quality = models::simplify::Quality::Fast;
+    options.goal.faces = faces;
+    const models::TriangleMesh far = models::simplify::simplified(whole, options).mesh;
+    append(to, models::polygons::as_polygons(far), part);
+    models::measure::DistanceOptions loosely;
+    loosely.tightness = 1.4;
+    loosely.samples = 0;
+    return models::measure::distance(whole, far, loosely).most_hausdorff_m();
 }
 
 } // namespace
@@ -64,22 +83,14 @@ double add_far_parts(std::span<const TurningPart> parts, PolygonModel& polygons)
         polygons.parts.push_back(fmt::format("turning-{}", number));
         polygons.pivots.push_back(
             {number, part.about.point_m, part.about.direction, part.about.turns_per_s});
-        const models::TriangleMesh whole = models::repair::repaired(part.mesh).mesh;
-        if (whole.triangles.empty()) {
-            continue;
-        }
-        models::simplify::SimplifyOptions options;
-        options.quality = models::simplify::Quality::Fast;
-        options.goal.faces = std::max(least_far_faces, far_faces_of_parts / parts.size());
-        const models::TriangleMesh far = models::simplify::simplified(whole, options).mesh;
-        models::measure::DistanceOptions loosely;
-        loosely.tightness = 1.4;
-        loosely.samples = 0;
-        error_m =
-            std::max(error_m, models::measure::distance(whole, far, loosely).most_hausdorff_m());
-        append(polygons, models::polygons::as_polygons(far), number);
+        const std::size_t faces = std::max(least_far_faces, far_faces_of_parts / parts.size());
+        error_m = std::max(error_m, append_far(part.mesh, faces, number, polygons));
     }
     return error_m;
+}
+
+double add_far_clear(const models::TriangleMesh& mesh, PolygonModel& polygons) {
+    return append_far(mesh, far_faces_of_clear, 0, polygons);
 }
 
 } // namespace octant::ui::world

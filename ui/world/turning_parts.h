@@ -20,4 +20,7 @@ void turn_part(models::meshfile::TurningPart& part, const models::polygons::File
 double add_far_parts(
     std::span<const models::meshfile::TurningPart> parts, models::polygons::PolygonModel& polygons);
 
+/// Adds clear surfaces to them, opaque: far away what lies behind is not seen. Returns the same.
+double add_far_clear(const models::TriangleMesh& mesh, models::polygons::PolygonModel& polygons);
+
 } // namespace octant::ui::world

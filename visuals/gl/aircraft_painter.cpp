@@ -138,6 +138,9 @@ void AircraftPainter::draw(const scene::PaintStep& step, const scene::Clip* clip
     state_.use_depth(step.depth);
     state_.cull_back_faces(true);
     state_.use_program(programs(), clip);
+    if (step.opacity < 1.0F) {
+        state_.blend_by(step.opacity);
+    }
     const std::size_t end = std::size_t{step.first} + step.count;
     for (std::size_t first = step.first; first < end;) {
         std::size_t next = first + 1;
@@ -146,6 +149,9 @@ void AircraftPainter::draw(const scene::PaintStep& step, const scene::Clip* clip
         }
         draw_commands(first, next - first);
         first = next;
+    }
+    if (step.opacity < 1.0F) {
+        state_.blend_by(1.0F);
     }
 }
 

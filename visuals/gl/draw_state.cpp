@@ -89,6 +89,18 @@ void DrawState::blend(bool by_alpha) {
     }
 }
 
+void DrawState::blend_by(float opacity) {
+    if (opacity >= 1.0F) {
+        gl_.disable(GL_BLEND);
+        gl_.depth_mask(GL_TRUE);
+        return;
+    }
+    gl_.enable(GL_BLEND);
+    gl_.blend_color(0.0F, 0.0F, 0.0F, opacity);
+    gl_.blend_func_separate(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA, GL_ZERO, GL_ONE);
+    gl_.depth_mask(GL_FALSE);
+}
+
 void DrawState::use_program(const ProgramPair& programs, const Clip* clip) {
     const bool cut = clip != nullptr;
     const Object& program = cut ? programs.cut : programs.whole;

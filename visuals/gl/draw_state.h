@@ -41,6 +41,10 @@ public:
     /// that of the whole.
     void blend(bool by_alpha);
 
+    /// Whether what is drawn covers the picture by this share only, below 1, its depth tested but
+    /// not written; the picture's own alpha stays.
+    void blend_by(float opacity);
+
     /// Takes the program of the pair that fits; no clip = not cut.
     void use_program(const ProgramPair& programs, const scene::Clip* clip = nullptr);
 

@@ -13,6 +13,7 @@
     X(bind_framebuffer, PFNGLBINDFRAMEBUFFERPROC, "glBindFramebuffer")                             \
     X(bind_texture_unit, PFNGLBINDTEXTUREUNITPROC, "glBindTextureUnit")                            \
     X(bind_vertex_array, PFNGLBINDVERTEXARRAYPROC, "glBindVertexArray")                            \
+    X(blend_color, PFNGLBLENDCOLORPROC, "glBlendColor")                                            \
     X(blend_func_separate, PFNGLBLENDFUNCSEPARATEPROC, "glBlendFuncSeparate")                      \
     X(blit_named_framebuffer, PFNGLBLITNAMEDFRAMEBUFFERPROC, "glBlitNamedFramebuffer")             \
     X(check_named_framebuffer_status,                                                              \

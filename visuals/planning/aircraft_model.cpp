@@ -199,8 +199,7 @@ AircraftModel aircraft_model(
         std::move(shaded),
         {},
         nullptr,
-        {0.0},
-        {}};
+        {0.0}};
 }
 
 namespace {
@@ -257,6 +256,17 @@ void add_turning(AircraftModel& model, std::span<const TurningMesh> parts) {
             include(model, circle.least_m);
             include(model, circle.most_m);
         }
+    }
+}
+
+void add_clear(AircraftModel& model, const models::TriangleMesh& mesh, float opacity) {
+    assert(model.progressive != nullptr && opacity > 0.0F && opacity < 1.0F);
+    const std::size_t first = model.buffers.vertices.size();
+    model.clear = append_level(model.buffers, {&mesh, 0.0}).range;
+    model.opacity = opacity;
+    for (scene::ModelVertex& vertex : std::span(model.buffers.vertices).subspan(first)) {
+        vertex.polygon = 0;
+        include(model, glm::dvec3(vertex.position_m));
     }
 }
 

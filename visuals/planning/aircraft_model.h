@@ -41,6 +41,10 @@ struct AircraftModel {
     /// With a progressive mesh: triangles of what turns beside it, by the pivots of the polygons.
     /// Their polygons have the number 0 each: all smooth, or all flat.
     scene::IndexRange turning{};
+    /// With a progressive mesh: its clear surfaces, which are blended over all others. Their
+    /// polygons have the number 0 each.
+    scene::IndexRange clear{};
+    float opacity = 1.0F; ///< of the clear surfaces
 
     /// Number of the representation by polygons.
     std::size_t as_polygons() const { return errors_m.size() - 1; }
@@ -81,6 +85,9 @@ struct TurningMesh {
 
 /// Gives a model with a progressive mesh the parts that turn beside it. Loading work.
 void add_turning(AircraftModel& model, std::span<const TurningMesh> parts);
+
+/// Gives a model with a progressive mesh its clear surfaces; body axes. Loading work.
+void add_clear(AircraftModel& model, const models::TriangleMesh& mesh, float opacity);
 
 /// Where a pilot's eye may be in an aircraft of which only the shape is known, body axes: a quarter
 /// of the length behind the nose at the height of the top.

@@ -124,6 +124,7 @@ private:
     void paint_by_depth();
     void paint_in_order(const scene::Camera& camera, PlanCounts& counts);
     void paint(const PlacedAircraft& aircraft, scene::DepthUse depth);
+    void paint_clear(const PlacedAircraft& aircraft);
     void paint_knots(const scene::Camera& camera, PlanCounts& counts);
     void paint_knot(const Knot& knot, const scene::Camera& camera, PlanCounts& counts);
     void paint_members(const Knot& knot, PlanCounts& counts);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <ranges>
 
 // Writes the painting steps of a plan: in which order, and how, what has been planned is drawn.
 //
@@ -55,6 +56,9 @@ void Planner::paint_by_depth() {
     steps_.paint_ground_by_depth(edge_on_indices);
     steps_.paint_shadows_by_depth(ground_);
     steps_.paint_sky(scene::DepthUse::InfinitelyFar);
+    for (const std::uint32_t i : near_to_far_ | std::views::reverse) {
+        paint_clear(placed_[i]);
+    }
 }
 
 void Planner::paint_in_order(const scene::Camera& camera, PlanCounts& counts) {
@@ -83,6 +87,17 @@ void Planner::paint(const PlacedAircraft& aircraft, scene::DepthUse depth) {
         scene::AircraftDraw beside = draw_of(aircraft, turning.first_index, turning.index_count);
         beside.first_smooth = smooth_.turning_word();
         steps_.paint(beside, scene::DepthUse::Nearest);
+    }
+}
+
+/// Paints what is clear of an aircraft that was refined for this frame: after all that it may be
+/// seen before.
+void Planner::paint_clear(const PlacedAircraft& aircraft) {
+    const scene::IndexRange& clear = aircraft.model->clear;
+    if (is_refined(aircraft) && clear.index_count > 0) {
+        scene::AircraftDraw draw = draw_of(aircraft, clear.first_index, clear.index_count);
+        draw.first_smooth = smooth_.turning_word();
+        steps_.paint_clear(draw, aircraft.model->opacity);
     }
 }
 
@@ -143,6 +158,9 @@ void Planner::paint_members_by_depth(const Knot& knot) {
     }
     for (const PlacedAircraft* member : members_) {
         paint(*member, scene::DepthUse::Nearest);
+    }
+    for (const PlacedAircraft* member : members_) {
+        paint_clear(*member);
     }
 }
 

@@ -76,13 +76,24 @@ void StepWriter::paint(const scene::AircraftDraw& draw, scene::DepthUse depth) {
     if (!plan_.steps.empty()) {
         scene::PaintStep& last = plan_.steps.back();
         if (last.what == scene::PaintStep::What::Aircraft && last.clip == scene::PaintStep::whole &&
-            last.depth == depth && last.first + last.count == place) {
+            last.depth == depth && last.opacity == 1.0F && last.first + last.count == place) {
             ++last.count;
             return;
         }
     }
     plan_.steps.push_back(
         {scene::PaintStep::What::Aircraft, place, 1, scene::PaintStep::whole, depth});
+}
+
+void StepWriter::paint_clear(const scene::AircraftDraw& draw, float opacity) {
+    const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
+    plan_.aircraft.push_back(draw);
+    scene::PaintStep& step = plan_.steps.emplace_back();
+    step.what = scene::PaintStep::What::Aircraft;
+    step.first = place;
+    step.count = 1;
+    step.depth = scene::DepthUse::Nearest;
+    step.opacity = opacity;
 }
 
 void StepWriter::paint(const scene::RefinedDraw& draw) {

@@ -41,6 +41,9 @@ public:
     /// A whole aircraft. Consecutive ones that are drawn alike become one step.
     void paint(const scene::AircraftDraw& draw, scene::DepthUse depth = scene::DepthUse::None);
 
+    /// Clear surfaces of an aircraft, blended by depth. Opacity: as PaintStep has it.
+    void paint_clear(const scene::AircraftDraw& draw, float opacity);
+
     /// A mesh that was refined for this frame, by depth.
     void paint(const scene::RefinedDraw& draw);
 

@@ -30,6 +30,7 @@ void FrameSlices::collect(const FrameInput& input) {
     for (std::size_t i = 0; i < plan.steps.size(); ++i) {
         const PaintStep& step = plan.steps[i];
         DrawStyle style{.fill = Fill::Levels, .depth = step.depth, .group = groups[i]};
+        style.opacity = step.opacity;
         if (step.clip != PaintStep::whole) {
             const scene::Clip& clip = plan.clips[step.clip];
             style.clip_planes = std::span(clip.planes).first(static_cast<std::size_t>(clip.count));

@@ -74,6 +74,14 @@ struct Coverage {
     std::array<Row, tile_height> rows;
 };
 
+/// What a clear triangle does to a pixel of a tile.
+struct ClearPixel {
+    std::uint16_t pixel = 0;
+    std::uint16_t mask = 0;                ///< samples where it is seen
+    std::array<std::uint16_t, 3> colour{}; ///< as PixelColour
+    float opacity = 1.0F;
+};
+
 /// What a thread works on: sums of colours and masks of covered samples for the pixels of a tile.
 /// Rows of sums follow each other without gaps: a block of sixteen pixels may begin anywhere, and
 /// what it reads of the next row it writes back unchanged.
@@ -93,6 +101,10 @@ struct TileBuffer {
     // Of groups that are drawn by depth: a value for each sample.
     std::vector<float> depth;
     std::vector<std::uint32_t> seen; ///< place in the tile's list, from 1; 0: nothing
+    /// What is seen of clear triangles: those of the nearest group first, in a group in painting
+    /// order.
+    std::vector<ClearPixel> clear;
+    std::vector<std::size_t> first_clear; ///< of each group that has any
     // Of the overlay: what waits to be blended.
     std::vector<std::uint16_t> waiting;
     std::vector<std::uint32_t> waiting_colour;

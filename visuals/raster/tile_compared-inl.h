@@ -11,6 +11,8 @@
 #include "visuals/raster/tile_depth-inl.h"
 #include "visuals/raster/tile_levels-inl.h"
 
+#include <algorithm>
+
 HWY_BEFORE_NAMESPACE();
 
 namespace octant::visuals::raster {
@@ -159,14 +161,19 @@ HWY_INLINE void paint_pixels_over(
     }
 }
 
+HWY_INLINE bool is_clear(const TileTriangle& one) {
+    return one.extra != nullptr && one.extra->opacity < 1.0F;
+}
+
 /// Whether a tile is painted so: because it is asked for, or because all of it is one group by
-/// depth with nothing behind or before it.
+/// depth with nothing behind or before it; never with clear surfaces, which are noted apart.
 HWY_INLINE bool is_painted_over(const TileJob& job, const SampleLanes& lanes) {
     if (!lanes.are_one || job.triangles.empty()) {
         return false;
     }
     const std::uint16_t first = job.triangles.front().triangle->group;
-    return job.far_to_near || (first != 0 && first == job.triangles.back().triangle->group);
+    const bool one_group = first != 0 && first == job.triangles.back().triangle->group;
+    return (job.far_to_near || one_group) && std::ranges::none_of(job.triangles, is_clear);
 }
 
 /// All triangles of a tile, from the first to the last.

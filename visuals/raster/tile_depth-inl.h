@@ -149,6 +149,50 @@ HWY_INLINE void draw_by_depth(
     }
 }
 
+/// The covered samples of a pixel where a clear triangle is nearer than what is there.
+HWY_INLINE std::uint32_t
+nearer_samples(std::uint32_t mask, float pixel_depth, const DepthWalk& walk, const float* depth) {
+    const Depths real;
+    std::uint32_t nearer = 0;
+    for (std::size_t lane = 0; lane < samples; lane += hn::Lanes(real)) {
+        alignas(8) std::array<std::uint8_t, 8> some{};
+        const auto here =
+            hn::Add(hn::Set(real, pixel_depth), hn::Load(real, walk.of_sample.data() + lane));
+        hn::StoreMaskBits(real, hn::Gt(here, hn::LoadU(real, depth + lane)), some.data());
+        nearer |= static_cast<std::uint32_t>(some[0] | some[1] << 8) << lane;
+    }
+    return nearer & mask;
+}
+
+/// Notes where a clear triangle is seen: before its group, and not behind nearer ones.
+HWY_INLINE void note_clear(
+    const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+    const DepthWalk walk(*one.extra, job, lanes);
+    const Coverage& coverage = buffer.coverage;
+    for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
+        const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
+        const int end = std::min(places.first + places.blocks * 16, job.size_px.x);
+        const std::uint16_t* const masks =
+            buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
+        for (int column = places.first; column < end; ++column) {
+            const auto pixel = static_cast<std::size_t>(row * tile_width + column);
+            const auto free = static_cast<std::uint32_t>(masks[column] & ~buffer.covered[pixel]);
+            if (free == 0) {
+                continue;
+            }
+            const std::uint32_t seen = nearer_samples(
+                free, walk.at(column, row), walk, buffer.depth.data() + pixel * samples);
+            if (seen != 0) {
+                buffer.clear.push_back(
+                    {static_cast<std::uint16_t>(pixel),
+                     static_cast<std::uint16_t>(seen),
+                     colour_of(one, job, job.first_px.x + column, job.first_px.y + row),
+                     one.extra->opacity});
+            }
+        }
+    }
+}
+
 /// Colours what is seen of a group in a pixel where nothing nearer covers it.
 HWY_INLINE void fold_pixel(
     std::span<const TileTriangle> group,
@@ -204,9 +248,17 @@ HWY_INLINE void paint_group(
         return;
     }
     clear_group(box, buffer);
+    const std::size_t clear_before = buffer.clear.size();
     for (std::size_t i = 0; i < group.size(); ++i) {
         cover(group[i], job, lanes, buffer);
-        draw_by_depth(group[i], static_cast<std::uint32_t>(i + 1), job, lanes, buffer);
+        if (group[i].extra->opacity < 1.0F) {
+            note_clear(group[i], job, lanes, buffer);
+        } else {
+            draw_by_depth(group[i], static_cast<std::uint32_t>(i + 1), job, lanes, buffer);
+        }
+    }
+    if (buffer.clear.size() > clear_before) {
+        buffer.first_clear.push_back(clear_before);
     }
     for (int row = box.first_row; row <= box.last_row; ++row) {
         for (int column = box.left; column <= box.right; ++column) {

@@ -63,12 +63,15 @@ paint_near_to_far(const TileJob& job, const SampleLanes& lanes, TileBuffer& buff
 
 void PaintTile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     clear(buffer);
+    buffer.clear.clear();
+    buffer.first_clear.clear();
     if (is_painted_over(job, lanes)) {
         paint_over(job, lanes, buffer);
     } else {
         paint_near_to_far(job, lanes, buffer);
     }
     resolve(job, buffer);
+    paint_clear(job, buffer);
     paint_overlay(job, lanes, buffer);
 }
 

@@ -120,6 +120,35 @@ HWY_INLINE void blend(const TileJob& job, int column, int row, TileBuffer& buffe
     buffer.waiting[pixel] = 0;
 }
 
+/// Blends one clear triangle over a pixel.
+HWY_INLINE void blend_clear(const TileJob& job, const ClearPixel& clear) {
+    constexpr std::uint32_t whole = 16 * 256;
+    const auto opacity = static_cast<std::uint32_t>(clear.opacity * 256.0F + 0.5F);
+    const std::uint32_t share =
+        opacity * static_cast<std::uint32_t>(std::popcount(std::uint32_t{clear.mask}));
+    const int row = clear.pixel / tile_width;
+    const int column = clear.pixel % tile_width;
+    std::uint8_t* const to = job.rgba + static_cast<std::size_t>(row) * job.row_bytes +
+                             static_cast<std::size_t>(column) * 4;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t there = to[k] * std::uint32_t{16};
+        const std::uint32_t mixed = clear.colour[k] * share + there * (whole - share);
+        to[k] = static_cast<std::uint8_t>((mixed + 8 * whole) / (16 * whole));
+    }
+}
+
+/// Clear surfaces over the picture: the farthest group's first.
+HWY_INLINE void paint_clear(const TileJob& job, const TileBuffer& buffer) {
+    std::size_t end = buffer.clear.size();
+    for (std::size_t group = buffer.first_clear.size(); group > 0; --group) {
+        const std::size_t first = buffer.first_clear[group - 1];
+        for (std::size_t i = first; i < end; ++i) {
+            blend_clear(job, buffer.clear[i]);
+        }
+        end = first;
+    }
+}
+
 /// Triangles over the picture, blended by their alpha. Neighbours of one colour that share a pixel
 /// are blended as one, so that no line shows between them.
 HWY_INLINE void paint_overlay(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {

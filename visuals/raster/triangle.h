@@ -62,6 +62,7 @@ enum class Fill : std::uint8_t {
 struct TriangleExtra {
     RealPlane depth;          ///< reversed: greater is nearer
     float depth_share = 1.0F; ///< times this: nearer or farther by a share of itself
+    float opacity = 1.0F;     ///< as scene::PaintStep
     /// value / w of each value, then 1 / w.
     std::array<RealPlane, 5> by_w{};
     std::array<CutLine, scene::Clip::most_planes> cuts{};

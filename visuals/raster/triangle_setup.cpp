@@ -123,6 +123,7 @@ void TriangleSetup::add_extra(std::span<const Corner, 3> corners, TriangleList& 
     extra.by_w[4] = by_w;
     if (style_.group != 0) {
         set_depth(extra, by_w, style_, projection_);
+        extra.opacity = style_.opacity;
     }
     if (fill_ != Fill::Levels && fill_ != Fill::Lit) {
         for (std::size_t i = 0; i < 4; ++i) {

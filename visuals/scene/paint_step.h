@@ -49,6 +49,10 @@ struct PaintStep {
     std::uint32_t count = 0;
     std::uint32_t clip = whole; ///< index into FramePlan::clips; whole = not cut
     DepthUse depth = DepthUse::None;
+    /// Aircraft alone: how much of what is there they hide. Below 1 they are blended over it where
+    /// their depth, which is Nearest, says so, and depth is not written: clear surfaces, drawn
+    /// after all that they may be seen before.
+    float opacity = 1.0F;
 };
 
 } // namespace octant::visuals::scene

@@ -4,6 +4,8 @@
 #include "models/meshfile/xml_tree.h"
 #include "models/repair/repair.h"
 #include "sim/base/error.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
 #include "tests/models/meshfile/mesh_samples.h"
 
 #include <catch2/catch.hpp>
@@ -127,9 +129,8 @@ TEST_CASE("what is mostly transparent is left out, unless nothing else is there"
         const auto alone = file_with("alone.ac", square("0x0"));
         CHECK(read_mesh(alone, {.pictures = true}).triangles.size() == 2);
         if (is_clear) {
-            CHECK_THROWS_WITH(
-                read_mesh(alone, {.pictures = true, .is_part = true}),
-                Catch::Contains("expected a surface that hides what lies behind it"));
+            CHECK(read_parts(alone, {.pictures = true}).body.triangles.empty());
+            CHECK(read_turning_model(alone, {.pictures = true}).body.triangles.size() == 2);
         }
     }
 }
@@ -233,6 +234,102 @@ TEST_CASE("propellers and rotors of a FlightGear model turn, wheels stay with th
         Catch::Contains("expected a number, got '1,5'; what it turns is left at rest"));
     CHECK(read_mesh(file).triangles.size() == 6); // as one mesh all of it is there
     CHECK(read_turning_model(file.parent_path() / "parts.ac", {}).parts.empty());
+}
+
+TEST_CASE("clear materials of AC3D, glTF and FlightGear files come apart") {
+    std::string two = square("0x0");
+    two.replace(two.find("kids 1"), 6, "kids 2");
+    two.insert(
+        two.find("OBJECT world"),
+        "MATERIAL \"glass\" rgb 0.5 0.5 0.6 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0.7\n");
+    const std::string pane = "OBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\n"
+                             "mat 1\nrefs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n";
+    const auto file = file_with("canopy.ac", two + pane);
+    const auto check = [](const TurningModel& model) {
+        CHECK(model.body.triangles.size() == 2);
+        CHECK(model.clear.mesh.triangles.size() == 1);
+        CHECK(model.clear.opacity == Approx(0.3F));
+    };
+    check(read_turning_model(file, {}));
+    check(read_turning_model(
+        file_with("canopy.xml", "<PropertyList><path>canopy.ac</path></PropertyList>"), {}));
+    CHECK(read_mesh(file).triangles.size() == 3); // as one mesh all of it is there
+
+    std::string all = square("0x0");
+    all.replace(all.find("trans 0"), 7, "trans 1");
+    const TurningModel unseen = read_turning_model(file_with("unseen.ac", all), {});
+    CHECK(unseen.body.triangles.size() == 2);
+    CHECK(unseen.clear.mesh.triangles.empty());
+
+    const auto gltf = file.parent_path() / "canopy.gltf";
+    write_mesh(gltf, read_mesh(file));
+    std::string text = read_text_file(gltf);
+    const std::size_t at = text.rfind("\"baseColorFactor\"");
+    const std::size_t opaque = text.find("1.0", text.find(']', at) - 5);
+    text.replace(opaque, 3, "0.3");
+    const std::size_t material = text.rfind('{', text.rfind("\"pbrMetallicRoughness\"", at));
+    text.insert(material + 1, "\"alphaMode\":\"BLEND\",");
+    write_file(gltf, text);
+    check(read_turning_model(gltf, {}));
+}
+
+TEST_CASE("rotors turn by their names where a property does not say what it is of") {
+    file_with("blades.ac", square("0x0", "Blades"));
+    const auto rate = [](const std::string& property, const std::string& axis) {
+        const auto file = file_with(
+            "named.xml",
+            "<PropertyList><path>blades.ac</path><model><path>blades.ac</path></model><animation>"
+            "<type>spin</type><object-name>Blades</object-name><property>" +
+                property + "</property><axis><" + axis + ">1</" + axis +
+                "></axis><interpolation><entry><ind>0</ind><dep>0</dep></entry><entry><ind>400"
+                "</ind><dep>200</dep></entry></interpolation></animation></PropertyList>");
+        const TurningModel model = read_turning_model(file, {});
+        return model.parts.empty() ? 0.0 : model.parts[0].about.turns_per_s;
+    };
+    CHECK(rate("sim/multiplay/generic/float[10]", "z") == Approx(195.0 / 60.0));
+    CHECK(rate("sim/multiplay/generic/float[11]", "y") == Approx(200.0 / 60.0));
+    CHECK(rate("gear/gear/rollspeed-ms", "y") == 0.0);
+}
+
+TEST_CASE("which of nested objects turns does not depend on the order of the animations") {
+    const std::string triangle = "numvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\nmat 0\n"
+                                 "refs 3\n0 0 0\n1 0 0\n2 0 0\n";
+    file_with(
+        "nested.ac",
+        "AC3Db\nMATERIAL \"w\" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0\n"
+        "OBJECT world\nkids 2\nOBJECT poly\nname \"rotor\"\n" +
+            triangle + "kids 1\nOBJECT poly\nname \"blade\"\n" + triangle +
+            "kids 0\nOBJECT poly\n" + triangle + "kids 0\n");
+    const std::string rotor =
+        "<animation><type>spin</type><object-name>rotor</object-name><property>"
+        "rotors/main/rpm</property><axis><z>1</z></axis></animation>";
+    const std::string blade =
+        "<animation><type>spin</type><object-name>blade</object-name><property>"
+        "rotors/tail/rpm</property><axis><x>1</x></axis></animation>";
+    for (const std::string& both : {rotor + blade, blade + rotor}) {
+        const TurningModel model = read_turning_model(
+            file_with(
+                "nested.xml", "<PropertyList><path>nested.ac</path>" + both + "</PropertyList>"),
+            {});
+        CHECK(model.body.triangles.size() == 1);
+        REQUIRE(model.parts.size() == 1);
+        CHECK(model.parts[0].mesh.triangles.size() == 2);
+        CHECK(model.parts[0].about.direction == glm::dvec3(0.0, 0.0, 1.0));
+    }
+}
+
+TEST_CASE("a faulty number in a range costs the range alone") {
+    file_with("square.ac", square("0x0", "near"));
+    const TurningModel model = read_turning_model(
+        file_with(
+            "ranges.xml",
+            "<PropertyList><path>square.ac</path><animation><type>range</type>"
+            "<object-name>near</object-name><min-m>10,5</min-m></animation></PropertyList>"),
+        {});
+    CHECK(model.body.triangles.size() == 2);
+    CHECK_THAT(
+        model.body.notes.front(),
+        Catch::Contains("expected a number, got '10,5'; what it names is always shown"));
 }
 
 TEST_CASE("a FlightGear model includes files and names groups of objects") {

@@ -58,6 +58,28 @@ TEST_CASE("aircraft and ground are painted in the order of the steps") {
     CHECK(count_of(picture, red_px) == 0);
 }
 
+TEST_CASE("a clear surface is blended where it is nearest and hides nothing by its depth") {
+    Studio studio;
+    load_squares(studio, true);
+    scene::FramePlan plan = empty_plan();
+    add_square(plan, 0, glm::scale(ahead(4.0F), glm::vec3(4.0F, 4.0F, 1.0F)));
+    add_square(plan, 2, glm::scale(ahead(1.0F), glm::vec3(0.25F, 0.25F, 1.0F)));
+    add_square(plan, 1, ahead(2.0F));
+    add_square(plan, 2, glm::scale(ahead(3.0F), glm::vec3(3.0F, 0.25F, 1.0F)));
+    plan.depth_boxes = {{glm::ivec2(0), glm::ivec2(side_px)}};
+    using scene::DepthUse;
+    plan.steps = {
+        {What::ClearDepth, 0, 1},
+        {What::Aircraft, 0, 2, whole, DepthUse::Nearest},
+        {What::Aircraft, 2, 1, whole, DepthUse::Nearest, 0.25F},
+        {What::Aircraft, 3, 1, whole, DepthUse::Nearest}};
+    const scene::Picture picture = studio.picture(plan);
+    CHECK(pixel(picture, 4, 4) == red_px);
+    CHECK(pixel(picture, 18, 20) == Pixel{191, 64, 0, 255});
+    CHECK(pixel(picture, 32, 32) == blue_px); // nearer than the clear one
+    CHECK(pixel(picture, 18, 32) == blue_px); // farther, drawn after it
+}
+
 TEST_CASE("only the named ground triangles are painted again") {
     Studio studio;
     Overlapping scene(studio);

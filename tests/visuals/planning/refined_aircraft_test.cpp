@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "small_world.h"
@@ -239,6 +240,38 @@ TEST_CASE("far away, where its polygons are good enough, a refined aircraft is d
     REQUIRE(model.errors_m.size() == 2);
     CHECK(drawn_at(100.0) == 0);
     CHECK(drawn_at(1000.0) == static_cast<int>(model.as_polygons()));
+}
+
+TEST_CASE(
+    "what is clear of refined aircraft is drawn after all of them, the farthest first by depth") {
+    planning::AircraftModel model = convex_aircraft(box_model({4.0, 4.0, 1.0}));
+    planning::add_progressive(model, hierarchy(), 0.2);
+    models::TriangleMesh pane;
+    pane.vertices_m = {{0, 0, -2}, {1, 0, -2}, {0, 1, -2}};
+    pane.triangles = {{0, 2, 1}};
+    planning::add_clear(model, pane, 0.4F);
+    planning::Scene scene;
+    scene.ground = triangle_ground({});
+    scene.add_model(std::move(model));
+    scene.aircraft = {0, 0};
+    const std::array states{state_at({0, 30, 0}), state_at({0, 34, 0})}; // they meet
+    for (const auto hidden : {scene::HiddenSurface::Octant, scene::HiddenSurface::DepthBuffer}) {
+        scene::Settings settings = plain_settings();
+        settings.surface.hidden_surface = hidden;
+        planning::Planner planner(scene, settings);
+        const scene::FramePlan& plan =
+            planner.plan({scene::camera_looking_at({0, 0, 0}, {0, 30, 0}), states}).plan;
+        REQUIRE(plan.aircraft.size() == 2);
+        REQUIRE(plan.steps.size() >= 4);
+        const auto last = std::span(plan.steps).last(2);
+        for (const scene::PaintStep& step : plan.steps) {
+            const bool is_last = &step >= last.data();
+            CHECK((step.opacity == 0.4F) == is_last);
+            CHECK((step.what == scene::PaintStep::What::Aircraft) == is_last);
+        }
+        CHECK(last[0].depth == scene::DepthUse::Nearest);
+        CHECK(last[0].count == 1);
+    }
 }
 
 TEST_CASE("what turns beside a refined aircraft is drawn after it by the same depth, turned") {

@@ -157,6 +157,60 @@ TEST_CASE("polygons of an aircraft are flat or smooth as their bits say, whichev
     CHECK(pixel(picture, 10, 60) == glm::ivec3(0));
 }
 
+TEST_CASE("a clear surface is blended over what is seen behind it, none over what is nearer") {
+    scene::ModelBuffers model;
+    for (const std::uint32_t colour : {red, green, 0xffff0000U}) {
+        const auto first = static_cast<std::uint32_t>(model.vertices.size());
+        for (const glm::vec2 at :
+             {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+            scene::ModelVertex vertex;
+            vertex.position_m = glm::vec3(at, 0.0F);
+            vertex.normal = vertex.face_normal = glm::vec3(0.0F, 0.0F, 1.0F);
+            vertex.colour = vertex.face_colour = colour;
+            model.vertices.push_back(vertex);
+        }
+        for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) {
+            model.indices.push_back(first + corner);
+        }
+    }
+    const auto ahead = [](float ahead_m, float scale) {
+        glm::mat4 place(scale);
+        place[3] = glm::vec4(0.0F, 0.0F, -ahead_m, 1.0F);
+        return place;
+    };
+    const int samples = GENERATE(1, 4, 16);
+    FlatPlan plan(size_px);
+    scene::FramePlan& frame = plan.plan();
+    frame.ambient = glm::vec3(1.0F);
+    frame.smooth = {~0U};
+    frame.parts = {ahead(4.0F, 4.0F), ahead(2.0F, 1.0F), ahead(1.0F, 0.25F)};
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        frame.aircraft.push_back(
+            {.model = 0, .first_index = 6 * i, .index_count = 6, .first_part = i});
+    }
+    using What = PaintStep::What;
+    clear_depth(plan);
+    frame.steps.push_back({What::Aircraft, 0, 1, PaintStep::whole, DepthUse::Nearest});
+    const bool shares_depth = GENERATE(true, false);
+    if (shares_depth) {
+        frame.steps.push_back({What::Aircraft, 2, 1, PaintStep::whole, DepthUse::Nearest});
+    }
+    frame.steps.push_back({What::Aircraft, 1, 1, PaintStep::whole, DepthUse::Nearest, 0.25F});
+    if (!shares_depth) { // painted over all
+        frame.steps.push_back({What::Aircraft, 2, 1});
+    }
+    Renderer renderer(std::make_shared<Workers>(1), size_px, samples);
+    renderer.load_models(std::span(&model, 1));
+    renderer.draw(frame);
+    scene::Picture picture;
+    renderer.finish_and_read(picture);
+    CAPTURE(samples, shares_depth);
+    CHECK(pixel(picture, 4, 4) == red_px);
+    CHECK(pixel(picture, 18, 20) == glm::ivec3(191, 64, 0));
+    CHECK(pixel(picture, 44, 44) == glm::ivec3(191, 64, 0));
+    CHECK(pixel(picture, 32, 32) == glm::ivec3(0, 0, 255));
+}
+
 TEST_CASE("light is lost in haze as exp says, to single precision") {
     CHECK(exp_of_minus(0.0F) == Approx(1.0).epsilon(1e-7));
     for (float x = 0.001F; x < 80.0F; x *= 1.03F) {
