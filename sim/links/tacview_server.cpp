@@ -53,16 +53,17 @@ TacviewServer& TacviewServer::operator=(TacviewServer&& other) noexcept {
     return *this;
 }
 
-/// A newcomer takes the place of the client that has been shaking hands for longest, where all are
-/// taken.
+/// A newcomer takes the place of the client that has been shaking hands for longest, where too many
+/// are.
 void TacviewServer::take_clients() {
-    while (auto client = accepted_client(socket_)) {
-        if (clients_.size() == most_clients) {
+    constexpr int most_a_call = 256;
+    for (int taken = 0; taken < most_a_call; ++taken) {
+        const auto client = accepted_client(socket_);
+        if (!client) {
+            break;
+        }
+        if (clients_.size() - readers() == most_handshakes) {
             const auto slow = std::ranges::find(clients_, false, &Client::ready);
-            if (slow == clients_.end()) {
-                ::close(client->first);
-                continue;
-            }
             ::close(slow->socket);
             clients_.erase(slow);
         }
@@ -95,7 +96,7 @@ bool TacviewServer::shake_hands(Client& client) const {
     if (client.heard.find('\0') == std::string::npos) {
         return std::chrono::steady_clock::now() - client.since < longest_handshake;
     }
-    if (!client.heard.starts_with("XtraLib.Stream.0\n")) {
+    if (!client.heard.starts_with("XtraLib.Stream.0\n") || readers() == most_readers) {
         return false;
     }
     client.ready = true;

@@ -13,7 +13,7 @@
 namespace octant::sim::links {
 
 std::pair<int, std::uint16_t> listening_socket(std::uint32_t address, std::uint16_t port) {
-    constexpr int waiting_clients = 64;
+    constexpr int waiting_clients = 4096; // or as many as the system allows
     const int listening = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     const int on = 1;
     sockaddr_in own{};

@@ -1,5 +1,6 @@
 #include "ui/flight/sender.h"
 
+#include "sim/aircraft_kind.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
 #include "sim/links/dis_entity.h"
@@ -26,19 +27,30 @@ links::Source reader_address(const std::string& target) {
     return links::peer_from_text(rest.find(':') == std::string::npos ? "127.0.0.1:" + rest : rest);
 }
 
+/// Text as a property's value: no commas and no ends of lines of its own.
+std::string acmi_value(const std::string& text) {
+    std::string value;
+    for (const char c : printable(text)) {
+        value += c == ',' || c == '\\' ? "\\" : "";
+        value += c;
+    }
+    return value;
+}
+
 /// What Tacview is told of all aircraft before they move.
 std::string tacview_head(const Session& session) {
     std::string head = fmt::format(
         "FileType=text/acmi/tacview\nFileVersion=2.2\n0,ReferenceTime=2026-01-01T00:00:00Z\n"
         "0,DataSource=Octant\n0,Title={}\n",
-        session.world().flight.title);
-    const sim::AircraftKind* const kind = session.world().leader_kind;
+        acmi_value(session.world().flight.title));
     for (std::size_t i = 0; i < session.states().size(); ++i) {
+        const std::string& shape = session.world().scene.model_of(i).polygons.name;
+        const sim::AircraftKind* const kind = sim::find_aircraft_kind(shape);
         head += fmt::format(
             "{:x},Type={},Name={},Color=Blue\n",
             i + 1,
             kind == nullptr ? "Air" : kind->tacview_type,
-            kind == nullptr ? "Aircraft" : kind->tacview_name);
+            kind == nullptr ? acmi_value(shape) : kind->tacview_name);
     }
     return head;
 }

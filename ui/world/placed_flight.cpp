@@ -89,6 +89,19 @@ placed(const FlightScript& script, flightpaths::Placement placement, const Scene
         script.trajectory, placement, heights, script.min_clearance_m, script.limits);
 }
 
+/// The same; what is wrong with it is said with the name of the path.
+flightpaths::PlacedPath placed_by_name(
+    const std::string& name,
+    const FlightScript& script,
+    const flightpaths::Placement& placement,
+    const SceneGround& ground) {
+    try {
+        return placed(script, placement, ground);
+    } catch (const Error& fault) {
+        throw Error(fmt::format("{}: {}", printable(name), fault.what()));
+    }
+}
+
 /// A path as it is flown from another time on.
 sim::Trajectory begun_at(const sim::Trajectory& path, double time_s) {
     std::vector<sim::AircraftState> samples(path.samples().begin(), path.samples().end());
@@ -110,7 +123,8 @@ Flight place_flight(
     FlightScript script,
     const SceneGround& ground,
     std::vector<std::string>& notes) {
-    flightpaths::PlacedPath path = placed(script, placement_of(settings, script, ground), ground);
+    flightpaths::PlacedPath path =
+        placed_by_name(path_of(settings), script, placement_of(settings, script, ground), ground);
     add(notes, path.notes);
     std::map<std::size_t, sim::Trajectory> others;
     for (std::size_t i = 0; i < script.others.size(); ++i) {
@@ -153,7 +167,7 @@ sim::Trajectory own_path(
         const glm::dquat turn = glm::angleAxis(-first.heading_rad, glm::dvec3(0.0, 0.0, 1.0));
         placement.place_m = begin_m - glm::dvec2(turn * start_m);
     }
-    flightpaths::PlacedPath path = placed(script, placement, ground);
+    flightpaths::PlacedPath path = placed_by_name(*flown.path, script, placement, ground);
     add(notes, path.notes);
     return begun_at(path.trajectory, first.trajectory.start_s() + flown.from_s);
 }

@@ -1,81 +1,24 @@
-#include "sim/base/dice.h"
 #include "sim/links/flightgear_fdm.h"
-#include "sim/links/live_traffic.h"
-#include "sim/links/source_limit.h"
 #include "sim/links/udp_port.h"
+#include "tests/sim/links/receiver.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdint>
-#include <fstream>
 #include <thread>
-#include <vector>
 
 using namespace octant::sim;
 using namespace octant::sim::links;
+using octant::tests::attack;
+using octant::tests::Receiver;
+using octant::tests::resident_bytes;
 
 namespace {
 
 constexpr std::uint32_t loopback = 0x7f000001;
 constexpr int hostile_packets = 20000;
-
-/// Memory of this process that is in use, bytes.
-double resident_bytes() {
-    std::ifstream file("/proc/self/statm");
-    double total_pages = 0.0;
-    double resident_pages = 0.0;
-    file >> total_pages >> resident_pages;
-    constexpr double page_bytes = 4096.0;
-    return resident_pages * page_bytes;
-}
-
-/// Packets that are nearly right, and some that are anything.
-void attack(Protocol protocol, std::uint16_t port) {
-    octant::Dice dice(static_cast<std::uint64_t>(protocol));
-    const auto right = encode_fdm({});
-    UdpPort socket(loopback, 0);
-    for (int i = 0; i < hostile_packets; ++i) {
-        std::vector<std::byte> bytes(right.begin(), right.end());
-        bytes[dice.next() < 0.5 ? 3 : 0] = static_cast<std::byte>(dice.between(26.0, 256.0));
-        bytes.resize(static_cast<std::size_t>(dice.between(0.0, 408.0)));
-        socket.send({loopback, port}, bytes);
-    }
-}
-
-/// A receiver as a program has it, looked after a thousand times a second.
-class Receiver {
-public:
-    explicit Receiver(Protocol protocol)
-        : protocol_(protocol) {}
-
-    std::uint16_t port() const { return socket_.port(); }
-
-    void work() {
-        packets_.clear();
-        const std::chrono::duration<double> now = std::chrono::steady_clock::now() - begin_;
-        socket_.drain(protocol_, now.count(), packets_);
-        for (const Datagram& packet : packets_) {
-            if (limit_.admits(packet.source, packet.arrival_s)) {
-                traffic_.take(packet);
-            }
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-
-    const TrafficCounts& counts() const { return traffic_.counts(); }
-
-private:
-    Protocol protocol_;
-    UdpPort socket_{loopback, 0};
-    SourceLimit limit_;
-    LiveTraffic traffic_{
-        [](const VehicleKey&, const Fix& fix) { return glm::dvec3(fix.latitude_deg * 1e5); }};
-    std::vector<Datagram> packets_;
-    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
 
 } // namespace
 
@@ -88,7 +31,7 @@ TEST_CASE("floods of hostile packets on any port cost bounded memory and move no
         double most = before;
         std::atomic<bool> done = false;
         std::thread attacker([&] {
-            attack(protocol, receiver.port());
+            attack(protocol, receiver.port(), hostile_packets, 0.0);
             done = true;
         });
         while (!done) {
@@ -108,7 +51,7 @@ TEST_CASE("a good sender is heard again as soon as a flood ends") {
     Receiver receiver(Protocol::Fdm);
     std::atomic<bool> done = false;
     std::thread attacker([&] {
-        attack(Protocol::Fdm, receiver.port());
+        attack(Protocol::Fdm, receiver.port(), hostile_packets, 0.0);
         done = true;
     });
     while (!done) {
@@ -128,4 +71,11 @@ TEST_CASE("a good sender is heard again as soon as a flood ends") {
         receiver.work();
     }
     CHECK(receiver.counts().accepted >= before + 9);
+}
+
+TEST_CASE("a flood of valid packets of many vehicles is taken whole") {
+    constexpr int packets = 5000;
+    const octant::tests::ValidFlood flood = octant::tests::flood_validly(packets);
+    CHECK(flood.counts.wrong == 0);
+    CHECK(flood.counts.accepted + flood.counts.late == packets);
 }

@@ -128,6 +128,61 @@ TEST_CASE("readers that do not read are let go and hold up nobody") {
     CHECK(wait_for(server, good, "#9\n").ends_with("#9\n"));
 }
 
+TEST_CASE("stuck readers and a thousand half-open connections delay a live reader by no sending") {
+    TacviewServer server(loopback, 0, "us");
+    server.set_head("HEAD\n");
+    std::vector<std::unique_ptr<Reader>> stuck;
+    for (int i = 0; i < 4; ++i) {
+        stuck.push_back(std::make_unique<Reader>(server.port()));
+        stuck.back()->answer();
+    }
+    const Reader live(server.port());
+    live.answer();
+    settle(server, 5);
+    wait_for(server, live, "HEAD\n");
+    std::vector<std::unique_ptr<Reader>> half_open;
+    const std::string state(2000, 'x');
+    for (int frame = 0; frame < 100; ++frame) {
+        for (int i = 0; i < 10; ++i) {
+            half_open.push_back(std::make_unique<Reader>(server.port()));
+        }
+        const std::string mark = "#" + std::to_string(frame) + "\n";
+        server.send(state + mark);
+        std::string text;
+        for (int tries = 0; tries < 1000 && !text.ends_with(mark); ++tries) {
+            text += live.read();
+            std::this_thread::sleep_for(std::chrono::microseconds(tries == 0 ? 0 : 200));
+        }
+        REQUIRE(text.ends_with(mark));
+    }
+    CHECK(half_open.size() == 1000);
+
+    const Reader late(server.port());
+    late.answer();
+    int sendings = 0;
+    for (std::string text; text.find("HEAD") == std::string::npos && sendings < 60; ++sendings) {
+        server.send("#100\n");
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        text += late.read();
+    }
+    CHECK(sendings < 30); // half a second of pictures
+}
+
+TEST_CASE("Tacview's server has a place for so many readers and no more") {
+    TacviewServer server(loopback, 0, "us");
+    std::vector<std::unique_ptr<Reader>> readers;
+    for (std::size_t i = 0; i < TacviewServer::most_readers + 3; ++i) {
+        readers.push_back(std::make_unique<Reader>(server.port()));
+        readers.back()->answer();
+    }
+    settle(server, TacviewServer::most_readers);
+    for (int i = 0; i < 50; ++i) {
+        server.send("");
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    CHECK(server.readers() == TacviewServer::most_readers);
+}
+
 TEST_CASE("connections that never shake hands keep no reader out") {
     TacviewServer server(loopback, 0, "us");
     std::vector<std::unique_ptr<Reader>> half_open;

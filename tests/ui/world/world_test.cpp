@@ -161,6 +161,18 @@ TEST_CASE("a tape's aircraft fly as they flew beside each other, each as what it
     CHECK(world.flight.lowest_clearance_m == Approx(50.0));
 }
 
+TEST_CASE("a tape that leaves the map is refused with its name") {
+    const std::filesystem::path file = tests::scratch_folder() / "far.acmi";
+    write_file(
+        file,
+        "FileType=text/acmi/tacview\nFileVersion=2.2\n#0\n1,T=8|47|900\n#900\n1,T=8|49|900\n");
+    RunSettings settings = over(rolling_ground());
+    settings.path.name = file.string();
+    CHECK_THROWS_WITH(
+        ui::world::load_world(settings),
+        Catch::Contains("far.acmi: path leaves the map at every heading"));
+}
+
 TEST_CASE("what cannot be loaded is said before anything is flown") {
     CHECK_THROWS_AS(ui::world::load_world(over("no-such-ground.tif")), Error);
     RunSettings settings = over("none");
