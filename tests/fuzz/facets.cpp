@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -67,27 +68,11 @@ Facet facet_of(std::vector<Vec> corners, long double least_width_m) {
     }
     facet.normal = glm::normalize(area);
     facet.tilt = 1.0L / width_m;
-    for (std::size_t i = 0; i < count; ++i) {
-        const Vec along = facet.corners[(i + 1) % count] - facet.corners[i];
-        const Vec inward = glm::cross(facet.normal, along);
-        const long double length = glm::length(inward);
-        facet.inward.push_back(length > 0.0L ? inward / length : Vec(0.0L));
-        facet.bend_m = std::max(
-            facet.bend_m, std::abs(glm::dot(facet.corners[i] - facet.middle, facet.normal)));
+    for (const Vec& corner : facet.corners) {
+        facet.bend_m =
+            std::max(facet.bend_m, std::abs(glm::dot(corner - facet.middle, facet.normal)));
     }
     return facet;
-}
-
-/// How far a corner lies outside an edge's line: 0 for a convex outline. What is inside of all
-/// edges' lines misses so much of a dented one.
-long double dent_of(const Facet& facet) {
-    long double dent_m = 0.0L;
-    for (std::size_t i = 0; i < facet.inward.size(); ++i) {
-        for (const Vec& corner : facet.corners) {
-            dent_m = std::max(dent_m, -glm::dot(corner - facet.corners[i], facet.inward[i]));
-        }
-    }
-    return dent_m;
 }
 
 /// The largest angle, radians, between a bent polygon's plane and that of three of its corners:
@@ -114,6 +99,32 @@ long double lean_of(const Facet& facet) {
     return lean;
 }
 
+/// How far a point of a facet's plane lies inside its outline; negative outside. Measured to the
+/// sides themselves: the line of a side as short as rounding has any direction, and goes anywhere.
+long double inside_of(const Facet& facet, const Vec& place) {
+    const Vec steep = glm::abs(facet.normal);
+    const int across = steep.x > steep.y && steep.x > steep.z ? 0 : (steep.y > steep.z ? 1 : 2);
+    const int u = (across + 1) % 3;
+    const int v = (across + 2) % 3;
+    bool inside = false;
+    long double nearest_m2 = std::numeric_limits<long double>::infinity();
+    const std::size_t count = facet.corners.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec from = facet.corners[i] - place;
+        const Vec to = facet.corners[(i + 1) % count] - place;
+        const Vec along = to - from;
+        if ((from[v] > 0.0L) != (to[v] > 0.0L)) {
+            inside = inside != (from[u] - along[u] * from[v] / along[v] > 0.0L);
+        }
+        const long double length2 = glm::dot(along, along);
+        const long double share =
+            length2 > 0.0L ? std::clamp(-glm::dot(from, along) / length2, 0.0L, 1.0L) : 0.0L;
+        const Vec nearest = from + along * share;
+        nearest_m2 = std::min(nearest_m2, glm::dot(nearest, nearest));
+    }
+    return std::sqrt(nearest_m2) * (inside ? 1.0L : -1.0L);
+}
+
 /// Adds to the slack of each facet the largest bend of the facets that meet it at a corner.
 void spread_bends(Facets& facets) {
     std::map<std::array<long double, 3>, long double> at;
@@ -129,7 +140,7 @@ void spread_bends(Facets& facets) {
         for (const Vec& corner : facet.corners) {
             bend_m = std::max(bend_m, at[place(corner)]);
         }
-        facet.slack_m += bend_m + dent_of(facet);
+        facet.slack_m += bend_m;
     }
 }
 
@@ -165,7 +176,7 @@ Hit meet(const Facet& facet, const Vec& eye, const Vec& ray) {
     const long double along_m = glm::dot(to_middle, ray);
     const long double aside_m2 = glm::dot(to_middle, to_middle) - along_m * along_m;
     const long double reach_m = facet.radius_m + 4.0L * facet.slack_m;
-    if (facet.inward.empty() || aside_m2 > reach_m * reach_m * 1.001L || along_m < -reach_m) {
+    if (facet.normal == Vec(0.0L) || aside_m2 > reach_m * reach_m * 1.001L || along_m < -reach_m) {
         return {};
     }
     const long double height_m = -glm::dot(to_middle, facet.normal);
@@ -179,13 +190,7 @@ Hit meet(const Facet& facet, const Vec& eye, const Vec& ray) {
     }
     const long double depth_m = height_m / slope;
     const long double slant_m = facet.slack_m / slope;
-    const Vec place = eye + ray * depth_m;
-    long double inside_m = reach_m;
-    for (std::size_t i = 0; i < facet.inward.size(); ++i) {
-        if (facet.inward[i] != Vec(0.0L)) {
-            inside_m = std::min(inside_m, glm::dot(place - facet.corners[i], facet.inward[i]));
-        }
-    }
+    const long double inside_m = inside_of(facet, eye + ray * depth_m);
     if (inside_m < -slant_m) {
         return {};
     }
@@ -211,7 +216,7 @@ bool passes_side(const Facet& facet, const Vec& eye, const Vec& ray) {
 }
 
 bool same_plane(const Facet& a, const Facet& b, long double within_m) {
-    if (a.inward.empty() || b.inward.empty() || glm::dot(a.normal, b.normal) <= 0.0L) {
+    if (glm::dot(a.normal, b.normal) <= 0.0L) {
         return false;
     }
     const auto in_plane = [&](const Facet& plane, const Facet& other) {

@@ -18,7 +18,6 @@ struct Facet {
     Vec middle{0.0L};
     long double radius_m = 0.0L; ///< around `middle`
     std::vector<Vec> corners;
-    std::vector<Vec> inward;    ///< unit, from side i (corner i to i + 1) into the polygon
     long double bend_m = 0.0L;  ///< how far a corner lies off the plane, at most
     long double slack_m = 0.0L; ///< how far the polygon may be from where the model has it
     long double tilt = 0.0L;    ///< by what angle the plane may lean at that slack, radians
@@ -33,7 +32,7 @@ struct Facets {
 };
 
 /// The facets of a model. The slack of each is its own bend, its rounding and `slack_sizes` of the
-/// model's size; where `bends_spread` also the depth of its dents, and the bend of polygons that
+/// model's size; where `bends_spread` also the bend of polygons that
 /// share a corner's place, since making those flat may move the corner. A bent one leans then as
 /// far as its pieces may.
 Facets

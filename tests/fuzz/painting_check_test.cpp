@@ -88,3 +88,21 @@ TEST_CASE("the judge finds pieces that are not where their polygon was, or belon
     ordered.model.vertices_m[0].x += 1.0; // a corner of the upper square is gone
     CHECK(check_painting(given, ordered, {2000, 1}).wrong_picture > 10);
 }
+
+TEST_CASE("the judge sees a square of which one corner is two, a rounding apart") {
+    PolygonModel model = two_squares();
+    const glm::dvec3 away_m(7e5, -6e5, 4e5);
+    for (glm::dvec3& vertex_m : model.vertices_m) {
+        vertex_m += away_m;
+    }
+    const double rounding_m = 1.2e-10;
+    model.vertices_m.push_back(model.vertices_m[2] + glm::dvec3(rounding_m, rounding_m, 0.0));
+    model.corner_vertices = {0, 1, 2, 8, 3, 4, 5, 6, 7};
+    model.polygons[0].corner_count = 5;
+    model.polygons[1].first_corner = 5;
+    const PaintingCounts counts = checked(model, {1, 0});
+    CHECK(counts.wrong_order + counts.wrong_picture == 0);
+    CHECK(counts.hits > 500);
+    CHECK(checked(model, {0, 1}).wrong_order > 100);
+    CHECK(checked(model, {1}).wrong_order > 100);
+}

@@ -123,6 +123,9 @@ bool HidingTest::apart_at(const Face& b, std::size_t corner) const {
     const glm::dvec2 at = b.flat[corner];
     const glm::dvec2 to_next = glm::normalize(b.flat[(corner + 1) % count] - at);
     const glm::dvec2 to_last = glm::normalize(b.flat[(corner + count - 1) % count] - at);
+    if (cross(to_next, to_last) < 0.0) {
+        return false; // dented by rounding: lines past its neighbours serve as well
+    }
     Sector sector(-to_next, -to_last);
     return std::ranges::all_of(crossings_, [&](const glm::dvec3& point) {
         return sector.take(glm::dvec2(point.x, point.y) - at * point.z);

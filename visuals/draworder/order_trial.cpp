@@ -2,6 +2,7 @@
 // counted: there rounding decides what is seen.
 #include "visuals/draworder/order_trial.h"
 
+#include "models/polygons/inside_outline.h"
 #include "sim/base/dice.h"
 
 #include <glm/common.hpp>
@@ -40,7 +41,6 @@ struct Target {
     glm::dvec3 middle{0.0};
     double radius = 0.0;
     std::vector<glm::dvec3> corners;
-    std::vector<glm::dvec3> inward; ///< Unit vectors in its plane, one a side.
 };
 
 /// How a ray meets a target: where, and how far inside its sides.
@@ -61,11 +61,10 @@ std::optional<Hit> meet(const Target& target, const glm::dvec3& eye, const glm::
     if (glm::dot(aside, aside) > target.radius * target.radius) {
         return std::nullopt;
     }
-    Hit hit{away, std::numeric_limits<double>::infinity()};
-    for (std::size_t i = 0; i < target.corners.size() && hit.inside > 0.0; ++i) {
-        hit.inside = std::min(hit.inside, glm::dot(at - target.corners[i], target.inward[i]));
+    if (!models::polygons::is_inside(target.corners, target.normal, at)) {
+        return std::nullopt;
     }
-    return hit.inside > 0.0 ? std::optional(hit) : std::nullopt;
+    return Hit{away, models::polygons::distance_to_sides(target.corners, at)};
 }
 
 /// One trial at one angle of the turning parts.
@@ -139,14 +138,7 @@ private:
             target.radius = std::max(target.radius, glm::length(from));
         }
         target.normal = glm::normalize(sum);
-        for (std::size_t i = 0; i < count; ++i) {
-            const glm::dvec3 along = target.corners[(i + 1) % count] - target.corners[i];
-            const glm::dvec3 across = glm::cross(target.normal, along);
-            const double length = glm::length(across);
-            target.inward.push_back(length > 0.0 ? across / length : glm::dvec3(0.0));
-        }
-        std::erase_if(target.inward, [](const glm::dvec3& v) { return v == glm::dvec3(0.0); });
-        return std::isfinite(target.normal.x) && target.inward.size() == count;
+        return std::isfinite(target.normal.x);
     }
 
     const Target& any_target() {

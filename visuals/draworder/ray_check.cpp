@@ -4,6 +4,7 @@
 // pixels.
 #include "visuals/draworder/ray_check.h"
 
+#include "models/polygons/inside_outline.h"
 #include "sim/base/dice.h"
 #include "sim/base/units.h"
 
@@ -21,13 +22,12 @@ namespace {
 /// The distance of a polygon that a ray misses.
 constexpr double missed = std::numeric_limits<double>::infinity();
 
-/// A polygon as a plane and the half-spaces within it, for quick ray tests.
+/// A polygon with its plane, for ray tests.
 struct Facet {
     glm::dvec3 normal{0.0};
     glm::dvec3 point_m{0.0};
     bool two_sided = false;
     std::vector<glm::dvec3> corners_m;
-    std::vector<glm::dvec3> inward;
 };
 
 /// The facet of a polygon when its part has turned by an angle.
@@ -47,10 +47,6 @@ Facet facet_of(const models::polygons::PolygonModel& model, std::size_t polygon,
         facet.normal = models::polygons::turned(turn, facet.normal, turn_rad);
     }
     facet.point_m = facet.corners_m[0];
-    for (std::size_t i = 0; i < facet.corners_m.size(); ++i) {
-        const glm::dvec3& next = facet.corners_m[(i + 1) % facet.corners_m.size()];
-        facet.inward.push_back(glm::cross(facet.normal, next - facet.corners_m[i]));
-    }
     return facet;
 }
 
@@ -62,13 +58,8 @@ double front_hit(const Facet& facet, const glm::dvec3& eye_m, const glm::dvec3& 
         return missed;
     }
     const double at = -height_m / slope;
-    const glm::dvec3 hit_m = eye_m + ray * at;
-    for (std::size_t i = 0; i < facet.inward.size(); ++i) {
-        if (glm::dot(hit_m - facet.corners_m[i], facet.inward[i]) < 0.0) {
-            return missed;
-        }
-    }
-    return at;
+    const bool hits = models::polygons::is_inside(facet.corners_m, facet.normal, eye_m + ray * at);
+    return hits ? at : missed;
 }
 
 /// A random point on the disc of a radius around the origin that is perpendicular to the line of

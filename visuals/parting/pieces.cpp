@@ -17,9 +17,6 @@ namespace octant::visuals::parting {
 
 namespace {
 
-/// Vertices on one edge that are nearer to one another than this are one.
-constexpr double same_place = 1e-12;
-
 /// The plane of a triangle; nothing when it has no area.
 std::optional<Plane> plane_through(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const glm::dvec3 across = glm::cross(b - a, c - a);
@@ -222,7 +219,7 @@ std::uint32_t Pieces::crossing(std::uint32_t a, std::uint32_t b, const Plane& pl
     const double length = glm::distance(from, to);
     for (const std::uint32_t vertex : edge.between) {
         const double other = vertices_[vertex].share;
-        if (std::abs(other - share) * length < same_place && other > low && other < high) {
+        if (std::abs(other - share) * length <= tolerance && other > low && other < high) {
             return vertex;
         }
     }

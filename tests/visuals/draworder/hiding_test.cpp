@@ -53,6 +53,21 @@ TEST_CASE("of two parallel plates the nearer hides the farther, never the other 
     CHECK(hides(plate(1.0, 7.0), plate(0.0)));
 }
 
+TEST_CASE("a corner on a straight side that drawing in dents is no place for a parting line") {
+    // Drawing in moves the sharp first corner sideways, so that the last one, which another
+    // polygon's corner has put there, is dented by some 1e-10.
+    const glm::dvec3 sharp(0.3857547541, -0.004612480713, 0.0);
+    const glm::dvec3 far_end(-0.8117580458, 0.1339747639, 0.0);
+    const glm::dvec3 on_side = glm::mix(far_end, sharp, 0.9158);
+    const std::vector<glm::dvec3> outline{
+        sharp, {0.9206, -0.004612480713, 0.0}, {0.9206, 0.1339747639, 0.0}, far_end, on_side};
+    const Tolerances tolerances;
+    const Face near_one = outline_face(outline, {{0, 0, 1}, 0.0}, tolerances.inset);
+    const std::vector<glm::dvec4> eyes{
+        {on_side, 1.0}, {glm::normalize(far_end - on_side), 0.0}, {0.1, 0.995, 0.0, 0.0}};
+    CHECK(HidingTest(tolerances).hides(near_one, plate(-1.0), eyes));
+}
+
 TEST_CASE("plates side by side hide nothing from eyes that see past the gap") {
     const EyeRegion left = *EyeRegion::everywhere().cut({{-1, 0, 0}, -1.0});
     const EyeRegion right = *EyeRegion::everywhere().cut({{1, 0, 0}, -1.0});
