@@ -30,15 +30,15 @@ std::unique_ptr<Renderer> make_gl_renderer(const settings::RunSettings& settings
 
 } // namespace
 
-std::unique_ptr<raster::Renderer>
-make_raster_renderer(const settings::RunSettings& settings, raster::Renderer::Show show) {
+std::unique_ptr<raster::Renderer> make_raster_renderer(
+    const settings::RunSettings& settings, std::shared_ptr<visuals::scene::WindowPicture> window) {
     const auto cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
     const int threads = settings.drawing.raster_threads.value_or(cores);
     return std::make_unique<raster::Renderer>(
         std::make_shared<raster::Workers>(threads),
         settings.view.size_px,
         settings.view.samples.value_or(16),
-        std::move(show));
+        std::move(window));
 }
 
 std::unique_ptr<Renderer> make_renderer(const settings::RunSettings& settings) {

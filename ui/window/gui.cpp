@@ -68,6 +68,7 @@ Gui::Gui(gl::WindowContext& window) {
         window,
         std::span(texels, static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y)),
         size);
+    pixels_.emplace(texels, size);
 }
 
 Gui::~Gui() {
@@ -109,6 +110,12 @@ void Gui::draw(const glm::ivec2& size_px) {
             draws_);
     }
     painter_->end();
+}
+
+void Gui::draw_into(std::uint8_t* pixels, const glm::ivec2& size_px) const {
+    if (vertices() > 0) {
+        pixels_->draw(*ImGui::GetDrawData(), pixels, size_px);
+    }
 }
 
 int Gui::vertices() const {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "ui/window/panel_pixels.h"
 #include "visuals/gl/panel_painter.h"
 
 #include <glm/vec2.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -32,6 +34,9 @@ public:
     /// where there are no panels.
     void draw(const glm::ivec2& size_px);
 
+    /// The same over a picture in memory, as PanelPixels has it.
+    void draw_into(std::uint8_t* pixels, const glm::ivec2& size_px) const;
+
     /// Returns how many vertices the last frame's panels have; 0 where there are no panels.
     int vertices() const;
 
@@ -42,6 +47,7 @@ public:
 
 private:
     std::optional<visuals::gl::PanelPainter> painter_;
+    std::optional<PanelPixels> pixels_;
     std::vector<visuals::gl::PanelDraw> draws_;
 };
 

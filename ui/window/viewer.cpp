@@ -43,21 +43,12 @@ double refresh_hz_of(GLFWmonitor* monitor) {
     return mode == nullptr || mode->refreshRate <= 0 ? 60.0 : mode->refreshRate;
 }
 
-/// OpenGL's where the settings ask for it or a GPU draws in the window, else the raster renderer.
-std::unique_ptr<scene::Renderer>
-window_renderer(std::shared_ptr<gl::WindowContext> context, const settings::RunSettings& settings) {
+/// Where the settings ask for OpenGL or a GPU draws in the window; else the raster renderer does.
+bool gl_draws(const gl::WindowContext& context, const settings::RunSettings& settings) {
     using settings::RendererKind;
     const RendererKind wanted = settings.drawing.renderer;
-    const bool gpu_draws = !context->info().on_processor;
-    if (wanted == RendererKind::Gl || (wanted == RendererKind::Auto && gpu_draws)) {
-        return gl::make_renderer(
-            std::move(context), settings.view.size_px, settings.view.samples.value_or(1));
-    }
-    auto painter = std::make_shared<gl::PicturePainter>(std::move(context));
-    return flight::make_raster_renderer(
-        settings, [painter](const scene::Picture& picture, const glm::ivec2& size_px) {
-            painter->show(picture, size_px);
-        });
+    const bool gpu_draws = !context.info().on_processor;
+    return wanted == RendererKind::Gl || (wanted == RendererKind::Auto && gpu_draws);
 }
 
 } // namespace
@@ -76,14 +67,8 @@ Viewer::Viewer(const ViewOptions& options)
     }
     settings.view.size_px = input_->size_px();
     session_ = std::make_unique<flight::Session>(
-        settings, flight::Shows::World, window_renderer(std::move(context), settings));
-    session_->present_by([this](scene::Renderer& renderer) {
-        if (!renderer.is_in_window()) {
-            renderer.copy_to_window(input_->size_px());
-        }
-        gui_->draw(input_->size_px());
-        context_->swap_buffers();
-    });
+        settings, flight::Shows::World, make_renderer(std::move(context), settings));
+    session_->present_by([this](scene::Renderer& renderer) { present(renderer); });
     read_layout();
     read_keys();
     gui_ = std::make_unique<Gui>(*context_);
@@ -108,6 +93,30 @@ Viewer::Viewer(const ViewOptions& options)
         start_recording(*options.record);
     }
     clock_ = base::Stopwatch();
+}
+
+std::unique_ptr<scene::Renderer> Viewer::make_renderer(
+    std::shared_ptr<gl::WindowContext> context, const settings::RunSettings& settings) {
+    if (gl_draws(*context, settings)) {
+        return gl::make_renderer(
+            std::move(context), settings.view.size_px, settings.view.samples.value_or(1));
+    }
+    painter_ = std::make_shared<gl::PicturePainter>(std::move(context));
+    return flight::make_raster_renderer(settings, painter_);
+}
+
+void Viewer::present(scene::Renderer& renderer) {
+    const glm::ivec2 size_px = input_->size_px();
+    if (painter_ && renderer.is_in_window() && painter_->puts_straight(size_px)) {
+        gui_->draw_into(painter_->pixels(), size_px);
+        renderer.copy_to_window(size_px);
+        return;
+    }
+    if (painter_ ? renderer.is_in_window() : !renderer.is_in_window()) {
+        renderer.copy_to_window(size_px);
+    }
+    gui_->draw(size_px);
+    context_->swap_buffers();
 }
 
 GLFWwindow* Viewer::window() const {

@@ -21,8 +21,9 @@
 struct GLFWwindow;
 
 namespace octant::visuals::gl {
+class PicturePainter;
 class WindowContext;
-}
+} // namespace octant::visuals::gl
 
 namespace octant::ui::window {
 
@@ -102,6 +103,9 @@ private:
     void toggle_recording();
     void start_recording(const std::filesystem::path& folder);
     void take_screenshot();
+    std::unique_ptr<visuals::scene::Renderer> make_renderer(
+        std::shared_ptr<visuals::gl::WindowContext> context, const settings::RunSettings& settings);
+    void present(visuals::scene::Renderer& renderer);
     void toggle_full_screen();
     void apply_wanted();
     void restart_playback();
@@ -117,6 +121,8 @@ private:
     ViewOptions options_;
     /// The session owns it.
     visuals::gl::WindowContext* context_ = nullptr;
+    /// Shows the raster renderer's pictures; null where OpenGL draws.
+    std::shared_ptr<visuals::gl::PicturePainter> painter_;
     std::unique_ptr<flight::Session> session_;
     /// Null where nobody else flies.
     std::unique_ptr<flight::Listener> listener_;

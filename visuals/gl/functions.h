@@ -11,6 +11,7 @@
     X(bind_buffer_base, PFNGLBINDBUFFERBASEPROC, "glBindBufferBase")                               \
     X(bind_buffer, PFNGLBINDBUFFERPROC, "glBindBuffer")                                            \
     X(bind_framebuffer, PFNGLBINDFRAMEBUFFERPROC, "glBindFramebuffer")                             \
+    X(bind_texture, PFNGLBINDTEXTUREPROC, "glBindTexture")                                         \
     X(bind_texture_unit, PFNGLBINDTEXTUREUNITPROC, "glBindTextureUnit")                            \
     X(bind_vertex_array, PFNGLBINDVERTEXARRAYPROC, "glBindVertexArray")                            \
     X(blend_color, PFNGLBLENDCOLORPROC, "glBlendColor")                                            \
@@ -82,6 +83,7 @@
     X(read_pixels, PFNGLREADPIXELSPROC, "glReadPixels")                                            \
     X(scissor, PFNGLSCISSORPROC, "glScissor")                                                      \
     X(shader_source, PFNGLSHADERSOURCEPROC, "glShaderSource")                                      \
+    X(tex_image_2d, PFNGLTEXIMAGE2DPROC, "glTexImage2D")                                           \
     X(texture_parameterf, PFNGLTEXTUREPARAMETERFPROC, "glTextureParameterf")                       \
     X(texture_parameteri, PFNGLTEXTUREPARAMETERIPROC, "glTextureParameteri")                       \
     X(texture_storage_2d, PFNGLTEXTURESTORAGE2DPROC, "glTextureStorage2D")                         \

@@ -1,8 +1,10 @@
 #pragma once
 
-#include "visuals/gl/context.h"
 #include "visuals/gl/object.h"
+#include "visuals/gl/shared_picture.h"
+#include "visuals/gl/window_context.h"
 #include "visuals/scene/picture.h"
+#include "visuals/scene/window_picture.h"
 
 #include <glm/vec2.hpp>
 
@@ -10,28 +12,41 @@
 
 namespace octant::visuals::gl {
 
-/// Puts pictures that were made elsewhere into the window of a context: by a texture that keeps its
-/// memory while pictures keep their size.
-class PicturePainter {
+/// Puts pictures that were made elsewhere into a context's window: straight by memory shared with
+/// the display where a processor draws, else by a texture.
+class PicturePainter final : public scene::WindowPicture {
 public:
-    explicit PicturePainter(std::shared_ptr<Context> context);
-    ~PicturePainter();
+    explicit PicturePainter(std::shared_ptr<WindowContext> context);
+    ~PicturePainter() override;
     PicturePainter(const PicturePainter&) = delete;
     PicturePainter& operator=(const PicturePainter&) = delete;
     PicturePainter(PicturePainter&&) = delete;
     PicturePainter& operator=(PicturePainter&&) = delete;
 
-    /// Stretched to the lower left `size_px` of the window, upright there.
-    void show(const scene::Picture& picture, const glm::ivec2& size_px);
+    std::uint8_t* begin(const glm::ivec2& size_px) override;
+    void show(const glm::ivec2& window_px) override;
+
+    /// Whether show() puts the picture into a window of this size without OpenGL: nothing is to be
+    /// drawn over it and no buffers are to be swapped then.
+    bool puts_straight(const glm::ivec2& window_px) const {
+        return shared_ && window_px == size_px_;
+    }
+
+    /// Of the picture at hand, as begin() gave them.
+    std::uint8_t* pixels() { return shared_ ? shared_->pixels() : own_.data(); }
 
 private:
-    void make_target(const glm::ivec2& size_px);
+    void make_target();
+    void blit(const glm::ivec2& window_px);
 
-    std::shared_ptr<Context> context_; ///< goes after all that was made with it
+    std::shared_ptr<WindowContext> context_; ///< goes after all that was made with it
     const Functions& gl_;
+    std::unique_ptr<SharedPicture> shared_;
+    scene::PictureBytes own_; ///< where the display shares no memory
     Object texture_;
     Object target_; ///< framebuffer of the texture
-    glm::ivec2 held_px_{0};
+    glm::ivec2 size_px_{0};
+    glm::ivec2 target_px_{0};
 };
 
 } // namespace octant::visuals::gl

@@ -16,6 +16,7 @@ namespace {
 
 constexpr int most_samples = 16;
 constexpr std::array<std::uint8_t, 4> inset_frame{20, 23, 26, 255};
+constexpr std::array<std::uint8_t, 4> inset_frame_blue_first{26, 23, 20, 255};
 constexpr int frame_rows = 360; ///< of the picture for each pixel of the frame's width
 
 std::uint8_t byte_of(float share) {
@@ -30,18 +31,15 @@ glm::vec3 haze_ahead(const scene::FramePlan& plan) {
     return glm::mix(plan.haze.colour, plan.haze.sunward, towards * towards);
 }
 
-std::size_t byte_at(const scene::Picture& picture, int x, int y) {
-    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-            static_cast<std::size_t>(x)) *
-           4;
-}
-
 } // namespace
 
 Renderer::Renderer(
-    std::shared_ptr<Workers> workers, const glm::ivec2& size_px, int samples, Show show)
+    std::shared_ptr<Workers> workers,
+    const glm::ivec2& size_px,
+    int samples,
+    std::shared_ptr<scene::WindowPicture> window)
     : workers_(std::move(workers))
-    , show_(std::move(show))
+    , window_(std::move(window))
     , samples_(samples)
     , lanes_(sample_pattern(samples))
     , work_(sample_pattern(samples), *workers_) {
@@ -66,16 +64,25 @@ void Renderer::resize(const glm::ivec2& size_px, std::optional<int> wanted) {
         work_.use(sample_pattern(samples));
     }
     size_px_ = size_px;
-    make_picture();
+    begin_picture();
 }
 
 /// Makes room for a picture, unless there is.
-void Renderer::make_picture() {
+void Renderer::begin_picture() {
+    is_in_window_ = is_aimed_;
+    if (is_in_window_) {
+        pixels_ = window_->begin(size_px_);
+        return;
+    }
     picture_.width = size_px_.x;
     picture_.height = size_px_.y;
-    picture_.rgba.resize(
-        std::size_t{4} * static_cast<std::size_t>(size_px_.x) *
-        static_cast<std::size_t>(size_px_.y));
+    picture_.rgba.resize(byte_at(0, size_px_.y));
+    pixels_ = picture_.rgba.data();
+}
+
+std::size_t Renderer::byte_at(int x, int y) const {
+    return 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(size_px_.x) +
+                static_cast<std::size_t>(x));
 }
 
 void Renderer::load_models(std::span<const scene::ModelBuffers> models) {
@@ -88,21 +95,20 @@ void Renderer::load_ground_texture(const scene::GroundTexture& texture) {
 
 void Renderer::draw(const scene::FramePlan& plan) {
     draw_calls_ = 0;
-    make_picture();
-    draw_into(plan, {0, 0, picture_.width, picture_.height});
+    begin_picture();
+    draw_into(plan, {0, 0, size_px_.x, size_px_.y});
 }
 
 void Renderer::draw_inset(const scene::FramePlan& plan, const scene::PixelRect& rect) {
     assert(rect.width > 0 && rect.height > 0 && rect.x >= 0 && rect.y >= 0);
-    assert(rect.x + rect.width <= picture_.width && rect.y + rect.height <= picture_.height);
-    const int frame = std::max(picture_.height / frame_rows, 1);
-    const int last_x = std::min(rect.x + rect.width + frame, picture_.width);
-    const int last_y = std::min(rect.y + rect.height + frame, picture_.height);
+    assert(rect.x + rect.width <= size_px_.x && rect.y + rect.height <= size_px_.y);
+    const int frame = std::max(size_px_.y / frame_rows, 1);
+    const int last_x = std::min(rect.x + rect.width + frame, size_px_.x);
+    const int last_y = std::min(rect.y + rect.height + frame, size_px_.y);
     for (int y = std::max(rect.y - frame, 0); y < last_y; ++y) {
         for (int x = std::max(rect.x - frame, 0); x < last_x; ++x) {
             std::ranges::copy(
-                inset_frame,
-                picture_.rgba.begin() + static_cast<std::ptrdiff_t>(byte_at(picture_, x, y)));
+                is_in_window_ ? inset_frame_blue_first : inset_frame, pixels_ + byte_at(x, y));
         }
     }
     draw_into(plan, rect);
@@ -129,20 +135,21 @@ void Renderer::draw_into(const scene::FramePlan& plan, const scene::PixelRect& r
         job.light = &work_.light();
         job.far_to_near = walk_ == Walk::FarToNear;
         job.tints_mesh_levels = plan.mesh_look == scene::MeshLook::Levels;
-        job.rgba = picture_.rgba.data() +
-                   byte_at(picture_, rect.x + job.first_px.x, rect.y + job.first_px.y);
-        job.row_bytes = std::size_t{4} * static_cast<std::size_t>(picture_.width);
+        job.blue_first = is_in_window_;
+        job.rgba = pixels_ + byte_at(rect.x + job.first_px.x, rect.y + job.first_px.y);
+        job.row_bytes = std::size_t{4} * static_cast<std::size_t>(size_px_.x);
         paint_tile(job, lanes_, desk.buffer);
     });
 }
 
 void Renderer::finish_and_read(scene::Picture& picture) {
+    assert(!is_in_window_);
     std::swap(picture, picture_);
 }
 
 void Renderer::copy_to_window(const glm::ivec2& size_px) {
-    assert(show_);
-    show_(picture_, size_px);
+    assert(is_in_window_);
+    window_->show(size_px);
 }
 
 } // namespace octant::visuals::raster

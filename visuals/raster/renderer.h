@@ -5,8 +5,8 @@
 #include "visuals/raster/tile.h"
 #include "visuals/raster/workers.h"
 #include "visuals/scene/renderer.h"
+#include "visuals/scene/window_picture.h"
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -20,16 +20,13 @@ namespace octant::visuals::raster {
 /// processor.
 class Renderer final : public scene::Renderer {
 public:
-    /// Shows a picture in a window of a size in pixels.
-    using Show = std::function<void(const scene::Picture&, const glm::ivec2&)>;
-
-    /// Picture size in pixels, at most 8,192 each way; 1, 4 or 16 samples a pixel. `show` is what
-    /// copy_to_window() does.
+    /// Picture size in pixels, at most 8,192 each way; 1, 4 or 16 samples a pixel. Pictures
+    /// that are aimed at a window are made in the memory of `window`.
     Renderer(
         std::shared_ptr<Workers> workers,
         const glm::ivec2& size_px,
         int samples,
-        Show show = nullptr);
+        std::shared_ptr<scene::WindowPicture> window = nullptr);
 
     /// Which way painting order is walked.
     enum class Walk {
@@ -57,19 +54,22 @@ public:
 
     int draw_calls() const override { return draw_calls_; }
 
-    void aim_at_window(const glm::ivec2&) override {}
+    void aim_at_window(const glm::ivec2& window_px) override {
+        is_aimed_ = window_ && window_px != glm::ivec2(0);
+    }
 
-    bool is_in_window() const override { return false; }
+    bool is_in_window() const override { return is_in_window_; }
 
     void copy_to_window(const glm::ivec2& size_px) override;
 
 private:
-    void make_picture();
+    void begin_picture();
+    std::size_t byte_at(int x, int y) const;
     void draw_into(const scene::FramePlan& plan, const scene::PixelRect& rect);
 
     std::shared_ptr<Workers> workers_;
     scene::RendererInfo info_;
-    Show show_;
+    std::shared_ptr<scene::WindowPicture> window_;
     int samples_ = 0;
     Walk walk_ = Walk::NearToFar;
     SampleLanes lanes_;
@@ -87,6 +87,9 @@ private:
     std::vector<std::unique_ptr<Desk>> desks_;
     glm::ivec2 size_px_{0};
     scene::Picture picture_; ///< any other one between finish_and_read() and the next draw()
+    std::uint8_t* pixels_ = nullptr; ///< of the picture at hand: the window's or those of picture_
+    bool is_aimed_ = false;          ///< at the window
+    bool is_in_window_ = false;
     int draw_calls_ = 0;
 };
 

@@ -35,6 +35,7 @@ struct TileJob {
     const Light* light = nullptr;        ///< for Fill::Lit
     bool tints_mesh_levels = false;      ///< for Fill::Mesh
     bool far_to_near = false;            ///< each triangle over what is there; one sample a pixel
+    bool blue_first = false;             ///< in each pixel; else red
     std::uint8_t* rgba = nullptr;        ///< of its upper left pixel
     std::size_t row_bytes = 0;
 

@@ -28,43 +28,54 @@ HWY_NOINLINE void clear(TileBuffer& buffer) {
     buffer.full_rows = 0;
 }
 
+/// Where red, green or blue lies in a pixel.
+HWY_INLINE std::size_t byte_of_colour(const TileJob& job, std::size_t colour) {
+    return job.blue_first ? 2 - colour : colour;
+}
+
 using Words = hn::CappedTag<std::uint32_t, 16>;
 using HalfWords = hn::Rebind<std::uint16_t, Words>;
 
+/// A colour of a tile: its sums, and what free samples add to them.
+struct ColourPlane {
+    const std::uint16_t* sums;
+    std::uint16_t background;
+};
+
+/// A tile's colours in the order of a pixel's bytes.
+using ColourPlanes = std::array<ColourPlane, 3>;
+
 /// Pixels from their sums; what is left free has the background.
 template <bool has_free>
-HWY_INLINE hn::Vec<Words> pixels_of(
-    const std::array<std::uint16_t, 3>& background, const TileBuffer& buffer, std::size_t first) {
+HWY_INLINE hn::Vec<Words>
+pixels_of(const ColourPlanes& planes, const TileBuffer& buffer, std::size_t first) {
     const Words words;
     const HalfWords halves;
     const auto half_level = hn::Set(halves, 128);
     const auto rounded = [&](std::size_t k) HWY_ATTR {
-        const auto sum = hn::Add(hn::LoadU(halves, buffer.sums[k].data() + first), half_level);
+        const auto sum = hn::Add(hn::LoadU(halves, planes[k].sums + first), half_level);
         if constexpr (has_free) {
             const auto covered = hn::LoadU(halves, buffer.covered.data() + first);
             const auto free = hn::Sub(hn::Set(halves, 16), hn::PopulationCount(covered));
-            return hn::Add(sum, hn::Mul(free, hn::Set(halves, background[k])));
+            return hn::Add(sum, hn::Mul(free, hn::Set(halves, planes[k].background)));
         } else {
             return sum;
         }
     };
     const auto high_byte = hn::Set(halves, 0xff00);
-    const auto red_green = hn::Or(hn::ShiftRight<8>(rounded(0)), hn::And(rounded(1), high_byte));
-    const auto blue_alpha = hn::Or(hn::ShiftRight<8>(rounded(2)), high_byte);
+    const auto first_two = hn::Or(hn::ShiftRight<8>(rounded(0)), hn::And(rounded(1), high_byte));
+    const auto last_two = hn::Or(hn::ShiftRight<8>(rounded(2)), high_byte);
     return hn::Or(
-        hn::PromoteTo(words, red_green), hn::ShiftLeft<16>(hn::PromoteTo(words, blue_alpha)));
+        hn::PromoteTo(words, first_two), hn::ShiftLeft<16>(hn::PromoteTo(words, last_two)));
 }
 
 using Line = std::array<std::uint32_t, tile_width>;
 
 template <bool has_free>
-HWY_INLINE void resolve_row(
-    const std::array<std::uint16_t, 3>& background,
-    const TileBuffer& buffer,
-    std::size_t first,
-    Line& line) {
+HWY_INLINE void
+resolve_row(const ColourPlanes& planes, const TileBuffer& buffer, std::size_t first, Line& line) {
     for (std::size_t column = 0; column < tile_width; column += hn::Lanes(Words())) {
-        const auto pixels = pixels_of<has_free>(background, buffer, first + column);
+        const auto pixels = pixels_of<has_free>(planes, buffer, first + column);
         hn::Store(pixels, Words(), line.data() + column);
     }
 }
@@ -81,9 +92,10 @@ HWY_INLINE void stream(const Line& line, std::uint8_t* to) {
 
 HWY_NOINLINE void resolve(const TileJob& job, TileBuffer& buffer) {
     alignas(64) Line line;
-    std::array<std::uint16_t, 3> background;
+    ColourPlanes planes;
     for (std::size_t k = 0; k < 3; ++k) {
-        background[k] = static_cast<std::uint16_t>(job.background[k] * 16);
+        planes[byte_of_colour(job, k)] = {
+            buffer.sums[k].data(), static_cast<std::uint16_t>(job.background[k] * 16)};
     }
     constexpr std::uintptr_t alignment = 64; // a line of the caches
     const bool may_stream = job.size_px.x == tile_width && job.row_bytes % alignment == 0 &&
@@ -92,9 +104,9 @@ HWY_NOINLINE void resolve(const TileJob& job, TileBuffer& buffer) {
         std::uint8_t* const to = job.rgba + static_cast<std::size_t>(row) * job.row_bytes;
         const auto first = static_cast<std::size_t>(row) * tile_width;
         if ((buffer.full_rows >> row & 1U) != 0) {
-            resolve_row<false>(background, buffer, first, line);
+            resolve_row<false>(planes, buffer, first, line);
         } else {
-            resolve_row<true>(background, buffer, first, line);
+            resolve_row<true>(planes, buffer, first, line);
         }
         if (may_stream) {
             stream(line, to);
@@ -115,7 +127,8 @@ HWY_INLINE void blend(const TileJob& job, int column, int row, TileBuffer& buffe
                              static_cast<std::size_t>(column) * 4;
     for (unsigned k = 0; k < 3; ++k) {
         const std::uint32_t over = colour >> (8 * k) & 0xffU;
-        to[k] = static_cast<std::uint8_t>((over * share + to[k] * (4080U - share) + 2040U) / 4080U);
+        std::uint8_t& under = to[byte_of_colour(job, k)];
+        under = static_cast<std::uint8_t>((over * share + under * (4080U - share) + 2040U) / 4080U);
     }
     buffer.waiting[pixel] = 0;
 }
