@@ -141,19 +141,27 @@ void BakedPictures::add_triangle(std::uint32_t picture, const std::array<glm::ve
     triangles_.push_back({is_good(places) ? picture : none, places});
 }
 
-std::vector<bool> BakedPictures::mostly_transparent() const {
-    constexpr double half = 0.5;
-    std::vector<bool> found;
+std::vector<BakedPictures::Cover> BakedPictures::covers() const {
+    constexpr double about = 0.15;
+    std::vector<Cover> found;
     for (const Pictured& triangle : triangles_) {
-        double there = 0.0;
-        int samples = 0;
-        if (triangle.picture != none) {
-            samples = for_each_sample(
-                *pictures_[triangle.picture],
-                triangle.places,
-                [&](const glm::dvec3&, const glm::dvec3&, double more) { there += more; });
+        Cover& cover = found.emplace_back();
+        if (triangle.picture == none) {
+            continue;
         }
-        found.push_back(there < half * samples);
+        double sum = 0.0;
+        double least = 1.0;
+        double most = 0.0;
+        const int samples = for_each_sample(
+            *pictures_[triangle.picture],
+            triangle.places,
+            [&](const glm::dvec3&, const glm::dvec3&, double there) {
+                sum += there;
+                least = std::min(least, there);
+                most = std::max(most, there);
+            });
+        cover.opacity = static_cast<float>(sum / samples);
+        cover.is_even = most - least <= 2.0 * about;
     }
     return found;
 }

@@ -37,8 +37,14 @@ public:
     /// shares of width and height from the upper left corner; beyond 0..1 the picture repeats.
     void add_triangle(std::uint32_t picture, const std::array<glm::vec2, 3>& places);
 
-    /// For each triangle added whether its picture is mostly transparent on it.
-    std::vector<bool> mostly_transparent() const;
+    /// How a picture hides what lies behind a triangle.
+    struct Cover {
+        float opacity = 1.0F; ///< mean
+        bool is_even = true;  ///< about the same all over it
+    };
+
+    /// One for each triangle added.
+    std::vector<Cover> covers() const;
 
     /// Takes out triangles that were added; `gone` has one entry for each.
     void take_out(const std::vector<bool>& gone);

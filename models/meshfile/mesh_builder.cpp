@@ -25,6 +25,10 @@ constexpr glm::dvec3 upwards(0.0, 0.0, 1.0);
 constexpr float opaque_from = 0.98F;
 constexpr float seen_from = 0.02F;
 
+/// Of a picture that is mostly transparent: less is a hole in it, if evenly so more is glass.
+constexpr float glass_from = 0.05F;
+constexpr float mostly_there = 0.5F;
+
 /// Takes out the vertices that no triangle uses.
 void drop_unused_vertices(TriangleMesh& mesh) {
     std::vector<std::uint32_t> places(mesh.vertices_m.size(), no_index);
@@ -144,26 +148,31 @@ void MeshBuilder::finish_part() {
 
 float MeshBuilder::opacity_of(std::size_t triangle) const {
     const std::uint32_t material = mesh_.triangle_materials[triangle];
-    return material == no_index ? 1.0F : opacities_[material];
+    return (material == no_index ? 1.0F : opacities_[material]) *
+           (glass_.empty() ? 1.0F : glass_[triangle]);
+}
+
+void MeshBuilder::find_glass() {
+    if (pictures_.is_empty() || !mesh_.colours.empty()) {
+        return;
+    }
+    for (const BakedPictures::Cover& cover : pictures_.covers()) {
+        const bool is_glass =
+            cover.is_even && cover.opacity >= glass_from && cover.opacity < mostly_there;
+        glass_.push_back(is_glass ? cover.opacity : 1.0F);
+    }
 }
 
 bool MeshBuilder::is_clear(std::size_t triangle) const {
     return opacity_of(triangle) < opaque_from;
 }
 
-/// Unless all is invisible or clear: then all of it is drawn as if it were not.
 void MeshBuilder::drop_invisible() {
     std::vector<bool> gone;
-    bool any_opaque = false;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
         gone.push_back(opacity_of(t) < seen_from);
-        any_opaque = any_opaque || !is_clear(t);
     }
-    if (any_opaque) {
-        take_out(gone);
-    } else {
-        std::ranges::fill(opacities_, 1.0F);
-    }
+    take_out(gone);
 }
 
 /// The triangles for which `is_kept(number)` holds, finished on their own.
@@ -194,6 +203,7 @@ MeshParts MeshBuilder::finish_parts() {
     if (mesh_.triangles.empty()) {
         error_in(path_, "expected at least one triangle, got none");
     }
+    find_glass();
     drop_invisible();
     if (!mesh_.colours.empty()) {
         mesh_.colours.resize(mesh_.vertices_m.size(), glm::vec3(1.0F));
@@ -235,6 +245,9 @@ void MeshBuilder::take_out(const std::vector<bool>& gone) {
     }
     take(two_sided_);
     take(groups_);
+    if (!glass_.empty()) {
+        take(glass_);
+    }
     if (options_.pictures) {
         pictures_.take_out(gone);
     }
@@ -253,7 +266,11 @@ void MeshBuilder::leave_out_transparent() {
     if (pictures_.is_empty() || !mesh_.colours.empty()) {
         return;
     }
-    const std::vector<bool> gone = pictures_.mostly_transparent();
+    std::vector<bool> gone;
+    for (const BakedPictures::Cover& cover : pictures_.covers()) {
+        const bool is_glass = !glass_.empty() && glass_[gone.size()] < 1.0F;
+        gone.push_back(cover.opacity < mostly_there && !is_glass);
+    }
     const auto count = static_cast<std::size_t>(std::ranges::count(gone, true));
     const bool is_all = count == gone.size();
     if (count == 0 || (is_all && !is_part_)) {

@@ -89,6 +89,7 @@ private:
     bool is_clear(std::size_t triangle) const;
     float opacity_of(std::size_t triangle) const;
     void drop_invisible();
+    void find_glass();
     template <typename Kept>
     TriangleMesh part_of(const Kept& is_kept, std::vector<std::string>& notes) const;
     void finish_part();
@@ -109,6 +110,7 @@ private:
     std::vector<float> opacities_;      ///< one a material
     std::vector<bool> two_sided_;       ///< one a triangle
     std::vector<std::uint32_t> groups_; ///< one a triangle
+    std::vector<float> glass_;          ///< one a triangle: of a picture that is glass, else 1
     std::uint32_t group_ = no_index;
     bool is_two_sided_ = false;
     bool is_part_ = false; ///< of a larger mesh

@@ -115,12 +115,12 @@ TEST_CASE("the picture of an AC3D surface colours its vertices, if it is asked f
     CHECK(mesh.colours[2].z > 0.75F);
 }
 
-TEST_CASE("what is mostly transparent is left out, unless nothing else is there") {
+TEST_CASE("what is mostly transparent is left out or glass, unless nothing else is there") {
     const std::string plain = "OBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\n"
                               "mat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n";
     std::string two = square("0x0");
     two.replace(two.find("kids 1"), 6, "kids 2");
-    for (const std::uint32_t opacity : {255U, 20U}) {
+    for (const std::uint32_t opacity : {255U, 20U, 5U}) {
         file_with("two.bmp", tiff_of_opacity(opacity));
         const bool is_clear = opacity < 128U;
         const TriangleMesh mesh = read_mesh(file_with("two.ac", two + plain), {.pictures = true});
@@ -128,6 +128,13 @@ TEST_CASE("what is mostly transparent is left out, unless nothing else is there"
         CHECK(mesh.notes.size() == (is_clear ? 1U : 0U));
         const auto alone = file_with("alone.ac", square("0x0"));
         CHECK(read_mesh(alone, {.pictures = true}).triangles.size() == 2);
+        const MeshParts parts = read_parts(file_with("two.ac", two + plain), {.pictures = true});
+        CHECK(parts.body.triangles.size() == (is_clear ? 1U : 3U));
+        CHECK(parts.clear.mesh.triangles.size() == (opacity == 20U ? 2U : 0U));
+        CHECK(parts.body.notes.size() == (opacity == 5U ? 1U : 0U));
+        if (opacity == 20U) {
+            CHECK(parts.clear.opacity == Approx(20.0 / 255.0));
+        }
         if (is_clear) {
             CHECK(read_parts(alone, {.pictures = true}).body.triangles.empty());
             CHECK(read_turning_model(alone, {.pictures = true}).body.triangles.size() == 2);
