@@ -176,7 +176,8 @@ Command pictures_command() {
             options->quiet,
             {size_option(options->settings, "picture size in pixels"),
              context_option(options->settings),
-             read_option({"frames", "N", "pictures of each scene", 1, 1000}, options->frames)}),
+             read_option({"frames", "N", "pictures of each scene", 1, 1000}, options->frames),
+             jobs_option(options->jobs, "scenes at once")}),
         .footer = "Example:\n  octant study pictures --out tables",
         .run = [options] { studies::draw_order::study_pictures(*options); }};
 }
@@ -191,6 +192,7 @@ std::vector<Option> popping_options(studies::flicker::PoppingStudyOptions& optio
             {"error-px", "PIXELS", "screen-error: refined no further [0.25]", 0.001, 1e4},
             settings.ground.error_px),
         read_option({"frames", "N", "only the first of each path", 2, 1e7}, settings.time.frames),
+        jobs_option(options.jobs, "flights at once"),
         flag("--shimmer", "draw, and measure shimmer too", options.shimmer),
         read_option({"every", "N", "shimmer: one pair of frames in N", 2, 100000}, options.every)};
 }

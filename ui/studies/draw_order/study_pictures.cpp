@@ -1,6 +1,7 @@
 #include "ui/studies/draw_order/study_pictures.h"
 
 #include "sim/base/output_file.h"
+#include "sim/base/worker_team.h"
 #include "ui/base/progress.h"
 #include "ui/flight/session.h"
 #include "ui/report/html_text.h"
@@ -164,11 +165,12 @@ report::HtmlTable way_table(const std::vector<Qualities>& of_scenes) {
 
 void study_pictures(const PictureStudyOptions& options) {
     make_folder(options.out);
-    std::vector<Qualities> of_scenes;
-    of_scenes.reserve(studied_scenes.size());
-    for (const StudiedScene& studied : studied_scenes) {
-        of_scenes.push_back(measured(studied, options));
-    }
+    std::vector<Qualities> of_scenes(studied_scenes.size());
+    PictureStudyOptions of_scene = options;
+    of_scene.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
+    share_out(of_scenes.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
+        of_scenes[i] = measured(studied_scenes[i], of_scene);
+    });
     const std::array tables{scene_table(of_scenes, options), way_table(of_scenes)};
     const std::string markdown =
         report::markdown_of(tables[0]) + "\n" + report::markdown_of(tables[1]);

@@ -10,6 +10,7 @@ struct PictureStudyOptions {
     std::filesystem::path out;
     settings::RunSettings settings; ///< size, triangles and context are taken from it
     int frames = 4;                 ///< of each scene
+    int jobs = 1;                   ///< scenes at once
     bool json = false;              ///< print the tables as JSON instead of Markdown
     bool quiet = false;
 };

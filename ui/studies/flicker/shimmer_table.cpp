@@ -1,5 +1,6 @@
 #include "ui/studies/flicker/shimmer_table.h"
 
+#include "sim/base/worker_team.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/flight/flight_cameras.h"
@@ -96,20 +97,24 @@ report::HtmlTable shimmer_table(const ShimmerOptions& options) {
         "1 sample, geomorphs",
         "4 samples, no geomorphs",
         "4 samples, geomorphs"};
-    Change all;
-    for (const std::string_view name : base::built_in_paths) {
-        const std::string path(name);
+    std::vector<Change> changes(base::built_in_paths.size());
+    ShimmerOptions of_path = options;
+    of_path.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
+    share_out(changes.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
         settings::RunSettings settings = options.settings;
-        settings.path.name = path;
+        settings.path.name = std::string(base::built_in_paths[i]);
         settings.surface.shadows = false;
         settings.ground.mesh = scene::GroundMetric::ScreenError;
-        const Change change = shimmer_along(options, settings, samples);
-        add_change(table, path, change);
+        changes[i] = shimmer_along(of_path, settings, samples);
+    });
+    Change all;
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        add_change(table, std::string(base::built_in_paths[i]), changes[i]);
         for (std::size_t k = 0; k < samplings.size(); ++k) {
-            all.sum[k] += change.sum[k];
+            all.sum[k] += changes[i].sum[k];
         }
-        all.pairs += change.pairs;
-        all.pixels += change.pixels;
+        all.pairs += changes[i].pairs;
+        all.pixels += changes[i].pixels;
     }
     add_change(table, "all", all);
     table.note = "Every fourth pixel, both ways, of the later frame that shows ground which the "

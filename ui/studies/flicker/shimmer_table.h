@@ -9,6 +9,7 @@ namespace octant::ui::studies::flicker {
 struct ShimmerOptions {
     settings::RunSettings settings; ///< terrain, size, triangles, error_px, rate, frames, ...
     int every = 60;                 ///< a pair of consecutive frames in so many
+    int jobs = 1;                   ///< paths at once
     bool quiet = false;
 };
 

@@ -21,7 +21,9 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace octant::ui::studies::flicker {
@@ -104,37 +106,52 @@ void add_popping(
          fmt::format("{:.3f}", percentile_px(found.jumps_px, 500))});
 }
 
-report::HtmlTable popping_table(const PoppingStudyOptions& options) {
+using OfWays = std::array<Jumps, meshings.size()>;
+
+/// Of every built-in path by every meshing, `jobs` of these at once.
+std::vector<OfWays> jumps_of_paths(const PoppingStudyOptions& options) {
     const ui::terrain::LoadedGround ground = ui::terrain::load_ground(
         options.settings.path.terrain, world::import_options(options.settings.path));
-    std::vector<std::unique_ptr<ui::terrain::MeshMaker>> makers;
-    for (const Meshing& way : meshings) {
-        makers.push_back(ui::terrain::make_mesh_maker(ground, mesh_options(options.settings, way)));
+    std::vector<std::vector<flight::FlightCamera>> cameras;
+    for (const std::string_view name : base::built_in_paths) {
+        settings::RunSettings settings = options.settings;
+        settings.path.name = std::string(name);
+        cameras.push_back(flight::flight_cameras(settings));
     }
+    std::vector<OfWays> found(cameras.size());
+    base::Progress progress(
+        "popping", static_cast<int>(found.size() * meshings.size()), options.quiet, "flights");
+    int done = 0;
+    std::mutex telling;
+    share_out(
+        found.size() * meshings.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
+            const std::size_t path = i / meshings.size();
+            const std::size_t way = i % meshings.size();
+            const auto maker = ui::terrain::make_mesh_maker(
+                ground, mesh_options(options.settings, meshings[way]));
+            found[path][way] = jumps_along(*maker, options.settings, cameras[path]);
+            const std::scoped_lock lock(telling);
+            progress.show(++done, std::string(base::built_in_paths[path]));
+        });
+    progress.finish();
+    return found;
+}
+
+report::HtmlTable popping_table(const PoppingStudyOptions& options) {
     report::HtmlTable table;
     table.title = "Largest jump of a vertex from frame to frame";
     table.header = {"path", "mesh", "frames", "maximum px", "in frame", "99.9 % px", "median px"};
-    std::array<Jumps, meshings.size()> all;
-    for (const std::string_view name : base::built_in_paths) {
-        const std::string path(name);
-        settings::RunSettings settings = options.settings;
-        settings.path.name = path;
-        const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(settings);
-        base::say(options.quiet, fmt::format("{}: {} frames", path, cameras.size()));
-        std::array<Jumps, meshings.size()> found;
-        share_out(
-            meshings.size(),
-            static_cast<int>(meshings.size()),
-            [&](std::size_t way, std::size_t /*w*/) {
-                found[way] = jumps_along(*makers[way], settings, cameras);
-            });
+    const std::vector<OfWays> found = jumps_of_paths(options);
+    OfWays all;
+    for (std::size_t path = 0; path < found.size(); ++path) {
         for (std::size_t k = 0; k < meshings.size(); ++k) {
-            add_popping(table, path, meshings[k], found[k]);
-            const std::vector<double>& jumps_px = found[k].jumps_px;
-            all[k].jumps_px.insert(all[k].jumps_px.end(), jumps_px.begin(), jumps_px.end());
-            if (found[k].largest_px > all[k].largest_px) {
-                all[k].largest_px = found[k].largest_px;
-                all[k].largest_frame = found[k].largest_frame;
+            const Jumps& jumps = found[path][k];
+            add_popping(table, std::string(base::built_in_paths[path]), meshings[k], jumps);
+            all[k].jumps_px.insert(
+                all[k].jumps_px.end(), jumps.jumps_px.begin(), jumps.jumps_px.end());
+            if (jumps.largest_px > all[k].largest_px) {
+                all[k].largest_px = jumps.largest_px;
+                all[k].largest_frame = jumps.largest_frame;
             }
         }
     }
@@ -160,7 +177,7 @@ void study_popping(const PoppingStudyOptions& options) {
     std::vector<report::HtmlTable> tables = {popping_table(options)};
     std::vector<std::string> files = {"popping"};
     if (options.shimmer) {
-        tables.push_back(shimmer_table({options.settings, options.every, options.quiet}));
+        tables.push_back(shimmer_table({options.settings, options.every, options.jobs, options.quiet}));
         files.emplace_back("shimmer");
     }
     std::string markdown;

@@ -11,6 +11,7 @@ struct PoppingStudyOptions {
     settings::RunSettings settings; ///< terrain, size, triangles, error_px, rate, frames, ...
     bool shimmer = false;
     int every = 60; ///< shimmer: a pair of frames in so many
+    int jobs = 1;   ///< flights at once
     bool json = false;
     bool quiet = false;
 };
