@@ -6,6 +6,7 @@
 
 #include "sim/aircraft_kind.h"
 #include "sim/base/axes.h"
+#include "sim/base/format_once.h"
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>

@@ -1,5 +1,6 @@
 #include "models/meshfile/material_names.h"
 #include "models/meshfile/mesh_formats.h"
+#include "sim/base/format_once.h"
 
 #include <fmt/format.h>
 #include <iterator>

@@ -1,6 +1,7 @@
 #include "models/meshfile/material_names.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
+#include "sim/base/format_once.h"
 
 #include <fmt/format.h>
 #include <iterator>

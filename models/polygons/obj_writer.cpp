@@ -1,6 +1,7 @@
 #include "models/polygons/obj_writer.h"
 
 #include "models/polygons/obj_pivots.h"
+#include "sim/base/format_once.h"
 #include "sim/base/output_file.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 #include "tests/fuzz/obj_polygons.h"
 
 #include "sim/base/error.h"
+#include "sim/base/format_once.h"
 #include "sim/base/text_file.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 #include "ui/report/plots.h"
 
 #include "sim/base/error.h"
+#include "sim/base/format_once.h"
 #include "ui/report/child_program.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 #include "ui/report/timing_files.h"
 
+#include "sim/base/format_once.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

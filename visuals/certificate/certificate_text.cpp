@@ -1,5 +1,7 @@
 #include "visuals/certificate/certificate_text.h"
 
+#include "sim/base/format_once.h"
+
 #include <fmt/format.h>
 #include <iterator>
 #include <utility>

@@ -2,6 +2,8 @@
 // between body axes and the axes of a model file.
 #include "visuals/draworder/order_text.h"
 
+#include "sim/base/format_once.h"
+
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>

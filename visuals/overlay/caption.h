@@ -1,5 +1,7 @@
 #pragma once
 
+#include "sim/base/format_once.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -1,6 +1,7 @@
 #include "visuals/overlay/pitch_ladder.h"
 
 #include "sim/base/axes.h"
+#include "sim/base/format_once.h"
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>
