@@ -27,9 +27,6 @@ using polygons::Pivot;
 using polygons::PolygonModel;
 using Outline = std::vector<std::uint32_t>;
 
-/// What lies nearer is meant to touch. Files with six decimals or in single precision are no finer,
-/// and of a model that was turned nobody can tell how finely it was written.
-constexpr double reach = 1e-6;
 /// No point moves farther than so many times the reach.
 constexpr double moves_in_reaches = 4.0;
 /// A polygon whose height over its longest side is less has no area.
@@ -112,9 +109,9 @@ std::vector<std::uint32_t> pivots_of_vertices(const PolygonModel& model) {
 /// Moves the vertices, in radii, and tells which polygons stay bent.
 std::vector<bool> move_vertices(PolygonModel& model) {
     const auto kind = pivots_of_vertices(model);
-    const auto places = one_place(model.vertices_m, kind, reach);
-    const auto incidences = incidences_of(model, model.vertices_m, places, kind, reach);
-    auto bent = planarize(model.vertices_m, incidences, moves_in_reaches * reach);
+    const auto places = one_place(model.vertices_m, kind, touching_reach);
+    const auto incidences = incidences_of(model, model.vertices_m, places, kind, touching_reach);
+    auto bent = planarize(model.vertices_m, incidences, moves_in_reaches * touching_reach);
     for (std::size_t i = 0; i < places.size(); ++i) {
         model.vertices_m[i] = model.vertices_m[places[i]];
     }

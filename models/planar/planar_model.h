@@ -13,6 +13,11 @@ namespace octant::models::planar {
 /// with ten times less noise.
 inline constexpr double planar_tolerance = 1e-9;
 
+/// What lies nearer than this is meant to touch, in radii of the model. Files with six decimals or
+/// in single precision are no finer, and of a model that was turned nobody can tell how finely it
+/// was written.
+inline constexpr double touching_reach = 1e-6;
+
 /// A polygon model about the middle of its bounding box, in units of its radius there, with planar
 /// convex polygons.
 struct PlanarModel {

@@ -1,6 +1,7 @@
 #include "models/planar/side_corners.h"
 
 #include "models/planar/near_vertices.h"
+#include "models/planar/planar_model.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -16,8 +17,9 @@ namespace {
 
 using polygons::PolygonModel;
 
-/// In diagonals of the model's box.
-constexpr double reach_sizes = 1e-6;
+/// A corner within the reach of a side and the side itself may both have been moved since, when
+/// their polygons were made planar.
+constexpr double in_reaches = 2.0;
 
 /// The corners of one turning part, or of all that stands still.
 struct PartCorners {
@@ -41,14 +43,15 @@ std::vector<PartCorners> corners_of_parts(const PolygonModel& model) {
     return parts;
 }
 
-double size_m_of(const PolygonModel& model) {
+/// Half the diagonal of the box around all corners.
+double radius_m_of(const PolygonModel& model) {
     glm::dvec3 least_m(std::numeric_limits<double>::max());
     glm::dvec3 most_m(std::numeric_limits<double>::lowest());
     for (const std::uint32_t vertex : model.corner_vertices) {
         least_m = glm::min(least_m, model.vertices_m[vertex]);
         most_m = glm::max(most_m, model.vertices_m[vertex]);
     }
-    return model.corner_vertices.empty() ? 0.0 : glm::distance(least_m, most_m);
+    return model.corner_vertices.empty() ? 0.0 : glm::distance(least_m, most_m) / 2.0;
 }
 
 /// Finds what lies on sides, side after side.
@@ -56,7 +59,7 @@ class Search {
 public:
     explicit Search(const PolygonModel& model)
         : model_(model)
-        , reach_m_(reach_sizes * size_m_of(model))
+        , reach_m_(in_reaches * touching_reach * radius_m_of(model))
         , parts_(corners_of_parts(model)) {
         for (const PartCorners& part : parts_) {
             near_.emplace_back(part.places_m);

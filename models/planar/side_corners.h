@@ -15,7 +15,7 @@ struct SideCorner {
     double share = 0.0; ///< of the side that lies before it, 0 to 1
 };
 
-/// All corners that lie within 1e-6 of the model's size of a side of a polygon of the same turning
+/// All corners that lie within twice the touching_reach of a side of a polygon of the same turning
 /// part: polygon after polygon, along its sides; of corners in one place only one.
 std::vector<SideCorner> side_corners(const polygons::PolygonModel& model);
 

@@ -62,8 +62,9 @@ public:
     BufferMaker(const models::polygons::PolygonModel& model, std::span<const glm::vec3> normals)
         : model_(model)
         , normals_(normals) {
-        for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        for (std::uint32_t i = 0; i < model.polygons.size(); ++i) {
             add_corners(i);
+            apexes_.push_back(fan_corner(model, i));
         }
     }
 
@@ -75,7 +76,7 @@ public:
         for (const std::uint32_t polygon : polygons) {
             const auto [first, count] = std::pair(
                 model_.polygons[polygon].first_corner, model_.polygons[polygon].corner_count);
-            const std::uint32_t apex = fan_corner(model_, polygon);
+            const std::uint32_t apex = apexes_[polygon];
             for (std::uint32_t corner = apex + 2; corner < apex + count; ++corner) {
                 buffers_.indices.insert(
                     buffers_.indices.end(),
@@ -110,16 +111,18 @@ private:
 
     const models::polygons::PolygonModel& model_;
     std::span<const glm::vec3> normals_;
+    std::vector<std::uint32_t> apexes_; ///< the fan's first corner of each polygon
     scene::ModelBuffers buffers_;
 };
 
-/// Makes what touches a side of a polygon a corner of it, so that both are rounded alike on the
-/// screen: where a side has no corner of its own in such a place, single pixels between the two may
-/// belong to neither. Normals there are those of the side.
-void close_sides(models::polygons::PolygonModel& model, std::vector<glm::vec3>& normals) {
+/// A model in which what touches a side of a polygon is a corner of it, so that both are rounded
+/// alike on the screen: where a side has no corner of its own in such a place, single pixels
+/// between the two may belong to neither. Normals there are those of the side.
+models::polygons::PolygonModel
+closed(models::polygons::PolygonModel model, std::vector<glm::vec3>& normals) {
     const auto on_sides = models::planar::side_corners(model);
     if (on_sides.empty()) {
-        return;
+        return model;
     }
     std::vector<std::uint32_t> corners;
     std::vector<glm::vec3> corner_normals;
@@ -143,6 +146,17 @@ void close_sides(models::polygons::PolygonModel& model, std::vector<glm::vec3>& 
     }
     model.corner_vertices = std::move(corners);
     normals = std::move(corner_normals);
+    return model;
+}
+
+std::vector<std::uint32_t> first_vertices_of(const models::polygons::PolygonModel& closed) {
+    std::vector<std::uint32_t> first;
+    first.reserve(closed.polygons.size() + 1);
+    for (const models::polygons::Polygon& polygon : closed.polygons) {
+        first.push_back(polygon.first_corner);
+    }
+    first.push_back(static_cast<std::uint32_t>(closed.corner_vertices.size()));
+    return first;
 }
 
 /// Where the triangles of each polygon of a list begin, and where those of the last one end.
@@ -177,10 +191,10 @@ AircraftModel aircraft_model(
         normals = shading::corner_normals(polygons);
     }
     assert(normals.size() == polygons.corner_vertices.size());
-    close_sides(polygons, normals);
-    shading::ShadedPolygons shaded = shading::shaded_polygons(polygons, normals);
-    BufferMaker maker(polygons, normals);
-    std::vector<std::uint32_t> first_indices = first_indices_of(polygons, order.polygons());
+    const models::polygons::PolygonModel drawn = closed(polygons, normals);
+    shading::ShadedPolygons shaded = shading::shaded_polygons(drawn, normals);
+    BufferMaker maker(drawn, normals);
+    std::vector<std::uint32_t> first_indices = first_indices_of(drawn, order.polygons());
     maker.append(order.polygons());
     std::vector<std::uint32_t> file_list = models::polygons::polygons_without_repeats(polygons);
     const scene::IndexRange all = maker.append(file_list);
@@ -191,6 +205,7 @@ AircraftModel aircraft_model(
         std::move(polygons),
         std::move(order),
         std::move(buffers),
+        first_vertices_of(drawn),
         std::move(first_indices),
         all,
         std::move(file_list),

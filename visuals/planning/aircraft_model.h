@@ -18,14 +18,16 @@
 
 namespace octant::visuals::planning {
 
-/// A model as drawn. As polygons: one vertex a polygon corner, in the order of
-/// PolygonModel::corner_vertices; one index buffer that holds the polygons of the order's flat list
-/// and, behind them, all polygons in file order. As meshes, where it has levels of detail: behind
-/// both.
+/// A model as drawn. As polygons: the vertices of polygon after polygon, one a corner and one where
+/// another polygon's corner lies on a side; one index buffer that holds the polygons of the order's
+/// flat list and, behind them, all polygons in file order. As meshes, where it has levels of
+/// detail: behind both.
 struct AircraftModel {
-    models::polygons::PolygonModel polygons;
+    models::polygons::PolygonModel polygons; ///< that the order speaks of
     draworder::DrawOrder order;
     scene::ModelBuffers buffers;
+    /// Where the vertices of each polygon begin, and those of the last one end.
+    std::vector<std::uint32_t> first_vertices;
     /// Where each polygon of order.polygons() begins in the index buffer, and the last one ends.
     std::vector<std::uint32_t> first_indices;
     scene::IndexRange file_order;
@@ -45,6 +47,11 @@ struct AircraftModel {
     /// polygons have the number 0 each.
     scene::IndexRange clear{};
     float opacity = 1.0F; ///< of the clear surfaces
+
+    /// How many indices draw a polygon.
+    std::uint32_t index_count_of(std::uint32_t polygon) const {
+        return 3 * (first_vertices[polygon + 1] - first_vertices[polygon] - 2);
+    }
 
     /// Number of the representation by polygons.
     std::size_t as_polygons() const { return errors_m.size() - 1; }

@@ -54,15 +54,15 @@ scene::ModelBuffers numbered(const AircraftModel& model, std::uint32_t first) {
             number_mask,
             model.polygons.name));
     }
-    for (std::size_t polygon = 0; polygon < model.polygons.polygons.size(); ++polygon) {
-        const models::polygons::Polygon& range = model.polygons.polygons[polygon];
+    const std::vector<std::uint32_t>& begins = model.first_vertices;
+    for (std::size_t polygon = 0; polygon + 1 < begins.size(); ++polygon) {
         const std::uint32_t id = first + model.polygons.parent_of(polygon);
-        for (std::uint32_t corner = 0; corner < range.corner_count; ++corner) {
-            buffers.vertices[range.first_corner + corner].face_colour = opaque | aircraft_bit | id;
+        for (std::uint32_t i = begins[polygon]; i < begins[polygon + 1]; ++i) {
+            buffers.vertices[i].face_colour = opaque | aircraft_bit | id;
         }
     }
     // Behind them those of the levels of detail: one of them begins each triangle.
-    for (std::size_t i = model.polygons.corner_vertices.size(); i < buffers.vertices.size(); ++i) {
+    for (std::size_t i = begins.back(); i < buffers.vertices.size(); ++i) {
         const auto id = static_cast<std::uint32_t>(first + count + i);
         buffers.vertices[i].face_colour = opaque | aircraft_bit | id;
     }

@@ -11,8 +11,8 @@ namespace octant::visuals::planning {
 
 void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, SightPolygon& placed) {
     const models::polygons::PolygonModel& model = aircraft.model->polygons;
-    const std::uint32_t first_corner = model.polygons[polygon].first_corner;
-    const glm::dmat4& part = aircraft.parts[aircraft.model->buffers.vertices[first_corner].part];
+    const std::uint32_t first_vertex = aircraft.model->first_vertices[polygon];
+    const glm::dmat4& part = aircraft.parts[aircraft.model->buffers.vertices[first_vertex].part];
     placed.clear();
     for (const std::uint32_t vertex : model.corners(polygon)) {
         placed.push_back({glm::dvec3(part * glm::dvec4(model.vertices_m[vertex], 1.0)), false});
@@ -39,10 +39,6 @@ draw_of(const PlacedAircraft& aircraft, std::uint32_t first_index, std::uint32_t
     draw.first_smooth = aircraft.first_smooth;
     draw.tints = aircraft.tints;
     return draw;
-}
-
-std::uint32_t index_count_of(const models::polygons::Polygon& polygon) {
-    return 3 * (polygon.corner_count - 2);
 }
 
 void place_parts(

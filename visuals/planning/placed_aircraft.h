@@ -65,9 +65,6 @@ scene::AircraftDraw draw_of(const PlacedAircraft& aircraft);
 scene::AircraftDraw
 draw_of(const PlacedAircraft& aircraft, std::uint32_t first_index, std::uint32_t index_count);
 
-/// Number of indices of a polygon as a fan of triangles.
-std::uint32_t index_count_of(const models::polygons::Polygon& polygon);
-
 /// The body matrix of an aircraft and one matrix for each pivot of its model, at a time.
 void place_parts(
     const models::polygons::PolygonModel& model,

@@ -72,7 +72,7 @@ int PolygonRepaint::paint_range(
         own.list.subspan(range.first_polygon, static_cast<std::size_t>(range.polygons));
     for (const std::uint32_t polygon : polygons) {
         const std::uint32_t first = next;
-        next += index_count_of(own.model->polygons.polygons[polygon]);
+        next += own.model->index_count_of(polygon);
         place_polygon(own, polygon, polygon_);
         const Plane plane = plane_of(polygon_);
         if (plane.offset_m <= 0.0) {

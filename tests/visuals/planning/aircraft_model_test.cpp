@@ -7,9 +7,31 @@
 #include <glm/geometric.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 
 using namespace octant;
+
+namespace {
+
+/// The polygons that the vertices of a model as drawn make.
+models::polygons::PolygonModel as_drawn(const visuals::planning::AircraftModel& aircraft) {
+    models::polygons::PolygonModel drawn = aircraft.polygons;
+    drawn.vertices_m.clear();
+    drawn.corner_vertices.clear();
+    for (const auto& vertex : aircraft.buffers.vertices) {
+        drawn.corner_vertices.push_back(static_cast<std::uint32_t>(drawn.vertices_m.size()));
+        drawn.vertices_m.emplace_back(vertex.position_m);
+    }
+    for (std::size_t i = 0; i < drawn.polygons.size(); ++i) {
+        drawn.polygons[i].first_corner = aircraft.first_vertices[i];
+        drawn.polygons[i].corner_count =
+            aircraft.first_vertices[i + 1] - aircraft.first_vertices[i];
+    }
+    return drawn;
+}
+
+} // namespace
 
 TEST_CASE("what touches a side of a polygon is a corner of it as it is drawn") {
     models::polygons::PolygonModel model = tests::box_model(glm::dvec3(1.0));
@@ -18,11 +40,12 @@ TEST_CASE("what touches a side of a polygon is a corner of it as it is drawn") {
     model.corner_vertices.insert(model.corner_vertices.end(), {24, 25, 26});
     const visuals::planning::AircraftModel aircraft = tests::convex_aircraft(model);
     int with_five = 0;
-    for (const auto& polygon : aircraft.polygons.polygons) {
-        with_five += polygon.corner_count == 5 ? 1 : 0;
+    for (std::uint32_t i = 0; i < model.polygons.size(); ++i) {
+        with_five += aircraft.index_count_of(i) == 9 ? 1 : 0;
     }
     CHECK(with_five == 2); // the sides of two squares meet there
-    CHECK(models::planar::side_corners(aircraft.polygons).empty());
+    CHECK(models::planar::side_corners(as_drawn(aircraft)).empty());
+    CHECK(aircraft.polygons.corner_vertices == model.corner_vertices); // that the order speaks of
     CHECK(aircraft.buffers.vertices.size() == 6 * 4 + 2 + 3);
     CHECK(aircraft.file_order.index_count == 3 * (2 * 3 + 4 * 2 + 1));
     CHECK(aircraft.first_indices.back() == aircraft.file_order.index_count);
@@ -34,7 +57,7 @@ TEST_CASE("no corner of the F-15 as it is drawn lies on a side without one") {
     REQUIRE(models::planar::side_corners(given).size() == 6);
     const auto aircraft = tests::convex_aircraft(given);
     CHECK(aircraft.polygons.polygons.size() == given.polygons.size());
-    CHECK(models::planar::side_corners(aircraft.polygons).empty());
+    CHECK(models::planar::side_corners(as_drawn(aircraft)).empty());
 }
 
 TEST_CASE("no triangle of a polygon with several corners on one side is a sliver") {
