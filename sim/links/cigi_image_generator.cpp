@@ -25,7 +25,7 @@ bool keep(std::map<std::uint16_t, Value>& kept, std::uint16_t id, Value value, s
 
 } // namespace
 
-Verdict CigiImageGenerator::take(Bytes message, std::vector<Fix>& moved) {
+Verdict CigiImageGenerator::take(Bytes message, std::vector<Fix>& moved, double arrival_s) {
     moved.clear();
     std::vector<CigiPacket> packets;
     const Verdict verdict = decode_cigi(message, packets);
@@ -35,7 +35,7 @@ Verdict CigiImageGenerator::take(Bytes message, std::vector<Fix>& moved) {
     has_host_ = true;
     std::vector<std::uint16_t> touched;
     for (const CigiPacket& packet : packets) {
-        take(packet, touched);
+        take(packet, arrival_s, touched);
     }
     std::ranges::sort(touched);
     touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
@@ -52,7 +52,8 @@ Verdict CigiImageGenerator::take(Bytes message, std::vector<Fix>& moved) {
     return verdict;
 }
 
-void CigiImageGenerator::take(const CigiPacket& packet, std::vector<std::uint16_t>& touched) {
+void CigiImageGenerator::take(
+    const CigiPacket& packet, double arrival_s, std::vector<std::uint16_t>& touched) {
     if (const auto* control = std::get_if<CigiIgControl>(&packet)) {
         control_ = *control;
     } else if (const auto* entity = std::get_if<CigiEntityControl>(&packet)) {
@@ -71,17 +72,17 @@ void CigiImageGenerator::take(const CigiPacket& packet, std::vector<std::uint16_
         take_entity(placed);
         touched.push_back(clamped->entity);
     } else if (const auto* rate = std::get_if<CigiRate>(&packet)) {
-        const auto known = entities_.find(rate->entity);
-        if (known != entities_.end() && !rate->of_part) {
-            known->second.rate = *rate;
-            touched.push_back(rate->entity);
+        take_rate(*rate, arrival_s, touched);
+    } else if (const auto* part = std::get_if<CigiPart>(&packet)) {
+        if (entities_.contains(part->entity)) {
+            parts_.take(*part, arrival_s);
         }
     } else if (const auto* atmosphere = std::get_if<CigiAtmosphere>(&packet)) {
         atmosphere_ = *atmosphere;
     } else if (const auto* celestial = std::get_if<CigiCelestial>(&packet)) {
         celestial_ = *celestial;
     } else if (const auto* view = std::get_if<CigiViewControl>(&packet)) {
-        keep(views_, view->view, *view, most_views);
+        take_view(*view);
     } else if (const auto* definition = std::get_if<CigiViewDefinition>(&packet)) {
         keep(definitions_, definition->view, *definition, most_views);
     } else if (const auto* height = std::get_if<CigiHeightRequest>(&packet)) {
@@ -95,8 +96,43 @@ void CigiImageGenerator::take(const CigiPacket& packet, std::vector<std::uint16_
     }
 }
 
+void CigiImageGenerator::take_rate(
+    const CigiRate& rate, double arrival_s, std::vector<std::uint16_t>& touched) {
+    const auto known = entities_.find(rate.entity);
+    if (known == entities_.end()) {
+        return;
+    }
+    if (rate.of_part) {
+        parts_.take(rate, arrival_s);
+    } else {
+        known->second.rate = rate;
+        touched.push_back(rate.entity);
+    }
+}
+
+/// A view control of a group is one of each view that was defined to be in it.
+void CigiImageGenerator::take_view(const CigiViewControl& view) {
+    if (view.group == 0) {
+        keep(views_, view.view, view, most_views);
+        return;
+    }
+    for (const auto& [number, definition] : definitions_) {
+        if (definition.group == view.group) {
+            CigiViewControl member = view;
+            member.view = number;
+            keep(views_, number, member, most_views);
+        }
+    }
+}
+
+std::optional<std::uint16_t> CigiImageGenerator::type_of(std::uint16_t entity) const {
+    const auto known = entities_.find(entity);
+    return known == entities_.end() ? std::nullopt : std::optional(known->second.control.type);
+}
+
 void CigiImageGenerator::take_entity(const CigiEntityControl& control) {
     if (control.state != 1) {
+        parts_.forget(control.entity);
         if (entities_.erase(control.entity) > 0) {
             removed_.push_back(control.entity);
         }
@@ -233,89 +269,6 @@ Fix CigiImageGenerator::fix_of(std::uint16_t number, const Entity& entity) const
         fix.tick_s = 1.0 / second_in_ticks;
     }
     return fix;
-}
-
-void CigiImageGenerator::answer_height(
-    const CigiHeightRequest& request, std::uint8_t host_frame, WireWriter& message) const {
-    const auto place = place_from(request.from_entity, request.entity, request.place);
-    const auto surface = place && ground_ != nullptr ? ground_->below(*place) : std::nullopt;
-    const CigiAnswerHead head{request.id, surface.has_value(), host_frame};
-    const double hat_m = surface ? place->z - surface->place.z : 0.0;
-    if (request.kind == CigiHeight::Extended) {
-        add_heights(message, head, hat_m, surface.value_or(CigiSurface{}));
-        return;
-    }
-    const double hot_m = surface ? surface->place.z : 0.0;
-    add_height(message, head, request.kind, request.kind == CigiHeight::Hat ? hat_m : hot_m);
-}
-
-void CigiImageGenerator::answer_sight(
-    const CigiSightRequest& request, std::uint8_t host_frame, WireWriter& message) const {
-    const auto from = place_from(request.from_entity, request.entity, request.source);
-    std::optional<glm::dvec3> to;
-    if (from && ground_ != nullptr && request.is_vector) {
-        const EulerAngles direction{request.azimuth_rad, request.elevation_rad, 0.0};
-        glm::dmat3 turn = ned_from_body(direction);
-        if (request.from_entity) {
-            turn = ned_from_body(attitude_of(request.entity)) * turn;
-        }
-        to = ground_->moved(*from, turn * glm::dvec3(request.most_m, 0.0, 0.0));
-    } else {
-        const std::uint16_t entity = request.to_is_given ? request.to : request.entity;
-        to = place_from(request.to_entity, entity, request.destination);
-    }
-    const bool known = from && to && ground_ != nullptr && ground_->below(*from);
-    CigiSight sight;
-    if (known) {
-        const auto met = ground_->first_met(*from, *to);
-        const bool counts = met && (!request.is_vector || met->range_m >= request.least_m);
-        sight.visible = !counts;
-        if (counts) {
-            sight.range_m = met->range_m;
-            sight.met = met->surface;
-        } else if (!request.is_vector) {
-            sight.range_m = ground_->distance_m(*from, *to);
-            sight.met = CigiSurface{*to, 0.0, 0.0};
-        }
-    }
-    add_sight(message, {request.id, known, host_frame}, request.extended, sight);
-}
-
-/// Nothing is answered for what is no entity or not known.
-void CigiImageGenerator::answer_position(
-    const CigiPositionRequest& request, WireWriter& message) const {
-    const auto place = place_of(request.object);
-    if (request.object_class == 0 && place) {
-        add_position(message, request.object, *place, attitude_of(request.object));
-    }
-}
-
-void CigiImageGenerator::answer(const Answer& answer, WireWriter& message) const {
-    if (const auto* height = std::get_if<CigiHeightRequest>(&answer.request)) {
-        answer_height(*height, answer.host_frame, message);
-    } else if (const auto* sight = std::get_if<CigiSightRequest>(&answer.request)) {
-        answer_sight(*sight, answer.host_frame, message);
-    } else {
-        answer_position(std::get<CigiPositionRequest>(answer.request), message);
-    }
-}
-
-std::vector<std::byte> CigiImageGenerator::message_for(std::uint32_t ig_frame, double time_s) {
-    ask_periodic();
-    constexpr double second_in_ticks = 1e5;
-    WireWriter message(ByteOrder::Big);
-    add_start_of_frame(
-        message,
-        {ig_frame,
-         control_.host_frame,
-         static_cast<std::uint32_t>(std::llround(time_s * second_in_ticks) & 0xffffffffLL),
-         has_host_ ? control_.mode : CigiMode::Standby,
-         control_.database});
-    while (!waiting_.empty() && message.size() + cigi_largest_answer <= most_message_bytes) {
-        answer(waiting_.front(), message);
-        waiting_.pop_front();
-    }
-    return message.take();
 }
 
 } // namespace octant::sim::links

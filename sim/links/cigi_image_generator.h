@@ -2,6 +2,7 @@
 
 #include "sim/links/cigi_answers.h"
 #include "sim/links/cigi_packets.h"
+#include "sim/links/cigi_parts.h"
 
 #include <array>
 #include <cstdint>
@@ -56,9 +57,9 @@ public:
     explicit CigiImageGenerator(const CigiGround* ground)
         : ground_(ground) {}
 
-    /// Takes a message of the host. Returns the entities that it moved, as fixes, by their
-    /// numbers.
-    Verdict take(Bytes message, std::vector<Fix>& moved);
+    /// Takes a message of the host that came at a time. Returns the entities that it moved, as
+    /// fixes, by their numbers.
+    Verdict take(Bytes message, std::vector<Fix>& moved, double arrival_s = 0.0);
 
     /// The message for a picture: Start of Frame, then answers as far as they fit; others wait.
     std::vector<std::byte> message_for(std::uint32_t ig_frame, double time_s);
@@ -82,6 +83,11 @@ public:
 
     const std::map<std::uint16_t, CigiViewDefinition>& definitions() const { return definitions_; }
 
+    const CigiParts& parts() const { return parts_; }
+
+    /// The type of an entity that is there.
+    std::optional<std::uint16_t> type_of(std::uint16_t entity) const;
+
     /// Packets that were not understood, by opcode.
     const std::array<long, 256>& unknown() const { return unknown_; }
 
@@ -96,8 +102,10 @@ private:
         std::uint8_t host_frame = 0;
     };
 
-    void take(const CigiPacket& packet, std::vector<std::uint16_t>& touched);
+    void take(const CigiPacket& packet, double arrival_s, std::vector<std::uint16_t>& touched);
     void take_entity(const CigiEntityControl& control);
+    void take_rate(const CigiRate& rate, double arrival_s, std::vector<std::uint16_t>& touched);
+    void take_view(const CigiViewControl& view);
     void ask(const CigiHeightRequest& request);
     void ask(const CigiSightRequest& request);
     void ask(const CigiPositionRequest& request);
@@ -117,6 +125,7 @@ private:
     bool has_host_ = false;
     CigiIgControl control_;
     std::map<std::uint16_t, Entity> entities_;
+    CigiParts parts_;
     std::map<std::uint16_t, CigiViewControl> views_;
     std::map<std::uint16_t, CigiViewDefinition> definitions_;
     std::map<std::uint16_t, CigiHeightRequest> heights_; ///< periodic

@@ -102,6 +102,7 @@ std::optional<CigiPacket> read_clamped(const WireReader& reader) {
 std::optional<CigiPacket> read_rate(const WireReader& reader) {
     CigiRate rate;
     rate.entity = reader.at<std::uint16_t>(2);
+    rate.part = reader.at<std::uint8_t>(4);
     rate.of_part = bits(reader, 5, 0, 1) != 0;
     rate.local = bits(reader, 5, 1, 1) != 0;
     rate.mps = floats(reader, 8);
@@ -116,13 +117,20 @@ std::optional<CigiPacket> read_part(const WireReader& reader) {
     part.entity = reader.at<std::uint16_t>(2);
     part.part = reader.at<std::uint8_t>(4);
     part.enabled = bits(reader, 5, 0, 1) != 0;
+    for (unsigned i = 0; i < 3; ++i) {
+        constexpr unsigned roll = 4;
+        part.sets[static_cast<int>(i)] = bits(reader, 5, roll + i, 1) != 0;
+    }
     part.angles = angles_at(reader, 20);
     return finite(part.angles) ? std::optional<CigiPacket>(part) : std::nullopt;
 }
 
 std::optional<CigiPacket> read_celestial(const WireReader& reader) {
     const CigiCelestial celestial{
-        reader.at<std::uint8_t>(2), reader.at<std::uint8_t>(3), reader.at<std::uint32_t>(8)};
+        bits(reader, 4, 4, 1) != 0,
+        reader.at<std::uint8_t>(2),
+        reader.at<std::uint8_t>(3),
+        reader.at<std::uint32_t>(8)};
     const bool is_time = celestial.hour < 24 && celestial.minute < 60;
     return is_time ? std::optional<CigiPacket>(celestial) : std::nullopt;
 }

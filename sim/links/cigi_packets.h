@@ -51,6 +51,7 @@ struct CigiClamped {
 
 struct CigiRate {
     std::uint16_t entity = 0;
+    std::uint8_t part = 0;
     bool of_part = false;
     bool local = false; ///< along the body's axes, else north, east, down
     glm::dvec3 mps{0.0};
@@ -61,10 +62,13 @@ struct CigiPart {
     std::uint16_t entity = 0;
     std::uint8_t part = 0;
     bool enabled = false;
+    glm::bvec3 sets{false}; ///< roll, pitch, yaw; others stay as they are
     EulerAngles angles;
 };
 
+/// A time of day, taken as universal, and its date.
 struct CigiCelestial {
+    bool is_valid = false;
     int hour = 0;
     int minute = 0;
     std::uint32_t date = 0; ///< month, day, year as decimals

@@ -151,7 +151,7 @@ LiveTraffic::Taken LiveTraffic::take_dis(const Datagram& datagram) {
 
 LiveTraffic::Taken LiveTraffic::take_cigi(const Datagram& datagram) {
     std::vector<Fix> moved;
-    Verdict verdict = cigi_.take(datagram.bytes, moved);
+    Verdict verdict = cigi_.take(datagram.bytes, moved, datagram.arrival_s);
     if (verdict.fault == Fault::None) {
         verdict.size = 0; // Messages differ in length and are told once.
     }

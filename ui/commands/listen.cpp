@@ -231,6 +231,21 @@ std::vector<Option> listen_options(ListenOptions& options) {
              1,
              256},
             options.vehicles),
+        text_option(
+            "--entities",
+            "FILE.toml",
+            "what types of CIGI entities are: tables [[entity]] with type, aircraft and count; the "
+            "aircraft are those of the file",
+            options.entities),
+        read_option(
+            {"cigi-view",
+             "N",
+             "show this view of a CIGI host, and its next one in the --inset [the one of the "
+             "lowest "
+             "number]",
+             0,
+             65535},
+            options.listener.live.view),
         read_option(
             {"delay",
              "S",

@@ -5,6 +5,7 @@
 #include "ui/flight/listener.h"
 #include "ui/settings/settings.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,10 @@ namespace octant::ui::commands {
 struct ListenOptions {
     settings::RunSettings settings;
     flight::ListenerOptions listener;
-    int vehicles = 16;             ///< that are shown, at least as many as there are aircraft
-    std::vector<std::string> send; ///< to whom, as flight::Sender has it
-    flight::RecordOptions record;  ///< without a window
+    int vehicles = 16;                   ///< that are shown, at least as many as there are aircraft
+    std::optional<std::string> entities; ///< file of world::read_entity_table
+    std::vector<std::string> send;       ///< to whom, as flight::Sender has it
+    flight::RecordOptions record;        ///< without a window
     bool json = false;
     bool quiet = false;
 };

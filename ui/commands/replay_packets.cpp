@@ -28,6 +28,7 @@ std::unique_ptr<flight::LiveFlight> fly_packets(
         if (of_frame.has_words) {
             session.set_words(of_frame.words);
         }
+        live->prepare(session);
         report::FrameRecord record = session.draw_at(of_frame.time_s, std::nullopt);
         live->fill_in(record, of_frame.time_s);
         recorder.add(record, session);

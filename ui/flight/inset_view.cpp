@@ -70,12 +70,14 @@ void InsetView::follow(const settings::RunSettings& settings) {
 const scene::FramePlan& InsetView::plan(
     const scene::Camera& camera,
     std::span<const sim::AircraftState> states,
+    std::span<const planning::TurnedPart> turned,
     std::optional<double> smooth_share) {
     if (std::exchange(settles_, false)) {
         planner_->settle(camera);
     }
     planning::PlanRequest request{camera, states};
     request.smooth.share = smooth_share;
+    request.turned = turned;
     return planner_->plan(request).plan;
 }
 

@@ -46,6 +46,7 @@ public:
     const visuals::scene::FramePlan& plan(
         const visuals::scene::Camera& camera,
         std::span<const sim::AircraftState> states,
+        std::span<const visuals::planning::TurnedPart> turned,
         std::optional<double> smooth_share);
 
 private:

@@ -54,6 +54,7 @@ std::optional<double> Listener::take(Session& session) {
     if (options_.live.step && !moved) {
         return std::nullopt;
     }
+    live_->prepare(session);
     const double time_s =
         options_.live.step ? static_cast<double>(++pictures_) / session.rate_hz() : input_.now_s();
     if (time_s >= words_at_s_) {
@@ -91,6 +92,7 @@ void Listener::call_hosts() {
 void Listener::finish() {
     if (writer_) {
         writer_->finish();
+        writer_.reset();
     }
 }
 

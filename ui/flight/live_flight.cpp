@@ -1,24 +1,22 @@
 #include "ui/flight/live_flight.h"
 
-#include "sim/base/axes.h"
-
-#include <glm/gtc/quaternion.hpp>
+#include "ui/flight/cigi_air.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <fmt/format.h>
+#include <limits>
 #include <utility>
 
 namespace octant::ui::flight {
-
-namespace scene = visuals::scene;
 
 namespace {
 
 /// Where nobody sees an aircraft that nobody flies.
 constexpr glm::dvec3 out_of_sight_m(0.0, 0.0, sim::links::LiveTraffic::hidden_m);
-constexpr double usual_fov_rad = 0.785398163397448;
+constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 
 constexpr std::array<std::pair<LiveChannel, std::string_view>, 3> channels{
     {{LiveChannel::Front, "front"}, {LiveChannel::Left, "left"}, {LiveChannel::Right, "right"}}};
@@ -37,6 +35,7 @@ std::string_view name_of(LiveChannel channel) {
 
 LiveFlight::LiveFlight(const LiveOptions& options, const world::World& world)
     : options_(options)
+    , world_(world)
     , place_(world, options.height)
     , cigi_ground_(world, place_)
     , traffic_(
@@ -49,94 +48,123 @@ void LiveFlight::states_at(double time_s, std::span<sim::AircraftState> states) 
     of_vehicles_.resize(states.size());
     const std::size_t shown = options_.step ? traffic_.show_newest(time_s, of_vehicles_)
                                             : traffic_.show(time_s, options_.delay_s, of_vehicles_);
-    give_places(shown, states.size());
+    give_places(shown);
     for (std::size_t i = 1; i < states.size(); ++i) {
         states[i].position_m = out_of_sight_m;
     }
     for (std::size_t i = 0; i < shown; ++i) {
-        states[places_[i]] = of_vehicles_[i];
+        states[places_[i].aircraft] = of_vehicles_[i];
     }
     for (sim::AircraftState& state : states) {
         state.time_s = time_s;
     }
+    turn_parts(time_s);
 }
 
-/// Gives the first vehicles an aircraft each; those that have one keep it.
-void LiveFlight::give_places(std::size_t vehicles, std::size_t aircraft) {
-    const auto is_taken = [this](std::size_t place) {
-        return std::ranges::find(places_, place) != places_.end();
+/// The aircraft that shows what this vehicle is said to be: the free ones from its own number on,
+/// for entities of a type that has a shape those of that shape first.
+std::size_t
+LiveFlight::free_place(const sim::links::VehicleKey& key, std::optional<std::uint16_t> type) const {
+    const std::vector<std::uint32_t>& models = world_.scene.aircraft;
+    const bool has_number =
+        key.protocol == sim::links::Protocol::Cigi && key.vehicle < models.size();
+    const std::size_t first = has_number ? static_cast<std::size_t>(key.vehicle) : 0;
+    const auto is_free = [this](std::size_t place) {
+        return std::ranges::find(places_, place, &Place::aircraft) == places_.end();
     };
-    while (places_.size() < vehicles) {
-        const sim::links::VehicleKey& key = traffic_.vehicles()[places_.size()].key();
-        std::size_t place = 0;
-        if (key.protocol == sim::links::Protocol::Cigi && key.vehicle < aircraft) {
-            place = static_cast<std::size_t>(key.vehicle);
+    std::optional<std::size_t> any;
+    const auto shape = type ? options_.shapes.find(*type) : options_.shapes.end();
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        const std::size_t place = (first + i) % models.size();
+        if (!is_free(place)) {
+            continue;
         }
-        for (; is_taken(place); place = (place + 1) % aircraft) {
+        if (shape == options_.shapes.end() || models[place] == models.at(shape->second)) {
+            return place;
         }
-        places_.push_back(place);
+        any = any.value_or(place);
+    }
+    return *any;
+}
+
+/// Gives the first vehicles an aircraft each; those that have one keep it while they are of one
+/// type.
+void LiveFlight::give_places(std::size_t vehicles) {
+    for (std::size_t i = 0; i < vehicles; ++i) {
+        const sim::links::VehicleKey& key = traffic_.vehicles()[i].key();
+        const bool is_entity = key.protocol == sim::links::Protocol::Cigi;
+        const auto type = is_entity
+                              ? traffic_.cigi().type_of(static_cast<std::uint16_t>(key.vehicle))
+                              : std::nullopt;
+        if (i == places_.size()) {
+            places_.push_back({nowhere, type});
+            places_[i].aircraft = free_place(key, type);
+        } else if (type && type != places_[i].type && !options_.shapes.empty()) {
+            places_[i] = {nowhere, type};
+            places_[i].aircraft = free_place(key, type);
+        }
     }
 }
 
-/// The host's camera or the usual one, turned to this channel's side.
-scene::Camera LiveFlight::camera(
-    std::span<const sim::AircraftState> states, const scene::Camera& usual, double aspect) const {
-    scene::Camera camera = camera_of_host(states).value_or(usual);
-    if (options_.channel != LiveChannel::Front) {
-        const double width_rad = 2.0 * std::atan(std::tan(0.5 * camera.vertical_fov_rad) * aspect);
-        const double side = options_.channel == LiveChannel::Left ? 1.0 : -1.0;
-        camera.view_to_world =
-            camera.view_to_world * glm::angleAxis(side * width_rad, glm::dvec3(0.0, 1.0, 0.0));
-    }
-    return camera;
-}
-
-/// The lowest of a CIGI host's views, where he has told one: from its entity, turned and moved,
-/// with the middle of its frustum ahead.
-std::optional<scene::Camera>
-LiveFlight::camera_of_host(std::span<const sim::AircraftState> states) const {
-    const auto& views = traffic_.cigi().views();
-    const auto& definitions = traffic_.cigi().definitions();
-    if (views.empty()) {
-        return std::nullopt;
-    }
-    const auto& [number, view] = *views.begin();
+/// The aircraft that shows an entity of a CIGI host.
+std::optional<std::size_t> LiveFlight::aircraft_of(std::uint16_t entity) const {
     const auto vehicles = traffic_.vehicles();
-    const std::uint16_t entity = view.entity;
-    const auto of_entity =
+    const auto found =
         std::ranges::find_if(vehicles, [entity](const sim::links::LiveVehicle& vehicle) {
             return vehicle.key().protocol == sim::links::Protocol::Cigi &&
                    vehicle.key().vehicle == entity;
         });
-    const auto vehicle = static_cast<std::size_t>(of_entity - vehicles.begin());
-    if (of_entity == vehicles.end() || vehicle >= places_.size()) {
-        return std::nullopt;
+    const auto number = static_cast<std::size_t>(found - vehicles.begin());
+    return number < places_.size() ? std::optional(places_[number].aircraft) : std::nullopt;
+}
+
+/// Turns the articulated parts; in steps as far as their packets say and no further.
+void LiveFlight::turn_parts(double time_s) {
+    turned_.clear();
+    const double at_s = options_.step ? 0.0 : time_s - options_.delay_s;
+    for (const sim::links::CigiTurnedPart& part : traffic_.cigi().parts().turned(at_s)) {
+        if (const auto aircraft = aircraft_of(part.entity)) {
+            turned_.push_back({static_cast<std::uint32_t>(*aircraft), part.part, part.turn});
+        }
     }
-    const std::size_t index = places_[vehicle];
-    EulerAngles angles = view.angles;
-    scene::Camera camera;
-    camera.vertical_fov_rad = usual_fov_rad;
-    if (const auto defined = definitions.find(number); defined != definitions.end()) {
-        const sim::links::CigiViewDefinition& frustum = defined->second;
-        camera.vertical_fov_rad = frustum.top_rad - frustum.bottom_rad;
-        angles.heading_rad += 0.5 * (frustum.left_rad + frustum.right_rad);
-        angles.pitch_rad += 0.5 * (frustum.top_rad + frustum.bottom_rad);
+}
+
+void LiveFlight::prepare(Session& session) {
+    const glm::dvec2 size_px(session.settings().view.size_px);
+    aspect_ = size_px.x / size_px.y;
+    const sim::links::CigiImageGenerator& cigi = traffic_.cigi();
+    if (!cigi.atmosphere() && !cigi.celestial()) {
+        return;
     }
-    // Body axes of the view (ahead, right, down) within those of the entity, then those of OpenGL.
-    const glm::dquat north_up = body_to_world_from_euler({});
-    const glm::dquat turned = glm::conjugate(north_up) * body_to_world_from_euler(angles);
-    const glm::dquat view_to_world = states[index].body_to_world * turned;
-    const glm::dmat3 body_from_gl(
-        glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(-1.0, 0.0, 0.0));
-    camera.view_to_world = glm::normalize(view_to_world * glm::quat_cast(body_from_gl));
-    camera.eye_m = states[index].position_m + states[index].body_to_world * view.offset_m;
-    return camera;
+    settings::RunSettings settings = session.settings();
+    const auto& place = world_.ground_place ? world_.ground_place : place_.origin();
+    settings.air = air_of_host(settings.air, cigi.atmosphere(), cigi.celestial(), place);
+    constexpr double same = 0.01;
+    const double visibility_m = session.settings().air.visibility_m;
+    if (std::abs(settings.air.visibility_m - visibility_m) < same * visibility_m) {
+        settings.air.visibility_m = visibility_m;
+    }
+    if (!(settings == session.settings())) {
+        session.apply(settings);
+    }
 }
 
 std::vector<std::string> LiveFlight::lines() const {
     std::vector<std::string> lines = traffic_.lines();
     const std::vector<std::string> of_place = place_.lines();
     lines.insert(lines.end(), of_place.begin(), of_place.end());
+    for (const Place& place : places_) {
+        if (place.type && !options_.shapes.empty() && !options_.shapes.contains(*place.type)) {
+            lines.push_back(fmt::format(
+                "CIGI: --entities has no entity type {}: it is shown as {}",
+                *place.type,
+                world_.scene.model_of(place.aircraft).polygons.name));
+            break;
+        }
+    }
+    if (const auto line = frustum_line()) {
+        lines.push_back(*line);
+    }
     return lines;
 }
 

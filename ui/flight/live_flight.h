@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,15 +33,20 @@ struct LiveOptions {
     /// Each packet that moves something is one picture, of what it says and no more.
     bool step = false;
     LiveChannel channel = LiveChannel::Front;
+    /// Which of a CIGI host's views is shown; nothing: the one of the lowest number.
+    std::optional<int> view;
+    /// The types of a CIGI host's entities, and an aircraft of the world that has the shape of
+    /// each.
+    std::map<std::uint16_t, std::size_t> shapes;
 };
 
 /// Flies a session's aircraft by packets: the vehicle that came first is the first aircraft, and so
-/// on, but a CIGI host's entity N is aircraft N, counted from 0, where there are as many; aircraft
-/// that nobody flies yet are not seen, the first one waits at its place. Reads no
-/// clock: the same packets and times give the same states.
+/// on, but a CIGI host's entity N is aircraft N, counted from 0, where there are as many, or one of
+/// the shape that its type has; aircraft that nobody flies yet are not seen, the first one waits at
+/// its place. Reads no clock: the same packets and times give the same states.
 class LiveFlight final : public StateSource {
 public:
-    /// The world of the session that it flies.
+    /// The world of the session that it flies, which must outlive it.
     LiveFlight(const LiveOptions& options, const world::World& world);
 
     /// Takes the next packet in the order in which they came.
@@ -72,22 +78,48 @@ public:
         const visuals::scene::Camera& usual,
         double aspect) const override;
 
+    visuals::scene::Camera inset_camera(
+        std::span<const sim::AircraftState> states,
+        const visuals::scene::Camera& usual,
+        double aspect) const override;
+
+    std::span<const visuals::planning::TurnedPart> turned_parts() const override { return turned_; }
+
+    /// To be called before each picture: gives the session the air that a CIGI host has told, if it
+    /// is another one.
+    void prepare(Session& session);
+
     const sim::links::LiveTraffic& traffic() const { return traffic_; }
 
     const LivePlace& place() const { return place_; }
 
 private:
+    /// Of a vehicle.
+    struct Place {
+        std::size_t aircraft = 0;
+        std::optional<std::uint16_t> type; ///< of an entity
+    };
+
+    std::optional<std::uint16_t> shown_view() const;
     std::optional<visuals::scene::Camera>
-    camera_of_host(std::span<const sim::AircraftState> states) const;
-    void give_places(std::size_t vehicles, std::size_t aircraft);
+    camera_of_view(std::uint16_t number, std::span<const sim::AircraftState> states) const;
+    std::optional<std::string> frustum_line() const;
+    std::size_t
+    free_place(const sim::links::VehicleKey& key, std::optional<std::uint16_t> type) const;
+    void give_places(std::size_t vehicles);
+    std::optional<std::size_t> aircraft_of(std::uint16_t entity) const;
+    void turn_parts(double time_s);
 
     LiveOptions options_;
+    const world::World& world_;
     LivePlace place_;
     CigiOverWorld cigi_ground_;
     sim::links::LiveTraffic traffic_;
     sim::links::TrafficCounts counted_;
-    double newest_s_ = -1.0;          ///< packet of the last frame
-    std::vector<std::size_t> places_; ///< which aircraft shows each vehicle
+    double newest_s_ = -1.0;    ///< packet of the last frame
+    std::vector<Place> places_; ///< of the vehicles that are shown
+    std::vector<visuals::planning::TurnedPart> turned_;
+    double aspect_ = 1.0; ///< of the pictures
     std::vector<sim::AircraftState> of_vehicles_;
 };
 

@@ -4,11 +4,16 @@
 #include "sim/base/text_file.h"
 #include "sim/links/wire_bytes.h"
 
+#include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
+#include <map>
 #include <optional>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace octant::ui::flight {
@@ -20,12 +25,21 @@ namespace {
 enum class RecordKind : std::uint8_t { Packet = 1, Words = 2, Picture = 3 };
 
 constexpr std::string_view magic = "octant packets 1 ";
+constexpr std::string_view none = "-";
 constexpr std::size_t largest_bytes = std::size_t{1} << 32U;
 constexpr std::size_t most_bytes_a_record = 65536;
 constexpr double longest_s = 1e7; ///< of a recording
 
 std::string_view text_of(links::Bytes bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; // NOLINT
+}
+
+std::optional<std::size_t> number_up_to(std::string_view text, std::size_t most) {
+    std::size_t number = 0;
+    const char* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, number);
+    return read.ec == std::errc() && read.ptr == end && number <= most ? std::optional(number)
+                                                                       : std::nullopt;
 }
 
 links::Bytes bytes_of(std::string_view text) {
@@ -148,33 +162,69 @@ private:
     bool complete_ = false;
 };
 
+/// "TYPE=AIRCRAFT,TYPE=AIRCRAFT" or none; nothing for other text.
+std::optional<std::map<std::uint16_t, std::size_t>> shapes_from(std::string_view word) {
+    std::map<std::uint16_t, std::size_t> shapes;
+    for (const std::string_view pair :
+         word == none ? std::vector<std::string_view>() : split_fields(word, ',')) {
+        const auto sides = split_fields(pair, '=');
+        const auto type = number_up_to(sides.front(), std::numeric_limits<std::uint16_t>::max());
+        const auto aircraft = number_up_to(sides.back(), links::LiveTraffic::most_vehicles);
+        if (sides.size() != 2 || !type || !aircraft) {
+            return std::nullopt;
+        }
+        shapes.emplace(static_cast<std::uint16_t>(*type), *aircraft);
+    }
+    return shapes;
+}
+
+std::string text_of(const LiveOptions& options) {
+    std::vector<std::string> shapes;
+    for (const auto& [type, aircraft] : options.shapes) {
+        shapes.push_back(fmt::format("{}={}", type, aircraft));
+    }
+    return fmt::format(
+        "{} {} {} {} {} {}",
+        options.delay_s,
+        options.height ? name_of(*options.height) : "usual",
+        options.step ? "step" : "clock",
+        name_of(options.channel),
+        options.view ? fmt::format("{}", *options.view) : std::string(none),
+        shapes.empty() ? std::string(none) : fmt::format("{}", fmt::join(shapes, ",")));
+}
+
 LiveOptions options_of(const std::filesystem::path& file, std::string_view line) {
     const auto words = split_words(line);
-    const bool has_channel = words.size() == 4;
-    const auto delay_s = words.size() == 3 || has_channel ? finite_number(words[0]) : std::nullopt;
+    constexpr std::size_t most = 6; // older files have fewer
+    const bool has_channel = words.size() > 3;
+    const auto delay_s =
+        words.size() >= 3 && words.size() <= most ? finite_number(words[0]) : std::nullopt;
     const auto channel = live_channel_from(has_channel ? words[3] : name_of(LiveChannel::Front));
-    if (!delay_s || !channel) {
+    const std::string_view view = words.size() > 4 ? words[4] : none;
+    const auto number = number_up_to(view, std::numeric_limits<std::uint16_t>::max());
+    const auto shapes = shapes_from(words.size() == most ? words[most - 1] : none);
+    if (!delay_s || !channel || (!number && view != none) || !shapes) {
         error_at(
             file,
             1,
             fmt::format(
-                "expected a delay, a height, a step and a channel, got '{}'",
+                "expected a delay, a height, a step, a channel, a view and shapes, got '{}'",
                 printable(std::string(line))));
     }
-    return {*delay_s, live_height_from(words[1]), words[2] == "step", *channel};
+    return {
+        *delay_s,
+        live_height_from(words[1]),
+        words[2] == "step",
+        *channel,
+        number ? std::optional(static_cast<int>(*number)) : std::nullopt,
+        *shapes};
 }
 
 } // namespace
 
 PacketWriter::PacketWriter(const std::filesystem::path& folder, const LiveOptions& options)
     : file_(folder / packets_name) {
-    file_.append(fmt::format(
-        "{}{} {} {} {}\n",
-        magic,
-        options.delay_s,
-        options.height ? name_of(*options.height) : "usual",
-        options.step ? "step" : "clock",
-        name_of(options.channel)));
+    file_.append(fmt::format("{}{}\n", magic, text_of(options)));
     file_.flush();
 }
 

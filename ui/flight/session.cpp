@@ -119,7 +119,12 @@ void Session::look(Moment& moment) const {
             source_->camera(simulation_->states(), moment.camera, size_px.x / size_px.y);
     }
     if (inset_) {
+        const glm::dvec2 size_px(inset_->settings().view.size_px);
         moment.inset_camera = camera_of(inset_->settings());
+        if (source_ != nullptr) {
+            moment.inset_camera = source_->inset_camera(
+                simulation_->states(), moment.inset_camera, size_px.x / size_px.y);
+        }
     }
 }
 
@@ -127,6 +132,10 @@ void Session::reach(double time_s, int frame, Moment& moment) {
     simulation_->advance_to(time_s);
     moment.time_s = time_s;
     moment.states.assign(simulation_->states().begin(), simulation_->states().end());
+    if (source_ != nullptr) {
+        const auto turned = source_->turned_parts();
+        moment.turned.assign(turned.begin(), turned.end());
+    }
     moment.state_hash = simulation_->state_hash();
     look(moment);
     moment.triangle_target = decider_.triangle_target(frame);
@@ -185,13 +194,15 @@ planning::PlanCounts Session::make_plans(std::function<void()> when_refined) {
          .triangle_target = now_.triangle_target,
          .smooth = {.polygons = smooth_target_, .share = std::nullopt},
          .when_refined = std::move(when_refined),
-         .words = words_});
+         .words = words_,
+         .turned = now_.turned});
     plan_ = ids_ ? &ids_->of(frame.plan) : &frame.plan;
     std::optional<double> share; // of the picture's polygons, and so of the inset's
     if (smooth_target_ && frame.counts.may_be_smooth > 0) {
         share = std::min(static_cast<double>(*smooth_target_) / frame.counts.may_be_smooth, 1.0);
     }
-    inset_plan_ = inset_ ? &inset_->plan(now_.inset_camera, now_.states, share) : nullptr;
+    inset_plan_ =
+        inset_ ? &inset_->plan(now_.inset_camera, now_.states, now_.turned, share) : nullptr;
     return frame.counts;
 }
 

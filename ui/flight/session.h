@@ -154,6 +154,7 @@ private:
     struct Moment {
         double time_s = 0.0;
         std::vector<sim::AircraftState> states;
+        std::vector<visuals::planning::TurnedPart> turned;
         visuals::scene::Camera camera;
         visuals::scene::Camera inset_camera;
         int triangle_target = 0;

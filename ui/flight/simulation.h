@@ -8,6 +8,7 @@
 #include "sim/levelling.h"
 #include "ui/world/formation.h"
 #include "ui/world/world.h"
+#include "visuals/planning/turned_part.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/camera_rig.h"
 
@@ -40,6 +41,15 @@ public:
         std::span<const sim::AircraftState> states,
         const visuals::scene::Camera& usual,
         double aspect) const = 0;
+
+    /// The same for the second view, where there is one.
+    virtual visuals::scene::Camera inset_camera(
+        std::span<const sim::AircraftState> states,
+        const visuals::scene::Camera& usual,
+        double aspect) const = 0;
+
+    /// Parts that the source turns, as of the last states_at().
+    virtual std::span<const visuals::planning::TurnedPart> turned_parts() const = 0;
 
     /// Where the world's origin lies on the earth, once that is known.
     virtual std::optional<models::heights::GeoPlace> origin() const = 0;

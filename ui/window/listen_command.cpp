@@ -2,9 +2,11 @@
 
 #include "sim/base/error.h"
 #include "ui/base/progress.h"
+#include "ui/base/stop_signals.h"
 #include "ui/commands/listen.h"
 #include "ui/window/view_command.h"
 #include "ui/window/viewer.h"
+#include "ui/world/entity_table.h"
 #include "ui/world/input_files.h"
 
 #include <algorithm>
@@ -13,6 +15,7 @@
 #include <iterator>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace octant::ui::window {
@@ -29,29 +32,40 @@ void listen_in_window(ListenWork work) {
     if (work.listen.listener.live.step) {
         throw Error("--step: expected --headless beside it, got none");
     }
-    if (work.listen.record.folder || work.listen.record.video) {
-        throw Error("--record, --video: expected --headless beside them, got none");
+    if (work.listen.record.video) {
+        throw Error("--video: expected --headless beside it, got none");
     }
     work.view.settings = work.listen.settings;
     work.view.keeps_into = configuration_folder();
     work.view.listener = work.listen.listener;
     work.view.send = work.listen.send;
+    work.view.record = work.listen.record.folder;
     Viewer viewer(work.view);
+    const base::StopSignals stop_signals;
     int frames = 0;
-    while (viewer.turn()) {
+    while (viewer.turn() && !base::StopSignals::came()) {
         if (work.view.settings.time.frames && ++frames >= *work.view.settings.time.frames) {
             break;
         }
+    }
+    if (const auto report = viewer.finish_recording()) {
+        base::say(work.listen.quiet, *report);
     }
 }
 
 void listen(ListenWork work) {
     settings::RunSettings& settings = work.listen.settings;
     settings.path.name = settings::live_path;
-    const auto vehicles = static_cast<std::size_t>(work.listen.vehicles);
     std::vector<std::string>& aircraft = settings.path.aircraft;
-    const std::string last = aircraft.back();
-    aircraft.resize(std::max(aircraft.size(), vehicles), last);
+    if (work.listen.entities) {
+        world::EntityTable table = world::read_entity_table(*work.listen.entities);
+        aircraft = std::move(table.aircraft);
+        work.listen.listener.live.shapes = std::move(table.types);
+    } else {
+        const auto vehicles = static_cast<std::size_t>(work.listen.vehicles);
+        const std::string last = aircraft.back();
+        aircraft.resize(std::max(aircraft.size(), vehicles), last);
+    }
     settings = world::with_absolute_files(settings);
     if (work.headless) {
         commands::listen_without_window(work.listen);
@@ -68,7 +82,8 @@ std::vector<commands::Option> options_of(ListenWork& work) {
         text_option(
             "--record",
             "DIR",
-            "with --headless: write the recording and its report into this folder",
+            "write the recording and its report into this folder; in a window its view stays as it "
+            "is until F9 ends it",
             listen.record.folder),
         text_option(
             "--video",

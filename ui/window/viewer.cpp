@@ -193,7 +193,7 @@ bool Viewer::is_to_close() {
         return false;
     }
     const bool asked = state_.open.leave_question && by_display;
-    if (!recording_ || asked || state_.requests.leave_recording) {
+    if ((!recording_ && !live_recorder_) || asked || state_.requests.leave_recording) {
         return true;
     }
     state_.requests.leave = false;
@@ -273,6 +273,10 @@ void Viewer::apply_wanted() {
     if (wanted.view.kind != session_->settings().view.kind &&
         (wanted.view.kind == View::Free) != (wanted.view.eye_m && wanted.view.look_m)) {
         wanted = with_view(wanted, wanted.view.kind, session_->camera());
+    }
+    if (live_recorder_) { // A replay knows one view.
+        wanted = session_->settings();
+        return;
     }
     if (listener_) {
         wanted.path.name = settings::live_path;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/base/stopwatch.h"
+#include "ui/flight/flight_recorder.h"
 #include "ui/flight/listener.h"
 #include "ui/flight/sender.h"
 #include "ui/flight/session.h"
@@ -112,6 +113,8 @@ private:
     void draw();
     void draw_live();
     void follow_others();
+    void start_live_recording(const std::filesystem::path& folder);
+    std::string finish_live_recording();
     void record_frame(const report::FrameRecord& record);
     void drop_recording();
     void say(const std::string& text);
@@ -131,6 +134,8 @@ private:
     std::unique_ptr<Gui> gui_;
     ViewState state_;
     std::optional<WindowRecording> recording_;
+    /// Of a flight that others fly.
+    std::optional<flight::FlightRecorder> live_recorder_;
     base::Stopwatch clock_;
     double last_turn_s_ = 0.0;
     /// Simulated time of the next picture.

@@ -2,12 +2,23 @@
 
 #include "sim/base/units.h"
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <cassert>
 #include <cmath>
 
 namespace octant::visuals::planning {
+
+namespace {
+
+glm::dmat4 turned_about(
+    const models::polygons::Pivot& pivot, double angle_rad, const glm::dmat4& body_to_eye_world) {
+    const glm::dmat4 there = glm::translate(body_to_eye_world, pivot.point_m);
+    return glm::translate(glm::rotate(there, angle_rad, pivot.axis), -pivot.point_m);
+}
+
+} // namespace
 
 void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, SightPolygon& placed) {
     const models::polygons::PolygonModel& model = aircraft.model->polygons;
@@ -52,9 +63,21 @@ void place_parts(
         const models::polygons::Pivot& pivot = model.pivots[i];
         const double turns = pivot.turns_per_s * time_s;
         const double angle_rad = 2.0 * pi * (turns - std::floor(turns));
-        const glm::dmat4 there = glm::translate(body_to_eye_world, pivot.point_m);
-        parts[i + 1] = glm::translate(glm::rotate(there, angle_rad, pivot.axis), -pivot.point_m);
+        parts[i + 1] = turned_about(pivot, angle_rad, body_to_eye_world);
     }
+}
+
+void place_turned_part(
+    const models::polygons::PolygonModel& model,
+    const TurnedPart& turned,
+    std::span<glm::dmat4> parts) {
+    if (turned.pivot >= model.pivots.size()) {
+        return;
+    }
+    const models::polygons::Pivot& pivot = model.pivots[turned.pivot];
+    const glm::dvec3 about(turned.turn.x, turned.turn.y, turned.turn.z);
+    const double angle_rad = 2.0 * std::atan2(glm::dot(about, pivot.axis), turned.turn.w);
+    parts[turned.pivot + 1] = turned_about(pivot, angle_rad, parts[0]);
 }
 
 } // namespace octant::visuals::planning

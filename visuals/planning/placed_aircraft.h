@@ -3,6 +3,7 @@
 #include "visuals/planning/aircraft_hull.h"
 #include "visuals/planning/aircraft_model.h"
 #include "visuals/planning/sight.h"
+#include "visuals/planning/turned_part.h"
 
 #include <glm/mat4x4.hpp>
 
@@ -70,6 +71,13 @@ void place_parts(
     const models::polygons::PolygonModel& model,
     const glm::dmat4& body_to_eye_world,
     double time_s,
+    std::span<glm::dmat4> parts);
+
+/// Turns a part that somebody else turns; nothing where the model has no such pivot. `parts` as
+/// place_parts() has them.
+void place_turned_part(
+    const models::polygons::PolygonModel& model,
+    const TurnedPart& turned,
     std::span<glm::dmat4> parts);
 
 } // namespace octant::visuals::planning

@@ -63,6 +63,8 @@ struct PlanRequest {
     std::function<void()> when_refined = nullptr;
     /// Lines written into the upper left corner of the picture.
     std::span<const std::string> words = {};
+    /// Parts that do not turn by themselves.
+    std::span<const TurnedPart> turned = {};
 };
 
 /// A frame that is planned.
@@ -147,6 +149,7 @@ private:
     double pixel_rad_ = 0.0; ///< what a pixel covers in the middle of the picture
     std::array<glm::dvec3, 4> frustum_{};
     GroundFrame ground_;
+    std::span<const TurnedPart> turned_; ///< of the request that is planned
     std::vector<glm::dmat4> parts_;      ///< of placed_
     std::vector<PlacedAircraft> placed_; ///< Scene::aircraft, then the cockpit
     draworder::DrawOrder::Walk walk_;

@@ -58,6 +58,7 @@ void Planner::place_and_refine(const PlanRequest& request) {
     const scene::Camera& camera = request.camera;
     pixel_rad_ = 2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings_.view.size_px.y;
     frustum_ = frustum_normals(camera, aspect_);
+    turned_ = request.turned;
     place_aircraft(camera, request.states);
     refine_meshes(camera);
     if (request.when_refined) {
@@ -87,11 +88,15 @@ void Planner::place(
     PlacedAircraft& aircraft, const sim::AircraftState& state, const glm::dvec3& eye_m) {
     choose_model(aircraft, glm::length(state.position_m - eye_m));
     const AircraftModel& model = *aircraft.model;
-    place_parts(
-        model.polygons,
-        body_to_eye_world(state, eye_m),
-        state.time_s,
-        std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1));
+    const auto parts =
+        std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1);
+    place_parts(model.polygons, body_to_eye_world(state, eye_m), state.time_s, parts);
+    const auto number = static_cast<std::size_t>(&aircraft - placed_.data());
+    for (const TurnedPart& turned : turned_) {
+        if (turned.aircraft == number) {
+            place_turned_part(model.polygons, turned, parts);
+        }
+    }
     const glm::dvec3 eye_in_body_m =
         draworder::eye_in_body(eye_m, state.position_m, state.body_to_world);
     aircraft.cell = model.order.one_cell_an_eye() ? model.order.cell_of(eye_in_body_m) : 0;

@@ -7,10 +7,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     CigiImageGenerator generator(nullptr);
     std::vector<Fix> moved;
     for (std::uint32_t frame = 0; frame < 3; ++frame) {
-        generator.take(std::as_bytes(std::span(data, size)), moved);
+        generator.take(std::as_bytes(std::span(data, size)), moved, frame);
         for (const Fix& fix : moved) {
             octant::tests::expect(fault_of(fix) == Fault::None, "a fix that can be believed");
         }
+        octant::tests::expect(
+            generator.parts().turned(frame).size() <= CigiParts::most_parts, "bounded parts");
         const auto answer = generator.message_for(frame, 1.0);
         octant::tests::expect(
             answer.size() <= CigiImageGenerator::most_message_bytes, "a message that fits");

@@ -68,7 +68,7 @@ const scene::Camera camera = scene::camera_looking_at({-600, -900, 500}, {0, 0, 
 
 std::size_t triangles_of(InsetView& inset) {
     const std::array there{sim::AircraftState{}};
-    return inset.plan(camera, there, std::nullopt).ground.indices.size() / 3;
+    return inset.plan(camera, there, {}, std::nullopt).ground.indices.size() / 3;
 }
 
 } // namespace

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "sim/links/cigi_packets.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace octant::sim::links {
+
+/// A part of an entity as its host has turned it: a rotor, a flap.
+struct CigiTurnedPart {
+    std::uint16_t entity = 0;
+    std::uint8_t part = 0;
+    glm::dquat turn{1.0, 0.0, 0.0, 0.0}; ///< within the body's axes
+};
+
+/// The articulated parts of a host's entities. Angles go on by the rates that it gives them.
+class CigiParts {
+public:
+    static constexpr std::size_t most_parts = 1024;
+
+    /// Angles that the packet does not set stay as they are; a part that is not enabled is the
+    /// model's own again.
+    void take(const CigiPart& part, double at_s);
+
+    /// Of a part that has been told before.
+    void take(const CigiRate& rate, double at_s);
+
+    void forget(std::uint16_t entity);
+
+    /// All of them at a time of the clock that take() has.
+    std::vector<CigiTurnedPart> turned(double now_s) const;
+
+private:
+    struct Part {
+        glm::dvec3 angles_rad{0.0}; ///< roll, pitch, yaw at that time
+        glm::dvec3 radps{0.0};
+        double at_s = 0.0;
+    };
+
+    static glm::dvec3 angles_at(const Part& part, double now_s);
+
+    std::map<std::pair<std::uint16_t, std::uint8_t>, Part> parts_;
+};
+
+} // namespace octant::sim::links

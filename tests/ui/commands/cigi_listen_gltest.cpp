@@ -1,0 +1,240 @@
+// octant listen as the image generator of a host that is no octant, over real sockets.
+
+#include "sim/base/output_file.h"
+#include "sim/links/udp_port.h"
+#include "tests/sim/links/cigi_samples.h"
+#include "tests/ui/commands/command_line.h"
+#include "ui/report/frame_csv.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+using namespace octant;
+using Catch::Contains;
+using sim::links::ByteOrder;
+using sim::links::test::HostMessage;
+using ui::report::FrameRecord;
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace links = sim::links;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint32_t loopback = 0x7f000001;
+
+/// A Start of Frame as it came.
+struct Heard {
+    std::uint32_t ig_frame = 0;
+    std::uint32_t timestamp = 0; ///< 10 microseconds each
+    std::uint32_t host_frame = 0;
+};
+
+/// A host at a port of its own. Messages go to the image generator's port.
+class Host {
+public:
+    std::uint16_t port() const { return socket_.port(); }
+
+    std::uint16_t generator() const { return generator_; }
+
+    void send(const HostMessage& message) { socket_.send({loopback, generator_}, message.bytes()); }
+
+    /// Waits for a Start of Frame that says this, half a minute at most.
+    bool await(const std::function<bool(const Heard&)>& says) {
+        const Clock::time_point end = Clock::now() + std::chrono::seconds(30);
+        while (Clock::now() < end) {
+            listen();
+            if (std::ranges::any_of(heard_, says)) {
+                return true;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return false;
+    }
+
+    void listen() {
+        std::vector<links::Datagram> packets;
+        socket_.drain(links::Protocol::Cigi, 0.0, packets);
+        for (const links::Datagram& packet : packets) {
+            const links::WireReader reader(packet.bytes, ByteOrder::Big);
+            if (reader.at<std::uint8_t>(0) == 101) {
+                heard_.push_back(
+                    {reader.at<std::uint32_t>(8),
+                     reader.at<std::uint32_t>(12),
+                     reader.at<std::uint32_t>(16)});
+            }
+        }
+    }
+
+    const std::vector<Heard>& heard() const { return heard_; }
+
+private:
+    links::UdpPort socket_{loopback, 0};
+    std::uint16_t generator_ = links::UdpPort(loopback, 0).port();
+    std::vector<Heard> heard_;
+};
+
+/// Runs the program as the host's image generator beside what the host does.
+tests::ProgramRun generate_for(
+    Host& host, std::vector<std::string> arguments, const std::function<void()>& host_works) {
+    const std::vector<std::string> first{
+        "listen",
+        "--headless",
+        "--fdm-port",
+        "-1",
+        "--mavlink-port",
+        "-1",
+        "--dis-port",
+        "-1",
+        "--cigi-port",
+        std::to_string(host.generator()),
+        "--cigi-host",
+        "127.0.0.1:" + std::to_string(host.port())};
+    arguments.insert(arguments.begin(), first.begin(), first.end());
+    tests::ProgramRun run;
+    std::thread generator([&] { run = tests::run_octant(arguments); });
+    host_works();
+    generator.join();
+    return run;
+}
+
+constexpr std::uint16_t helicopter = 9;
+constexpr std::uint16_t jet = 1;
+
+/// A host frame: entity 0 of that type stands over the middle of the map and is seen from behind.
+HostMessage frame_of(std::uint32_t number, std::uint16_t type) {
+    HostMessage message(ByteOrder::Little, number);
+    message.entity(0, 0.0, 0.0, 700.0).set(8, type);
+    message.begin(21, 32)
+        .set(5, std::uint8_t{0x3c})
+        .set(16, -30.0F)
+        .set(20, 30.0F)
+        .set(24, 20.0F)
+        .set(28, -20.0F);
+    message.begin(16, 32).set(5, std::uint8_t{0x3f}).set(8, -18.0F).set(16, -4.0F).set(24, -10.0F);
+    return message;
+}
+
+void turn_part(HostMessage& message, std::uint8_t part, float pitch_deg, float yaw_deg) {
+    message.begin(6, 32)
+        .set(4, part)
+        .set(5, std::uint8_t{0x71}) // enabled; roll, pitch and yaw are set
+        .set(24, pitch_deg)
+        .set(28, yaw_deg);
+}
+
+} // namespace
+
+TEST_CASE("a CIGI host's entity types, parts, air, time and views are seen") {
+    const fs::path folder = tests::empty_folder("cigi-host");
+    const fs::path table = folder / "entities.toml";
+    write_file(
+        table,
+        "[[entity]]\ntype = 1\naircraft = \"f15\"\n[[entity]]\ntype = 9\naircraft = \"500md\"\n");
+    std::vector<HostMessage> script;
+    const auto next = [&](std::uint16_t type, float rotor_deg) -> HostMessage& {
+        script.push_back(frame_of(static_cast<std::uint32_t>(script.size() + 1), type));
+        turn_part(script.back(), 1, 0.0F, rotor_deg);
+        turn_part(script.back(), 0, 0.0F, 0.0F);
+        return script.back();
+    };
+    next(helicopter, 0.0F);
+    next(helicopter, 0.0F);                               // 1: as before
+    next(helicopter, 30.0F);                              // 2: the rotor elsewhere
+    next(helicopter, 30.0F).begin(10, 32).set(8, 800.0F); // 3: haze
+    next(helicopter, 30.0F)
+        .begin(9, 16)
+        .set(2, std::uint8_t{17})
+        .set(4, std::uint8_t{0x13})
+        .set(8, std::uint32_t{6212026}); // 4: the sun low in the west
+    next(jet, 30.0F);                    // 5: another aircraft
+    next(jet, 30.0F)
+        .begin(16, 32)
+        .set(5, std::uint8_t{0x3f})
+        .set(8, 30.0F)
+        .set(28, 180.0F); // 6: from ahead
+    Host host;
+    const tests::ProgramRun run = generate_for(
+        host,
+        {"--step",
+         "--entities",
+         table.string(),
+         "--size",
+         "240x160",
+         "--pictures",
+         "1",
+         "--frames",
+         std::to_string(script.size()),
+         "--record",
+         (folder / "seen").string()},
+        [&] {
+            CHECK(host.await([](const Heard&) { return true; }));
+            for (std::size_t i = 0; i < script.size(); ++i) {
+                host.send(script[i]);
+                CHECK(host.await([i](const Heard& heard) { return heard.host_frame == i + 1; }));
+            }
+        });
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    const std::vector<FrameRecord> rows =
+        ui::report::read_frame_csv(folder / "seen" / "frames.csv").records;
+    REQUIRE(rows.size() == script.size());
+    CHECK(rows[0].picture_hash == rows[1].picture_hash);
+    for (std::size_t i = 2; i < rows.size(); ++i) {
+        CAPTURE(i);
+        CHECK(rows[i].picture_hash != rows[i - 1].picture_hash);
+    }
+    const tests::ProgramRun replay =
+        tests::run_octant({"fly", "--replay", (folder / "seen").string()});
+    CHECK_THAT(replay.out, Contains("same states, same pictures"));
+}
+
+TEST_CASE("Start of Frame comes at the pictures' rate, and while a host is silent") {
+    constexpr double rate_hz = 60.0;
+    Host host;
+    const tests::ProgramRun run = generate_for(
+        host, {"--size", "64x36", "--pictures", "0", "--rate", "60", "--seconds", "8"}, [&] {
+            CHECK(host.await([](const Heard&) { return true; }));
+            for (std::uint32_t frame = 1; frame <= 30; ++frame) {
+                host.send(frame_of(frame, jet));
+                std::this_thread::sleep_for(std::chrono::milliseconds(16));
+                host.listen();
+            }
+            const Clock::time_point end = Clock::now() + std::chrono::milliseconds(5500);
+            while (Clock::now() < end) { // Silent.
+                std::this_thread::sleep_for(std::chrono::milliseconds(5));
+                host.listen();
+            }
+        });
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    const std::vector<Heard>& heard = host.heard();
+    REQUIRE(heard.size() > 60);
+    CHECK(heard.back().host_frame == 30);
+    int missing = 0;
+    for (std::size_t i = 1; i < heard.size(); ++i) {
+        missing += static_cast<int>(heard[i].ig_frame - heard[i - 1].ig_frame) - 1;
+    }
+    CHECK(missing == 0);
+    // By the generator's own clock, over those two seconds in which the machine was left to it
+    // most.
+    constexpr std::size_t some = 120;
+    REQUIRE(heard.size() > some);
+    double least_wrong = 1.0;
+    for (std::size_t i = some; i < heard.size(); ++i) {
+        const double passed_s = (heard[i].timestamp - heard[i - some].timestamp) * 1e-5;
+        least_wrong = std::min(least_wrong, std::abs(passed_s * rate_hz / some - 1.0));
+    }
+    CHECK(least_wrong < 0.03);
+}

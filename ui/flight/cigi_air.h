@@ -1,0 +1,20 @@
+#pragma once
+
+#include "models/heights/height_field.h"
+#include "sim/links/cigi_packets.h"
+#include "visuals/scene/settings.h"
+
+#include <optional>
+
+namespace octant::ui::flight {
+
+/// Air as a host of CIGI has it: its visibility, from 50 m to 500 km, and the time of day at that
+/// longitude by its universal time; what it has not told as in `usual`. Without a place its time is
+/// taken as the sun's own.
+visuals::scene::AirSettings air_of_host(
+    visuals::scene::AirSettings usual,
+    const std::optional<sim::links::CigiAtmosphere>& atmosphere,
+    const std::optional<sim::links::CigiCelestial>& celestial,
+    const std::optional<models::heights::GeoPlace>& place);
+
+} // namespace octant::ui::flight

@@ -1,0 +1,66 @@
+#include "ui/world/entity_table.h"
+
+#include "flightpaths/toml_fields.h"
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+
+namespace octant::ui::world {
+
+namespace {
+
+constexpr std::size_t most_aircraft = 256;
+
+toml::table parsed(const std::filesystem::path& file) {
+    const std::string text = read_text_file(file, std::size_t{1} << 20U);
+    try {
+        return toml::parse(text);
+    } catch (const toml::parse_error& fault) {
+        error_at(
+            file,
+            static_cast<int>(fault.source().begin.line),
+            fmt::format(
+                "expected TOML, got a fault: {}", printable(std::string(fault.description()))));
+    }
+}
+
+void take_entity(const std::filesystem::path& file, const toml::node& node, EntityTable& table) {
+    const toml::table* const keys = node.as_table();
+    if (keys == nullptr) {
+        error_at(
+            file, flightpaths::line_of(node), "expected a table [[entity]], got another value");
+    }
+    flightpaths::Fields fields(file, *keys);
+    const int type = fields.required_whole("type", 0, std::numeric_limits<std::uint16_t>::max());
+    const std::string aircraft = fields.required_text("aircraft");
+    const int count = keys->contains("count")
+                          ? fields.required_whole("count", 1, static_cast<int>(most_aircraft))
+                          : 1;
+    fields.finish();
+    if (!table.types.emplace(static_cast<std::uint16_t>(type), table.aircraft.size()).second) {
+        fields.refuse(fields.line(), fmt::format("expected each type once, got {} again", type));
+    }
+    table.aircraft.insert(table.aircraft.end(), static_cast<std::size_t>(count), aircraft);
+    if (table.aircraft.size() > most_aircraft) {
+        fields.refuse(
+            fields.line(), fmt::format("expected {} aircraft at most, got more", most_aircraft));
+    }
+}
+
+} // namespace
+
+EntityTable read_entity_table(const std::filesystem::path& file) {
+    const toml::table root = parsed(file);
+    flightpaths::Fields fields(file, root);
+    EntityTable table;
+    for (const toml::node& node : fields.required_tables("entity")) {
+        take_entity(file, node, table);
+    }
+    fields.finish();
+    return table;
+}
+
+} // namespace octant::ui::world

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <cstdint>
+
+namespace octant::visuals::planning {
+
+/// How a part of an aircraft is turned in place of turning by itself.
+struct TurnedPart {
+    std::uint32_t aircraft = 0; ///< index into Scene::aircraft
+    std::uint32_t pivot = 0;    ///< index into PolygonModel::pivots
+    /// Within body axes. The part turns about its pivot's axis alone: as far as this turns about
+    /// it.
+    glm::dquat turn{1.0, 0.0, 0.0, 0.0};
+};
+
+} // namespace octant::visuals::planning
