@@ -78,7 +78,7 @@ void make_report(const ReportOptions& options) {
             base::say(
                 options.quiet,
                 fmt::format(
-                    "note: {}: summary and rows disagree: {}",
+                    "{}: summary and rows disagree, as if rows were cut off: {}",
                     folder,
                     recordings.back().disagreement));
         }
@@ -105,7 +105,9 @@ void make_report(const ReportOptions& options) {
             std::fputs((fault + "\n").c_str(), stdout);
         }
     }
-    if (!faults.empty()) {
+    const bool cut = std::ranges::any_of(
+        recordings, [](const auto& recording) { return !recording.disagreement.empty(); });
+    if (!faults.empty() || cut) {
         throw CheckSaidNo();
     }
 }
@@ -134,7 +136,9 @@ Command report_command() {
                  options->gate),
              flag("--json", "figures of each recording as JSON", options->json),
              flag("--quiet", "no notes", options->quiet)},
-        .footer = "Examples:\n"
+        .footer = "Exit code 1 where a recording's rows are not those of its summary; the page is "
+                  "written and says so.\n"
+                  "Examples:\n"
                   "  octant report my-flight\n"
                   "  octant report octant-run depth-buffer-run --out both.html\n"
                   "  octant report before after --gate p50=500%,p99=900% --out change.html",

@@ -1,3 +1,4 @@
+#include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/ui/commands/command_line.h"
 #include "ui/report/folder_lock.h"
@@ -71,6 +72,48 @@ TEST_CASE("a flight that was killed is reported, losing at most its last second"
     CHECK(loaded.flight.end_s() > flown_s - 1.0);
     CHECK(last_time_in_track(folder) < flown_s + 0.1);
     CHECK(last_time_in_track(folder) > flown_s - 1.5);
+}
+
+TEST_CASE("a flight that ended and whose rows were cut off is reported with exit code 1") {
+    const auto made = tests::empty_folder("cut-rows");
+    const auto folder = made / "out";
+    const tests::ProgramRun flown = tests::run_octant(
+        {"fly",
+         "straight",
+         "--size",
+         "64x48",
+         "--frames",
+         "6",
+         "--warm-up",
+         "2",
+         "--record",
+         folder.string(),
+         "--quiet"});
+    REQUIRE(flown.exit_code == 0);
+    const std::string rows = read_file(folder / "frames.csv");
+    const auto report = [&](const std::string& left) {
+        write_file(folder / "frames.csv", left);
+        return tests::run_octant({"report", folder.string(), "--quiet", "--json"});
+    };
+    CHECK(report(rows).exit_code == 0);
+    const std::size_t last_row = rows.rfind('\n', rows.size() - 2) + 1;
+    for (const std::size_t left : {last_row, (last_row + rows.size()) / 2, rows.size() - 1}) {
+        fs::remove(folder / "report.html");
+        const tests::ProgramRun cut = report(rows.substr(0, left));
+        INFO(left << cut.err);
+        CHECK(cut.exit_code == 1);
+        CHECK(cut.out.find("frames: 4 in run.json, 3 by the rows") != std::string::npos);
+        CHECK(
+            read_file(folder / "report.html").find("rows and summary disagree") !=
+            std::string::npos);
+    }
+    // A killed flight has no summary: a half-written last row is what it leaves.
+    std::string run = read_file(folder / "run.json");
+    const std::size_t summary = run.find("\"summary\"");
+    REQUIRE(summary != std::string::npos);
+    run.replace(summary, 9, "\"was-summary\"");
+    write_file(folder / "run.json", run);
+    CHECK(report(rows.substr(0, (last_row + rows.size()) / 2)).exit_code == 0);
 }
 
 TEST_CASE("a signal ends a flight in order, and its recording can be flown again") {
