@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <sys/ipc.h>
 #include <sys/shm.h>
+#include <utility>
 
 // GLFW's own header of them asks for more of X than is needed here. A GLFW that was built for
 // Wayland alone has none.
