@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace octant::models::made {
@@ -64,6 +65,7 @@ TerrainGrid refined(const TerrainGrid& grid, const Warp& warp) {
 }
 
 void diffuse(TerrainGrid& grid, double share) {
+    assert(grid.side >= 3);
     const std::vector<double> old = grid.values;
     const auto step = static_cast<std::size_t>(grid.side);
     by_rows(grid.side - 2, [&](int from_second) {

@@ -53,7 +53,7 @@ Places places_of_row(const TerrainGrid& grid, int row);
 TerrainGrid refined(const TerrainGrid& grid, const Warp& warp);
 
 /// One pass of diffusion: each inner value moves by `share` (0 to 0.25) of the sum of differences
-/// to its four neighbours.
+/// to its four neighbours. The grid has at least 3 samples a side.
 void diffuse(TerrainGrid& grid, double share);
 
 } // namespace octant::models::made

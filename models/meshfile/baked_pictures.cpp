@@ -43,6 +43,15 @@ std::pair<glm::dvec3, double> pixel_at(const heights::Image& picture, const glm:
     return {glm::dvec3(pixel[0], pixel[1], pixel[2]) / 255.0, pixel[3] / 255.0};
 }
 
+bool hides_all(const heights::Image& picture) {
+    for (std::size_t at = 3; at < picture.rgba.size(); at += 4) {
+        if (picture.rgba[at] != 255) {
+            return false;
+        }
+    }
+    return true;
+}
+
 int samples_of(const heights::Image& picture, const std::array<glm::vec2, 3>& places) {
     double longest_px = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -109,6 +118,7 @@ std::uint32_t BakedPictures::kept(const std::string& name, Read&& read) {
     if (is_new) {
         try {
             pictures_.push_back(std::make_shared<const heights::Image>(read()));
+            hide_all_.push_back(hides_all(*pictures_.back()));
             at->second = static_cast<std::uint32_t>(pictures_.size() - 1);
         } catch (const Error& fault) {
             notes_.push_back(
@@ -146,7 +156,7 @@ std::vector<BakedPictures::Cover> BakedPictures::covers() const {
     std::vector<Cover> found;
     for (const Pictured& triangle : triangles_) {
         Cover& cover = found.emplace_back();
-        if (triangle.picture == none) {
+        if (triangle.picture == none || hide_all_[triangle.picture]) {
             continue;
         }
         double sum = 0.0;

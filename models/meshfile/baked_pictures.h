@@ -70,6 +70,7 @@ private:
 
     std::filesystem::path mesh_file_;
     std::vector<std::shared_ptr<const heights::Image>> pictures_; ///< copies share them
+    std::vector<bool> hide_all_; ///< one a picture: nothing is seen through it
     std::map<std::string, std::uint32_t> known_;
     std::vector<Pictured> triangles_;
     std::vector<std::string> notes_;

@@ -29,6 +29,10 @@ constexpr float seen_from = 0.02F;
 constexpr float glass_from = 0.05F;
 constexpr float mostly_there = 0.5F;
 
+bool is_glass(const BakedPictures::Cover& cover) {
+    return cover.is_even && cover.opacity >= glass_from && cover.opacity < mostly_there;
+}
+
 /// Takes out the vertices that no triangle uses.
 void drop_unused_vertices(TriangleMesh& mesh) {
     std::vector<std::uint32_t> places(mesh.vertices_m.size(), no_index);
@@ -148,18 +152,14 @@ void MeshBuilder::finish_part() {
 
 float MeshBuilder::opacity_of(std::size_t triangle) const {
     const std::uint32_t material = mesh_.triangle_materials[triangle];
+    const bool has_glass = !covers_.empty() && is_glass(covers_[triangle]);
     return (material == no_index ? 1.0F : opacities_[material]) *
-           (glass_.empty() ? 1.0F : glass_[triangle]);
+           (has_glass ? covers_[triangle].opacity : 1.0F);
 }
 
-void MeshBuilder::find_glass() {
-    if (pictures_.is_empty() || !mesh_.colours.empty()) {
-        return;
-    }
-    for (const BakedPictures::Cover& cover : pictures_.covers()) {
-        const bool is_glass =
-            cover.is_even && cover.opacity >= glass_from && cover.opacity < mostly_there;
-        glass_.push_back(is_glass ? cover.opacity : 1.0F);
+void MeshBuilder::find_covers() {
+    if (!pictures_.is_empty() && mesh_.colours.empty() && covers_.empty()) {
+        covers_ = pictures_.covers();
     }
 }
 
@@ -203,7 +203,7 @@ MeshParts MeshBuilder::finish_parts() {
     if (mesh_.triangles.empty()) {
         error_in(path_, "expected at least one triangle, got none");
     }
-    find_glass();
+    find_covers();
     drop_invisible();
     if (!mesh_.colours.empty()) {
         mesh_.colours.resize(mesh_.vertices_m.size(), glm::vec3(1.0F));
@@ -245,8 +245,8 @@ void MeshBuilder::take_out(const std::vector<bool>& gone) {
     }
     take(two_sided_);
     take(groups_);
-    if (!glass_.empty()) {
-        take(glass_);
+    if (!covers_.empty()) {
+        take(covers_);
     }
     if (options_.pictures) {
         pictures_.take_out(gone);
@@ -266,10 +266,10 @@ void MeshBuilder::leave_out_transparent() {
     if (pictures_.is_empty() || !mesh_.colours.empty()) {
         return;
     }
+    find_covers();
     std::vector<bool> gone;
-    for (const BakedPictures::Cover& cover : pictures_.covers()) {
-        const bool is_glass = !glass_.empty() && glass_[gone.size()] < 1.0F;
-        gone.push_back(cover.opacity < mostly_there && !is_glass);
+    for (const BakedPictures::Cover& cover : covers_) {
+        gone.push_back(cover.opacity < mostly_there && !(is_part_ && is_glass(cover)));
     }
     const auto count = static_cast<std::size_t>(std::ranges::count(gone, true));
     const bool is_all = count == gone.size();

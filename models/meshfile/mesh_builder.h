@@ -89,7 +89,7 @@ private:
     bool is_clear(std::size_t triangle) const;
     float opacity_of(std::size_t triangle) const;
     void drop_invisible();
-    void find_glass();
+    void find_covers();
     template <typename Kept>
     TriangleMesh part_of(const Kept& is_kept, std::vector<std::string>& notes) const;
     void finish_part();
@@ -106,11 +106,11 @@ private:
     BakedPictures pictures_;
     TriangleMesh mesh_;
     std::vector<bool> faulty_normals_;
-    std::vector<glm::dvec3> places_m_;  ///< corners of the polygon at hand
-    std::vector<float> opacities_;      ///< one a material
-    std::vector<bool> two_sided_;       ///< one a triangle
-    std::vector<std::uint32_t> groups_; ///< one a triangle
-    std::vector<float> glass_;          ///< one a triangle: of a picture that is glass, else 1
+    std::vector<glm::dvec3> places_m_;         ///< corners of the polygon at hand
+    std::vector<float> opacities_;             ///< one a material
+    std::vector<bool> two_sided_;              ///< one a triangle
+    std::vector<std::uint32_t> groups_;        ///< one a triangle
+    std::vector<BakedPictures::Cover> covers_; ///< one a triangle, once they are looked for
     std::uint32_t group_ = no_index;
     bool is_two_sided_ = false;
     bool is_part_ = false; ///< of a larger mesh
