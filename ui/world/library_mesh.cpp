@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -106,12 +107,16 @@ models::TriangleMesh read_library_mesh(const fs::path& file) {
     }
     const report::ProgramEnding ending = child->finish();
     if (!ending.succeeded) {
+        std::string_view complaint = ending.last_complaint;
+        if (const std::string named = file.string() + ": "; complaint.starts_with(named)) {
+            complaint.remove_prefix(named.size());
+        }
         error_in(
             file,
             fmt::format(
                 "expected a mesh that {} can read, its reader ended: {}",
                 library.name,
-                printable(ending.last_complaint)));
+                printable(std::string(complaint))));
     }
     models::TriangleMesh mesh = std::move(models::meshfile::read_chain(out).levels.front().mesh);
     mesh.name = file.stem().string();
