@@ -1,5 +1,7 @@
 #pragma once
 
+#include "flightpaths/toml_parser.h"
+
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
@@ -7,7 +9,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <toml++/toml.h>
 
 namespace octant::flightpaths {
 

@@ -1,5 +1,6 @@
 #include "ui/sweep/sweep_file.h"
 
+#include "flightpaths/toml_parser.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/settings/settings_words.h"
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 #include <set>
 #include <string_view>
-#include <toml++/toml.h>
 
 namespace octant::ui::sweep {
 

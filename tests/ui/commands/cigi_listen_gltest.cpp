@@ -1,8 +1,10 @@
 // octant listen as the image generator of a host that is no octant, over real sockets.
 
 #include "sim/base/output_file.h"
+#include "sim/base/units.h"
+#include "sim/links/cigi_begin.h"
+#include "sim/links/cigi_host.h"
 #include "sim/links/udp_port.h"
-#include "tests/sim/links/cigi_samples.h"
 #include "tests/ui/commands/command_line.h"
 #include "ui/report/frame_csv.h"
 
@@ -22,8 +24,6 @@
 
 using namespace octant;
 using Catch::Contains;
-using sim::links::ByteOrder;
-using sim::links::test::HostMessage;
 using ui::report::FrameRecord;
 
 namespace {
@@ -48,7 +48,9 @@ public:
 
     std::uint16_t generator() const { return generator_; }
 
-    void send(const HostMessage& message) { socket_.send({loopback, generator_}, message.bytes()); }
+    void send(const links::WireWriter& message) {
+        socket_.send({loopback, generator_}, message.bytes());
+    }
 
     /// Waits for a Start of Frame that says this, half a minute at most.
     bool await(const std::function<bool(const Heard&)>& says) {
@@ -67,7 +69,7 @@ public:
         std::vector<links::Datagram> packets;
         socket_.drain(links::Protocol::Cigi, 0.0, packets);
         for (const links::Datagram& packet : packets) {
-            const links::WireReader reader(packet.bytes, ByteOrder::Big);
+            const links::WireReader reader(packet.bytes, links::ByteOrder::Big);
             if (reader.at<std::uint8_t>(0) == 101) {
                 heard_.push_back(
                     {reader.at<std::uint32_t>(8),
@@ -112,26 +114,57 @@ tests::ProgramRun generate_for(
 constexpr std::uint16_t helicopter = 9;
 constexpr std::uint16_t jet = 1;
 
-/// A host frame: entity 0 of that type stands over the middle of the map and is seen from behind.
-HostMessage frame_of(std::uint32_t number, std::uint16_t type) {
-    HostMessage message(ByteOrder::Little, number);
-    message.entity(0, 0.0, 0.0, 700.0).set(8, type);
-    message.begin(21, 32)
-        .set(5, std::uint8_t{0x3c})
-        .set(16, -30.0F)
-        .set(20, 30.0F)
-        .set(24, 20.0F)
-        .set(28, -20.0F);
-    message.begin(16, 32).set(5, std::uint8_t{0x3f}).set(8, -18.0F).set(16, -4.0F).set(24, -10.0F);
+/// What a host of the other byte order says in a frame: entity 0 of that type stands over the
+/// middle of the map and is seen from behind.
+links::WireWriter frame_of(std::uint32_t number, std::uint16_t type) {
+    links::WireWriter message(links::ByteOrder::Little);
+    links::CigiIgControl control;
+    control.mode = links::CigiMode::Operate;
+    control.host_frame = number;
+    links::add_ig_control(message, control);
+    links::CigiEntityControl entity;
+    entity.state = 1;
+    entity.type = type;
+    entity.attitude.heading_rad = 0.5 * pi;
+    entity.place = {0.0, 0.0, 700.0};
+    links::add_entity(message, entity);
+    links::CigiViewDefinition frustum;
+    frustum.right_rad = rad_from_deg(30.0);
+    frustum.left_rad = -frustum.right_rad;
+    frustum.top_rad = rad_from_deg(20.0);
+    frustum.bottom_rad = -frustum.top_rad;
+    links::add_view_definition(message, frustum);
+    links::CigiViewControl view;
+    view.offset_m = {-18.0, 0.0, -4.0};
+    view.angles.pitch_rad = rad_from_deg(-10.0);
+    links::add_view_control(message, view);
     return message;
 }
 
-void turn_part(HostMessage& message, std::uint8_t part, float pitch_deg, float yaw_deg) {
-    message.begin(6, 32)
-        .set(4, part)
-        .set(5, std::uint8_t{0x71}) // enabled; roll, pitch and yaw are set
-        .set(24, pitch_deg)
-        .set(28, yaw_deg);
+void turn_part(links::WireWriter& message, std::uint8_t part, float yaw_deg) {
+    const std::size_t at = links::begin_cigi_packet(message, 6, 32);
+    message.set(at + 4, part);
+    message.set(at + 5, std::uint8_t{0x71}); // enabled; roll, pitch and yaw are set
+    message.set(at + 28, yaw_deg);
+}
+
+void set_visibility(links::WireWriter& message, float visibility_m) {
+    message.set(links::begin_cigi_packet(message, 10, 32) + 8, visibility_m);
+}
+
+/// Of the longest day, by universal time.
+void set_hour(links::WireWriter& message, std::uint8_t hour) {
+    const std::size_t at = links::begin_cigi_packet(message, 9, 16);
+    message.set(at + 2, hour);
+    message.set(at + 4, std::uint8_t{0x13}); // date and time are valid
+    message.set(at + 8, std::uint32_t{6212026});
+}
+
+void look_back(links::WireWriter& message) {
+    links::CigiViewControl view;
+    view.offset_m = {30.0, 0.0, 0.0};
+    view.angles.heading_rad = pi;
+    links::add_view_control(message, view);
 }
 
 } // namespace
@@ -142,28 +175,20 @@ TEST_CASE("a CIGI host's entity types, parts, air, time and views are seen") {
     write_file(
         table,
         "[[entity]]\ntype = 1\naircraft = \"f15\"\n[[entity]]\ntype = 9\naircraft = \"500md\"\n");
-    std::vector<HostMessage> script;
-    const auto next = [&](std::uint16_t type, float rotor_deg) -> HostMessage& {
+    std::vector<links::WireWriter> script;
+    const auto next = [&](std::uint16_t type, float rotor_deg) -> links::WireWriter& {
         script.push_back(frame_of(static_cast<std::uint32_t>(script.size() + 1), type));
-        turn_part(script.back(), 1, 0.0F, rotor_deg);
-        turn_part(script.back(), 0, 0.0F, 0.0F);
+        turn_part(script.back(), 1, rotor_deg);
+        turn_part(script.back(), 0, 0.0F);
         return script.back();
     };
     next(helicopter, 0.0F);
-    next(helicopter, 0.0F);                               // 1: as before
-    next(helicopter, 30.0F);                              // 2: the rotor elsewhere
-    next(helicopter, 30.0F).begin(10, 32).set(8, 800.0F); // 3: haze
-    next(helicopter, 30.0F)
-        .begin(9, 16)
-        .set(2, std::uint8_t{17})
-        .set(4, std::uint8_t{0x13})
-        .set(8, std::uint32_t{6212026}); // 4: the sun low in the west
-    next(jet, 30.0F);                    // 5: another aircraft
-    next(jet, 30.0F)
-        .begin(16, 32)
-        .set(5, std::uint8_t{0x3f})
-        .set(8, 30.0F)
-        .set(28, 180.0F); // 6: from ahead
+    next(helicopter, 0.0F); // as before
+    next(helicopter, 30.0F);
+    set_visibility(next(helicopter, 30.0F), 800.0F);
+    set_hour(next(helicopter, 30.0F), 17);
+    next(jet, 30.0F);
+    look_back(next(jet, 30.0F));
     Host host;
     const tests::ProgramRun run = generate_for(
         host,

@@ -41,6 +41,7 @@ TEST_CASE("an entity table that is wrong is refused with its line") {
         "[[entity]]\ntype = 2\naircraft = \"f15\"\n",
         "5: expected 256 aircraft at most, got more");
     refused("[[entity]\n", "1: expected TOML");
+    refused("[[^]", "1: expected TOML");
     refused("", "1: expected");
     refused("entity = [3]\n", "1: expected");
 }
