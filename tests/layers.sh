@@ -24,11 +24,19 @@ asan() {
   ctest --test-dir build/asan -j "$jobs" -LE 'bench|long' --output-on-failure
 }
 
+# Whose threads are looked at: worker teams, meshing ahead, loading, rendering, links.
+threaded_rooms=(sim sim/links models/simplify models/measure visuals/draworder visuals/separation visuals/ordercache
+  visuals/terrain visuals/groundfile visuals/landscape visuals/planning visuals/raster ui/world ui/flight)
+
 tsan() {
-  built tsan
+  local room programs=() names=()
+  for room in "${threaded_rooms[@]}"; do
+    programs+=("${room//\//_}_unit_tests")
+    names+=("^$room: ")
+  done
+  built tsan octant "${programs[@]}"
   export TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp halt_on_error=1 second_deadlock_stack=1"
-  ctest --test-dir build/tsan -j "$jobs" -LE 'bench|long|window' --output-on-failure \
-    -R 'sim: |simplify: |draworder: |ordercache: |terrain: |scene: |raster: |flight: |formats: |world: '
+  ctest --test-dir build/tsan -j "$jobs" -L unit --output-on-failure -R "$(IFS='|' && echo "${names[*]}")"
 }
 
 fuzz() {

@@ -31,13 +31,11 @@ EOF
 
 done_in() { grep -l '"summary"' "$1"/runs/*/run.json 2>/dev/null | wc -l; }
 
-wait_for_done() { # FOLDER COUNT
-  local tenth
-  for tenth in {1..1200}; do
-    [[ $(done_in "$1") -ge $2 ]] && return 0
+wait_for_done() { # FOLDER COUNT PROCESS: until so many flights are done, while the sweep's process lives
+  while [[ $(done_in "$1") -lt $2 ]]; do
+    kill -0 "$3" 2>/dev/null || fail "expected $2 flights done in $1, got $(done_in "$1") when the sweep ended"
     sleep 0.1
   done
-  fail "expected $2 flights done in $1, got $(done_in "$1")"
 }
 
 fly_locally() {

@@ -47,7 +47,7 @@ done 2>/dev/null
 "$octant" sweep "$scratch/many.toml" --out "$scratch/parallel-runs" --on parallel \
   --hosts "$scratch/machines.txt" --retries 3 --quiet &
 sweep=$!
-wait_for_done "$scratch/parallel-runs" 8
+wait_for_done "$scratch/parallel-runs" 8 "$sweep"
 kill_server "${servers[1]}"
 echo "a machine died after $(done_in "$scratch/parallel-runs") flights"
 wait "$sweep" || fail "the sweep by GNU parallel ended with $?: $(tail -n 5 "$scratch"/parallel-runs/logs/parallel.log)"

@@ -12,7 +12,7 @@ fly_locally
 slurm_start "$scratch/slurm" || fail "Slurm does not start"
 "$octant" sweep "$scratch/many.toml" --out "$scratch/slurm-runs" --on slurm --minutes 5 --quiet &
 sweep=$!
-wait_for_done "$scratch/slurm-runs" 8
+wait_for_done "$scratch/slurm-runs" 8 "$sweep"
 slurm_kill_node n2
 echo "node n2 died after $(done_in "$scratch/slurm-runs") flights"
 sleep 12 # longer than SlurmdTimeout, so that its tasks are given up

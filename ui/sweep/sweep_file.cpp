@@ -3,6 +3,7 @@
 #include "flightpaths/toml_parser.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "ui/settings/flown_aircraft.h"
 #include "ui/settings/settings_words.h"
 
 #include <algorithm>
@@ -75,7 +76,8 @@ toml::table Reader::parsed(const fs::path& file) {
         error_at(
             file,
             static_cast<int>(fault.source().begin.line),
-            fmt::format("expected TOML, got this: {}", std::string(fault.description())));
+            fmt::format(
+                "expected TOML, got a fault: {}", printable(std::string(fault.description()))));
     }
 }
 
@@ -230,6 +232,9 @@ void Reader::set(
     settings::RunSettings& settings, const std::string& name, const Words& words, int line) const {
     try {
         settings::set_by_name(settings, name, words);
+        if (name == "aircraft") { // looked at here, where the line is known
+            std::ranges::for_each(settings.path.aircraft, settings::flown_aircraft);
+        }
     } catch (const Error& fault) {
         error_at(file_, line, fault.what());
     }
