@@ -29,6 +29,9 @@
           fault(`texts overlap: ${text} | ${other}`);
     });
   }
+  for (const box of document.querySelectorAll(".plot[data-height]"))
+    if (!box.plot.log && box.querySelectorAll("svg > text[text-anchor=end]:not(.soft)").length < 2)
+      fault(`one number alone at an axis: ${box.querySelector("h3").textContent}`);
   if (document.querySelectorAll(".plot[data-height]").length !== plots.length) fault("plots are missing");
   const pre = document.createElement("pre");
   pre.id = "verdict";

@@ -23,6 +23,7 @@ function steps(from, to, most) {
   const step = [1, 2, 5, 10].map(f => f * power).find(f => f >= raw * 0.999);
   const found = [];
   for (let v = Math.ceil(from / step - 1e-9) * step; v <= to + step * 1e-9; v += step) found.push(v);
+  if (found.length < 2 && most < 16) return steps(from, to, most * 2); // one number tells no scale
   return found.map(v => Number(v.toPrecision(10)));
 }
 function shown(v) {
