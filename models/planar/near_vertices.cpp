@@ -1,4 +1,5 @@
-// A grid of equal cells, about one point a cell, as counting-sorted lists.
+// A grid of equal cells as counting-sorted lists. Points lie on surfaces: with eight cells a point
+// a cell that is not empty holds a few.
 #include "models/planar/near_vertices.h"
 
 #include <glm/common.hpp>
@@ -18,8 +19,7 @@ constexpr int most_cells_an_axis = 128;
 
 } // namespace
 
-NearVertices::NearVertices(std::span<const glm::dvec3> points)
-    : points_(points) {
+NearVertices::NearVertices(std::span<const glm::dvec3> points) {
     glm::dvec3 most(std::numeric_limits<double>::lowest());
     least_ = glm::dvec3(std::numeric_limits<double>::max());
     for (const glm::dvec3& point : points) {
@@ -29,7 +29,7 @@ NearVertices::NearVertices(std::span<const glm::dvec3> points)
     const glm::dvec3 extent = points.empty() ? glm::dvec3(0.0) : most - least_;
     const double largest = std::max({extent.x, extent.y, extent.z});
     const double an_axis = std::clamp(
-        std::cbrt(static_cast<double>(points.size())),
+        2.0 * std::cbrt(static_cast<double>(points.size())),
         1.0,
         static_cast<double>(most_cells_an_axis));
     cell_ = largest > 0.0 ? largest / an_axis : 1.0;
@@ -45,6 +45,10 @@ NearVertices::NearVertices(std::span<const glm::dvec3> points)
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         numbers_[next[index_of(cell_of(points[i]))]++] = i;
+    }
+    places_.reserve(points.size());
+    for (const std::uint32_t number : numbers_) {
+        places_.push_back(points[number]);
     }
 }
 
@@ -67,7 +71,7 @@ void NearVertices::append_in_box(
             const std::size_t begin = first_[index_of({from.x, y, z})];
             const std::size_t end = first_[index_of({to.x, y, z}) + 1];
             for (std::size_t i = begin; i < end; ++i) {
-                const glm::dvec3& point = points_[numbers_[i]];
+                const glm::dvec3& point = places_[i];
                 if (glm::all(glm::greaterThanEqual(point, least)) &&
                     glm::all(glm::lessThanEqual(point, most))) {
                     out.push_back(numbers_[i]);

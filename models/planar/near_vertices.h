@@ -8,7 +8,7 @@
 
 namespace octant::models::planar {
 
-/// Finds points by their places. Keeps a reference to the points.
+/// Finds points by their places.
 class NearVertices {
 public:
     explicit NearVertices(std::span<const glm::dvec3> points);
@@ -26,12 +26,12 @@ public:
         std::vector<std::uint32_t>& out) const;
 
 private:
-    std::span<const glm::dvec3> points_;
     glm::dvec3 least_{0.0};
     double cell_ = 1.0;
     glm::ivec3 cells_{1};
     std::vector<std::uint32_t> first_; ///< of each cell in numbers_, and one more
     std::vector<std::uint32_t> numbers_;
+    std::vector<glm::dvec3> places_; ///< of the points in numbers_
 
     glm::ivec3 cell_of(const glm::dvec3& point) const;
     std::size_t index_of(const glm::ivec3& cell) const;

@@ -2,6 +2,7 @@
 #include "visuals/parting/clusters.h"
 
 #include "models/polygons/edge_parts.h"
+#include "visuals/parting/piece_table.h"
 
 #include <glm/geometric.hpp>
 
@@ -28,6 +29,43 @@ bool is_decal_on(const Pieces& pieces, std::uint32_t upper, std::uint32_t lower)
            !edge_parts(pieces, a, b) && !edge_parts(pieces, b, a);
 }
 
+/// Where the pieces of a set reach to one another's planes, each pair looked at once.
+class Reaches {
+public:
+    Reaches(const Pieces& pieces, std::span<const std::uint32_t> items)
+        : pieces_(pieces)
+        , items_(items)
+        , still_(items.size())
+        , reach_(items.size() * items.size()) {
+        const PieceTable table(pieces, items);
+        for (std::size_t a = 0; a < items.size(); ++a) {
+            const Piece& piece = pieces[items[a]];
+            still_[a] = piece.plane && !piece.pivot;
+            for (std::size_t b = 0; b < items.size() && still_[a]; ++b) {
+                reach_[a * items.size() + b] = table.reach(b, *piece.plane);
+            }
+        }
+    }
+
+    /// What parting::hides() says, by places in the set.
+    bool hides(std::size_t b, std::size_t a) const {
+        if (!still_[a] || !still_[b]) {
+            return parting::hides(pieces_, items_[b], items_[a]);
+        }
+        const Reach& of_b = reach_[a * items_.size() + b];
+        if (!of_b.before && !of_b.behind) {
+            return is_decal_on(pieces_, items_[b], items_[a]);
+        }
+        return of_b.before && reach_[b * items_.size() + a].behind;
+    }
+
+private:
+    const Pieces& pieces_;
+    std::span<const std::uint32_t> items_;
+    std::vector<bool> still_;  ///< Has a plane that stands still.
+    std::vector<Reach> reach_; ///< Of each to the plane of each: row after row, a plane a row.
+};
+
 /// Tarjan's search over a matrix of bits.
 class Search {
 public:
@@ -38,9 +76,10 @@ public:
         , number_(items.size(), 0)
         , low_(items.size(), 0)
         , closed_(items.size(), false) {
+        const Reaches reaches(pieces, items);
         for (std::size_t a = 0; a < items.size(); ++a) {
             for (std::size_t b = 0; b < items.size(); ++b) {
-                if (a != b && hides(pieces, items[b], items[a])) {
+                if (a != b && reaches.hides(b, a)) {
                     bits_[a * words_ + b / 64] |= std::uint64_t{1} << (b % 64);
                 }
             }

@@ -2,8 +2,9 @@
 // have gaps between their parts, the number of cuts is known for all planes at once by a sweep.
 #include "visuals/parting/parting_plane.h"
 
+#include "visuals/parting/piece_table.h"
+
 #include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -45,15 +46,14 @@ double cost_of(const Parted& parted) {
     return static_cast<double>(parted.cut) * polygons_a_cut + uneven;
 }
 
-/// Some of many pieces, with their bounding spheres side by side in memory.
+/// Some of many pieces.
 class Sample {
 public:
     Sample(const Pieces& pieces, std::span<const std::uint32_t> items)
-        : pieces_(pieces)
-        , step_(items.size() / most_looked_at + 1) {
+        : step_(items.size() / most_looked_at + 1)
+        , table_(pieces, items, step_) {
         for (std::size_t i = 0; i < items.size(); i += step_) {
-            items_.push_back(items[i]);
-            balls_.emplace_back(pieces[items[i]].middle, pieces[items[i]].radius);
+            swept_.push_back(pieces[items[i]].pivot.has_value());
         }
     }
 
@@ -62,11 +62,11 @@ public:
         Parted parted;
         const auto most_cuts = static_cast<std::size_t>(
             std::min(limit / (polygons_a_cut * static_cast<double>(step_)), 1e9));
-        for (std::size_t i = 0; i < items_.size() && parted.cut <= most_cuts; ++i) {
-            const Reach reach = reach_of(i, plane);
+        for (std::size_t i = 0; i < table_.count() && parted.cut <= most_cuts; ++i) {
+            const Reach reach = table_.reach(i, plane);
             if (reach.before && reach.behind) {
                 ++parted.cut;
-                parted.cuts_swept = parted.cuts_swept || pieces_[items_[i]].pivot;
+                parted.cuts_swept = parted.cuts_swept || swept_[i];
             } else if (reach.before) {
                 ++parted.before;
             } else if (reach.behind) {
@@ -82,19 +82,9 @@ public:
     }
 
 private:
-    Reach reach_of(std::size_t i, const Plane& plane) const {
-        const glm::dvec4& ball = balls_[i];
-        const double height = distance_m(plane, glm::dvec3(ball.x, ball.y, ball.z));
-        if (std::abs(height) > ball.w + tolerance) {
-            return {height > 0.0, height < 0.0};
-        }
-        return pieces_.reach(items_[i], plane);
-    }
-
-    const Pieces& pieces_;
     std::size_t step_;
-    std::vector<std::uint32_t> items_;
-    std::vector<glm::dvec4> balls_;
+    PieceTable table_;
+    std::vector<bool> swept_; ///< by something that turns
 };
 
 /// The best plane of a piece.

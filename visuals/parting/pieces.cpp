@@ -167,6 +167,9 @@ Reach Pieces::reach(std::uint32_t piece, const Plane& plane) const {
     }
     Reach reach;
     for (const std::uint32_t vertex : own.corners) {
+        if (reach.before && reach.behind) {
+            break;
+        }
         const double at_vertex = distance_m(plane, at(vertex));
         reach.before = reach.before || at_vertex > tolerance;
         reach.behind = reach.behind || at_vertex < -tolerance;
