@@ -1,12 +1,10 @@
 #include "models/heights/gdal_session.h"
 
+#include "models/heights/gdal_functions.h"
 #include "sim/base/error.h"
 
 #include <array>
-#include <cpl_conv.h>
-#include <gdal.h>
 #include <mutex>
-#include <ogr_srs_api.h>
 
 namespace octant::models::heights {
 

@@ -1,17 +1,14 @@
 #include "models/heights/height_field_export.h"
 
+#include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 
 #include <array>
 #include <atomic>
-#include <cpl_string.h>
-#include <cpl_vsi.h>
 #include <fmt/format.h>
-#include <gdal.h>
 #include <limits>
-#include <ogr_srs_api.h>
 #include <string>
 #include <string_view>
 #include <vector>

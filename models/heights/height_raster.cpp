@@ -1,5 +1,6 @@
 #include "models/heights/height_raster.h"
 
+#include "models/heights/gdal_functions.h"
 #include "models/heights/import_options.h"
 #include "models/heights/raster_file.h"
 #include "sim/base/error.h"
@@ -9,9 +10,7 @@
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
-#include <gdal.h>
 #include <limits>
-#include <ogr_srs_api.h>
 #include <string>
 #include <string_view>
 #include <utility>

@@ -1,5 +1,6 @@
 #include "models/heights/image.h"
 
+#include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
 #include "models/heights/local_frame.h"
 #include "models/heights/raster_file.h"
@@ -7,9 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cpl_vsi.h>
 #include <fmt/format.h>
-#include <gdal.h>
 #include <memory>
 #include <new>
 #include <utility>

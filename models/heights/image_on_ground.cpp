@@ -1,18 +1,15 @@
 #include "models/heights/image_on_ground.h"
 
+#include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cpl_conv.h>
 #include <cstddef>
 #include <cstdint>
 #include <fmt/format.h>
-#include <gdal.h>
-#include <gdal_alg.h>
-#include <gdalwarper.h>
 #include <memory>
 #include <numeric>
 #include <utility>

@@ -1,14 +1,13 @@
 #include "models/heights/local_frame.h"
 
+#include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cpl_conv.h>
 #include <fmt/format.h>
 #include <limits>
 #include <numbers>
-#include <ogr_srs_api.h>
 #include <vector>
 
 namespace octant::models::heights {

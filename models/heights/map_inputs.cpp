@@ -1,14 +1,12 @@
 #include "models/heights/map_inputs.h"
 
+#include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
 #include "models/heights/raster_file.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
 #include <array>
-#include <cpl_string.h>
-#include <cpl_vsi.h>
-#include <gdal.h>
 #include <glob.h>
 #include <string_view>
 #include <utility>

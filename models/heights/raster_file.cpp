@@ -1,15 +1,14 @@
 #include "models/heights/raster_file.h"
 
+#include "models/heights/gdal_functions.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cpl_string.h>
 #include <cstring>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gdal.h>
 #include <string_view>
 #include <unistd.h>
 

@@ -1,11 +1,12 @@
 #include "models/heights/source_grid.h"
 
+#include "models/heights/gdal_functions.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <ogr_srs_api.h>
 #include <utility>
 
 namespace octant::models::heights {

@@ -1,5 +1,6 @@
 #include "models/heights/target_lattice.h"
 
+#include "models/heights/gdal_functions.h"
 #include "sim/base/error.h"
 
 #include <glm/common.hpp>
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <ogr_srs_api.h>
 
 namespace octant::models::heights {
 

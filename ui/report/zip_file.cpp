@@ -1,6 +1,7 @@
 #include "ui/report/zip_file.h"
 
 #include "sim/base/error.h"
+#include "sim/base/late_library.h"
 #include "sim/base/output_file.h"
 
 #include <algorithm>
@@ -21,6 +22,28 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
+
+// What reads and writes zip files: few commands do, and the library takes long to load.
+constinit LateLibrary gdal_library(OCTANT_GDAL_FILE);
+
+#define OCTANT_GDAL(name) const LateFunction<decltype(::name)> name(gdal_library, #name)
+OCTANT_GDAL(CPLCloseFileInZip);
+OCTANT_GDAL(CPLCloseZip);
+OCTANT_GDAL(CPLCreateFileInZip);
+OCTANT_GDAL(CPLCreateZip);
+OCTANT_GDAL(CPLErrorReset);
+OCTANT_GDAL(CPLGetLastErrorType);
+OCTANT_GDAL(CPLPopErrorHandler);
+OCTANT_GDAL(CPLPushErrorHandler);
+OCTANT_GDAL(CPLQuietErrorHandler);
+OCTANT_GDAL(CPLWriteFileInZip);
+OCTANT_GDAL(CSLDestroy);
+OCTANT_GDAL(VSIFCloseL);
+OCTANT_GDAL(VSIFOpenL);
+OCTANT_GDAL(VSIFReadL);
+OCTANT_GDAL(VSIReadDirRecursive);
+OCTANT_GDAL(VSIStatL);
+#undef OCTANT_GDAL
 
 /// Keeps the library from printing what it finds wrong.
 class Quiet {

@@ -3,9 +3,12 @@
 // light in hollows by how far a place lies below the mean of ever wider surroundings.
 #include "visuals/nature/relief_light.h"
 
+#include "sim/base/worker_team.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <thread>
 #include <utility>
 
 namespace octant::visuals::nature {
@@ -190,17 +193,22 @@ ReliefLight::ReliefLight(const terrain::GroundSamples& ground, const glm::dvec3&
             [static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
              static_cast<std::size_t>(column)];
     };
-    if (std::hypot(to_sun.x, to_sun.y) > 1e-6) {
-        Sweep(grid, to_sun).run([&](int column, int row, double over_m, double soft_m) {
-            cell(column, row).sun = byte_of(1.0 - over_m / soft_m);
-        });
-    }
     const Sums sums(grid);
-    for (int row = 0; row < grid.rows; ++row) {
-        for (int column = 0; column < grid.columns; ++column) {
-            cell(column, row).sky = byte_of(sky_left(grid, sums, column, row));
+    const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    const auto rows = static_cast<std::size_t>(grid.rows);
+    // The first task is the sweep, each other one the sky above a row.
+    share_out(rows + 1, threads, [&](std::size_t task, std::size_t) {
+        if (task > 0) {
+            const auto row = static_cast<int>(task - 1);
+            for (int column = 0; column < grid.columns; ++column) {
+                cell(column, row).sky = byte_of(sky_left(grid, sums, column, row));
+            }
+        } else if (std::hypot(to_sun.x, to_sun.y) > 1e-6) {
+            Sweep(grid, to_sun).run([&](int column, int at_row, double over_m, double soft_m) {
+                cell(column, at_row).sun = byte_of(1.0 - over_m / soft_m);
+            });
         }
-    }
+    });
     while (levels_.back().columns > 2 && levels_.back().rows > 2) {
         halve();
     }

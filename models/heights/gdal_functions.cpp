@@ -1,0 +1,7 @@
+#include "models/heights/gdal_functions.h"
+
+namespace octant::models::heights {
+
+constinit LateLibrary gdal_library(OCTANT_GDAL_FILE);
+
+} // namespace octant::models::heights

@@ -1,0 +1,113 @@
+#pragma once
+
+#include "sim/base/late_library.h"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <gdal.h>
+#include <gdal_alg.h>
+#include <gdalwarper.h>
+#include <ogr_srs_api.h>
+
+// GDAL's functions that this room calls. The library is opened by the first call: with all that it
+// depends on it takes longer to load than the rest of the program. A function that is needed gets a
+// line here and nothing else.
+namespace octant::models::heights {
+
+extern constinit LateLibrary gdal_library;
+
+#define OCTANT_GDAL(name) inline const LateFunction<decltype(::name)> name(gdal_library, #name)
+OCTANT_GDAL(CPLErrorReset);
+OCTANT_GDAL(CPLGetErrorHandlerUserData);
+OCTANT_GDAL(CPLMalloc);
+OCTANT_GDAL(CPLPopErrorHandler);
+OCTANT_GDAL(CPLPushErrorHandlerEx);
+OCTANT_GDAL(CPLSetThreadLocalConfigOption);
+OCTANT_GDAL(CSLCount);
+OCTANT_GDAL(CSLDestroy);
+OCTANT_GDAL(CSLFetchNameValue);
+OCTANT_GDAL(CSLSetNameValue);
+OCTANT_GDAL(GDALAddBand);
+OCTANT_GDAL(GDALAllRegister);
+OCTANT_GDAL(GDALApproxTransform);
+OCTANT_GDAL(GDALChunkAndWarpImage);
+OCTANT_GDAL(GDALClose);
+OCTANT_GDAL(GDALCreate);
+OCTANT_GDAL(GDALCreateApproxTransformer);
+OCTANT_GDAL(GDALCreateGenImgProjTransformer);
+OCTANT_GDAL(GDALCreateWarpOperation);
+OCTANT_GDAL(GDALCreateWarpOptions);
+OCTANT_GDAL(GDALDataTypeIsComplex);
+OCTANT_GDAL(GDALDeregisterDriver);
+OCTANT_GDAL(GDALDestroyTransformer);
+OCTANT_GDAL(GDALDestroyWarpOperation);
+OCTANT_GDAL(GDALDestroyWarpOptions);
+OCTANT_GDAL(GDALFlushCache);
+OCTANT_GDAL(GDALGenImgProjTransform);
+OCTANT_GDAL(GDALGetColorEntryAsRGB);
+OCTANT_GDAL(GDALGetColorEntryCount);
+OCTANT_GDAL(GDALGetDataTypeName);
+OCTANT_GDAL(GDALGetDriverByName);
+OCTANT_GDAL(GDALGetDriverShortName);
+OCTANT_GDAL(GDALGetFileList);
+OCTANT_GDAL(GDALGetGeoTransform);
+OCTANT_GDAL(GDALGetMaskBand);
+OCTANT_GDAL(GDALGetMaskFlags);
+OCTANT_GDAL(GDALGetMetadata);
+OCTANT_GDAL(GDALGetRasterBand);
+OCTANT_GDAL(GDALGetRasterBandXSize);
+OCTANT_GDAL(GDALGetRasterBandYSize);
+OCTANT_GDAL(GDALGetRasterColorInterpretation);
+OCTANT_GDAL(GDALGetRasterColorTable);
+OCTANT_GDAL(GDALGetRasterCount);
+OCTANT_GDAL(GDALGetRasterDataType);
+OCTANT_GDAL(GDALGetRasterNoDataValue);
+OCTANT_GDAL(GDALGetRasterNoDataValueAsInt64);
+OCTANT_GDAL(GDALGetRasterNoDataValueAsUInt64);
+OCTANT_GDAL(GDALGetRasterOffset);
+OCTANT_GDAL(GDALGetRasterScale);
+OCTANT_GDAL(GDALGetRasterUnitType);
+OCTANT_GDAL(GDALGetRasterXSize);
+OCTANT_GDAL(GDALGetRasterYSize);
+OCTANT_GDAL(GDALGetSpatialRef);
+OCTANT_GDAL(GDALIdentifyDriverEx);
+OCTANT_GDAL(GDALOpenEx);
+OCTANT_GDAL(GDALRasterIO);
+OCTANT_GDAL(GDALRasterIOEx);
+OCTANT_GDAL(GDALSetGeoTransform);
+OCTANT_GDAL(GDALSetProjection);
+OCTANT_GDAL(GDALSetRasterNoDataValue);
+OCTANT_GDAL(GDALSetRasterUnitType);
+OCTANT_GDAL(GDALSetSpatialRef);
+OCTANT_GDAL(GDALSuggestedWarpOutput);
+OCTANT_GDAL(OCTDestroyCoordinateTransformation);
+OCTANT_GDAL(OCTNewCoordinateTransformation);
+OCTANT_GDAL(OCTTransformEx);
+OCTANT_GDAL(OSRClone);
+OCTANT_GDAL(OSRExportToWkt);
+OCTANT_GDAL(OSRGetAttrValue);
+OCTANT_GDAL(OSRGetLinearUnits);
+OCTANT_GDAL(OSRGetTargetLinearUnits);
+OCTANT_GDAL(OSRImportFromProj4);
+OCTANT_GDAL(OSRIsGeographic);
+OCTANT_GDAL(OSRIsLocal);
+OCTANT_GDAL(OSRIsProjected);
+OCTANT_GDAL(OSRIsSame);
+OCTANT_GDAL(OSRNewSpatialReference);
+OCTANT_GDAL(OSRRelease);
+OCTANT_GDAL(OSRSetAxisMappingStrategy);
+OCTANT_GDAL(OSRSetFromUserInput);
+OCTANT_GDAL(OSRSetLinearUnits);
+OCTANT_GDAL(OSRSetLocalCS);
+OCTANT_GDAL(OSRSetPROJEnableNetwork);
+OCTANT_GDAL(VSIFCloseL);
+OCTANT_GDAL(VSIFileFromMemBuffer);
+OCTANT_GDAL(VSIFree);
+OCTANT_GDAL(VSIGetMemFileBuffer);
+OCTANT_GDAL(VSIReadDirRecursive);
+OCTANT_GDAL(VSIUnlink);
+#undef OCTANT_GDAL
+
+} // namespace octant::models::heights

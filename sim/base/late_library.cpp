@@ -1,0 +1,21 @@
+#include "sim/base/late_library.h"
+
+#include "sim/base/error.h"
+
+#include <dlfcn.h>
+#include <string>
+
+namespace octant {
+
+void* LateLibrary::address_of(const char* name) {
+    std::call_once(once_, [this] { handle_ = ::dlopen(file_, RTLD_LAZY | RTLD_LOCAL); });
+    void* const at = handle_ == nullptr ? nullptr : ::dlsym(handle_, name);
+    if (at == nullptr) {
+        throw Error(
+            std::string("expected ") + file_ +
+            (handle_ == nullptr ? "" : std::string(" with ") + name) + " on this system, got none");
+    }
+    return at;
+}
+
+} // namespace octant
