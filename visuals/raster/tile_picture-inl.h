@@ -144,9 +144,10 @@ HWY_INLINE void blend_clear(const TileJob& job, const ClearPixel& clear) {
     std::uint8_t* const to = job.rgba + static_cast<std::size_t>(row) * job.row_bytes +
                              static_cast<std::size_t>(column) * 4;
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t there = to[k] * std::uint32_t{16};
+        std::uint8_t& under = to[byte_of_colour(job, k)];
+        const std::uint32_t there = under * std::uint32_t{16};
         const std::uint32_t mixed = clear.colour[k] * share + there * (whole - share);
-        to[k] = static_cast<std::uint8_t>((mixed + 8 * whole) / (16 * whole));
+        under = static_cast<std::uint8_t>((mixed + 8 * whole) / (16 * whole));
     }
 }
 

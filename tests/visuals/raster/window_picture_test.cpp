@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,33 @@ void paint_some(FlatPlan& plan) {
     plan.plan().background = glm::vec3(0.9F, 0.5F, 0.1F);
 }
 
+/// An orange square, a quarter opaque.
+scene::ModelBuffers pane() {
+    scene::ModelBuffers model;
+    for (const glm::vec2 at :
+         {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+        scene::ModelVertex vertex;
+        vertex.position_m = glm::vec3(at, -4.0F);
+        vertex.normal = vertex.face_normal = glm::vec3(0.0F, 0.0F, 1.0F);
+        vertex.colour = vertex.face_colour = 0xff0080ffU;
+        model.vertices.push_back(vertex);
+    }
+    model.indices = {0, 1, 2, 0, 2, 3};
+    return model;
+}
+
+void add_pane(scene::FramePlan& plan) {
+    plan.ambient = glm::vec3(1.0F);
+    plan.smooth = {~0U};
+    plan.parts = {glm::mat4(1.0F)};
+    plan.aircraft = {{.model = 0, .first_index = 0, .index_count = 6}};
+    plan.depth_boxes = {{glm::ivec2(0), window_px}};
+    using scene::PaintStep;
+    plan.steps.push_back({PaintStep::What::ClearDepth, 0, 1});
+    plan.steps.push_back(
+        {PaintStep::What::Aircraft, 0, 1, PaintStep::whole, scene::DepthUse::Nearest, 0.25F});
+}
+
 } // namespace
 
 TEST_CASE("a picture in a window's memory is the one that is read, blue first") {
@@ -61,14 +89,21 @@ TEST_CASE("a picture in a window's memory is the one that is read, blue first") 
     plan.plan().overlay = {words, indices};
     const auto window = std::make_shared<KeptPicture>();
     Renderer renderer(std::make_shared<Workers>(1), window_px, 16, window);
+    const scene::ModelBuffers model = pane();
+    renderer.load_models(std::span(&model, 1));
     const auto draw = [&] {
         renderer.draw(plan.plan());
         renderer.draw_inset(second.plan(), corner);
     };
+    scene::Picture without_pane;
+    draw();
+    renderer.finish_and_read(without_pane);
+    add_pane(plan.plan());
     scene::Picture read;
     draw();
     CHECK_FALSE(renderer.is_in_window());
     renderer.finish_and_read(read);
+    CHECK(read.rgba != without_pane.rgba);
 
     renderer.aim_at_window(window_px);
     draw();
