@@ -17,8 +17,8 @@
 // the vertex (errors up to f) and with it (up to r f), and its error is at most (1 - w) f + w r f,
 // which is never more than 1: geomorphs keep the bound. Where the eye comes nearer by a small share
 // of its distance, a vertex that lies d wanted errors from the middle of its ends moves by d /
-// (1 - r) times that share at most, and tile_builder_errors.cpp sees to it that this is no more
-// than fastest_move.
+// (1 - r) times that share at most, and tile_builder_errors.cpp sees to it that d / (1 - r) is
+// small.
 //
 // Deviations:
 // - Where the field's end cuts a node, a centre lies beside the line between its ends. It appears

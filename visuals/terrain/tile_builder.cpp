@@ -47,6 +47,7 @@ std::span<const std::byte> TileBuilder::build(const TilePlace& place) {
     choose_lattice();
     fetch_children();
     fetch_unseen();
+    measure_relief();
     measure_souths();
     measure_wests();
     measure_centres();

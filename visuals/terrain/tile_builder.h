@@ -24,8 +24,8 @@ struct TilePlace {
 /// level around it. There is one builder for each thread; it reuses its memory, at most 10 MB.
 class TileBuilder {
 public:
-    /// `memory` is GroundLayout memory in which finished tiles of the finer level can be read and
-    /// into which the strips are written. All arguments must outlive the builder.
+    /// `memory` is GroundLayout memory in which height ranges and finished tiles of the finer level
+    /// can be read and into which the strips are written. All arguments must outlive the builder.
     TileBuilder(
         const GroundLayout& layout,
         const StoredHeights& heights,
@@ -65,6 +65,7 @@ private:
     float unseen(int column, int row) const;
     float unseen_by(int index, int row, Diamond diamond) const;
     std::uint8_t children(int column, int row) const;
+    void measure_relief();
     void measure_souths();
     void measure_wests();
     void measure_centres();
@@ -81,6 +82,7 @@ private:
     const ErrorCoder& coder_;
     std::span<std::byte> memory_;
     int level_ = 0;
+    float near_error_ = 0.0F; ///< The largest error that moves beside the eye, in numbers.
     Extent extent_;
     std::vector<std::int16_t> copied_; ///< Every stride-th sample around the tile.
     const std::int16_t* lattice_ = nullptr;

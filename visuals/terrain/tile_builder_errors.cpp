@@ -13,13 +13,19 @@
 //   direction. To their deviation is added the largest error in the mesh of the samples looked at,
 //   that of the nodes five levels below: no sample between can lie farther off.
 // - Where leaving a sample out moves the ground by d, its error is at least that of the samples
-//   that need it and d / fastest_move more, so that it has the time to move into its place before
-//   they appear (error_mesher.cpp).
+//   that need it and d / S more, so that it has the time to move into its place before they appear
+//   (error_mesher.cpp). S is how far a vertex may move, in wanted errors, while its distance
+//   shrinks by a small share of itself, divided by that share. A larger error moves at a larger
+//   distance, of which the eye's way is a smaller share; so S grows with it: with its square root,
+//   because the wanted error changes, too, and does so at all distances alike. It is taken of the
+//   least error that the sample can get, which keeps the outcome growing with the errors below.
 #include "visuals/terrain/ground_tiles.h"
 #include "visuals/terrain/tile_builder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
 
 namespace octant::visuals::terrain {
 
@@ -27,9 +33,11 @@ namespace {
 
 constexpr int levels_unseen = 5; ///< Nodes so far below have an edge of one lattice step.
 
-/// How far a vertex may move, in wanted errors, while the eye comes nearer by a small share of its
-/// distance, divided by that share.
-constexpr float fastest_move = 5.0F;
+/// S for vertices that move beside the eye, and for those far off.
+constexpr float near_move = 3.5F;
+constexpr float far_move = 7.0F;
+/// The largest error that moves beside the eye, as a share of the ground's relief.
+constexpr float near_error = 1.0F / 512.0F;
 
 std::size_t index_of(int column, int row, int columns) {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -81,6 +89,14 @@ float TileBuilder::unseen(int column, int row) const {
     return unseen_[index_of(column + 1, row + 1, most + 2)];
 }
 
+/// Takes the ground's relief from the ranges in memory.
+void TileBuilder::measure_relief() {
+    HeightRange whole;
+    std::memcpy(&whole, memory_.data() + layout_.level(0).ranges, sizeof whole);
+    const int stored = whole.highest - whole.lowest;
+    near_error_ = near_error * static_cast<float>(stored) / static_cast<float>(heights_.multiplier);
+}
+
 /// The least error of a sample with room to move, given the largest code of those that need it.
 std::uint8_t TileBuilder::with_room(std::uint8_t below, const Halved& edge) const {
     if (below == 0) {
@@ -91,9 +107,15 @@ std::uint8_t TileBuilder::with_room(std::uint8_t below, const Halved& edge) cons
             std::min(at[0], heights_.columns - 1), std::min(at[1], heights_.rows - 1)));
     };
     const int twice = 2 * number(edge.middle) - number(edge.end_a) - number(edge.end_b);
-    const float room = 0.5F * static_cast<float>(std::abs(twice)) / fastest_move;
+    if (twice == 0) {
+        return below;
+    }
     const float error = GroundTiles::error_m_of(below) / static_cast<float>(heights_.number_unit_m);
-    return twice == 0 ? below : std::max(below, coder_.code_of(error + room));
+    const float move = 0.5F * static_cast<float>(std::abs(twice));
+    const float least = error + move / far_move;
+    const float fastest_move =
+        std::clamp(near_move * std::sqrt(least / near_error_), near_move, far_move);
+    return std::max(below, coder_.code_of(error + move / fastest_move));
 }
 
 /// Measures the own errors of a row of samples: the middles of nodes, of their south edges or of

@@ -136,10 +136,15 @@ private:
                               height(moved({at.x - end.x, at.y - end.y}));
         const double move_m = std::abs(height(moved(at)) - 0.5 * ends_m);
         const double below_m = static_cast<double>(GroundTiles::error_m_of(below));
-        return below == 0 || move_m == 0.0 ? below : std::max(below, coded(below_m + move_m / 5.0));
+        const double relief_m = static_cast<double>(field_.highest_m() - field_.lowest_m());
+        const double fastest =
+            std::clamp(3.5 * std::sqrt(512.0 * (below_m + move_m / 7.0) / relief_m), 3.5, 7.0);
+        return below == 0 || move_m == 0.0 ? below
+                                           : std::max(below, coded(below_m + move_m / fastest));
     }
 
-    /// The largest error of the nodes with an edge of one stride around a sample.
+    /// The largest error of the nodes with an edge of one stride in the large nodes that a sample's
+    /// triangles touch.
     double unseen(Point at, int half) const {
         const int stride = half / 16;
         if (stride < 2) {
@@ -148,9 +153,11 @@ private:
         const int node = 2 * half;
         const int least_x = (at.x - half / 2) / node * node;
         const int least_y = (at.y - half / 2) / node * node;
+        const int end_x = (at.x + half / 2 + node - 1) / node * node;
+        const int end_y = (at.y + half / 2 + node - 1) / node * node;
         std::uint8_t largest = 0;
-        for (int y = least_y; y < at.y + half; y += stride) {
-            for (int x = least_x; x < at.x + half; x += stride) {
+        for (int y = least_y; y < end_y; y += stride) {
+            for (int x = least_x; x < end_x; x += stride) {
                 const Point centre{x + stride / 2, y + stride / 2};
                 if (padded(centre.x, centre.y) && has_area(centre.x, centre.y, stride / 2)) {
                     largest = std::max(largest, code(centre.x, centre.y));
