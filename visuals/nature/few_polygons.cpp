@@ -1,5 +1,6 @@
 #include "visuals/nature/few_polygons.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace octant::visuals::nature {
@@ -27,7 +28,7 @@ const Outline& outline_of(TreeShape shape, TreeDetail detail) {
 
 void add_tree(
     Builder& to,
-    const glm::vec3& foot_m,
+    const Foot& foot,
     const glm::vec2& size_m,
     TreeShape shape,
     TreeDetail detail,
@@ -41,10 +42,11 @@ void add_tree(
         const float darker = 0.62F + 0.38F * at.y;
         for (std::uint32_t side = 0; side < 8; side += step) {
             const glm::vec2 out = size_m.x * at.x * compass[side];
-            to.add(foot_m + glm::vec3(out.x, out.y, size_m.y * at.y), light.sides[side] * darker);
+            const float height_m = size_m.y * at.y + foot.ground_m(out);
+            to.add(foot.at_m + glm::vec3(out, height_m), light.sides[side] * darker);
         }
     }
-    const std::uint32_t top = to.add(foot_m + glm::vec3(0.0F, 0.0F, size_m.y), light.top);
+    const std::uint32_t top = to.add(foot.at_m + glm::vec3(0.0F, 0.0F, size_m.y), light.top);
     for (std::uint32_t ring = 0; ring < static_cast<std::uint32_t>(outline.count); ++ring) {
         const std::uint32_t own = first + ring * sides;
         const bool last = ring + 1 == static_cast<std::uint32_t>(outline.count);
@@ -62,15 +64,17 @@ void add_tree(
 
 void add_house(
     Builder& to,
-    const glm::vec3& foot_m,
+    const Foot& foot,
     const glm::vec2& along,
     const glm::vec3& size_m,
+    float grown,
     const std::array<glm::vec3, 4>& wall,
     const std::array<glm::vec3, 2>& roof) {
     const glm::vec2 across(-along.y, along.x);
     const auto at = [&](float x, float y, float z) {
         const glm::vec2 level = along * (x * size_m.x) + across * (y * size_m.y);
-        return foot_m + glm::vec3(level.x, level.y, z);
+        const float ground_m = foot.ground_m(level);
+        return foot.at_m + glm::vec3(level, ground_m + grown * std::max(z - ground_m, 0.0F));
     };
     const float eaves_m = 0.58F * size_m.z;
     const auto quad = [&](const std::array<glm::vec3, 4>& corner, const glm::vec3& colour) {
@@ -81,11 +85,11 @@ void add_house(
         to.triangle(first, first + 1, first + 2);
         to.triangle(first, first + 2, first + 3);
     };
-    constexpr float foot = -1.0F; // metres: no wall ends above a slope
-    quad({at(1, -1, foot), at(1, 1, foot), at(1, 1, eaves_m), at(1, -1, eaves_m)}, wall[0]);
-    quad({at(1, 1, foot), at(-1, 1, foot), at(-1, 1, eaves_m), at(1, 1, eaves_m)}, wall[1]);
-    quad({at(-1, 1, foot), at(-1, -1, foot), at(-1, -1, eaves_m), at(-1, 1, eaves_m)}, wall[2]);
-    quad({at(-1, -1, foot), at(1, -1, foot), at(1, -1, eaves_m), at(-1, -1, eaves_m)}, wall[3]);
+    constexpr float low = -1e3F; // metres: walls end at the ground
+    quad({at(1, -1, low), at(1, 1, low), at(1, 1, eaves_m), at(1, -1, eaves_m)}, wall[0]);
+    quad({at(1, 1, low), at(-1, 1, low), at(-1, 1, eaves_m), at(1, 1, eaves_m)}, wall[1]);
+    quad({at(-1, 1, low), at(-1, -1, low), at(-1, -1, eaves_m), at(-1, 1, eaves_m)}, wall[2]);
+    quad({at(-1, -1, low), at(1, -1, low), at(1, -1, eaves_m), at(-1, -1, eaves_m)}, wall[3]);
     quad({at(1, 1, eaves_m), at(-1, 1, eaves_m), at(-1, 0, size_m.z), at(1, 0, size_m.z)}, roof[0]);
     quad(
         {at(-1, -1, eaves_m), at(1, -1, eaves_m), at(1, 0, size_m.z), at(-1, 0, size_m.z)},

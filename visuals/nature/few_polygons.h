@@ -40,6 +40,15 @@ struct Builder {
     }
 };
 
+/// Where a thing stands. Nothing of it lies below that plane, which may be painted before it.
+struct Foot {
+    glm::vec3 at_m;
+    glm::vec2 rise; ///< metres up a metre east and north
+
+    /// Height of the ground over the foot, so far off.
+    float ground_m(const glm::vec2& off_m) const { return rise.x * off_m.x + rise.y * off_m.y; }
+};
+
 /// A tree's colours under light: of sides that face the compass, and from above.
 struct TreeLight {
     std::array<glm::vec3, 8> sides;
@@ -51,23 +60,24 @@ enum class TreeShape { Pointed, Round };
 /// How finely a tree is built. Far ones have four sides, others eight; near ones are rounder.
 enum class TreeDetail { Near, Usual, Far };
 
-/// `size_m`: radius and height.
+/// `size_m`: radius and height. The crown's rings lie along the ground.
 void add_tree(
     Builder& to,
-    const glm::vec3& foot_m,
+    const Foot& foot,
     const glm::vec2& size_m,
     TreeShape shape,
     TreeDetail detail,
     const TreeLight& light);
 
 /// Four walls and a gable roof. `along` (unit) is the ridge's direction, `size_m` half the length,
-/// half the width and the height; walls face along, to the left, back and to the right, the roof's
-/// sides left and right.
+/// half the width and the height; `grown`, 0..1, says how much of the height there is yet; walls
+/// face along, to the left, back and to the right, the roof's sides left and right.
 void add_house(
     Builder& to,
-    const glm::vec3& foot_m,
+    const Foot& foot,
     const glm::vec2& along,
     const glm::vec3& size_m,
+    float grown,
     const std::array<glm::vec3, 4>& wall,
     const std::array<glm::vec3, 2>& roof);
 

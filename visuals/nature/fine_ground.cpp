@@ -1,9 +1,12 @@
 #include "visuals/nature/fine_ground.h"
 
+#include "visuals/nature/scenery.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -19,6 +22,7 @@ constexpr int most_depth = 14;
 constexpr float moved_a_slope = 0.3F;
 constexpr float shade = 0.24F;
 constexpr float level_slope = 0.015F; ///< edges more level than this have less of everything
+constexpr float quarter_edge = 1.2F;  ///< over the sample distance: quarters of cells are shorter
 
 /// The ground below the eye, and places no nearer than this, metres.
 constexpr float nearest_m = 3.0F;
@@ -64,8 +68,10 @@ float side_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
 
 } // namespace
 
-void FineGround::begin(const FineView& view, std::span<const models::ColourVertex> vertices) {
+void FineGround::begin(
+    const FineView& view, std::span<const models::ColourVertex> vertices, Scenery* scenery) {
     view_ = view;
+    scenery_ = scenery;
     vertices_.assign(vertices.begin(), vertices.end());
     middles_.resize(table_places);
     ++frame_;
@@ -118,11 +124,14 @@ std::uint32_t FineGround::make_middle(std::uint32_t a, std::uint32_t b) {
         const float slope = std::abs(to.position_m.z - from.position_m.z) / length_m;
         const float rough = std::min(slope / level_slope, 1.0F);
         const double cell_m = view_.spacing_m / 64.0;
-        const auto column = std::llround((static_cast<double>(at_m.x) + view_.eye_m.x) / cell_m);
-        const auto row = std::llround((static_cast<double>(at_m.y) + view_.eye_m.y) / cell_m);
-        const float most_m =
-            std::min(moved_a_slope * slope * length_m, static_cast<float>(most_moved) * spacing_m);
-        at_m.z += 0.5F * grown * most_m * noise_at(column, row, 1);
+        const glm::dvec2 place_m = glm::dvec2(at_m) + glm::dvec2(view_.eye_m);
+        const auto column = std::llround(place_m.x / cell_m);
+        const auto row = std::llround(place_m.y / cell_m);
+        if (scenery_ == nullptr || !scenery_->bears_by(place_m)) {
+            const float most_m = std::min(
+                moved_a_slope * slope * length_m, static_cast<float>(most_moved) * spacing_m);
+            at_m.z += 0.5F * grown * most_m * noise_at(column, row, 1);
+        }
         factor = 1.0F + shade * grown * rough * noise_at(column, row, 2);
     }
     const std::uint32_t colour = shaded(from.colour, to.colour, factor);
@@ -130,8 +139,9 @@ std::uint32_t FineGround::make_middle(std::uint32_t a, std::uint32_t b) {
     return static_cast<std::uint32_t>(vertices_.size() - 1);
 }
 
-void FineGround::add(const std::uint32_t* corners, std::vector<std::uint32_t>& indices) {
-    add_parts({corners[0], corners[1], corners[2]}, 0, indices);
+void FineGround::add(
+    const std::uint32_t* corners, bool bears, std::vector<std::uint32_t>& indices) {
+    add_parts({corners[0], corners[1], corners[2]}, 0, bears, indices);
 }
 
 /// Whether a triangle, and all that may be made of it, lies outside the frustum.
@@ -145,10 +155,29 @@ bool FineGround::is_outside(const Corners& triangle) const {
     });
 }
 
+/// Things stand within quarters of cells, which are even where anything stands.
+bool FineGround::is_quarter_of_cell(const Corners& triangle) const {
+    const glm::vec3& a = vertices_[triangle.a].position_m;
+    const glm::vec3& b = vertices_[triangle.b].position_m;
+    const glm::vec3& c = vertices_[triangle.c].position_m;
+    const float most_m = quarter_edge * static_cast<float>(view_.spacing_m);
+    return std::max({level_length2(a, b), level_length2(b, c), level_length2(c, a)}) <
+           most_m * most_m;
+}
+
+void FineGround::add_things(const Corners& triangle, std::vector<std::uint32_t>& indices) {
+    scenery_->add(
+        {vertices_[triangle.a].position_m,
+         vertices_[triangle.b].position_m,
+         vertices_[triangle.c].position_m},
+        vertices_,
+        indices);
+}
+
 /// Halves a triangle by its longest edge that looks long, and its parts likewise. The plane through
 /// the cut stands upright, so that the part on the eye's side hides nothing of the other.
 void FineGround::add_parts(
-    const Corners& triangle, int depth, std::vector<std::uint32_t>& indices) {
+    const Corners& triangle, int depth, bool bears, std::vector<std::uint32_t>& indices) {
     const Corners turns[3] = {
         triangle, {triangle.b, triangle.c, triangle.a}, {triangle.c, triangle.a, triangle.b}};
     const Corners* longest = nullptr;
@@ -168,6 +197,10 @@ void FineGround::add_parts(
             length2 = own2;
         }
     }
+    if (bears && (longest == nullptr || is_quarter_of_cell(triangle))) {
+        add_things(triangle, indices);
+        bears = false;
+    }
     if (longest == nullptr) {
         indices.insert(indices.end(), {triangle.a, triangle.b, triangle.c});
         return;
@@ -179,9 +212,8 @@ void FineGround::add_parts(
     const glm::vec3& cut_to = vertices_[middle].position_m;
     const bool eye_by_first = (side_of(cut_from, cut_to, glm::vec3(0.0F)) > 0.0F) ==
                               (side_of(cut_from, cut_to, vertices_[longest->a].position_m) > 0.0F);
-    const bool first_goes_last = eye_by_first == (view_.order == terrain::PaintOrder::BackToFront);
-    add_parts(first_goes_last ? second : first, depth + 1, indices);
-    add_parts(first_goes_last ? first : second, depth + 1, indices);
+    add_parts(eye_by_first ? first : second, depth + 1, bears, indices);
+    add_parts(eye_by_first ? second : first, depth + 1, bears, indices);
 }
 
 } // namespace octant::visuals::nature

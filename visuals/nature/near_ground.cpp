@@ -35,10 +35,8 @@ NearGround::made(const terrain::GroundMesh& mesh, const FineView& view, const Ne
     frame_ = 1 - frame_;
     Frame& frame = frames_[frame_];
     std::swap(fine_.vertices(), frame.vertices); // memory of the frame before the last
-    FineView near_first = view;
-    near_first.order = terrain::PaintOrder::FrontToBack;
-    fine_.begin(near_first, mesh.vertices);
-    scenery_.begin(near_first);
+    fine_.begin(view, mesh.vertices, detail.scenery ? &scenery_ : nullptr);
+    scenery_.begin(view);
     const bool far_first = view.order == terrain::PaintOrder::BackToFront;
     const auto reach_m = static_cast<float>(detail.scenery ? scenery_.reach_m() : 0.0);
     const std::size_t count = mesh.indices.size() / 3;
@@ -53,12 +51,13 @@ NearGround::made(const terrain::GroundMesh& mesh, const FineView& view, const Ne
             mesh.vertices[corners[0]].position_m,
             mesh.vertices[corners[1]].position_m,
             mesh.vertices[corners[2]].position_m};
-        if (is_nearer(corners_m, reach_m)) {
-            scenery_.add(corners_m, fine_.vertices(), frame.indices);
-        }
+        const bool bears = is_nearer(corners_m, reach_m);
         if (detail.fine_ground) {
-            fine_.add(corners, frame.indices);
+            fine_.add(corners, bears, frame.indices);
         } else {
+            if (bears) {
+                scenery_.add(corners_m, fine_.vertices(), frame.indices);
+            }
             frame.indices.insert(frame.indices.end(), corners, corners + 3);
         }
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "visuals/nature/fine_ground.h"
+#include "visuals/nature/fine_view.h"
 #include "visuals/nature/scenery.h"
 #include "visuals/terrain/ground_mesh.h"
 

@@ -20,7 +20,6 @@ constexpr double least_cell_m = 15.0; ///< denser ground bears something in some
 constexpr float least_radius_m = 1.2F;
 constexpr float house_radius_m = 4.0F; ///< no house where less fits
 constexpr float house_m = 7.5F;        ///< its height
-constexpr float sunk_m = 0.3F;         ///< of trees, so that none floats over a slope
 constexpr float near_m = 110.0F;
 constexpr float far_off_m = 300.0F;
 constexpr std::size_t upwards = 8; ///< place of the light from above, after the eight sides
@@ -133,6 +132,36 @@ Scenery::Thing Scenery::thing_at(int column, int row, int spot) {
     return known.thing;
 }
 
+bool Scenery::bears_by(const glm::dvec2& place_m) {
+    constexpr double near = 0.01; // of a cell
+    if (reach_m_ <= 0.0) {
+        return false;
+    }
+    const glm::dvec2 place = (place_m - first_m_) / spacing_m_;
+    const glm::ivec2 least(glm::floor(place - near));
+    const glm::ivec2 most(glm::floor(place + near));
+    for (int row = std::max(least.y, 0); row <= std::min(most.y, samples_.y - 2); ++row) {
+        for (int column = std::max(least.x, 0); column <= std::min(most.x, samples_.x - 2);
+             ++column) {
+            if (row % stride_ != 0 || column % stride_ != 0) {
+                continue;
+            }
+            const glm::dvec2 from_middle = place - glm::dvec2(column, row) - 0.5;
+            for (int spot = 0; spot < 4; ++spot) {
+                const glm::dvec2 way = spots[static_cast<std::size_t>(spot)] - 0.5;
+                const bool upright = std::abs(way.y) > std::abs(way.x);
+                const double out = upright ? std::copysign(1.0, way.y) * from_middle.y
+                                           : std::copysign(1.0, way.x) * from_middle.x;
+                const double aside = std::abs(upright ? from_middle.x : from_middle.y);
+                if (out > aside - near && thing_at(column, row, spot).kind != Kind::Nothing) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
 /// What stands within a triangle, with the ground below it as drawn.
 void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
     const auto& [a, b, c] = triangle_m;
@@ -141,6 +170,8 @@ void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
         (to_grid + glm::dvec2(glm::min(glm::min(a, b), c))) / spacing_m_ + 0.01;
     const glm::dvec2 most = (to_grid + glm::dvec2(glm::max(glm::max(a, b), c))) / spacing_m_ - 0.01;
     const float area = side_of(a, b, c);
+    const glm::vec3 across = glm::cross(b - a, c - a);
+    const glm::vec2 rise = glm::vec2(across) / -across.z;
     const auto reach2_m2 = static_cast<float>(reach_m_ * reach_m_);
     const auto first_of = [&](double from) {
         const int cell = std::max(static_cast<int>(std::floor(from)), 0);
@@ -167,7 +198,7 @@ void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
                 }
                 const Thing thing = thing_at(column, row, spot);
                 if (thing.kind != Kind::Nothing) {
-                    standing_.push_back({at_m, at_m.x * at_m.x + at_m.y * at_m.y, thing});
+                    standing_.push_back({at_m, rise, at_m.x * at_m.x + at_m.y * at_m.y, thing});
                 }
             }
         }
@@ -181,9 +212,7 @@ void Scenery::add(
     standing_.clear();
     collect(triangle_m);
     std::ranges::sort(standing_, [&](const Standing& one, const Standing& other) {
-        return view_.order == terrain::PaintOrder::BackToFront
-                   ? one.distance2_m2 > other.distance2_m2
-                   : one.distance2_m2 < other.distance2_m2;
+        return one.distance2_m2 < other.distance2_m2;
     });
     for (const Standing& one : standing_) {
         const float distance_m = glm::length(one.at_m);
@@ -229,9 +258,10 @@ void Scenery::build_house(
     Builder to{vertices, indices};
     add_house(
         to,
-        one.at_m,
+        {one.at_m, one.rise},
         compass[turn],
-        glm::vec3(1.25F * half_m, 0.85F * half_m, house_m * grown),
+        glm::vec3(1.25F * half_m, 0.85F * half_m, house_m),
+        grown,
         {wall(0), wall(2), wall(4), wall(6)},
         {roof(2), roof(6)});
 }
@@ -252,7 +282,7 @@ void Scenery::build_tree(
     Builder to{vertices, indices};
     add_tree(
         to,
-        one.at_m - glm::vec3(0.0F, 0.0F, sunk_m),
+        {one.at_m, one.rise},
         {std::min(size * species.radius_m, most_radius_m_), size * species.height_m * grown},
         species.shape,
         detail,

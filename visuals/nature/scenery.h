@@ -3,7 +3,7 @@
 #include "models/colour_vertex.h"
 #include "visuals/nature/daylight.h"
 #include "visuals/nature/few_polygons.h"
-#include "visuals/nature/fine_ground.h"
+#include "visuals/nature/fine_view.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -45,8 +45,12 @@ public:
     /// Begins a frame seen from there: what add() appends is chosen for it.
     void begin(const FineView& view);
 
-    /// Appends what stands on a triangle (world axes with the eye subtracted, as drawn) in painting
-    /// order: to `vertices`, and as triangles, counter-clockwise seen from outside, to `indices`.
+    /// Whether anything stands in a quarter of a cell that holds a place or ends there.
+    bool bears_by(const glm::dvec2& place_m);
+
+    /// Appends what stands on a triangle (world axes with the eye subtracted, as drawn), none of it
+    /// below the triangle's plane, from near to far: to `vertices`, and as triangles,
+    /// counter-clockwise seen from outside, to `indices`.
     void
     add(const std::array<glm::vec3, 3>& triangle_m,
         std::vector<models::ColourVertex>& vertices,
@@ -73,6 +77,7 @@ private:
 
     struct Standing {
         glm::vec3 at_m;
+        glm::vec2 rise; ///< of its ground, metres up a metre east and north
         float distance2_m2;
         Thing thing;
     };

@@ -65,6 +65,26 @@ TEST_CASE("a polygon number is wrong when a larger reference does not have it th
     CHECK(ui::flight::wrong_among(pixels, picture, picture_of(6, 3, large), 3) == 0);
 }
 
+TEST_CASE("detail between samples, trees and houses are painted as the depth buffer shows them") {
+    using visuals::scene::View;
+    for (const char* const terrain : {"hills", "canyon"}) {
+        for (const View view : {View::Chase, View::Tower}) {
+            for (const auto& [detail, scenery] :
+                 {std::pair{true, false}, std::pair{false, true}, std::pair{true, true}}) {
+                INFO(terrain << " view " << static_cast<int>(view) << " " << detail << scenery);
+                ui::settings::RunSettings settings = canyon_flight("pop-up", "500md", view);
+                settings.path.terrain = terrain;
+                settings.ground.near_detail = detail;
+                settings.ground.scenery = scenery;
+                const ui::flight::IdComparison result = compare(settings, 240);
+                CHECK(result.frames > 5);
+                CHECK(result.unordered == 0);
+                CHECK(result.wrong <= (scenery ? result.pixels / 50000 : 0));
+            }
+        }
+    }
+}
+
 TEST_CASE("painting in order shows the polygons that the depth buffer shows, over rugged ground") {
     using visuals::scene::View;
     constexpr int every = 240;
