@@ -164,15 +164,7 @@ toml::table parsed(const std::filesystem::path& file) {
     if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
         error_at(file, 1, "expected a flight path, got an empty file");
     }
-    try {
-        return toml::parse(text);
-    } catch (const toml::parse_error& fault) {
-        error_at(
-            file,
-            static_cast<int>(fault.source().begin.line),
-            fmt::format(
-                "expected TOML, got a fault: {}", printable(std::string(fault.description()))));
-    }
+    return parse_toml(file, text);
 }
 
 } // namespace

@@ -57,6 +57,18 @@ std::string key_with(std::string_view name, std::string_view unit) {
 
 } // namespace
 
+toml::table parse_toml(const std::filesystem::path& file, std::string_view text) {
+    try {
+        return toml::parse(text);
+    } catch (const toml::parse_error& fault) {
+        error_at(
+            file,
+            static_cast<int>(fault.source().begin.line),
+            fmt::format(
+                "expected TOML, got a fault: {}", printable(std::string(fault.description()))));
+    }
+}
+
 int line_of(const toml::node& node) {
     return static_cast<int>(node.source().begin.line);
 }

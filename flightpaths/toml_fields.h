@@ -56,6 +56,9 @@ private:
     std::set<std::string, std::less<>> asked_;
 };
 
+/// The root of a file's TOML `text`. Throws Error with the file and the line for a fault.
+toml::table parse_toml(const std::filesystem::path& file, std::string_view text);
+
 /// Line of a node in its file, from 1.
 int line_of(const toml::node& node);
 

@@ -1,6 +1,6 @@
 #include "ui/sweep/sweep_file.h"
 
-#include "flightpaths/toml_parser.h"
+#include "flightpaths/toml_fields.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/settings/flown_aircraft.h"
@@ -38,19 +38,13 @@ class Reader {
 public:
     explicit Reader(const fs::path& file)
         : file_(file)
-        , root_(parsed(file)) {}
+        , root_(flightpaths::parse_toml(file, read_text_file(file))) {}
 
     Sweep sweep() const;
 
 private:
-    static toml::table parsed(const fs::path& file);
-
     [[noreturn]] void refuse(const toml::node& node, const std::string& what) const {
-        error_at(file_, line_of(node), what);
-    }
-
-    static int line_of(const toml::node& node) {
-        return static_cast<int>(node.source().begin.line);
+        error_at(file_, flightpaths::line_of(node), what);
     }
 
     const toml::table* table_in(const toml::table& table, std::string_view key) const;
@@ -68,18 +62,6 @@ private:
     fs::path file_;
     toml::table root_;
 };
-
-toml::table Reader::parsed(const fs::path& file) {
-    try {
-        return toml::parse(read_text_file(file), file.string());
-    } catch (const toml::parse_error& fault) {
-        error_at(
-            file,
-            static_cast<int>(fault.source().begin.line),
-            fmt::format(
-                "expected TOML, got a fault: {}", printable(std::string(fault.description()))));
-    }
-}
 
 const toml::table* Reader::table_in(const toml::table& table, std::string_view key) const {
     const toml::node* const node = table.get(key);
@@ -171,7 +153,7 @@ std::string label_of(const Words& words) {
 }
 
 Axis Reader::named_groups(std::string_view name, const toml::table& table) const {
-    Axis axis{std::string(name), line_of(table), {}};
+    Axis axis{std::string(name), flightpaths::line_of(table), {}};
     for (const auto& [label, group] : table) {
         const toml::table* const settings = group.as_table();
         if (settings == nullptr) {
@@ -206,7 +188,7 @@ Axis Reader::axis_of(std::string_view name, const toml::node& node) const {
         refuse(
             node, fmt::format("{}: expected a list, a range or named groups, got one value", name));
     }
-    Axis axis{std::string(name), line_of(node), {}};
+    Axis axis{std::string(name), flightpaths::line_of(node), {}};
     for (Words& words : values) {
         axis.choices.push_back({label_of(words), {{std::string(name), std::move(words)}}});
     }
@@ -244,7 +226,7 @@ settings::RunSettings Reader::shared_settings() const {
     settings::RunSettings settings;
     if (const toml::table* const shared = table_in(root_, "settings")) {
         for (const auto& [key, node] : *shared) {
-            set(settings, std::string(key.str()), words_of(node), line_of(node));
+            set(settings, std::string(key.str()), words_of(node), flightpaths::line_of(node));
         }
     }
     return settings;

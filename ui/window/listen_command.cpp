@@ -112,7 +112,8 @@ commands::Command listen_command() {
     work->view.records_into = ".";
     return {
         .name = "listen",
-        .summary = "Shows what other programs fly: FlightGear FDM, MAVLink, DIS, lines of numbers",
+        .summary =
+            "Shows what other programs fly: FlightGear FDM, CIGI, MAVLink, DIS, lines of numbers",
         .options = options_of(*work),
         .footer = "Examples:\n"
                   "  octant listen\n"

@@ -3,6 +3,7 @@
 #include "flightpaths/toml_fields.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "ui/base/data_files.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,16 +15,12 @@ namespace {
 
 constexpr std::size_t most_aircraft = 256;
 
-toml::table parsed(const std::filesystem::path& file) {
-    const std::string text = read_text_file(file, std::size_t{1} << 20U);
+/// Throws Error with the line, which is known here alone, for an aircraft that is none.
+void check_aircraft(const flightpaths::Fields& fields, const std::string& aircraft) {
     try {
-        return toml::parse(text);
-    } catch (const toml::parse_error& fault) {
-        error_at(
-            file,
-            static_cast<int>(fault.source().begin.line),
-            fmt::format(
-                "expected TOML, got a fault: {}", printable(std::string(fault.description()))));
+        base::aircraft_file(aircraft);
+    } catch (const Error& fault) {
+        fields.refuse(fields.line(), fault.what());
     }
 }
 
@@ -36,6 +33,7 @@ void take_entity(const std::filesystem::path& file, const toml::node& node, Enti
     flightpaths::Fields fields(file, *keys);
     const int type = fields.required_whole("type", 0, std::numeric_limits<std::uint16_t>::max());
     const std::string aircraft = fields.required_text("aircraft");
+    check_aircraft(fields, aircraft);
     const int count = keys->contains("count")
                           ? fields.required_whole("count", 1, static_cast<int>(most_aircraft))
                           : 1;
@@ -53,7 +51,8 @@ void take_entity(const std::filesystem::path& file, const toml::node& node, Enti
 } // namespace
 
 EntityTable read_entity_table(const std::filesystem::path& file) {
-    const toml::table root = parsed(file);
+    const toml::table root =
+        flightpaths::parse_toml(file, read_text_file(file, std::size_t{1} << 20U));
     flightpaths::Fields fields(file, root);
     EntityTable table;
     for (const toml::node& node : fields.required_tables("entity")) {

@@ -32,6 +32,9 @@ TEST_CASE("an entity table that is wrong is refused with its line") {
     };
     refused("[[entity]]\ntype = 65536\naircraft = \"f15\"\n", "2: expected type");
     refused("[[entity]]\ntype = 1\n", "1: expected");
+    refused(
+        "[[entity]]\ntype = 1\naircraft = \"f15\"\n[[entity]]\ntype = 2\naircraft = \"f16\"\n",
+        "4: aircraft: expected f15, 500md");
     refused("[[entity]]\ntype = 1\naircraft = \"f15\"\ncolour = 1\n", "4: ");
     refused(
         "[[entity]]\ntype = 1\naircraft = \"f15\"\n[[entity]]\ntype = 1\naircraft = \"500md\"\n",
