@@ -5,8 +5,11 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
+#include <string>
 
 namespace octant::visuals::planning {
 
@@ -16,6 +19,22 @@ glm::dmat4 turned_about(
     const models::polygons::Pivot& pivot, double angle_rad, const glm::dmat4& body_to_eye_world) {
     const glm::dmat4 there = glm::translate(body_to_eye_world, pivot.point_m);
     return glm::translate(glm::rotate(there, angle_rad, pivot.axis), -pivot.point_m);
+}
+
+/// The pivot of `model` that turns the part of the name that `pivot` of `numbered` turns; past the
+/// end where there is none.
+std::size_t pivot_in(
+    const models::polygons::PolygonModel& model,
+    const models::polygons::PolygonModel& numbered,
+    std::size_t pivot) {
+    if (&model == &numbered || pivot >= numbered.pivots.size()) {
+        return pivot < numbered.pivots.size() ? pivot : model.pivots.size();
+    }
+    const std::string& name = numbered.parts[numbered.pivots[pivot].part];
+    const auto found = std::ranges::find_if(model.pivots, [&](const models::polygons::Pivot& one) {
+        return model.parts[one.part] == name;
+    });
+    return static_cast<std::size_t>(found - model.pivots.begin());
 }
 
 } // namespace
@@ -69,15 +88,17 @@ void place_parts(
 
 void place_turned_part(
     const models::polygons::PolygonModel& model,
+    const models::polygons::PolygonModel& numbered,
     const TurnedPart& turned,
     std::span<glm::dmat4> parts) {
-    if (turned.pivot >= model.pivots.size()) {
+    const std::size_t pivot = pivot_in(model, numbered, turned.pivot);
+    if (pivot >= model.pivots.size()) {
         return;
     }
-    const models::polygons::Pivot& pivot = model.pivots[turned.pivot];
+    const models::polygons::Pivot& axis = model.pivots[pivot];
     const glm::dvec3 about(turned.turn.x, turned.turn.y, turned.turn.z);
-    const double angle_rad = 2.0 * std::atan2(glm::dot(about, pivot.axis), turned.turn.w);
-    parts[turned.pivot + 1] = turned_about(pivot, angle_rad, parts[0]);
+    const double angle_rad = 2.0 * std::atan2(glm::dot(about, axis.axis), turned.turn.w);
+    parts[pivot + 1] = turned_about(axis, angle_rad, parts[0]);
 }
 
 } // namespace octant::visuals::planning

@@ -131,6 +131,7 @@ private:
     void paint_knot(const Knot& knot, const scene::Camera& camera, PlanCounts& counts);
     void paint_members(const Knot& knot, PlanCounts& counts);
     void paint_members_by_depth(const Knot& knot);
+    bool is_nearer(std::uint32_t a, std::uint32_t b) const;
     void plan_overlay(const PlanRequest& request);
     overlay::HeadUpInputs shown_inputs(const sim::AircraftState& state) const;
     void count_aircraft(PlanCounts& counts) const;

@@ -29,16 +29,17 @@ constexpr double rounding_px = 0.01;
 
 } // namespace
 
+/// By the middles of their hulls; of two that are as far the one of the lower number.
+bool Planner::is_nearer(std::uint32_t a, std::uint32_t b) const {
+    const double a_m2 = glm::dot(hulls_[a].centre_m, hulls_[a].centre_m);
+    const double b_m2 = glm::dot(hulls_[b].centre_m, hulls_[b].centre_m);
+    return a_m2 != b_m2 ? a_m2 < b_m2 : a < b;
+}
+
 void Planner::paint_by_depth() {
     std::iota(near_to_far_.begin(), near_to_far_.end(), 0U);
-    const auto distance2_m2 = [&](std::uint32_t i) {
-        return glm::dot(hulls_[i].centre_m, hulls_[i].centre_m);
-    };
-    std::ranges::sort(near_to_far_, [&](std::uint32_t a, std::uint32_t b) {
-        const double a_m2 = distance2_m2(a);
-        const double b_m2 = distance2_m2(b);
-        return a_m2 != b_m2 ? a_m2 < b_m2 : a < b;
-    });
+    std::ranges::sort(
+        near_to_far_, [&](std::uint32_t a, std::uint32_t b) { return is_nearer(a, b); });
     steps_.clear_depth({glm::ivec2(0), settings_.view.size_px});
     if (placed_.size() > hulls_.size()) {
         paint(placed_.back(), scene::DepthUse::Nearest); // the cockpit is nearer than all
@@ -159,6 +160,12 @@ void Planner::paint_members_by_depth(const Knot& knot) {
     for (const PlacedAircraft* member : members_) {
         paint(*member, scene::DepthUse::Nearest);
     }
+    const auto number = [&](const PlacedAircraft* member) {
+        return static_cast<std::uint32_t>(member - placed_.data());
+    };
+    std::ranges::sort(members_, [&](const PlacedAircraft* a, const PlacedAircraft* b) {
+        return is_nearer(number(b), number(a));
+    });
     for (const PlacedAircraft* member : members_) {
         paint_clear(*member);
     }

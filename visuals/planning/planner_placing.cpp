@@ -92,9 +92,11 @@ void Planner::place(
         std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1);
     place_parts(model.polygons, body_to_eye_world(state, eye_m), state.time_s, parts);
     const auto number = static_cast<std::size_t>(&aircraft - placed_.data());
+    const models::polygons::PolygonModel& numbered =
+        aircraft.far_model == nullptr ? model.polygons : aircraft.near_model->polygons;
     for (const TurnedPart& turned : turned_) {
         if (turned.aircraft == number) {
-            place_turned_part(model.polygons, turned, parts);
+            place_turned_part(model.polygons, numbered, turned, parts);
         }
     }
     const glm::dvec3 eye_in_body_m =

@@ -9,7 +9,9 @@ namespace octant::visuals::planning {
 /// How a part of an aircraft is turned in place of turning by itself.
 struct TurnedPart {
     std::uint32_t aircraft = 0; ///< index into Scene::aircraft
-    std::uint32_t pivot = 0;    ///< index into PolygonModel::pivots
+    /// Index into PolygonModel::pivots of the aircraft's own model, not of one that stands in for
+    /// it from afar.
+    std::uint32_t pivot = 0;
     /// Within body axes. The part turns about its pivot's axis alone: as far as this turns about
     /// it.
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};

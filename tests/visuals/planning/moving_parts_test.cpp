@@ -52,6 +52,45 @@ TEST_CASE("a turning part's matrix puts its points where the pivot has turned th
     CHECK(plan.steps[0].clip == PaintStep::whole);
 }
 
+TEST_CASE("a far model stands in by distance, and others turn its part of the same name") {
+    models::polygons::PolygonModel near_by = box_model({4.0, 1.0, 1.0});
+    near_by.parts = {"body", "rotor", "tail"};
+    near_by.pivots = {{1, {0, 0, -1}, {0, 0, 1}, 0.0}, {2, {-2, 0, 0}, {0, 1, 0}, 0.0}};
+    models::polygons::PolygonModel far_off = near_by;
+    far_off.parts = {"body", "tail", "rotor"};
+    std::swap(far_off.pivots[0], far_off.pivots[1]);
+    far_off.pivots[0].part = 1;
+    far_off.pivots[1].part = 2;
+    Scene scene;
+    scene.ground = triangle_ground({});
+    scene.add_model(convex_aircraft(near_by));
+    scene.add_model(convex_aircraft(far_off));
+    scene.aircraft = {0};
+    scene.far_models = {{0, 1, 0.1}};
+    const double quarter_rad = 0.5 * 3.14159265358979;
+    const std::vector<TurnedPart> turned = {
+        {0, 0, glm::angleAxis(quarter_rad, glm::dvec3(0.0, 0.0, 1.0))}};
+    const Settings settings = plain_settings();
+    Planner planner(scene, settings);
+    for (const auto& [away_m, model, rotor] :
+         {std::tuple{30.0, 0U, 1U}, std::tuple{30000.0, 1U, 2U}}) {
+        const std::vector<sim::AircraftState> states = {state_at({0, away_m, 0})};
+        PlanRequest request{camera_looking_at({0, 0, 0}, {0, away_m, 0}), states};
+        request.turned = turned;
+        const FramePlan& plan = planner.plan(request).plan;
+        REQUIRE(plan.aircraft.size() == 1);
+        const AircraftDraw& drawn = plan.aircraft.front();
+        CHECK(drawn.model == model);
+        const auto tip = [&](std::uint32_t part) {
+            const glm::vec4 at = plan.parts[drawn.first_part + part] * glm::vec4(1, 0, -1, 1);
+            return glm::dvec3(at) - glm::dvec3(0.0, away_m, 0.0);
+        };
+        const glm::dvec3 still = tip(0);
+        CHECK(glm::distance(tip(rotor), still) > 1.0);
+        CHECK(glm::distance(tip(3 - rotor), still) < 0.02);
+    }
+}
+
 TEST_CASE("with a depth buffer one step draws the aircraft from the nearest") {
     Scene scene;
     scene.ground = triangle_ground({});

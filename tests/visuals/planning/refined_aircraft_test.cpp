@@ -254,8 +254,11 @@ TEST_CASE(
     scene.ground = triangle_ground({});
     scene.add_model(std::move(model));
     scene.aircraft = {0, 0};
-    const std::array states{state_at({0, 30, 0}), state_at({0, 34, 0})}; // they meet
-    for (const auto hidden : {scene::HiddenSurface::Octant, scene::HiddenSurface::DepthBuffer}) {
+    const auto hidden = GENERATE(scene::HiddenSurface::Octant, scene::HiddenSurface::DepthBuffer);
+    const std::size_t nearest = GENERATE(0U, 1U);
+    std::array states{state_at({0, 34, 0}), state_at({0, 34, 0})};
+    states[nearest] = state_at({0, 30, 0}); // they meet
+    {
         scene::Settings settings = plain_settings();
         settings.surface.hidden_surface = hidden;
         planning::Planner planner(scene, settings);
@@ -270,7 +273,12 @@ TEST_CASE(
             CHECK((step.what == scene::PaintStep::What::Aircraft) == is_last);
         }
         CHECK(last[0].depth == scene::DepthUse::Nearest);
-        CHECK(last[0].count == 1);
+        REQUIRE(last[0].count == 1);
+        REQUIRE(last[1].count == 1);
+        const auto first_part = [&](const scene::PaintStep& step) {
+            return plan.aircraft[step.first].first_part;
+        };
+        CHECK((first_part(last[0]) > first_part(last[1])) == (nearest == 0));
     }
 }
 
