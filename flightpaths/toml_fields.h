@@ -1,7 +1,5 @@
 #pragma once
 
-#include "flightpaths/toml_parser.h"
-
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
@@ -9,6 +7,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <toml++/toml.h>
 
 namespace octant::flightpaths {
 

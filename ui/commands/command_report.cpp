@@ -74,14 +74,6 @@ void make_report(const ReportOptions& options) {
                     folder,
                     recordings.back().flight.frames()));
         }
-        if (!recordings.back().disagreement.empty()) {
-            base::say(
-                options.quiet,
-                fmt::format(
-                    "{}: summary and rows disagree, as if rows were cut off: {}",
-                    folder,
-                    recordings.back().disagreement));
-        }
     }
     const std::filesystem::path first = options.folders.front();
     if (options.out.empty() && std::filesystem::is_regular_file(first)) {
@@ -101,6 +93,15 @@ void make_report(const ReportOptions& options) {
         base::print_figures(
             {{"report", file.string()}, {"recordings", list}, {"gate_faults", faults}}, true);
     } else {
+        for (const report::LoadedRecording& recording : recordings) {
+            if (!recording.disagreement.empty()) {
+                const std::string line = fmt::format(
+                    "{}: summary and rows disagree, as if rows were cut off: {}\n",
+                    printable(recording.folder.string()),
+                    recording.disagreement);
+                std::fputs(line.c_str(), stdout);
+            }
+        }
         for (const std::string& fault : faults) {
             std::fputs((fault + "\n").c_str(), stdout);
         }

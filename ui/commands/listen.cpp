@@ -227,7 +227,7 @@ std::vector<Option> listen_options(ListenOptions& options) {
         read_option(
             {"vehicles",
              "N",
-             "show as many vehicles: those beyond the --aircraft given look like the last one",
+             "show as many vehicles [16]: those beyond the --aircraft given look like the last one",
              1,
              256},
             options.vehicles),

@@ -15,7 +15,8 @@ namespace octant::ui::commands {
 struct ListenOptions {
     settings::RunSettings settings;
     flight::ListenerOptions listener;
-    int vehicles = 16;                   ///< that are shown, at least as many as there are aircraft
+    /// How many are shown, at least as many as there are aircraft; nothing = 16.
+    std::optional<int> vehicles;
     std::optional<std::string> entities; ///< file of world::read_entity_table
     std::vector<std::string> send;       ///< to whom, as flight::Sender has it
     flight::RecordOptions record;        ///< without a window

@@ -1,5 +1,6 @@
 #include "ui/commands/replay_packets.h"
 
+#include "sim/base/error.h"
 #include "ui/base/progress.h"
 #include "ui/flight/packet_file.h"
 
@@ -8,12 +9,34 @@
 
 namespace octant::ui::commands {
 
+namespace {
+
+/// Throws Error for packets whose entity types look like aircraft that the recording has not.
+void check_shapes(
+    const std::filesystem::path& folder, const flight::LiveOptions& options, std::size_t count) {
+    for (const auto& [type, aircraft] : options.shapes) {
+        if (aircraft >= count) {
+            error_at(
+                folder / flight::packets_name,
+                1,
+                fmt::format(
+                    "expected entity type {} to be one of {} aircraft from 0, got number {}",
+                    type,
+                    count,
+                    aircraft));
+        }
+    }
+}
+
+} // namespace
+
 std::unique_ptr<flight::LiveFlight> fly_packets(
     const flight::Replay& replay,
     flight::Session& session,
     flight::FlightRecorder& recorder,
     bool quiet) {
     const flight::PacketFile file = flight::read_packets(replay.folder);
+    check_shapes(replay.folder, file.options, session.world().scene.aircraft.size());
     // A killed flight's last rows may be missing from either file.
     const std::size_t frames = std::min(file.frames.size(), replay.decisions.size());
     auto live = std::make_unique<flight::LiveFlight>(file.options, session.world());

@@ -51,6 +51,9 @@ public:
     /// Ends the recording, if there is one. Throws Error (disk full).
     void finish();
 
+    /// Gives up the recording, if there is one; what it has written so far stays.
+    void drop_recording() { writer_.reset(); }
+
     double now_s() const { return input_.now_s(); }
 
     /// Nothing can come any more, and all that came was taken.

@@ -136,15 +136,16 @@ void LiveFlight::prepare(Session& session) {
     if (!cigi.atmosphere() && !cigi.celestial()) {
         return;
     }
-    settings::RunSettings settings = session.settings();
+    const visuals::scene::AirSettings& shown = session.settings().air;
     const auto& place = world_.ground_place ? world_.ground_place : place_.origin();
-    settings.air = air_of_host(settings.air, cigi.atmosphere(), cigi.celestial(), place);
+    visuals::scene::AirSettings air = air_of_host(shown, cigi.atmosphere(), cigi.celestial(), place);
     constexpr double same = 0.01;
-    const double visibility_m = session.settings().air.visibility_m;
-    if (std::abs(settings.air.visibility_m - visibility_m) < same * visibility_m) {
-        settings.air.visibility_m = visibility_m;
+    if (std::abs(air.visibility_m - shown.visibility_m) < same * shown.visibility_m) {
+        air.visibility_m = shown.visibility_m;
     }
-    if (!(settings == session.settings())) {
+    if (!(air == shown)) {
+        settings::RunSettings settings = session.settings();
+        settings.air = air;
         session.apply(settings);
     }
 }

@@ -22,6 +22,8 @@ namespace octant::ui::window {
 
 namespace {
 
+constexpr int usual_vehicles = 16;
+
 struct ListenWork {
     commands::ListenOptions listen;
     ViewOptions view;
@@ -58,11 +60,15 @@ void listen(ListenWork work) {
     settings.path.name = settings::live_path;
     std::vector<std::string>& aircraft = settings.path.aircraft;
     if (work.listen.entities) {
+        if (work.listen.vehicles) {
+            throw Error("--vehicles: expected no --entities beside it, whose count says how many");
+        }
         world::EntityTable table = world::read_entity_table(*work.listen.entities);
         aircraft = std::move(table.aircraft);
         work.listen.listener.live.shapes = std::move(table.types);
     } else {
-        const auto vehicles = static_cast<std::size_t>(work.listen.vehicles);
+        const auto vehicles =
+            static_cast<std::size_t>(work.listen.vehicles.value_or(usual_vehicles));
         const std::string last = aircraft.back();
         aircraft.resize(std::max(aircraft.size(), vehicles), last);
     }

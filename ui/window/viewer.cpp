@@ -328,18 +328,6 @@ void Viewer::draw() {
     record_frame(record);
 }
 
-void Viewer::record_frame(const report::FrameRecord& record) {
-    if (!recording_) {
-        return;
-    }
-    try {
-        recording_->add(record, *session_);
-    } catch (const Error& fault) {
-        drop_recording();
-        say(fault.what());
-    }
-}
-
 /// Waits for the display's next refresh where the driver does not do so itself.
 void Viewer::wait_for_display(double turn_began_s) const {
     if (!state_.vsync) {

@@ -115,6 +115,7 @@ private:
     void follow_others();
     void start_live_recording(const std::filesystem::path& folder);
     std::string finish_live_recording();
+    double take_packets();
     void record_frame(const report::FrameRecord& record);
     void drop_recording();
     void say(const std::string& text);

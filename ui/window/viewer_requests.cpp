@@ -256,54 +256,6 @@ fs::path Viewer::unused_path(const std::string& stem, const std::string& ending)
     }
 }
 
-void Viewer::start_recording(const fs::path& folder) {
-    if (listener_) {
-        start_live_recording(folder);
-        return;
-    }
-    recording_.emplace(folder, *session_);
-    state_.recording = recording_->folder();
-    say(fmt::format("recording into {}", folder.string()));
-}
-
-std::optional<std::string> Viewer::finish_recording() {
-    if (live_recorder_) {
-        return finish_live_recording();
-    }
-    if (!recording_) {
-        return std::nullopt;
-    }
-    const std::string line = recording_->finish(*session_);
-    recording_.reset();
-    state_.recording.reset();
-    return line;
-}
-
-void Viewer::toggle_recording() {
-    if (listener_ && !live_recorder_) {
-        say("flights of others are recorded from their first picture on: octant listen --record");
-        return;
-    }
-    try {
-        if (const auto report = finish_recording()) {
-            say(*report);
-        } else {
-            start_recording(unused_path("flight", ""));
-        }
-    } catch (const Error& fault) {
-        drop_recording();
-        say(fault.what());
-    }
-}
-
-/// Gives up the recording. The files that it has written so far stay.
-void Viewer::drop_recording() {
-    recording_.reset();
-    live_recorder_.reset();
-    state_.recording.reset();
-    session_->simulation().stop_log();
-}
-
 void Viewer::take_screenshot() {
     const fs::path file = unused_path("picture", ".png");
     try {

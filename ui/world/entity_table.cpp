@@ -5,7 +5,6 @@
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <limits>
 
@@ -25,16 +24,12 @@ void check_aircraft(const flightpaths::Fields& fields, const std::string& aircra
 }
 
 void take_entity(const std::filesystem::path& file, const toml::node& node, EntityTable& table) {
-    const toml::table* const keys = node.as_table();
-    if (keys == nullptr) {
-        error_at(
-            file, flightpaths::line_of(node), "expected a table [[entity]], got another value");
-    }
-    flightpaths::Fields fields(file, *keys);
+    const toml::table& keys = *node.as_table();
+    flightpaths::Fields fields(file, keys);
     const int type = fields.required_whole("type", 0, std::numeric_limits<std::uint16_t>::max());
     const std::string aircraft = fields.required_text("aircraft");
     check_aircraft(fields, aircraft);
-    const int count = keys->contains("count")
+    const int count = keys.contains("count")
                           ? fields.required_whole("count", 1, static_cast<int>(most_aircraft))
                           : 1;
     fields.finish();

@@ -223,6 +223,29 @@ TEST_CASE("a CIGI host's entity types, parts, air, time and views are seen") {
     const tests::ProgramRun replay =
         tests::run_octant({"fly", "--replay", (folder / "seen").string()});
     CHECK_THAT(replay.out, Contains("same states, same pictures"));
+
+    const fs::path packets = folder / "seen" / "packets.bin";
+    std::string bytes = read_file(packets);
+    const std::size_t shapes = bytes.find("1=0,9=1");
+    REQUIRE(shapes < bytes.find('\n'));
+    bytes.replace(shapes, 7, "1=0,9=2");
+    write_file(packets, bytes);
+    const tests::ProgramRun wrong =
+        tests::run_octant({"fly", "--replay", (folder / "seen").string()});
+    CHECK(wrong.exit_code == 2);
+    CHECK_THAT(
+        wrong.err,
+        Contains(
+            "packets.bin:1: expected entity type 9 to be one of 2 aircraft from 0, got number 2"));
+}
+
+TEST_CASE("an entity table says how many aircraft there are: --vehicles is refused beside it") {
+    const fs::path table = tests::empty_folder("cigi-table") / "entities.toml";
+    write_file(table, "[[entity]]\ntype = 1\naircraft = \"f15\"\n");
+    const tests::ProgramRun run = tests::run_octant(
+        {"listen", "--headless", "--frames", "1", "--entities", table.string(), "--vehicles", "3"});
+    CHECK(run.exit_code == 2);
+    CHECK_THAT(run.err, Contains("--vehicles: expected no --entities beside it"));
 }
 
 TEST_CASE("Start of Frame comes at the pictures' rate, and while a host is silent") {

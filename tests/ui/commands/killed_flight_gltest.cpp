@@ -107,6 +107,9 @@ TEST_CASE("a flight that ended and whose rows were cut off is reported with exit
             read_file(folder / "report.html").find("rows and summary disagree") !=
             std::string::npos);
     }
+    const tests::ProgramRun quiet = tests::run_octant({"report", folder.string(), "--quiet"});
+    CHECK(quiet.exit_code == 1);
+    CHECK(quiet.out.find("summary and rows disagree") != std::string::npos);
     // A killed flight has no summary: a half-written last row is what it leaves.
     std::string run = read_file(folder / "run.json");
     const std::size_t summary = run.find("\"summary\"");
