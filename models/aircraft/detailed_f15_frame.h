@@ -1,11 +1,11 @@
 #pragma once
 
-#include "models/made/model_builder.h"
-#include "models/made/painted_solid.h"
+#include "models/aircraft/model_builder.h"
+#include "models/aircraft/painted_solid.h"
 
 #include <glm/vec3.hpp>
 
-namespace octant::models::made::f15 {
+namespace octant::models::aircraft::f15 {
 
 // What the parts of the detailed F-15 share: the planes between them, its stations and heights
 // (detailed_f15.cpp).
@@ -32,4 +32,4 @@ void add_tail(ModelBuilder& model);
 /// The right engine's nozzle: outside, rim and the hot inside, whose faces look at the axis.
 PaintedSolid nozzle();
 
-} // namespace octant::models::made::f15
+} // namespace octant::models::aircraft::f15

@@ -8,11 +8,11 @@
 // and stabilators outside), s = 8.2 (forebody and intakes ahead), s = 17.2 (nozzles behind), r =
 // 0.74 between forebody and intakes.
 
-#include "models/made/detailed_aircraft.h"
-#include "models/made/detailed_f15_frame.h"
-#include "models/made/model_builder.h"
-#include "models/made/painted_solid.h"
-#include "models/made/stencil.h"
+#include "models/aircraft/detailed_aircraft.h"
+#include "models/aircraft/detailed_f15_frame.h"
+#include "models/aircraft/model_builder.h"
+#include "models/aircraft/painted_solid.h"
+#include "models/aircraft/stencil.h"
 
 #include <glm/geometric.hpp>
 
@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace octant::models::made {
+namespace octant::models::aircraft {
 
 namespace {
 
@@ -276,4 +276,4 @@ polygons::PolygonModel detailed_f15() {
     return model.finish();
 }
 
-} // namespace octant::models::made
+} // namespace octant::models::aircraft

@@ -1,10 +1,10 @@
-#include "models/made/convex_outline.h"
+#include "models/aircraft/convex_outline.h"
 
 #include <glm/geometric.hpp>
 
 #include <cstddef>
 
-namespace octant::models::made {
+namespace octant::models::aircraft {
 
 namespace {
 
@@ -55,4 +55,4 @@ Outline in_front(const Outline& corners, const Plane& plane) {
     return without_repeats(out);
 }
 
-} // namespace octant::models::made
+} // namespace octant::models::aircraft

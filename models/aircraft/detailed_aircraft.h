@@ -2,7 +2,7 @@
 
 #include "models/polygons/polygon_model.h"
 
-namespace octant::models::made {
+namespace octant::models::aircraft {
 
 /// The F-15C and the 500MD in detail, gear up and skids down: what models/f15-detailed.obj and
 /// models/500md-detailed.obj hold. Body axes, origins as those of the plain models. Convex bodies
@@ -11,4 +11,4 @@ namespace octant::models::made {
 polygons::PolygonModel detailed_f15();
 polygons::PolygonModel detailed_500md();
 
-} // namespace octant::models::made
+} // namespace octant::models::aircraft

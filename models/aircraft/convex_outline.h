@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace octant::models::made {
+namespace octant::models::aircraft {
 
 // Convex polygons by their corners, in order.
 
@@ -28,4 +28,4 @@ Outline without_repeats(const Outline& corners);
 /// The part in front of a plane; few or no corners where there is none.
 Outline in_front(const Outline& corners, const Plane& plane);
 
-} // namespace octant::models::made
+} // namespace octant::models::aircraft

@@ -1,6 +1,6 @@
-#include "models/made/stencil.h"
+#include "models/aircraft/stencil.h"
 
-#include "models/made/convex_outline.h"
+#include "models/aircraft/convex_outline.h"
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <utility>
 
-namespace octant::models::made {
+namespace octant::models::aircraft {
 
 namespace {
 
@@ -119,4 +119,4 @@ void paint_roundel(
     }
 }
 
-} // namespace octant::models::made
+} // namespace octant::models::aircraft

@@ -1,5 +1,5 @@
-#include "models/made/detailed_f15_frame.h"
-#include "models/made/stencil.h"
+#include "models/aircraft/detailed_f15_frame.h"
+#include "models/aircraft/stencil.h"
 
 #include <glm/geometric.hpp>
 
@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-namespace octant::models::made::f15 {
+namespace octant::models::aircraft::f15 {
 
 namespace {
 
@@ -101,4 +101,4 @@ PaintedSolid nozzle() {
     return solid;
 }
 
-} // namespace octant::models::made::f15
+} // namespace octant::models::aircraft::f15

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/made/painted_solid.h"
+#include "models/aircraft/painted_solid.h"
 #include "sim/base/plane.h"
 
 #include <glm/vec2.hpp>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace octant::models::made {
+namespace octant::models::aircraft {
 
 /// Where to paint: what lies in front of all planes, on faces that are turned towards `facing` (by
 /// at least `least_cosine`; a zero vector: all).
@@ -42,4 +42,4 @@ struct Roundel {
 void paint_roundel(
     PaintedSolid& solid, const Roundel& roundel, const std::string& disc, const std::string& star);
 
-} // namespace octant::models::made
+} // namespace octant::models::aircraft

@@ -1,6 +1,6 @@
-#include "models/made/painted_solid.h"
+#include "models/aircraft/painted_solid.h"
 
-#include "models/made/convex_outline.h"
+#include "models/aircraft/convex_outline.h"
 #include "sim/base/units.h"
 
 #include <glm/common.hpp>
@@ -13,7 +13,7 @@
 #include <cmath>
 #include <utility>
 
-namespace octant::models::made {
+namespace octant::models::aircraft {
 
 namespace {
 
@@ -198,4 +198,4 @@ PaintedSolid mirrored(const PaintedSolid& solid) {
     return out;
 }
 
-} // namespace octant::models::made
+} // namespace octant::models::aircraft

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/made/painted_solid.h"
+#include "models/aircraft/painted_solid.h"
 #include "models/polygons/polygon_model.h"
 
 #include <glm/vec3.hpp>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace octant::models::made {
+namespace octant::models::aircraft {
 
 /// A model in the making.
 class ModelBuilder {
@@ -39,4 +39,4 @@ private:
     std::vector<std::vector<std::uint32_t>> outlines_; ///< vertices of each polygon
 };
 
-} // namespace octant::models::made
+} // namespace octant::models::aircraft

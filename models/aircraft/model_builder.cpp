@@ -1,6 +1,6 @@
-#include "models/made/model_builder.h"
+#include "models/aircraft/model_builder.h"
 
-#include "models/made/convex_outline.h"
+#include "models/aircraft/convex_outline.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -9,7 +9,7 @@
 #include <cassert>
 #include <utility>
 
-namespace octant::models::made {
+namespace octant::models::aircraft {
 
 ModelBuilder::ModelBuilder(std::string name) {
     model_.name = std::move(name);
@@ -105,4 +105,4 @@ polygons::PolygonModel ModelBuilder::finish() {
     return std::move(model_);
 }
 
-} // namespace octant::models::made
+} // namespace octant::models::aircraft

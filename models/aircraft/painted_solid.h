@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace octant::models::made {
+namespace octant::models::aircraft {
 
 /// One polygon of a solid: convex, planar, counter-clockwise seen from outside. Body axes.
 struct PaintedFace {
@@ -65,4 +65,4 @@ void cut_off(PaintedSolid& solid, const Plane& plane, const std::string& materia
 /// The same seen in the mirror y = 0.
 PaintedSolid mirrored(const PaintedSolid& solid);
 
-} // namespace octant::models::made
+} // namespace octant::models::aircraft
