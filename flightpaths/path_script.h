@@ -28,9 +28,9 @@ struct Leg {
     std::optional<double> to_height_m;        ///< leg ends when this height is passed
     std::optional<double> heading_change_rad; ///< leg ends after this turn, above zero
     bool to_the_left = false;                 ///< side of a turn
-    double lateral_g = 0.0;                   ///< amplitude of a weave
-    double period_s = 1.0;
-    double vertical_g = 0.0;
+    double lateral_g = 0.0;                   ///< amplitude of a weave from side to side
+    double period_s = 1.0;                    ///< of that weave
+    double vertical_g = 0.0;                  ///< amplitude of a weave up and down
     double vertical_period_s = 1.0;
     double acceleration_mps2 = 0.0;
     std::optional<double> to_speed_mps; ///< where the acceleration ends
@@ -48,8 +48,9 @@ struct PathScript {
     /// Lowest clearance over the ground that the path is meant for; at least 1.
     double min_clearance_m = 1.0;
     double angle_of_attack_rad_per_g = 0.0;
-    int start_line = 1;   ///< where [start] begins in the file
-    double north_m = 0.0; ///< start
+    int start_line = 1; ///< where [start] begins in the file
+    /// Where the path starts, from its origin and as high over it, and on which course.
+    double north_m = 0.0;
     double east_m = 0.0;
     double height_m = 0.0;
     double heading_rad = 0.0;

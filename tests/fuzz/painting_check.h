@@ -29,8 +29,8 @@ struct PaintingCounts {
     long wrong_order = 0;   ///< another polygon of the ordered model is nearer than the one seen
     long wrong_picture = 0; ///< seen is a piece of another polygon than the nearest one given
     long wrong_decal = 0;   ///< seen is the earlier one of two that lie in one plane
-    long bad_sequences =
-        0;             ///< eyes whose sequence repeats a polygon or names one that is not there
+    /// Eyes whose sequence repeats a polygon or names one that is not there.
+    long bad_sequences = 0;
     std::string first; ///< the first fault in words; empty if there is none
 };
 

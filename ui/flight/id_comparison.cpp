@@ -92,18 +92,24 @@ long wrong_among(
     });
 }
 
+ComparedSettings compared_settings(const settings::RunSettings& settings) {
+    ComparedSettings compared{settings, settings};
+    for (settings::RunSettings* one : {&compared.painted, &compared.by_depth}) {
+        one->surface.shadows = false;
+        one->view.samples = 1;
+    }
+    compared.by_depth.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
+    return compared;
+}
+
 IdComparison compare_with_depth_buffer(
     const settings::RunSettings& settings,
     int every,
     const std::function<void(int compared, int frames)>& seen) {
-    settings::RunSettings painted = settings;
-    painted.surface.shadows = false;
-    painted.view.samples = 1;
-    settings::RunSettings tested = painted;
-    tested.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
+    const auto [painted, by_depth] = compared_settings(settings);
     Session painter(painted, Shows::PolygonNumbers);
-    Session reference(tested, Shows::PolygonNumbers);
-    LargeReference large(tested);
+    Session reference(by_depth, Shows::PolygonNumbers);
+    LargeReference large(by_depth);
     IdComparison sum;
     const int frames = (painter.frames() + every - 1) / every;
     for (int frame = 0; frame < painter.frames(); frame += every) {
@@ -147,16 +153,13 @@ scene::Picture number_picture(Session& session, const settings::RunSettings& set
 } // namespace
 
 PixelCheck check_pixels(Session& session) {
-    settings::RunSettings painted = session.settings();
-    painted.surface.shadows = false;
-    painted.view.samples = 1;
-    painted.view.inset.reset();
-    settings::RunSettings tested = painted;
-    tested.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
-    settings::RunSettings large = tested;
+    settings::RunSettings alone = session.settings();
+    alone.view.inset.reset();
+    const auto [painted, by_depth] = compared_settings(alone);
+    settings::RunSettings large = by_depth;
     large.view.size_px *= LargeReference::scale;
     const scene::Picture picture = number_picture(session, painted);
-    const IdDifference difference = difference_of(picture, number_picture(session, tested));
+    const IdDifference difference = difference_of(picture, number_picture(session, by_depth));
     PixelCheck check{.pixels = difference.pixels, .differing = difference.differing};
     if (!difference.apart.empty()) {
         check.wrong = wrong_among(

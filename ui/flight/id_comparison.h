@@ -45,6 +45,15 @@ struct IdComparison {
     long unordered = 0;
 };
 
+/// The settings of a run that is compared pixel by pixel, as it is painted and by a depth buffer:
+/// one sample a pixel and no shadows, which have no numbers.
+struct ComparedSettings {
+    settings::RunSettings painted;
+    settings::RunSettings by_depth;
+};
+
+ComparedSettings compared_settings(const settings::RunSettings& settings);
+
 /// Draws every `every`th frame of a run as polygon numbers, with the settings' way of removing
 /// hidden surfaces and with the depth buffer, and compares. Renderers round corners to 1/256 pixel,
 /// so that along an edge either of two polygons may be seen, and a tip be lost: where a number is

@@ -36,12 +36,4 @@ TargetRange FlightDigest::triangle_targets() const {
     return range;
 }
 
-FlightDigest digest_of(std::span<const FrameRecord> records) {
-    FlightDigest digest;
-    for (const FrameRecord& record : records) {
-        digest.add(record);
-    }
-    return digest;
-}
-
 } // namespace octant::ui::report

@@ -7,7 +7,6 @@
 #include "ui/report/overruns.h"
 #include "ui/report/stage_columns.h"
 
-#include <span>
 
 namespace octant::ui::report {
 
@@ -59,7 +58,5 @@ private:
     long counted_ = 0;
     TargetRange targets_; ///< mean is the sum
 };
-
-FlightDigest digest_of(std::span<const FrameRecord> records);
 
 } // namespace octant::ui::report

@@ -38,8 +38,8 @@ namespace octant::visuals::planning {
 struct PlanCounts {
     landscape::GroundCounts ground;
     int aircraft_polygons = 0;
-    int draw_cell =
-        0; ///< cell of the first aircraft's draw order in which the eye is; 0 where it has parts
+    /// The cell of the first aircraft's draw order in which the eye is; 0 where it has parts.
+    int draw_cell = 0;
     int cuts = 0;      ///< ground triangles and aircraft polygons painted again, cut by planes
     int knots = 0;     ///< groups of aircraft that meet or stand in a ring, painted by polygons
     int unordered = 0; ///< polygons that should have been painted again and were too many

@@ -61,8 +61,8 @@ struct ViewSettings {
 struct SurfaceSettings {
     HiddenSurface hidden_surface = HiddenSurface::Octant;
     draworder::Method order_method = draworder::Method::Tree;
-    double order_seconds =
-        20.0; ///< About the most that the search for an order takes, on one core.
+    /// About the most that the search for an order takes, on one core.
+    double order_seconds = 20.0;
     /// A folder where orders are kept; the pictures are the same without it.
     std::optional<std::string> order_cache;
     bool shadows = true;            ///< of aircraft on the ground

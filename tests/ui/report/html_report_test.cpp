@@ -41,6 +41,14 @@ std::size_t count_of(const std::string& text, const std::string& what) {
     return count;
 }
 
+FlightDigest digest_of(const std::vector<FrameRecord>& records) {
+    FlightDigest digest;
+    for (const FrameRecord& record : records) {
+        digest.add(record);
+    }
+    return digest;
+}
+
 } // namespace
 
 TEST_CASE("text is escaped for elements and attributes, and broken UTF-8 mended") {

@@ -66,6 +66,15 @@ std::vector<int> flown(planning::Planner& planner, const std::function<void()>& 
     return triangles;
 }
 
+/// Planners over the same rough ground, one of which is asked for meshes ahead of time.
+struct TwoPlanners {
+    scene::Settings settings = plain_settings();
+    planning::Scene scene =
+        scene_over(landscape::ground_from_tiles(terrain::ground_of(rough_field()), settings.air));
+    planning::Planner ahead{scene, settings};
+    planning::Planner at_once{scene, settings};
+};
+
 } // namespace
 
 TEST_CASE("a second view of the same ground does not disturb the detail control of the first") {
@@ -114,12 +123,10 @@ TEST_CASE("a planner that is given the last one's mesher goes on with its detail
 }
 
 TEST_CASE("meshes made ahead and meshes made when they are asked for are the same") {
-    const scene::Settings settings = plain_settings();
-    const planning::Scene scene =
-        scene_over(landscape::ground_from_tiles(terrain::ground_of(rough_field()), settings.air));
+    TwoPlanners planners;
+    planning::Planner& ahead = planners.ahead;
+    planning::Planner& at_once = planners.at_once;
     const std::array there{state_at({0, 0, 100})};
-    planning::Planner ahead(scene, settings);
-    planning::Planner at_once(scene, settings);
     for (int frame = 0; frame < 6; ++frame) {
         const int target = 300 + 50 * frame;
         ahead.prepare(camera_at(frame), target);
@@ -132,12 +139,10 @@ TEST_CASE("meshes made ahead and meshes made when they are asked for are the sam
 }
 
 TEST_CASE("a mesh asked for ahead twice is begun once and leaves the drawn one as it is") {
-    const scene::Settings settings = plain_settings();
-    const planning::Scene scene =
-        scene_over(landscape::ground_from_tiles(terrain::ground_of(rough_field()), settings.air));
+    TwoPlanners planners;
+    planning::Planner& ahead = planners.ahead;
+    planning::Planner& at_once = planners.at_once;
     const std::array there{state_at({0, 0, 100})};
-    planning::Planner ahead(scene, settings);
-    planning::Planner at_once(scene, settings);
     for (int frame = 0; frame < 6; ++frame) {
         const scene::FramePlan& drawn = ahead.plan({camera_at(frame), there, 500}).plan;
         const std::vector<std::uint32_t> indices(

@@ -1,5 +1,6 @@
 #include "ui/studies/draw_order/ray_comparison.h"
 
+#include "ui/flight/id_comparison.h"
 #include "ui/flight/session.h"
 #include "ui/studies/draw_order/ray_renderer.h"
 
@@ -48,11 +49,7 @@ RayComparison compare_with_rays(
     const settings::RunSettings& settings,
     int every,
     const std::function<void(int compared, int frames)>& seen) {
-    settings::RunSettings painted = settings;
-    painted.surface.shadows = false;
-    painted.view.samples = 1;
-    settings::RunSettings by_depth = painted;
-    by_depth.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
+    auto [painted, by_depth] = flight::compared_settings(settings);
     auto renderer = std::make_unique<RayRenderer>(painted.view.size_px);
     const RayRenderer& rays = *renderer;
     Session reference(by_depth, Shows::PolygonNumbers, std::move(renderer));
