@@ -72,13 +72,28 @@ const scene::FramePlan& InsetView::plan(
     std::span<const sim::AircraftState> states,
     std::span<const planning::TurnedPart> turned,
     std::optional<double> smooth_share) {
-    if (std::exchange(settles_, false)) {
-        planner_->settle(camera);
-    }
+    settle(camera);
     planning::PlanRequest request{camera, states};
     request.smooth.share = smooth_share;
     request.turned = turned;
     return planner_->plan(request).plan;
+}
+
+void InsetView::pass_over(
+    const scene::Camera& camera,
+    std::span<const sim::AircraftState> states,
+    std::span<const planning::TurnedPart> turned) {
+    settle(camera);
+    planning::PlanRequest request{camera, states};
+    request.turned = turned;
+    planner_->pass_over(request);
+}
+
+/// Before the first picture.
+void InsetView::settle(const scene::Camera& camera) {
+    if (std::exchange(settles_, false)) {
+        planner_->settle(camera);
+    }
 }
 
 } // namespace octant::ui::flight

@@ -49,7 +49,14 @@ public:
         std::span<const visuals::planning::TurnedPart> turned,
         std::optional<double> smooth_share);
 
+    /// Planner::pass_over, of what plan() would have been given.
+    void pass_over(
+        const visuals::scene::Camera& camera,
+        std::span<const sim::AircraftState> states,
+        std::span<const visuals::planning::TurnedPart> turned);
+
 private:
+    void settle(const visuals::scene::Camera& camera);
     void place(const settings::RunSettings& settings);
 
     const visuals::planning::Scene& scene_;

@@ -102,9 +102,9 @@ public:
     void apply(const settings::RunSettings& settings);
 
     /// Before the first draw(): draws only this part of the frames, as if those before it had been
-    /// drawn. They are planned where later pictures depend on that, and the last of them in any
-    /// case. Returns the part's frames; frames() then ends with it. Throws Error where there are
-    /// fewer frames than parts.
+    /// drawn. What later pictures depend on is planned of them, and the last one whole. Returns the
+    /// part's frames; frames() then ends with it. Throws Error where there are fewer frames than
+    /// parts.
     settings::FrameRange begin_part(const settings::Part& part);
 
     /// To be changed between frames. Begin at another time by begin_at().
@@ -170,7 +170,9 @@ private:
     void reach(double time_s, int frame, Moment& moment);
     visuals::scene::Camera camera_of(const settings::RunSettings& settings) const;
     void mesh_ahead();
-    bool plans_have_memory() const;
+    bool ground_has_memory() const;
+    visuals::planning::PlanRequest plan_request(std::function<void()> when_refined) const;
+    void pass_over_plans();
     visuals::planning::PlanCounts make_plans(std::function<void()> when_refined);
     void draw_plans();
     void fill_in(const visuals::planning::PlanCounts& counts, report::FrameRecord& record);

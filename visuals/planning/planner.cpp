@@ -159,13 +159,7 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
     plan_haze(camera);
     plan_sky(camera);
     plan_overlay(request);
-    const SmoothChoice::Count shaded = smooth_.choose(
-        placed_,
-        refined_,
-        request.smooth,
-        to_sun_,
-        glm::vec2(plan_.ambient.x, plan_.sunlight.x),
-        plan_.smooth);
+    const SmoothChoice::Count shaded = choose_smooth(request.smooth);
     counts.may_be_smooth = shaded.polygons;
     counts.smooth_polygons = shaded.smooth;
     count_aircraft(counts);
@@ -177,6 +171,21 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
     }
     steps_.paint_overlay();
     return {plan_, counts};
+}
+
+void Planner::pass_over(const PlanRequest& request) {
+    place_and_refine(request);
+    choose_smooth(request.smooth);
+}
+
+SmoothChoice::Count Planner::choose_smooth(const SmoothWish& wish) {
+    return smooth_.choose(
+        placed_,
+        refined_,
+        wish,
+        to_sun_,
+        glm::vec2(plan_.ambient.x, plan_.sunlight.x),
+        plan_.smooth);
 }
 
 /// The air at the eye's height over the ground's mean one.

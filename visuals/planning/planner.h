@@ -105,6 +105,12 @@ public:
     /// planned.
     PlannedFrame plan(const PlanRequest& request);
 
+    /// Goes on as if plan() had been called, for a picture that nobody sees: levels of detail,
+    /// stand-ins of far aircraft, refined meshes and smooth polygons are then what the next plan
+    /// goes on from. Leaves out the ground, whose detail goes on from plan to plan only where
+    /// earlier counts control it.
+    void pass_over(const PlanRequest& request);
+
     /// The mesher of the ground, for the planner that follows this one in the same view. Nothing
     /// may be planned after it.
     std::unique_ptr<landscape::GroundMesher> take_mesher() { return std::move(mesher_); }
@@ -113,6 +119,7 @@ private:
     landscape::GroundRequest
     ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const;
     void place_and_refine(const PlanRequest& request);
+    SmoothChoice::Count choose_smooth(const SmoothWish& wish);
     void plan_haze(const scene::Camera& camera);
     void plan_sky(const scene::Camera& camera);
     void place_aircraft(const scene::Camera& camera, std::span<const sim::AircraftState> states);
