@@ -3,6 +3,9 @@
 #include "visuals/landscape/ground_palette.h"
 #include "visuals/landscape/ground_texture_maker.h"
 #include "visuals/planning/facing.h"
+#include "visuals/scene/grain_pattern.h"
+
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +14,10 @@
 namespace octant::visuals::planning {
 
 namespace {
+
+constexpr double coarsest_grain_m = 2.0;
+constexpr double least_grain_reach_m = 250.0;
+constexpr double most_grain_reach_m = 1500.0;
 
 /// At the ground's mean height. Without a sky the haze is the background all around.
 scene::Haze haze_of(const scene::AirSettings& air, const nature::Daylight& day) {
@@ -158,6 +165,7 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
     cast_shadows(camera);
     plan_haze(camera);
     plan_sky(camera);
+    plan_grain(camera);
     plan_overlay(request);
     const SmoothChoice::Count shaded = choose_smooth(request.smooth);
     counts.may_be_smooth = shaded.polygons;
@@ -211,6 +219,32 @@ void Planner::plan_sky(const scene::Camera& camera) {
          mesher_->earth_radius_m()},
         plan_.haze,
         camera.eye_m);
+}
+
+/// Farther than the pattern's coarsest features look wider than two pixels on level ground, nobody
+/// would see it.
+void Planner::plan_grain(const scene::Camera& camera) {
+    plan_.grain.reset();
+    const landscape::Ground& ground = *scene_.ground;
+    const scene::GroundSettings& settings = settings_.ground;
+    if (!settings.near_detail || scene_.ground_texture || ground.spacing_m() <= 0.0 ||
+        scene::ground_metric(settings) != scene::GroundMetric::ScreenError) {
+        return;
+    }
+    using scene::GrainPattern;
+    const glm::dvec3& eye_m = camera.eye_m;
+    const double over_m = eye_m.z - ground.height_at(eye_m.x, eye_m.y).value_or(eye_m.z);
+    const double reach_m = std::clamp(
+        std::sqrt(coarsest_grain_m * std::max(over_m, 0.0) / pixel_rad_),
+        least_grain_reach_m,
+        most_grain_reach_m);
+    const glm::dvec2 place =
+        (glm::dvec2(eye_m) + glm::dvec2(GrainPattern::lean) * eye_m.z) *
+        (static_cast<double>(GrainPattern::texels_per_m) / GrainPattern::texels_a_side);
+    plan_.grain = scene::Grain{
+        glm::vec2(place - glm::floor(place)),
+        static_cast<float>(0.6 * reach_m),
+        static_cast<float>(reach_m)};
 }
 
 void Planner::write_parts() {

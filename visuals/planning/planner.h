@@ -122,6 +122,7 @@ private:
     SmoothChoice::Count choose_smooth(const SmoothWish& wish);
     void plan_haze(const scene::Camera& camera);
     void plan_sky(const scene::Camera& camera);
+    void plan_grain(const scene::Camera& camera);
     void place_aircraft(const scene::Camera& camera, std::span<const sim::AircraftState> states);
     void place(PlacedAircraft& aircraft, const sim::AircraftState& state, const glm::dvec3& eye_m);
     void choose_model(PlacedAircraft& aircraft, double distance_m) const;

@@ -50,6 +50,7 @@ float mesh_level(
 void FrameWork::prepare(const FrameInput& input) {
     projection_ = projection_of(input.plan, input.size_px);
     light_ = light_of(input.plan);
+    grain_rays_ = input.plan.grain ? raster::grain_rays(input.plan, projection_) : GrainRays();
     tiles_ = (input.size_px + glm::ivec2(tile_width - 1, tile_height - 1)) /
              glm::ivec2(tile_width, tile_height);
     slices_.collect(input);
@@ -92,6 +93,7 @@ void FrameWork::place_corners(const FrameInput& input) {
     }
     Light clear_sky = light_;
     clear_sky.per_m = 0.0F;
+    clear_sky.grain_per_m = 0.0F;
     workers_.run(static_cast<int>(tasks.size()), [&](int number, int) {
         const Task& task = tasks[static_cast<std::size_t>(number)];
         const CornerBlock& block = *task.block;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "visuals/raster/grain_image.h"
 #include "visuals/raster/ground_image.h"
 #include "visuals/raster/sample_pattern.h"
 #include "visuals/raster/triangle.h"
@@ -32,6 +33,8 @@ struct TileJob {
     std::array<std::uint8_t, 3> background{};
     const GroundImage* ground = nullptr; ///< for Fill::Texture
     glm::vec3 haze{0.0F};                ///< levels, for Fill::Texture
+    const GrainImage* grain = nullptr;   ///< for Fill::Grain
+    const GrainRays* grain_rays = nullptr;
     const Light* light = nullptr;        ///< for Fill::Lit
     bool tints_mesh_levels = false;      ///< for Fill::Mesh
     bool far_to_near = false;            ///< each triangle over what is there; one sample a pixel

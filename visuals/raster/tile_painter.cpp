@@ -16,6 +16,7 @@
 #include "visuals/raster/tile_coverage-inl.h"
 #include "visuals/raster/tile_depth-inl.h"
 #include "visuals/raster/tile_fill-inl.h"
+#include "visuals/raster/tile_grain-inl.h"
 #include "visuals/raster/tile_levels-inl.h"
 #include "visuals/raster/tile_picture-inl.h"
 #include "visuals/raster/tile_texture-inl.h"
@@ -36,6 +37,8 @@ HWY_INLINE void paint_one(
         paint_levels(*one.triangle, job, lanes, buffer);
     } else if (fill_with == Fill::Texture && one.extra->cut_count == 0) {
         paint_texture(one, job, lanes, buffer);
+    } else if (fill_with == Fill::Grain && one.extra->cut_count == 0) {
+        paint_grain(one, job, lanes, buffer);
     } else {
         cover(one, job, lanes, buffer);
         fill(one, job, buffer);

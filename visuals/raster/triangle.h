@@ -53,6 +53,7 @@ struct CutLine {
 enum class Fill : std::uint8_t {
     Levels,      ///< three planes of levels
     Perspective, ///< as Levels, corrected for perspective
+    Grain,       ///< as Perspective, with the ground's fine pattern
     Texture,
     Mesh, ///< levels, and lines along the edges
     Lit   ///< by light and normal in each pixel

@@ -94,13 +94,16 @@ void TriangleSetup::add_overlay(
 
 /// Whether straight lines over the picture are good enough for the levels between the corners.
 Fill TriangleSetup::fill_of(const std::array<const ScreenVertex*, 3>& corners, bool is_cut) const {
-    if (style_.fill != Fill::Levels || flat_ != nullptr) {
+    const auto [a, b, c] = corners;
+    const bool has_grain = style_.fill == Fill::Grain &&
+                           (a->value[3] > 0.0F || b->value[3] > 0.0F || c->value[3] > 0.0F);
+    const bool is_plain = style_.fill == Fill::Levels || style_.fill == Fill::Grain;
+    if (!is_plain || has_grain || flat_ != nullptr) {
         return style_.fill;
     }
     if (is_cut) {
         return Fill::Perspective;
     }
-    const auto [a, b, c] = corners;
     const float least_by_w = std::min(std::min(a->inverse_w, b->inverse_w), c->inverse_w);
     const float most_by_w = std::max(std::max(a->inverse_w, b->inverse_w), c->inverse_w);
     // At the middle of an edge the line is wrong by range * correction.
