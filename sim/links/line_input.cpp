@@ -16,6 +16,7 @@ namespace octant::sim::links {
 namespace {
 
 constexpr std::size_t read_bytes = 65536;
+constexpr int most_newcomers = 64; ///< that one drain() takes; others wait
 
 } // namespace
 
@@ -72,7 +73,11 @@ LineServer& LineServer::operator=(LineServer&& other) noexcept {
 /// A newcomer takes the place of a client that has not sent anything yet, where all are taken.
 void LineServer::take_clients() {
     const auto now = std::chrono::steady_clock::now();
-    while (auto client = accepted_client(socket_)) {
+    for (int taken = 0; taken < most_newcomers; ++taken) {
+        const auto client = accepted_client(socket_);
+        if (!client) {
+            return;
+        }
         if (only_from_ && client->second.address != *only_from_) {
             ::close(client->first);
             continue;

@@ -52,7 +52,7 @@ InsetView::InsetView(const settings::RunSettings& settings, const planning::Scen
 void InsetView::place(const settings::RunSettings& settings) {
     assert(settings.view.inset);
     rectangle_ = inset_rectangle(settings.view.size_px);
-    settings_ = inset_settings(settings, {rectangle_.width, rectangle_.height});
+    look(settings);
 }
 
 void InsetView::follow(const settings::RunSettings& settings) {
@@ -65,6 +65,15 @@ void InsetView::follow(const settings::RunSettings& settings) {
         std::move(mesher), *scene_.ground, landscape::mesh_settings(settings_));
     settles_ = settles_ || !same_control || mesher.get() != before;
     planner_.emplace(scene_, settings_, std::move(mesher));
+}
+
+void InsetView::look(const settings::RunSettings& settings) {
+    settings_ = inset_settings(settings, {rectangle_.width, rectangle_.height});
+}
+
+void InsetView::relight(const settings::RunSettings& settings) {
+    look(settings);
+    settles_ = !planner_->relight() || settles_;
 }
 
 const scene::FramePlan& InsetView::plan(

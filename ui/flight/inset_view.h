@@ -31,6 +31,12 @@ public:
     /// on where both it and its control are the same.
     void follow(const settings::RunSettings& settings);
 
+    /// Takes other settings over where only a look has changed.
+    void look(const settings::RunSettings& settings);
+
+    /// The same where the sun has moved, too, with the ground that the scene has now.
+    void relight(const settings::RunSettings& settings);
+
     /// Settings of the view alone: its camera and its size.
     const settings::RunSettings& settings() const { return settings_; }
 

@@ -55,6 +55,10 @@ std::optional<double> Listener::take(Session& session) {
         return std::nullopt;
     }
     live_->prepare(session);
+    const std::optional<std::string> time_of_day = live_->light(session);
+    if (writer_ && time_of_day) {
+        writer_->add_time_of_day(*time_of_day);
+    }
     const double time_s =
         options_.live.step ? static_cast<double>(++pictures_) / session.rate_hz() : input_.now_s();
     if (time_s >= words_at_s_) {

@@ -257,8 +257,11 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     draw_plans();
     renderer_->finish();
     record.draw_ms = stage.lap_ms();
-    picture_is_read_ = !presenter_;
+    picture_is_read_ = !presenter_ || reads_first_;
     if (presenter_) {
+        if (reads_first_) {
+            renderer_->finish_and_copy(picture_);
+        }
         presenter_(*renderer_);
     } else {
         renderer_->finish_and_read(picture_);

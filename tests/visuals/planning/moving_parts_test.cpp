@@ -171,6 +171,33 @@ TEST_CASE("aircraft whose models change are placed as by a planner that never sa
     }
 }
 
+TEST_CASE("a part that somebody moves lies so far along the body's axes, and turns there") {
+    models::polygons::PolygonModel model = box_model({4.0, 1.0, 1.0});
+    model.parts = {"body", "store"};
+    model.polygons[5].part = 1;
+    model.pivots.push_back({1, {0.5, 0.0, 1.0}, {1.0, 0.0, 0.0}, 0.0});
+    Scene scene;
+    scene.ground = triangle_ground({});
+    scene.add_model(convex_aircraft(model));
+    scene.aircraft = {0};
+    const double quarter_rad = 0.5 * 3.14159265358979;
+    const std::vector<TurnedPart> turned = {
+        {0, 0, glm::angleAxis(quarter_rad, glm::dvec3(1.0, 0.0, 0.0)), {-2.0, 3.0, 0.5}}};
+    const Settings settings = plain_settings();
+    Planner planner(scene, settings);
+    const glm::dquat attitude = body_to_world_from_euler({0.7, 0.2, -0.4});
+    const std::vector<sim::AircraftState> states = {state_at({0, 30, 0}, attitude)};
+    PlanRequest request{camera_looking_at({1, 2, 3}, {0, 30, 0}), states};
+    request.turned = turned;
+    const FramePlan& plan = planner.plan(request).plan;
+    const glm::vec4 at = plan.parts[plan.aircraft.front().first_part + 1] * glm::vec4(1, 0, 2, 1);
+    // One below the pivot becomes one to its left: y is right and z is down.
+    const glm::dvec3 body_m = glm::dvec3(1.0, -1.0, 1.0) + turned.front().offset_m;
+    const glm::dvec3 expected_m =
+        states[0].position_m + attitude * body_m - request.camera.eye_m;
+    CHECK(glm::distance(glm::dvec3(at), expected_m) < 1e-4);
+}
+
 TEST_CASE("with a depth buffer one step draws the aircraft from the nearest") {
     Scene scene;
     scene.ground = triangle_ground({});
