@@ -144,4 +144,5 @@ TEST_CASE("scripts of engines name each run once, whatever the program is called
     const std::string parallel = parallel_script(sweep, folder, options);
     CHECK_THAT(parallel, Contains("cd '/a b/sweep' || exit 2\n"));
     CHECK_THAT(parallel, Contains("--jobs 1 --sshloginfile '/hosts.txt'"));
+    CHECK_THAT(parallel, Contains("--arg-file todo.txt 'exec "));
 }
