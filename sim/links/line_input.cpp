@@ -16,6 +16,7 @@ namespace octant::sim::links {
 namespace {
 
 constexpr std::size_t read_bytes = 65536;
+constexpr std::size_t client_bytes = 16384; ///< that one drain() takes of a client; others wait
 constexpr int most_newcomers = 64; ///< that one drain() takes; others wait
 
 } // namespace
@@ -97,7 +98,7 @@ void LineServer::take_clients() {
 
 /// Returns false when the client has gone.
 bool LineServer::read(Client& client, double now_s, std::vector<Datagram>& into) {
-    std::array<std::byte, read_bytes> bytes{};
+    std::array<std::byte, client_bytes> bytes{};
     const ssize_t count = ::recv(client.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
     const auto take = [&](const std::vector<std::byte>& line) {
         into.push_back({Protocol::Lines, client.source, now_s, line});
