@@ -1,6 +1,7 @@
 #include "models/aircraft/stencil.h"
 
 #include "models/aircraft/convex_outline.h"
+#include "sim/base/plane.h"
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>
@@ -12,10 +13,6 @@
 namespace octant::models::aircraft {
 
 namespace {
-
-Plane turned_round(const Plane& plane) {
-    return {-plane.normal, -plane.offset_m};
-}
 
 Plane plane_at(const glm::dvec3& point_m, const glm::dvec3& normal) {
     const glm::dvec3 unit = glm::normalize(normal);
@@ -42,7 +39,7 @@ void paint(PaintedSolid& solid, const Stencil& stencil, const std::string& mater
         PaintedSolid outside;
         Outline inside = face.corners_m;
         for (const Plane& plane : stencil.planes) {
-            add_piece(outside, in_front(inside, turned_round(plane)), face.material);
+            add_piece(outside, in_front(inside, turned_over(plane)), face.material);
             inside = in_front(inside, plane);
             if (!has_area(inside)) {
                 break;

@@ -1,6 +1,7 @@
 #include "models/heights/height_raster.h"
 
 #include "models/heights/gdal_functions.h"
+#include "models/heights/gdal_session.h"
 #include "models/heights/import_options.h"
 #include "models/heights/raster_file.h"
 #include "sim/base/error.h"
@@ -22,10 +23,6 @@ namespace {
 
 using std::filesystem::path;
 using GeoTransform = std::array<double, 6>;
-
-[[noreturn]] void error_unreadable(const path& file, const std::string& got) {
-    error_in(file, fmt::format("expected a height field that GDAL can read, got {}", got));
-}
 
 /// Metres of a unit by its name; nothing for one that is no known length.
 std::optional<double> metres_from_unit(std::string_view unit) {
@@ -113,7 +110,7 @@ void take_first_band(
     const path& file, OpenRaster& raster, const std::optional<double>& height_scale) {
     GDALDatasetH dataset = raster.dataset.get();
     if (GDALGetRasterCount(dataset) < 1) {
-        error_unreadable(file, "no band");
+        error_unreadable(file, "a height field", "no band");
     }
     raster.band = GDALGetRasterBand(dataset, 1);
     const GDALColorInterp colour = GDALGetRasterColorInterpretation(raster.band);
@@ -220,7 +217,7 @@ void read_window(
         raster.from_south ? line_size : -line_size,
         nullptr);
     if (result != CE_None || gdal.failed()) {
-        error_unreadable(file, gdal.reason(file));
+        error_unreadable(file, "a height field", gdal.reason(file));
     }
 }
 

@@ -26,13 +26,6 @@ double rad_at(const WireReader& reader, std::size_t at) {
     return rad_from_deg(static_cast<double>(reader.at<float>(at)));
 }
 
-glm::dvec3 floats(const WireReader& reader, std::size_t at) {
-    return {
-        static_cast<double>(reader.at<float>(at)),
-        static_cast<double>(reader.at<float>(at + 4)),
-        static_cast<double>(reader.at<float>(at + 8))};
-}
-
 glm::dvec3 doubles(const WireReader& reader, std::size_t at) {
     return {reader.at<double>(at), reader.at<double>(at + 8), reader.at<double>(at + 16)};
 }
@@ -106,7 +99,7 @@ std::optional<CigiPacket> read_rate(const WireReader& reader) {
     rate.part = reader.at<std::uint8_t>(4);
     rate.of_part = bits(reader, 5, 0, 1) != 0;
     rate.local = bits(reader, 5, 1, 1) != 0;
-    rate.mps = floats(reader, 8);
+    rate.mps = reader.floats(8);
     rate.radps = {rad_at(reader, 20), rad_at(reader, 24), rad_at(reader, 28)};
     return within(rate.mps, fastest_mps) && within(rate.radps, fastest_turn_radps)
                ? std::optional<CigiPacket>(rate)
@@ -157,7 +150,7 @@ std::optional<CigiPacket> read_view_control(const WireReader& reader) {
     const auto enabled = [&reader](unsigned bit) {
         return bits(reader, 5, bit, 1) != 0 ? 1.0 : 0.0;
     };
-    const glm::dvec3 offset_m = floats(reader, 8);
+    const glm::dvec3 offset_m = reader.floats(8);
     const EulerAngles angles = angles_at(reader, 20);
     if (!within(offset_m, furthest_m) || !finite(angles)) {
         return std::nullopt;

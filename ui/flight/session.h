@@ -32,8 +32,8 @@ namespace octant::ui::flight {
 /// What the pictures of a session show.
 enum class Shows {
     World,
-    PolygonNumbers ///< visuals::planning::IdPlan: which polygon or triangle of ground each pixel
-                   ///< belongs to
+    /// Which polygon or triangle of the ground each pixel belongs to (visuals::planning::IdPlan).
+    PolygonNumbers
 };
 
 /// The conductor of a run: takes each frame from simulation through plan and picture to its record.

@@ -57,7 +57,7 @@ bool is_behind(const LocalModel& model, std::uint32_t polygon, const Plane& plan
 
 inline bool
 is_before(const LocalModel& model, std::uint32_t polygon, const Plane& plane, bool turns) {
-    return is_behind(model, polygon, {-plane.normal, -plane.offset_m}, turns);
+    return is_behind(model, polygon, turned_over(plane), turns);
 }
 
 } // namespace octant::visuals::separation
