@@ -117,7 +117,7 @@ std::optional<CigiPacket> read_part(const WireReader& reader) {
         part.moves[static_cast<int>(i)] = bits(reader, 5, x + i, 1) != 0;
         part.sets[static_cast<int>(i)] = bits(reader, 5, roll + i, 1) != 0;
     }
-    part.offset_m = floats(reader, 8);
+    part.offset_m = reader.floats(8);
     part.angles = angles_at(reader, 20);
     return finite(part.angles) && within(part.offset_m, furthest_part_m)
                ? std::optional<CigiPacket>(part)

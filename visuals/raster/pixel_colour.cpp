@@ -1,6 +1,7 @@
 #include "visuals/raster/pixel_colour.h"
 
 #include "visuals/raster/even_texture.h"
+#include "visuals/raster/texture_levels.h"
 #include "visuals/scene/grain_pattern.h"
 
 #include <algorithm>
