@@ -249,8 +249,7 @@ void check_height(const path& file, double height_m) {
     }
 }
 
-OpenRaster
-open_height_raster(const path& file, const std::optional<double>& height_scale, GdalSession& gdal) {
+OpenRaster open_height_raster(const path& file, const ImportOptions& options, GdalSession& gdal) {
     OpenRaster raster;
     raster.dataset = open_raster_file(file, gdal);
     GDALDatasetH dataset = raster.dataset.get();
@@ -259,8 +258,12 @@ open_height_raster(const path& file, const std::optional<double>& height_scale, 
     if (const auto transform = transform_of(file, dataset)) {
         take_transform(*transform, raster);
         raster.system = GDALGetSpatialRef(dataset);
+        if (raster.system == nullptr && options.system) {
+            raster.given_system = system_named(*options.system);
+            raster.system = raster.given_system.get();
+        }
     }
-    take_first_band(file, raster, height_scale);
+    take_first_band(file, raster, options.height_scale);
     const GDALDataType type = GDALGetRasterDataType(raster.band);
     raster.whole_metres =
         (type == GDT_Byte || type == GDT_Int16) && raster.scale_m == 1.0 && raster.offset_m == 0.0;

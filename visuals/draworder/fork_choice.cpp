@@ -7,12 +7,12 @@
 #include "sim/base/plane.h"
 #include "visuals/draworder/candidate_planes.h"
 #include "visuals/draworder/components.h"
-#include "visuals/draworder/parallel.h"
 #include "visuals/draworder/plane_judge.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <future>
 #include <span>
 #include <utility>
 #include <vector>
@@ -20,6 +20,17 @@
 namespace octant::visuals::draworder {
 
 namespace {
+
+/// Calls both functions, the first one on a thread of its own if `worthwhile`, and returns both
+/// results. Neither may write to what the other one uses, so that the result is the same either
+/// way.
+template <typename First, typename Second>
+auto both(bool worthwhile, First first, Second second) {
+    auto there =
+        std::async(worthwhile ? std::launch::async : std::launch::deferred, std::move(first));
+    auto here = second();
+    return std::pair(there.get(), std::move(here));
+}
 
 /// Graphs with more edges are judged without the exact test.
 constexpr std::size_t most_exact_edges = 4'000;

@@ -32,6 +32,7 @@ struct PictureValues {
     glm::vec4 sunlight;
     glm::mat4 ray_from_pixel;
     scene::TexturePlaces ground_texture;
+    scene::Grain grain;
 };
 
 constexpr glm::vec4 inset_frame{0.08F, 0.09F, 0.1F, 1.0F};
@@ -64,7 +65,8 @@ PictureValues values_of(const FramePlan& plan, const PixelRect& rect, Rows rows)
         glm::vec4(plan.ambient, 0.0F),
         glm::vec4(plan.sunlight, 0.0F),
         ray_from_pixel(plan, rect, rows),
-        plan.ground_texture.value_or(scene::TexturePlaces())};
+        plan.ground_texture.value_or(scene::TexturePlaces()),
+        plan.grain.value_or(scene::Grain())};
 }
 
 } // namespace

@@ -4,6 +4,7 @@ namespace octant::visuals::gl {
 
 // The files of visuals/gl/shaders/, put in at build time (embed_shaders.cmake).
 extern const char* const ground_vert;
+extern const char* const ground_frag;
 extern const char* const ground_textured_vert;
 extern const char* const ground_textured_frag;
 extern const char* const sky_vert;

@@ -26,14 +26,14 @@ bool has_extension(const Functions& gl, std::string_view name) {
     return false;
 }
 
-void set_filters(const Functions& gl, const Object& texture) {
+void set_filters(const Functions& gl, const Object& texture, GLenum beyond) {
     const auto set = [&](GLenum what, GLenum value) {
         gl.texture_parameteri(texture.name(), what, static_cast<GLint>(value));
     };
     set(GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     set(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    set(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    set(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    set(GL_TEXTURE_WRAP_S, beyond);
+    set(GL_TEXTURE_WRAP_T, beyond);
     if (!draws_on_processor(gl) && (has_extension(gl, "GL_EXT_texture_filter_anisotropic") ||
                                     has_extension(gl, "GL_ARB_texture_filter_anisotropic"))) {
         GLfloat most = 1.0F;
@@ -67,13 +67,27 @@ Object make_texture(const Functions& gl, const scene::GroundImage& image, Textur
         GL_UNSIGNED_BYTE,
         image.texels.data());
     gl.generate_texture_mipmap(texture.name());
-    set_filters(gl, texture);
+    set_filters(gl, texture, GL_CLAMP_TO_EDGE);
     if (gl.get_error() != GL_NO_ERROR) {
         throw Error(fmt::format(
             "expected memory for a ground texture of {} x {} texels, got a refusal by the driver",
             image.width,
             image.height));
     }
+    return texture;
+}
+
+Object make_texture(const Functions& gl, const scene::GrainPattern& pattern) {
+    Object texture = make_texture(gl, "ground's fine pattern");
+    const auto side = static_cast<GLsizei>(pattern.size);
+    const auto levels = std::bit_width(static_cast<unsigned>(pattern.size));
+    gl.texture_storage_2d(
+        texture.name(), static_cast<GLsizei>(levels), GL_R8, side, side);
+    gl.pixel_storei(GL_UNPACK_ALIGNMENT, 1);
+    gl.texture_sub_image_2d(
+        texture.name(), 0, 0, 0, side, side, GL_RED, GL_UNSIGNED_BYTE, pattern.texels.data());
+    gl.generate_texture_mipmap(texture.name());
+    set_filters(gl, texture, GL_REPEAT);
     return texture;
 }
 

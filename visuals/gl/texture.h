@@ -1,6 +1,7 @@
 #pragma once
 
 #include "visuals/gl/object.h"
+#include "visuals/scene/grain_pattern.h"
 #include "visuals/scene/ground_texture.h"
 
 namespace octant::visuals::gl {
@@ -15,5 +16,8 @@ enum class TextureKind {
 /// line of sight (anisotropic); beyond its edge it continues as at the edge. Throws Error when the
 /// driver has no memory for it.
 Object make_texture(const Functions& gl, const scene::GroundImage& image, TextureKind kind);
+
+/// The ground's fine pattern, a byte a texel, with all its mip levels; it repeats beyond its edge.
+Object make_texture(const Functions& gl, const scene::GrainPattern& pattern);
 
 } // namespace octant::visuals::gl

@@ -18,6 +18,7 @@ using scene::PaintStep;
 // Places in the shaders.
 constexpr GLuint albedo_unit = 0;
 constexpr GLuint normal_unit = 1;
+constexpr GLuint grain_unit = 2;
 constexpr GLint mesh_look_uniform = 8;
 
 constexpr std::size_t first_capacity_bytes = std::size_t{1} << 20;
@@ -36,8 +37,9 @@ Object make_array(const Functions& gl, const StreamBuffer& vertices, const Strea
 TrianglePainter::TrianglePainter(const Functions& gl, DrawState& state)
     : gl_(gl)
     , state_(state)
-    , ground_programs_(make_program_pair(gl, "ground", {ground_vert, smooth_frag}))
+    , ground_programs_(make_program_pair(gl, "ground", {ground_vert, ground_frag}))
     , sky_programs_{make_program(gl, "sky", {sky_vert, smooth_frag}), {}}
+    , grain_(make_texture(gl, scene::grain_pattern()))
     , vertices_(gl, "ground and sky vertices", first_capacity_bytes)
     , indices_(gl, "ground and sky indices", first_capacity_bytes)
     , array_(make_array(gl, vertices_, indices_)) {}
@@ -68,6 +70,7 @@ void TrianglePainter::use_mesh_look(const scene::FramePlan& plan) {
 
 void TrianglePainter::upload(const scene::FramePlan& plan) {
     use_mesh_look(plan);
+    gl_.bind_texture_unit(grain_unit, grain_.name());
     textured_ = plan.ground_texture.has_value();
     if (textured_) {
         assert(texture_);

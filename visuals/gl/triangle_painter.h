@@ -51,6 +51,7 @@ private:
     DrawState& state_;
     ProgramPair ground_programs_;
     ProgramPair sky_programs_;
+    Object grain_;
     std::optional<GroundTexturing> texture_;
     std::optional<ProgramPair> mesh_programs_;
     bool shows_mesh_ = false; ///< as the plan says

@@ -136,6 +136,7 @@ const scene::FramePlan& IdPlan::of(const scene::FramePlan& plan) {
     plan_.background = glm::vec3(0.0F);
     plan_.haze = {};
     plan_.ground_texture.reset();
+    plan_.grain.reset();
     plan_.ambient = glm::vec3(1.0F);
     plan_.sunlight = glm::vec3(0.0F);
     std::erase_if(plan_.steps, [](const scene::PaintStep& step) {

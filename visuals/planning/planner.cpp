@@ -3,6 +3,9 @@
 #include "visuals/landscape/ground_palette.h"
 #include "visuals/landscape/ground_texture_maker.h"
 #include "visuals/planning/facing.h"
+#include "visuals/scene/grain_pattern.h"
+
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +14,10 @@
 namespace octant::visuals::planning {
 
 namespace {
+
+constexpr double coarsest_grain_m = 2.0;
+constexpr double least_grain_reach_m = 250.0;
+constexpr double most_grain_reach_m = 1500.0;
 
 /// At the ground's mean height. Without a sky the haze is the background all around.
 scene::Haze haze_of(const scene::AirSettings& air, const nature::Daylight& day) {
@@ -25,20 +32,9 @@ scene::Haze haze_of(const scene::AirSettings& air, const nature::Daylight& day) 
     return haze;
 }
 
-nature::Backdrop land_around(const landscape::Ground& ground, const scene::AirSettings& air) {
-    if (!air.sky || ground.spacing_m() <= 0.0) {
-        return {};
-    }
-    return nature::backdrop_of(
-        {ground.half_extent_m(),
-         ground.mean_height_m(),
-         ground.mean_colour(),
-         [&](const glm::dvec2& at_m) {
-             return ground.height_at(at_m.x, at_m.y).value_or(ground.mean_height_m());
-         },
-         [&](const glm::dvec2& at_m, double footprint_m) {
-             return ground.colour_at(at_m.x, at_m.y, footprint_m);
-         }});
+Sky sky_of(
+    const landscape::Ground& ground, const scene::AirSettings& air, const nature::Daylight& day) {
+    return Sky(day, air.sky ? ground.surroundings() : nature::Backdrop());
 }
 
 double distance_to_edge_m(const landscape::Ground& ground, const glm::dvec3& eye_m) {
@@ -99,18 +95,15 @@ Planner::Planner(
     , aspect_(static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y)
     , daylight_(landscape::daylight_of(settings.air))
     , to_sun_(landscape::direction_to_sun(settings.air))
-    , sky_(daylight_, land_around(*scene.ground, settings.air))
+    , sky_(sky_of(*scene.ground, settings.air, daylight_))
     , shadows_(to_sun_)
     , placed_(places_for(scene, settings.view.kind, parts_))
     , smooth_(settings.shading, settings.adapt.shading, placed_)
     , steps_(plan_) {
     plan_.background = settings.air.background;
-    plan_.haze = haze_of(settings.air, daylight_);
     plan_.mesh_look = settings.ground.show_mesh;
     plan_.sample_spacing_m = std::max(static_cast<float>(scene.ground->spacing_m()), 1e-3F);
-    plan_.to_sun = glm::vec3(to_sun_);
-    plan_.ambient = daylight_.ambient();
-    plan_.sunlight = daylight_.sunlight();
+    plan_light();
     plan_.lights_pixels = settings.shading.kind == scene::AircraftShading::Phong;
     for (const PlacedAircraft& aircraft : placed_) {
         refined_.push_back(
@@ -122,6 +115,25 @@ Planner::Planner(
     was_refined_.resize(placed_.size());
     hulls_.resize(scene.aircraft.size());
     near_to_far_.resize(scene.aircraft.size());
+}
+
+void Planner::plan_light() {
+    plan_.haze = haze_of(settings_.air, daylight_);
+    plan_.to_sun = glm::vec3(to_sun_);
+    plan_.ambient = daylight_.ambient();
+    plan_.sunlight = daylight_.sunlight();
+}
+
+bool Planner::relight() {
+    const landscape::GroundMesher* const before = mesher_.get();
+    mesher_ = landscape::mesher_after(
+        std::move(mesher_), *scene_.ground, landscape::mesh_settings(settings_));
+    daylight_ = landscape::daylight_of(settings_.air);
+    to_sun_ = landscape::direction_to_sun(settings_.air);
+    sky_ = sky_of(*scene_.ground, settings_.air, daylight_);
+    shadows_ = ShadowCaster(to_sun_);
+    plan_light();
+    return mesher_.get() == before;
 }
 
 landscape::GroundRequest
@@ -158,14 +170,9 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
     cast_shadows(camera);
     plan_haze(camera);
     plan_sky(camera);
+    plan_grain(camera);
     plan_overlay(request);
-    const SmoothChoice::Count shaded = smooth_.choose(
-        placed_,
-        refined_,
-        request.smooth,
-        to_sun_,
-        glm::vec2(plan_.ambient.x, plan_.sunlight.x),
-        plan_.smooth);
+    const SmoothChoice::Count shaded = choose_smooth(request.smooth);
     counts.may_be_smooth = shaded.polygons;
     counts.smooth_polygons = shaded.smooth;
     count_aircraft(counts);
@@ -179,15 +186,31 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
     return {plan_, counts};
 }
 
+void Planner::pass_over(const PlanRequest& request) {
+    place_and_refine(request);
+    choose_smooth(request.smooth);
+}
+
+SmoothChoice::Count Planner::choose_smooth(const SmoothWish& wish) {
+    return smooth_.choose(
+        placed_,
+        refined_,
+        wish,
+        to_sun_,
+        glm::vec2(plan_.ambient.x, plan_.sunlight.x),
+        plan_.smooth);
+}
+
 /// The air at the eye's height over the ground's mean one.
 void Planner::plan_haze(const scene::Camera& camera) {
     const scene::AirSettings& air = settings_.air;
     const double mean_m = scene_.ground->mean_height_m();
+    double thinner = 1.0;
     if (air.haze_height_m > 0.0) {
         const double above_m = camera.eye_m.z - (std::isfinite(mean_m) ? mean_m : 0.0);
-        const double thinner = std::exp(std::clamp(above_m / air.haze_height_m, -3.0, 30.0));
-        plan_.haze.visibility_m = static_cast<float>(air.visibility_m * thinner);
+        thinner = std::exp(std::clamp(above_m / air.haze_height_m, -3.0, 30.0));
     }
+    plan_.haze.visibility_m = static_cast<float>(air.visibility_m * thinner);
 }
 
 void Planner::plan_sky(const scene::Camera& camera) {
@@ -202,6 +225,32 @@ void Planner::plan_sky(const scene::Camera& camera) {
          mesher_->earth_radius_m()},
         plan_.haze,
         camera.eye_m);
+}
+
+/// Farther than the pattern's coarsest features look wider than two pixels on level ground, nobody
+/// would see it.
+void Planner::plan_grain(const scene::Camera& camera) {
+    plan_.grain.reset();
+    const landscape::Ground& ground = *scene_.ground;
+    const scene::GroundSettings& settings = settings_.ground;
+    if (!settings.near_detail || scene_.ground_texture || ground.spacing_m() <= 0.0 ||
+        scene::ground_metric(settings) != scene::GroundMetric::ScreenError) {
+        return;
+    }
+    using scene::GrainPattern;
+    const glm::dvec3& eye_m = camera.eye_m;
+    const double over_m = eye_m.z - ground.height_at(eye_m.x, eye_m.y).value_or(eye_m.z);
+    const double reach_m = std::clamp(
+        std::sqrt(coarsest_grain_m * std::max(over_m, 0.0) / pixel_rad_),
+        least_grain_reach_m,
+        most_grain_reach_m);
+    const glm::dvec2 place =
+        (glm::dvec2(eye_m) + glm::dvec2(GrainPattern::lean) * eye_m.z) *
+        (static_cast<double>(GrainPattern::texels_per_m) / GrainPattern::texels_a_side);
+    plan_.grain = scene::Grain{
+        glm::vec2(place - glm::floor(place)),
+        static_cast<float>(0.6 * reach_m),
+        static_cast<float>(reach_m)};
 }
 
 void Planner::write_parts() {

@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -19,18 +20,19 @@ namespace {
 constexpr double least_shadow_px = 2.0;
 constexpr int most_march_steps = 200;
 
-glm::vec3 unpacked(std::uint32_t colour) {
-    return glm::vec3(
+glm::vec4 unpacked(std::uint32_t colour) {
+    return glm::vec4(
                static_cast<float>(colour & 255U),
                static_cast<float>((colour >> 8U) & 255U),
-               static_cast<float>((colour >> 16U) & 255U)) /
+               static_cast<float>((colour >> 16U) & 255U),
+               static_cast<float>(colour >> 24U)) /
            255.0F;
 }
 
-/// Darkened, with the share that is left for alpha.
-std::uint32_t shaded(const glm::vec3& colour) {
-    constexpr auto share = static_cast<std::uint32_t>(255.0F * shadow_share + 0.5F);
-    return (models::packed_colour(colour * shadow_share) & 0x00ffffffU) | share << 24U;
+/// Darkened, alpha too.
+std::uint32_t shaded(const glm::vec4& colour) {
+    const auto alpha = static_cast<std::uint32_t>(255.0F * shadow_share * colour.w + 0.5F);
+    return (models::packed_colour(glm::vec3(colour) * shadow_share) & 0x00ffffffU) | alpha << 24U;
 }
 
 /// What the light through a hull reaches up to `path_m` below its middle and `reach_m` beyond.
@@ -206,7 +208,7 @@ void ShadowCaster::add_piece(std::uint32_t triangle) {
     for (const SightCorner& at : part_) {
         const double share_a = plan_area(at.at_m, b, c) / whole;
         const double share_b = plan_area(a, at.at_m, c) / whole;
-        const glm::vec3 colour =
+        const glm::vec4 colour =
             unpacked(ground_.vertices[corner[0]].colour) * static_cast<float>(share_a) +
             unpacked(ground_.vertices[corner[1]].colour) * static_cast<float>(share_b) +
             unpacked(ground_.vertices[corner[2]].colour) *

@@ -43,7 +43,10 @@ void FrameSlices::add_step(const FrameInput& input, const PaintStep& step, DrawS
     const FramePlan& plan = input.plan;
     const auto add_ground = [&](std::span<const std::uint32_t> indices) {
         const bool shows_mesh = plan.mesh_look != scene::MeshLook::None;
-        style.fill = shows_mesh ? Fill::Mesh : plan.ground_texture ? Fill::Texture : Fill::Levels;
+        style.fill = shows_mesh            ? Fill::Mesh
+                     : plan.ground_texture ? Fill::TextureInPerspective
+                     : plan.grain          ? Fill::Grain
+                                           : Fill::Levels;
         add_slice({.indices = indices.subspan(step.first, step.count), .style = style});
     };
     switch (step.what) {

@@ -50,6 +50,7 @@ float mesh_level(
 void FrameWork::prepare(const FrameInput& input) {
     projection_ = projection_of(input.plan, input.size_px);
     light_ = light_of(input.plan);
+    grain_rays_ = input.plan.grain ? raster::grain_rays(input.plan, projection_) : GrainRays();
     tiles_ = (input.size_px + glm::ivec2(tile_width - 1, tile_height - 1)) /
              glm::ivec2(tile_width, tile_height);
     slices_.collect(input);
@@ -61,7 +62,11 @@ void FrameWork::prepare(const FrameInput& input) {
     make_batches();
     std::vector<TriangleSetup> setups(
         static_cast<std::size_t>(workers_.threads()),
-        TriangleSetup(projection_, input.plan, samples_));
+        TriangleSetup(
+            projection_,
+            input.plan,
+            samples_,
+            input.plan.ground_texture ? input.ground->levels().size() : 0));
     workers_.run(static_cast<int>(batch_count_), [&](int batch, int thread) {
         set_up(
             input,
@@ -92,6 +97,7 @@ void FrameWork::place_corners(const FrameInput& input) {
     }
     Light clear_sky = light_;
     clear_sky.per_m = 0.0F;
+    clear_sky.grain_per_m = 0.0F;
     workers_.run(static_cast<int>(tasks.size()), [&](int number, int) {
         const Task& task = tasks[static_cast<std::size_t>(number)];
         const CornerBlock& block = *task.block;
@@ -186,7 +192,7 @@ void FrameWork::set_up_overlay(const FrameInput& input) {
             end = std::max<std::size_t>(end, std::size_t{step.first} + step.count);
         }
     }
-    TriangleSetup setup(projection_, input.plan, samples_);
+    TriangleSetup setup(projection_, input.plan, samples_, 0);
     setup.begin_step({});
     for (std::size_t i = first; i + 2 < end; i += 3) {
         std::array<ScreenVertex, 3> corners;

@@ -36,6 +36,9 @@ public:
 
     const Light& light() const { return light_; }
 
+    /// Of a plan with grain.
+    const GrainRays& grain_rays() const { return grain_rays_; }
+
     /// Triangles that may cover a tile, in painting order; valid until `list` is used again.
     std::span<const TileTriangle> triangles_of(int tile, std::vector<TileTriangle>& list) const;
 
@@ -63,6 +66,7 @@ private:
     Workers& workers_;
     Projection projection_;
     Light light_;
+    GrainRays grain_rays_;
     glm::ivec2 tiles_{0};
     FrameSlices slices_;
     std::vector<ScreenVertex> vertices_;

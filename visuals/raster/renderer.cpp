@@ -49,6 +49,7 @@ Renderer::Renderer(
     for (int i = 0; i < workers_->threads(); ++i) {
         desks_.push_back(std::make_unique<Desk>());
     }
+    grain_image();
     resize(size_px, samples);
 }
 
@@ -132,6 +133,8 @@ void Renderer::draw_into(const scene::FramePlan& plan, const scene::PixelRect& r
             byte_of(plan.background.x), byte_of(plan.background.y), byte_of(plan.background.z)};
         job.ground = ground_ ? &*ground_ : nullptr;
         job.haze = haze_ahead(plan) * 255.0F;
+        job.grain = &grain_image();
+        job.grain_rays = &work_.grain_rays();
         job.light = &work_.light();
         job.far_to_near = walk_ == Walk::FarToNear;
         job.tints_mesh_levels = plan.mesh_look == scene::MeshLook::Levels;
@@ -145,6 +148,18 @@ void Renderer::draw_into(const scene::FramePlan& plan, const scene::PixelRect& r
 void Renderer::finish_and_read(scene::Picture& picture) {
     assert(!is_in_window_);
     std::swap(picture, picture_);
+}
+
+void Renderer::finish_and_copy(scene::Picture& picture) {
+    picture.width = size_px_.x;
+    picture.height = size_px_.y;
+    picture.rgba.resize(byte_at(0, size_px_.y));
+    std::copy_n(pixels_, picture.rgba.size(), picture.rgba.data());
+    if (is_in_window_) { // where blue comes first
+        for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
+            std::swap(picture.rgba[i], picture.rgba[i + 2]);
+        }
+    }
 }
 
 void Renderer::copy_to_window(const glm::ivec2& size_px) {

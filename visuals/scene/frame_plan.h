@@ -103,6 +103,15 @@ struct Haze {
     glm::vec3 sunward{0.0F};      ///< display values 0..1
 };
 
+/// The fine pattern (grain_pattern.h) on ground that its vertices colour. A vertex has it by its
+/// alpha, times what the haze leaves of the vertex, times a share that falls from 1 to 0 on the way
+/// from `fades_from_m` to `reach_m`.
+struct Grain {
+    glm::vec2 at_eye{0.0F}; ///< where the eye stands, in tiles, 0..1
+    float fades_from_m = 0.0F;
+    float reach_m = 0.0F;
+};
+
 /// What a surface that is lit in each pixel has beside the light of all others, where it faces the
 /// sun: white * sunlight * share * max(c, 0)^power, where c is the cosine between the mirrored
 /// light and the way to the eye.
@@ -142,6 +151,7 @@ struct FramePlan {
     /// Ground and shadows are coloured by the renderer's ground texture under `ambient` and
     /// `sunlight`, times the vertices' alpha; nothing = by the vertices' colours.
     std::optional<TexturePlaces> ground_texture;
+    std::optional<Grain> grain; ///< of ground and shadows without a texture; nothing = none
 
     std::vector<AircraftDraw> aircraft; ///< in the order in which `steps` first names them
     std::vector<RefinedDraw> refined;

@@ -1,5 +1,5 @@
 #version 450 core
-// What is coloured at its vertices alone: ground and sky.
+// What is coloured at its vertices alone: the sky.
 
 in vec3 colour;
 

@@ -1,24 +1,24 @@
 // Seeks planes that prove that one polygon hides nothing of another. By Farkas' lemma every plane
 // with all eyes before it is a sum, with factors >= 0, of the planes that bound the eyes and of 1;
-// eyes that see a polygon are bounded by its plane, too. Where no single plane will do, a linear
-// programme finds the factors.
-#include "visuals/certificate/witness.h"
+// eyes that see a polygon are bounded by its plane, too. Where no single plane will do, a game
+// finds the factors, and where rounding spoils that a linear programme.
+#include "visuals/separation/witness.h"
 
-#include "visuals/certificate/refined_optimum.h"
 #include "visuals/separation/linear_programme.h"
+#include "visuals/separation/matrix_game.h"
+#include "visuals/separation/refined_optimum.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
-namespace octant::visuals::certificate {
+namespace octant::visuals::separation {
 
 namespace {
-
-using separation::LinearProgramme;
 
 /// What is left of the tolerance for the rounding of this code.
 constexpr double safe = 0.999;
@@ -173,60 +173,109 @@ Usable usable(const Question& asked) {
     return out;
 }
 
-std::optional<Factors> separating(const Question& asked) {
-    const Usable planes = usable(asked);
-    const auto judged = [&](const std::optional<std::vector<double>>& found) {
-        if (!found) {
-            return std::optional<Factors>();
+/// The factors for planes and for 1, if their sum is a witness.
+std::optional<Factors>
+judged(const Question& asked, const Usable& planes, const std::vector<double>& found) {
+    const double one = found[planes.planes.size()];
+    const Plane sum = sum_of(planes, found, one);
+    const bool good = glm::length(sum.normal) > 0.0 &&
+                      is_behind(asked.model, asked.earlier, sum, asked.turns) &&
+                      is_before(asked.model, asked.later, sum, asked.turns);
+    return good ? std::optional(factors_of(planes, found, one, asked.walls.size())) : std::nullopt;
+}
+
+/// What a plane must have behind it, or before it.
+std::span<const glm::dvec3> corners_of(const Question& asked, std::uint32_t polygon) {
+    const LocalPolygon& one = asked.model.polygons[polygon];
+    return asked.turns ? one.swept : one.corners;
+}
+
+/// A plane by a game: each corner asks how far it is on its side of the sum.
+std::optional<Factors> separating_by_game(const Question& asked, const Usable& planes) {
+    Payoffs payoffs{planes.planes.size() + 1, {}};
+    for (const auto& [polygon, sign] : {std::pair(asked.earlier, -1.0), {asked.later, 1.0}}) {
+        for (const glm::dvec3& corner : corners_of(asked, polygon)) {
+            for (const Plane& plane : planes.planes) {
+                payoffs.values.push_back(sign * distance_m(plane, corner));
+            }
+            payoffs.values.push_back(sign);
         }
-        const double one = (*found)[planes.planes.size()];
-        const Plane sum = sum_of(planes, *found, one);
-        const bool good = glm::length(sum.normal) > 0.0 &&
-                          is_behind(asked.model, asked.earlier, sum, asked.turns) &&
-                          is_before(asked.model, asked.later, sum, asked.turns);
-        return good ? std::optional(factors_of(planes, *found, one, asked.walls.size()))
-                    : std::nullopt;
-    };
-    const LocalPolygon& a = asked.model.polygons[asked.earlier];
-    const LocalPolygon& b = asked.model.polygons[asked.later];
+    }
+    return judged(asked, planes, best_shares(payoffs));
+}
+
+std::optional<Factors> separating(const Question& asked, const Usable& planes) {
     for (const Norm norm : {Norm::Factors, Norm::Distance}) {
         const LinearProgramme programme = separation_programme(
-            planes, asked.turns ? a.swept : a.corners, asked.turns ? b.swept : b.corners, norm);
-        if (auto factors = judged(separation::optimum(programme))) {
-            return factors;
-        }
-        if (auto factors = judged(refined_optimum(programme))) {
-            return factors;
+            planes, corners_of(asked, asked.earlier), corners_of(asked, asked.later), norm);
+        for (const auto& solve : {&optimum, &refined_optimum}) {
+            const auto found = solve(programme);
+            auto factors = found ? judged(asked, planes, *found) : std::nullopt;
+            if (factors) {
+                return factors;
+            }
         }
     }
     return std::nullopt;
 }
 
-std::optional<Factors> never(const Question& asked) {
-    const Usable planes = usable(asked);
-    const auto of_polygons =
-        std::ranges::count_if(planes.factors, [](std::size_t factor) { return factor < 2; });
-    auto found = of_polygons > 0 ? refined_optimum(nowhere_programme(planes)) : std::nullopt;
-    if (!found) {
-        return std::nullopt;
-    }
+/// How many of the planes are those of polygons; they stand first.
+std::ptrdiff_t planes_of_polygons(const Usable& planes) {
+    return std::ranges::count_if(planes.factors, [](std::size_t factor) { return factor < 2; });
+}
+
+/// Factors for planes, if their sum is negative everywhere.
+std::optional<Factors>
+judged_negative(const Question& asked, const Usable& planes, std::vector<double> found) {
+    const std::ptrdiff_t of_polygons = planes_of_polygons(planes);
     double total = 0.0;
     for (std::ptrdiff_t i = 0; i < of_polygons; ++i) {
-        total += std::max((*found)[static_cast<std::size_t>(i)], 0.0);
+        total += std::max(found[static_cast<std::size_t>(i)], 0.0);
+    }
+    if (total <= 0.0) {
+        return std::nullopt;
     }
     // Those of the polygons have to add up to 1 at least, rounded as they are.
     const double scale = (of_polygons == 1 ? 1.0 : 1.0 + 1e-15) / total;
-    for (double& factor : *found) {
+    for (double& factor : found) {
         factor = std::max(factor, 0.0) * scale;
     }
     if (of_polygons == 1) {
-        found->front() = 1.0;
+        found.front() = 1.0;
     }
-    const Plane sum = sum_of(planes, *found, 0.0);
+    const Plane sum = sum_of(planes, found, 0.0);
     const glm::dvec3 size = glm::abs(sum.normal);
     const bool good =
         std::max({size.x, size.y, size.z, sum.offset_m}) <= safe * asked.model.tolerance;
-    return good ? std::optional(factors_of(planes, *found, 0.0, asked.walls.size())) : std::nullopt;
+    return good ? std::optional(factors_of(planes, found, 0.0, asked.walls.size())) : std::nullopt;
+}
+
+/// A sum that is negative everywhere by a game: each axis, either way, and the middle ask how far
+/// it is from being positive.
+std::optional<Factors> never_by_game(const Question& asked, const Usable& planes) {
+    if (planes_of_polygons(planes) == 0) {
+        return std::nullopt;
+    }
+    Payoffs payoffs{planes.planes.size(), {}};
+    for (const double sign : {1.0, -1.0}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const Plane& plane : planes.planes) {
+                payoffs.values.push_back(sign * plane.normal[axis]);
+            }
+        }
+    }
+    for (const Plane& plane : planes.planes) {
+        payoffs.values.push_back(-plane.offset_m);
+    }
+    return judged_negative(asked, planes, best_shares(payoffs));
+}
+
+std::optional<Factors> never(const Question& asked, const Usable& planes) {
+    if (planes_of_polygons(planes) == 0) {
+        return std::nullopt;
+    }
+    const auto found = refined_optimum(nowhere_programme(planes));
+    return found ? judged_negative(asked, planes, *found) : std::nullopt;
 }
 
 } // namespace
@@ -251,18 +300,27 @@ Witness witness_of(
     std::uint32_t earlier,
     std::uint32_t later) {
     const Question asked{model, walls, earlier, later, turn_apart(model, earlier, later)};
-    if (auto factors = separating(asked)) {
-        return {Witness::Kind::Sum, std::move(*factors)};
-    }
-    if (auto factors = never(asked)) {
-        return {Witness::Kind::Never, std::move(*factors)};
+    const Usable planes = usable(asked);
+    using Search = std::optional<Factors> (*)(const Question&, const Usable&);
+    constexpr std::array<std::pair<Search, Witness::Kind>, 4> searches{
+        {{&separating_by_game, Witness::Kind::Sum},
+         {&never_by_game, Witness::Kind::Never},
+         {&separating, Witness::Kind::Sum},
+         {&never, Witness::Kind::Never}}};
+    for (const auto& [search, kind] : searches) {
+        if (auto factors = search(asked, planes)) {
+            return {kind, std::move(*factors)};
+        }
     }
     return {};
 }
 
 std::optional<Factors>
 factors_away(const LocalModel& model, std::span<const Plane> walls, std::uint32_t polygon) {
-    return never({model, walls, polygon, polygon, true});
+    const Question asked{model, walls, polygon, polygon, true};
+    const Usable planes = usable(asked);
+    auto factors = never_by_game(asked, planes);
+    return factors ? std::move(factors) : never(asked, planes);
 }
 
-} // namespace octant::visuals::certificate
+} // namespace octant::visuals::separation

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-namespace octant::visuals::certificate {
+namespace octant::visuals::separation {
 
 /// The variables of an optimum to nearly all of their digits; nothing where none is found.
-std::optional<std::vector<double>> refined_optimum(const separation::LinearProgramme& programme);
+std::optional<std::vector<double>> refined_optimum(const LinearProgramme& programme);
 
-} // namespace octant::visuals::certificate
+} // namespace octant::visuals::separation

@@ -1,4 +1,4 @@
-#include "visuals/certificate/local_model.h"
+#include "visuals/separation/local_model.h"
 
 #include "sim/base/units.h"
 
@@ -10,7 +10,7 @@
 #include <map>
 #include <utility>
 
-namespace octant::visuals::certificate {
+namespace octant::visuals::separation {
 
 namespace {
 
@@ -165,4 +165,4 @@ bool is_behind(const LocalModel& model, std::uint32_t number, const Plane& plane
     });
 }
 
-} // namespace octant::visuals::certificate
+} // namespace octant::visuals::separation

@@ -1,14 +1,14 @@
 #pragma once
 
 #include "sim/base/plane.h"
-#include "visuals/certificate/local_model.h"
+#include "visuals/separation/local_model.h"
 
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
-namespace octant::visuals::certificate {
+namespace octant::visuals::separation {
 
 /// Factors of a sum of planes, in the unit of a LocalModel.
 struct Factors {
@@ -49,4 +49,4 @@ Witness witness_of(
 std::optional<Factors>
 factors_away(const LocalModel& model, std::span<const Plane> walls, std::uint32_t polygon);
 
-} // namespace octant::visuals::certificate
+} // namespace octant::visuals::separation

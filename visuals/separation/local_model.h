@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace octant::visuals::certificate {
+namespace octant::visuals::separation {
 
 /// Lengths up to this are taken for none, in longest sides of the model's bounding box: builders
 /// decide by 1e-9 of its radius, a point from a plane and a polygon's own width alike.
@@ -60,4 +60,4 @@ is_before(const LocalModel& model, std::uint32_t polygon, const Plane& plane, bo
     return is_behind(model, polygon, turned_over(plane), turns);
 }
 
-} // namespace octant::visuals::certificate
+} // namespace octant::visuals::separation

@@ -1,6 +1,6 @@
 // The lists of octant cells hold from a distance on. The eyes nearer by are an octahedron: in each
 // octant what is behind one of its sides.
-#include "visuals/certificate/eyes_beyond.h"
+#include "visuals/draworder/eyes_beyond.h"
 
 #include <glm/geometric.hpp>
 
@@ -11,11 +11,9 @@
 #include <utility>
 #include <vector>
 
-namespace octant::visuals::certificate {
+namespace octant::visuals::draworder {
 
 namespace {
-
-using draworder::DrawOrder;
 
 constexpr int axes = 3;
 
@@ -83,4 +81,4 @@ DrawOrder eyes_beyond(const DrawOrder& order, const glm::dvec3& centre_m, double
     return Limiting(order, centre_m, distance_m).limited();
 }
 
-} // namespace octant::visuals::certificate
+} // namespace octant::visuals::draworder

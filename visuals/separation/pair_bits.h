@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace octant::visuals::certificate {
+namespace octant::visuals::separation {
 
 /// A set of polygons.
 using PolygonBits = std::vector<std::uint64_t>;
@@ -54,4 +54,4 @@ private:
     std::vector<std::uint64_t> bits_;
 };
 
-} // namespace octant::visuals::certificate
+} // namespace octant::visuals::separation

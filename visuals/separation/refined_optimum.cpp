@@ -1,19 +1,17 @@
 // Iterative refinement: A. Gleixner, D. Steffy, K. Wolter, "Iterative Refinement for Linear
 // Programming", 2016. A solver keeps bounds within 1e-9. What it is off by is put under a
 // magnifying glass and solved for again, with the same factors.
-#include "visuals/certificate/refined_optimum.h"
+#include "visuals/separation/refined_optimum.h"
 
 #include <cmath>
 #include <utility>
 
-namespace octant::visuals::certificate {
+namespace octant::visuals::separation {
 
 namespace {
 
 constexpr double magnification = 1e6;
 constexpr int rounds = 1;
-
-using separation::LinearProgramme;
 
 /// The programme of what is to be added to a solution, times `magnification`.
 LinearProgramme correction(const LinearProgramme& programme, const std::vector<double>& solution) {
@@ -36,9 +34,9 @@ LinearProgramme correction(const LinearProgramme& programme, const std::vector<d
 } // namespace
 
 std::optional<std::vector<double>> refined_optimum(const LinearProgramme& programme) {
-    auto solution = separation::optimum(programme);
+    auto solution = optimum(programme);
     for (int round = 0; solution && round < rounds; ++round) {
-        const auto more = separation::optimum(correction(programme, *solution));
+        const auto more = optimum(correction(programme, *solution));
         if (!more) {
             break;
         }
@@ -49,4 +47,4 @@ std::optional<std::vector<double>> refined_optimum(const LinearProgramme& progra
     return solution;
 }
 
-} // namespace octant::visuals::certificate
+} // namespace octant::visuals::separation
