@@ -1,16 +1,15 @@
 #include "models/heights/target_lattice.h"
 
+#include "models/heights/bounds.h"
 #include "models/heights/gdal_functions.h"
 #include "sim/base/error.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace octant::models::heights {
 
@@ -26,23 +25,6 @@ constexpr int edge_points = 257;
 /// Up to so many samples a ground has two for each step of its finest source: half as far off.
 constexpr double most_halved = 4096.0 * 4096.0;
 constexpr double least_left = 0.5; ///< of a grid's bounds, in the rectangle within its edges
-
-struct Bounds {
-    glm::dvec2 least{std::numeric_limits<double>::infinity()};
-    glm::dvec2 most{-std::numeric_limits<double>::infinity()};
-
-    void add(const glm::dvec2& point) {
-        least = glm::min(least, point);
-        most = glm::max(most, point);
-    }
-
-    glm::dvec2 size() const { return most - least; }
-
-    double area() const {
-        const glm::dvec2 sides = glm::max(size(), glm::dvec2(0.0));
-        return sides.x * sides.y;
-    }
-};
 
 /// Points of a grid's edges in the frame: west, east, south, north. Empty where one cannot be told.
 struct Outline {
