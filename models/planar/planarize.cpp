@@ -188,6 +188,13 @@ private:
         return alone_[polygon] ? misfits_[polygon].of_corners : misfits_[polygon].of_all;
     }
 
+    /// Whether a polygon was less flat than another as given, by more than rounding: of mirrored
+    /// ones, which are alike, the same gives up however the model is turned.
+    bool is_less_flat(std::size_t polygon, std::size_t other) const {
+        constexpr double alike = 1e-6;
+        return misfit(polygon) > misfit(other) * (1.0 + alike) + planar_noise * alike;
+    }
+
     template <class Visit>
     void for_each_point(std::size_t polygon, Visit visit) const {
         std::ranges::for_each(incidences_[polygon].corners, visit);
@@ -248,7 +255,7 @@ private:
         std::size_t worst = polygon;
         for_each_point(polygon, [&](std::uint32_t point) {
             for (const std::size_t other : polygons_of[point]) {
-                worst = misfit(other) > misfit(worst) ? other : worst;
+                worst = is_less_flat(other, worst) ? other : worst;
             }
         });
         return worst;

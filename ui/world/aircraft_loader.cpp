@@ -115,8 +115,11 @@ planning::AircraftModel ready(
     found.note(ordered.notes);
     std::vector<glm::vec3> normals =
         shading::normals_of_pieces(whole, shading::corner_normals(whole), ordered.model);
-    return planning::aircraft_model(
+    planning::AircraftModel made = planning::aircraft_model(
         std::move(ordered.model), std::move(ordered.order), eye_m, std::move(normals));
+    // Orders move points by a hair: the camera keeps its place however hidden surfaces are removed.
+    made.subject.radius_m = models::polygons::radius_m(whole);
+    return made;
 }
 
 models::polygons::PolygonModel

@@ -50,6 +50,19 @@ RunSettings over(const std::string& terrain) {
 
 } // namespace
 
+TEST_CASE("a model is framed alike however its hidden surfaces are removed") {
+    RunSettings settings = over("none");
+    settings.path.aircraft = {OCTANT_SOURCE_DIR "/tests/fuzz/corpus/crash-bent-11.obj"};
+    const ui::world::World painted = ui::world::load_world(settings);
+    settings.surface.hidden_surface = visuals::scene::HiddenSurface::DepthBuffer;
+    const ui::world::World by_depth = ui::world::load_world(settings);
+    const auto& ordered = painted.scene.model_of(0);
+    const auto& as_given = by_depth.scene.model_of(0);
+    REQUIRE(ordered.polygons.vertices_m != as_given.polygons.vertices_m); // moved into planes
+    CHECK(ordered.subject.radius_m == as_given.subject.radius_m);
+    CHECK(ordered.subject.pilot_eye_m == as_given.subject.pilot_eye_m);
+}
+
 TEST_CASE("no point of a detailed aircraft is farther from the plain one than its row says") {
     int detailed = 0;
     for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
