@@ -43,7 +43,9 @@ public:
     visuals::scene::PixelRect rectangle() const { return rectangle_; }
 
     /// Planner::prepare.
-    void prepare(const visuals::scene::Camera& camera) { planner_->prepare(camera); }
+    void prepare(const visuals::scene::Camera& camera, const visuals::landscape::Beside& beside) {
+        planner_->prepare(camera, std::nullopt, beside);
+    }
 
     /// Planner::wait.
     void wait() { planner_->wait(); }

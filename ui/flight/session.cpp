@@ -143,9 +143,12 @@ void Session::reach(double time_s, int frame, Moment& moment) {
 
 /// Begins to mesh the ground for the next picture, beside the drawing of this one.
 void Session::mesh_ahead() {
-    planner_->prepare(next_.camera, next_.triangle_target);
+    const auto beside = [this](std::function<void()> work) {
+        return renderer_->begin_beside(std::move(work));
+    };
+    planner_->prepare(next_.camera, next_.triangle_target, beside);
     if (inset_) {
-        inset_->prepare(next_.inset_camera);
+        inset_->prepare(next_.inset_camera, beside);
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "visuals/landscape/worker.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
@@ -64,9 +65,9 @@ public:
     virtual bool move_to(const std::shared_ptr<const Ground>& /*ground*/) { return false; }
 
     /// Begins the work of the next triangles() beside the caller, which should then ask for the
-    /// same; a second call before that one does nothing. Until that call nothing else may be asked
+    /// same, on a thread that is spared for it or on another one; a second call before that one does nothing. Until that call nothing else may be asked
     /// about triangles; those of the last one stay valid. May be left out: changes no mesh.
-    virtual void prepare(const GroundRequest& /*request*/) {}
+    virtual void prepare(const GroundRequest& /*request*/, const Beside& /*beside*/) {}
 
     /// Returns when nothing is being prepared. Throws what that work threw; the mesh is then made
     /// when it is asked for.

@@ -139,14 +139,14 @@ public:
     double earth_radius_m() const override { return earth_radius_m_; }
 
     /// A second mesh ahead would take the memory of the one that is being drawn.
-    void prepare(const GroundRequest& request) override {
+    void prepare(const GroundRequest& request, const Beside& beside) override {
         worker_.wait();
         if (std::exchange(is_ahead_, true)) {
             return;
         }
         aim_at(request);
         next_view_ = view_of(request);
-        worker_.begin([this] { make(next_view_); });
+        worker_.begin([this] { make(next_view_); }, beside);
     }
 
     void wait() override { worker_.wait(); }

@@ -4,14 +4,27 @@
 
 namespace octant::visuals::landscape {
 
-void Worker::begin(std::function<void()> work) {
+Worker::~Worker() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return !work_; });
+}
+
+void Worker::begin(std::function<void()> work, const Beside& beside) {
     wait();
+    {
+        const std::scoped_lock lock(mutex_);
+        work_ = std::move(work);
+        is_lent_ = true;
+    }
+    if (beside && beside([this] { do_work(); })) {
+        return;
+    }
     if (!thread_.joinable()) {
         thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
     }
     {
         const std::scoped_lock lock(mutex_);
-        work_ = std::move(work);
+        is_lent_ = false;
     }
     changed_.notify_all();
 }
@@ -26,19 +39,25 @@ void Worker::wait() {
 
 void Worker::run(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    while (changed_.wait(lock, stop, [this] { return static_cast<bool>(work_); })) {
+    while (changed_.wait(lock, stop, [this] { return work_ && !is_lent_; })) {
         lock.unlock();
-        std::exception_ptr fault;
-        try {
-            work_();
-        } catch (...) {
-            fault = std::current_exception();
-        }
+        do_work();
         lock.lock();
-        fault_ = fault;
-        work_ = nullptr;
-        changed_.notify_all();
     }
+}
+
+void Worker::do_work() {
+    std::exception_ptr fault;
+    try {
+        work_();
+    } catch (...) {
+        fault = std::current_exception();
+    }
+    // Notified under the lock: whoever waits may destroy this one next.
+    const std::scoped_lock lock(mutex_);
+    fault_ = fault;
+    work_ = nullptr;
+    changed_.notify_all();
 }
 
 } // namespace octant::visuals::landscape

@@ -145,8 +145,11 @@ void Planner::settle(const scene::Camera& camera) {
     mesher_->settle(ground_request(camera, std::nullopt));
 }
 
-void Planner::prepare(const scene::Camera& camera, std::optional<int> triangle_target) {
-    mesher_->prepare(ground_request(camera, triangle_target));
+void Planner::prepare(
+    const scene::Camera& camera,
+    std::optional<int> triangle_target,
+    const landscape::Beside& beside) {
+    mesher_->prepare(ground_request(camera, triangle_target), beside);
 }
 
 PlannedFrame Planner::plan(const PlanRequest& request) {

@@ -101,7 +101,10 @@ public:
     /// Begins the work on the ground of the next plan() beside the caller, for the camera and the
     /// triangle target that it will be given; the last plan stays valid. May be left out: changes
     /// no plan.
-    void prepare(const scene::Camera& camera, std::optional<int> triangle_target = std::nullopt);
+    void prepare(
+        const scene::Camera& camera,
+        std::optional<int> triangle_target = std::nullopt,
+        const landscape::Beside& beside = nullptr);
 
     /// Returns when nothing is being prepared. Throws what that work threw; the plan is then made
     /// when it is asked for.

@@ -12,7 +12,7 @@ namespace octant::visuals::raster {
 /// A textured triangle whose places, light and haze may lie even between its corners, because
 /// perspective bends them by next to nothing.
 struct EvenTexture {
-    static constexpr double most_texels_wrong = 1.0 / 16.0; ///< of the level that is looked at
+    static constexpr double most_texels_wrong = 1.0 / 32.0; ///< of the level that is looked at
     static constexpr double most_share_wrong = 1.0 / 512.0; ///< of light and haze
     /// Of light and haze in ScreenVertex::value: a little less than 256, whose double would need
     /// more than sixteen bits.

@@ -7,9 +7,11 @@
 #include "visuals/scene/renderer.h"
 #include "visuals/scene/window_picture.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace octant::visuals::raster {
@@ -44,6 +46,10 @@ public:
     void load_ground_texture(const scene::GroundTexture& texture) override;
 
     void warm_up() override {}
+
+    bool begin_beside(std::function<void()> work) override {
+        return workers_->begin_beside(std::move(work));
+    }
 
     void draw(const scene::FramePlan& plan) override;
     void draw_inset(const scene::FramePlan& plan, const scene::PixelRect& rect) override;

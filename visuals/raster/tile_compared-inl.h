@@ -38,7 +38,7 @@ HWY_INLINE std::uint32_t
 nearer_pixels(std::uint32_t pixels, float first, float per_px, DepthRule rule, float* depth) {
     const Depths real;
     std::uint32_t passing = 0;
-    for (std::size_t i = 0; i < strip_px; i += hn::Lanes(real)) {
+    for (std::size_t i = 0; i < strip_px && pixels >> i != 0; i += hn::Lanes(real)) {
         std::array<std::uint8_t, 8> bits{};
         const std::uint32_t some = pixels >> i;
         std::memcpy(bits.data(), &some, sizeof some);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 namespace octant::visuals::raster {
 
@@ -51,6 +52,19 @@ void Workers::run(int tasks, const std::function<void(int task, int thread)>& wo
     }
 }
 
+bool Workers::begin_beside(std::function<void()> work) {
+    if (helpers_.empty() ||
+        static_cast<unsigned>(threads()) < std::thread::hardware_concurrency()) {
+        return false;
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        beside_.push_back(std::move(work));
+    }
+    begun_.notify_all();
+    return true;
+}
+
 void Workers::take_tasks(Run& run, int thread) {
     for (int task = run.next++; task < run.tasks; task = run.next++) {
         (*run.work)(task, thread);
@@ -64,7 +78,15 @@ void Workers::help(int thread) {
     std::shared_ptr<Run> seen;
     std::unique_lock lock(mutex_);
     while (true) {
-        begun_.wait(lock, [&] { return ends_ || run_ != seen; });
+        begun_.wait(lock, [&] { return ends_ || !beside_.empty() || run_ != seen; });
+        if (!beside_.empty()) {
+            const std::function<void()> work = std::move(beside_.front());
+            beside_.pop_front();
+            lock.unlock();
+            work();
+            lock.lock();
+            continue;
+        }
         if (ends_) {
             return;
         }

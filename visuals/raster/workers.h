@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -28,6 +29,11 @@ public:
     /// for. `work` must not throw.
     void run(int tasks, const std::function<void(int task, int thread)>& work);
 
+    /// Does other work on one of the threads, before what is left of loops: more threads than cores
+    /// would push each other aside, and a loop waits for the last of its tasks. False, and nothing
+    /// is done, where the caller is alone or cores are left over. `work` must not throw.
+    bool begin_beside(std::function<void()> work);
+
 private:
     struct Run;
 
@@ -38,6 +44,7 @@ private:
     std::mutex mutex_;
     std::condition_variable begun_;
     std::shared_ptr<Run> run_; ///< the last that began
+    std::deque<std::function<void()>> beside_;
     bool ends_ = false;
 };
 

@@ -6,6 +6,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -36,8 +37,8 @@ public:
     /// cannot hold that size.
     virtual std::unique_ptr<Renderer> beside(const glm::ivec2& size_px, int samples) const = 0;
 
-    /// Draws pictures of another size or with other samples (1, 4 or 16 a pixel; nothing: as many as
-    /// suit this renderer) from now on. Throws Error and leaves it as it is when it cannot.
+    /// Draws pictures of another size or with other samples (1, 4 or 16 a pixel; nothing: as many
+    /// as suit this renderer) from now on. Throws Error and leaves it as it is when it cannot.
     virtual void resize(const glm::ivec2& size_px, std::optional<int> samples) = 0;
 
     /// Loads the aircraft models, in place of those loaded before: AircraftDraw::model counts in
@@ -51,6 +52,10 @@ public:
     /// Draws once in every state that a plan can ask for, because drivers compile on first use
     /// (14-18 ms each). To be called after loading; what the picture holds afterwards is undefined.
     virtual void warm_up() = 0;
+
+    /// Begins other work on one of the threads that draw, so that it takes no core from them;
+    /// false, and nothing is done, where there is none for it. `work` must not throw.
+    virtual bool begin_beside(std::function<void()> /*work*/) { return false; }
 
     /// Starts the drawing of a picture; the plan's memory is free again on return.
     virtual void draw(const FramePlan& plan) = 0;

@@ -167,7 +167,7 @@ TEST_CASE("a mesher of tiles goes on over them in other colours, not over others
     const landscape::GroundRequest request{camera_at(0), 1.0, 500};
     landscape::GroundCounts counts;
     mesher->triangles(request, counts);
-    mesher->prepare({camera_at(1), 1.0, 500});
+    mesher->prepare({camera_at(1), 1.0, 500}, nullptr);
 
     settings.air.sun_elevation_deg = 70.0;
     settings.air.palette = scene::Palette::Arid;
