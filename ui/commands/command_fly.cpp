@@ -268,6 +268,11 @@ std::vector<Option> options_of(FlyOptions& options) {
             "tacview:PORT: for readers of Tacview's telemetry",
             Takes::OneWordAgain,
             options.send),
+        text_option(
+            "--swept",
+            "HOW",
+            "how octant sweep flies this one beside others, for its report",
+            options.record.swept),
         flag("--if-new", "do nothing when DIR holds this very run already", options.if_new),
         flag("--json", "summary as JSON", options.json),
         flag("--quiet", "no progress, no notes", options.quiet)};

@@ -131,6 +131,9 @@ FlightRecorder::FlightRecorder(
         if (options.replay_of) {
             info.facts.emplace_back("replay of", options.replay_of->filename().string());
         }
+        if (!options.swept.empty()) {
+            info.facts.emplace_back(report::swept_fact, options.swept);
+        }
         recording_.emplace(*options.folder, std::move(info));
         if (!session.simulation().is_live()) {
             tracks_.emplace(*options.folder, session.world());

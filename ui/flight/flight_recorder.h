@@ -19,6 +19,7 @@ struct RecordOptions {
     std::optional<std::filesystem::path> folder;
     std::optional<std::filesystem::path> video;
     std::optional<std::filesystem::path> replay_of; ///< recording whose rows are flown again
+    std::string swept; ///< how a sweep flies it beside others; empty = no sweep does
 };
 
 /// What came out of a flight.

@@ -24,6 +24,9 @@ inline constexpr const char* unset_value = "null";
 /// Name of the fact that a recording of a window has: its pictures followed the clock.
 inline constexpr const char* flown_fact = "flown";
 
+/// Name of the fact that a flight of a sweep has: how many of the sweep's flights shared a machine.
+inline constexpr const char* swept_fact = "swept";
+
 /// What run.json says from the start of a flight.
 struct RunInfo {
     std::string title;                ///< for people: "f15-pop-up over hills"

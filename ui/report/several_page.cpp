@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -63,6 +64,20 @@ constexpr std::array<std::pair<const char*, const char*>, 6> shown_figures{
      {"low_1pct_fps", "1 % low, 1/s"},
      {"overruns_16ms", "above 16.67 ms"}}};
 
+/// How sweeps flew them, where sweeps did: " 24 flights: one at a time."
+std::string swept_text(Recordings recordings) {
+    std::map<std::string, int> counts;
+    for (const LoadedRecording& recording : recordings) {
+        const std::string swept = value_of(recording.run.facts, swept_fact);
+        counts[swept] += swept.empty() ? 0 : 1;
+    }
+    std::string text;
+    for (const auto& [swept, count] : counts) {
+        text += count == 0 ? "" : fmt::format(" {} flown by a sweep {}.", count, escaped(swept));
+    }
+    return text;
+}
+
 std::string runs_table(Recordings recordings, const fs::path& page_folder) {
     constexpr std::size_t most_settings = 6;
     std::vector<std::string> names = differing_settings(recordings, all_of(recordings));
@@ -95,7 +110,8 @@ std::string runs_table(Recordings recordings, const fs::path& page_folder) {
             condition.empty() ? "good" : condition);
     }
     html += "</tbody></table></div>\n<p class=\"note\">A click on a column's head sorts by it. "
-            "States and pictures are the first eight digits of their hashes.";
+            "States and pictures are the first eight digits of their hashes." +
+            swept_text(recordings);
     if (left_out > 0) {
         html +=
             fmt::format(" {} more settings differ; they are in the flights' own pages.", left_out);

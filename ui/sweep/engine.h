@@ -19,6 +19,7 @@ struct EngineOptions {
     int minutes = 60;         ///< that a task of a job array may take
     std::vector<std::string> sbatch_options; ///< further ones, "--partition=long"
     std::filesystem::path hosts;             ///< GNU parallel's file of machines
+    std::string manner; ///< how the runs share machines, for reports; engines fill it in
     bool quiet = false;
 };
 

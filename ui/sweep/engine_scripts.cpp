@@ -13,10 +13,12 @@ constexpr int most_tasks = 1000; // Slurm's MaxArraySize is 1001 where nobody ch
 /// The command that flies the run whose name is in the shell's `variable`.
 std::string fly_command(const EngineOptions& options, const std::string& variable) {
     return fmt::format(
-        "{0} fly --settings \"jobs/{1}.json\" --record \"runs/{1}\" --if-new --quiet{2} "
+        "{0} fly --settings \"jobs/{1}.json\" --record \"runs/{1}\" --if-new --quiet --swept "
+        "{2}{3} "
         ">\"logs/{1}.log\" 2>&1",
         shell_word(options.program),
         variable,
+        shell_word(options.manner),
         options.videos ? fmt::format(" --video \"videos/{}.mp4\"", variable) : std::string());
 }
 

@@ -64,17 +64,16 @@ public:
                 "depend on each other, got {} without it",
                 options_.jobs));
         }
+        options_.manner =
+            options_.jobs == 1
+                ? "one at a time"
+                : fmt::format(
+                      "up to {} at a time on shared cores: compare no frame times", options_.jobs);
     }
 
     void fly(std::span<const std::size_t> runs) override;
 
-    std::string manner() const override {
-        return options_.jobs == 1
-                   ? "one at a time"
-                   : fmt::format(
-                         "up to {} at a time on shared cores: compare no frame times",
-                         options_.jobs);
-    }
+    std::string manner() const override { return options_.manner; }
 
 private:
     void start(const Run& run);
@@ -97,7 +96,9 @@ void LocalEngine::start(const Run& run) {
         "--record",
         folder_.recording(run.name).string(),
         "--if-new",
-        "--quiet"};
+        "--quiet",
+        "--swept",
+        options_.manner};
     if (options_.videos) {
         words.insert(words.end(), {"--video", folder_.video(run.name).string()});
     }

@@ -89,6 +89,8 @@ public:
         , options_(std::move(options))
         , tasks_(tasks_of(sweep, options_)) {
         check_installed("sbatch");
+        options_.manner = options_.share_cores ? "by Slurm, on shared nodes: compare no frame times"
+                                               : "by Slurm, each alone on its node";
         write_file(script(), sbatch_script(sweep, folder, options_, tasks_));
     }
 
@@ -111,10 +113,7 @@ public:
             cancel)));
     }
 
-    std::string manner() const override {
-        return options_.share_cores ? "by Slurm, on shared nodes: compare no frame times"
-                                    : "by Slurm, each alone on its node";
-    }
+    std::string manner() const override { return options_.manner; }
 
 private:
     std::filesystem::path script() const { return folder_.path() / "sweep.sbatch"; }
@@ -136,6 +135,9 @@ public:
         , folder_(folder)
         , options_(std::move(options)) {
         check_installed("parallel");
+        options_.manner = options_.share_cores || options_.jobs > 1
+                              ? "by GNU parallel, on shared cores: compare no frame times"
+                              : "by GNU parallel, one at a time on each machine";
         write_file(script(), parallel_script(sweep, folder, options_));
     }
 
@@ -155,11 +157,7 @@ public:
         });
     }
 
-    std::string manner() const override {
-        return options_.share_cores || options_.jobs > 1
-                   ? "by GNU parallel, on shared cores: compare no frame times"
-                   : "by GNU parallel, one at a time on each machine";
-    }
+    std::string manner() const override { return options_.manner; }
 
 private:
     std::filesystem::path script() const { return folder_.path() / "sweep.parallel.sh"; }

@@ -109,7 +109,8 @@ RunResult result_of(const SweepFolder& folder, const Run& run, bool with_video) 
         result.done = flight::is_recorded(
             {recording,
              with_video ? std::optional(folder.video(run.name)) : std::nullopt,
-             std::nullopt},
+             std::nullopt,
+             {}},
             world::with_absolute_files(run.settings));
     } catch (const Error& fault) { // a file of the run is missing: its log says so too
         result.fault = fault.what();

@@ -16,7 +16,9 @@ void Viewer::start_live_recording(const fs::path& folder) {
     settings::RunSettings settings = world::with_absolute_files(session_->settings());
     settings.drawing.context = settings::ContextKind::OsMesa;
     live_recorder_.emplace(
-        flight::RecordOptions{.folder = folder, .video = {}, .replay_of = {}}, settings, *session_);
+        flight::RecordOptions{.folder = folder, .video = {}, .replay_of = {}, .swept = {}},
+        settings,
+        *session_);
     listener_->record_into(folder);
     session_->simulation().start_log();
     state_.recording = folder;

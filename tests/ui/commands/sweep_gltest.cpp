@@ -43,7 +43,7 @@ TEST_CASE("a sweep flies what is not done yet, tells what failed, and reports al
     REQUIRE(first.exit_code == 0);
     CHECK_THAT(first.out, Contains("8 of 8 flights done, one at a time"));
     CHECK(tests::lines_in(read_file(out / "sweep.csv")) == 9);
-    CHECK(fs::exists(out / "report.html"));
+    CHECK_THAT(read_file(out / "report.html"), Contains("8 flown by a sweep one at a time."));
 
     const auto when = fs::last_write_time(out / "runs/turn-f15-r1/run.json");
     const std::string before = read_file(out / "runs/turn-500md-r2/run.json");
