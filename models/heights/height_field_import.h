@@ -15,7 +15,7 @@ namespace octant::models::heights {
 /// sample by sample, its grid north as north; degrees and projections that are not true to scale
 /// are resampled. A file with a pixel size but no coordinate system takes the option, else counts
 /// as metres. A file with neither takes the option's spacing. `place` is set when a coordinate
-/// system is known.
+/// system is known. A raster placed by control points is laid on a grid first.
 ///
 /// Heights: of the first band; scale, offset and unit (the band's, else the system's, else the
 /// option's) applied. No data are NaN, infinities, magnitudes from 1e30, the file's declared value

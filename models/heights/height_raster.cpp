@@ -1,5 +1,6 @@
 #include "models/heights/height_raster.h"
 
+#include "models/heights/control_points.h"
 #include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
 #include "models/heights/import_options.h"
@@ -252,6 +253,9 @@ void check_height(const path& file, double height_m) {
 OpenRaster open_height_raster(const path& file, const ImportOptions& options, GdalSession& gdal) {
     OpenRaster raster;
     raster.dataset = open_raster_file(file, gdal);
+    if (Dataset grid = grid_by_control_points(file, raster.dataset.get(), gdal)) {
+        raster.behind = std::exchange(raster.dataset, std::move(grid));
+    }
     GDALDatasetH dataset = raster.dataset.get();
     raster.columns = GDALGetRasterXSize(dataset);
     raster.rows = GDALGetRasterYSize(dataset);

@@ -15,6 +15,7 @@ namespace octant::models::heights {
 /// A file of heights, open to be read piece by piece: its first band and how raw numbers become
 /// metres. Row 0 is the south and column 0 the west, where it is upright.
 struct OpenRaster {
+    Dataset behind; ///< what `dataset` was laid on a grid from (control_points.h), if it was
     Dataset dataset;
     void* band = nullptr; ///< GDALRasterBandH of the dataset
     std::optional<double> no_data;

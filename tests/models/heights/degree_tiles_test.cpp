@@ -249,6 +249,17 @@ TEST_CASE("two by three degrees of made tiles are one ground within the deviatio
     check_tiles(folder, whole);
 }
 
+TEST_CASE("tiles at 70 degrees north and over the antimeridian are one ground as elsewhere") {
+    const RasterFile whole = mirrored(hills(121, 121), 179.0, 72.0);
+    const path folder = scratch_file("far_degrees");
+    std::filesystem::create_directories(folder);
+    write_tiles(whole, [&folder](RasterFile tile, int i, int j) {
+        tile.transform[0] -= i == 1 ? 360.0 : 0.0;
+        write_raster(folder / ("t" + std::to_string(3 * i + j) + ".tif"), "GTiff", tile);
+    });
+    check_tiles(folder, whole);
+}
+
 TEST_CASE("two by three degrees of SRTM tiles are one ground within the deviation that it states") {
     const auto real = real_terrain_file("srtm3_N49W123.tif");
     if (!real) {

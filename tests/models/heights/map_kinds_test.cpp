@@ -1,11 +1,13 @@
 #include "models/heights/gdal_session.h"
 #include "models/heights/height_field_import.h"
+#include "models/heights/local_frame.h"
 #include "models/heights/map_inputs.h"
 #include "tests/models/heights/sample_maps.h"
 #include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cpl_vsi.h>
@@ -26,6 +28,22 @@ void write_reference(const path& file, const path& to) {
     const Dataset made(GDALCreateCopy(
         GDALGetDriverByName("VRT"), file.c_str(), source.get(), FALSE, nullptr, nullptr, nullptr));
     REQUIRE(made);
+}
+
+/// Places a raster by its four corners in place of a grid.
+void place_by_points(const path& file, const RasterFile& raster) {
+    const Dataset made(GDALOpen(file.c_str(), GA_Update));
+    REQUIRE(made);
+    std::array<GDAL_GCP, 4> points = {};
+    GDALInitGCPs(4, points.data());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        points[k].dfGCPPixel = (k & 1U) != 0 ? raster.columns : 0;
+        points[k].dfGCPLine = (k & 2U) != 0 ? raster.rows : 0;
+        points[k].dfGCPX = raster.transform[0] + points[k].dfGCPPixel * raster.transform[1];
+        points[k].dfGCPY = raster.transform[3] + points[k].dfGCPLine * raster.transform[5];
+    }
+    REQUIRE(GDALSetGCPs(made.get(), 4, points.data(), wkt_of(wgs84().get()).c_str()) == CE_None);
+    GDALDeinitGCPs(4, points.data());
 }
 
 void zip_file(const path& archive, const std::string& name, const path& file) {
@@ -151,6 +169,33 @@ TEST_CASE("heights in feet, fathoms and units by option become metres") {
     write_raster(file, "GTiff", raster);
     options.height_scale = 1.7018;
     CHECK(read_height_field(file, options).height_m(0, 0) == Approx(south_west * 1.7018));
+}
+
+TEST_CASE("a map that is placed by control points lies where they say") {
+    RasterFile raster = degree_hills(41, 41, 8.0, 47.0);
+    write_raster(scratch_file("grid.tif"), "GTiff", raster);
+    const path points = scratch_file("points.tif");
+    const RasterFile placed = raster;
+    raster.transform.clear();
+    raster.system.clear();
+    write_raster(points, "GTiff", raster);
+    place_by_points(points, placed);
+    const HeightField expected = read_height_field(tests::scratch_folder() / "grid.tif");
+    const HeightField field = read_height_field(points);
+    REQUIRE(field.place);
+    CHECK(field.place->latitude_deg == Approx(expected.place->latitude_deg).margin(1e-4));
+    CHECK(field.place->longitude_deg == Approx(expected.place->longitude_deg).margin(1e-4));
+    CHECK(field.filled_voids == 0);
+    double most_m = 0.0;
+    for (double x_m = -2500.0; x_m <= 2500.0; x_m += 100.0) {
+        for (double y_m = -4500.0; y_m <= 4500.0; y_m += 100.0) {
+            const auto own_m = field.height_at(x_m, y_m);
+            const auto wanted_m = expected.height_at(x_m, y_m);
+            REQUIRE((own_m && wanted_m));
+            most_m = std::max(most_m, std::abs(*own_m - *wanted_m));
+        }
+    }
+    CHECK(most_m < 5.0);
 }
 
 TEST_CASE("a map in an archive is read, and one of several in a file is asked for by name") {
