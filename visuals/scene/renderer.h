@@ -36,8 +36,8 @@ public:
     /// cannot hold that size.
     virtual std::unique_ptr<Renderer> beside(const glm::ivec2& size_px, int samples) const = 0;
 
-    /// Draws pictures of another size or with other samples (1, 4 or 16 a pixel; nothing: as many as
-    /// suit this renderer) from now on. Throws Error and leaves it as it is when it cannot.
+    /// Draws pictures of another size or with other samples (1, 4 or 16 a pixel; nothing: as many
+    /// as suit this renderer) from now on. Throws Error and leaves it as it is when it cannot.
     virtual void resize(const glm::ivec2& size_px, std::optional<int> samples) = 0;
 
     /// Loads the aircraft models, in place of those loaded before: AircraftDraw::model counts in
