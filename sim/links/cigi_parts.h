@@ -26,8 +26,8 @@ class CigiParts {
 public:
     static constexpr std::size_t most_parts = 1024;
 
-    /// Angles and offsets that the packet does not set stay as they are; a part that is not enabled is the
-    /// model's own again.
+    /// Angles and offsets that the packet does not set stay as they are; a part that is not enabled
+    /// is the model's own again.
     void take(const CigiPart& part, double at_s);
 
     /// Of a part that has been told before.

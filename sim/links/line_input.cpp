@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t read_bytes = 65536;
 constexpr std::size_t client_bytes = 16384; ///< that one drain() takes of a client; others wait
-constexpr int most_newcomers = 64; ///< that one drain() takes; others wait
+constexpr int most_newcomers = 64;          ///< that one drain() takes; others wait
 
 } // namespace
 

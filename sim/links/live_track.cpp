@@ -14,9 +14,9 @@ namespace octant::sim::links {
 
 namespace {
 
-constexpr double kept_s = 6.0;        ///< longer than any delay
+constexpr double kept_s = 6.0;          ///< longer than any delay
 constexpr double least_apart_s = 0.005; ///< of kept samples, but for the newest
-constexpr double blend_s = 0.05; ///< time constant: 95 % within 0.15 s
+constexpr double blend_s = 0.05;        ///< time constant: 95 % within 0.15 s
 constexpr double least_snap_m = 15.0;
 constexpr double snap_after_s = 0.25; ///< of flight at the sample's speed
 constexpr double snap_cosine = 0.7;   ///< of half the angle: 90 degrees

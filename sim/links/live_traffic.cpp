@@ -33,8 +33,8 @@ constexpr std::size_t most_streams = 64;
 /// What is kept of a stream, which is new where there is room for it: of the full table those make
 /// room that were silent the longest, and for so long. Null where none was.
 template <class Streams>
-typename Streams::mapped_type*
-stream_of(Streams& streams, const typename Streams::key_type& key, double arrival_s, double gone_s) {
+typename Streams::mapped_type* stream_of(
+    Streams& streams, const typename Streams::key_type& key, double arrival_s, double gone_s) {
     auto known = streams.find(key);
     if (known == streams.end()) {
         if (streams.size() >= most_streams) {

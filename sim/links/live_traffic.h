@@ -108,6 +108,7 @@ private:
     WorldFromFix world_from_fix_;
     std::vector<LiveVehicle> vehicles_;
     std::map<VehicleKey, std::size_t> numbers_; ///< of vehicles_, by their keys
+
     /// What is kept of a stream between its packets.
     template <class Value>
     struct Stream {

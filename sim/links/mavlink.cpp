@@ -218,7 +218,7 @@ std::string mavlink_text(const Verdict& verdict) {
     case Fault::WrongVersion:
         return fmt::format("MAVLink message {}: its check sum is wrong", verdict.got);
     case Fault::WrongSize:
-        return fmt::format("expected a whole MAVLink frame, got {} bytes of one", verdict.size);
+        return "expected a whole MAVLink frame, got a piece of one";
     default:
         return fmt::format("expected MAVLink 1 or 2, got {} bytes of something else", verdict.size);
     }

@@ -15,8 +15,8 @@
 
 namespace octant::ui::flight {
 
-/// Where to listen. A port of -1 is not opened, 0 is any free one; one that is unset is the usual one
-/// of its protocol, which is closed where a channel is driven by its CIGI host alone.
+/// Where to listen. A port of -1 is not opened, 0 is any free one; one that is unset is the usual
+/// one of its protocol, which is closed where a channel is driven by its CIGI host alone.
 struct LiveInputOptions {
     std::string bind = "127.0.0.1";
     std::optional<int> fdm_port;

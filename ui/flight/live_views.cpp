@@ -23,8 +23,7 @@ glm::dvec2 usual_half(double aspect) {
 
 /// Gives a camera the frustum of a host's view; sides that the host has not told are the usual
 /// ones. Leaves it as it is where sides meet.
-void set_frustum(
-    const sim::links::CigiViewDefinition& told, double aspect, scene::Camera& camera) {
+void set_frustum(const sim::links::CigiViewDefinition& told, double aspect, scene::Camera& camera) {
     const glm::dvec2 half = usual_half(aspect);
     const auto side = [](bool is_told, double angle_rad, double usual) {
         return is_told ? std::tan(angle_rad) : usual;
@@ -67,9 +66,7 @@ scene::Camera LiveFlight::camera(
 
 /// The host's next view, where there is one.
 scene::Camera LiveFlight::inset_camera(
-    std::span<const sim::AircraftState> states,
-    const scene::Camera& usual,
-    double aspect) const {
+    std::span<const sim::AircraftState> states, const scene::Camera& usual, double aspect) const {
     const auto& views = traffic_.cigi().views();
     const auto number = shown_view();
     const auto next = number ? views.upper_bound(*number) : views.end();

@@ -160,8 +160,8 @@ private:
         }
         frame.time_of_day = text_of(*bytes);
         if (!sim::solar_time_from_text(frame.time_of_day)) {
-            refuse(fmt::format(
-                "a time as YYYY-MM-DDTHH:MM, got '{}'", printable(frame.time_of_day)));
+            refuse(
+                fmt::format("a time as YYYY-MM-DDTHH:MM, got '{}'", printable(frame.time_of_day)));
         }
         return true;
     }

@@ -231,7 +231,7 @@ private:
     Hash picture_hash_;
     report::KernelCounters counters_;
     base::Stopwatch since_first_frame_;
-    visuals::scene::AirSettings next_air_; ///< of relit_
+    visuals::scene::AirSettings next_air_;  ///< of relit_
     std::future<world::SceneGround> relit_; ///< last: its work looks at the scene
 };
 

@@ -56,8 +56,8 @@ public:
         return mean_colour();
     }
 
-    /// The land around the map; nothing for ground without samples. Made when it is first asked for,
-    /// which is loading work.
+    /// The land around the map; nothing for ground without samples. Made when it is first asked
+    /// for, which is loading work.
     const nature::Backdrop& surroundings() const;
 
     /// The samples as they are drawn; nothing for ground that has none.

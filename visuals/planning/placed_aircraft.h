@@ -73,9 +73,9 @@ void place_parts(
     double time_s,
     std::span<glm::dmat4> parts);
 
-/// Turns and moves a part that somebody else turns; nothing where the model has no such pivot. `numbered` is
-/// the model whose pivots `turned` counts: the part of the same name turns in `model`, which is the
-/// same or stands in for it from afar. `parts` as place_parts() has them.
+/// Turns and moves a part that somebody else turns; nothing where the model has no such pivot.
+/// `numbered` is the model whose pivots `turned` counts: the part of the same name turns in
+/// `model`, which is the same or stands in for it from afar. `parts` as place_parts() has them.
 void place_turned_part(
     const models::polygons::PolygonModel& model,
     const models::polygons::PolygonModel& numbered,

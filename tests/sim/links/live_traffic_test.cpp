@@ -126,9 +126,7 @@ TEST_CASE("MAVLink systems beyond the cap wait until one has been silent for ten
     payload.set(12, std::int32_t{100000});
     const auto packet = [&](std::uint16_t port, double arrival_s) {
         const auto bytes = encode_mavlink(
-            {MavLinkKind::GlobalPositionInt,
-             1,
-             {payload.bytes().begin(), payload.bytes().end()}},
+            {MavLinkKind::GlobalPositionInt, 1, {payload.bytes().begin(), payload.bytes().end()}},
             0);
         return Datagram{Protocol::MavLink, {1, port}, arrival_s, bytes};
     };
@@ -153,8 +151,9 @@ TEST_CASE("a sender of twenty thousand packets a second is remembered in bounded
         fix.velocity_ned_mps = glm::dvec3(100.0, 0.0, 0.0);
         fix.ticks = static_cast<std::uint32_t>(50 * i);
         const auto bytes = encode_fdm(fix);
-        REQUIRE(traffic.take({Protocol::Fdm, {1, 1}, time_s, {bytes.begin(), bytes.end()}}) ==
-                Taken::Moved);
+        REQUIRE(
+            traffic.take({Protocol::Fdm, {1, 1}, time_s, {bytes.begin(), bytes.end()}}) ==
+            Taken::Moved);
     }
     constexpr double mebibyte = 1048576.0;
     CHECK(octant::tests::resident_bytes() - before < 4.0 * mebibyte);

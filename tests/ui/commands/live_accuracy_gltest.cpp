@@ -156,31 +156,13 @@ Accuracy flown(const std::string& name, const Network& network, double delay_s) 
             }
         }
     });
-    const tests::ProgramRun run = tests::run_octant(
-        {"listen",
-         "--headless",
-         "--fdm-port",
-         std::to_string(port),
-         "--mavlink-port",
-         "-1",
-         "--dis-port",
-         "-1",
-         "--cigi-port",
-         "-1",
-         "--terrain",
-         "none",
-         "--size",
-         "64x36",
-         "--samples",
-         "1",
-         "--pictures",
-         "0",
-         "--delay",
-         std::to_string(delay_s),
-         "--seconds",
-         "15",
-         "--record",
-         record.string()});
+    const tests::ProgramRun run =
+        tests::run_octant({"listen",         "--headless", "--fdm-port", std::to_string(port),
+                           "--mavlink-port", "-1",         "--dis-port", "-1",
+                           "--cigi-port",    "-1",         "--terrain",  "none",
+                           "--size",         "64x36",      "--samples",  "1",
+                           "--pictures",     "0",          "--delay",    std::to_string(delay_s),
+                           "--seconds",      "15",         "--record",   record.string()});
     done = true;
     sender.join();
     INFO(run.err);
@@ -208,7 +190,8 @@ TEST_CASE("pictures show a steady flight by UDP within a metre of the truth, wit
     CHECK(found.jump_m < 1.0);
 }
 
-TEST_CASE("pictures a tenth of a second behind stand jitter, losses and disorder within two metres") {
+TEST_CASE(
+    "pictures a tenth of a second behind stand jitter, losses and disorder within two metres") {
     const Network bad{0.02, 0.05, 0.02};
     const Accuracy found = flown("accuracy-bad", bad, 0.1);
     print("bad network, 0.1 s behind", found);

@@ -193,8 +193,7 @@ TEST_CASE("a part that somebody moves lies so far along the body's axes, and tur
     const glm::vec4 at = plan.parts[plan.aircraft.front().first_part + 1] * glm::vec4(1, 0, 2, 1);
     // One below the pivot becomes one to its left: y is right and z is down.
     const glm::dvec3 body_m = glm::dvec3(1.0, -1.0, 1.0) + turned.front().offset_m;
-    const glm::dvec3 expected_m =
-        states[0].position_m + attitude * body_m - request.camera.eye_m;
+    const glm::dvec3 expected_m = states[0].position_m + attitude * body_m - request.camera.eye_m;
     CHECK(glm::distance(glm::dvec3(at), expected_m) < 1e-4);
 }
 

@@ -94,7 +94,8 @@ TEST_CASE("a picture beside the middle shows that part of a larger one, in pixel
     const glm::mat4 large = view_to_clip(whole, 2.0);
     const glm::mat4 small = view_to_clip(part, aspect);
     const auto normals = frustum_normals(part, aspect);
-    for (const glm::vec2& at : {glm::vec2(-2, 1), {-1, 0.5}, {-2, 0.5}, {-1.5, 0.75}, {-1.1, 0.9}}) {
+    for (const glm::vec2& at :
+         {glm::vec2(-2, 1), {-1, 0.5}, {-2, 0.5}, {-1.5, 0.75}, {-1.1, 0.9}}) {
         const glm::vec4 point(5.0F * at, -5.0F, 1.0F);
         const glm::vec4 of_large = large * point;
         const glm::vec4 of_small = small * point;
