@@ -20,10 +20,14 @@ constexpr double least_cell_m = 15.0; ///< denser ground bears something in some
 constexpr float least_radius_m = 1.2F;
 constexpr float house_radius_m = 4.0F; ///< no house where less fits
 constexpr float house_m = 7.5F;        ///< its height
-constexpr float near_m = 110.0F;
-constexpr float far_off_m = 300.0F;
-constexpr std::size_t upwards = 8; ///< place of the light from above, after the eight sides
-constexpr double fits = 0.19;      ///< radius that fits into a quarter of a cell, over its side
+constexpr float house_length = 1.25F;  ///< half of it, over the half size
+constexpr float house_width = 0.85F;
+constexpr float house_corner = 1.52F; ///< its farthest corner from its middle, likewise
+constexpr float near_m = 60.0F;
+constexpr float far_off_m = 130.0F;
+constexpr float first_begin = 0.35F; ///< of the reach: all things have grown by then
+constexpr std::size_t upwards = 8;   ///< place of the light from above, after the eight sides
+constexpr double fits = 0.19;        ///< radius that fits into a quarter of a cell, over its side
 
 /// Middles of the four quarters into which its diagonals cut a cell.
 constexpr std::array<glm::dvec2, 4> spots = {
@@ -42,6 +46,11 @@ float share_of(std::uint32_t dice, unsigned shift) {
 
 float side_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// Of a tree, over its species'.
+float size_of(std::uint32_t dice) {
+    return 0.7F + 0.6F * share_of(dice, 16);
 }
 
 TreeDetail detail_at(float distance_m) {
@@ -172,7 +181,7 @@ void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
     const float area = side_of(a, b, c);
     const glm::vec3 across = glm::cross(b - a, c - a);
     const glm::vec2 rise = glm::vec2(across) / -across.z;
-    const auto reach2_m2 = static_cast<float>(reach_m_ * reach_m_);
+    const auto reach2_m2 = static_cast<float>(reach_m() * reach_m());
     const auto first_of = [&](double from) {
         const int cell = std::max(static_cast<int>(std::floor(from)), 0);
         return (cell + stride_ - 1) / stride_ * stride_;
@@ -192,13 +201,14 @@ void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
                     continue;
                 }
                 at_m.z = u * a.z + v * b.z + (1.0F - u - v) * c.z;
-                const float distance2_m2 = glm::dot(at_m, at_m);
-                if (distance2_m2 > reach2_m2) {
+                if (glm::dot(at_m, at_m) > reach2_m2) {
                     continue;
                 }
                 const Thing thing = thing_at(column, row, spot);
                 if (thing.kind != Kind::Nothing) {
-                    standing_.push_back({at_m, rise, at_m.x * at_m.x + at_m.y * at_m.y, thing});
+                    const float radius = radius_m(thing);
+                    const float power_m2 = at_m.x * at_m.x + at_m.y * at_m.y - radius * radius;
+                    standing_.push_back({at_m, rise, thing, power_m2});
                 }
             }
         }
@@ -212,13 +222,13 @@ void Scenery::add(
     standing_.clear();
     collect(triangle_m);
     std::ranges::sort(standing_, [&](const Standing& one, const Standing& other) {
-        return one.distance2_m2 < other.distance2_m2;
+        return one.power_m2 < other.power_m2;
     });
     for (const Standing& one : standing_) {
         const float distance_m = glm::length(one.at_m);
         // Each grows out of the ground at a distance of its own.
-        const float begins_m =
-            static_cast<float>(reach_m_) * (0.55F + 0.45F * share_of(one.thing.dice, 0));
+        const float begins_m = static_cast<float>(reach_m()) *
+                               (first_begin + (1.0F - first_begin) * share_of(one.thing.dice, 0));
         const float grown = std::clamp(4.0F - 4.0F * distance_m / begins_m, 0.0F, 1.0F);
         if (grown <= 0.0F || added_ >= view_.most_things) {
             continue;
@@ -231,6 +241,19 @@ void Scenery::add(
         }
         added_ += (indices.size() - before) / 3;
     }
+}
+
+float Scenery::house_half_m() const {
+    return std::min(0.62F * most_radius_m_, 5.5F);
+}
+
+/// Of a circle that holds it in plan, its middle where it stands.
+float Scenery::radius_m(const Thing& thing) const {
+    if (thing.kind == Kind::House) {
+        return house_corner * house_half_m();
+    }
+    const Species& species = species_of(static_cast<std::size_t>(thing.kind));
+    return std::min(size_of(thing.dice) * species.radius_m, most_radius_m_);
 }
 
 /// A colour under the light on one of the eight sides, or from above.
@@ -254,13 +277,13 @@ void Scenery::build_house(
     const auto roof = [&](std::size_t eighths) {
         return 0.5F * (lit(one, tiles, (turn + eighths) % 8) + lit(one, tiles, upwards));
     };
-    const float half_m = std::min(0.62F * most_radius_m_, 5.5F);
+    const float half_m = house_half_m();
     Builder to{vertices, indices};
     add_house(
         to,
         {one.at_m, one.rise},
         compass[turn],
-        glm::vec3(1.25F * half_m, 0.85F * half_m, house_m),
+        glm::vec3(house_length * half_m, house_width * half_m, house_m),
         grown,
         {wall(0), wall(2), wall(4), wall(6)},
         {roof(2), roof(6)});
@@ -278,12 +301,11 @@ void Scenery::build_tree(
     for (std::size_t side = 0; side < light.sides.size(); ++side) {
         light.sides[side] = lit(one, leaf, side);
     }
-    const float size = 0.7F + 0.6F * share_of(one.thing.dice, 16);
     Builder to{vertices, indices};
     add_tree(
         to,
         {one.at_m, one.rise},
-        {std::min(size * species.radius_m, most_radius_m_), size * species.height_m * grown},
+        {radius_m(one.thing), size_of(one.thing.dice) * species.height_m * grown},
         species.shape,
         detail,
         light);
