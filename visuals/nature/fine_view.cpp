@@ -7,7 +7,7 @@ namespace octant::visuals::nature {
 
 namespace {
 
-constexpr double usual_edge_rad = 0.055;
+constexpr double usual_edge_rad = 0.065;
 constexpr double usual_width_rad = 1.4;
 constexpr double least_edge = 1.0 / 24.0; ///< as FineGround
 /// Halvings over those that even level ground takes: slopes, edges of the picture.
