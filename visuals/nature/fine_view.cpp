@@ -7,13 +7,13 @@ namespace octant::visuals::nature {
 
 namespace {
 
-constexpr double usual_edge_rad = 0.065;
+constexpr double usual_edge_rad = 0.08;
 constexpr double usual_width_rad = 1.4;
 constexpr double least_edge = 1.0 / 24.0; ///< as FineGround
 /// Halvings over those that even level ground takes: slopes, edges of the picture.
 constexpr double more_than_level = 1.3;
 constexpr double always = 500.0; ///< halvings of large level triangles, wherever the eye is
-constexpr double usual_things = 5000.0;
+constexpr double usual_things = 4000.0;
 constexpr double things_below_m = 900.0; ///< of the eye over the ground
 
 } // namespace

@@ -59,6 +59,25 @@ TreeDetail detail_at(float distance_m) {
                                     : TreeDetail::Far;
 }
 
+/// Leaves out triangles from `first` on that face away: near the outline of a thing far off, where
+/// renderers cannot tell, they would be painted over those before them.
+void keep_facing(
+    const std::vector<models::ColourVertex>& vertices,
+    std::size_t first,
+    std::vector<std::uint32_t>& indices) {
+    std::size_t kept = first;
+    for (std::size_t i = first; i < indices.size(); i += 3) {
+        const glm::vec3& a = vertices[indices[i]].position_m;
+        const glm::vec3& b = vertices[indices[i + 1]].position_m;
+        const glm::vec3& c = vertices[indices[i + 2]].position_m;
+        if (glm::dot(glm::cross(b - a, c - a), a) < 0.0F) {
+            std::copy_n(&indices[i], 3, &indices[kept]);
+            kept += 3;
+        }
+    }
+    indices.resize(kept);
+}
+
 struct Species {
     glm::vec3 colour;
     float height_m;
@@ -239,6 +258,7 @@ void Scenery::add(
         } else {
             build_tree(one, grown, detail_at(distance_m), vertices, indices);
         }
+        keep_facing(vertices, before, indices);
         added_ += (indices.size() - before) / 3;
     }
 }

@@ -15,9 +15,9 @@ namespace octant::visuals::planning {
 
 namespace {
 
-constexpr double coarsest_grain_m = 6.0;
+constexpr double coarsest_grain_m = 4.0;
 constexpr double least_grain_reach_m = 250.0;
-constexpr double most_grain_reach_m = 3000.0;
+constexpr double most_grain_reach_m = 2000.0;
 
 /// At the ground's mean height. Without a sky the haze is the background all around.
 scene::Haze haze_of(const scene::AirSettings& air, const nature::Daylight& day) {

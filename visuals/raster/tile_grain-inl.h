@@ -234,7 +234,8 @@ struct StripWalk {
 };
 
 /// Adds what is new in a row of a strip, each pixel's colour with its share of the pattern.
-/// `pixels`: those, a bit each, at least one; `at`: the strip's first one in the picture.
+/// `fresh`: of `pixels`, a bit each, at least one, from `at` in the picture and `pixel` in the
+/// tile.
 HWY_INLINE void add_grained_row(
     const GrainPlanes& planes,
     const Levels& levels,
