@@ -33,7 +33,8 @@ inline constexpr std::size_t most_taped_aircraft = 256;
 /// than 1,000 km from the first or is one of too many is left out, so are samples that would need
 /// more than 3,000 m/s. Missing attitudes and velocities are made from the motion (motion_fill.h).
 /// `file` names the tape in messages. Throws Error with file and line for other text, what is no
-/// number where one belongs, more than a day, and a tape without any aircraft.
+/// number where one belongs, more than a day, more than a million objects or 20 million places, and
+/// a tape without any aircraft.
 AcmiTape acmi_tape(std::string_view text, const std::filesystem::path& file);
 
 } // namespace octant::flightpaths

@@ -19,6 +19,8 @@ namespace octant::flightpaths {
 namespace {
 
 constexpr double longest_s = 86400.0;
+constexpr std::size_t most_objects = 1000000;
+constexpr std::size_t most_places = 20000000; ///< of all objects
 
 struct Source {
     const std::filesystem::path& file;
@@ -123,6 +125,9 @@ private:
         }
         const auto [found, is_new] = now_.try_emplace(id, Present{objects_.size(), {}, false});
         if (is_new) {
+            if (objects_.size() == most_objects) {
+                at.refuse(fmt::format("at most {} objects", most_objects), line);
+            }
             objects_.emplace_back();
         }
         for (std::size_t i = 1; i < fields.size(); ++i) {
@@ -188,6 +193,9 @@ private:
         object.has_attitude = object.has_attitude || count >= turned;
         place.time_s = time_s_;
         if (present.has_place) {
+            if (++places_ > most_places) {
+                at.refuse(fmt::format("at most {} places", most_places), text);
+            }
             object.places.push_back(place);
         }
     }
@@ -199,6 +207,7 @@ private:
     double latitude_deg_ = 0.0;
     std::map<std::uint64_t, Present> now_;
     std::vector<TapedObject> objects_;
+    std::size_t places_ = 0;
 };
 
 void check_head(const std::vector<std::string_view>& lines, const std::filesystem::path& file) {

@@ -4,6 +4,7 @@
 #include "sim/base/error.h"
 
 #include <array>
+#include <fmt/format.h>
 #include <mutex>
 
 namespace octant::models::heights {
@@ -49,6 +50,11 @@ void CPL_STDCALL hear(CPLErr severity, CPLErrorNum /*number*/, const char* text)
 }
 
 } // namespace
+
+void error_unreadable(
+    const std::filesystem::path& file, std::string_view expected, const std::string& got) {
+    error_in(file, fmt::format("expected {} that GDAL can read, got {}", expected, got));
+}
 
 void CloseDataset::operator()(void* dataset) const {
     GDALClose(dataset);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace octant::models::heights {
 
@@ -35,6 +36,10 @@ public:
 private:
     std::string first_error_;
 };
+
+/// Refuses a file that should have been "an image" or "a height field".
+[[noreturn]] void error_unreadable(
+    const std::filesystem::path& file, std::string_view expected, const std::string& got);
 
 struct CloseDataset {
     void operator()(void* dataset) const;

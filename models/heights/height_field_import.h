@@ -13,8 +13,9 @@ namespace octant::models::heights {
 ///
 /// Ground: as target_lattice.h says. A projected file in metres or feet with square cells is taken
 /// sample by sample, its grid north as north; degrees and projections that are not true to scale
-/// are resampled. A file with a pixel size but no coordinate system counts as metres. A file with
-/// neither takes the option. `place` is set when a coordinate system is known.
+/// are resampled. A file with a pixel size but no coordinate system takes the option, else counts
+/// as metres. A file with neither takes the option's spacing. `place` is set when a coordinate
+/// system is known.
 ///
 /// Heights: of the first band; scale, offset and unit (the band's, else the system's, else the
 /// option's) applied. No data are NaN, infinities, magnitudes from 1e30, the file's declared value

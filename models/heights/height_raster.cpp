@@ -1,6 +1,7 @@
 #include "models/heights/height_raster.h"
 
 #include "models/heights/gdal_functions.h"
+#include "models/heights/gdal_session.h"
 #include "models/heights/import_options.h"
 #include "models/heights/raster_file.h"
 #include "sim/base/error.h"
@@ -22,10 +23,6 @@ namespace {
 
 using std::filesystem::path;
 using GeoTransform = std::array<double, 6>;
-
-[[noreturn]] void error_unreadable(const path& file, const std::string& got) {
-    error_in(file, fmt::format("expected a height field that GDAL can read, got {}", got));
-}
 
 /// Metres of a unit by its name; nothing for one that is no known length.
 std::optional<double> metres_from_unit(std::string_view unit) {
@@ -113,7 +110,7 @@ void take_first_band(
     const path& file, OpenRaster& raster, const std::optional<double>& height_scale) {
     GDALDatasetH dataset = raster.dataset.get();
     if (GDALGetRasterCount(dataset) < 1) {
-        error_unreadable(file, "no band");
+        error_unreadable(file, "a height field", "no band");
     }
     raster.band = GDALGetRasterBand(dataset, 1);
     const GDALColorInterp colour = GDALGetRasterColorInterpretation(raster.band);
@@ -220,7 +217,7 @@ void read_window(
         raster.from_south ? line_size : -line_size,
         nullptr);
     if (result != CE_None || gdal.failed()) {
-        error_unreadable(file, gdal.reason(file));
+        error_unreadable(file, "a height field", gdal.reason(file));
     }
 }
 
@@ -252,8 +249,7 @@ void check_height(const path& file, double height_m) {
     }
 }
 
-OpenRaster
-open_height_raster(const path& file, const std::optional<double>& height_scale, GdalSession& gdal) {
+OpenRaster open_height_raster(const path& file, const ImportOptions& options, GdalSession& gdal) {
     OpenRaster raster;
     raster.dataset = open_raster_file(file, gdal);
     GDALDatasetH dataset = raster.dataset.get();
@@ -262,8 +258,12 @@ open_height_raster(const path& file, const std::optional<double>& height_scale, 
     if (const auto transform = transform_of(file, dataset)) {
         take_transform(*transform, raster);
         raster.system = GDALGetSpatialRef(dataset);
+        if (raster.system == nullptr && options.system) {
+            raster.given_system = system_named(*options.system);
+            raster.system = raster.given_system.get();
+        }
     }
-    take_first_band(file, raster, height_scale);
+    take_first_band(file, raster, options.height_scale);
     const GDALDataType type = GDALGetRasterDataType(raster.band);
     raster.whole_metres =
         (type == GDT_Byte || type == GDT_Int16) && raster.scale_m == 1.0 && raster.offset_m == 0.0;

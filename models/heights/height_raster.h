@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/heights/gdal_session.h"
+#include "models/heights/import_options.h"
 #include "models/heights/local_frame.h"
 
 #include <cstdint>
@@ -25,7 +26,8 @@ struct OpenRaster {
     bool from_south = false;        ///< its first line is the southernmost
     bool whole_metres = false;      ///< its numbers are metres that fit 16 bits
     std::optional<MapFromGrid> map; ///< nothing for a file without georeference
-    SystemHandle system = nullptr;  ///< owned by the dataset; null when the file names none
+    SystemHandle system = nullptr;  ///< null when neither the file nor the options name one
+    Reference given_system;         ///< of a file that names none; else the dataset owns `system`
 };
 
 /// A rectangle of a grid.
@@ -46,11 +48,9 @@ void check_import_size(const std::filesystem::path& file, int columns, int rows)
 void check_height(const std::filesystem::path& file, double height_m);
 
 /// Opens a file by any of GDAL's drivers; the contract is read_height_field's, but for the size,
-/// which is not checked. `height_scale` as ImportOptions::height_scale.
+/// which is not checked.
 OpenRaster open_height_raster(
-    const std::filesystem::path& file,
-    const std::optional<double>& height_scale,
-    GdalSession& gdal);
+    const std::filesystem::path& file, const ImportOptions& options, GdalSession& gdal);
 
 /// Heights of a window of the raster, row after row from the south, NaN without data. Throws Error
 /// as read_height_field.

@@ -36,7 +36,7 @@ std::vector<SourceGrid>
 open_grids(const std::vector<path>& files, const ImportOptions& options, GdalSession& gdal) {
     std::vector<SourceGrid> grids;
     for (const path& file : files) {
-        SourcePiece piece{file, open_height_raster(file, options.height_scale, gdal)};
+        SourcePiece piece{file, open_height_raster(file, options, gdal)};
         if (files.size() > 1 && !piece.raster.map) {
             error_in(file, "expected a file that knows its place, beside others, got a picture");
         }

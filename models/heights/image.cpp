@@ -19,10 +19,6 @@ namespace {
 
 using std::filesystem::path;
 
-[[noreturn]] void error_unreadable(const path& file, const std::string& got) {
-    error_in(file, fmt::format("expected an image that GDAL can read, got {}", got));
-}
-
 Dataset open(const path& file, const GdalSession& gdal) {
     constexpr std::array drivers = {
         "GTiff", "PNG", "JPEG", "BMP", "SGI", "TGA", static_cast<const char*>(nullptr)};
@@ -31,6 +27,7 @@ Dataset open(const path& file, const GdalSession& gdal) {
     if (!dataset) {
         error_unreadable(
             file,
+            "an image",
             gdal.names_no_format()
                 ? "another kind of file (GeoTIFF, PNG, JPEG, BMP, SGI and TGA are read)"
                 : gdal.reason(file));
@@ -42,7 +39,7 @@ Dataset open(const path& file, const GdalSession& gdal) {
 std::array<GDALRasterBandH, 3> colour_bands(const path& file, GDALDatasetH dataset) {
     const int count = GDALGetRasterCount(dataset);
     if (count < 1) {
-        error_unreadable(file, "no band");
+        error_unreadable(file, "an image", "no band");
     }
     std::array<int, 3> numbers = {1, 1, 1};
     if (count >= 3) {
@@ -91,7 +88,7 @@ void read_part(
         GSpacing{4} * image.width,
         &how);
     if (result != CE_None || gdal.failed()) {
-        error_unreadable(file, gdal.reason(file));
+        error_unreadable(file, "an image", gdal.reason(file));
     }
 }
 

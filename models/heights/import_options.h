@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 namespace octant::models::heights {
 
@@ -9,6 +10,9 @@ struct ImportOptions {
     double spacing_m = 30.0; ///< between samples, where a file has no place (PNG, PGM and the like)
     /// Metres a unit of heights, where a file names no unit or one that is not known; 1 if nothing.
     std::optional<double> height_scale = {};
+    /// The coordinate system of files that have a place but name none, as GDAL takes it: EPSG:4326,
+    /// a PROJ string, well-known text, a .prj file. Nothing: they count as metres.
+    std::optional<std::string> system = {};
 };
 
 /// Largest width and height that is read, samples.

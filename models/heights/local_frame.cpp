@@ -2,6 +2,7 @@
 
 #include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
+#include "sim/base/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,6 +77,18 @@ std::string wkt_of(SystemHandle system) {
 
 Reference wgs84() {
     return reference_from_proj("+proj=longlat +datum=WGS84 +no_defs");
+}
+
+Reference system_named(const std::string& name) {
+    const bool is_address = name.find("://") != std::string::npos;
+    Reference reference = counted(OSRNewSpatialReference(nullptr));
+    if (is_address || OSRSetFromUserInput(reference.get(), name.c_str()) != OGRERR_NONE) {
+        throw Error(fmt::format(
+            "--terrain-system: expected a coordinate system such as EPSG:4326, got '{}'",
+            printable(name)));
+    }
+    OSRSetAxisMappingStrategy(reference.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    return reference;
 }
 
 Reference reference_of(SystemHandle system) {

@@ -54,6 +54,9 @@ std::string wkt_of(SystemHandle system);
 /// WGS 84 in degrees, longitude first.
 Reference wgs84();
 
+/// A system by a name that ImportOptions::system may have. Throws Error for other names.
+Reference system_named(const std::string& name);
+
 /// A copy of a system that lives as long as it is wanted.
 Reference reference_of(SystemHandle system);
 

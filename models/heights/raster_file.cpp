@@ -1,6 +1,7 @@
 #include "models/heights/raster_file.h"
 
 #include "models/heights/gdal_functions.h"
+#include "models/heights/gdal_session.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
@@ -22,10 +23,6 @@ constexpr std::array<std::string_view, 4> archives = {
     "/vsizip/", "/vsitar/", "/vsigzip/", "/vsi7z/"};
 constexpr unsigned open_flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
 constexpr std::size_t most_named = 6; ///< sub-datasets in a message
-
-[[noreturn]] void error_unreadable(const path& file, const std::string& got) {
-    error_in(file, fmt::format("expected a height field that GDAL can read, got {}", got));
-}
 
 /// Strings that GDAL owns, as ours; they are released.
 std::vector<std::string> taken(char** list) {
@@ -121,7 +118,7 @@ void check_local_file(const path& file) {
         error_in(file, fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
     }
     if (std::filesystem::file_size(file, code) == 0) {
-        error_unreadable(file, "an empty file");
+        error_unreadable(file, "a height field", "an empty file");
     }
 }
 
@@ -130,6 +127,7 @@ Dataset open_raster_file(const path& file, GdalSession& gdal) {
     if (!dataset) {
         error_unreadable(
             file,
+            "a height field",
             gdal.names_no_format() ? "another kind of file (any raster format of GDAL's is read)"
                                    : gdal.reason(file));
     }
@@ -138,7 +136,7 @@ Dataset open_raster_file(const path& file, GdalSession& gdal) {
         if (names.size() == 1) {
             dataset = open_named(names.front());
             if (!dataset) {
-                error_unreadable(file, gdal.reason(file));
+                error_unreadable(file, "a height field", gdal.reason(file));
             }
         } else if (!names.empty()) {
             const std::size_t count = names.size();

@@ -151,7 +151,9 @@ void check_systems(const path& file, const std::vector<SourceGrid>& grids) {
             error_in(
                 own,
                 fmt::format(
-                    "expected a coordinate system, as {} has, got none", file.filename().string()));
+                    "expected a coordinate system, as {} has, got none: --terrain-system says "
+                    "which",
+                    file.filename().string()));
         }
         const MapFromGrid& map = *grid.map();
         const bool like_degrees = std::abs(map.x0) <= 360.0 && std::abs(map.y0) <= 90.0 &&
@@ -161,7 +163,7 @@ void check_systems(const path& file, const std::vector<SourceGrid>& grids) {
                 own,
                 fmt::format(
                     "expected a coordinate system, got none and cells of {:g}, which look like "
-                    "degrees",
+                    "degrees: --terrain-system EPSG:4326 says that they are",
                     map.steps().x));
         }
         if (!has_length_unit(system) && OSRIsGeographic(system) == 0) {

@@ -1,10 +1,10 @@
 // Source: see made_canyon.cpp.
 #include "models/made/canyon_network.h"
 
-#include "models/made/by_rows.h"
 #include "models/made/drainage.h"
 #include "models/made/terrain_grid.h"
 #include "models/made/terrain_noise.h"
+#include "sim/base/worker_team.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +16,7 @@ namespace octant::models::made {
 namespace {
 
 constexpr double cell_m = 100.0;
-/// The network is made on a grid turned by the angle of (3, 4, 5) and larger than the field.
-constexpr double turned_east = 0.8;
-constexpr double turned_north = 0.6;
-constexpr double larger = 1.42;
+/// The grid reaches so far beyond the turned field.
 constexpr double margin_m = 1500.0;
 /// How much stronger than a Warp's own shift streams are bent.
 constexpr double bend = 2.0;

@@ -7,8 +7,8 @@
 // which only the lowest is a heap: what is pushed is never lower than what was popped.
 #include "models/made/drainage.h"
 
-#include "models/made/by_rows.h"
 #include "models/made/flow_direction.h"
+#include "sim/base/worker_team.h"
 
 #include <algorithm>
 #include <array>

@@ -6,11 +6,11 @@
 // result u is the height that even rock would have; layers of hard and soft rock turn it into
 // cliffs and benches, as in the Grand Canyon (order and thickness after its strata, Vishnu to
 // Kaibab). Deviations: two rounds of sweeps instead of a test for convergence.
-#include "models/made/by_rows.h"
 #include "models/made/canyon_network.h"
 #include "models/made/made_terrain.h"
 #include "models/made/terrain_grid.h"
 #include "models/made/terrain_noise.h"
+#include "sim/base/worker_team.h"
 
 #include <algorithm>
 #include <array>

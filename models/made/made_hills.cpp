@@ -4,10 +4,11 @@
 // rounds the tops.
 // Deviations: a regular grid with hashed receivers and warped sampling instead of an irregular
 // mesh; valley floors are flattened by the height above the nearest stream.
-#include "models/made/by_rows.h"
 #include "models/made/drainage.h"
 #include "models/made/made_terrain.h"
+#include "models/made/terrain_grid.h"
 #include "models/made/terrain_noise.h"
+#include "sim/base/worker_team.h"
 
 #include <algorithm>
 #include <cassert>
@@ -20,11 +21,7 @@ namespace octant::models::made {
 
 namespace {
 
-/// Ground is made on a grid turned by the angle of (3, 4, 5) and larger than the field, so that
-/// neither its lattice nor its rim shows.
-constexpr double turned_east = 0.8;
-constexpr double turned_north = 0.6;
-constexpr double larger = 1.42;
+/// The grid reaches so far beyond the turned field.
 constexpr double margin_m = 1000.0;
 constexpr double coarse_cell_m = 200.0;
 

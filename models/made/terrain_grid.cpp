@@ -1,6 +1,6 @@
 #include "models/made/terrain_grid.h"
 
-#include "models/made/by_rows.h"
+#include "sim/base/worker_team.h"
 
 #include <algorithm>
 #include <array>

@@ -8,6 +8,12 @@
 
 namespace octant::models::made {
 
+/// Ground is made on a grid turned by the angle of (3, 4, 5) and larger than the field, so that
+/// neither its lattice nor its rim shows.
+inline constexpr double turned_east = 0.8;
+inline constexpr double turned_north = 0.6;
+inline constexpr double larger = 1.42;
+
 /// Working heights of made ground: a square of side * side values, row after row from the south.
 struct TerrainGrid {
     int side = 0;

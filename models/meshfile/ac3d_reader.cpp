@@ -15,8 +15,8 @@ namespace octant::models::meshfile {
 
 namespace {
 
-constexpr std::size_t largest_file_bytes = std::size_t{1} << 30U;
-constexpr int most_depth = 100;
+constexpr std::size_t largest_ac3d_bytes = std::size_t{1} << 30U;
+constexpr int most_ac3d_depth = 100;
 constexpr long most_count = 0x7fffffff;
 constexpr std::size_t least_vertex_bytes = 6; ///< "0 0 0" and what parts it from the next
 
@@ -55,8 +55,8 @@ public:
 private:
     /// Reads what follows OBJECT, its kids included.
     void take_object(const Placement& parent, int depth) {
-        if (depth > most_depth) {
-            words_.refuse(fmt::format("objects at most {} deep", most_depth), "a deeper one");
+        if (depth > most_ac3d_depth) {
+            words_.refuse(fmt::format("objects at most {} deep", most_ac3d_depth), "a deeper one");
         }
         words_.word("a kind of object");
         Placement own;
@@ -296,12 +296,12 @@ private:
 } // namespace
 
 TriangleMesh read_ac3d_mesh(const std::filesystem::path& path, const ReadOptions& options) {
-    const std::string text = read_text_file(path, largest_file_bytes);
+    const std::string text = read_text_file(path, largest_ac3d_bytes);
     return Ac3dReading(path, text, options).read().finish();
 }
 
 MeshParts read_ac3d_parts(const std::filesystem::path& path, const ReadOptions& options) {
-    const std::string text = read_text_file(path, largest_file_bytes);
+    const std::string text = read_text_file(path, largest_ac3d_bytes);
     return Ac3dReading(path, text, options).read().finish_parts();
 }
 

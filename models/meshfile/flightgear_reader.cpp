@@ -36,7 +36,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_depth = 8;
+constexpr int most_model_depth = 8;
 constexpr std::size_t most_models = 500;
 
 glm::dmat3 turn_about(int axis, double angle_rad) {
@@ -106,8 +106,9 @@ private:
             add_mesh(file, parent, {}, about);
             return;
         }
-        if (depth > most_depth || ++models_ > most_models) {
-            error_in(file, fmt::format("expected models at most {} deep, got more", most_depth));
+        if (depth > most_model_depth || ++models_ > most_models) {
+            error_in(
+                file, fmt::format("expected models at most {} deep, got more", most_model_depth));
         }
         const XmlElement root = flightgear_tree(file);
         const Placement own = parent.of(offsets(file, root));

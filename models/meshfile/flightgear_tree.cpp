@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t largest_file_bytes = std::size_t{64} << 20U;
-constexpr int most_depth = 8;
+constexpr std::size_t largest_xml_bytes = std::size_t{64} << 20U;
+constexpr int most_include_depth = 8;
 constexpr int most_files = 500;
 
 XmlElement tree_of(const fs::path& file, int depth, int& files);
@@ -28,7 +28,7 @@ void include_into(XmlElement& element, const fs::path& file, int depth, int& fil
     if (included.empty()) {
         return;
     }
-    if (depth == most_depth) {
+    if (depth == most_include_depth) {
         error_at(
             file, element.line, fmt::format("expected includes at most {} deep, got more", depth));
     }
@@ -44,7 +44,7 @@ void include_into(XmlElement& element, const fs::path& file, int depth, int& fil
 }
 
 XmlElement tree_of(const fs::path& file, int depth, int& files) {
-    const std::string text = read_text_file(file, largest_file_bytes);
+    const std::string text = read_text_file(file, largest_xml_bytes);
     XmlElement root = xml_tree(file, text);
     for (XmlElement& child : root.children) {
         include_into(child, file, depth, files);

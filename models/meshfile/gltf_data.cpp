@@ -13,9 +13,9 @@ namespace octant::models::meshfile {
 
 namespace {
 
-constexpr std::size_t largest_file_bytes = std::size_t{1} << 28U;
+constexpr std::size_t largest_gltf_bytes = std::size_t{1} << 28U;
 constexpr std::size_t largest_buffers_bytes = std::size_t{1} << 30U;
-constexpr int most_depth = 64;
+constexpr int most_json_depth = 64;
 constexpr std::uint32_t glb_magic = 0x46546c67;
 constexpr std::uint32_t json_chunk = 0x4e4f534a;
 constexpr std::uint32_t binary_chunk = 0x004e4942;
@@ -95,7 +95,7 @@ std::uint32_t GltfNumbers::whole_at(std::size_t entry) const {
 
 GltfData::GltfData(const std::filesystem::path& path)
     : path_(path)
-    , file_(read_file(path, largest_file_bytes)) {
+    , file_(read_file(path, largest_gltf_bytes)) {
     if (file_.starts_with("glTF")) {
         read_binary(file_);
     } else {
@@ -143,8 +143,9 @@ void GltfData::read_binary(std::string_view bytes) {
 
 void GltfData::read_json(std::string_view text, std::size_t first_byte) {
     const auto shallow = [&](int depth, Json::parse_event_t /*event*/, Json& /*parsed*/) {
-        if (depth > most_depth) {
-            error_in(path_, fmt::format("expected JSON at most {} deep, got more", most_depth));
+        if (depth > most_json_depth) {
+            error_in(
+                path_, fmt::format("expected JSON at most {} deep, got more", most_json_depth));
         }
         return true;
     };
@@ -325,7 +326,7 @@ std::string GltfData::buffer_bytes(const Json& buffer, const std::string& where)
     if (!name || !stays_inside(*name)) {
         refuse(where + ".uri", "a file in the folder of this one", in_quotes(text));
     }
-    return read_file(path_.parent_path() / *name, largest_file_bytes);
+    return read_file(path_.parent_path() / *name, largest_gltf_bytes);
 }
 
 } // namespace octant::models::meshfile

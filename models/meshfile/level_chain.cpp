@@ -24,7 +24,7 @@ namespace {
 constexpr std::string_view magic = "octchain";
 constexpr std::uint32_t version = 1;
 constexpr std::size_t head_bytes = 32;
-constexpr std::size_t largest_file_bytes = std::size_t{1} << 31U;
+constexpr std::size_t largest_chain_bytes = std::size_t{1} << 31U;
 constexpr std::uint32_t most_levels = 1000;
 
 std::uint64_t hash_of(std::string_view bytes) {
@@ -77,7 +77,7 @@ bool is_chain_file(const std::filesystem::path& path) {
 }
 
 LevelChain read_chain(const std::filesystem::path& path) {
-    const std::string bytes = read_file(path, largest_file_bytes);
+    const std::string bytes = read_file(path, largest_chain_bytes);
     ByteReader reader(path, bytes);
     check_head(reader, bytes);
     LevelChain chain;

@@ -16,7 +16,7 @@ namespace octant::models::meshfile {
 
 namespace {
 
-constexpr std::size_t largest_file_bytes = std::size_t{1} << 30U;
+constexpr std::size_t largest_obj_bytes = std::size_t{1} << 30U;
 
 using Words = std::vector<std::string_view>;
 
@@ -27,7 +27,7 @@ public:
         , mesh_(path, options) {}
 
     TriangleMesh read() {
-        const std::string text = read_text_file(path_, largest_file_bytes);
+        const std::string text = read_text_file(path_, largest_obj_bytes);
         polygons::ObjLines lines(text);
         while (lines.next()) {
             line_ = lines.number();

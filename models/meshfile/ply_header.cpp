@@ -41,7 +41,7 @@ constexpr std::array<TypeName, 16> type_names{
      {"float64", PlyType::f64}}};
 
 /// The least that one element takes in the body: what a count is held against.
-std::size_t least_bytes(const PlyElement& element, PlyForm form) {
+std::size_t least_element_bytes(const PlyElement& element, PlyForm form) {
     std::size_t bytes = 0;
     for (const PlyProperty& property : element.properties) {
         bytes += form == PlyForm::ascii ? 2
@@ -170,7 +170,7 @@ private:
         const std::size_t spare = header_.form == PlyForm::ascii ? 1 : 0;
         for (std::size_t i = 0; i < header_.elements.size(); ++i) {
             const PlyElement& element = header_.elements[i];
-            const std::size_t least = least_bytes(element, header_.form);
+            const std::size_t least = least_element_bytes(element, header_.form);
             if (least > 0 && element.count > (room + spare) / least) {
                 line_ = element_lines_[i];
                 refuse(

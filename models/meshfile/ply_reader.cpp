@@ -14,7 +14,7 @@ namespace octant::models::meshfile {
 
 namespace {
 
-constexpr std::size_t largest_file_bytes = std::size_t{1} << 30U;
+constexpr std::size_t largest_ply_bytes = std::size_t{1} << 30U;
 
 /// Gives the numbers of an ascii body one after the other.
 class WordSource {
@@ -283,7 +283,7 @@ private:
 } // namespace
 
 TriangleMesh read_ply_mesh(const std::filesystem::path& path) {
-    const std::string bytes = read_file(path, largest_file_bytes);
+    const std::string bytes = read_file(path, largest_ply_bytes);
     const PlyHeader header = read_ply_header(path, bytes);
     return header.form == PlyForm::ascii ? BodyReading<WordSource>(path, bytes, header).read()
                                          : BodyReading<ByteSource>(path, bytes, header).read();

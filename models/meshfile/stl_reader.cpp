@@ -14,7 +14,7 @@ namespace octant::models::meshfile {
 
 namespace {
 
-constexpr std::size_t largest_file_bytes = std::size_t{1} << 30U;
+constexpr std::size_t largest_stl_bytes = std::size_t{1} << 30U;
 constexpr std::size_t count_at = 80; ///< byte of the number of triangles in a binary file
 constexpr std::size_t header_bytes = 84;
 constexpr std::size_t triangle_bytes = 50;
@@ -162,7 +162,7 @@ bool is_binary(const std::filesystem::path& path, std::string_view bytes) {
 } // namespace
 
 TriangleMesh read_stl_mesh(const std::filesystem::path& path) {
-    const std::string bytes = read_file(path, largest_file_bytes);
+    const std::string bytes = read_file(path, largest_stl_bytes);
     return is_binary(path, bytes) ? read_binary(path, bytes) : AsciiReading(path, bytes).read();
 }
 

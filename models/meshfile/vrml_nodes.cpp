@@ -12,7 +12,7 @@ namespace octant::models::meshfile {
 
 namespace {
 
-constexpr int most_depth = 100;
+constexpr int most_vrml_use_depth = 100;
 
 class Nodes {
 public:
@@ -100,8 +100,9 @@ private:
     }
 
     std::uint32_t take_node(int depth) {
-        if (depth > most_depth) {
-            words_.refuse(fmt::format("nodes at most {} deep", most_depth), "a deeper one");
+        if (depth > most_vrml_use_depth) {
+            words_.refuse(
+                fmt::format("nodes at most {} deep", most_vrml_use_depth), "a deeper one");
         }
         std::string_view word = take_name("a node");
         if (word == "USE") {

@@ -16,10 +16,11 @@ namespace octant::models::meshfile {
 
 namespace {
 
-constexpr std::size_t largest_file_bytes = std::size_t{1} << 28U;
-constexpr int most_depth = 200;
+constexpr std::size_t largest_vrml_bytes = std::size_t{1} << 28U;
+constexpr int most_vrml_depth = 200;
 constexpr std::size_t most_visits = 1'000'000; ///< of nodes that USE brings back again and again
-constexpr std::size_t most_numbers = std::size_t{1} << 27U; ///< of corners and points, likewise
+constexpr std::size_t most_vrml_numbers = std::size_t{1}
+                                          << 27U; ///< of corners and points, likewise
 
 /// Grouping nodes, with the field that holds their children.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> groups{
@@ -71,10 +72,10 @@ private:
     /// `group` tells apart the places at which a node is met.
     void visit(std::uint32_t at, const Placement& placement, std::size_t group, int depth) {
         const VrmlNode& node = file_.nodes[at];
-        if (depth > most_depth || ++visits_ > most_visits) {
+        if (depth > most_vrml_depth || ++visits_ > most_visits) {
             refuse(
                 node.line,
-                fmt::format("at most {} nodes, {} deep", most_visits, most_depth),
+                fmt::format("at most {} nodes, {} deep", most_visits, most_vrml_depth),
                 "more");
         }
         if (node.type == "Shape") {
@@ -145,8 +146,8 @@ private:
     /// What a node holds counts each time that it is met.
     void count_numbers(std::size_t count, int line) {
         numbers_ += count;
-        if (numbers_ > most_numbers) {
-            refuse(line, fmt::format("at most {} corners and points", most_numbers), "more");
+        if (numbers_ > most_vrml_numbers) {
+            refuse(line, fmt::format("at most {} corners and points", most_vrml_numbers), "more");
         }
     }
 
@@ -338,7 +339,7 @@ private:
 } // namespace
 
 TriangleMesh read_vrml_mesh(const std::filesystem::path& path) {
-    const std::string text = read_text_file(path, largest_file_bytes);
+    const std::string text = read_text_file(path, largest_vrml_bytes);
     return VrmlReading(path, text).read();
 }
 

@@ -13,7 +13,7 @@ namespace octant::models::meshfile {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n,";
+constexpr std::string_view vrml_blanks = " \t\r\n,";
 constexpr std::string_view marks = "{}[]";
 constexpr std::string_view word_ends = " \t\r\n,{}[]#\"";
 
@@ -24,7 +24,7 @@ void VrmlWords::skip_blanks() {
         const char c = text_[at_];
         if (c == '#') {
             at_ = std::min(text_.find('\n', at_), text_.size());
-        } else if (blanks.find(c) != std::string_view::npos) {
+        } else if (vrml_blanks.find(c) != std::string_view::npos) {
             line_ += static_cast<int>(c == '\n');
             ++at_;
         } else {

@@ -13,8 +13,8 @@ namespace octant::models::meshfile {
 
 namespace {
 
-constexpr int most_depth = 100;
-constexpr std::string_view blanks = " \t\r\n";
+constexpr int most_xml_depth = 100;
+constexpr std::string_view xml_blanks = " \t\r\n";
 
 class XmlReading {
 public:
@@ -118,8 +118,8 @@ private:
                 return {};
             }
             std::string_view word = rest.substr(0, equals);
-            word.remove_prefix(std::min(word.find_first_not_of(blanks), word.size()));
-            word = word.substr(0, word.find_last_not_of(blanks) + 1);
+            word.remove_prefix(std::min(word.find_first_not_of(xml_blanks), word.size()));
+            word = word.substr(0, word.find_last_not_of(xml_blanks) + 1);
             if (word == name) {
                 std::string value;
                 add_text(value, rest.substr(open + 1, close - open - 1));
@@ -130,8 +130,8 @@ private:
     }
 
     XmlElement element(int depth) {
-        if (depth > most_depth) {
-            refuse(fmt::format("elements at most {} deep", most_depth), "a deeper one");
+        if (depth > most_xml_depth) {
+            refuse(fmt::format("elements at most {} deep", most_xml_depth), "a deeper one");
         }
         XmlElement made;
         made.line = line_;
@@ -163,8 +163,8 @@ private:
     }
 
     static void trim(std::string& text) {
-        text.erase(0, std::min(text.find_first_not_of(blanks), text.size()));
-        text.erase(text.find_last_not_of(blanks) + 1);
+        text.erase(0, std::min(text.find_first_not_of(xml_blanks), text.size()));
+        text.erase(text.find_last_not_of(xml_blanks) + 1);
     }
 
     std::filesystem::path file_;

@@ -33,9 +33,9 @@ corner_places(std::span<const std::uint32_t> corners, std::span<const std::uint3
 }
 
 /// An outline with its plane, to ask what touches it.
-class Outline {
+class ClosedOutline {
 public:
-    Outline(std::span<const glm::dvec3> vertices, std::span<const std::uint32_t> corners)
+    ClosedOutline(std::span<const glm::dvec3> vertices, std::span<const std::uint32_t> corners)
         : vertices_(vertices)
         , corners_(corners) {
         for (const std::uint32_t corner : corners) {
@@ -68,7 +68,7 @@ public:
     }
 
     /// Whether two outlines lie in one plane, within the reach, and share more than their sides.
-    bool covers(const Outline& other, double reach) const {
+    bool covers(const ClosedOutline& other, double reach) const {
         return has_plane_ && other.has_plane_ && all_level(other, reach) &&
                other.all_level(*this, reach) && !has_beside(other, reach) &&
                !other.has_beside(*this, reach);
@@ -81,7 +81,7 @@ private:
         return has_plane_ && std::abs(glm::dot(point - at(0), normal_)) <= reach;
     }
 
-    bool all_level(const Outline& other, double reach) const {
+    bool all_level(const ClosedOutline& other, double reach) const {
         return std::ranges::all_of(other.corners_, [&](std::uint32_t corner) {
             return is_level_with(vertices_[corner], reach);
         });
@@ -95,7 +95,7 @@ private:
     }
 
     /// Whether one of the edges has all of another outline on its outer side.
-    bool has_beside(const Outline& other, double reach) const {
+    bool has_beside(const ClosedOutline& other, double reach) const {
         const auto place = [&](std::uint32_t corner) -> const glm::dvec3& {
             return vertices_[corner];
         };
@@ -113,7 +113,7 @@ private:
 /// Adds to a polygon's incidence the places that touch it.
 void add_touching(
     Incidence& incidence,
-    const Outline& outline,
+    const ClosedOutline& outline,
     const NearVertices& near,
     std::span<const glm::dvec3> vertices,
     double reach,
@@ -140,7 +140,7 @@ void join(std::vector<std::uint32_t>& places, const Incidence& with, const Incid
 /// Lets polygons that cover each other in one plane share it with all their corners.
 void join_planes(
     std::vector<Incidence>& incidences,
-    const std::vector<std::optional<Outline>>& outlines,
+    const std::vector<std::optional<ClosedOutline>>& outlines,
     std::span<const std::uint32_t> kind,
     double reach) {
     std::vector<std::uint32_t> by_x;
@@ -151,9 +151,9 @@ void join_planes(
     }
     std::ranges::stable_sort(by_x, {}, [&](std::uint32_t i) { return outlines[i]->least().x; });
     for (std::size_t i = 0; i < by_x.size(); ++i) {
-        const Outline& a = *outlines[by_x[i]];
+        const ClosedOutline& a = *outlines[by_x[i]];
         for (std::size_t j = i + 1; j < by_x.size(); ++j) {
-            const Outline& b = *outlines[by_x[j]];
+            const ClosedOutline& b = *outlines[by_x[j]];
             if (b.least().x > a.most().x + reach) {
                 break;
             }
@@ -184,7 +184,7 @@ std::vector<Incidence> incidences_of(
         used[places[vertex]] = true;
     }
     std::vector<Incidence> out(model.polygons.size());
-    std::vector<std::optional<Outline>> outlines(out.size());
+    std::vector<std::optional<ClosedOutline>> outlines(out.size());
     for (std::size_t i = 0; i < out.size(); ++i) {
         out[i].corners = corner_places(model.corners(i), places);
         if (out[i].corners.size() < 3) {

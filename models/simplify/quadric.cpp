@@ -16,14 +16,14 @@ namespace {
 
 constexpr double pull = 1e-4; ///< The weight of the midpoint, as a share of the trace.
 
-glm::dvec3 times(const Quadric& q, const glm::dvec3& p) {
+} // namespace
+
+glm::dvec3 product(const Quadric& q, const glm::dvec3& p) {
     return {
         q.xx * p.x + q.xy * p.y + q.xz * p.z,
         q.xy * p.x + q.yy * p.y + q.yz * p.z,
         q.xz * p.x + q.yz * p.y + q.zz * p.z};
 }
-
-} // namespace
 
 Quadric& Quadric::operator+=(const Quadric& other) {
     xx += other.xx;
@@ -49,7 +49,7 @@ void Quadric::add_plane(const glm::dvec3& normal, double offset, double weight) 
 }
 
 double Quadric::at(const glm::dvec3& p) const {
-    return glm::dot(p, times(*this, p) + 2.0 * b) + c;
+    return glm::dot(p, product(*this, p) + 2.0 * b) + c;
 }
 
 ColourQuadric& ColourQuadric::operator+=(const ColourQuadric& other) {
@@ -143,7 +143,7 @@ glm::dvec3 least_place(const Quadric& quadric, const glm::dvec3& middle) {
     // takes off what the pull spoiled where the place is certain.
     glm::dvec3 place = middle;
     for (int step = 0; step < 3; ++step) {
-        place += solved(drawn, -(times(quadric, place) + quadric.b), glm::dvec3(0.0));
+        place += solved(drawn, -(product(quadric, place) + quadric.b), glm::dvec3(0.0));
     }
     return place;
 }

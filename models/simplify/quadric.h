@@ -52,6 +52,9 @@ Quadric without_colours(const Quadric& quadric, const ColourQuadric& colours);
 /// surroundings have one answer, too.
 glm::dvec3 least_place(const Quadric& quadric, const glm::dvec3& middle);
 
+/// The product of the 3 x 3 matrix and a vector.
+glm::dvec3 product(const Quadric& matrix, const glm::dvec3& vector);
+
 /// Solves a symmetric positive definite 3 x 3 system; `fallback` where it has no solution.
 glm::dvec3 solved(const Quadric& matrix, const glm::dvec3& right_side, const glm::dvec3& fallback);
 

@@ -1,5 +1,6 @@
-// The product's simplification: edge collapses (collapse_run.cpp) and then a polish (polish.cpp),
-// after which corner normals are taken over (attributes.cpp).
+// The product's simplification: edge collapses (collapse_run.cpp), as many as a wanted error allows
+// (error_search.cpp), and then a polish (polish.cpp), after which corner normals are taken over
+// (attributes.cpp).
 //
 // It goes further than Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, from
 // which the distance to triangles in both directions comes: the reference is the original surface
@@ -8,16 +9,14 @@
 // estimated. The paper's own mode is paper_simplify.cpp.
 #include "models/simplify/simplify.h"
 
-#include "models/measure/mesh_distance.h"
 #include "models/measure/triangle_bvh.h"
 #include "models/simplify/attributes.h"
 #include "models/simplify/collapse_run.h"
+#include "models/simplify/error_search.h"
 #include "models/simplify/passes.h"
 #include "models/simplify/polish.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -31,10 +30,6 @@ constexpr std::size_t least_points = 24'000;
 /// How many times the wanted error collapses go by their own estimate: the polish may bring the
 /// error back.
 constexpr double beyond_goal = 2.0;
-/// A wanted error may take this many tries, each with a polish and a certified distance.
-constexpr int most_tries = 6;
-/// Another try is made only while more than this share of the faces is in question.
-constexpr double close_enough = 0.03;
 
 /// How thoroughly to polish.
 PolishOptions polish_options(
@@ -93,111 +88,6 @@ finished(const CollapseSequence& sequence, std::size_t collapses, const Simplify
     return collapses > 0 ? polished(std::move(mesh), sequence.original, options)
                          : with_normals(std::move(mesh), sequence.original);
 }
-
-/// Searches for the most collapses whose polished mesh keeps a wanted error by its certified
-/// distance, so that whoever measures it again with the usual tightness finds it kept.
-class ErrorSearch {
-public:
-    /// The sequence of collapses to a goal, without a polish.
-    ErrorSearch(const CollapseSequence& sequence, const SimplifyOptions& options)
-        : sequence_(sequence)
-        , options_(options)
-        , error_m_(*options.goal.error_m)
-        , too_many_(sequence.collapses.size() + 1) {}
-
-    /// Returns the number of collapses, and leaves their mesh in best().
-    std::size_t find() {
-        best_ = finished(sequence_, 0, options_);
-        std::size_t next = first_guess();
-        // More than most_tries are made only while nothing has been found that keeps the error.
-        for (int tries = 0; next != fits_ && (tries < most_tries || fits_ == 0); ++tries) {
-            tell(next);
-            next = next_guess();
-        }
-        return fits_;
-    }
-
-    TriangleMesh& best() { return best_; }
-
-private:
-    /// Tries aim at this share of the wanted error.
-    static constexpr double aim = 0.97;
-    /// The number of faces is assumed to grow with this power of 1 / error.
-    static constexpr double steepness = 1.5;
-    /// The first try is where the estimate reaches this many times the wanted error, which the
-    /// polish lowers.
-    static constexpr double first_try = 1.2;
-
-    /// The number of collapses of the first try, from the estimates in the sequence.
-    std::size_t first_guess() const {
-        const auto& all = sequence_.collapses;
-        const double estimate_m =
-            (options_.quality == Quality::Surface ? first_try : 0.9) * error_m_;
-        const auto over = std::ranges::find_if(
-            all, [estimate_m](const Collapse& collapse) { return collapse.error_m > estimate_m; });
-        return static_cast<std::size_t>(over - all.begin());
-    }
-
-    /// Tries a number of collapses and narrows the range.
-    void tell(std::size_t collapses) {
-        TriangleMesh mesh = finished(sequence_, collapses, options_);
-        const measure::MeshDistance distance = measure::distance(
-            sequence_.original,
-            mesh,
-            {.tightness = 1.03,
-             .negligible_m = 0.9 * error_m_,
-             .samples = 100,
-             .threads = options_.threads});
-        const double about_m = 0.5 * (distance.least_hausdorff_m() + distance.most_hausdorff_m());
-        likely_faces_ = faces_after(collapses) *
-                        std::clamp(std::pow(about_m / (aim * error_m_), steepness), 0.4, 2.5);
-        if (distance.most_hausdorff_m() * measure::DistanceOptions().tightness <= error_m_) {
-            fits_ = collapses;
-            best_ = std::move(mesh);
-        } else {
-            too_many_ = collapses;
-        }
-    }
-
-    /// The number of faces after so many collapses.
-    double faces_after(std::size_t collapses) const {
-        double faces = static_cast<double>(sequence_.original.triangles.size());
-        for (std::size_t i = 0; i < collapses; ++i) {
-            const Collapse& collapse = sequence_.collapses[i];
-            faces -= collapse.left != none ? 1.0 : 0.0;
-            faces -= collapse.right != none ? 1.0 : 0.0;
-        }
-        return std::max(faces, 1.0);
-    }
-
-    /// The number of collapses to try next: where the last try suggests, if that is well inside the
-    /// range; else half of the range in the logarithm of the number of faces. Returns fits_ when
-    /// the range is narrow enough.
-    std::size_t next_guess() const {
-        if (too_many_ - fits_ <= 1) {
-            return fits_;
-        }
-        const bool open = too_many_ > sequence_.collapses.size();
-        const double most = faces_after(fits_);
-        const double least = faces_after(std::min(too_many_, sequence_.collapses.size()));
-        if (!open && most <= least * (1.0 + close_enough)) {
-            return fits_;
-        }
-        const double inside = 1.0 + 0.3 * close_enough;
-        const bool likely = likely_faces_ * inside < most && likely_faces_ > least * inside;
-        const double wanted = likely ? likely_faces_ : std::sqrt(most * least);
-        const std::size_t guess = collapses_to_faces(sequence_, static_cast<std::size_t>(wanted));
-        return std::clamp(guess, fits_ + 1, too_many_ - 1);
-    }
-
-    const CollapseSequence& sequence_;
-    const SimplifyOptions& options_;
-    double error_m_;
-    double likely_faces_ = 0.0; ///< The number of faces that the last try suggests.
-    std::size_t fits_ = 0;      ///< The most collapses known to keep the wanted error.
-    std::size_t too_many_;      ///< The fewest collapses known not to keep it.
-    TriangleMesh best_;
-};
 
 /// How many points track the original. Where there are colours there must be enough to show their
 /// borders.
@@ -286,9 +176,11 @@ Simplified simplified_to_error(TriangleMesh original, const SimplifyOptions& opt
     }
     Simplified result;
     result.sequence = sequence_to(goal, std::move(original), options);
-    ErrorSearch search(result.sequence, options);
-    result.sequence.collapses.resize(search.find());
-    result.mesh = std::move(search.best());
+    KeptError kept = most_collapses_within(result.sequence, options, [&](std::size_t collapses) {
+        return finished(result.sequence, collapses, options);
+    });
+    result.sequence.collapses.resize(kept.collapses);
+    result.mesh = std::move(kept.mesh);
     return result;
 }
 

@@ -25,13 +25,6 @@ namespace {
 /// squared sine of one degree.
 constexpr double least_curvature = 3.0e-4;
 
-glm::dvec3 times(const Quadric& q, const glm::dvec3& p) {
-    return {
-        q.xx * p.x + q.xy * p.y + q.xz * p.z,
-        q.xy * p.x + q.yy * p.y + q.yz * p.z,
-        q.xz * p.x + q.yz * p.y + q.zz * p.z};
-}
-
 Quadric scaled(const Quadric& q, double by) {
     return {by * q.xx, by * q.xy, by * q.xz, by * q.yy, by * q.yz, by * q.zz, by * q.b, by * q.c};
 }
@@ -65,9 +58,9 @@ public:
         std::size_t left = 0;
         for (std::size_t i = 0; i < count_; ++i) {
             const glm::dvec3 axis = axes_[i];
-            const double curvature = glm::dot(axis, times(form, axis));
+            const double curvature = glm::dot(axis, product(form, axis));
             if (curvature > least) {
-                place_ -= glm::dot(axis, times(form, place_) + form.b) / curvature * axis;
+                place_ -= glm::dot(axis, product(form, place_) + form.b) / curvature * axis;
             } else {
                 axes_[left++] = axis;
             }
@@ -92,13 +85,13 @@ private:
     }
 
     static bool turn(const Quadric& form, glm::dvec3& one, glm::dvec3& other, double nothing) {
-        const glm::dvec3 of_one = times(form, one);
+        const glm::dvec3 of_one = product(form, one);
         const double coupling = glm::dot(other, of_one);
         if (!(std::abs(coupling) > nothing)) {
             return false;
         }
         const double apart =
-            (glm::dot(other, times(form, other)) - glm::dot(one, of_one)) / (2.0 * coupling);
+            (glm::dot(other, product(form, other)) - glm::dot(one, of_one)) / (2.0 * coupling);
         const double tangent =
             std::copysign(1.0 / (std::abs(apart) + std::sqrt(apart * apart + 1.0)), apart);
         const double cosine = 1.0 / std::sqrt(tangent * tangent + 1.0);

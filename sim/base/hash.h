@@ -7,6 +7,13 @@
 
 namespace octant {
 
+/// A number whose bits all depend on all bits of the given one: dice for a place in a lattice.
+constexpr std::uint32_t scrambled(std::uint32_t h) {
+    h = (h ^ (h >> 16U)) * 0x7feb352dU;
+    h = (h ^ (h >> 15U)) * 0x846ca68bU;
+    return h ^ (h >> 16U);
+}
+
 /// 64-bit running hash (FNV-1a taken over 8-byte words, a shorter end padded with zeros): fast
 /// enough for a picture a frame. Tells runs apart; not for secrets.
 class Hash {

@@ -18,4 +18,9 @@ inline double distance_m(const Plane& plane, const glm::dvec3& point_m) {
     return glm::dot(plane.normal, point_m) + plane.offset_m;
 }
 
+/// The plane seen from its other side: what was behind it is in front.
+inline Plane turned_over(const Plane& plane) {
+    return {-plane.normal, -plane.offset_m};
+}
+
 } // namespace octant

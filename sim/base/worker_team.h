@@ -10,6 +10,11 @@
 
 namespace octant {
 
+/// How many threads this machine runs at once, at least 1.
+inline int core_count() {
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 /// Calls `work(index, worker)` once for each index below `count`, in any order, on `threads`
 /// threads (this one among them, numbered from 0). The first exception ends the work and is thrown
 /// here.
@@ -40,6 +45,15 @@ void share_out(std::size_t count, int threads, const Work& work) {
     if (failure) {
         std::rethrow_exception(failure);
     }
+}
+
+/// Calls `work(row)` once for each row below `rows`, in any order, on all cores. Rows must not read
+/// what others write, so that the result is the same on however many.
+template <typename Work>
+void by_rows(int rows, const Work& work) {
+    share_out(static_cast<std::size_t>(rows), core_count(), [&](std::size_t row, std::size_t) {
+        work(static_cast<int>(row));
+    });
 }
 
 } // namespace octant

@@ -84,7 +84,7 @@ void CigiImageGenerator::take(
     } else if (const auto* view = std::get_if<CigiViewControl>(&packet)) {
         take_view(*view);
     } else if (const auto* definition = std::get_if<CigiViewDefinition>(&packet)) {
-        keep(definitions_, definition->view, *definition, most_views);
+        take_definition(*definition);
     } else if (const auto* height = std::get_if<CigiHeightRequest>(&packet)) {
         ask(*height);
     } else if (const auto* sight = std::get_if<CigiSightRequest>(&packet)) {
@@ -123,6 +123,24 @@ void CigiImageGenerator::take_view(const CigiViewControl& view) {
             keep(views_, number, member, most_views);
         }
     }
+}
+
+/// Sides that it does not set stay as they were told before.
+void CigiImageGenerator::take_definition(const CigiViewDefinition& told) {
+    CigiViewDefinition definition = told;
+    if (const auto known = definitions_.find(told.view); known != definitions_.end()) {
+        const CigiViewDefinition& before = known->second;
+        definition.sets = glm::bvec4(
+            told.sets.x || before.sets.x,
+            told.sets.y || before.sets.y,
+            told.sets.z || before.sets.z,
+            told.sets.w || before.sets.w);
+        definition.left_rad = told.sets.x ? told.left_rad : before.left_rad;
+        definition.right_rad = told.sets.y ? told.right_rad : before.right_rad;
+        definition.top_rad = told.sets.z ? told.top_rad : before.top_rad;
+        definition.bottom_rad = told.sets.w ? told.bottom_rad : before.bottom_rad;
+    }
+    keep(definitions_, told.view, definition, most_views);
 }
 
 std::optional<std::uint16_t> CigiImageGenerator::type_of(std::uint16_t entity) const {

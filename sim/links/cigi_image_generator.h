@@ -106,6 +106,7 @@ private:
     void take_entity(const CigiEntityControl& control);
     void take_rate(const CigiRate& rate, double arrival_s, std::vector<std::uint16_t>& touched);
     void take_view(const CigiViewControl& view);
+    void take_definition(const CigiViewDefinition& told);
     void ask(const CigiHeightRequest& request);
     void ask(const CigiSightRequest& request);
     void ask(const CigiPositionRequest& request);

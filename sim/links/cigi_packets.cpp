@@ -26,13 +26,6 @@ double rad_at(const WireReader& reader, std::size_t at) {
     return rad_from_deg(static_cast<double>(reader.at<float>(at)));
 }
 
-glm::dvec3 floats(const WireReader& reader, std::size_t at) {
-    return {
-        static_cast<double>(reader.at<float>(at)),
-        static_cast<double>(reader.at<float>(at + 4)),
-        static_cast<double>(reader.at<float>(at + 8))};
-}
-
 glm::dvec3 doubles(const WireReader& reader, std::size_t at) {
     return {reader.at<double>(at), reader.at<double>(at + 8), reader.at<double>(at + 16)};
 }
@@ -59,6 +52,7 @@ bool within(const glm::dvec3& v, double most) {
 }
 
 constexpr double furthest_m = 1e6;
+constexpr double furthest_part_m = 1000.0;
 constexpr double fastest_mps = 20000.0;
 constexpr double fastest_turn_radps = 100.0;
 
@@ -105,7 +99,7 @@ std::optional<CigiPacket> read_rate(const WireReader& reader) {
     rate.part = reader.at<std::uint8_t>(4);
     rate.of_part = bits(reader, 5, 0, 1) != 0;
     rate.local = bits(reader, 5, 1, 1) != 0;
-    rate.mps = floats(reader, 8);
+    rate.mps = reader.floats(8);
     rate.radps = {rad_at(reader, 20), rad_at(reader, 24), rad_at(reader, 28)};
     return within(rate.mps, fastest_mps) && within(rate.radps, fastest_turn_radps)
                ? std::optional<CigiPacket>(rate)
@@ -118,11 +112,16 @@ std::optional<CigiPacket> read_part(const WireReader& reader) {
     part.part = reader.at<std::uint8_t>(4);
     part.enabled = bits(reader, 5, 0, 1) != 0;
     for (unsigned i = 0; i < 3; ++i) {
+        constexpr unsigned x = 1;
         constexpr unsigned roll = 4;
+        part.moves[static_cast<int>(i)] = bits(reader, 5, x + i, 1) != 0;
         part.sets[static_cast<int>(i)] = bits(reader, 5, roll + i, 1) != 0;
     }
+    part.offset_m = reader.floats(8);
     part.angles = angles_at(reader, 20);
-    return finite(part.angles) ? std::optional<CigiPacket>(part) : std::nullopt;
+    return finite(part.angles) && within(part.offset_m, furthest_part_m)
+               ? std::optional<CigiPacket>(part)
+               : std::nullopt;
 }
 
 std::optional<CigiPacket> read_celestial(const WireReader& reader) {
@@ -151,7 +150,7 @@ std::optional<CigiPacket> read_view_control(const WireReader& reader) {
     const auto enabled = [&reader](unsigned bit) {
         return bits(reader, 5, bit, 1) != 0 ? 1.0 : 0.0;
     };
-    const glm::dvec3 offset_m = floats(reader, 8);
+    const glm::dvec3 offset_m = reader.floats(8);
     const EulerAngles angles = angles_at(reader, 20);
     if (!within(offset_m, furthest_m) || !finite(angles)) {
         return std::nullopt;
@@ -168,16 +167,26 @@ std::optional<CigiPacket> read_view_definition(const WireReader& reader) {
     CigiViewDefinition view;
     view.view = reader.at<std::uint16_t>(2);
     view.group = reader.at<std::uint8_t>(4);
-    view.left_rad = rad_at(reader, 16);
-    view.right_rad = rad_at(reader, 20);
-    view.top_rad = rad_at(reader, 24);
-    view.bottom_rad = rad_at(reader, 28);
-    const bool sides = view.left_rad < view.right_rad && view.bottom_rad < view.top_rad;
+    view.parallel = bits(reader, 6, 3, 1) != 0;
+    std::array<double, 4> sides_rad{};
+    double most_rad = 0.0;
+    for (unsigned i = 0; i < sides_rad.size(); ++i) {
+        constexpr unsigned left = 2;
+        view.sets[static_cast<int>(i)] = bits(reader, 5, left + i, 1) != 0;
+        if (view.sets[static_cast<int>(i)]) {
+            sides_rad[i] = rad_at(reader, 16 + 4 * std::size_t{i});
+            most_rad = std::isfinite(sides_rad[i]) ? std::max(most_rad, std::abs(sides_rad[i]))
+                                                   : furthest_m;
+        }
+    }
+    view.left_rad = sides_rad[0];
+    view.right_rad = sides_rad[1];
+    view.top_rad = sides_rad[2];
+    view.bottom_rad = sides_rad[3];
+    const bool turned_round = (view.sets.x && view.sets.y && view.left_rad >= view.right_rad) ||
+                              (view.sets.z && view.sets.w && view.bottom_rad >= view.top_rad);
     constexpr double widest_rad = 1.5;
-    const double most_rad = std::max(
-        std::max(std::abs(view.left_rad), std::abs(view.right_rad)),
-        std::max(std::abs(view.top_rad), std::abs(view.bottom_rad)));
-    return sides && most_rad < widest_rad ? std::optional<CigiPacket>(view) : std::nullopt;
+    return !turned_round && most_rad < widest_rad ? std::optional<CigiPacket>(view) : std::nullopt;
 }
 
 std::optional<CigiPacket> read_height_request(const WireReader& reader) {

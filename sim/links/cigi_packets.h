@@ -5,6 +5,7 @@
 #include "sim/links/wire_bytes.h"
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -62,7 +63,9 @@ struct CigiPart {
     std::uint16_t entity = 0;
     std::uint8_t part = 0;
     bool enabled = false;
-    glm::bvec3 sets{false}; ///< roll, pitch, yaw; others stay as they are
+    glm::bvec3 moves{false}; ///< x, y, z; others stay as they are
+    glm::bvec3 sets{false};  ///< roll, pitch, yaw; likewise
+    glm::dvec3 offset_m{0.0};
     EulerAngles angles;
 };
 
@@ -88,13 +91,16 @@ struct CigiViewControl {
     EulerAngles angles;
 };
 
+/// The sides of a view's frustum, as angles from straight ahead.
 struct CigiViewDefinition {
     std::uint16_t view = 0;
     std::uint8_t group = 0;
+    glm::bvec4 sets{true}; ///< left, right, top, bottom; others stay as they are
     double left_rad = 0.0; ///< negative to the left
     double right_rad = 0.0;
     double top_rad = 0.0;
     double bottom_rad = 0.0; ///< negative below
+    bool parallel = false;   ///< an orthographic projection is asked for
 };
 
 enum class CigiHeight { Hat = 0, Hot = 1, Extended = 2 };

@@ -6,8 +6,11 @@
 
 namespace octant::sim::links {
 
-glm::dvec3 CigiParts::angles_at(const Part& part, double now_s) {
-    return part.angles_rad + std::max(now_s - part.at_s, 0.0) * part.radps;
+CigiParts::Pose CigiParts::pose_at(const Part& part, double now_s) {
+    const double passed_s = std::max(now_s - part.at_s, 0.0);
+    return {
+        part.pose.offset_m + passed_s * part.per_s.offset_m,
+        part.pose.angles_rad + passed_s * part.per_s.angles_rad};
 }
 
 void CigiParts::take(const CigiPart& told, double at_s) {
@@ -20,10 +23,11 @@ void CigiParts::take(const CigiPart& told, double at_s) {
         return;
     }
     Part& part = parts_[key];
-    const glm::dvec3 before_rad = angles_at(part, at_s);
+    part.pose = pose_at(part, at_s);
     const glm::dvec3 told_rad(told.angles.roll_rad, told.angles.pitch_rad, told.angles.heading_rad);
     for (int i = 0; i < 3; ++i) {
-        part.angles_rad[i] = told.sets[i] ? told_rad[i] : before_rad[i];
+        part.pose.offset_m[i] = told.moves[i] ? told.offset_m[i] : part.pose.offset_m[i];
+        part.pose.angles_rad[i] = told.sets[i] ? told_rad[i] : part.pose.angles_rad[i];
     }
     part.at_s = at_s;
 }
@@ -31,9 +35,9 @@ void CigiParts::take(const CigiPart& told, double at_s) {
 void CigiParts::take(const CigiRate& rate, double at_s) {
     const auto known = parts_.find({rate.entity, rate.part});
     if (known != parts_.end()) {
-        known->second.angles_rad = angles_at(known->second, at_s);
+        known->second.pose = pose_at(known->second, at_s);
         known->second.at_s = at_s;
-        known->second.radps = rate.radps;
+        known->second.per_s = {rate.mps, rate.radps};
     }
 }
 
@@ -45,9 +49,10 @@ std::vector<CigiTurnedPart> CigiParts::turned(double now_s) const {
     std::vector<CigiTurnedPart> turned;
     turned.reserve(parts_.size());
     for (const auto& [key, part] : parts_) {
-        const glm::dvec3 angles_rad = angles_at(part, now_s);
-        const glm::dmat3 turn = ned_from_body({angles_rad.z, angles_rad.y, angles_rad.x});
-        turned.push_back({key.first, key.second, glm::quat_cast(turn)});
+        const Pose pose = pose_at(part, now_s);
+        const glm::dmat3 turn =
+            ned_from_body({pose.angles_rad.z, pose.angles_rad.y, pose.angles_rad.x});
+        turned.push_back({key.first, key.second, glm::quat_cast(turn), pose.offset_m});
     }
     return turned;
 }

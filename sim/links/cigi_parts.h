@@ -12,19 +12,21 @@
 
 namespace octant::sim::links {
 
-/// A part of an entity as its host has turned it: a rotor, a flap.
+/// A part of an entity as its host has turned and moved it: a rotor, a flap, a store.
 struct CigiTurnedPart {
     std::uint16_t entity = 0;
     std::uint8_t part = 0;
     glm::dquat turn{1.0, 0.0, 0.0, 0.0}; ///< within the body's axes
+    glm::dvec3 offset_m{0.0};            ///< along them
 };
 
-/// The articulated parts of a host's entities. Angles go on by the rates that it gives them.
+/// The articulated parts of a host's entities. Angles and offsets go on by the rates that it gives
+/// them.
 class CigiParts {
 public:
     static constexpr std::size_t most_parts = 1024;
 
-    /// Angles that the packet does not set stay as they are; a part that is not enabled is the
+    /// Angles and offsets that the packet does not set stay as they are; a part that is not enabled is the
     /// model's own again.
     void take(const CigiPart& part, double at_s);
 
@@ -37,13 +39,18 @@ public:
     std::vector<CigiTurnedPart> turned(double now_s) const;
 
 private:
+    struct Pose {
+        glm::dvec3 offset_m{0.0};
+        glm::dvec3 angles_rad{0.0}; ///< roll, pitch, yaw
+    };
+
     struct Part {
-        glm::dvec3 angles_rad{0.0}; ///< roll, pitch, yaw at that time
-        glm::dvec3 radps{0.0};
+        Pose pose; ///< at that time
+        Pose per_s;
         double at_s = 0.0;
     };
 
-    static glm::dvec3 angles_at(const Part& part, double now_s);
+    static Pose pose_at(const Part& part, double now_s);
 
     std::map<std::pair<std::uint16_t, std::uint8_t>, Part> parts_;
 };

@@ -35,13 +35,6 @@ constexpr std::size_t marking_at = 128;
 constexpr double parts_an_hour = 2147483648.0;
 constexpr double hour_s = 3600.0;
 
-glm::dvec3 floats(const WireReader& reader, std::size_t at) {
-    return {
-        static_cast<double>(reader.at<float>(at)),
-        static_cast<double>(reader.at<float>(at + 4)),
-        static_cast<double>(reader.at<float>(at + 8))};
-}
-
 Verdict check_head(const WireReader& reader) {
     const auto size = static_cast<std::uint32_t>(reader.size());
     if (size < header_bytes) {
@@ -72,17 +65,17 @@ void read_motion(const WireReader& reader, DisEntity& entity) {
     fix.latitude_deg = deg_from_rad(place.latitude_rad);
     fix.longitude_deg = deg_from_rad(place.longitude_rad);
     fix.altitude_m = place.height_m;
-    const glm::dvec3 angles = floats(reader, angles_at);
+    const glm::dvec3 angles = reader.floats(angles_at);
     fix.attitude = euler_from_ned_from_body(to_ned * ned_from_body({angles.x, angles.y, angles.z}));
     const bool moves = entity.reckoning != DeadReckoning::Static;
     const bool turns =
         entity.reckoning == DeadReckoning::Rpw || entity.reckoning == DeadReckoning::Rvw;
     const bool speeds_up =
         entity.reckoning == DeadReckoning::Rvw || entity.reckoning == DeadReckoning::Fvw;
-    fix.velocity_ned_mps = moves ? to_ned * floats(reader, velocity_at) : glm::dvec3(0.0);
-    fix.body_rates_radps = turns ? floats(reader, rates_at) : glm::dvec3(0.0);
+    fix.velocity_ned_mps = moves ? to_ned * reader.floats(velocity_at) : glm::dvec3(0.0);
+    fix.body_rates_radps = turns ? reader.floats(rates_at) : glm::dvec3(0.0);
     fix.acceleration_ned_mps2 =
-        speeds_up ? to_ned * floats(reader, acceleration_at) : glm::dvec3(0.0);
+        speeds_up ? to_ned * reader.floats(acceleration_at) : glm::dvec3(0.0);
 }
 
 } // namespace

@@ -27,13 +27,6 @@ constexpr float no_agl_below_m = -9000.0F;
 constexpr std::uint32_t swapped_24 = 24U << 24U;
 constexpr std::uint32_t swapped_25 = 25U << 24U;
 
-glm::dvec3 three_floats(const WireReader& reader, std::size_t offset) {
-    return {
-        static_cast<double>(reader.at<float>(offset)),
-        static_cast<double>(reader.at<float>(offset + 4)),
-        static_cast<double>(reader.at<float>(offset + 8))};
-}
-
 /// Rates about the body's axes from the rates of roll, pitch and heading, and back: any text on
 /// flight dynamics, e.g. Stevens and Lewis, Aircraft Control and Simulation, eq. 1.4-4.
 glm::dvec3 body_from_angle_rates(const EulerAngles& at, const glm::dvec3& rates) {
@@ -86,11 +79,10 @@ Verdict decode_fdm(Bytes datagram, Fix& fix) {
     if (!(agl_m < no_agl_below_m)) {
         fix.above_ground_m = static_cast<double>(agl_m);
     }
-    const glm::dvec3 angles = three_floats(reader, angles_at);
+    const glm::dvec3 angles = reader.floats(angles_at);
     fix.attitude = {angles.z, angles.y, angles.x};
-    fix.body_rates_radps =
-        body_from_angle_rates(fix.attitude, three_floats(reader, angle_rates_at));
-    const glm::dvec3 velocity_ftps = three_floats(reader, velocity_at);
+    fix.body_rates_radps = body_from_angle_rates(fix.attitude, reader.floats(angle_rates_at));
+    const glm::dvec3 velocity_ftps = reader.floats(velocity_at);
     fix.velocity_ned_mps = glm::dvec3(
         m_from_ft(velocity_ftps.x), m_from_ft(velocity_ftps.y), m_from_ft(velocity_ftps.z));
     fix.ticks = reader.at<std::uint32_t>(verdict.got == 24 ? time_at : time_at + longer_in_25);

@@ -16,6 +16,8 @@ namespace octant::sim::links {
 namespace {
 
 constexpr std::size_t read_bytes = 65536;
+constexpr std::size_t client_bytes = 16384; ///< that one drain() takes of a client; others wait
+constexpr int most_newcomers = 64; ///< that one drain() takes; others wait
 
 } // namespace
 
@@ -72,7 +74,11 @@ LineServer& LineServer::operator=(LineServer&& other) noexcept {
 /// A newcomer takes the place of a client that has not sent anything yet, where all are taken.
 void LineServer::take_clients() {
     const auto now = std::chrono::steady_clock::now();
-    while (auto client = accepted_client(socket_)) {
+    for (int taken = 0; taken < most_newcomers; ++taken) {
+        const auto client = accepted_client(socket_);
+        if (!client) {
+            return;
+        }
         if (only_from_ && client->second.address != *only_from_) {
             ::close(client->first);
             continue;
@@ -92,7 +98,7 @@ void LineServer::take_clients() {
 
 /// Returns false when the client has gone.
 bool LineServer::read(Client& client, double now_s, std::vector<Datagram>& into) {
-    std::array<std::byte, read_bytes> bytes{};
+    std::array<std::byte, client_bytes> bytes{};
     const ssize_t count = ::recv(client.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
     const auto take = [&](const std::vector<std::byte>& line) {
         into.push_back({Protocol::Lines, client.source, now_s, line});

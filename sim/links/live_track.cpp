@@ -8,12 +8,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 
 namespace octant::sim::links {
 
 namespace {
 
-constexpr double kept_s = 12.0;  ///< longer than any delay
+constexpr double kept_s = 6.0;        ///< longer than any delay
+constexpr double least_apart_s = 0.005; ///< of kept samples, but for the newest
 constexpr double blend_s = 0.05; ///< time constant: 95 % within 0.15 s
 constexpr double least_snap_m = 15.0;
 constexpr double snap_after_s = 0.25; ///< of flight at the sample's speed
@@ -23,6 +25,10 @@ constexpr double snap_cosine = 0.7;   ///< of half the angle: 90 degrees
 
 void LiveTrack::add(const LiveSample& sample) {
     assert(samples_.empty() || samples_.back().state.time_s < sample.state.time_s);
+    const std::size_t count = samples_.size();
+    if (count > 1 && sample.state.time_s - samples_[count - 2].state.time_s < least_apart_s) {
+        samples_.pop_back();
+    }
     samples_.push_back(sample);
     while (samples_.size() > 2 && samples_[1].state.time_s < sample.state.time_s - kept_s) {
         samples_.pop_front();

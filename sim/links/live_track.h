@@ -24,7 +24,8 @@ class LiveTrack {
 public:
     static constexpr double extrapolated_s = 0.5;
 
-    /// A sample after all others (asserted).
+    /// A sample after all others (asserted). Those that are near one another in time give way, so
+    /// that memory is bounded.
     void add(const LiveSample& sample);
 
     bool empty() const { return samples_.empty(); }

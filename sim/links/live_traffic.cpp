@@ -30,6 +30,27 @@ std::string motion_text(const LiveVehicle& vehicle, bool is_shown) {
 
 constexpr std::size_t most_streams = 64;
 
+/// What is kept of a stream, which is new where there is room for it: of the full table those make
+/// room that were silent the longest, and for so long. Null where none was.
+template <class Streams>
+typename Streams::mapped_type*
+stream_of(Streams& streams, const typename Streams::key_type& key, double arrival_s, double gone_s) {
+    auto known = streams.find(key);
+    if (known == streams.end()) {
+        if (streams.size() >= most_streams) {
+            const auto silent = std::ranges::min_element(
+                streams, {}, [](const auto& stream) { return stream.second.last_s; });
+            if (arrival_s - silent->second.last_s < gone_s) {
+                return nullptr;
+            }
+            streams.erase(silent);
+        }
+        known = streams.try_emplace(key).first;
+    }
+    known->second.last_s = arrival_s;
+    return &known->second;
+}
+
 std::string verdict_text(Protocol protocol, const Verdict& verdict) {
     switch (protocol) {
     case Protocol::Lines:
@@ -48,20 +69,22 @@ std::string verdict_text(Protocol protocol, const Verdict& verdict) {
 } // namespace
 
 LiveVehicle* LiveTraffic::vehicle_of(const VehicleKey& key, double arrival_s) {
-    const auto known = std::ranges::find(vehicles_, key, &LiveVehicle::key);
-    if (known != vehicles_.end()) {
-        return &*known;
+    if (const auto known = numbers_.find(key); known != numbers_.end()) {
+        return &vehicles_[known->second];
     }
     const auto gone = std::ranges::find_if(vehicles_, [&](const LiveVehicle& vehicle) {
         return arrival_s - vehicle.last_arrival_s() > gone_after_s;
     });
     if (gone != vehicles_.end()) {
+        numbers_.erase(gone->key());
+        numbers_.emplace(key, static_cast<std::size_t>(gone - vehicles_.begin()));
         *gone = LiveVehicle(key);
         return &*gone;
     }
     if (vehicles_.size() == most_vehicles) {
         return nullptr;
     }
+    numbers_.emplace(key, vehicles_.size());
     return &vehicles_.emplace_back(key);
 }
 
@@ -95,9 +118,10 @@ LiveTraffic::Taken LiveTraffic::count(const Datagram& datagram, const Verdict& v
     }
     counts_.wrong += wrong ? 1 : 0;
     constexpr std::size_t most_kinds = 50;
-    if (heard_.size() < most_kinds &&
-        heard_.emplace(datagram.protocol, datagram.source, verdict.fault, verdict.got, verdict.size)
-            .second) {
+    const std::tuple kind(
+        datagram.protocol, datagram.source, verdict.fault, verdict.got, verdict.size);
+    if (heard_.size() < most_kinds && !heard_.contains(kind)) {
+        heard_.insert(kind);
         news_.push_back(fmt::format(
             "{}: {}", text_of(datagram.source), verdict_text(datagram.protocol, verdict)));
     }
@@ -112,11 +136,10 @@ LiveTraffic::Taken LiveTraffic::take_fdm(const Datagram& datagram) {
 }
 
 LiveTraffic::Taken LiveTraffic::take_line(const Datagram& datagram) {
-    if (columns_.size() >= most_streams && !columns_.contains(datagram.source)) {
-        columns_.erase(columns_.begin());
-    }
+    // No more clients than that are connected at a time: who is silent longest has gone.
+    auto* const stream = stream_of(columns_, datagram.source, datagram.arrival_s, 0.0);
     Fix fix;
-    Verdict verdict = columns_[datagram.source].take(datagram.bytes, fix);
+    const Verdict verdict = stream->value.take(datagram.bytes, fix);
     Verdict said = verdict;
     said.size = 0; // Lines differ in length and are told once.
     const Taken counted = count(datagram, said);
@@ -130,10 +153,14 @@ LiveTraffic::Taken LiveTraffic::take_mavlink(const Datagram& datagram) {
         Verdict said = parse.verdict;
         said.size = said.fault == Fault::NotOurs ? said.size : 0;
         taken = std::max(taken, count(datagram, said));
-        if (parse.frame && (poses_.size() < most_streams ||
-                            poses_.contains({datagram.source, parse.frame->system}))) {
-            MavLinkPose& pose = poses_[{datagram.source, parse.frame->system}];
-            if (const std::optional<Fix> fix = pose.take(*parse.frame)) {
+        auto* const stream = parse.frame ? stream_of(
+                                               poses_,
+                                               {datagram.source, parse.frame->system},
+                                               datagram.arrival_s,
+                                               gone_after_s)
+                                         : nullptr;
+        if (stream != nullptr) {
+            if (const std::optional<Fix> fix = stream->value.take(*parse.frame)) {
                 taken = std::max(taken, move(datagram, *fix));
             }
         }
@@ -164,9 +191,8 @@ LiveTraffic::Taken LiveTraffic::take_cigi(const Datagram& datagram) {
     }
     for (const std::uint16_t entity : cigi_.take_removed()) {
         const VehicleKey key{Protocol::Cigi, datagram.source, entity};
-        const auto known = std::ranges::find(vehicles_, key, &LiveVehicle::key);
-        if (known != vehicles_.end()) {
-            known->hide();
+        if (const auto known = numbers_.find(key); known != numbers_.end()) {
+            vehicles_[known->second].hide();
         }
     }
     return Taken::Moved; // A host's message is a frame, whatever moves in it.

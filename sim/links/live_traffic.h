@@ -107,8 +107,16 @@ private:
 
     WorldFromFix world_from_fix_;
     std::vector<LiveVehicle> vehicles_;
-    std::map<Source, NamedColumns> columns_;
-    std::map<std::pair<Source, std::uint8_t>, MavLinkPose> poses_;
+    std::map<VehicleKey, std::size_t> numbers_; ///< of vehicles_, by their keys
+    /// What is kept of a stream between its packets.
+    template <class Value>
+    struct Stream {
+        Value value;
+        double last_s = 0.0; ///< arrival of its newest packet
+    };
+
+    std::map<Source, Stream<NamedColumns>> columns_;
+    std::map<std::pair<Source, std::uint8_t>, Stream<MavLinkPose>> poses_;
     CigiImageGenerator cigi_;
     TrafficCounts counts_;
     std::set<std::tuple<Protocol, Source, Fault, std::uint32_t, std::uint32_t>> heard_;

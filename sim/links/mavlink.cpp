@@ -69,13 +69,6 @@ glm::dvec3 velocity_ned(const WireReader& reader, std::size_t at) {
            cm_per_m;
 }
 
-glm::dvec3 floats(const WireReader& reader, std::size_t at) {
-    return {
-        static_cast<double>(reader.at<float>(at)),
-        static_cast<double>(reader.at<float>(at + 4)),
-        static_cast<double>(reader.at<float>(at + 8))};
-}
-
 void set_place(const WireReader& reader, std::size_t at, Fix& fix) {
     fix.latitude_deg = reader.at<std::int32_t>(at) / per_degree;
     fix.longitude_deg = reader.at<std::int32_t>(at + 4) / per_degree;
@@ -150,7 +143,7 @@ std::optional<Fix> MavLinkPose::take_hil(const MavLinkFrame& frame) {
     Fix fix;
     fix.vehicle = frame.system;
     fix.sent_s = static_cast<double>(reader.at<std::uint64_t>(0)) / us_per_s;
-    const glm::dvec3 xyz = floats(reader, 12);
+    const glm::dvec3 xyz = reader.floats(12);
     const glm::dquat ned_from_body(static_cast<double>(reader.at<float>(8)), xyz.x, xyz.y, xyz.z);
     const double length = glm::length(ned_from_body);
     constexpr double most_off_unit = 0.1;
@@ -162,7 +155,7 @@ std::optional<Fix> MavLinkPose::take_hil(const MavLinkFrame& frame) {
         wrapped_to_two_pi(std::atan2(m[0].y, m[0].x)),
         std::asin(std::clamp(-m[0].z, -1.0, 1.0)),
         std::atan2(m[1].z, m[2].z)};
-    fix.body_rates_radps = floats(reader, 24);
+    fix.body_rates_radps = reader.floats(24);
     set_place(reader, 36, fix);
     fix.velocity_ned_mps = velocity_ned(reader, 48);
     hil_ = true;
@@ -210,9 +203,9 @@ std::optional<Fix> MavLinkPose::take_attitude(const MavLinkFrame& frame) {
     fix.longitude_deg += moved_m.y / (m_per_degree * cosine);
     fix.altitude_m -= moved_m.z;
     fix.sent_s = sent_s;
-    const glm::dvec3 angles = floats(reader, 4);
+    const glm::dvec3 angles = reader.floats(4);
     fix.attitude = {angles.z, angles.y, angles.x};
-    fix.body_rates_radps = floats(reader, 16);
+    fix.body_rates_radps = reader.floats(16);
     return plausible(fix);
 }
 

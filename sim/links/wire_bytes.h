@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include <bit>
 #include <concepts>
 #include <cstddef>
@@ -42,6 +44,14 @@ public:
         } else {
             return static_cast<Number>(whole);
         }
+    }
+
+    /// Three numbers of 4 bytes one behind the other.
+    glm::dvec3 floats(std::size_t offset) const {
+        return {
+            static_cast<double>(at<float>(offset)),
+            static_cast<double>(at<float>(offset + 4)),
+            static_cast<double>(at<float>(offset + 8))};
     }
 
     std::size_t size() const { return bytes_.size(); }

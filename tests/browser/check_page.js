@@ -1,5 +1,32 @@
 // Appended to a report: writes into the page what is wrong with how it stands there.
 (() => {
+  // Values under the pointer, a zoom by dragging, and all of it again.
+  function drive(box) {
+    SVGElement.prototype.setPointerCapture = () => {}; // there is no real pointer
+    const point = (kind, part) => {
+      const svg = box.querySelector("svg"), area = svg.getBoundingClientRect();
+      const at = {clientX: area.left + part * area.width, clientY: area.top + area.height / 2, bubbles: true};
+      svg.dispatchEvent(new PointerEvent(kind, at));
+    };
+    const axis = () => Array.from(box.querySelectorAll("svg > text[text-anchor=middle]")).map(t => t.textContent).join(" ");
+    const whole = axis(), tip = document.getElementById("tip");
+    point("pointermove", 0.5);
+    if (tip.hidden || !/\n.*\d/.test(tip.textContent)) fault("no values under the pointer");
+    point("pointerleave", 0.5);
+    if (!tip.hidden) fault("values stay when the pointer has left");
+    for (const [kind, part] of [["pointerdown", 0.4], ["pointermove", 0.6], ["pointerup", 0.6]]) point(kind, part);
+    if (axis() === whole) fault("dragging does not zoom");
+    point("dblclick", 0.5);
+    if (axis() !== whole) fault("a double click does not show all of it");
+  }
+  // Rows in the order of a column of numbers, and in the other order by a second click.
+  function sort(table, column) {
+    const numbers = () => Array.from(table.tBodies[0].rows).map(row => Number(row.cells[column].dataset.key ?? row.cells[column].textContent));
+    for (const [order, text] of [[(a, b) => a - b, "upwards"], [(a, b) => b - a, "downwards"]]) {
+      table.querySelectorAll("thead th")[column].click();
+      if (String(numbers()) !== String(numbers().sort(order))) fault(`rows are not sorted ${text}`);
+    }
+  }
   const faults = [];
   const fault = text => { if (faults.length < 20) faults.push(text); };
   const root = document.documentElement;
@@ -33,6 +60,10 @@
     if (!box.plot.log && box.querySelectorAll("svg > text[text-anchor=end]:not(.soft)").length < 2)
       fault(`one number alone at an axis: ${box.querySelector("h3").textContent}`);
   if (document.querySelectorAll(".plot[data-height]").length !== plots.length) fault("plots are missing");
+  const box = Array.from(document.querySelectorAll(".plot[data-height]")).find(b => !b.classList.contains("small"));
+  if (box) drive(box);
+  const runs = document.querySelector("table.sortable");
+  if (runs) sort(runs, Array.from(runs.querySelectorAll("thead th")).findIndex(head => head.textContent.startsWith("longest")));
   const pre = document.createElement("pre");
   pre.id = "verdict";
   pre.textContent = `PLOTS ${plots.length} FAULTS ${faults.length}\n${faults.join("\n")}\nEND`;

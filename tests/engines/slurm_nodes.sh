@@ -70,6 +70,7 @@ EOF
   slurm_start_node n1
   slurm_start_node n2
   for tenth in {1..300}; do
+    kill -0 "$SLURM_CONTROL" 2>/dev/null || break # as where the only network is the loopback
     [[ $(sinfo --noheader --format=%T --nodes=n1,n2 2>/dev/null | sort -u) == idle ]] && return 0
     sleep 0.1
   done

@@ -9,10 +9,13 @@ done
 servers=()
 trap 'kill "${servers[@]}" 2>/dev/null; rm -rf "$scratch"' EXIT
 
-start_server() { # PORT; in a session of its own, so that it dies with its connections
+# A server in a session of its own, so that it dies with its connections. Its shells find no start-up
+# files of the user: a home of their own, and as a second level of shell no bashrc either, which bash
+# reads under ssh. Such a file may wait long for a lock that a shell which was killed has left.
+start_server() { # PORT
   setsid /usr/sbin/sshd -D -e -f /dev/null -p "$1" -h "$scratch/key" -o StrictModes=no -o UsePAM=no \
     -o PermitRootLogin=yes -o AuthorizedKeysFile="$scratch/key.pub" -o PidFile=none \
-    -o MaxStartups=100 >"$scratch/sshd-$1.out" 2>&1 &
+    -o MaxStartups=100 -o PermitUserRC=no -o SetEnv="HOME=$scratch/home SHLVL=1" >"$scratch/sshd-$1.out" 2>&1 &
   servers+=($!)
 }
 
@@ -32,9 +35,9 @@ free_port() {
 
 write_sweep
 fly_locally
-mkdir -p /run/sshd
+mkdir -p /run/sshd "$scratch/home"
 ssh-keygen -q -t ed25519 -N "" -f "$scratch/key"
-login="ssh -i $scratch/key -o BatchMode=yes -o StrictHostKeyChecking=no -o UserKnownHostsFile=/dev/null -o LogLevel=ERROR"
+login="ssh -F none -i $scratch/key -o BatchMode=yes -o StrictHostKeyChecking=no -o UserKnownHostsFile=/dev/null -o LogLevel=ERROR"
 one=$(free_port)
 two=$(free_port)
 start_server "$one"

@@ -94,6 +94,17 @@ TEST_CASE("what is no aircraft, seen once or impossible is left out and told") {
     CHECK_THAT(tape.notes[3], Contains("4 samples"));
 }
 
+TEST_CASE("a tape of more objects than any battle has is refused at the first too many") {
+    constexpr int most = 1000000;
+    std::string lines;
+    for (int i = 1; i <= most + 1; ++i) {
+        lines += std::to_string(i) + ",\n"; // decimal digits are numbers in hexadecimal, too
+    }
+    CHECK_THROWS_WITH(
+        tape_of(lines),
+        Contains("a.acmi:1000003: expected at most 1000000 objects, got '1000001,'"));
+}
+
 TEST_CASE("what is no tape is refused in one line that names its place") {
     struct Case {
         std::string text;

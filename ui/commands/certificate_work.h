@@ -10,7 +10,7 @@
 namespace octant::ui::commands {
 
 /// An order that holds for every eye, or for those that its choices leave
-/// (visuals/certificate/eyes_beyond.h), with the model that it speaks of.
+/// (visuals/draworder/eyes_beyond.h), with the model that it speaks of.
 struct ProvedOrder {
     const models::polygons::PolygonModel& model;
     const visuals::draworder::DrawOrder& order;

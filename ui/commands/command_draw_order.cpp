@@ -9,7 +9,7 @@
 #include "ui/commands/percents.h"
 #include "ui/settings/settings_text.h"
 #include "ui/world/order_input.h"
-#include "visuals/certificate/eyes_beyond.h"
+#include "visuals/draworder/eyes_beyond.h"
 #include "visuals/draworder/order_check.h"
 #include "visuals/draworder/order_table.h"
 #include "visuals/draworder/order_text.h"
@@ -64,6 +64,8 @@ void add_figures(Figures& figures, const draworder::OrderedModel& ordered, std::
     figures["min_distance_m"] = ordered.min_distance_m;
     figures["rays_tried"] = ordered.trial.rays;
     figures["rays_tried_wrong"] = ordered.trial.wrong;
+    figures["proof_is_whole"] = ordered.trial.is_proof_whole;
+    figures["proof_open"] = ordered.trial.unproved;
 }
 
 /// How many cells a file of orders has, or parts.
@@ -90,8 +92,7 @@ ordercache::CachedOrder found(
 /// nearer eyes.
 draworder::DrawOrder provable(const draworder::OrderedModel& ordered) {
     return ordered.drawn_by == draworder::DrawnBy::Cells
-               ? visuals::certificate::eyes_beyond(
-                     ordered.order, ordered.centre_m, ordered.min_distance_m)
+               ? draworder::eyes_beyond(ordered.order, ordered.centre_m, ordered.min_distance_m)
                : ordered.order;
 }
 

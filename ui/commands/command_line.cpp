@@ -122,6 +122,7 @@ public:
             if (parsed.options[i]->count() > 0) {
                 const Option& row = parsed.command->options[i];
                 readings.emplace_back(&row, words_of(*parsed.options[i], row));
+                refuse_empty_words(row, readings.back().second);
             }
         }
         for (const auto& [row, words] : readings) {
@@ -223,6 +224,14 @@ private:
     }
 
     /// The option's words are too few or too many.
+    /// Throws Error for a word of no letters, as a shell gives for a variable that is not set.
+    static void refuse_empty_words(const Option& row, const Words& words) {
+        const bool may_be_empty = row.takes == Takes::Nothing || row.takes == Takes::PerhapsOneWord;
+        if (!may_be_empty && std::ranges::find(words, "") != words.end()) {
+            throw Error(text_of_words(row, {}));
+        }
+    }
+
     static std::string text_of_words(const Option& row, const Words& got) {
         std::string name = row.name.substr(0, row.name.find(','));
         if (!name.starts_with('-')) {

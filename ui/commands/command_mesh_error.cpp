@@ -2,6 +2,7 @@
 #include "models/measure/mesh_defects.h"
 #include "models/measure/mesh_distance.h"
 #include "sim/base/error.h"
+#include "sim/base/worker_team.h"
 #include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
@@ -9,12 +10,10 @@
 #include "ui/commands/read_option.h"
 #include "ui/world/mesh_input.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
 #include <string>
-#include <thread>
 #include <variant>
 
 namespace octant::ui::commands {
@@ -30,7 +29,7 @@ struct MeshErrorOptions {
     std::string b;
     double tightness = 1.01;
     int samples = 400'000;
-    int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    int threads = core_count();
     bool json = false;
     bool quiet = false;
 };

@@ -1,3 +1,4 @@
+#include "ui/base/study_output.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/read_option.h"
 #include "ui/studies/draw_order/study_draw_order.h"
@@ -10,7 +11,6 @@
 #include "ui/studies/refinement/study_refinement.h"
 #include "ui/studies/simplification/study_simplification.h"
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -21,17 +21,16 @@ namespace octant::ui::commands {
 namespace {
 
 /// A study's own options between those that every study has.
-std::vector<Option>
-study_options(std::filesystem::path& out, bool& json, bool& quiet, std::vector<Option> own) {
+std::vector<Option> study_options(base::StudyOutput& output, std::vector<Option> own) {
     own.insert(
         own.begin(),
         required(text_option(
             "--out",
             "DIR",
             "folder for the tables (CSV, Markdown) and whatever else comes of it",
-            out)));
-    own.push_back(flag("--json", "print the tables as JSON", json));
-    own.push_back(flag("--quiet", "no progress, no notes", quiet));
+            output.out)));
+    own.push_back(flag("--json", "print the tables as JSON", output.json));
+    own.push_back(flag("--quiet", "no progress, no notes", output.quiet));
     return own;
 }
 
@@ -53,9 +52,7 @@ Command flights_command() {
         .name = "flights",
         .summary = "Tables 5 and 6 of the 1989 paper: four paths, two aircraft, three methods",
         .options = study_options(
-            options->out,
-            options->json,
-            options->quiet,
+            *options,
             {size_option(options->settings, "picture size in pixels"),
              context_option(options->settings),
              jobs_option(options->jobs, "flights at once; their times then depend on each other")}),
@@ -69,7 +66,7 @@ Command draw_order_study_command() {
         .name = "draw-order",
         .summary =
             "Tables 1 and 4 of the 1989 paper, and cells, splits, wrong pixels and BSP trees",
-        .options = study_options(options->out, options->json, options->quiet, {}),
+        .options = study_options(*options, {}),
         .footer = "Example:\n  octant study draw-order --out tables",
         .run = [options] { studies::draw_order::study_draw_order(*options); }};
 }
@@ -81,9 +78,7 @@ Command flicker_command() {
         .summary = "Triangle control of the quadtree paper: its figures 3, 5, 6, 8 and 9, and how "
                    "quietly previous, damped and exact control hold the count",
         .options = study_options(
-            options->out,
-            options->json,
-            options->quiet,
+            *options,
             {text_option(
                  "--gentle",
                  "NAME|FILE",
@@ -155,8 +150,7 @@ Command hidden_surface_command() {
         .name = "hidden-surface",
         .summary = "Octant order, depth buffer and removal of back faces: frames a second, and "
                    "every pixel's polygon compared",
-        .options = study_options(
-            study->out, study->json, study->quiet, hidden_surface_options(*study, *only)),
+        .options = study_options(*study, hidden_surface_options(*study, *only)),
         .footer =
             "Exit code 1 when a pixel is wrong.\n"
             "Examples:\n  octant study hidden-surface --out tables --only pictures --every 10\n"
@@ -171,9 +165,7 @@ Command pictures_command() {
         .summary = "How near the pictures of both renderers, with 1, 4 and 16 samples a pixel, "
                    "come to 8 x 8 samples, standing and moving",
         .options = study_options(
-            options->out,
-            options->json,
-            options->quiet,
+            *options,
             {size_option(options->settings, "picture size in pixels"),
              context_option(options->settings),
              read_option({"frames", "N", "pictures of each scene", 1, 1000}, options->frames),
@@ -203,8 +195,7 @@ Command popping_command() {
     return {
         .name = "popping",
         .summary = "Largest jump of a vertex in any frame of the four paths, and shimmer",
-        .options =
-            study_options(options->out, options->json, options->quiet, popping_options(*options)),
+        .options = study_options(*options, popping_options(*options)),
         .footer = "Example:\n  octant study popping --out tables --terrain canyon",
         .run = [options] { studies::flicker::study_popping(*options); }};
 }
@@ -217,9 +208,7 @@ Command shading_command() {
                    "and the quality of pictures over the share of smooth polygons, by its rule and "
                    "by ours",
         .options = study_options(
-            options->out,
-            options->json,
-            options->quiet,
+            *options,
             {list_option(
                  "--mesh",
                  "FILE",
@@ -245,9 +234,7 @@ Command refinement_command() {
         .summary =
             "Selective refinement: splits forced by three rules, faces turned over, speed, a path",
         .options = study_options(
-            options->out,
-            options->json,
-            options->quiet,
+            *options,
             {list_option(
                  "--mesh",
                  "FILE",
@@ -301,8 +288,7 @@ Command simplification_command() {
         .name = "simplification",
         .summary = "Tables 1 and 2 of the 2005 paper on simplification, and every way to simplify, "
                    "ours and other libraries', by distance to the original and time",
-        .options = study_options(
-            options->out, options->json, options->quiet, simplification_options(*options)),
+        .options = study_options(*options, simplification_options(*options)),
         .footer = "Example:\n  octant study simplification --out tables --bunny bun_zipper.ply",
         .run = [options] { studies::simplification::study_simplification(*options); }};
 }

@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace octant::ui::commands {
@@ -104,7 +105,29 @@ void print_end(
     }
 }
 
+/// Throws Error for an option that the engine asked for does not have.
+void check_engine(const SweepOptions& options) {
+    const auto refuse = [&](std::string_view option, std::string_view engines) {
+        throw Error(
+            fmt::format("{}: expected --on {} beside it, got {}", option, engines, options.on));
+    };
+    const bool slurm = options.on == "slurm";
+    if (options.tasks && !slurm) {
+        refuse("--tasks", "slurm");
+    }
+    if (!options.engine.sbatch_options.empty() && !slurm) {
+        refuse("--sbatch", "slurm");
+    }
+    if (options.hosts && options.on != "parallel") {
+        refuse("--hosts", "parallel");
+    }
+    if (options.minutes && options.on == "local") {
+        refuse("--minutes", "slurm or parallel");
+    }
+}
+
 void fly_sweep(const SweepOptions& options) {
+    check_engine(options);
     const sweep::Sweep sweep = sweep::read_sweep(options.file);
     if (options.list) {
         print_list(sweep, options.json);
@@ -167,7 +190,7 @@ Command sweep_command() {
                  {"tasks", "N", "tasks of the job array [one a flight, at most 1000]", 1, 100000},
                  options->tasks),
              read_option(
-                 {"minutes", "N", "time limit of a task or a flight on engines", 1, 100000},
+                 {"minutes", "N", "time limit of a task or a flight on engines [60]", 1, 100000},
                  options->minutes),
              read_option(
                  {"split",

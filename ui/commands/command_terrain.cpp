@@ -69,12 +69,9 @@ base::Figures figures_of(const models::heights::HeightField& field) {
     return figures;
 }
 
-/// Of ground from files; nothing for made ground.
+/// Of ground from files; nothing for files without georeference.
 std::optional<models::heights::Deviation>
 deviation_of(const models::heights::HeightField& field, const TerrainOptions& options) {
-    if (settings::is_built_in_ground(options.terrain)) {
-        return std::nullopt;
-    }
     const models::heights::HeightSource source(
         models::heights::map_inputs({options.terrain}), options.files);
     return source.deviation_of(
@@ -89,7 +86,9 @@ void show(const TerrainOptions& options) {
     const models::heights::HeightField field =
         world::load_height_field(options.terrain, options.files);
     base::Figures figures = figures_of(field);
-    add_trust(field.system, field.half_extent_m(), deviation_of(field, options), figures);
+    if (!settings::is_built_in_ground(options.terrain)) {
+        add_trust(field.system, field.half_extent_m(), deviation_of(field, options), figures);
+    }
     base::print_figures(figures, options.json);
 }
 
@@ -170,6 +169,9 @@ void add_trust(
     const glm::dvec2& half_extent_m,
     const std::optional<models::heights::Deviation>& deviation,
     base::Figures& figures) {
+    if (!system) {
+        figures["system"] = "none named: cells count as metres";
+    }
     const auto distortion =
         system ? models::heights::distortion_at_corners(*system, half_extent_m) : std::nullopt;
     if (distortion) {

@@ -19,8 +19,8 @@ Command terrain_error_command();
 Command terrain_query_command();
 Command terrain_check_command();
 
-/// Adds how far a ground's system is from true at its corners, and how far the ground lies from the
-/// files it was made of, as far as either is known.
+/// Adds how far the system of a ground from files is from true at its corners, or what is taken for
+/// granted without one, and how far the ground lies from the files, as far as either is known.
 void add_trust(
     const std::optional<models::heights::MapSystem>& system,
     const glm::dvec2& half_extent_m,

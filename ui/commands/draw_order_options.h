@@ -19,11 +19,11 @@ struct DrawOrderOptions {
     bool table = false;
     std::string export_file;
     std::string export_model;
-    std::string certificate; ///< written
-    std::string verify;      ///< read; then nothing else is done
+    std::string certificate; ///< the file to which the proof is written
+    std::string verify;      ///< a proof to check; then nothing else is done
     bool check = false;
-    std::string check_file;  ///< empty: what was computed
-    std::optional<int> rays; ///< 0: none
+    std::string check_file;  ///< the order to check; empty: the one that was computed
+    std::optional<int> rays; ///< how many the order is tried by; 0: no trial
     bool json = false;
     bool quiet = false;
 };

@@ -35,7 +35,6 @@ constexpr std::array<std::string_view, 8> of_paths{
     "--realtime,!--no-realtime",
     "--mesh-ahead,!--no-mesh-ahead"};
 
-constexpr double told_every_s = 10.0;
 constexpr double look_every_s = 0.0005; ///< in steps, for the next packet
 
 /// A flight from outside, picture after picture, at the rate of the settings by the clock.
@@ -55,7 +54,7 @@ public:
     }
 
     flight::FlightEnd fly() {
-        tell_beginning();
+        tell_notes();
         const Interrupt interrupt;
         const double frame_s = 1.0 / options_.settings.time.rate_hz;
         began_s_ = listener_.now_s();
@@ -91,7 +90,9 @@ private:
     /// Returns false where there is nothing to draw.
     bool draw(double next_due_s) {
         const std::optional<double> time_s = listener_.take(session_);
-        tell(listener_.now_s());
+        for (const std::string& line : listener_.take_news()) {
+            base::say(options_.quiet, line);
+        }
         if (!time_s) {
             listener_.call_hosts();
             return false;
@@ -108,24 +109,9 @@ private:
         return true;
     }
 
-    void tell_beginning() const {
+    void tell_notes() const {
         for (const std::string& note : session_.world().notes) {
             base::say(options_.quiet, fmt::format("note: {}", note));
-        }
-        for (const std::string& line : listener_.lines()) {
-            base::say(options_.quiet, line);
-        }
-    }
-
-    void tell(double now_s) {
-        for (const std::string& line : listener_.take_news()) {
-            base::say(options_.quiet, line);
-        }
-        if (now_s >= told_at_s_ && !listener_.live().traffic().vehicles().empty()) {
-            for (const std::string& line : listener_.lines()) {
-                base::say(options_.quiet, line);
-            }
-            told_at_s_ = now_s + told_every_s;
         }
     }
 
@@ -135,7 +121,6 @@ private:
     flight::FlightRecorder recorder_;
     flight::Sender sender_;
     double began_s_ = 0.0;
-    double told_at_s_ = 1.0;
 };
 
 void take_from(const std::string& from, ListenOptions& options) {

@@ -52,6 +52,9 @@ std::unique_ptr<flight::LiveFlight> fly_packets(
             session.set_words(of_frame.words);
         }
         live->prepare(session);
+        if (!of_frame.time_of_day.empty()) {
+            flight::LiveFlight::light_as(session, of_frame.time_of_day);
+        }
         report::FrameRecord record = session.draw_at(of_frame.time_s, std::nullopt);
         live->fill_in(record, of_frame.time_s);
         recorder.add(record, session);

@@ -1,12 +1,11 @@
 #pragma once
 
 #include "models/simplify/paper_simplify.h"
+#include "sim/base/worker_team.h"
 #include "ui/base/figures.h"
 
-#include <algorithm>
 #include <optional>
 #include <string>
-#include <thread>
 
 namespace octant::ui::commands {
 
@@ -19,7 +18,7 @@ struct SimplifyCommand {
     std::string error;
     std::string method = "surface";
     double colour_weight = 0.1;
-    int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    int threads = core_count();
     bool chain = false;
     bool keep_seams_apart = false;
     bool keep_shells = false;

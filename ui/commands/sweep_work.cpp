@@ -22,7 +22,7 @@ std::unique_ptr<sweep::Engine> engine_of(
     sweep::EngineOptions engine = options.engine;
     engine.jobs = options.jobs.value_or(0);
     engine.tasks = options.tasks.value_or(0);
-    engine.minutes = options.minutes;
+    engine.minutes = options.minutes.value_or(engine.minutes);
     engine.program =
         options.program ? options.program->string() : fs::read_symlink("/proc/self/exe").string();
     if (options.hosts) {

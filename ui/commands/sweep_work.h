@@ -23,7 +23,7 @@ struct SweepOptions {
     std::optional<int> split;
     std::optional<std::filesystem::path> hosts;
     std::optional<std::filesystem::path> program;
-    int minutes = 60;
+    std::optional<int> minutes;
     int retries = 1;
     bool list = false;
     bool json = false;

@@ -28,7 +28,13 @@ void add_file_options(std::vector<Option>& table, models::heights::ImportOptions
               "metres a unit of heights, of files that name no unit [1]",
               1e-6,
               1e4},
-             files.height_scale)});
+             files.height_scale),
+         read_option(
+             {"terrain-system",
+              "SYSTEM",
+              "coordinate system of files that name none, such as EPSG:4326, a PROJ string or a "
+              ".prj file [metres]"},
+             files.system)});
 }
 
 void add_view_options(std::vector<Option>& table, terrain::GroundViewOptions& options) {

@@ -9,7 +9,7 @@ namespace octant::ui::commands {
 
 // Rows that commands about one mesh of a terrain share. Each adds to a command's table.
 
-/// --terrain-spacing and --height-scale.
+/// --terrain-spacing, --height-scale and --terrain-system.
 void add_file_options(std::vector<Option>& table, models::heights::ImportOptions& files);
 
 /// The terrain, and what its files do not say.

@@ -65,10 +65,12 @@ links::CigiViewControl view_of(const scene::Camera& camera, const sim::AircraftS
 
 links::CigiViewDefinition frustum_of(const scene::Camera& camera, const glm::dvec2& size_px) {
     links::CigiViewDefinition frustum;
-    frustum.top_rad = 0.5 * camera.vertical_fov_rad;
-    frustum.bottom_rad = -frustum.top_rad;
-    frustum.right_rad = std::atan(std::tan(frustum.top_rad) * size_px.x / size_px.y);
-    frustum.left_rad = -frustum.right_rad;
+    const double half_high = std::tan(0.5 * camera.vertical_fov_rad);
+    const double half_wide = half_high * camera.pixel_aspect * size_px.x / size_px.y;
+    frustum.left_rad = std::atan(camera.middle.x - half_wide);
+    frustum.right_rad = std::atan(camera.middle.x + half_wide);
+    frustum.top_rad = std::atan(camera.middle.y + half_high);
+    frustum.bottom_rad = std::atan(camera.middle.y - half_high);
     return frustum;
 }
 

@@ -52,7 +52,7 @@ InsetView::InsetView(const settings::RunSettings& settings, const planning::Scen
 void InsetView::place(const settings::RunSettings& settings) {
     assert(settings.view.inset);
     rectangle_ = inset_rectangle(settings.view.size_px);
-    settings_ = inset_settings(settings, {rectangle_.width, rectangle_.height});
+    look(settings);
 }
 
 void InsetView::follow(const settings::RunSettings& settings) {
@@ -69,18 +69,42 @@ void InsetView::follow(const settings::RunSettings& settings) {
     planner_.emplace(scene_, settings_, std::move(mesher));
 }
 
+void InsetView::look(const settings::RunSettings& settings) {
+    settings_ = inset_settings(settings, {rectangle_.width, rectangle_.height});
+}
+
+void InsetView::relight(const settings::RunSettings& settings) {
+    look(settings);
+    settles_ = !planner_->relight() || settles_;
+}
+
 const scene::FramePlan& InsetView::plan(
     const scene::Camera& camera,
     std::span<const sim::AircraftState> states,
     std::span<const planning::TurnedPart> turned,
     std::optional<double> smooth_share) {
-    if (std::exchange(settles_, false)) {
-        planner_->settle(camera);
-    }
+    settle(camera);
     planning::PlanRequest request{camera, states};
     request.smooth.share = smooth_share;
     request.turned = turned;
     return planner_->plan(request).plan;
+}
+
+void InsetView::pass_over(
+    const scene::Camera& camera,
+    std::span<const sim::AircraftState> states,
+    std::span<const planning::TurnedPart> turned) {
+    settle(camera);
+    planning::PlanRequest request{camera, states};
+    request.turned = turned;
+    planner_->pass_over(request);
+}
+
+/// Before the first picture.
+void InsetView::settle(const scene::Camera& camera) {
+    if (std::exchange(settles_, false)) {
+        planner_->settle(camera);
+    }
 }
 
 } // namespace octant::ui::flight

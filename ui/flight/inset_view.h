@@ -31,6 +31,12 @@ public:
     /// on where both it and its control are the same.
     void follow(const settings::RunSettings& settings);
 
+    /// Takes other settings over where only a look has changed.
+    void look(const settings::RunSettings& settings);
+
+    /// The same where the sun has moved, too, with the ground that the scene has now.
+    void relight(const settings::RunSettings& settings);
+
     /// Settings of the view alone: its camera and its size.
     const settings::RunSettings& settings() const { return settings_; }
 
@@ -49,7 +55,14 @@ public:
         std::span<const visuals::planning::TurnedPart> turned,
         std::optional<double> smooth_share);
 
+    /// Planner::pass_over, of what plan() would have been given.
+    void pass_over(
+        const visuals::scene::Camera& camera,
+        std::span<const sim::AircraftState> states,
+        std::span<const visuals::planning::TurnedPart> turned);
+
 private:
+    void settle(const visuals::scene::Camera& camera);
     void place(const settings::RunSettings& settings);
 
     const visuals::planning::Scene& scene_;

@@ -19,6 +19,22 @@ void Listener::record_into(const std::filesystem::path& folder) {
     writer_.emplace(folder, options_.live);
 }
 
+std::vector<std::string> Listener::take_news() {
+    constexpr double every_s = 10.0;
+    std::vector<std::string> news = live_->take_news();
+    const double now_s = input_.now_s();
+    if (!told_at_s_) {
+        const std::vector<std::string> waits = input_.lines();
+        news.insert(news.begin(), waits.begin(), waits.end());
+        told_at_s_ = now_s - every_s + 1.0;
+    } else if (now_s - *told_at_s_ >= every_s && !live_->traffic().vehicles().empty()) {
+        const std::vector<std::string> stands = lines();
+        news.insert(news.end(), stands.begin(), stands.end());
+        told_at_s_ = now_s;
+    }
+    return news;
+}
+
 std::vector<std::string> Listener::lines() const {
     std::vector<std::string> lines = live_->lines();
     if (live_->traffic().vehicles().empty()) {
@@ -46,8 +62,8 @@ bool Listener::take_waiting() {
 std::optional<double> Listener::take(Session& session) {
     constexpr std::size_t most_waiting = 20000; // in steps: more wait in the network
     if (waiting_.size() < most_waiting) {
-        for (const sim::links::Datagram& packet : input_.drain()) {
-            waiting_.push_back(packet);
+        for (sim::links::Datagram& packet : input_.drain()) {
+            waiting_.push_back(std::move(packet));
         }
     }
     const bool moved = take_waiting();
@@ -55,6 +71,10 @@ std::optional<double> Listener::take(Session& session) {
         return std::nullopt;
     }
     live_->prepare(session);
+    const std::optional<std::string> time_of_day = live_->light(session);
+    if (writer_ && time_of_day) {
+        writer_->add_time_of_day(*time_of_day);
+    }
     const double time_s =
         options_.live.step ? static_cast<double>(++pictures_) / session.rate_hz() : input_.now_s();
     if (time_s >= words_at_s_) {

@@ -59,7 +59,9 @@ public:
     /// Nothing can come any more, and all that came was taken.
     bool has_ended() const { return waiting_.empty() && input_.has_ended(); }
 
-    std::vector<std::string> take_news() { return live_->take_news(); }
+    /// What a person should be told who reads along: what is waited for, each sender and fault when
+    /// it first comes, and how things stand every ten seconds. After take().
+    std::vector<std::string> take_news();
 
     /// What is waited for, and what comes.
     std::vector<std::string> lines() const;
@@ -75,6 +77,7 @@ private:
     std::optional<PacketWriter> writer_;
     std::deque<sim::links::Datagram> waiting_;
     double words_at_s_ = 0.0;
+    std::optional<double> told_at_s_; ///< nothing: not yet
     double called_at_s_ = 0.0;
     std::uint32_t cigi_frames_ = 0;
     long pictures_ = 0;

@@ -12,6 +12,8 @@
 
 namespace octant::ui::flight {
 
+namespace scene = visuals::scene;
+
 namespace {
 
 /// Where nobody sees an aircraft that nobody flies.
@@ -124,30 +126,57 @@ void LiveFlight::turn_parts(double time_s) {
     const double at_s = options_.step ? 0.0 : time_s - options_.delay_s;
     for (const sim::links::CigiTurnedPart& part : traffic_.cigi().parts().turned(at_s)) {
         if (const auto aircraft = aircraft_of(part.entity)) {
-            turned_.push_back({static_cast<std::uint32_t>(*aircraft), part.part, part.turn});
+            turned_.push_back(
+                {static_cast<std::uint32_t>(*aircraft), part.part, part.turn, part.offset_m});
         }
     }
+}
+
+/// The session's air with what a host has told of it.
+scene::AirSettings LiveFlight::air_of(const Session& session) const {
+    const sim::links::CigiImageGenerator& cigi = traffic_.cigi();
+    const auto& place = world_.ground_place ? world_.ground_place : place_.origin();
+    return air_of_host(session.settings().air, cigi.atmosphere(), cigi.celestial(), place);
 }
 
 void LiveFlight::prepare(Session& session) {
     const glm::dvec2 size_px(session.settings().view.size_px);
     aspect_ = size_px.x / size_px.y;
-    const sim::links::CigiImageGenerator& cigi = traffic_.cigi();
-    if (!cigi.atmosphere() && !cigi.celestial()) {
+    if (!traffic_.cigi().atmosphere()) {
         return;
     }
-    const visuals::scene::AirSettings& shown = session.settings().air;
-    const auto& place = world_.ground_place ? world_.ground_place : place_.origin();
-    visuals::scene::AirSettings air = air_of_host(shown, cigi.atmosphere(), cigi.celestial(), place);
-    constexpr double same = 0.01;
-    if (std::abs(air.visibility_m - shown.visibility_m) < same * shown.visibility_m) {
-        air.visibility_m = shown.visibility_m;
-    }
-    if (!(air == shown)) {
+    const double visibility_m = air_of(session).visibility_m;
+    if (visibility_m != session.settings().air.visibility_m) {
         settings::RunSettings settings = session.settings();
-        settings.air = air;
+        settings.air.visibility_m = visibility_m;
         session.apply(settings);
     }
+}
+
+std::optional<std::string> LiveFlight::light(Session& session) const {
+    if (session.take_light()) {
+        return session.settings().air.time;
+    }
+    if (!traffic_.cigi().celestial() || session.is_relighting()) {
+        return std::nullopt;
+    }
+    settings::RunSettings settings = session.settings();
+    settings.air.time = air_of(session).time;
+    if (settings.air.time == session.settings().air.time) {
+        return std::nullopt;
+    }
+    if (!options_.step) {
+        session.relight_beside(settings);
+        return std::nullopt;
+    }
+    session.apply(settings);
+    return settings.air.time;
+}
+
+void LiveFlight::light_as(Session& session, const std::string& time_of_day) {
+    settings::RunSettings settings = session.settings();
+    settings.air.time = time_of_day;
+    session.apply(settings);
 }
 
 std::vector<std::string> LiveFlight::lines() const {

@@ -85,15 +85,25 @@ public:
 
     std::span<const visuals::planning::TurnedPart> turned_parts() const override { return turned_; }
 
-    /// To be called before each picture: gives the session the air that a CIGI host has told, if it
-    /// is another one.
+    /// To be called before each picture: gives the session the visibility that a CIGI host has
+    /// told.
     void prepare(Session& session);
+
+    /// After prepare(): brings the sun to the time of day that a CIGI host has told; in steps at
+    /// once, else as soon as the ground's colours are made, beside other pictures. Returns the time
+    /// that pictures show from this one on, where it is another one.
+    std::optional<std::string> light(Session& session) const;
+
+    /// The same for a flight that is repeated: the time that light() gave.
+    static void light_as(Session& session, const std::string& time_of_day);
 
     const sim::links::LiveTraffic& traffic() const { return traffic_; }
 
     const LivePlace& place() const { return place_; }
 
 private:
+    visuals::scene::AirSettings air_of(const Session& session) const;
+
     /// Of a vehicle.
     struct Place {
         std::size_t aircraft = 0;
@@ -101,8 +111,8 @@ private:
     };
 
     std::optional<std::uint16_t> shown_view() const;
-    std::optional<visuals::scene::Camera>
-    camera_of_view(std::uint16_t number, std::span<const sim::AircraftState> states) const;
+    std::optional<visuals::scene::Camera> camera_of_view(
+        std::uint16_t number, std::span<const sim::AircraftState> states, double aspect) const;
     std::optional<std::string> frustum_line() const;
     std::size_t
     free_place(const sim::links::VehicleKey& key, std::optional<std::uint16_t> type) const;

@@ -49,7 +49,7 @@ double LiveInput::now_s() const {
     return std::floor(passed.count()) / per_second;
 }
 
-const std::vector<links::Datagram>& LiveInput::drain() {
+std::vector<links::Datagram>& LiveInput::drain() {
     packets_.clear();
     for (Port& port : ports_) {
         port.socket.drain(port.protocol, now_s(), packets_);

@@ -41,9 +41,9 @@ public:
     /// Seconds since the beginning, in whole microseconds.
     double now_s() const;
 
-    /// All packets that have come since the last call, valid until the next one. now_s() from then
-    /// on lies behind their arrivals.
-    const std::vector<sim::links::Datagram>& drain();
+    /// All packets that have come since the last call, to be moved from until the next one. now_s()
+    /// from then on lies behind their arrivals.
+    std::vector<sim::links::Datagram>& drain();
 
     /// Whether CIGI is listened to.
     bool has_cigi() const { return cigi_.has_value(); }

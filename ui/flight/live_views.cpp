@@ -15,10 +15,37 @@ namespace scene = visuals::scene;
 
 namespace {
 
-constexpr double usual_fov_rad = 0.785398163397448;
+/// Right and upper side of a usual picture's plane at distance 1.
+glm::dvec2 usual_half(double aspect) {
+    const double high = std::tan(0.5 * scene::Camera().vertical_fov_rad);
+    return {high * aspect, high};
+}
 
-double horizontal_fov_rad(double vertical_fov_rad, double aspect) {
-    return 2.0 * std::atan(std::tan(0.5 * vertical_fov_rad) * aspect);
+/// Gives a camera the frustum of a host's view; sides that the host has not told are the usual
+/// ones. Leaves it as it is where sides meet.
+void set_frustum(
+    const sim::links::CigiViewDefinition& told, double aspect, scene::Camera& camera) {
+    const glm::dvec2 half = usual_half(aspect);
+    const auto side = [](bool is_told, double angle_rad, double usual) {
+        return is_told ? std::tan(angle_rad) : usual;
+    };
+    const glm::dvec2 least(
+        side(told.sets.x, told.left_rad, -half.x), side(told.sets.w, told.bottom_rad, -half.y));
+    const glm::dvec2 most(
+        side(told.sets.y, told.right_rad, half.x), side(told.sets.z, told.top_rad, half.y));
+    const glm::dvec2 size = most - least;
+    constexpr double narrowest = 1e-3;
+    if (size.x < narrowest || size.y < narrowest) {
+        return;
+    }
+    camera.vertical_fov_rad = 2.0 * std::atan(0.5 * size.y);
+    camera.middle = 0.5 * (least + most);
+    camera.pixel_aspect = size.x / (size.y * aspect);
+}
+
+double width_rad(const scene::Camera& camera, double aspect) {
+    const double half = std::tan(0.5 * camera.vertical_fov_rad) * camera.pixel_aspect * aspect;
+    return 2.0 * std::atan(half);
 }
 
 } // namespace
@@ -28,12 +55,12 @@ scene::Camera LiveFlight::camera(
     std::span<const sim::AircraftState> states, const scene::Camera& usual, double aspect) const {
     const auto number = shown_view();
     scene::Camera camera =
-        (number ? camera_of_view(*number, states) : std::nullopt).value_or(usual);
+        (number ? camera_of_view(*number, states, aspect) : std::nullopt).value_or(usual);
     if (options_.channel != LiveChannel::Front) {
-        const double width_rad = horizontal_fov_rad(camera.vertical_fov_rad, aspect);
         const double side = options_.channel == LiveChannel::Left ? 1.0 : -1.0;
         camera.view_to_world =
-            camera.view_to_world * glm::angleAxis(side * width_rad, glm::dvec3(0.0, 1.0, 0.0));
+            camera.view_to_world *
+            glm::angleAxis(side * width_rad(camera, aspect), glm::dvec3(0.0, 1.0, 0.0));
     }
     return camera;
 }
@@ -42,11 +69,11 @@ scene::Camera LiveFlight::camera(
 scene::Camera LiveFlight::inset_camera(
     std::span<const sim::AircraftState> states,
     const scene::Camera& usual,
-    double /*aspect*/) const {
+    double aspect) const {
     const auto& views = traffic_.cigi().views();
     const auto number = shown_view();
     const auto next = number ? views.upper_bound(*number) : views.end();
-    return (next == views.end() ? std::nullopt : camera_of_view(next->first, states))
+    return (next == views.end() ? std::nullopt : camera_of_view(next->first, states, aspect))
         .value_or(usual);
 }
 
@@ -59,9 +86,9 @@ std::optional<std::uint16_t> LiveFlight::shown_view() const {
     return views.empty() ? std::nullopt : std::optional(views.begin()->first);
 }
 
-/// A view from its entity, turned and moved, with the middle of its frustum ahead.
-std::optional<scene::Camera>
-LiveFlight::camera_of_view(std::uint16_t number, std::span<const sim::AircraftState> states) const {
+/// A view from its entity, turned and moved, with its frustum.
+std::optional<scene::Camera> LiveFlight::camera_of_view(
+    std::uint16_t number, std::span<const sim::AircraftState> states, double aspect) const {
     const auto& views = traffic_.cigi().views();
     const auto& definitions = traffic_.cigi().definitions();
     const auto told = views.find(number);
@@ -71,18 +98,13 @@ LiveFlight::camera_of_view(std::uint16_t number, std::span<const sim::AircraftSt
     }
     const sim::links::CigiViewControl& view = told->second;
     const sim::AircraftState& state = states[*aircraft];
-    EulerAngles angles = view.angles;
     scene::Camera camera;
-    camera.vertical_fov_rad = usual_fov_rad;
     if (const auto defined = definitions.find(number); defined != definitions.end()) {
-        const sim::links::CigiViewDefinition& frustum = defined->second;
-        camera.vertical_fov_rad = frustum.top_rad - frustum.bottom_rad;
-        angles.heading_rad += 0.5 * (frustum.left_rad + frustum.right_rad);
-        angles.pitch_rad += 0.5 * (frustum.top_rad + frustum.bottom_rad);
+        set_frustum(defined->second, aspect, camera);
     }
     // Body axes of the view (ahead, right, down) within those of the entity, then those of OpenGL.
     const glm::dquat north_up = body_to_world_from_euler({});
-    const glm::dquat turned = glm::conjugate(north_up) * body_to_world_from_euler(angles);
+    const glm::dquat turned = glm::conjugate(north_up) * body_to_world_from_euler(view.angles);
     const glm::dquat view_to_world = state.body_to_world * turned;
     const glm::dmat3 body_from_gl(
         glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(-1.0, 0.0, 0.0));
@@ -91,7 +113,7 @@ LiveFlight::camera_of_view(std::uint16_t number, std::span<const sim::AircraftSt
     return camera;
 }
 
-/// Where the host wants another shape of the picture than it has: it is as high as he says.
+/// Where the host wants a picture of another shape, or of another kind, than this is.
 std::optional<std::string> LiveFlight::frustum_line() const {
     const auto number = shown_view();
     const auto& definitions = traffic_.cigi().definitions();
@@ -99,20 +121,22 @@ std::optional<std::string> LiveFlight::frustum_line() const {
     if (defined == definitions.end()) {
         return std::nullopt;
     }
-    const sim::links::CigiViewDefinition& frustum = defined->second;
-    const double high_rad = frustum.top_rad - frustum.bottom_rad;
-    const double wanted_rad = frustum.right_rad - frustum.left_rad;
-    const double wide_rad = horizontal_fov_rad(high_rad, aspect_);
+    if (defined->second.parallel) {
+        return fmt::format("CIGI: view {} is orthographic; it is shown in perspective", *number);
+    }
+    scene::Camera camera;
+    set_frustum(defined->second, aspect_, camera);
     constexpr double same = 0.02;
-    if (std::abs(wide_rad - wanted_rad) <= same * wanted_rad) {
+    if (std::abs(camera.pixel_aspect - 1.0) <= same) {
         return std::nullopt;
     }
     return fmt::format(
-        "CIGI: view {} is {:.1f} degrees wide and {:.1f} high; this picture is {:.1f} wide",
+        "CIGI: view {} has the shape {:.2f}:1, this picture {:.2f}:1; pixels are {:.2f} times as "
+        "wide as high",
         *number,
-        deg_from_rad(wanted_rad),
-        deg_from_rad(high_rad),
-        deg_from_rad(wide_rad));
+        camera.pixel_aspect * aspect_,
+        aspect_,
+        camera.pixel_aspect);
 }
 
 } // namespace octant::ui::flight

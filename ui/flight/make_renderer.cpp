@@ -1,9 +1,8 @@
 #include "ui/flight/make_renderer.h"
 
+#include "sim/base/worker_team.h"
 #include "visuals/gl/make_renderer.h"
 
-#include <algorithm>
-#include <thread>
 #include <utility>
 
 namespace octant::ui::flight {
@@ -32,8 +31,7 @@ std::unique_ptr<Renderer> make_gl_renderer(const settings::RunSettings& settings
 
 std::unique_ptr<raster::Renderer> make_raster_renderer(
     const settings::RunSettings& settings, std::shared_ptr<visuals::scene::WindowPicture> window) {
-    const auto cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
-    const int threads = settings.drawing.raster_threads.value_or(cores);
+    const int threads = settings.drawing.raster_threads.value_or(core_count());
     return std::make_unique<raster::Renderer>(
         std::make_shared<raster::Workers>(threads),
         settings.view.size_px,

@@ -3,6 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "sim/links/wire_bytes.h"
+#include "sim/sun_position.h"
 
 #include <charconv>
 #include <cmath>
@@ -22,7 +23,7 @@ namespace links = sim::links;
 
 namespace {
 
-enum class RecordKind : std::uint8_t { Packet = 1, Words = 2, Picture = 3 };
+enum class RecordKind : std::uint8_t { Packet = 1, Words = 2, Picture = 3, TimeOfDay = 4 };
 
 constexpr std::string_view magic = "octant packets 1 ";
 constexpr std::string_view none = "-";
@@ -104,6 +105,8 @@ private:
             return next_packet(frame);
         case RecordKind::Words:
             return next_words(frame);
+        case RecordKind::TimeOfDay:
+            return next_time_of_day(frame);
         case RecordKind::Picture: {
             const auto time_s = number<double>();
             if (time_s && !(*time_s > last_s_ && *time_s <= longest_s)) {
@@ -115,7 +118,7 @@ private:
             return complete_;
         }
         }
-        refuse(fmt::format("a record of kind 1, 2 or 3, got {}", *kind));
+        refuse(fmt::format("a record of kind 1 to 4, got {}", *kind));
     }
 
     bool next_packet(PacketFrame& frame) {
@@ -146,6 +149,19 @@ private:
         frame.has_words = true;
         for (const std::string_view line : split_lines(text_of(*bytes))) {
             frame.words.emplace_back(line);
+        }
+        return true;
+    }
+
+    bool next_time_of_day(PacketFrame& frame) {
+        const auto bytes = block();
+        if (!bytes) {
+            return false;
+        }
+        frame.time_of_day = text_of(*bytes);
+        if (!sim::solar_time_from_text(frame.time_of_day)) {
+            refuse(fmt::format(
+                "a time as YYYY-MM-DDTHH:MM, got '{}'", printable(frame.time_of_day)));
         }
         return true;
     }
@@ -220,6 +236,13 @@ LiveOptions options_of(const std::filesystem::path& file, std::string_view line)
         *shapes};
 }
 
+std::string text_record(RecordKind kind, std::string_view text) {
+    links::WireWriter record(links::ByteOrder::Big);
+    record.add(static_cast<std::uint8_t>(kind));
+    record.add(static_cast<std::uint32_t>(text.size()));
+    return fmt::format("{}{}", text_of(record.bytes()), text);
+}
+
 } // namespace
 
 PacketWriter::PacketWriter(const std::filesystem::path& folder, const LiveOptions& options)
@@ -241,12 +264,11 @@ void PacketWriter::add(const links::Datagram& packet) {
 }
 
 void PacketWriter::add_words(const std::vector<std::string>& words) {
-    const std::string text = fmt::format("{}", fmt::join(words, "\n"));
-    links::WireWriter record(links::ByteOrder::Big);
-    record.add(static_cast<std::uint8_t>(RecordKind::Words));
-    record.add(static_cast<std::uint32_t>(text.size()));
-    file_.append(text_of(record.bytes()));
-    file_.append(text);
+    file_.append(text_record(RecordKind::Words, fmt::format("{}", fmt::join(words, "\n"))));
+}
+
+void PacketWriter::add_time_of_day(const std::string& time_of_day) {
+    file_.append(text_record(RecordKind::TimeOfDay, time_of_day));
 }
 
 void PacketWriter::add_picture(double time_s) {

@@ -15,7 +15,8 @@ namespace octant::ui::flight {
 inline constexpr const char* packets_name = "packets.bin";
 
 /// Writes what a live flight was made of, as it comes: a line of text with the options, then
-/// records of packets, of lines written into pictures, and of pictures with their times. Numbers
+/// records of packets, of lines written into pictures, of times of day that the sun shows, and of
+/// pictures with their times. Numbers
 /// are big-endian.
 class PacketWriter {
 public:
@@ -24,6 +25,7 @@ public:
 
     void add(const sim::links::Datagram& packet);
     void add_words(const std::vector<std::string>& words);
+    void add_time_of_day(const std::string& time_of_day);
 
     /// The picture for which all that was added since the last one counts. Throws Error (disk
     /// full).
@@ -43,6 +45,7 @@ struct PacketFrame {
     std::vector<sim::links::Datagram> packets;
     bool has_words = false;
     std::vector<std::string> words;
+    std::string time_of_day; ///< that the sun shows from this picture on; empty = as before
 };
 
 /// A live recording, read again.

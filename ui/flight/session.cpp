@@ -160,14 +160,10 @@ report::FrameRecord Session::draw(int frame) {
     return record;
 }
 
-/// Whether a plan depends on those before it: triangles that are controlled by what earlier frames
-/// had, and meshes that are refined from frame to frame.
-bool Session::plans_have_memory() const {
+/// Whether the ground of a picture depends on the triangles that earlier ones had.
+bool Session::ground_has_memory() const {
     const scene::DetailControl control = settings_.ground.detail;
-    return (control != scene::DetailControl::Exact && control != scene::DetailControl::Fixed) ||
-           std::ranges::any_of(world_.scene.models, [](const auto& model) {
-               return model->progressive != nullptr;
-           });
+    return control != scene::DetailControl::Exact && control != scene::DetailControl::Fixed;
 }
 
 settings::FrameRange Session::begin_part(const settings::Part& part) {
@@ -175,8 +171,10 @@ settings::FrameRange Session::begin_part(const settings::Part& part) {
     times_.cut_to(static_cast<std::size_t>(range.end));
     for (int before = 0; before < range.first; ++before) {
         reach(times_.at_s[static_cast<std::size_t>(before)], before, now_);
-        if (plans_have_memory() || before + 1 == range.first) {
+        if (ground_has_memory() || before + 1 == range.first) {
             last_triangles_ = make_plans(nullptr).ground.triangles;
+        } else {
+            pass_over_plans();
         }
     }
     since_first_frame_ = base::Stopwatch();
@@ -187,15 +185,27 @@ report::FrameRecord Session::draw_at(double time_s, std::optional<double> next_s
     return picture_of(drawn_++, time_s, next_s);
 }
 
+planning::PlanRequest Session::plan_request(std::function<void()> when_refined) const {
+    return {
+        .camera = now_.camera,
+        .states = now_.states,
+        .triangle_target = now_.triangle_target,
+        .smooth = {.polygons = smooth_target_, .share = std::nullopt},
+        .when_refined = std::move(when_refined),
+        .words = words_,
+        .turned = now_.turned};
+}
+
+/// Brings the planners to where they would be after the picture of now_.
+void Session::pass_over_plans() {
+    planner_->pass_over(plan_request(nullptr));
+    if (inset_) {
+        inset_->pass_over(now_.inset_camera, now_.states, now_.turned);
+    }
+}
+
 planning::PlanCounts Session::make_plans(std::function<void()> when_refined) {
-    const planning::PlannedFrame frame = planner_->plan(
-        {.camera = now_.camera,
-         .states = now_.states,
-         .triangle_target = now_.triangle_target,
-         .smooth = {.polygons = smooth_target_, .share = std::nullopt},
-         .when_refined = std::move(when_refined),
-         .words = words_,
-         .turned = now_.turned});
+    const planning::PlannedFrame frame = planner_->plan(plan_request(std::move(when_refined)));
     plan_ = ids_ ? &ids_->of(frame.plan) : &frame.plan;
     std::optional<double> share; // of the picture's polygons, and so of the inset's
     if (smooth_target_ && frame.counts.may_be_smooth > 0) {
@@ -247,8 +257,11 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     draw_plans();
     renderer_->finish();
     record.draw_ms = stage.lap_ms();
-    picture_is_read_ = !presenter_;
+    picture_is_read_ = !presenter_ || reads_first_;
     if (presenter_) {
+        if (reads_first_) {
+            renderer_->finish_and_copy(picture_);
+        }
         presenter_(*renderer_);
     } else {
         renderer_->finish_and_read(picture_);

@@ -19,6 +19,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <span>
@@ -31,8 +32,8 @@ namespace octant::ui::flight {
 /// What the pictures of a session show.
 enum class Shows {
     World,
-    PolygonNumbers ///< visuals::planning::IdPlan: which polygon or triangle of ground each pixel
-                   ///< belongs to
+    /// Which polygon or triangle of the ground each pixel belongs to (visuals::planning::IdPlan).
+    PolygonNumbers
 };
 
 /// The conductor of a run: takes each frame from simulation through plan and picture to its record.
@@ -96,15 +97,29 @@ public:
     /// The next pictures may be drawn straight into a window of that size.
     void aim_at_window(const glm::ivec2& window_px) { renderer_->aim_at_window(window_px); }
 
+    /// Whether pictures are read before they are shown, as whoever records each of them wants. A
+    /// driver must not draw them straight into the window then.
+    void read_before_shown(bool wanted) { reads_first_ = wanted; }
+
     /// Changes what the next frames show. Loads what has to be loaded anew; the flight then starts
     /// again where its aircraft, path or ground are others. Throws Error and leaves everything as
     /// it was; any other exception leaves a session that cannot go on.
     void apply(const settings::RunSettings& settings);
 
+    /// Puts the sun where the settings' time or angles say: the ground's other colours are made
+    /// beside the pictures to come. One at a time (asserted).
+    void relight_beside(const settings::RunSettings& settings);
+
+    bool is_relighting() const { return relit_.valid(); }
+
+    /// Shows what relight_beside() made, if it is ready; returns whether it was. apply() gives up
+    /// what is not shown yet where it loads or plans anything anew. Throws what that work threw.
+    bool take_light();
+
     /// Before the first draw(): draws only this part of the frames, as if those before it had been
-    /// drawn. They are planned where later pictures depend on that, and the last of them in any
-    /// case. Returns the part's frames; frames() then ends with it. Throws Error where there are
-    /// fewer frames than parts.
+    /// drawn. What later pictures depend on is planned of them, and the last one whole. Returns the
+    /// part's frames; frames() then ends with it. Throws Error where there are fewer frames than
+    /// parts.
     settings::FrameRange begin_part(const settings::Part& part);
 
     /// To be changed between frames. Begin at another time by begin_at().
@@ -170,13 +185,17 @@ private:
     void reach(double time_s, int frame, Moment& moment);
     visuals::scene::Camera camera_of(const settings::RunSettings& settings) const;
     void mesh_ahead();
-    bool plans_have_memory() const;
+    bool ground_has_memory() const;
+    visuals::planning::PlanRequest plan_request(std::function<void()> when_refined) const;
+    void pass_over_plans();
     visuals::planning::PlanCounts make_plans(std::function<void()> when_refined);
     void draw_plans();
     void fill_in(const visuals::planning::PlanCounts& counts, report::FrameRecord& record);
     void change_world(const settings::RunSettings& settings);
     void change_picture(const settings::RunSettings& settings);
+    void change_light(const settings::RunSettings& settings, world::SceneGround ground);
     world::SceneGround ground_for(const settings::RunSettings& settings) const;
+    void put_ground(world::SceneGround ground);
     void wait_for_meshes();
     void make_renderer_ready(
         const visuals::scene::ViewSettings& view, const visuals::scene::GroundTexture* texture);
@@ -204,6 +223,7 @@ private:
     std::vector<std::string> words_;
     visuals::scene::Picture picture_;
     bool picture_is_read_ = false; ///< picture_ is the last one
+    bool reads_first_ = false;     ///< where there is a presenter
     int last_triangles_ = 0;
     Decider decider_;
     std::optional<int> smooth_target_; ///< of the last picture; nothing: by the settings' share
@@ -211,6 +231,8 @@ private:
     Hash picture_hash_;
     report::KernelCounters counters_;
     base::Stopwatch since_first_frame_;
+    visuals::scene::AirSettings next_air_; ///< of relit_
+    std::future<world::SceneGround> relit_; ///< last: its work looks at the scene
 };
 
 } // namespace octant::ui::flight

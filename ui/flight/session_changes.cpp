@@ -7,6 +7,9 @@
 #include "visuals/landscape/ground.h"
 
 #include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <future>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -23,7 +26,12 @@ namespace scene = visuals::scene;
 void Session::apply(const settings::RunSettings& wanted) {
     const settings::RunSettings settings =
         world::with_sun_followed(wanted, settings_, world_.ground_place);
-    switch (settings::change_between(settings_, settings)) {
+    const settings::SettingsChange change = settings::change_between(settings_, settings);
+    if (change > settings::SettingsChange::Look && relit_.valid()) {
+        relit_.wait();
+        relit_ = {};
+    }
+    switch (change) {
     case settings::SettingsChange::None:
         break;
     case settings::SettingsChange::Recording:
@@ -35,6 +43,12 @@ void Session::apply(const settings::RunSettings& wanted) {
             world_.points = world::fixed_points(settings, world_);
         }
         settings_ = settings;
+        if (inset_) {
+            inset_->look(settings);
+        }
+        break;
+    case settings::SettingsChange::Light:
+        change_light(settings, ground_for(settings));
         break;
     case settings::SettingsChange::Picture:
         change_picture(settings);
@@ -133,17 +147,64 @@ void Session::change_picture(const settings::RunSettings& settings) {
     plan_ = nullptr;
     settings_ = settings;
     world_.points = points;
-    world_.scene.ground = std::move(ground.ground);
-    if (ground.texture) { // none comes with ground that was kept, which keeps its own
-        world_.scene.ground_texture = std::move(ground.texture);
-        drop_texels();
-    }
+    put_ground(std::move(ground));
     follow_ground(other_control);
     follow_inset();
     if (next_is_reached_) {
         look(next_);
     }
     decider_.begin(settings_, rate_hz());
+}
+
+/// Ground for the scene, with its texture, which the renderer has.
+void Session::put_ground(world::SceneGround ground) {
+    world_.scene.ground = std::move(ground.ground);
+    if (ground.texture) { // none comes with ground that was kept, which keeps its own
+        world_.scene.ground_texture = std::move(ground.texture);
+        drop_texels();
+    }
+}
+
+void Session::change_light(const settings::RunSettings& settings, world::SceneGround ground) {
+    wait_for_meshes();
+    if (ground.texture) {
+        renderer_->load_ground_texture(*ground.texture);
+    }
+    plan_ = nullptr;
+    settings_ = settings;
+    put_ground(std::move(ground));
+    if (!planner_->relight()) {
+        planner_->settle(now_.camera);
+    }
+    if (inset_) {
+        inset_->relight(settings_);
+    }
+}
+
+void Session::relight_beside(const settings::RunSettings& wanted) {
+    assert(!relit_.valid());
+    settings::RunSettings settings =
+        world::with_sun_followed(wanted, settings_, world_.ground_place);
+    assert(settings::change_between(settings_, settings) <= settings::SettingsChange::Light);
+    next_air_ = settings.air;
+    relit_ = std::async(std::launch::async, [this, settings = std::move(settings)] {
+        world::SceneGround ground = ground_for(settings);
+        if (settings.air.sky) {
+            ground.ground->surroundings();
+        }
+        return ground;
+    });
+}
+
+bool Session::take_light() {
+    if (!relit_.valid() || relit_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+        return false;
+    }
+    settings::RunSettings settings = settings_;
+    settings.air = next_air_;
+    settings.air.visibility_m = settings_.air.visibility_m;
+    change_light(settings, relit_.get());
+    return true;
 }
 
 /// Plans by the settings and over the ground that the session has now. The detail of the ground

@@ -12,8 +12,9 @@ struct StressSettings {
     double share_ms = 1000.0 / 60.0; ///< a frame's time, above zero
     int lowest = 1000;               ///< triangles; at least 1
     int highest = 100000;            ///< triangles; at least `lowest`
-    double least_stress = 0.75;      ///< the budget is left alone from here
-    double most_stress = 0.90;       ///< to here
+    /// The budget is left alone while the stress is between these.
+    double least_stress = 0.75;
+    double most_stress = 0.90;
     /// A longer frame counts as no more than this, so that one slow frame cannot push the filtered
     /// stress from the middle of the band over its edge; above `most_stress`.
     double most_counted_stress = 2.0;

@@ -143,7 +143,10 @@ Plot stress_plot(const Curve& stress) {
 } // namespace
 
 double plot_ceiling_ms(const Statistics& statistics) {
-    return 1.05 * std::max(18.0, std::min(statistics.max_ms, 2.5 * statistics.p99_ms));
+    constexpr double room_for_level_ms = 18.0; // for the line of 16.67 ms
+    const double needed_ms = std::min(statistics.max_ms, 2.5 * statistics.p99_ms);
+    const bool is_far_below = needed_ms > 0.0 && needed_ms < room_for_level_ms / 4.0;
+    return 1.05 * (is_far_below ? needed_ms : std::max(room_for_level_ms, needed_ms));
 }
 
 std::vector<Plot> flight_plots(const FlightDigest& flight, double ceiling_ms) {

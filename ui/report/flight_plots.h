@@ -8,9 +8,10 @@
 
 namespace octant::ui::report {
 
-/// Top of a flight's frame-time plots: above 16.67 ms and above its longest counted frame, but no
-/// more than 2.5 times P99, so that one stray frame does not flatten the rest (its curve leaves the
-/// plot). Plots of several flights take the greatest, so that they compare by eye.
+/// Top of a flight's frame-time plots: above its longest counted frame, but no more than 2.5 times
+/// P99, so that one stray frame does not flatten the rest (its curve leaves the plot); above
+/// 16.67 ms, too, unless that is so far off that the curve would lie flat on the axis. Plots of
+/// several flights take the greatest, so that they compare by eye.
 double plot_ceiling_ms(const Statistics& statistics);
 
 /// The plots of a flight: frame time (warm-up apart), histogram, stages, terrain triangles, their

@@ -33,9 +33,10 @@ struct FrameRecord {
     int draw_cell = 0;         ///< cell of the first aircraft's draw order
     double resolution_c = 0.0; ///< C of the terrain in this frame
     int triangle_change = 0;   ///< terrain triangles minus those of the frame before
-    double stress = 0.0; ///< frame_ms over the frame's share of simulated time; filtered where
-                         ///< the ground adapts, then not finite while warming up
-    int overrun = 0;     ///< 1 when frame_ms is above 16.67
+    /// frame_ms over the frame's share of simulated time; filtered where the ground adapts, then
+    /// not finite while warming up.
+    double stress = 0.0;
+    int overrun = 0; ///< 1 when frame_ms is above 16.67
     int draw_calls = 0;
     int shadow_triangles = 0;
     int cuts = 0;      ///< ground triangles and aircraft polygons painted again, cut by planes

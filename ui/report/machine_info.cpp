@@ -1,6 +1,7 @@
 #include "ui/report/machine_info.h"
 
 #include "sim/base/text_file.h"
+#include "sim/base/worker_team.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,7 +11,6 @@
 #include <string_view>
 #include <sys/resource.h>
 #include <sys/utsname.h>
-#include <thread>
 #include <unistd.h>
 
 namespace octant::ui::report {
@@ -99,7 +99,7 @@ MachineInfo
 read_machine_info(std::chrono::system_clock::time_point start, const std::filesystem::path& root) {
     MachineInfo info;
     info.cpu = or_unknown(value_of(text_of(root / "proc/cpuinfo"), "model name", ':'));
-    info.cores = static_cast<int>(std::thread::hardware_concurrency());
+    info.cores = core_count();
     const std::string memory = value_of(text_of(root / "proc/meminfo"), "MemTotal", ':');
     info.memory_kb = count_from(memory.substr(0, memory.find(' ')));
     info.os = or_unknown(value_of(text_of(root / "etc/os-release"), "PRETTY_NAME", '='));

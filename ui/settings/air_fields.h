@@ -17,7 +17,7 @@ inline constexpr std::tuple air_rows{
          "distance at which haze leaves 1/e of a colour; 0 = no haze",
          0.0,
          1e7},
-        {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
+        {.group = SettingGroup::Air, .change = SettingsChange::Look}),
     setting<&RunSettings::air, &visuals::scene::AirSettings::haze_height_m>(
         {"haze-height",
          "METRES",
@@ -37,13 +37,13 @@ inline constexpr std::tuple air_rows{
          "YYYY-MM-DDTHH:MM",
          "date and the sun's own time, in place of the sun's angles: where it stands at the map's "
          "latitude, or at 45 degrees north without a place"},
-        {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
+        {.group = SettingGroup::Air, .change = SettingsChange::Light}),
     setting<&RunSettings::air, &visuals::scene::AirSettings::sun_azimuth_deg>(
         {"sun-azimuth", "DEGREES", "sun, clockwise from north", -360.0, 360.0},
-        {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
+        {.group = SettingGroup::Air, .change = SettingsChange::Light}),
     setting<&RunSettings::air, &visuals::scene::AirSettings::sun_elevation_deg>(
         {"sun-elevation", "DEGREES", "sun above the horizon", 0.0, 90.0},
-        {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
+        {.group = SettingGroup::Air, .change = SettingsChange::Light}),
     setting<&RunSettings::air, &visuals::scene::AirSettings::relief_shadows>(
         {"relief-shadows", "", "shadows of the ground on itself, and less light in its hollows"},
         {.group = SettingGroup::Air, .change = SettingsChange::Picture}),

@@ -18,7 +18,10 @@ inline constexpr std::tuple path_rows{
     setting<&RunSettings::path, &PathSettings::name>(
         {"path",
          "NAME|FILE",
-         listing<"path: ", base::built_in_paths, ", a .toml, a recorded .csv or a Tacview tape (.acmi)">},
+         listing<
+             "path: ",
+             base::built_in_paths,
+             ", a .toml, a recorded .csv or a Tacview tape (.acmi)">},
         {.group = SettingGroup::Path,
          .change = SettingsChange::Flight,
          .known = base::built_in_paths}),
@@ -30,7 +33,8 @@ inline constexpr std::tuple path_rows{
              base::built_in_models,
              ", an OBJ file of up to 50,000 polygons (2,000 where nearly all are triangles), or a "
              "mesh (.obj, .ply, .stl, .glb, .ac, .wrl, .pm, .chain, FlightGear's .xml and what "
-             "--version lists); repeat for wingmen, or =PATH for one with a path of its own, from N s "
+             "--version lists); repeat for wingmen, or =PATH for one with a path of its own, from "
+             "N s "
              "on, such as 500md=turn@10s">},
         {.group = SettingGroup::Path,
          .change = SettingsChange::Flight,
@@ -62,6 +66,12 @@ inline constexpr std::tuple path_rows{
          1e-6,
          1e4},
         {.group = SettingGroup::Path, .change = SettingsChange::Flight, .start = 1.0}),
+    setting<&RunSettings::path, &PathSettings::terrain_system>(
+        {"terrain-system",
+         "SYSTEM",
+         "coordinate system of terrain files that name none, such as EPSG:4326, a PROJ string or a "
+         ".prj file [metres]"},
+        {.group = SettingGroup::Path, .change = SettingsChange::Flight}),
     setting<&RunSettings::path, &PathSettings::place>(
         {"place",
          "X,Y|LAT,LON",

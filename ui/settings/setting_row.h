@@ -30,8 +30,10 @@ enum class SettingsChange {
     None,
     /// What a recording and a run without a window go by: the pictures stay as they are.
     Recording,
-    /// Only the eye point or the direction of view moves.
+    /// Only the eye point or the direction of view moves, or how far one sees.
     Look,
+    /// The sun stands elsewhere: the ground has other colours.
+    Light,
     /// Frames are planned and drawn in another way from now on.
     Picture,
     /// Aircraft, path and ground are loaded again, and the flight goes on.

@@ -30,6 +30,8 @@ struct PathSettings {
     double terrain_spacing_m = 30.0;
     /// Metres a unit of heights, of terrain files that name none; 1 if not set.
     std::optional<double> terrain_height_scale;
+    /// The coordinate system of terrain files that name none; metres if not set.
+    std::optional<std::string> terrain_system;
     /// Where the path's origin lies, as "X,Y" in metres or "LAT,LON" in degrees; without it the
     /// centre of the map.
     std::optional<std::string> place;

@@ -99,7 +99,9 @@ parallel_script(const Sweep& sweep, const SweepFolder& folder, const EngineOptio
     if (!options.hosts.empty()) {
         text += " --sshloginfile " + shell_word(options.hosts.string());
     }
-    text += " --arg-file todo.txt " + shell_word(fly_command(options, "{}")) + "\n";
+    // In place of its shell: one that dies of the signal at once would make GNU parallel kill the
+    // flight at once, too.
+    text += " --arg-file todo.txt " + shell_word("exec " + fly_command(options, "{}")) + "\n";
     return text;
 }
 

@@ -1,9 +1,9 @@
 #include "sim/base/error.h"
+#include "sim/base/worker_team.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
 #include "ui/sweep/engine.h"
 
-#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstring>
@@ -53,7 +53,7 @@ public:
         : sweep_(sweep)
         , folder_(folder)
         , options_(std::move(options)) {
-        const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+        const int cores = core_count();
         if (options_.jobs == 0) {
             options_.jobs = options_.share_cores ? cores : 1;
         }

@@ -58,6 +58,7 @@ private:
         const;
     settings::RunSettings shared_settings() const;
     int repeats() const;
+    std::string name() const;
 
     fs::path file_;
     toml::table root_;
@@ -244,6 +245,18 @@ int Reader::repeats() const {
     return static_cast<int>(*repeats);
 }
 
+std::string Reader::name() const {
+    const toml::node* const node = root_.get("name");
+    if (node == nullptr) {
+        return file_.stem().string();
+    }
+    const auto name = node->value_exact<std::string>();
+    if (!name || name->empty()) {
+        refuse(*node, "name: expected a text of one letter or more, got another value");
+    }
+    return *name;
+}
+
 Sweep Reader::sweep() const {
     constexpr std::array<std::string_view, 4> keys{"name", "repeats", "settings", "vary"};
     for (const auto& [key, node] : root_) {
@@ -256,7 +269,7 @@ Sweep Reader::sweep() const {
         }
     }
     Sweep sweep;
-    sweep.name = label_of({root_["name"].value_or(file_.stem().string())});
+    sweep.name = label_of({name()});
     const std::vector<Axis> varied = axes();
     std::size_t count = static_cast<std::size_t>(repeats());
     for (const Axis& axis : varied) {

@@ -65,8 +65,10 @@ bool is_sweeps(const fs::path& folder) {
     if (!fs::is_regular_file(list, code)) {
         return std::ranges::all_of(fs::directory_iterator(folder, code), [&](const auto& entry) {
             const std::string name = entry.path().filename().string();
-            return name == "jobs" || ((name == "runs" || name == "logs") && entry.is_directory() &&
-                                      fs::is_empty(entry.path(), code));
+            const bool has_jobs = name == "jobs" && entry.is_directory() &&
+                                  std::ranges::all_of(fs::directory_iterator(entry, code), is_job);
+            return has_jobs || ((name == "runs" || name == "logs") && entry.is_directory() &&
+                                fs::is_empty(entry.path(), code));
         });
     }
     const std::string text = read_file(list);

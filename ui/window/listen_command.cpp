@@ -42,6 +42,7 @@ void listen_in_window(ListenWork work) {
     work.view.listener = work.listen.listener;
     work.view.send = work.listen.send;
     work.view.record = work.listen.record.folder;
+    work.view.quiet = work.listen.quiet;
     Viewer viewer(work.view);
     const base::StopSignals stop_signals;
     int frames = 0;
@@ -126,8 +127,11 @@ commands::Command listen_command() {
                   "  octant listen --terrain map.tif --view cockpit --delay 0.1\n"
                   "  octant listen --headless --seconds 60 --record my-flight --video flight.mp4\n"
                   "  my-script | octant listen --from - --headless --step --record steps\n"
-                  "JSBSim: <output name=\"localhost\" type=\"FLIGHTGEAR\" port=\"5550\" "
+                  "JSBSim: JSBSim --script=... --realtime --logdirectivefile=FILE, in FILE:\n"
+                  "  <output name=\"127.0.0.1\" type=\"FLIGHTGEAR\" port=\"5550\" "
                   "protocol=\"UDP\" rate=\"60\"/>\n"
+                  "ArduPilot: sim_vehicle.py -v ArduPlane\n"
+                  "FlightGear: fgfs --native-fdm=socket,out,60,127.0.0.1,5550,udp\n"
                   "Ctrl-C ends it; a recording is then completed.",
         .run = [work] { listen(*work); }};
 }

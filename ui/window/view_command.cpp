@@ -1,6 +1,7 @@
 #include "ui/window/view_command.h"
 
 #include "sim/base/error.h"
+#include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
 #include "ui/commands/read_option.h"
@@ -33,6 +34,18 @@ fs::path configuration_folder() {
 }
 
 namespace {
+
+base::Figures figures_of(const WindowTimes& times) {
+    return {{"median_ms", times.median_ms}, {"p99_ms", times.p99_ms}};
+}
+
+void print_bench_as_json(const WindowBench& bench) {
+    base::print_figures(
+        {{"without_window", figures_of(bench.without)},
+         {"panels_hidden", figures_of(bench.hidden)},
+         {"panels_open", figures_of(bench.open)}},
+        true);
+}
 
 void print_bench(const WindowBench& bench) {
     const auto line = [](std::string_view name, const WindowTimes& times, const std::string& rest) {
@@ -73,6 +86,7 @@ void view(const ViewOptions& options, bool quiet) {
 struct ViewWork {
     ViewOptions view;
     std::optional<int> bench; ///< frames to time instead of a flight to see
+    bool json = false;
     bool quiet = false;
 };
 
@@ -81,10 +95,14 @@ void view_or_bench(ViewWork work) {
         throw Error(
             "path: expected a path or a track, got 'live', which others fly: octant listen");
     }
+    if (work.json && !work.bench) {
+        throw Error("--json: expected --bench beside it, as a window prints no figures, got none");
+    }
     work.view.keeps_into = configuration_folder();
     work.view.settings = world::with_absolute_files(work.view.settings);
     if (work.bench) {
-        print_bench(bench_window(work.view, *work.bench, work.quiet));
+        const WindowBench bench = bench_window(work.view, *work.bench, work.quiet);
+        work.json ? print_bench_as_json(bench) : print_bench(bench);
     } else {
         view(work.view, work.quiet);
     }
@@ -123,6 +141,7 @@ std::vector<commands::Option> options_of(ViewWork& work) {
             "send each picture's aircraft to another program, as octant fly --send",
             Takes::OneWordAgain,
             view.send),
+        flag("--json", "the times of --bench as JSON", work.json),
         flag("--quiet", "no notes", work.quiet)};
     add_setting_options(table, view.settings);
     return table;

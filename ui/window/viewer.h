@@ -49,6 +49,8 @@ struct ViewOptions {
     std::filesystem::path keeps_into;
     /// Others fly, by packets.
     std::optional<flight::ListenerOptions> listener;
+    /// Does not say on standard error what comes from them.
+    bool quiet = true;
     /// To whom pictures' aircraft are sent, as flight::Sender has it.
     std::vector<std::string> send;
 };

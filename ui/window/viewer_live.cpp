@@ -1,4 +1,5 @@
 #include "sim/base/error.h"
+#include "ui/base/progress.h"
 #include "ui/window/viewer.h"
 
 // A viewer whose aircraft others fly.
@@ -30,8 +31,13 @@ double Viewer::take_packets() {
 /// Shows what has come up to now.
 void Viewer::draw_live() {
     const double time_s = take_packets();
+    for (const std::string& line : listener_->take_news()) {
+        base::say(options_.quiet, line);
+    }
     state_.wanted.air = session_->settings().air; // a host may have told another
-    session_->aim_at_window(input_->size_px());
+    const bool records = live_recorder_.has_value();
+    session_->read_before_shown(records);
+    session_->aim_at_window(records && !painter_ ? glm::ivec2(0) : input_->size_px());
     report::FrameRecord record = session_->draw_at(time_s, std::nullopt);
     listener_->finish_picture(record);
     const double now_s = clock_.s();

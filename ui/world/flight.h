@@ -20,8 +20,9 @@ struct Flight {
     glm::dvec2 place_m{0.0};  ///< where the path's origin lies
     double heading_rad = 0.0; ///< how far the path was turned, clockwise
     double offset_m = 0.0;    ///< how far it was lifted
+    /// The least height above the ground, and when it is flown at.
     double lowest_clearance_m = 0.0;
-    double lowest_clearance_s = 0.0; ///< when
+    double lowest_clearance_s = 0.0;
     std::vector<flightpaths::LegBegin> legs;
     /// Of aircraft that fly a path of their own, by their numbers and by the first one's clock, in
     /// world axes; before its start and after its end such an aircraft is not there.

@@ -23,8 +23,8 @@ private:
     int abreast_;    ///< aircraft in a line, the leader's place among them
     int lines_;      ///< one above the other, in each layer
     int ranks_;      ///< wingmen to one side of a line's middle
-    double aside_m_; ///< for each rank
-    double back_m_;  ///< for each rank
+    double aside_m_; ///< how far a rank stands beside the one before
+    double back_m_;  ///< how far a rank stands behind the one before
 };
 
 } // namespace octant::ui::world

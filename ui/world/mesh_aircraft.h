@@ -16,13 +16,18 @@ namespace octant::ui::world {
 /// An aircraft that comes as a mesh, in body axes: either levels of detail or a hierarchy, and
 /// polygons for far away.
 struct MeshAircraft {
-    std::vector<models::meshfile::ChainLevel> levels; ///< finest first; none with a hierarchy
-    std::shared_ptr<const visuals::refine::ProgressiveMesh> hierarchy; ///< null with levels
+    /// Levels of detail, the finest first; none where there is a hierarchy.
+    std::vector<models::meshfile::ChainLevel> levels;
+    /// Null where there are levels.
+    std::shared_ptr<const visuals::refine::ProgressiveMesh> hierarchy;
     /// What turns beside the hierarchy; its pivots are those of the polygons.
     std::vector<models::meshfile::TurningPart> turning;
-    models::meshfile::ClearSurfaces clear; ///< beside the hierarchy; often none
+    /// Surfaces that are seen through, which the hierarchy leaves out; often none.
+    models::meshfile::ClearSurfaces clear;
+    /// What is drawn of it far away.
     models::polygons::PolygonModel polygons;
-    double polygons_error_m = 0.0; ///< certified
+    /// No point of the polygons is farther than this from the mesh, nor of the mesh from them.
+    double polygons_error_m = 0.0;
     std::vector<std::string> notes;
 };
 

@@ -3,19 +3,26 @@
 #include "sim/base/error.h"
 #include "sim/base/file_status.h"
 #include "sim/base/hash.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "visuals/ordercache/bytes.h"
 #include "visuals/refine/progressive_file.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace octant::ui::world {
 
 namespace fs = std::filesystem;
+namespace ordercache = visuals::ordercache;
 namespace refine = visuals::refine;
 
 namespace {
@@ -43,21 +50,63 @@ std::uint64_t hash_of(const models::TriangleMesh& mesh, std::uint64_t seed) {
     return hash.value();
 }
 
-/// Nothing, and a note where there is a file, when it cannot be used.
-std::shared_ptr<const refine::ProgressiveMesh>
-kept_mesh(const fs::path& file, std::vector<std::string>& notes) {
+/// The file beside a hierarchy that tells what was repaired before it was made.
+fs::path repairs_file(fs::path file) {
+    return file.replace_extension(".repairs");
+}
+
+std::uint64_t checksum_of(std::string_view bytes) {
+    Hash hash;
+    hash.add(std::as_bytes(std::span(bytes)));
+    return hash.value();
+}
+
+void write_repairs(const fs::path& file, const std::vector<std::string>& repairs) {
+    ordercache::ByteWriter out;
+    out.number(std::uint64_t{repairs.size()});
+    for (const std::string& line : repairs) {
+        out.text(line);
+    }
+    out.number(checksum_of(out.bytes()));
+    write_file(file, out.bytes());
+}
+
+/// Throws Error.
+std::vector<std::string> read_repairs(const fs::path& file) {
+    constexpr std::size_t most_bytes = std::size_t{1} << 16U;
+    const std::string bytes = read_file(file, most_bytes);
+    try {
+        ordercache::ByteReader in(bytes);
+        std::vector<std::string> repairs(in.count(sizeof(std::uint64_t)));
+        for (std::string& line : repairs) {
+            line = in.text();
+        }
+        const std::string_view summed(bytes.data(), bytes.size() - in.bytes_left());
+        if (in.number<std::uint64_t>() != checksum_of(summed) || in.bytes_left() > 0) {
+            throw Error("expected the bytes of its checksum, got others");
+        }
+        return repairs;
+    } catch (const Error& fault) {
+        error_in(file, fault.what());
+    }
+}
+
+/// Without its notes. Nothing, and a note where there is a file, when it cannot be used.
+std::optional<RefineMesh> kept_mesh(const fs::path& file, std::vector<std::string>& notes) {
     if (!is_there(file)) {
-        return nullptr;
+        return std::nullopt;
     }
     try {
-        auto mesh = std::make_shared<const refine::ProgressiveMesh>(refine::read_progressive(file));
-        if (!mesh->parts().notes.empty()) {
+        RefineMesh kept;
+        kept.mesh = std::make_shared<const refine::ProgressiveMesh>(refine::read_progressive(file));
+        if (!kept.mesh->parts().notes.empty()) {
             error_in(file, "expected a whole file, got one that was cut off");
         }
-        return mesh;
+        kept.repairs = read_repairs(repairs_file(file));
+        return kept;
     } catch (const Error& fault) {
         notes.push_back(fmt::format("order cache {}: made anew", fault.what()));
-        return nullptr;
+        return std::nullopt;
     }
 }
 
@@ -72,10 +121,13 @@ prepared_refine_mesh(const fs::path& folder, const RefineInput& input, models::T
     const fs::path file = prepared_file(folder, mesh);
     std::vector<std::string> notes;
     if (auto kept = kept_mesh(file, notes)) {
-        return {std::move(kept), std::move(mesh.notes)};
+        kept->notes = std::move(mesh.notes);
+        note_repairs(input, *kept);
+        return std::move(*kept);
     }
     RefineMesh made = made_refine_mesh(input, std::move(mesh));
     try {
+        write_repairs(repairs_file(file), made.repairs); // first: a hierarchy never lacks them
         refine::write_progressive(file, *made.mesh);
     } catch (const Error& fault) {
         notes.push_back(fmt::format("order cache {}: not kept", fault.what()));

@@ -8,8 +8,8 @@
 namespace octant::ui::world {
 
 /// Raised whenever made_refine_mesh() gives any mesh another hierarchy, or a .pm file another
-/// layout: what was kept before is then made anew.
-inline constexpr unsigned prepared_version = 1;
+/// layout, or files beside it: what was kept before is then made anew.
+inline constexpr unsigned prepared_version = 2;
 
 /// The file of a folder in which the hierarchy of a mesh is kept, named by two hashes of all that
 /// decides it: places, triangles, colours and materials.
@@ -17,8 +17,9 @@ std::filesystem::path
 prepared_file(const std::filesystem::path& folder, const models::TriangleMesh& mesh);
 
 /// made_refine_mesh(), read from the folder where the same mesh was made ready before, else made
-/// and kept there. The hierarchy is the same, bit for bit. A file that is damaged or cut off is
-/// made anew and replaced, with a note. Processes may share a folder: files appear whole.
+/// and kept there. The hierarchy is the same, bit for bit, and so are the notes of what was
+/// repaired in the mesh. A file that is damaged or cut off is made anew and replaced, with a note.
+/// Processes may share a folder: files appear whole.
 RefineMesh prepared_refine_mesh(
     const std::filesystem::path& folder, const RefineInput& input, models::TriangleMesh mesh);
 

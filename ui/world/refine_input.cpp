@@ -54,13 +54,18 @@ void refuse_too_many(const std::string& file, const models::TriangleMesh& mesh) 
 
 } // namespace
 
+void note_repairs(const RefineInput& input, RefineMesh& mesh) {
+    for (const std::string& line : mesh.repairs) {
+        mesh.notes.push_back(input.file + ": " + line);
+    }
+}
+
 RefineMesh made_refine_mesh(const RefineInput& input, models::TriangleMesh mesh) {
     models::repair::RepairedMesh repaired = models::repair::repaired(std::move(mesh));
     RefineMesh result;
     result.notes = repaired.mesh.notes;
-    for (const std::string& line : models::repair::in_words(repaired.counts)) {
-        result.notes.push_back(input.file + ": " + line);
-    }
+    result.repairs = models::repair::in_words(repaired.counts);
+    note_repairs(input, result);
     if (repaired.mesh.triangles.empty()) {
         error_in(input.file, "expected a mesh with triangles, got none");
     }

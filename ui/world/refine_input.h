@@ -22,10 +22,15 @@ struct RefineInput {
 struct RefineMesh {
     std::shared_ptr<const visuals::refine::ProgressiveMesh> mesh;
     std::vector<std::string> notes;
+    /// What repair has changed, in words; in the notes, too, behind the name of the file.
+    std::vector<std::string> repairs;
 };
 
 /// Reads, or makes by repair and simplification, a hierarchy. Throws Error.
 RefineMesh read_refine_mesh(const RefineInput& input);
+
+/// Adds its repairs to the notes of a mesh.
+void note_repairs(const RefineInput& input, RefineMesh& mesh);
 
 /// Makes a hierarchy of a mesh that has been read from the input's file. Throws Error.
 RefineMesh made_refine_mesh(const RefineInput& input, models::TriangleMesh mesh);

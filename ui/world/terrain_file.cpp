@@ -34,7 +34,7 @@ load_height_field(const std::string& name_or_file, const models::heights::Import
 }
 
 models::heights::ImportOptions import_options(const settings::PathSettings& settings) {
-    return {settings.terrain_spacing_m, settings.terrain_height_scale};
+    return {settings.terrain_spacing_m, settings.terrain_height_scale, settings.terrain_system};
 }
 
 } // namespace octant::ui::world

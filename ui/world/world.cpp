@@ -18,7 +18,9 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <future>
+#include <glm/common.hpp>
 #include <utility>
+#include <vector>
 
 namespace octant::ui::world {
 
@@ -137,6 +139,22 @@ void check_own_paths(const settings::RunSettings& settings, bool is_live) {
     }
 }
 
+/// What the tower is placed by; `flight` keeps the states.
+scene::TowerWish tower_wish(const World& world, std::vector<sim::AircraftState>& flight) {
+    constexpr int looks = 160;
+    const sim::Trajectory& path = world.flight.trajectory;
+    for (int i = 0; i <= looks; ++i) {
+        flight.push_back(
+            path.state_at(glm::mix(path.start_s(), path.end_s(), static_cast<double>(i) / looks)));
+    }
+    const double radius_m = world.scene.model_of(0).subject.radius_m;
+    return {
+        flight,
+        formation_of(world.scene, world.flight).framed_radius_m(radius_m),
+        world.scene.ground->spacing_m(),
+        world.flight.place_m};
+}
+
 } // namespace
 
 Formation formation_of(const planning::Scene& scene, const Flight& flight) {
@@ -177,19 +195,14 @@ scene::FixedPoints fixed_points(const settings::RunSettings& settings, const Wor
     if (settings.view.kind != scene::View::Tower && settings.view.inset != scene::View::Tower) {
         return points;
     }
-    if (settings.view.kind == scene::View::Tower && settings.view.eye_m) {
-        points.tower_m = *settings.view.eye_m;
-        return points;
-    }
-    constexpr std::size_t every = 10;
-    std::vector<glm::dvec3> flight_m;
-    for (std::size_t i = 0; i < world.flight.trajectory.samples().size(); i += every) {
-        flight_m.push_back(world.flight.trajectory.samples()[i].position_m);
-    }
-    points.tower_m =
-        scene::tower_place(flight_m, world.flight.place_m, [&](double x_m, double y_m) {
-            return world.scene.ground->height_at(x_m, y_m);
-        });
+    const scene::GroundHeight ground = [&](double x_m, double y_m) {
+        return world.scene.ground->height_at(x_m, y_m);
+    };
+    std::vector<sim::AircraftState> flight;
+    const scene::TowerWish wish = tower_wish(world, flight);
+    const bool placed_by_hand = settings.view.kind == scene::View::Tower && settings.view.eye_m;
+    points.tower = placed_by_hand ? scene::tower_at(*settings.view.eye_m, wish, ground)
+                                  : scene::tower_for(wish, ground);
     return points;
 }
 
@@ -240,6 +253,13 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
         world.notes.push_back(std::move(*night));
     }
     world.points = fixed_points(settings, world);
+    const bool from_tower =
+        settings.view.kind == scene::View::Tower || settings.view.inset == scene::View::Tower;
+    if (is_live && from_tower && !settings.view.eye_m) {
+        world.notes.emplace_back(
+            "tower: nothing is known of the flight yet, so it stands beside the place where the "
+            "aircraft begins; --eye X,Y,Z puts it elsewhere");
+    }
     return world;
 }
 

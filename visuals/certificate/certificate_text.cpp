@@ -12,6 +12,11 @@ namespace {
 
 using draworder::DrawOrder;
 using models::polygons::FileAxes;
+using separation::Decider;
+using separation::Factors;
+using separation::LocalModel;
+using separation::LocalPolygon;
+using separation::Witness;
 
 std::string text_of(const glm::dvec3& v) {
     return fmt::format("{} {} {}", v.x + 0.0, v.y + 0.0, v.z + 0.0); // no negative zeros
@@ -34,8 +39,9 @@ void append(std::string& text, fmt::format_string<Values...> format, Values&&...
 
 } // namespace
 
-CertificateText::CertificateText(double size_m)
-    : size_m_(size_m) {}
+CertificateText::CertificateText(double size_m, std::function<void()> part_done)
+    : size_m_(size_m)
+    , part_done_(std::move(part_done)) {}
 
 void CertificateText::add_model(
     const models::polygons::PolygonModel& model, const LocalModel& local, const FileAxes& axes) {
@@ -88,7 +94,7 @@ void CertificateText::add_tree(const DrawOrder& order, const FileAxes& axes) {
     }
 }
 
-void CertificateText::begin_pairs(int part, std::uint32_t later) {
+void CertificateText::begin_pairs(int part, std::uint32_t later, std::size_t /*count*/) {
     append(text_, "pairs{} {}", text_of_child(part), later);
     run_length_ = 0;
 }
@@ -142,6 +148,10 @@ void CertificateText::add_away(int part, std::uint32_t polygon, const Factors& f
 void CertificateText::add_doubt(int part, std::uint32_t polygon) {
     append(text_, "unproved{} {}\n", text_of_child(part), polygon);
     ++unproved_;
+}
+
+void CertificateText::end_part(std::size_t /*polygons*/) {
+    part_done_();
 }
 
 std::string CertificateText::take() {

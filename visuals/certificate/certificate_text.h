@@ -2,46 +2,47 @@
 
 #include "models/polygons/file_axes.h"
 #include "models/polygons/polygon_model.h"
-#include "visuals/certificate/local_model.h"
-#include "visuals/certificate/witness.h"
 #include "visuals/draworder/draw_order.h"
+#include "visuals/draworder/proof_walk.h"
+#include "visuals/separation/local_model.h"
+#include "visuals/separation/witness.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 
 namespace octant::visuals::certificate {
 
 /// The lines of a certificate, in the order in which they are added; visuals/verify/README.md says
-/// what each means. A part is a child of a node as draworder::DrawOrder numbers them.
-class CertificateText {
+/// what each means.
+class CertificateText : public draworder::ProofSink {
 public:
-    /// `size_m` is the length that is 1 in a LocalModel.
-    explicit CertificateText(double size_m);
+    /// `size_m` is the length that is 1 in a LocalModel; `part_done` is called after each node and
+    /// list.
+    CertificateText(double size_m, std::function<void()> part_done);
 
     /// The header, corners, axes and polygons.
     void add_model(
         const models::polygons::PolygonModel& model,
-        const LocalModel& local,
+        const separation::LocalModel& local,
         const models::polygons::FileAxes& axes);
 
     /// The lists and nodes. Where a choice has nothing on a side, its eyes are left unclaimed.
     void add_tree(const draworder::DrawOrder& order, const models::polygons::FileAxes& axes);
 
-    /// The pairs of one later polygon with the earlier ones of a part: begin, one call a pair in
-    /// the order of the part, end.
-    void begin_pairs(int part, std::uint32_t later);
-    void add_pair(Decider by);
-    void end_pairs();
-
-    void add_witness(int part, const Witness& witness, std::uint32_t earlier, std::uint32_t later);
-
-    /// The polygon faces away from every eye that comes to the part.
-    void add_away(int part, std::uint32_t polygon, const Factors& factors);
-
-    /// No proof is found for the polygon.
-    void add_doubt(int part, std::uint32_t polygon);
+    void begin_pairs(int part, std::uint32_t later, std::size_t count) override;
+    void add_pair(separation::Decider by) override;
+    void end_pairs() override;
+    void add_witness(
+        int part,
+        const separation::Witness& witness,
+        std::uint32_t earlier,
+        std::uint32_t later) override;
+    void add_away(int part, std::uint32_t polygon, const separation::Factors& factors) override;
+    void add_doubt(int part, std::uint32_t polygon) override;
+    void end_part(std::size_t polygons) override;
 
     /// All lines so far, which are taken away.
     std::string take();
@@ -52,12 +53,13 @@ public:
 private:
     void add_run();
     void add_numbers(std::span<const std::uint32_t> numbers);
-    void add_walls(const Factors& factors);
+    void add_walls(const separation::Factors& factors);
 
     double size_m_;
+    std::function<void()> part_done_;
     std::string text_;
     std::uint64_t unproved_ = 0;
-    Decider run_by_ = Decider::Neither;
+    separation::Decider run_by_ = separation::Decider::Neither;
     std::size_t run_length_ = 0;
 };
 

@@ -27,11 +27,12 @@ constexpr std::uint64_t units_of_pair = 300;
 
 /// The searches whose results are compared; the last one only where the others split polygons.
 const std::array<TreeSearch, 4> tree_searches{
-    {{.power = 1.0, .keeps_part = true},
-     {.power = 0.5, .keeps_part = true},
-     {.power = 1.5, .keeps_part = true},
+    {{.forks = {.power = 1.0}, .keeps_part = true},
+     {.forks = {.power = 0.5}, .keeps_part = true},
+     {.forks = {.power = 1.5}, .keeps_part = true},
      {.planes_first = true, .keeps_part = true}}};
-const TreeSearch quick_search{.edge_planes = 300, .closer = 48, .exact = 2, .keeps_part = true};
+const TreeSearch quick_search{
+    .forks = {.edge_planes = 300, .closer = 48, .exact = 2}, .keeps_part = true};
 
 /// Whether one result is better: whole rather than open, fewer splits, then fewer cells.
 bool fewer(const FoundCells& a, const FoundCells& b) {

@@ -6,6 +6,7 @@
 // Which one to split is not in the paper.
 #include "visuals/draworder/cycle_split.h"
 
+#include "sim/base/plane.h"
 #include "visuals/draworder/components.h"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ std::size_t left_after(
                                    : model.faces[polygon]);
     }
     pieces.faces.push_back(outline_face(
-        front_part(whole.outline, {-plane.normal, -plane.offset_m}, model.tolerances.inset),
+        front_part(whole.outline, turned_over(plane), model.tolerances.inset),
         *whole.plane,
         model.tolerances.inset));
     Deadlock among{std::vector<std::uint32_t>(count), deadlock.region, deadlock.eye};

@@ -4,14 +4,15 @@
 // sides' graphs with the exact hiding test. The plane with the least cost divides the node.
 #include "visuals/draworder/fork_choice.h"
 
+#include "sim/base/plane.h"
 #include "visuals/draworder/candidate_planes.h"
 #include "visuals/draworder/components.h"
-#include "visuals/draworder/parallel.h"
 #include "visuals/draworder/plane_judge.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <future>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,6 +20,17 @@
 namespace octant::visuals::draworder {
 
 namespace {
+
+/// Calls both functions, the first one on a thread of its own if `worthwhile`, and returns both
+/// results. Neither may write to what the other one uses, so that the result is the same either
+/// way.
+template <typename First, typename Second>
+auto both(bool worthwhile, First first, Second second) {
+    auto there =
+        std::async(worthwhile ? std::launch::async : std::launch::deferred, std::move(first));
+    auto here = second();
+    return std::pair(there.get(), std::move(here));
+}
 
 /// Graphs with more edges are judged without the exact test.
 constexpr std::size_t most_exact_edges = 4'000;
@@ -35,10 +47,6 @@ struct Choice {
         return std::pair(cost, number) < std::pair(other.cost, other.number);
     }
 };
-
-Plane reversed(const Plane& plane) {
-    return {-plane.normal, -plane.offset_m};
-}
 
 /// Whether a node's work is worth a second thread.
 bool is_large(const EyeNode& node) {
@@ -64,7 +72,7 @@ std::uint64_t units_of_rings(const Cycles& cycles) {
 /// Judges the planes that may divide one node.
 class ForkChoice {
 public:
-    ForkChoice(const WorkingModel& work, const EyeNode& node, const TreeSearch& search)
+    ForkChoice(const WorkingModel& work, const EyeNode& node, const ForkSearch& search)
         : work_(work)
         , node_(node)
         , search_(search) {}
@@ -83,7 +91,7 @@ private:
 
     const WorkingModel& work_;
     const EyeNode& node_;
-    const TreeSearch& search_;
+    const ForkSearch& search_;
 };
 
 /// The cost of a plane that leaves so many cyclic edges in front and behind, of `before`; less is
@@ -112,7 +120,7 @@ ForkChoice::by_sides(std::span<const Plane> planes, std::size_t first_number) co
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const Plane& plane = planes[i];
         if (!node_.region.reaches_front_of(plane) ||
-            !node_.region.reaches_front_of(reversed(plane))) {
+            !node_.region.reaches_front_of(turned_over(plane))) {
             continue;
         }
         const double limit = best.size() == search_.closer ? best.back().cost : HUGE_VAL;
@@ -186,7 +194,7 @@ Fork ForkChoice::fork(const Plane& plane) const {
     auto [front, back] = both(
         is_large(node_),
         [&] { return part(plane, sides); },
-        [&] { return part(reversed(plane), turned); });
+        [&] { return part(turned_over(plane), turned); });
     return {plane, std::move(front), std::move(back)};
 }
 
@@ -241,7 +249,7 @@ std::optional<Fork> ForkChoice::best() const {
 } // namespace
 
 std::optional<Fork>
-best_fork(const WorkingModel& work, const EyeNode& node, const TreeSearch& search) {
+best_fork(const WorkingModel& work, const EyeNode& node, const ForkSearch& search) {
     return ForkChoice(work, node, search).best();
 }
 

@@ -9,19 +9,16 @@
 
 namespace octant::visuals::draworder {
 
-/// How thoroughly a tree is searched for.
-struct TreeSearch {
-    double power = 1.0; ///< A graph with E cyclic edges is taken to cost E^power.
+/// How thoroughly a plane is searched for.
+struct ForkSearch {
+    /// A graph with E cyclic edges is taken to cost E^power.
+    double power = 1.0;
     /// About how many planes through an edge and a corner are tried.
     std::size_t edge_planes = 8000;
-    std::size_t closer = 400;     ///< For so many planes the edges left on cycles are counted.
-    std::size_t exact = 48;       ///< For so many planes both sides are tested exactly.
-    std::size_t most_depth = 100; ///< The most cuts one after another.
-    /// Whether planes are tried before polygons are split, even where an eye in the middle of a
-    /// region sees a ring: more cells, sometimes fewer splits.
-    bool planes_first = false;
-    /// Whether what was found is kept where the search is given up (RegionTree::open).
-    bool keeps_part = false;
+    /// For so many planes the edges left on cycles are counted.
+    std::size_t closer = 400;
+    /// For so many planes both sides are tested exactly.
+    std::size_t exact = 48;
     /// Whether planes across the axes are tried first. A model that is turned then gets others.
     bool by_axes = false;
 };
@@ -36,6 +33,6 @@ struct Fork {
 /// The plane that leaves a node simplest, with the node divided by it; nothing when no plane makes
 /// the node simpler. Throws SearchGivenUp (search_budget.h) when a budget is spent.
 std::optional<Fork>
-best_fork(const WorkingModel& work, const EyeNode& node, const TreeSearch& search);
+best_fork(const WorkingModel& work, const EyeNode& node, const ForkSearch& search);
 
 } // namespace octant::visuals::draworder

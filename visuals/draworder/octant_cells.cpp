@@ -128,7 +128,7 @@ void collect_fronts(
 }
 
 int CellBuilder::by_planes(const EyeNode& node, const Triangle& corners, const std::string& path) {
-    RegionTree tree = region_tree(work_, node, {.by_axes = true});
+    RegionTree tree = region_tree(work_, node, {.forks = {.by_axes = true}});
     const int first_node = static_cast<int>(nodes().size());
     const int first_cell = static_cast<int>(cells.lists.size());
     const auto moved = [&](int child) {

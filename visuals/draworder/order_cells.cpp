@@ -2,6 +2,7 @@
 // once, and divides where they would go different ways.
 #include "visuals/draworder/order_cells.h"
 
+#include "sim/base/plane.h"
 #include "visuals/draworder/eye_region.h"
 #include "visuals/draworder/model_faces.h"
 
@@ -80,7 +81,7 @@ private:
     /// Lets the eyes go on beyond a plane, those behind it in a group of their own.
     bool cross(Wanderers& group, const DrawOrder::Node& node) {
         const Plane plane = frame_.in_faces(node.plane);
-        const Plane turned{-plane.normal, -plane.offset_m};
+        const Plane turned = turned_over(plane);
         const bool some_before = group.region.reaches_front_of(plane);
         const bool some_behind = group.region.reaches_front_of(turned);
         if (some_before && some_behind) {

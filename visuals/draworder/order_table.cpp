@@ -2,6 +2,7 @@
 // and the panels of the window.
 #include "visuals/draworder/order_table.h"
 
+#include "sim/base/plane.h"
 #include "visuals/draworder/order_text.h"
 
 #include <glm/geometric.hpp>
@@ -63,7 +64,7 @@ std::string in_words(
         if (same(plane, of_polygon, tolerance_m)) {
             return fmt::format("in front of P{}", i + 1);
         }
-        if (same({-plane.normal, -plane.offset_m}, of_polygon, tolerance_m)) {
+        if (same(turned_over(plane), of_polygon, tolerance_m)) {
             return fmt::format("behind P{}", i + 1);
         }
     }

@@ -4,6 +4,8 @@
 
 #include "models/polygons/inside_outline.h"
 #include "sim/base/dice.h"
+#include "visuals/draworder/eyes_beyond.h"
+#include "visuals/draworder/order_proof.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -15,6 +17,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -31,6 +34,7 @@ constexpr double hair = 3e-9;
 constexpr std::size_t most_comparisons = 20'000'000;
 constexpr std::size_t most_eyes = 2'000;
 constexpr std::size_t rays_an_eye = 10;
+constexpr std::size_t rays_a_pair = 100; ///< that no proof was found for
 /// Polygons that face alike and lie nearer to one another than this lie in one plane.
 constexpr double in_plane = 1e-9;
 
@@ -95,14 +99,41 @@ public:
         for (std::size_t i = 0; i < eyes; ++i) {
             const glm::dvec3 eye = next_eye(i);
             const glm::dvec3 eye_m = middle_m_ + eye * radius_m_;
-            const glm::dvec3 size_m = glm::abs(eye_m);
-            if (size_m.x + size_m.y + size_m.z >= scope_.min_distance_m) {
+            if (is_looked_from(eye_m)) {
                 look_from(eye, eye_m, trial);
             }
         }
     }
 
+    /// Casts rays at one polygon through another that is painted earlier, from eyes beyond, as the
+    /// parts were turned last.
+    void look_at_pair(std::uint32_t earlier, std::uint32_t later, Trial& trial) {
+        const Target* const near_one = target_of(earlier);
+        const Target* const far_one = target_of(later);
+        for (std::size_t i = 0; i < rays_a_pair && near_one != nullptr && far_one != nullptr; ++i) {
+            const glm::dvec3 through = point_of(*near_one);
+            const glm::dvec3 way = through - point_of(*far_one);
+            const double length = glm::length(way);
+            const glm::dvec3 eye = through + way * (30.0 * small() / std::max(length, hair));
+            const glm::dvec3 eye_m = middle_m_ + eye * radius_m_;
+            if (length > hair && is_looked_from(eye_m)) {
+                paint_from(eye_m);
+                look_along(eye, -way / length, trial);
+            }
+        }
+    }
+
 private:
+    const Target* target_of(std::uint32_t polygon) const {
+        const auto found = std::ranges::find(targets_, polygon, &Target::polygon);
+        return found != targets_.end() ? &*found : nullptr;
+    }
+
+    bool is_looked_from(const glm::dvec3& eye_m) const {
+        const glm::dvec3 size_m = glm::abs(eye_m - scope_.centre_m);
+        return size_m.x + size_m.y + size_m.z >= scope_.min_distance_m;
+    }
+
     void turn(double turn_rad) {
         targets_.clear();
         for (std::uint32_t i = 0; i < model_.polygons.size(); ++i) {
@@ -178,13 +209,18 @@ private:
         return away;
     }
 
-    void look_from(const glm::dvec3& eye, const glm::dvec3& eye_m, Trial& trial) {
+    /// Finds out which polygons an eye is painted, and when.
+    void paint_from(const glm::dvec3& eye_m) {
         painted_.clear();
         order_.append_painted(eye_m, walk_, painted_);
         place_.assign(model_.polygons.size(), 0);
         for (std::uint32_t i = 0; i < painted_.size(); ++i) {
             place_[painted_[i]] = i + 1;
         }
+    }
+
+    void look_from(const glm::dvec3& eye, const glm::dvec3& eye_m, Trial& trial) {
+        paint_from(eye_m);
         for (std::size_t i = 0; i < rays_an_eye; ++i) {
             const glm::dvec3 towards = point_of(any_target()) - eye;
             const double length = glm::length(towards);
@@ -252,17 +288,36 @@ private:
 
 } // namespace
 
-Trial try_order(const PolygonModel& model, const DrawOrder& order, const TrialScope& scope) {
-    Trial trial;
-    Trying trying(model, order, scope);
-    if (model.pivots.empty() || !scope.turning_parts) {
-        trying.look(0.0, most_comparisons, trial);
-        return trial;
-    }
-    constexpr std::array angles_rad{0.0, 0.7, 2.1, 4.4};
+namespace {
+
+/// Casts the rays of a trial, those at pairs too; what it saw of the proof stays as it is.
+void cast_rays(
+    Trying& trying, std::span<const double> angles_rad, const OrderProof& proof, Trial& trial) {
     for (const double angle_rad : angles_rad) {
         trying.look(angle_rad, most_comparisons / angles_rad.size(), trial);
+        for (const auto& [earlier, later] : proof.open) {
+            trying.look_at_pair(earlier, later, trial);
+        }
     }
+}
+
+} // namespace
+
+Trial try_order(const PolygonModel& model, const DrawOrder& order, const TrialScope& scope) {
+    constexpr std::array angles_rad{0.0, 0.7, 2.1, 4.4};
+    const bool turns = !model.pivots.empty();
+    const std::size_t angles = turns && scope.turning_parts ? angles_rad.size() : 1;
+    OrderProof proof;
+    if (!turns || scope.turning_parts) { // else no order is right, and none can be proved
+        proof = order_proof(
+            model,
+            scope.min_distance_m > 0.0 ? eyes_beyond(order, scope.centre_m, scope.min_distance_m)
+                                       : order,
+            scope.proof_s);
+    }
+    Trial trial{.unproved = proof.unproved, .is_proof_whole = proof.is_whole};
+    Trying trying(model, order, scope);
+    cast_rays(trying, std::span(angles_rad).first(angles), proof, trial);
     return trial;
 }
 

@@ -3,7 +3,9 @@
 #include "models/polygons/polygon_model.h"
 #include "visuals/draworder/draw_order.h"
 
-#include <string>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
 
 namespace octant::visuals::draworder {
 
@@ -12,19 +14,27 @@ struct TrialScope {
     /// Whether parts with a pivot are looked at, at four angles. Without them, where no order can
     /// be right for them.
     bool turning_parts = true;
-    /// Eyes are at least so far from where octants meet: |x| + |y| + |z| from the origin, metres.
+    /// Eyes are at least so far from where octants meet: |x| + |y| + |z| from there, metres.
     double min_distance_m = 0.0;
+    glm::dvec3 centre_m{0.0};
+    /// About how long the proof may take on one core.
+    double proof_s = 0.4;
 };
 
 /// What a trial saw.
 struct Trial {
     long rays = 0;  ///< Rays that meet the front of a polygon away from its sides.
     long wrong = 0; ///< Of these, rays along which a polygon farther away was painted last.
+    /// Pairs and polygons for which no proof was found (order_proof.h).
+    std::uint64_t unproved = 0;
+    bool is_proof_whole = false; ///< Whether the proof came to the end of the order.
 };
 
 /// Tries an order before it is used, with none of the code that made it: from eyes far and near,
-/// close to the planes of its nodes and close to polygons, at points of polygons. The work is
-/// bounded, some tenths of a second at most; the same model and order give the same trial.
+/// close to the planes of its nodes and close to polygons, at points of polygons; and by a proof.
+/// Pairs that it leaves open are looked at by rays that one of the two would hide the other along.
+/// The work is bounded, some tenths of a second and the proof; the same model and order give the
+/// same trial.
 Trial try_order(
     const models::polygons::PolygonModel& model, const DrawOrder& order, const TrialScope& scope);
 

@@ -24,6 +24,9 @@ using models::planar::PlanarModel;
 /// Larger models are divided at once: their graphs alone would take seconds.
 constexpr std::size_t most_polygons_searched = 2'000;
 
+/// So much of the time that a search may take goes to the proof of what is found.
+constexpr double proof_share = 0.02;
+
 OrderedModel by_paper(models::polygons::PolygonModel model, const OrderOptions& options) {
     const OctantOrders orders = paper_orders(model, options.paper);
     OrderedModel out{
@@ -136,13 +139,25 @@ std::optional<OrderedModel> searched(
 }
 
 /// Tries an order; whether it may be used.
-bool is_right(OrderedModel& ordered) {
+bool is_right(OrderedModel& ordered, double search_s) {
     // Where no order is right for turning parts, they say nothing about the others.
     ordered.trial = try_order(
         ordered.model,
         ordered.order,
-        {.turning_parts = ordered.notes.empty(), .min_distance_m = ordered.min_distance_m});
+        {.turning_parts = ordered.notes.empty(),
+         .min_distance_m = ordered.min_distance_m,
+         .centre_m = ordered.centre_m,
+         .proof_s = search_s * proof_share});
     return ordered.trial.wrong == 0;
+}
+
+/// What is to be told of a trial that saw nothing wrong.
+void add_note(OrderedModel& ordered) {
+    if (ordered.trial.unproved > 0) {
+        ordered.notes.push_back(fmt::format(
+            "no proof is found for {} pairs of polygons; no ray at them was wrong",
+            ordered.trial.unproved));
+    }
 }
 
 std::string wrong_in_words(const Trial& trial) {
@@ -150,11 +165,12 @@ std::string wrong_in_words(const Trial& trial) {
 }
 
 /// What was found by cells or, where that had to split polygons more often, by parts.
-OrderedModel with_fewer_splits(OrderedModel found, const models::polygons::PolygonModel& model) {
+OrderedModel with_fewer_splits(
+    OrderedModel found, const models::polygons::PolygonModel& model, double search_s) {
     const bool by_tree = found.drawn_by == DrawnBy::Tree || found.drawn_by == DrawnBy::TreeAndParts;
     if (by_tree && found.splits > 0) {
         OrderedModel parted = by_parts(model, Parting::Clusters);
-        if (parted.splits < found.splits && is_right(parted)) {
+        if (parted.splits < found.splits && is_right(parted, search_s)) {
             return parted;
         }
     }
@@ -166,8 +182,8 @@ OrderedModel of_planar(models::polygons::PolygonModel model, const OrderOptions&
     std::string why;
     if (options.method != Method::Bsp) {
         if (auto found = searched(model, options, why)) {
-            if (is_right(*found)) {
-                OrderedModel best = with_fewer_splits(std::move(*found), model);
+            if (is_right(*found, options.seconds)) {
+                OrderedModel best = with_fewer_splits(std::move(*found), model, options.seconds);
                 if (!why.empty()) {
                     best.notes.push_back(
                         best.drawn_by == DrawnBy::TreeAndParts
@@ -180,11 +196,11 @@ OrderedModel of_planar(models::polygons::PolygonModel model, const OrderOptions&
         }
     }
     OrderedModel parted = by_parts(model, Parting::Clusters);
-    if (!is_right(parted)) {
+    if (!is_right(parted, options.seconds)) {
         const std::string instead = wrong_in_words(parted.trial);
         OrderedModel single = by_parts(std::move(model), Parting::Single);
         single.notes.push_back("drawn by a BSP tree: by parts " + instead);
-        if (!is_right(single)) {
+        if (!is_right(single, options.seconds)) {
             single.notes.push_back("by the BSP tree " + wrong_in_words(single.trial));
         }
         parted = std::move(single);
@@ -235,7 +251,9 @@ OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& o
     using models::planar::Attitude; // octants are those of the model's own file
     const PlanarModel planar = models::planar::planar_model(
         model, options.method == Method::Cells ? Attitude::Given : Attitude::Own);
-    return as_given(of_planar(planar.model, options), planar, model);
+    OrderedModel found = of_planar(planar.model, options);
+    add_note(found);
+    return as_given(std::move(found), planar, model);
 }
 
 } // namespace octant::visuals::draworder

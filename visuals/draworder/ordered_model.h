@@ -64,8 +64,9 @@ struct OrderedModel {
 /// There is an answer for any model. Where the search for cells is given up, what was found is
 /// kept, and in the other cells polygons are divided (parted_order.h); all of them where nothing
 /// was found or the model has more polygons than are searched. Every order but that of
-/// Method::Paper is tried by rays before it is returned (order_trial.h); one that is wrong is
-/// replaced in the same way, and in the end by a BSP tree of single polygons. Notes say so.
+/// Method::Paper is tried by rays before it is returned, and proved pair by pair as far as a
+/// fiftieth of the seconds goes (order_trial.h); one that is wrong is replaced in the same way, and
+/// in the end by a BSP tree of single polygons. Notes say so, and what no proof was found for.
 OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& options = {});
 
 } // namespace octant::visuals::draworder

@@ -76,7 +76,7 @@ std::optional<Fork> TreeBuilder::settle(EyeNode& node) {
             deadlock = ring_at_eye(graphs_, node);
         }
         if (!deadlock) {
-            if (auto fork = best_fork(work_, node, search_)) {
+            if (auto fork = best_fork(work_, node, search_.forks)) {
                 return fork;
             }
             deadlock = ring_at_eye(graphs_, node);

@@ -5,6 +5,7 @@
 #include "visuals/draworder/fork_choice.h"
 #include "visuals/draworder/working_model.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -21,6 +22,18 @@ struct RegionTree {
     /// (clusters_of); empty for others.
     std::vector<std::vector<std::vector<std::uint32_t>>> open;
     std::string why_open; ///< Why the search was given up first; empty if it was not.
+};
+
+/// How thoroughly a tree is searched for.
+struct TreeSearch {
+    ForkSearch forks = {};
+    /// The most cuts one after another.
+    std::size_t most_depth = 100;
+    /// Whether planes are tried before polygons are split, even where an eye in the middle of a
+    /// region sees a ring: more cells, sometimes fewer splits.
+    bool planes_first = false;
+    /// Whether what was found is kept where the search is given up (RegionTree::open).
+    bool keeps_part = false;
 };
 
 /// A tree over a node's region whose cells have no cycles. Splits polygons of the model where there

@@ -9,6 +9,7 @@
 // - Which polygon of a pair is cut is not said. Each step takes the cut that leaves the fewest
 //   pairs, so that a plane in which several polygons lie, such as the two faces of a thin part,
 //   is used for all of them at once. Greedy: the fewest pieces are not promised.
+#include "sim/base/plane.h"
 #include "visuals/draworder/split.h"
 
 #include <glm/common.hpp>
@@ -218,9 +219,9 @@ private:
     /// By how many the penetrating pairs get fewer when a polygon is cut along a plane.
     long pairs_fewer(std::uint32_t face, const Plane& plane) const {
         const Face& whole = faces_[face];
-        const Plane turned_over{-plane.normal, -plane.offset_m};
         const Face front = face_of(front_part(whole.corners, plane), whole.plane, whole.pivot);
-        const Face back = face_of(front_part(whole.corners, turned_over), whole.plane, whole.pivot);
+        const Face back =
+            face_of(front_part(whole.corners, turned_over(plane)), whole.plane, whole.pivot);
         auto fewer = static_cast<long>(partners_[face].size());
         for (const std::uint32_t other : partners_[face]) {
             fewer -= penetrate(front, faces_[other], tolerance_m_) ? 1 : 0;

@@ -3,6 +3,7 @@
 // to date.
 #include "visuals/draworder/working_model.h"
 
+#include "sim/base/plane.h"
 #include "visuals/draworder/cycle_split.h"
 #include "visuals/draworder/split.h"
 
@@ -34,7 +35,7 @@ void WorkingModel::resolve(const Deadlock& deadlock) {
         const double inset = faces.tolerances.inset;
         faces.faces[cut->polygon] =
             outline_face(front_part(whole.outline, plane, inset), *whole.plane, inset);
-        const Plane back{-plane.normal, -plane.offset_m};
+        const Plane back = turned_over(plane);
         faces.faces.push_back(
             outline_face(front_part(whole.outline, back, inset), *whole.plane, inset));
         faces.rigid.add_twin(cut->polygon);

@@ -24,6 +24,8 @@ hash_of_inputs(const std::vector<path>& inputs, const models::heights::ImportOpt
     hash.add_word(GroundHeader::right_version);
     hash.add_word(std::bit_cast<std::uint64_t>(options.spacing_m));
     hash.add_word(std::bit_cast<std::uint64_t>(options.height_scale.value_or(0.0)));
+    const std::string system = options.system.value_or("");
+    hash.add(std::as_bytes(std::span(system)));
     for (const path& input : inputs) {
         std::error_code code;
         const std::string name = std::filesystem::absolute(input, code).string();

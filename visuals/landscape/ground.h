@@ -4,6 +4,7 @@
 #include "models/heights/image_on_ground.h"
 #include "models/polygons/polygon_model.h"
 #include "visuals/landscape/ground_mesher.h"
+#include "visuals/nature/backdrop.h"
 #include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_samples.h"
 #include "visuals/terrain/ground_tiles.h"
@@ -12,6 +13,7 @@
 #include <glm/vec3.hpp>
 
 #include <memory>
+#include <mutex>
 #include <optional>
 
 namespace octant::visuals::landscape {
@@ -54,6 +56,10 @@ public:
         return mean_colour();
     }
 
+    /// The land around the map; nothing for ground without samples. Made when it is first asked for,
+    /// which is loading work.
+    const nature::Backdrop& surroundings() const;
+
     /// The samples as they are drawn; nothing for ground that has none.
     virtual std::optional<GroundSource> source() const { return std::nullopt; }
 
@@ -84,6 +90,9 @@ protected:
 
 private:
     virtual std::unique_ptr<GroundMesher> make_mesher(const MeshSettings& settings) const = 0;
+
+    mutable std::once_flag surroundings_once_;
+    mutable nature::Backdrop surroundings_;
 };
 
 /// The mesher by which a view goes on under other settings: `before` where it meshes this very

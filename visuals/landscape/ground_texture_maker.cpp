@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <thread>
 #include <vector>
 
 namespace octant::visuals::landscape {
@@ -24,16 +23,6 @@ std::uint8_t byte_of(float part) {
 
 std::uint8_t byte_of_slope(float part) {
     return static_cast<std::uint8_t>(128 + std::lround(glm::clamp(part, -1.0F, 1.0F) * 127.0F));
-}
-
-/// Calls work(row) once for each row.
-template <typename Work>
-void by_rows(int rows, const Work& work) {
-    const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    share_out(
-        static_cast<std::size_t>(rows), threads, [&](std::size_t row, std::size_t /*worker*/) {
-            work(static_cast<int>(row));
-        });
 }
 
 /// Samples from one texel to the next: a power of two.

@@ -40,11 +40,6 @@ double mirrored(double at_m, double half_m) {
     return turn - half_m;
 }
 
-double smooth_step(double t) {
-    const double s = std::clamp(t, 0.0, 1.0);
-    return s * s * (3.0 - 2.0 * s);
-}
-
 Backdrop::Corner corner_at(const MapFacts& map, double share, int number) {
     const double size_m = 0.5 * (map.half_extent_m.x + map.half_extent_m.y);
     const glm::dvec2 at_m = on_square(number) * (map.half_extent_m + share * size_m);
@@ -52,7 +47,7 @@ Backdrop::Corner corner_at(const MapFacts& map, double share, int number) {
     const glm::dvec2 twin_m(
         inside * mirrored(at_m.x, map.half_extent_m.x),
         inside * mirrored(at_m.y, map.half_extent_m.y));
-    const double left = 1.0 - smooth_step(std::max(share, 0.0) / ring_shares.front());
+    const double left = 1.0 - glm::smoothstep(0.0, 1.0, std::max(share, 0.0) / ring_shares.front());
     const double height_m = glm::mix(map.mean_height_m, map.height_m(twin_m), left) -
                             (share < 0.0 ? sunk_under_map * size_m : 0.0);
     const double footprint_m = std::max(1.2 * size_m / side_corners, 0.12 * share * size_m);

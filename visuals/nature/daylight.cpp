@@ -30,11 +30,6 @@ constexpr double least_horizon = 0.42;
 constexpr double eye_power = 0.6; ///< how far the eye makes up for lost sunlight, in stops a stop
 const glm::dvec3 low_tint(1.0, 0.88, 1.28); ///< a low sun's sky is less green than the model's
 
-double smooth_step(double t) {
-    const double s = std::clamp(t, 0.0, 1.0);
-    return s * s * (3.0 - 2.0 * s);
-}
-
 /// The sky's mean light around the horizon, but for the side of the sun.
 glm::dvec3 horizon_light(const PerezSky& sky) {
     glm::dvec3 sum(0.0);
@@ -51,7 +46,7 @@ glm::dvec3 exposure_of(const PerezSky& sky, double elevation_rad, const glm::dve
         -glm::log(1.0 - glm::min(models::linear_from_display(horizon), glm::dvec3(0.98)));
     const glm::dvec3 usual = aim / usual_light;
     const double grey = glm::dot(aim, weights) / glm::dot(usual_light, weights);
-    const double day = smooth_step(elevation_rad / adapted_rad);
+    const double day = glm::smoothstep(0.0, 1.0, elevation_rad / adapted_rad);
     const glm::dvec3 tint = glm::mix(grey * low_tint, usual, day);
     const double wanted = glm::dot(aim, weights) * glm::mix(least_horizon, 1.0, day);
     return tint * (wanted / std::max(glm::dot(tint * horizon_light(sky), weights), 1e-6));
@@ -95,7 +90,7 @@ Daylight::Daylight(const DaylightOptions& options)
     haze_away_ = glm::vec3(
         models::display_from_linear(glm::dvec3(1.0) - glm::exp(-exposure_ * horizon_light(sky_))));
     haze_sunward_ = perez(horizon_rad, 0.0);
-    const double day = smooth_step(elevation_rad / adapted_rad);
+    const double day = glm::smoothstep(0.0, 1.0, elevation_rad / adapted_rad);
     const PerezSky usual(usual_elevation_rad, turbidity);
     const glm::dvec3 tint = sky_tint(sky_, exposure_of(sky_, elevation_rad, usual_horizon)) /
                             sky_tint(usual, exposure_of(usual, usual_elevation_rad, usual_horizon));
@@ -122,12 +117,13 @@ glm::vec3 Daylight::sky(const glm::dvec3& direction) const {
     const double level = std::max(glm::length(glm::dvec2(direction)), 1e-9);
     const double cos_to_sun = glm::dot(glm::dvec2(direction), to_sun_level_) / level;
     const glm::vec3 high = perez(elevation_rad, std::acos(std::clamp(cos_to_sun, -1.0, 1.0)));
-    const auto share = static_cast<float>(smooth_step(elevation_rad / horizon_blend_rad));
+    const auto share =
+        static_cast<float>(glm::smoothstep(0.0, 1.0, elevation_rad / horizon_blend_rad));
     return glm::mix(horizon(cos_to_sun), high, share);
 }
 
 glm::vec3 Daylight::glare(double from_sun_rad) const {
-    const double left = 1.0 - smooth_step(from_sun_rad / glare_rad);
+    const double left = 1.0 - glm::smoothstep(0.0, 1.0, from_sun_rad / glare_rad);
     const double size = left * (0.45 * std::exp(-from_sun_rad / rad_from_deg(1.0)) +
                                 0.12 * std::exp(-from_sun_rad / rad_from_deg(7.0)));
     return disc_ * static_cast<float>(size);

@@ -1,5 +1,7 @@
 #include "visuals/nature/fine_ground.h"
 
+#include "sim/base/flat_area.h"
+#include "sim/base/hash.h"
 #include "visuals/nature/scenery.h"
 
 #include <glm/common.hpp>
@@ -36,12 +38,6 @@ float level_length2(const glm::vec3& a, const glm::vec3& b) {
     return x * x + y * y;
 }
 
-std::uint32_t scrambled(std::uint32_t h) {
-    h = (h ^ (h >> 16U)) * 0x7feb352dU;
-    h = (h ^ (h >> 15U)) * 0x846ca68bU;
-    return h ^ (h >> 16U);
-}
-
 /// In [-1, 1) by a place in the world.
 float noise_at(std::int64_t column, std::int64_t row, std::uint32_t salt) {
     const auto x = static_cast<std::uint32_t>(column);
@@ -61,11 +57,6 @@ std::uint32_t blended(std::uint32_t a, std::uint32_t b, float share_of_b, float 
         blend |= static_cast<std::uint32_t>(part) << shift;
     }
     return blend;
-}
-
-/// On which side of the way from a to b, seen from above, c lies: left above 0.
-float side_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 } // namespace
@@ -228,8 +219,9 @@ void FineGround::add_parts(
     const Corners second{middle, longest->b, longest->c};
     const glm::vec3& cut_from = vertices_[longest->c].position_m;
     const glm::vec3& cut_to = vertices_[middle].position_m;
-    const bool eye_by_first = (side_of(cut_from, cut_to, glm::vec3(0.0F)) > 0.0F) ==
-                              (side_of(cut_from, cut_to, vertices_[longest->a].position_m) > 0.0F);
+    const bool eye_by_first =
+        (twice_area(cut_from, cut_to, glm::vec3(0.0F)) > 0.0F) ==
+        (twice_area(cut_from, cut_to, vertices_[longest->a].position_m) > 0.0F);
     add_parts(eye_by_first ? first : second, depth + 1, bears, indices);
     add_parts(eye_by_first ? second : first, depth + 1, bears, indices);
 }

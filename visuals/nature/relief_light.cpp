@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <thread>
 #include <utility>
 
 namespace octant::visuals::nature {
@@ -194,7 +193,7 @@ ReliefLight::ReliefLight(const terrain::GroundSamples& ground, const glm::dvec3&
              static_cast<std::size_t>(column)];
     };
     const Sums sums(grid);
-    const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    const int threads = core_count();
     const auto rows = static_cast<std::size_t>(grid.rows);
     // The first task is the sweep, each other one the sky above a row.
     share_out(rows + 1, threads, [&](std::size_t task, std::size_t) {

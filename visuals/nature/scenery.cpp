@@ -1,5 +1,7 @@
 #include "visuals/nature/scenery.h"
 
+#include "sim/base/flat_area.h"
+#include "sim/base/hash.h"
 #include "visuals/nature/few_polygons.h"
 
 #include <glm/common.hpp>
@@ -33,19 +35,9 @@ constexpr double fits = 0.19;        ///< radius that fits into a quarter of a c
 constexpr std::array<glm::dvec2, 4> spots = {
     glm::dvec2(0.5, 0.2071), {0.7929, 0.5}, {0.5, 0.7929}, {0.2071, 0.5}};
 
-std::uint32_t scrambled(std::uint32_t h) {
-    h = (h ^ (h >> 16U)) * 0x7feb352dU;
-    h = (h ^ (h >> 15U)) * 0x846ca68bU;
-    return h ^ (h >> 16U);
-}
-
 /// A share in [0, 1) of some of the bits.
 float share_of(std::uint32_t dice, unsigned shift) {
     return static_cast<float>(dice >> shift & 0xffU) * (1.0F / 256.0F);
-}
-
-float side_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 /// Of a tree, over its species'.
@@ -197,7 +189,7 @@ void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
     const glm::dvec2 least =
         (to_grid + glm::dvec2(glm::min(glm::min(a, b), c))) / spacing_m_ + 0.01;
     const glm::dvec2 most = (to_grid + glm::dvec2(glm::max(glm::max(a, b), c))) / spacing_m_ - 0.01;
-    const float area = side_of(a, b, c);
+    const float area = twice_area(a, b, c);
     const glm::vec3 across = glm::cross(b - a, c - a);
     const glm::vec2 rise = glm::vec2(across) / -across.z;
     const auto reach2_m2 = static_cast<float>(reach_m() * reach_m());
@@ -214,8 +206,8 @@ void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
                     (glm::dvec2(column, row) + spots[static_cast<std::size_t>(spot)]) * spacing_m_ -
                     to_grid;
                 glm::vec3 at_m(glm::dvec3(place, 0.0));
-                const float u = side_of(b, c, at_m) / area;
-                const float v = side_of(c, a, at_m) / area;
+                const float u = twice_area(b, c, at_m) / area;
+                const float v = twice_area(c, a, at_m) / area;
                 if (u < 0.0F || v < 0.0F || u + v > 1.0F) {
                     continue;
                 }

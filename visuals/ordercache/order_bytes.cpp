@@ -85,6 +85,8 @@ public:
         out.drawn_by = static_cast<draworder::DrawnBy>(at_most(last_way, "a way to an order"));
         out.trial.rays = in_.number<long>();
         out.trial.wrong = in_.number<long>();
+        out.trial.unproved = in_.number<std::uint64_t>();
+        out.trial.is_proof_whole = at_most(1, "a yes or no") == 1;
         check(in_.bytes_left() == 0, "the end");
         return out;
     }
@@ -303,6 +305,8 @@ std::string order_bytes(const OrderedModel& ordered) {
     add_enum(out, ordered.drawn_by);
     out.number(ordered.trial.rays);
     out.number(ordered.trial.wrong);
+    out.number(ordered.trial.unproved);
+    out.number(std::uint32_t{ordered.trial.is_proof_whole});
     return out.bytes();
 }
 

@@ -32,10 +32,12 @@ HeadUpGlass head_up_glass(
         glm::dvec3(0.0, 1.0 / glass.focal_px, 0.0),
         glm::dvec3(0.0, 0.0, 1.0 / glass.focal_px),
         glm::dvec3(1.0, 0.0, 0.0));
+    const glm::dvec2 focal_px(glass.focal_px / camera.pixel_aspect, -glass.focal_px);
+    const glm::dvec2 ahead_px = 0.5 * size - focal_px * camera.middle;
     const glm::dmat3 view_to_picture(
-        glm::dvec3(glass.focal_px, 0.0, 0.0),
-        glm::dvec3(0.0, -glass.focal_px, 0.0),
-        glm::dvec3(-0.5 * size.x, -0.5 * size.y, -1.0));
+        glm::dvec3(focal_px.x, 0.0, 0.0),
+        glm::dvec3(0.0, focal_px.y, 0.0),
+        -glm::dvec3(ahead_px, 1.0));
     glass.to_picture = glm::mat3(view_to_picture * body_to_view * glass_to_body);
     return glass;
 }

@@ -9,7 +9,7 @@ namespace octant::visuals::overlay {
 namespace {
 
 /// Two digits a point, x then y; a space lifts the pen.
-constexpr std::array<std::pair<char, std::string_view>, 44> drawings{{
+constexpr std::array<std::pair<char, std::string_view>, 50> drawings{{
     {'0', "103041453616050110"},
     {'1', "152620 1030"},
     {'2', "05163645440040"},
@@ -52,6 +52,12 @@ constexpr std::array<std::pair<char, std::string_view>, 44> drawings{{
     {'+', "0343 2125"},
     {'/', "0046"},
     {':', "2122 2425"},
+    {';', "2110 2425"},
+    {'_', "0040"},
+    {'=', "0242 0444"},
+    {'(', "36242230"},
+    {')', "16242210"},
+    {'\'', "2625"},
     {'%', "0046 0605 4140"},
     {'^', "1526352415"},
 }};

@@ -5,8 +5,8 @@
 
 namespace octant::visuals::overlay {
 
-// A vector font of straight strokes: digits, capitals and . , - + / : % and the degree sign (as
-// '^'), each on a grid of 4 x 6 steps, x to the right and y up from the lower left corner.
+// A vector font of straight strokes: digits, capitals, . , - + / : ; _ = ( ) ' % and the degree sign
+// (as '^'), each on a grid of 4 x 6 steps, x to the right and y up from the lower left corner.
 
 inline constexpr int letter_width = 4;   ///< grid steps
 inline constexpr int letter_height = 6;  ///< grid steps

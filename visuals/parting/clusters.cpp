@@ -2,13 +2,13 @@
 #include "visuals/parting/clusters.h"
 
 #include "models/polygons/edge_parts.h"
+#include "visuals/parting/bit_matrix.h"
 #include "visuals/parting/piece_table.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <utility>
 
 namespace octant::visuals::parting {
@@ -29,41 +29,81 @@ bool is_decal_on(const Pieces& pieces, std::uint32_t upper, std::uint32_t lower)
            !edge_parts(pieces, a, b) && !edge_parts(pieces, b, a);
 }
 
-/// Where the pieces of a set reach to one another's planes, each pair looked at once.
-class Reaches {
+/// Finds what hides what in a set: row a of the result holds what hides part of a (hides()).
+class Hiding {
 public:
-    Reaches(const Pieces& pieces, std::span<const std::uint32_t> items)
+    Hiding(const Pieces& pieces, std::span<const std::uint32_t> items)
         : pieces_(pieces)
         , items_(items)
-        , still_(items.size())
-        , reach_(items.size() * items.size()) {
-        const PieceTable table(pieces, items);
-        for (std::size_t a = 0; a < items.size(); ++a) {
-            const Piece& piece = pieces[items[a]];
-            still_[a] = piece.plane && !piece.pivot;
-            for (std::size_t b = 0; b < items.size() && still_[a]; ++b) {
-                reach_[a * items.size() + b] = table.reach(b, *piece.plane);
+        , hides_(items.size())
+        , reaches_behind_(items.size())
+        , still_(hides_.words(), 0) {
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            const Piece& piece = pieces[items[i]];
+            still_[i / 64] |= std::uint64_t{piece.plane && !piece.pivot} << (i % 64);
+        }
+    }
+
+    BitMatrix matrix() {
+        const PieceTable table(pieces_, items_);
+        for (std::size_t a = 0; a < items_.size(); ++a) {
+            if (is_still(a)) {
+                look_from(table, a);
+            }
+        }
+        reaches_behind_.transpose(); // now row a holds behind whose planes a reaches
+        for (std::size_t a = 0; a < items_.size(); ++a) {
+            for (std::size_t i = 0; i < hides_.words() && is_still(a); ++i) {
+                hides_.word(a, i) &= reaches_behind_.word(a, i) & still_[i];
+            }
+            add_others(a);
+            hides_.remove(a, a);
+        }
+        for (const auto& [upper, lower] : decals_) {
+            hides_.add(lower, upper);
+        }
+        return std::move(hides_);
+    }
+
+private:
+    /// Whether a piece has a plane that stands still.
+    bool is_still(std::size_t i) const { return ((still_[i / 64] >> (i % 64)) & 1U) != 0; }
+
+    /// Looks at the pairs of which one has no plane that stands still.
+    void add_others(std::size_t a) {
+        for (std::size_t i = 0; i < still_.size(); ++i) {
+            const std::size_t end = std::min((i + 1) * 64, items_.size());
+            const bool all_still = std::popcount(still_[i]) == static_cast<int>(end - i * 64);
+            for (std::size_t b = i * 64; b < end && !(is_still(a) && all_still); ++b) {
+                if (!(is_still(a) && is_still(b)) && hides(pieces_, items_[b], items_[a])) {
+                    hides_.add(a, b);
+                }
             }
         }
     }
 
-    /// What parting::hides() says, by places in the set.
-    bool hides(std::size_t b, std::size_t a) const {
-        if (!still_[a] || !still_[b]) {
-            return parting::hides(pieces_, items_[b], items_[a]);
+    /// Finds out where the others reach to the plane of a piece.
+    void look_from(const PieceTable& table, std::size_t a) {
+        for (std::size_t i = 0; i < table.blocks(); ++i) {
+            const ReachBits reach = table.reach(i, *pieces_[items_[a]].plane);
+            hides_.word(a, i) = reach.before;
+            reaches_behind_.word(a, i) = reach.behind;
+            for (std::uint64_t left = still_[i] & ~(reach.before | reach.behind); left != 0;
+                 left &= left - 1) {
+                const std::size_t b = i * 64 + static_cast<std::size_t>(std::countr_zero(left));
+                if (b != a && is_decal_on(pieces_, items_[b], items_[a])) {
+                    decals_.emplace_back(b, a);
+                }
+            }
         }
-        const Reach& of_b = reach_[a * items_.size() + b];
-        if (!of_b.before && !of_b.behind) {
-            return is_decal_on(pieces_, items_[b], items_[a]);
-        }
-        return of_b.before && reach_[b * items_.size() + a].behind;
     }
 
-private:
     const Pieces& pieces_;
     std::span<const std::uint32_t> items_;
-    std::vector<bool> still_;  ///< Has a plane that stands still.
-    std::vector<Reach> reach_; ///< Of each to the plane of each: row after row, a plane a row.
+    BitMatrix hides_;          ///< At first what reaches before the plane of the row's piece.
+    BitMatrix reaches_behind_; ///< What reaches behind it.
+    std::vector<std::uint64_t> still_;
+    std::vector<std::pair<std::size_t, std::size_t>> decals_; ///< In one plane: upper, lower.
 };
 
 /// Tarjan's search over a matrix of bits.
@@ -71,20 +111,10 @@ class Search {
 public:
     Search(const Pieces& pieces, std::span<const std::uint32_t> items)
         : items_(items)
-        , words_((items.size() + 63) / 64)
-        , bits_(items.size() * words_, 0)
+        , hiding_(Hiding(pieces, items).matrix())
         , number_(items.size(), 0)
         , low_(items.size(), 0)
-        , closed_(items.size(), false) {
-        const Reaches reaches(pieces, items);
-        for (std::size_t a = 0; a < items.size(); ++a) {
-            for (std::size_t b = 0; b < items.size(); ++b) {
-                if (a != b && reaches.hides(b, a)) {
-                    bits_[a * words_ + b / 64] |= std::uint64_t{1} << (b % 64);
-                }
-            }
-        }
-    }
+        , closed_(items.size(), false) {}
 
     std::vector<std::vector<std::uint32_t>> components() {
         for (std::size_t i = items_.size(); i-- > 0;) {
@@ -106,15 +136,15 @@ private:
     void enter(std::size_t item) {
         number_[item] = low_[item] = ++next_number_;
         open_.push_back(item);
-        visits_.push_back({item, 0, words_ > 0 ? bits_[item * words_] : 0});
+        visits_.push_back({item, 0, hiding_.word(item, 0)});
     }
 
     void search_from(std::size_t root) {
         enter(root);
         while (!visits_.empty()) {
             Visit& visit = visits_.back();
-            while (visit.left == 0 && ++visit.word < words_) {
-                visit.left = bits_[visit.item * words_ + visit.word];
+            while (visit.left == 0 && ++visit.word < hiding_.words()) {
+                visit.left = hiding_.word(visit.item, visit.word);
             }
             if (visit.left == 0) {
                 leave();
@@ -153,8 +183,7 @@ private:
     }
 
     std::span<const std::uint32_t> items_;
-    std::size_t words_;
-    std::vector<std::uint64_t> bits_; ///< Row a holds what hides part of a.
+    BitMatrix hiding_;
     std::vector<std::uint32_t> number_;
     std::vector<std::uint32_t> low_;
     std::vector<bool> closed_;

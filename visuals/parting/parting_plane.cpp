@@ -7,7 +7,10 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <utility>
@@ -51,9 +54,12 @@ class Sample {
 public:
     Sample(const Pieces& pieces, std::span<const std::uint32_t> items)
         : step_(items.size() / most_looked_at + 1)
-        , table_(pieces, items, step_) {
-        for (std::size_t i = 0; i < items.size(); i += step_) {
-            swept_.push_back(pieces[items[i]].pivot.has_value());
+        , table_(pieces, items, step_)
+        , swept_(table_.blocks(), 0) {
+        for (std::size_t i = 0; i < table_.count(); ++i) {
+            const bool is_swept = pieces[items[i * step_]].pivot.has_value();
+            swept_[i / PieceTable::pieces_a_block] |= std::uint64_t{is_swept}
+                                                      << (i % PieceTable::pieces_a_block);
         }
     }
 
@@ -62,18 +68,15 @@ public:
         Parted parted;
         const auto most_cuts = static_cast<std::size_t>(
             std::min(limit / (polygons_a_cut * static_cast<double>(step_)), 1e9));
-        for (std::size_t i = 0; i < table_.count() && parted.cut <= most_cuts; ++i) {
-            const Reach reach = table_.reach(i, plane);
-            if (reach.before && reach.behind) {
-                ++parted.cut;
-                parted.cuts_swept = parted.cuts_swept || swept_[i];
-            } else if (reach.before) {
-                ++parted.before;
-            } else if (reach.behind) {
-                ++parted.behind;
-            } else {
-                ++parted.within;
-            }
+        for (std::size_t i = 0; i < table_.blocks() && parted.cut <= most_cuts; ++i) {
+            const ReachBits reach = table_.reach(i, plane);
+            const std::uint64_t cut = reach.before & reach.behind;
+            const std::size_t known = count_of(reach.before | reach.behind);
+            parted.cut += count_of(cut);
+            parted.before += count_of(reach.before & ~cut);
+            parted.behind += count_of(reach.behind & ~cut);
+            parted.within += table_.count_in(i) - known;
+            parted.cuts_swept = parted.cuts_swept || (cut & swept_[i]) != 0;
         }
         parted.before *= step_;
         parted.behind *= step_;
@@ -82,9 +85,13 @@ public:
     }
 
 private:
+    static std::size_t count_of(std::uint64_t bits) {
+        return static_cast<std::size_t>(std::popcount(bits));
+    }
+
     std::size_t step_;
     PieceTable table_;
-    std::vector<bool> swept_; ///< by something that turns
+    std::vector<std::uint64_t> swept_; ///< A bit a piece: by something that turns.
 };
 
 /// The best plane of a piece.
@@ -135,28 +142,65 @@ Ends ends_along(const Pieces& pieces, std::span<const std::uint32_t> items, int 
     return ends;
 }
 
-std::size_t count_below(const std::vector<double>& sorted, double limit) {
-    return static_cast<std::size_t>(std::ranges::lower_bound(sorted, limit) - sorted.begin());
-}
+/// How many of some sorted values lie below limits that are asked for in ascending order.
+class CountBelow {
+public:
+    explicit CountBelow(const std::vector<double>& sorted)
+        : sorted_(sorted) {}
+
+    std::size_t operator()(double limit) {
+        while (below_ < sorted_.size() && sorted_[below_] < limit) {
+            ++below_;
+        }
+        return below_;
+    }
+
+private:
+    const std::vector<double>& sorted_;
+    std::size_t below_ = 0;
+};
+
+/// How planes across an axis part all pieces, from the lowest plane on.
+class Sweep {
+public:
+    explicit Sweep(const Ends& ends)
+        : count_(ends.low.size())
+        , low_(ends.low)
+        , high_(ends.high)
+        , swept_low_(ends.swept_low)
+        , swept_high_(ends.swept_high) {}
+
+    Parted parted_at(double at) {
+        Parted parted;
+        parted.before = count_ - low_(at - tolerance);
+        parted.behind = high_(at + tolerance);
+        // What lies within the tolerance of the plane is in both counts.
+        const std::size_t known = parted.before + parted.behind;
+        parted.within = known > count_ ? known - count_ : 0;
+        parted.before -= std::min(parted.before, parted.within);
+        parted.behind -= std::min(parted.behind, parted.within);
+        const std::size_t settled = parted.before + parted.behind + parted.within;
+        parted.cut = count_ - std::min(count_, settled);
+        parted.cuts_swept = swept_low_(at - tolerance) != swept_high_(at + tolerance);
+        return parted;
+    }
+
+private:
+    std::size_t count_;
+    CountBelow low_;
+    CountBelow high_;
+    CountBelow swept_low_;
+    CountBelow swept_high_;
+};
 
 /// The best plane across an axis.
 Costed best_across(const Pieces& pieces, std::span<const std::uint32_t> items, int axis) {
     const Ends ends = ends_along(pieces, items, axis);
-    const std::size_t count = items.size();
+    Sweep at_low(ends);
+    Sweep at_high(ends);
     Costed best;
-    const auto try_at = [&](double at) {
-        Parted parted;
-        parted.before = count - count_below(ends.low, at - tolerance);
-        parted.behind = count_below(ends.high, at + tolerance);
-        // What lies within the tolerance of the plane is in both counts.
-        const std::size_t known = parted.before + parted.behind;
-        parted.within = known > count ? known - count : 0;
-        parted.before -= std::min(parted.before, parted.within);
-        parted.behind -= std::min(parted.behind, parted.within);
-        const std::size_t settled = parted.before + parted.behind + parted.within;
-        parted.cut = count - std::min(count, settled);
-        parted.cuts_swept = count_below(ends.swept_low, at - tolerance) !=
-                            count_below(ends.swept_high, at + tolerance);
+    const auto try_at = [&](double at, Sweep& sweep) {
+        const Parted parted = sweep.parted_at(at);
         if (parted.before == 0 || parted.behind == 0) {
             return;
         }
@@ -167,9 +211,9 @@ Costed best_across(const Pieces& pieces, std::span<const std::uint32_t> items, i
             best = {{normal, -at}, cost};
         }
     };
-    for (std::size_t i = 0; i < count; ++i) {
-        try_at(ends.low[i]);
-        try_at(ends.high[i]);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        try_at(ends.low[i], at_low);
+        try_at(ends.high[i], at_high);
     }
     return best;
 }

@@ -1,5 +1,7 @@
 #include "visuals/planning/aircraft_hull.h"
 
+#include "sim/base/plane.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -157,7 +159,7 @@ Plane side_of(const HullBox& box, int side) {
 void cut_to_inside(SightPolygon& polygon, const HullBox& box, SightPolygon& scratch) {
     for (int side = 0; side < 6 && !polygon.empty(); ++side) {
         const Plane plane = side_of(box, side);
-        cut_to_front(polygon, {-plane.normal, -plane.offset_m}, 0.0, scratch);
+        cut_to_front(polygon, turned_over(plane), 0.0, scratch);
     }
 }
 

@@ -1,5 +1,6 @@
 #include "visuals/planning/ground_in_front.h"
 
+#include "sim/base/plane.h"
 #include "visuals/planning/ground_frame.h"
 
 #include <glm/common.hpp>
@@ -67,7 +68,7 @@ ConvexRoom sight_lines_to(const HullBox& box) {
     for (int side = 0; side < 6; ++side) {
         const Plane plane = side_of(box, side);
         if (plane.offset_m <= 0.0) { // behind the box
-            room.add({-plane.normal, -plane.offset_m});
+            room.add(turned_over(plane));
         }
     }
     return room;

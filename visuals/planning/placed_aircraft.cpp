@@ -98,7 +98,7 @@ void place_turned_part(
     const models::polygons::Pivot& axis = model.pivots[pivot];
     const glm::dvec3 about(turned.turn.x, turned.turn.y, turned.turn.z);
     const double angle_rad = 2.0 * std::atan2(glm::dot(about, axis.axis), turned.turn.w);
-    parts[pivot + 1] = turned_about(axis, angle_rad, parts[0]);
+    parts[pivot + 1] = turned_about(axis, angle_rad, glm::translate(parts[0], turned.offset_m));
 }
 
 } // namespace octant::visuals::planning

@@ -73,7 +73,7 @@ void place_parts(
     double time_s,
     std::span<glm::dmat4> parts);
 
-/// Turns a part that somebody else turns; nothing where the model has no such pivot. `numbered` is
+/// Turns and moves a part that somebody else turns; nothing where the model has no such pivot. `numbered` is
 /// the model whose pivots `turned` counts: the part of the same name turns in `model`, which is the
 /// same or stands in for it from afar. `parts` as place_parts() has them.
 void place_turned_part(

@@ -32,20 +32,9 @@ scene::Haze haze_of(const scene::AirSettings& air, const nature::Daylight& day) 
     return haze;
 }
 
-nature::Backdrop land_around(const landscape::Ground& ground, const scene::AirSettings& air) {
-    if (!air.sky || ground.spacing_m() <= 0.0) {
-        return {};
-    }
-    return nature::backdrop_of(
-        {ground.half_extent_m(),
-         ground.mean_height_m(),
-         ground.mean_colour(),
-         [&](const glm::dvec2& at_m) {
-             return ground.height_at(at_m.x, at_m.y).value_or(ground.mean_height_m());
-         },
-         [&](const glm::dvec2& at_m, double footprint_m) {
-             return ground.colour_at(at_m.x, at_m.y, footprint_m);
-         }});
+Sky sky_of(
+    const landscape::Ground& ground, const scene::AirSettings& air, const nature::Daylight& day) {
+    return Sky(day, air.sky ? ground.surroundings() : nature::Backdrop());
 }
 
 double distance_to_edge_m(const landscape::Ground& ground, const glm::dvec3& eye_m) {
@@ -109,18 +98,15 @@ Planner::Planner(
     , aspect_(static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y)
     , daylight_(landscape::daylight_of(settings.air))
     , to_sun_(landscape::direction_to_sun(settings.air))
-    , sky_(daylight_, land_around(*scene.ground, settings.air))
+    , sky_(sky_of(*scene.ground, settings.air, daylight_))
     , shadows_(to_sun_)
     , placed_(places_for(scene, settings.view.kind, parts_))
     , smooth_(settings.shading, settings.adapt.shading, placed_)
     , steps_(plan_) {
     plan_.background = settings.air.background;
-    plan_.haze = haze_of(settings.air, daylight_);
     plan_.mesh_look = settings.ground.show_mesh;
     plan_.sample_spacing_m = std::max(static_cast<float>(scene.ground->spacing_m()), 1e-3F);
-    plan_.to_sun = glm::vec3(to_sun_);
-    plan_.ambient = daylight_.ambient();
-    plan_.sunlight = daylight_.sunlight();
+    plan_light();
     plan_.lights_pixels = settings.shading.kind == scene::AircraftShading::Phong;
     for (const PlacedAircraft& aircraft : placed_) {
         refined_.push_back(
@@ -132,6 +118,27 @@ Planner::Planner(
     was_refined_.resize(placed_.size());
     hulls_.resize(scene.aircraft.size());
     near_to_far_.resize(scene.aircraft.size());
+}
+
+void Planner::plan_light() {
+    plan_.haze = haze_of(settings_.air, daylight_);
+    plan_.to_sun = glm::vec3(to_sun_);
+    plan_.ambient = daylight_.ambient();
+    plan_.sunlight = daylight_.sunlight();
+}
+
+bool Planner::relight() {
+    const landscape::GroundMesher* const before = mesher_.get();
+    mesher_ = landscape::mesher_after(
+        std::move(mesher_),
+        *scene_.ground,
+        landscape::mesh_settings(settings_, scene_.ground_texture != nullptr));
+    daylight_ = landscape::daylight_of(settings_.air);
+    to_sun_ = landscape::direction_to_sun(settings_.air);
+    sky_ = sky_of(*scene_.ground, settings_.air, daylight_);
+    shadows_ = ShadowCaster(to_sun_);
+    plan_light();
+    return mesher_.get() == before;
 }
 
 landscape::GroundRequest
@@ -170,13 +177,7 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
     plan_sky(camera);
     plan_grain(camera);
     plan_overlay(request);
-    const SmoothChoice::Count shaded = smooth_.choose(
-        placed_,
-        refined_,
-        request.smooth,
-        to_sun_,
-        glm::vec2(plan_.ambient.x, plan_.sunlight.x),
-        plan_.smooth);
+    const SmoothChoice::Count shaded = choose_smooth(request.smooth);
     counts.may_be_smooth = shaded.polygons;
     counts.smooth_polygons = shaded.smooth;
     count_aircraft(counts);
@@ -190,15 +191,31 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
     return {plan_, counts};
 }
 
+void Planner::pass_over(const PlanRequest& request) {
+    place_and_refine(request);
+    choose_smooth(request.smooth);
+}
+
+SmoothChoice::Count Planner::choose_smooth(const SmoothWish& wish) {
+    return smooth_.choose(
+        placed_,
+        refined_,
+        wish,
+        to_sun_,
+        glm::vec2(plan_.ambient.x, plan_.sunlight.x),
+        plan_.smooth);
+}
+
 /// The air at the eye's height over the ground's mean one.
 void Planner::plan_haze(const scene::Camera& camera) {
     const scene::AirSettings& air = settings_.air;
     const double mean_m = scene_.ground->mean_height_m();
+    double thinner = 1.0;
     if (air.haze_height_m > 0.0) {
         const double above_m = camera.eye_m.z - (std::isfinite(mean_m) ? mean_m : 0.0);
-        const double thinner = std::exp(std::clamp(above_m / air.haze_height_m, -3.0, 30.0));
-        plan_.haze.visibility_m = static_cast<float>(air.visibility_m * thinner);
+        thinner = std::exp(std::clamp(above_m / air.haze_height_m, -3.0, 30.0));
     }
+    plan_.haze.visibility_m = static_cast<float>(air.visibility_m * thinner);
 }
 
 void Planner::plan_sky(const scene::Camera& camera) {

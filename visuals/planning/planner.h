@@ -77,7 +77,8 @@ struct PlannedFrame {
 /// ground's detail control from frame to frame. Several views have a planner each over one scene.
 class Planner {
 public:
-    /// The scene and the settings must outlive the planner. `mesher` is one of the scene's ground,
+    /// The scene and the settings must outlive the planner; of the settings the visibility may
+    /// change between plans. `mesher` is one of the scene's ground,
     /// from which the view's detail goes on; null = a new one by these settings.
     Planner(
         const Scene& scene,
@@ -92,6 +93,11 @@ public:
     /// Sets the detail of the ground for the camera of the first frame. Loading work.
     void settle(const scene::Camera& camera);
 
+    /// Goes on under the sun of the settings and over the ground of the scene where these have
+    /// become others: the same heights in other colours. Nothing may be prepared then. Returns
+    /// false where the detail of the ground begins anew: settle() again.
+    bool relight();
+
     /// Begins the work on the ground of the next plan() beside the caller, for the camera and the
     /// triangle target that it will be given; the last plan stays valid. May be left out: changes
     /// no plan.
@@ -105,6 +111,12 @@ public:
     /// planned.
     PlannedFrame plan(const PlanRequest& request);
 
+    /// Goes on as if plan() had been called, for a picture that nobody sees: levels of detail,
+    /// stand-ins of far aircraft, refined meshes and smooth polygons are then what the next plan
+    /// goes on from. Leaves out the ground, whose detail goes on from plan to plan only where
+    /// earlier counts control it.
+    void pass_over(const PlanRequest& request);
+
     /// The mesher of the ground, for the planner that follows this one in the same view. Nothing
     /// may be planned after it.
     std::unique_ptr<landscape::GroundMesher> take_mesher() { return std::move(mesher_); }
@@ -113,6 +125,8 @@ private:
     landscape::GroundRequest
     ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const;
     void place_and_refine(const PlanRequest& request);
+    SmoothChoice::Count choose_smooth(const SmoothWish& wish);
+    void plan_light();
     void plan_haze(const scene::Camera& camera);
     void plan_sky(const scene::Camera& camera);
     void plan_grain(const scene::Camera& camera);

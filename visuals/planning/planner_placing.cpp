@@ -56,7 +56,7 @@ scene::Tints tints_of(const PlacedAircraft& aircraft, scene::ModelLook look) {
 
 void Planner::place_and_refine(const PlanRequest& request) {
     const scene::Camera& camera = request.camera;
-    pixel_rad_ = 2.0 * std::tan(camera.vertical_fov_rad / 2.0) / settings_.view.size_px.y;
+    pixel_rad_ = 1.0 / focal_px(camera, settings_.view.size_px.y);
     frustum_ = frustum_normals(camera, aspect_);
     turned_ = request.turned;
     place_aircraft(camera, request.states);

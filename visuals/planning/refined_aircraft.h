@@ -63,7 +63,7 @@ private:
     shading::ChangingMeshSelector selector_;
     bool shows_levels_;
     bool choosing_ = false;      ///< some triangles are smooth and some are not
-    bool all_flat_ = false;      ///< else
+    bool all_flat_ = false;      ///< whether all are flat, where none is chosen
     bool front_changed_ = true;  ///< since the selector has seen it
     bool drawn_changed_ = true;  ///< since draw()
     std::size_t slot_count_ = 0; ///< of vertices_; those of flat triangles lie behind

@@ -44,7 +44,7 @@ void FrameSlices::add_step(const FrameInput& input, const PaintStep& step, DrawS
     const auto add_ground = [&](std::span<const std::uint32_t> indices) {
         const bool shows_mesh = plan.mesh_look != scene::MeshLook::None;
         style.fill = shows_mesh            ? Fill::Mesh
-                     : plan.ground_texture ? Fill::Texture
+                     : plan.ground_texture ? Fill::TextureInPerspective
                      : plan.grain          ? Fill::Grain
                                            : Fill::Levels;
         add_slice({.indices = indices.subspan(step.first, step.count), .style = style});

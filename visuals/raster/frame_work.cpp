@@ -62,7 +62,11 @@ void FrameWork::prepare(const FrameInput& input) {
     make_batches();
     std::vector<TriangleSetup> setups(
         static_cast<std::size_t>(workers_.threads()),
-        TriangleSetup(projection_, input.plan, samples_));
+        TriangleSetup(
+            projection_,
+            input.plan,
+            samples_,
+            input.plan.ground_texture ? input.ground->levels().size() : 0));
     workers_.run(static_cast<int>(batch_count_), [&](int batch, int thread) {
         set_up(
             input,
@@ -188,7 +192,7 @@ void FrameWork::set_up_overlay(const FrameInput& input) {
             end = std::max<std::size_t>(end, std::size_t{step.first} + step.count);
         }
     }
-    TriangleSetup setup(projection_, input.plan, samples_);
+    TriangleSetup setup(projection_, input.plan, samples_, 0);
     setup.begin_step({});
     for (std::size_t i = first; i + 2 < end; i += 3) {
         std::array<ScreenVertex, 3> corners;

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <thread>
 #include <utility>
 
 namespace octant::visuals::raster {
@@ -107,10 +106,7 @@ void GroundImage::light(const Light& light) {
     Level& level = levels_.back();
     level.texels.resize(
         static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height));
-    const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    share_out(static_cast<std::size_t>(level.height), threads, [&](std::size_t row, std::size_t) {
-        light_row(texture_, light, static_cast<int>(row), level);
-    });
+    by_rows(level.height, [&](int row) { light_row(texture_, light, row, level); });
     while (levels_.back().width > 2 || levels_.back().height > 2) {
         levels_.push_back(half_of(levels_.back()));
     }

@@ -1,5 +1,7 @@
 #include "visuals/raster/pixel_colour.h"
 
+#include "visuals/raster/even_texture.h"
+#include "visuals/raster/texture_levels.h"
 #include "visuals/scene/grain_pattern.h"
 
 #include <algorithm>
@@ -18,12 +20,17 @@ std::uint16_t packed(double level) {
     return static_cast<std::uint16_t>(std::clamp(level, 0.0, most_level) * per_level + 0.5);
 }
 
-/// A level, 1/128 from the level 128, within the triangle's own.
-std::int32_t limited(const Levels& levels, std::size_t i, int column, int row) {
-    const std::uint32_t at =
+/// A level, 2^-16 from the level 128.
+std::int32_t level_at(const Levels& levels, std::size_t i, int column, int row) {
+    return static_cast<std::int32_t>(
         static_cast<std::uint32_t>(levels.base[i]) +
         static_cast<std::uint32_t>(levels.per_x[i]) * static_cast<std::uint32_t>(column) +
-        static_cast<std::uint32_t>(levels.per_y[i]) * static_cast<std::uint32_t>(row);
+        static_cast<std::uint32_t>(levels.per_y[i]) * static_cast<std::uint32_t>(row));
+}
+
+/// A level, 1/128 from the level 128, within the triangle's own.
+std::int32_t limited(const Levels& levels, std::size_t i, int column, int row) {
+    const auto at = static_cast<std::uint32_t>(level_at(levels, i, column, row));
     const std::int32_t value = static_cast<std::int32_t>(at + 256U) >> 9;
     return std::clamp<std::int32_t>(value, levels.least[i], levels.most[i]);
 }
@@ -80,14 +87,51 @@ std::array<double, 3> texel_at(const GroundImage::Level& level, double x, double
     return sum;
 }
 
-/// The logarithm to base 2, straight between whole numbers: wrong by less than 0.09.
-double coarse_log2(double x) {
-    int exponent = 0;
-    const double share = std::frexp(x, &exponent); // 1/2 .. 1
-    return exponent - 1 + (2.0 * share - 1.0);
+/// What textured ground has at a pixel.
+struct TextureValues {
+    double x; ///< texels of the finest level
+    double y;
+    double light_left;
+    double haze_share;
+};
+
+PixelColour textured(const TextureValues& at, const TextureLevels& chosen, const TileJob& job) {
+    const auto& levels = job.ground->levels();
+    const auto at_level = [&](std::size_t k) {
+        const double scale = 1.0 / static_cast<double>(std::uint64_t{1} << k);
+        return texel_at(levels[k], (at.x + 0.5) * scale - 0.5, (at.y + 0.5) * scale - 0.5);
+    };
+    std::array<double, 3> own = at_level(chosen.fine);
+    if (chosen.coarse_share > 0) {
+        const std::array<double, 3> coarse = at_level(std::size_t{chosen.fine} + 1);
+        for (std::size_t i = 0; i < 3; ++i) {
+            own[i] += chosen.coarse_share / 65536.0 * (coarse[i] - own[i]);
+        }
+    }
+    PixelColour colour;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double lit = own[i] * std::clamp(at.light_left, 0.0, 1.0);
+        const auto haze = static_cast<double>(job.haze[static_cast<glm::length_t>(i)]);
+        colour[i] = packed(lit + std::clamp(at.haze_share, 0.0, 1.0) * (haze - lit));
+    }
+    return colour;
 }
 
 PixelColour by_texture(const TileTriangle& one, const TileJob& job, int column, int row) {
+    const Triangle& triangle = *one.triangle;
+    const double texel = static_cast<double>(std::uint64_t{1} << triangle.texture.fine);
+    const auto place = [&](std::size_t i) {
+        return (level_at(triangle.levels, i, column, row) / 65536.0 + 128.5) * texel - 0.5;
+    };
+    const auto share = [&](std::size_t i) {
+        return (limited(triangle.levels, i, column, row) / 128.0 + 128.0) /
+               static_cast<double>(EvenTexture::whole_share);
+    };
+    return textured({place(0), place(1), share(2), share(3)}, triangle.texture, job);
+}
+
+PixelColour
+by_texture_in_perspective(const TileTriangle& one, const TileJob& job, int column, int row) {
     const TriangleExtra& extra = *one.extra;
     const double w = depth_of(extra, column, row);
     const auto value = [&](std::size_t i) { return extra.by_w[i].at(column, row) * w; };
@@ -106,34 +150,7 @@ PixelColour by_texture(const TileTriangle& one, const TileJob& job, int column, 
         return step_x * step_x + step_y * step_y;
     };
     const double size2 = std::max(moves(1.0, 0.0), moves(0.0, 1.0));
-    const auto& levels = job.ground->levels();
-    const double most = static_cast<double>(levels.size()) - 1.0;
-    const double level = size2 > 1.0 ? std::min(0.5 * coarse_log2(size2), most) : 0.0;
-    const auto fine = static_cast<std::size_t>(level);
-    // Most places take one level: the next one comes in over a third of the way only.
-    const double coarse_share =
-        std::clamp(3.0 * (level - static_cast<double>(fine) - 0.5) + 0.5, 0.0, 1.0);
-    const auto at_level = [&](std::size_t k) {
-        const double scale = 1.0 / static_cast<double>(std::uint64_t{1} << k);
-        return texel_at(levels[k], (x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5);
-    };
-    std::array<double, 3> own = at_level(fine);
-    if (coarse_share > 0.0) {
-        const std::array<double, 3> coarse = at_level(std::min(fine + 1, levels.size() - 1));
-        for (std::size_t i = 0; i < 3; ++i) {
-            own[i] += coarse_share * (coarse[i] - own[i]);
-        }
-    }
-    const double light_left = std::clamp(value(2), 0.0, 1.0);
-    const double haze_share = std::clamp(value(3), 0.0, 1.0);
-    PixelColour colour;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double lit = own[i] * light_left;
-        colour[i] = packed(
-            lit +
-            haze_share * (static_cast<double>(job.haze[static_cast<glm::length_t>(i)]) - lit));
-    }
-    return colour;
+    return textured({x, y, value(2), value(3)}, levels_of(size2, job.ground->levels().size()), job);
 }
 
 /// The fine pattern between the four texels around a place of one level, -1 to 1.
@@ -308,6 +325,8 @@ PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, i
         return by_grain(one, job, column, row);
     case Fill::Texture:
         return by_texture(one, job, column, row);
+    case Fill::TextureInPerspective:
+        return by_texture_in_perspective(one, job, column, row);
     case Fill::Mesh:
         return by_mesh(one, job, column, row);
     case Fill::Lit:

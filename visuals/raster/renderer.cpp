@@ -150,6 +150,18 @@ void Renderer::finish_and_read(scene::Picture& picture) {
     std::swap(picture, picture_);
 }
 
+void Renderer::finish_and_copy(scene::Picture& picture) {
+    picture.width = size_px_.x;
+    picture.height = size_px_.y;
+    picture.rgba.resize(byte_at(0, size_px_.y));
+    std::copy_n(pixels_, picture.rgba.size(), picture.rgba.data());
+    if (is_in_window_) { // where blue comes first
+        for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
+            std::swap(picture.rgba[i], picture.rgba[i + 2]);
+        }
+    }
+}
+
 void Renderer::copy_to_window(const glm::ivec2& size_px) {
     assert(is_in_window_);
     window_->show(size_px);

@@ -51,6 +51,7 @@ public:
     void finish() override {}
 
     void finish_and_read(scene::Picture& picture) override;
+    void finish_and_copy(scene::Picture& picture) override;
 
     int draw_calls() const override { return draw_calls_; }
 

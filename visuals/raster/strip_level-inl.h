@@ -59,31 +59,36 @@ HWY_INLINE hn::Vec<Strip> from_level(hn::Vec<StripSigned> level) {
 
 /// A level over a strip, row by row: 1/128 level from the level 128, wrapping.
 struct StripLevel {
-    std::uint32_t at; ///< of the strip's first column, 2^-16 level
+    std::uint32_t at; ///< where columns are counted from, 2^-16 level
     std::uint32_t per_row;
     hn::Vec<StripSigned> least;
     hn::Vec<StripSigned> most;
     std::array<hn::Vec<StripSigned>, strip_parts> steps;
 
-    HWY_INLINE StripLevel(const Levels& levels, std::size_t k, const glm::ivec2& first_px)
-        : at(first_level(levels, k, first_px))
+    /// The strip begins some columns right of a pixel from which columns are counted.
+    HWY_INLINE
+    StripLevel(const Levels& levels, std::size_t k, const glm::ivec2& from_px, int columns_right)
+        : at(first_level(levels, k, from_px))
         , per_row(static_cast<std::uint32_t>(levels.per_y[k]))
         , least(hn::Set(StripSigned(), levels.least[k]))
         , most(hn::Set(StripSigned(), levels.most[k])) {
         const StripSigned sign;
         const auto per_column = hn::Set(sign, levels.per_column[k]);
         for (std::size_t i = 0; i < strip_parts; ++i) {
-            steps[i] = hn::Mul(hn::Iota(sign, static_cast<std::int16_t>(i * part_px)), per_column);
+            const std::size_t first = static_cast<std::size_t>(columns_right) + i * part_px;
+            steps[i] = hn::Mul(counting_from(sign, first), per_column);
         }
     }
 
-    /// In 1/16 level from 0.
-    HWY_INLINE hn::Vec<Strip> colour(std::size_t part) const {
-        const StripSigned sign;
+    /// 1/128 level from the level 128.
+    HWY_INLINE hn::Vec<StripSigned> level(std::size_t part) const {
         const auto first = static_cast<std::int16_t>(static_cast<std::int32_t>(at) >> 9);
-        const auto raw = hn::Add(hn::Set(sign, first), steps[part]);
-        return from_level(hn::Min(hn::Max(raw, least), most));
+        const auto raw = hn::Add(hn::Set(StripSigned(), first), steps[part]);
+        return hn::Min(hn::Max(raw, least), most);
     }
+
+    /// In 1/16 level from 0.
+    HWY_INLINE hn::Vec<Strip> colour(std::size_t part) const { return from_level(level(part)); }
 };
 
 /// A bit for each pixel of a strip whose value has all bits set.

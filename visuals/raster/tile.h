@@ -31,8 +31,8 @@ struct TileJob {
     std::span<const TileTriangle> triangles; ///< in painting order
     std::span<const TileTriangle> overlay;   ///< in painting order, over all others
     std::array<std::uint8_t, 3> background{};
-    const GroundImage* ground = nullptr; ///< for Fill::Texture
-    glm::vec3 haze{0.0F};                ///< levels, for Fill::Texture
+    const GroundImage* ground = nullptr; ///< for textures
+    glm::vec3 haze{0.0F};                ///< levels, for textures
     const GrainImage* grain = nullptr;   ///< for Fill::Grain
     const GrainRays* grain_rays = nullptr;
     const Light* light = nullptr;   ///< for Fill::Lit

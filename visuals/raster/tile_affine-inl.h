@@ -87,7 +87,7 @@ public:
             hn::Set(Signed(), static_cast<std::int16_t>(plane.at(at - first_px_) >> coarser));
         const auto per_px = hn::Set(Signed(), static_cast<std::int16_t>(plane.per_x >> coarser));
         for (std::size_t i = 0; i < block_px; i += hn::Lanes(Pixels())) {
-            const auto steps = hn::Iota(Signed(), static_cast<std::int16_t>(i));
+            const auto steps = counting_from(Signed(), i);
             const auto value = hn::Add(first, hn::Mul(steps, per_px));
             const auto within =
                 hn::Min(hn::Max(value, hn::Zero(Signed())), hn::Set(Signed(), 16383));

@@ -43,7 +43,7 @@ nearer_pixels(std::uint32_t pixels, float first, float per_px, DepthRule rule, f
         const std::uint32_t some = pixels >> i;
         std::memcpy(bits.data(), &some, sizeof some);
         const auto is_drawn = hn::LoadMaskBits(real, bits.data());
-        const auto steps = hn::Iota(real, static_cast<float>(i));
+        const auto steps = counting_from(real, i);
         const auto here = hn::Add(hn::Set(real, first), hn::Mul(steps, hn::Set(real, per_px)));
         const auto before = hn::LoadU(real, depth + i);
         const auto is_nearer = rule.passes_equal ? hn::Ge(here, before) : hn::Gt(here, before);
@@ -85,6 +85,7 @@ HWY_INLINE void paint_strip_over(
     const Triangle& triangle = *one.triangle;
     const std::uint32_t columns = box.columns_of_strip(left);
     const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
+    const glm::ivec2 box_px = job.first_px + glm::ivec2(box.left, box.first_row);
     MiddleEdge whole(triangle.whole, triangle.top, first_px);
     MiddleEdge upper(triangle.upper, triangle.top, first_px);
     MiddleEdge lower(triangle.lower, triangle.middle, first_px);
@@ -92,9 +93,9 @@ HWY_INLINE void paint_strip_over(
     const int first_lower = first_row_of(triangle.middle) - job.first_px.y;
     const DepthRule rule(triangle.depth);
     std::array levels{
-        StripLevel(triangle.levels, 0, first_px),
-        StripLevel(triangle.levels, 1, first_px),
-        StripLevel(triangle.levels, 2, first_px)};
+        StripLevel(triangle.levels, 0, box_px, left - box.left),
+        StripLevel(triangle.levels, 1, box_px, left - box.left),
+        StripLevel(triangle.levels, 2, box_px, left - box.left)};
     auto pixel = static_cast<std::size_t>(box.first_row * tile_width + left);
     for (int row = box.first_row; row <= box.last_row; ++row, pixel += tile_width) {
         const std::uint32_t bent = (row < first_lower ? upper : lower).pixels_from();

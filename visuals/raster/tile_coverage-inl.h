@@ -7,7 +7,7 @@
 #define OCTANT_RASTER_COVERAGE_INL
 #endif
 
-#include "visuals/raster/tile.h"
+#include "visuals/raster/tile_counting-inl.h"
 
 #include <algorithm>
 #include <cmath>
@@ -203,7 +203,7 @@ HWY_INLINE void write_masks(
     const auto from_all = repeated(wide, hn::Add(least, half));
     const auto count_all =
         hn::BitCast(sign, repeated(wide, hn::Sub(hn::SaturatedSub(end, least), half)));
-    const auto pixels = hn::ShiftRight<4>(hn::Iota(wide, 0));
+    const auto pixels = hn::ShiftRight<4>(counting_from(wide, 0));
     for (int block = 0; block < blocks; ++block) {
         const int first = span.first + 16 * block;
         std::uint16_t* const to = masks + 16 * block;
@@ -282,7 +282,7 @@ cover(const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, Til
         const auto whole_columns = whole.columns(at);
         auto within = hn::Set(Bytes(), tile_width);
         if (!is_through) {
-            const auto lane = hn::Iota(Bytes(), 0);
+            const auto lane = counting_from(Bytes(), 0);
             const auto is_before = [&](std::int32_t y) HWY_ATTR {
                 return hn::Lt(
                     lane, hn::Set(Bytes(), static_cast<std::uint8_t>(lanes_above(y, row, lanes))));

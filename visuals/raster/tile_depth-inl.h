@@ -91,8 +91,7 @@ HWY_INLINE void draw_pixel(
     const Seen whole;
     const std::size_t at_once = hn::Lanes(real);
     for (std::size_t lane = 0; lane < samples; lane += at_once) {
-        const auto bit =
-            hn::Shl(hn::Set(whole, 1U), hn::Iota(whole, static_cast<std::uint32_t>(lane)));
+        const auto bit = hn::Shl(hn::Set(whole, 1U), counting_from(whole, lane));
         const auto covered =
             hn::RebindMask(real, hn::Ne(hn::And(hn::Set(whole, mask), bit), hn::Zero(whole)));
         const auto before = hn::LoadU(real, depth + lane);

@@ -55,7 +55,7 @@ HWY_INLINE void add_level(
     std::uint16_t* sums) {
     const PixelsSigned sign;
     const Pixels px;
-    const auto steps = hn::Iota(sign, static_cast<std::int16_t>(pixel_in_block));
+    const auto steps = counting_from(sign, pixel_in_block);
     const auto base = hn::Set(sign, static_cast<std::int16_t>(walk.base[k]));
     const auto raw = hn::Add(base, hn::Mul(steps, hn::Set(sign, walk.per_px[k])));
     const auto level =

@@ -32,11 +32,12 @@ HWY_INLINE void paint_strip(
     const std::uint64_t wide_columns = std::uint64_t{columns} << left;
     const std::uint64_t full_row = job.full_row();
     const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
+    const glm::ivec2 box_px = job.first_px + glm::ivec2(box.left, box.first_row);
     StripCoverage coverage(triangle, first_px, columns, lanes);
     std::array levels{
-        StripLevel(triangle.levels, 0, first_px),
-        StripLevel(triangle.levels, 1, first_px),
-        StripLevel(triangle.levels, 2, first_px)};
+        StripLevel(triangle.levels, 0, box_px, left - box.left),
+        StripLevel(triangle.levels, 1, box_px, left - box.left),
+        StripLevel(triangle.levels, 2, box_px, left - box.left)};
     auto pixel = static_cast<std::size_t>(box.first_row * tile_width + left);
     for (int row = box.first_row; row <= box.last_row; ++row, pixel += tile_width) {
         std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
@@ -95,15 +96,16 @@ HWY_INLINE void paint_strip_of_middles(
     const std::uint32_t columns = box.columns_of_strip(left);
     const std::uint64_t full_row = job.full_row();
     const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
+    const glm::ivec2 box_px = job.first_px + glm::ivec2(box.left, box.first_row);
     MiddleEdge whole(triangle.whole, triangle.top, first_px);
     MiddleEdge upper(triangle.upper, triangle.top, first_px);
     MiddleEdge lower(triangle.lower, triangle.middle, first_px);
     const std::uint32_t bends_left = triangle.middle_is_left ? ~0U : 0U;
     const int first_lower = first_row_of(triangle.middle) - job.first_px.y;
     std::array levels{
-        StripLevel(triangle.levels, 0, first_px),
-        StripLevel(triangle.levels, 1, first_px),
-        StripLevel(triangle.levels, 2, first_px)};
+        StripLevel(triangle.levels, 0, box_px, left - box.left),
+        StripLevel(triangle.levels, 1, box_px, left - box.left),
+        StripLevel(triangle.levels, 2, box_px, left - box.left)};
     auto pixel = static_cast<std::size_t>(box.first_row * tile_width + left);
     for (int row = box.first_row; row <= box.last_row; ++row, pixel += tile_width) {
         std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
@@ -149,8 +151,8 @@ HWY_NOINLINE void paint_levels(
         return;
     }
     if constexpr (has_pairs_of_rows) {
-        if (!lanes.are_one && box.right - box.left < narrow_px) {
-            paint_narrow(triangle, job, lanes, box, buffer);
+        if (!lanes.are_one && box.right - box.left < window_px) {
+            paint_levels_in_pairs(triangle, job, lanes, box, buffer);
             return;
         }
     }

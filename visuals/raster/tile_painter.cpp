@@ -15,6 +15,7 @@
 #include "visuals/raster/tile_compared-inl.h"
 #include "visuals/raster/tile_coverage-inl.h"
 #include "visuals/raster/tile_depth-inl.h"
+#include "visuals/raster/tile_even_texture-inl.h"
 #include "visuals/raster/tile_fill-inl.h"
 #include "visuals/raster/tile_grain-inl.h"
 #include "visuals/raster/tile_levels-inl.h"
@@ -35,7 +36,9 @@ HWY_INLINE void paint_one(
     const Fill fill_with = one.triangle->fill;
     if (fill_with == Fill::Levels && one.extra == nullptr) {
         paint_levels(*one.triangle, job, lanes, buffer);
-    } else if (fill_with == Fill::Texture && one.extra->cut_count == 0) {
+    } else if (fill_with == Fill::Texture) {
+        paint_even_texture(*one.triangle, job, lanes, buffer);
+    } else if (fill_with == Fill::TextureInPerspective && one.extra->cut_count == 0) {
         paint_texture(one, job, lanes, buffer);
     } else if (fill_with == Fill::Grain && one.extra->cut_count == 0) {
         paint_grain(one, job, lanes, buffer);

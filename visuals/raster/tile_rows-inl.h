@@ -1,5 +1,5 @@
-// Paints two rows of a narrow triangle at once, where a register holds 32 pixels: sixteen of a row
-// and sixteen of the next. What comes out is the same as row by row.
+// Two rows of a triangle at once, where a register holds 32 pixels: sixteen of a row and sixteen of
+// the next, which begin where the triangle does. What comes out is the same as row by row.
 // Included once for each instruction set.
 #if defined(OCTANT_RASTER_ROWS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_ROWS_INL
@@ -11,14 +11,19 @@
 #include "visuals/raster/strip_level-inl.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
 
 HWY_BEFORE_NAMESPACE();
 
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 
-constexpr int narrow_px = strip_px / 2;
+constexpr int window_px = strip_px / 2;
 constexpr bool has_pairs_of_rows = strip_parts == 1;
 
 /// For each sample of two rows, in turn: sixteen bits.
@@ -26,53 +31,101 @@ using PairLanes = hn::Repartition<std::int16_t, Lanes>;
 using PairBits = hn::RebindToUnsigned<PairLanes>;
 using Row = hn::Half<Strip>;
 
-/// A value of each of two rows, next to each other.
-HWY_INLINE hn::Vec<Strip> load_rows(const std::uint16_t* from) {
-    return hn::Combine(Strip(), hn::LoadU(Row(), from + tile_width), hn::LoadU(Row(), from));
-}
+/// Columns of a tile.
+struct ColumnSpan {
+    int first;
+    int last; ///< before the first: none
+};
 
-HWY_INLINE void store_rows(hn::Vec<Strip> values, std::uint16_t* to) {
-    hn::StoreU(hn::LowerHalf(Row(), values), Row(), to);
-    hn::StoreU(hn::UpperHalf(Row(), values), Row(), to + tile_width);
-}
+/// Sixteen columns of a row and sixteen of the next one.
+struct PairWindow {
+    std::array<int, 2> first; ///< columns of the tile
+    int row;                  ///< of the tile, the first one
+    std::uint32_t columns;    ///< which of them count, those of the next row in the upper half
 
-/// The samples of a narrow triangle, two rows at a time; as StripCoverage.
-class PairCoverage {
-public:
-    /// Rows from `end_row` of the picture on have none.
-    HWY_INLINE PairCoverage(
-        const Triangle& triangle,
-        const glm::ivec2& first_px,
-        int end_row,
-        std::uint32_t columns,
-        const SampleLanes& lanes)
-        : down_(load_lanes(lanes.down.data()))
-        , round_up_(load_lanes(lanes.round_up.data()))
-        , whole_(triangle.whole, triangle.top, first_px, down_, round_up_)
-        , upper_(triangle.upper, triangle.top, first_px, down_, round_up_)
-        , lower_(triangle.lower, triangle.middle, first_px, down_, round_up_)
-        , columns_(hn::Set(PairBits(), static_cast<std::uint16_t>(columns)))
-        , bends_left_(hn::Set(
-              PairBits(), triangle.middle_is_left ? std::uint16_t{0xffff} : std::uint16_t{0}))
-        , top_(place(triangle.top - first_px.y * 256))
-        , middle_(place(triangle.middle - first_px.y * 256))
-        , bottom_(place(std::min(triangle.bottom, end_row * 256 - 128) - first_px.y * 256)) {
-        const auto first = hn::BitCast(LaneBits(), hn::ShiftLeft<3>(down_[0]));
-        const auto second = hn::Add(first, hn::Set(LaneBits(), 256U));
-        y_ = hn::BitCast(PairLanes(), in_turn(first, hn::ShiftLeft<16>(second)));
+    HWY_INLINE PairWindow(const std::array<ColumnSpan, 2>& spans, int upper_row, int offset)
+        : first{column_of(spans[0], offset), column_of(spans[1], offset)}
+        , row(upper_row)
+        , columns(bits_of(spans[0], offset) | bits_of(spans[1], offset) << 16U) {}
+
+    std::size_t pixel(std::size_t which) const {
+        return static_cast<std::size_t>(
+            (row + static_cast<int>(which)) * tile_width + first[which]);
     }
 
-    HWY_INLINE hn::Vec<Strip> samples() const {
+    /// Whether a pixel of it is not covered whole.
+    bool has_free(const std::uint64_t* full) const {
+        return (((std::uint64_t{columns & 0xffffU} << first[0]) & ~full[0]) |
+                ((std::uint64_t{columns >> 16U} << first[1]) & ~full[1])) != 0;
+    }
+
+    HWY_INLINE hn::Vec<Strip> load(const std::uint16_t* from) const {
+        return hn::Combine(
+            Strip(), hn::LoadU(Row(), from + pixel(1)), hn::LoadU(Row(), from + pixel(0)));
+    }
+
+    /// The first row's before the next one's: what lies beyond the end of a row is as it was.
+    HWY_INLINE void store(hn::Vec<Strip> values, std::uint16_t* to) const {
+        hn::StoreU(hn::LowerHalf(Row(), values), Row(), to + pixel(0));
+        hn::StoreU(hn::UpperHalf(Row(), values), Row(), to + pixel(1));
+    }
+
+private:
+    /// Where the row has no more columns it is any one.
+    static int column_of(const ColumnSpan& span, int offset) {
+        return span.first + offset <= span.last ? span.first + offset : span.first;
+    }
+
+    static std::uint32_t bits_of(const ColumnSpan& span, int offset) {
+        const int count = std::clamp(span.last - span.first - offset + 1, 0, window_px);
+        return (1U << count) - 1U;
+    }
+};
+
+/// The samples of a triangle, two rows at a time; as StripCoverage.
+class PairCoverage {
+public:
+    HWY_INLINE PairCoverage(
+        const Triangle& triangle, const TileJob& job, const TileBox& box, const SampleLanes& lanes)
+        : PairCoverage(triangle, job.first_px + glm::ivec2(0, box.first_row), box, lanes) {}
+
+    /// Where the row at hand or the next one may have any.
+    HWY_INLINE ColumnSpan span(int next) const {
+        const Reach whole(whole_, next);
+        const Reach upper(upper_, next);
+        const Reach lower(lower_, next);
+        constexpr std::int64_t far_away = std::numeric_limits<std::int64_t>::max();
+        const bool has_upper = middle_y_ > next * 256 - 128;
+        const bool has_lower = middle_y_ < next * 256 + 128;
+        const std::int64_t least =
+            std::min(has_upper ? upper.least : far_away, has_lower ? lower.least : far_away);
+        const std::int64_t most =
+            std::max(has_upper ? upper.most : -far_away, has_lower ? lower.most : -far_away);
+        const std::int64_t left = (bends_left_ ? least : whole.least) >> 32;
+        const std::int64_t right = (bends_left_ ? whole.most : most) >> 32;
+        return {
+            static_cast<int>(std::clamp<std::int64_t>(left, box_.left, box_.right)),
+            next > rows_left_
+                ? -1
+                : static_cast<int>(std::clamp<std::int64_t>(right, box_.left - 1, box_.right))};
+    }
+
+    HWY_INLINE hn::Vec<Strip> samples(const PairWindow& window) const {
         const PairBits bits;
         const auto is_before = [&](hn::Vec<PairLanes> y) HWY_ATTR { return hn::Lt(y_, y); };
+        const auto columns = [&](const StripEdge& edge)
+                                 HWY_ATTR { return columns_of(edge, window.first); };
         const auto bent =
-            pixels_from(hn::IfThenElse(is_before(middle_), columns_of(upper_), columns_of(lower_)));
-        const auto whole = pixels_from(columns_of(whole_));
+            pixels_from(hn::IfThenElse(is_before(middle_), columns(upper_), columns(lower_)));
+        const auto whole = pixels_from(columns(whole_));
+        const auto bends_left =
+            hn::Set(bits, bends_left_ ? std::uint16_t{0xffff} : std::uint16_t{0});
         const auto between = hn::And(
-            hn::Xor(bent, whole), hn::Xor(whole, hn::And(bends_left_, hn::Xor(bent, whole))));
+            hn::Xor(bent, whole), hn::Xor(whole, hn::And(bends_left, hn::Xor(bent, whole))));
         const auto in_height =
             hn::RebindMask(bits, hn::AndNot(is_before(top_), is_before(bottom_)));
-        const auto masks = hn::IfThenElseZero(in_height, hn::And(between, columns_));
+        const auto counting = hn::BitCast(bits, hn::Set(LaneBits(), window.columns));
+        const auto masks = hn::IfThenElseZero(in_height, hn::And(between, counting));
         return samples_of_pixels(LaneMasks{hn::BitCast(LaneBits(), masks)})[0];
     }
 
@@ -81,9 +134,49 @@ public:
             edge->x += 2 * edge->slope;
         }
         y_ = hn::Add(y_, hn::Set(PairLanes(), 512));
+        middle_y_ -= 512;
+        rows_left_ -= 2;
     }
 
 private:
+    HWY_INLINE PairCoverage(
+        const Triangle& triangle,
+        const glm::ivec2& first_px,
+        const TileBox& box,
+        const SampleLanes& lanes)
+        : box_(box)
+        , middle_y_(triangle.middle - first_px.y * 256)
+        , rows_left_(box.last_row - box.first_row)
+        , down_(load_lanes(lanes.down.data()))
+        , round_up_(load_lanes(lanes.round_up.data()))
+        , whole_(triangle.whole, triangle.top, first_px, down_, round_up_)
+        , upper_(triangle.upper, triangle.top, first_px, down_, round_up_)
+        , lower_(triangle.lower, triangle.middle, first_px, down_, round_up_)
+        , bends_left_(triangle.middle_is_left)
+        , top_(place(triangle.top - first_px.y * 256))
+        , middle_(place(middle_y_))
+        , bottom_(place(triangle.bottom - first_px.y * 256)) {
+        const auto first = hn::BitCast(LaneBits(), hn::ShiftLeft<3>(down_[0]));
+        const auto second = hn::Add(first, hn::Set(LaneBits(), 256U));
+        y_ = hn::BitCast(PairLanes(), in_turn(first, hn::ShiftLeft<16>(second)));
+    }
+
+    /// Between which places an edge crosses the samples of a row or the next one, and half a pixel
+    /// for where they lie in theirs: 2^-32 pixel.
+    struct Reach {
+        std::int64_t least;
+        std::int64_t most;
+
+        HWY_INLINE Reach(const StripEdge& edge, int next) {
+            const std::uint64_t x = edge.x + edge.slope * static_cast<std::uint64_t>(next);
+            const std::int64_t half = static_cast<std::int64_t>(edge.slope) / 2;
+            const std::uint64_t reach =
+                static_cast<std::uint64_t>(std::abs(half)) + (std::uint64_t{1} << 31);
+            least = static_cast<std::int64_t>(x - reach);
+            most = static_cast<std::int64_t>(x + reach);
+        }
+    };
+
     /// A row's place from the first, 1/256 pixel; what is far away stays beyond a tile.
     static HWY_INLINE hn::Vec<PairLanes> place(std::int32_t y) {
         return hn::Set(PairLanes(), static_cast<std::int16_t>(std::clamp(y, -16000, 16000)));
@@ -95,14 +188,17 @@ private:
         return hn::Or(hn::And(low, lower_half), hn::AndNot(lower_half, high));
     }
 
-    /// StripEdge::column() of both rows.
-    static HWY_INLINE hn::Vec<PairLanes> columns_of(const StripEdge& edge) {
-        const auto at = [&](std::uint64_t x) HWY_ATTR {
-            const auto middle = hn::Set(Lanes(), static_cast<std::int32_t>(x >> 16));
+    /// StripEdge::column() of both rows, each from its own first column.
+    static HWY_INLINE hn::Vec<PairLanes>
+    columns_of(const StripEdge& edge, const std::array<int, 2>& first) {
+        const auto at = [&](std::uint64_t x, int column) HWY_ATTR {
+            const auto middle =
+                hn::Set(Lanes(), static_cast<std::int32_t>(x >> 16) - column * 65536);
             return hn::BitCast(LaneBits(), hn::Add(middle, edge.offsets[0]));
         };
         return hn::BitCast(
-            PairLanes(), in_turn(hn::ShiftRight<16>(at(edge.x)), at(edge.x + edge.slope)));
+            PairLanes(),
+            in_turn(hn::ShiftRight<16>(at(edge.x, first[0])), at(edge.x + edge.slope, first[1])));
     }
 
     /// The row's pixels from a column on.
@@ -112,90 +208,126 @@ private:
         return hn::Shl(hn::Set(bits, 0xffff), from); // nothing is left where it is 16 or more
     }
 
+    TileBox box_;
+    std::int32_t middle_y_; ///< of the triangle's middle corner, as y_
+    int rows_left_;         ///< of the triangle after the one at hand
     LaneValues down_;
     LaneValues round_up_;
     hn::Vec<PairLanes> y_; ///< of the samples, from the first row's middle, 1/256 pixel
-    StripEdge whole_;
+    StripEdge whole_;      ///< from the tile's first column
     StripEdge upper_;
     StripEdge lower_;
-    hn::Vec<PairBits> columns_;
-    hn::Vec<PairBits> bends_left_; ///< all bits or none
-    hn::Vec<PairLanes> top_;       ///< as y_
+    bool bends_left_;
+    hn::Vec<PairLanes> top_; ///< as y_
     hn::Vec<PairLanes> middle_;
     hn::Vec<PairLanes> bottom_;
 };
 
 /// A level over two rows, as StripLevel.
 struct PairLevel {
-    std::uint32_t at; ///< of the first column of the upper row, 2^-16 level
+    std::uint32_t at; ///< of the upper row's first column in the box, 2^-16 level
     std::uint32_t per_row;
+    int left; ///< that column of the tile
+    int per_column;
     hn::Vec<StripSigned> least;
     hn::Vec<StripSigned> most;
     hn::Vec<StripSigned> steps;
 
-    HWY_INLINE PairLevel(const Levels& levels, std::size_t k, const glm::ivec2& first_px)
-        : at(first_level(levels, k, first_px))
+    HWY_INLINE
+    PairLevel(const Levels& levels, std::size_t k, const TileJob& job, const TileBox& box)
+        : at(first_level(levels, k, job.first_px + glm::ivec2(box.left, box.first_row)))
         , per_row(static_cast<std::uint32_t>(levels.per_y[k]))
+        , left(box.left)
+        , per_column(levels.per_column[k])
         , least(hn::Set(StripSigned(), levels.least[k]))
         , most(hn::Set(StripSigned(), levels.most[k])) {
         const StripSigned sign;
-        const auto columns = hn::And(hn::Iota(sign, 0), hn::Set(sign, narrow_px - 1));
+        const auto columns = hn::And(counting_from(sign, 0), hn::Set(sign, window_px - 1));
         steps = hn::Mul(columns, hn::Set(sign, levels.per_column[k]));
     }
 
-    /// In 1/16 level from 0.
-    HWY_INLINE hn::Vec<Strip> colour() const {
+    /// 1/128 level from the level 128.
+    HWY_INLINE hn::Vec<StripSigned> level(const PairWindow& window) const {
         const hn::Half<StripSigned> row;
-        const auto first = [&](std::uint32_t level) HWY_ATTR {
-            return hn::Set(row, static_cast<std::int16_t>(static_cast<std::int32_t>(level) >> 9));
+        const auto first = [&](std::uint32_t level_of_row, int column) HWY_ATTR {
+            const int of_row = static_cast<std::int32_t>(level_of_row) >> 9;
+            return hn::Set(row, static_cast<std::int16_t>(of_row + per_column * (column - left)));
         };
-        const auto raw = hn::Add(hn::Combine(StripSigned(), first(at + per_row), first(at)), steps);
-        return from_level(hn::Min(hn::Max(raw, least), most));
+        const auto both = hn::Combine(
+            StripSigned(), first(at + per_row, window.first[1]), first(at, window.first[0]));
+        return hn::Min(hn::Max(hn::Add(both, steps), least), most);
     }
+
+    HWY_INLINE void next_rows() { at += 2 * per_row; }
 };
 
-/// Paints a triangle of at most narrow_px columns.
-HWY_INLINE void paint_narrow(
+/// Covers what is free of a triangle, and calls paint(window, fresh samples of its pixels) for all
+/// its windows and next_rows() after two rows.
+template <class Paint, class NextRows>
+HWY_INLINE void paint_in_pairs(
+    PairCoverage& coverage,
+    const TileJob& job,
+    const TileBox& box,
+    TileBuffer& buffer,
+    const Paint& paint,
+    const NextRows& next_rows) {
+    const std::uint64_t full_row = job.full_row();
+    for (int row = box.first_row; row <= box.last_row; row += 2) {
+        std::uint64_t* const full = buffer.full.data() + row;
+        std::array<ColumnSpan, 2> spans{
+            ColumnSpan{box.left, box.right},
+            {box.left, row < box.last_row ? box.right : box.left - 1}};
+        if (box.right - box.left >= window_px) {
+            spans = {coverage.span(0), coverage.span(1)};
+        }
+        const int px = std::max(spans[0].last - spans[0].first, spans[1].last - spans[1].first) + 1;
+        for (int offset = 0; offset < px; offset += window_px) {
+            const PairWindow window(spans, row, offset);
+            if (!window.has_free(full)) {
+                continue;
+            }
+            const auto masks = coverage.samples(window);
+            const auto before = window.load(buffer.covered.data());
+            const auto after = hn::Or(before, masks);
+            window.store(after, buffer.covered.data());
+            paint(window, hn::AndNot(before, masks));
+            const std::uint32_t bits = full_bits({after});
+            full[0] |= std::uint64_t{bits & 0xffffU} << window.first[0];
+            full[1] |= std::uint64_t{bits >> 16U} << window.first[1];
+        }
+        const std::uint64_t is_full = std::uint64_t{(full[0] & full_row) == full_row} |
+                                      std::uint64_t{(full[1] & full_row) == full_row} << 1U;
+        buffer.full_rows |= static_cast<std::uint32_t>(is_full << row);
+        coverage.next_rows();
+        next_rows();
+    }
+}
+
+/// Paints a triangle of levels.
+HWY_INLINE void paint_levels_in_pairs(
     const Triangle& triangle,
     const TileJob& job,
     const SampleLanes& lanes,
     const TileBox& box,
     TileBuffer& buffer) {
-    const std::uint32_t columns = box.columns_of_strip(box.left);
-    const std::uint64_t wide_columns = std::uint64_t{columns} << box.left;
-    const std::uint64_t full_row = job.full_row();
-    const glm::ivec2 first_px = job.first_px + glm::ivec2(box.left, box.first_row);
-    PairCoverage coverage(triangle, first_px, job.first_px.y + box.last_row + 1, columns, lanes);
+    PairCoverage coverage(triangle, job, box, lanes);
     std::array levels{
-        PairLevel(triangle.levels, 0, first_px),
-        PairLevel(triangle.levels, 1, first_px),
-        PairLevel(triangle.levels, 2, first_px)};
-    auto pixel = static_cast<std::size_t>(box.first_row * tile_width + box.left);
-    for (int row = box.first_row; row <= box.last_row; row += 2, pixel += 2 * tile_width) {
-        std::uint64_t* const full = buffer.full.data() + row;
-        if ((wide_columns & ~(full[0] & full[1])) != 0) {
-            std::uint16_t* const covered = buffer.covered.data() + pixel;
-            const auto masks = coverage.samples();
-            const auto before = load_rows(covered);
-            const auto after = hn::Or(before, masks);
-            const auto counts = hn::PopulationCount(hn::AndNot(before, masks));
-            store_rows(after, covered);
-            for (std::size_t k = 0; k < 3; ++k) {
-                std::uint16_t* const sums = buffer.sums[k].data() + pixel;
-                store_rows(hn::Add(load_rows(sums), hn::Mul(levels[k].colour(), counts)), sums);
-            }
-            const std::uint32_t bits = full_bits({after});
-            full[0] |= std::uint64_t{bits & 0xffffU} << box.left;
-            full[1] |= std::uint64_t{bits >> 16U} << box.left;
-            const std::uint64_t is_full = std::uint64_t{(full[0] & full_row) == full_row} |
-                                          std::uint64_t{(full[1] & full_row) == full_row} << 1U;
-            buffer.full_rows |= static_cast<std::uint32_t>(is_full << row);
+        PairLevel(triangle.levels, 0, job, box),
+        PairLevel(triangle.levels, 1, job, box),
+        PairLevel(triangle.levels, 2, job, box)};
+    const auto paint = [&](const PairWindow& window, hn::Vec<Strip> fresh) HWY_ATTR {
+        const auto counts = hn::PopulationCount(fresh);
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::uint16_t* const sums = buffer.sums[k].data();
+            const auto colour = from_level(levels[k].level(window));
+            window.store(hn::Add(window.load(sums), hn::Mul(colour, counts)), sums);
         }
-        coverage.next_rows();
+    };
+    paint_in_pairs(coverage, job, box, buffer, paint, [&]() HWY_ATTR {
         for (PairLevel& level : levels) {
-            level.at += 2 * level.per_row;
+            level.next_rows();
         }
-    }
+    });
 }
 
 } // namespace HWY_NAMESPACE

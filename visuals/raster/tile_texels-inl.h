@@ -112,35 +112,6 @@ footprint2(const TexturePlanes& planes, const std::array<TexturePoint, 2>& ends,
     return std::max(squared(across), squared(down));
 }
 
-/// Which levels of the texture a block is coloured by.
-struct TextureLevels {
-    std::size_t fine = 0;
-    std::uint16_t coarse_share = 0; ///< of the next level, 2^-16
-};
-
-/// Most blocks take one level: the next one comes in over a third of the way only.
-HWY_INLINE TextureLevels levels_of(double size2, std::size_t count) {
-    constexpr double band = 1.0 / 3.0;
-    if (!(size2 > 1.0)) {
-        return {};
-    }
-    // The logarithm to base 2, straight between whole numbers: wrong by less than 0.09.
-    const auto bits = std::bit_cast<std::uint64_t>(size2);
-    const double log2 =
-        static_cast<double>(static_cast<std::int64_t>(bits >> 20U)) * 0x1p-32 - 1023.0;
-    const double level = 0.5 * log2;
-    const auto whole = static_cast<std::size_t>(level);
-    if (whole + 1 >= count) {
-        return {count - 1, 0};
-    }
-    const double part = level - static_cast<double>(whole);
-    const double share = std::clamp((part - 0.5) / band + 0.5, 0.0, 1.0);
-    if (share >= 1.0) {
-        return {whole + 1, 0};
-    }
-    return {whole, static_cast<std::uint16_t>(share * 65535.0)};
-}
-
 /// Red, green and blue of a block's pixels, 1/128 level, 32,640 at most.
 struct BlockColours {
     alignas(32) std::array<std::array<std::uint16_t, block_px>, 3> level;
@@ -234,7 +205,7 @@ sample_line(const GroundImage::Level& level, const TexelLine& line, BlockColours
     const hn::RebindToSigned<Texels> sign;
     const hn::Rebind<std::uint16_t, Texels> halves;
     for (std::size_t i = 0; i < block_px; i += hn::MaxLanes(Texels())) {
-        const auto steps = hn::Iota(sign, static_cast<std::int32_t>(i));
+        const auto steps = counting_from(sign, i);
         const auto place = [&](std::size_t k, int size) HWY_ATTR {
             const auto at = hn::Add(
                 hn::Set(sign, line.first[k]), hn::Mul(steps, hn::Set(sign, line.per_px[k])));

@@ -99,7 +99,7 @@ HWY_INLINE BlockShares shares_between(const std::array<TexturePoint, 2>& ends, d
     BlockShares shares;
     const auto along = [&](std::size_t which, std::array<std::uint16_t, block_px>& to) HWY_ATTR {
         for (std::size_t i = 0; i < block_px; i += hn::Lanes(values)) {
-            const auto steps = hn::Iota(values, static_cast<std::uint16_t>(i));
+            const auto steps = counting_from(values, i);
             const auto at = hn::Add(
                 hn::Set(values, static_cast<std::uint16_t>(walk.first[which])),
                 hn::Mul(steps, hn::Set(values, static_cast<std::uint16_t>(walk.per_px[which]))));
@@ -227,7 +227,7 @@ HWY_INLINE void paint_strip_by_rows(
     }
 }
 
-/// Paints a triangle of Fill::Texture that no plane cuts.
+/// Paints a triangle of Fill::TextureInPerspective that no plane cuts.
 HWY_NOINLINE void paint_texture(
     const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const TileBox box(*one.triangle, job);

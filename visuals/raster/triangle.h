@@ -1,6 +1,7 @@
 #pragma once
 
 #include "visuals/raster/screen_vertex.h"
+#include "visuals/raster/texture_levels.h"
 #include "visuals/scene/paint_step.h"
 
 #include <array>
@@ -54,7 +55,8 @@ enum class Fill : std::uint8_t {
     Levels,      ///< three planes of levels
     Perspective, ///< as Levels, corrected for perspective
     Grain,       ///< as Perspective, with the ground's fine pattern
-    Texture,
+    Texture,     ///< places in the texture, light and haze as planes: EvenTexture
+    TextureInPerspective,
     Mesh, ///< levels, and lines along the edges
     Lit   ///< by light and normal in each pixel
 };
@@ -89,6 +91,7 @@ struct Triangle {
     std::int32_t last_row = 0;
     Levels levels;
     std::uint32_t extra = none; ///< index into the chunk's extras
+    TextureLevels texture;      ///< for Fill::Texture
     std::uint16_t group = 0;    ///< depth group, from 1; 0: painted without depth
     scene::DepthUse depth = scene::DepthUse::None;
     Fill fill = Fill::Levels;

@@ -1,5 +1,6 @@
 #include "visuals/raster/triangle_setup.h"
 
+#include "visuals/raster/even_texture.h"
 #include "visuals/raster/real_planes.h"
 #include "visuals/raster/triangle_planes.h"
 
@@ -8,6 +9,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace octant::visuals::raster {
@@ -18,6 +20,9 @@ constexpr std::int32_t per_px = ScreenVertex::per_px;
 
 /// Levels that a straight line over the picture may be wrong by without correction.
 constexpr float least_correction = 1.0F;
+
+/// Of an even texture: texels a pixel above which a triangle counts as a sliver.
+constexpr double texture_per_px = 8.0;
 
 bool is_above(const ScreenVertex& a, const ScreenVertex& b) {
     return a.y != b.y ? a.y < b.y : a.x < b.x;
@@ -32,10 +37,14 @@ std::int64_t doubled_area(const ScreenVertex& a, const ScreenVertex& b, const Sc
 } // namespace
 
 TriangleSetup::TriangleSetup(
-    const Projection& projection, const scene::FramePlan& plan, const SamplePattern& samples)
+    const Projection& projection,
+    const scene::FramePlan& plan,
+    const SamplePattern& samples,
+    std::size_t texture_levels)
     : projection_(projection)
     , plan_(plan)
-    , reach_(samples.reach * per_px / SamplePattern::unit) {}
+    , reach_(samples.reach * per_px / SamplePattern::unit)
+    , texture_levels_(texture_levels) {}
 
 void TriangleSetup::add(
     const ScreenCorners& corners,
@@ -61,9 +70,15 @@ void TriangleSetup::add(
         fill_ = Fill::Lit;
         lit_ = {&corners.lit[a], &corners.lit[b], &corners.lit[c]};
     }
-    if (!is_cut && style_.group == 0 && fill_ == Fill::Levels && style_.clip_planes.empty()) {
-        add_placed(vertices[a], vertices[b], vertices[c], list);
-        return;
+    if (!is_cut && style_.group == 0 && style_.clip_planes.empty()) {
+        if (fill_ == Fill::Levels) {
+            add_placed(vertices[a], vertices[b], vertices[c], list);
+            return;
+        }
+        if (fill_ == Fill::TextureInPerspective &&
+            add_even_texture({&vertices[a], &vertices[b], &vertices[c]}, list)) {
+            return;
+        }
     }
     const std::array<Corner, 3> three{
         Corner{vertices[a], corners.clip[a]},
@@ -77,6 +92,19 @@ void TriangleSetup::add(
     } else {
         add_placed(vertices[a], vertices[b], vertices[c], list);
     }
+}
+
+/// Adds a textured triangle if perspective need not be looked at.
+bool TriangleSetup::add_even_texture(
+    const std::array<const ScreenVertex*, 3>& corners, TriangleList& list) {
+    const std::optional<EvenTexture> even = even_texture(corners, texture_levels_);
+    if (!even) {
+        return false;
+    }
+    fill_ = Fill::Texture;
+    levels_ = even->levels;
+    add_placed(even->corners[0], even->corners[1], even->corners[2], list);
+    return true;
 }
 
 void TriangleSetup::add_overlay(
@@ -262,8 +290,11 @@ void TriangleSetup::add_placed(
     if (flat_ != nullptr) {
         set_edges(corners, triangle);
         triangle.levels = even_levels(flat_->rgb);
-    } else if (fill_ == Fill::Texture || fill_ == Fill::Lit) {
+    } else if (fill_ == Fill::TextureInPerspective || fill_ == Fill::Lit) {
         set_edges(corners, triangle);
+    } else if (fill_ == Fill::Texture) {
+        triangle.texture = levels_;
+        set_edges_and_levels(corners, texture_per_px, triangle);
     } else {
         // With one sample every pixel that is coloured has its middle within the triangle. Soft
         // edges of what lies over the picture are as narrow as a pixel: their alpha changes fast,

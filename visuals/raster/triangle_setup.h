@@ -10,6 +10,7 @@
 #include <glm/vec4.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,8 +26,12 @@ struct TriangleList {
 /// Makes triangles on the picture out of corners. One for each thread.
 class TriangleSetup {
 public:
+    /// The ground's texture has so many levels, if there is one.
     TriangleSetup(
-        const Projection& projection, const scene::FramePlan& plan, const SamplePattern& samples);
+        const Projection& projection,
+        const scene::FramePlan& plan,
+        const SamplePattern& samples,
+        std::size_t texture_levels);
 
     void begin_step(const DrawStyle& style) { style_ = style; }
 
@@ -55,12 +60,14 @@ private:
     void add_placed(
         const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list);
     void cut(const glm::dvec3& by_clip, double offset);
+    bool add_even_texture(const std::array<const ScreenVertex*, 3>& corners, TriangleList& list);
     Fill fill_of(const std::array<const ScreenVertex*, 3>& corners, bool is_cut) const;
     void add_extra(std::span<const Corner, 3> corners, TriangleList& list);
 
     const Projection& projection_;
     const scene::FramePlan& plan_;
     std::int32_t reach_ = 0; ///< of the samples from a pixel's middle, 1/256 pixel
+    std::size_t texture_levels_ = 0;
     DrawStyle style_;
     float mesh_level_ = 0.0F;
     bool is_overlay_ = false;
@@ -69,6 +76,7 @@ private:
     const FlatColour* flat_ = nullptr;      ///< of a flat polygon of an aircraft
     std::array<const LitCorner*, 3> lit_{}; ///< of a smooth one that is lit in each pixel
     std::uint32_t extra_ = Triangle::none;
+    TextureLevels levels_; ///< of one with an even texture
     // Its polygon while the view cuts it.
     std::vector<Corner> polygon_;
     std::vector<Corner> scratch_;

@@ -1,5 +1,6 @@
 #include "visuals/scene/camera.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
@@ -7,6 +8,21 @@
 #include <cmath>
 
 namespace octant::visuals::scene {
+
+namespace {
+
+/// The picture's plane at distance 1 from the eye: right and up.
+struct Plane {
+    glm::dvec2 middle{0.0};
+    glm::dvec2 half{1.0}; ///< of its sides
+};
+
+Plane plane_of(const Camera& camera, double aspect) {
+    const double half_height = std::tan(camera.vertical_fov_rad / 2.0);
+    return {camera.middle, {half_height * aspect * camera.pixel_aspect, half_height}};
+}
+
+} // namespace
 
 Camera camera_looking_at(const glm::dvec3& eye_m, const glm::dvec3& target_m) {
     const glm::dvec3 to_target_m = target_m - eye_m;
@@ -29,17 +45,20 @@ glm::mat4 world_to_view(const Camera& camera) {
 }
 
 glm::mat4 view_to_clip(const Camera& camera, double aspect) {
-    const double scale = 1.0 / std::tan(camera.vertical_fov_rad / 2.0);
+    const Plane plane = plane_of(camera, aspect);
     glm::mat4 clip(0.0F);
-    clip[0][0] = static_cast<float>(scale / aspect);
-    clip[1][1] = static_cast<float>(scale);
+    clip[0][0] = static_cast<float>(1.0 / plane.half.x);
+    clip[1][1] = static_cast<float>(1.0 / plane.half.y);
+    clip[2][0] = static_cast<float>(plane.middle.x / plane.half.x);
+    clip[2][1] = static_cast<float>(plane.middle.y / plane.half.y);
     clip[2][3] = -1.0F;                             // w = distance ahead
     clip[3][2] = static_cast<float>(camera.near_m); // z / w = near / distance
     return clip;
 }
 
 double focal_px(const Camera& camera, int picture_height_px) {
-    return picture_height_px / (2.0 * std::tan(camera.vertical_fov_rad / 2.0));
+    const double up_px = picture_height_px / (2.0 * std::tan(camera.vertical_fov_rad / 2.0));
+    return up_px / std::min(camera.pixel_aspect, 1.0);
 }
 
 glm::dvec3 ahead_of(const Camera& camera) {
@@ -47,21 +66,23 @@ glm::dvec3 ahead_of(const Camera& camera) {
 }
 
 double corner_cos(const Camera& camera, double aspect) {
-    const double half_height = std::tan(camera.vertical_fov_rad / 2.0); // at distance 1
-    return 1.0 / std::sqrt(1.0 + half_height * half_height * (1.0 + aspect * aspect));
+    const Plane plane = plane_of(camera, aspect);
+    const glm::dvec2 corner = glm::abs(plane.middle) + plane.half;
+    return 1.0 / std::sqrt(1.0 + glm::dot(corner, corner));
 }
 
 std::array<glm::dvec3, 4> frustum_normals(const Camera& camera, double aspect) {
-    const double half_height = std::tan(camera.vertical_fov_rad / 2.0); // at distance 1
-    const double half_width = half_height * aspect;
+    const Plane plane = plane_of(camera, aspect);
+    const glm::dvec2 least = plane.middle - plane.half;
+    const glm::dvec2 most = plane.middle + plane.half;
     const auto in_world = [&](const glm::dvec3& in_view) {
         return camera.view_to_world * glm::normalize(in_view);
     };
     return {
-        in_world({1.0, 0.0, -half_width}),
-        in_world({-1.0, 0.0, -half_width}),
-        in_world({0.0, 1.0, -half_height}),
-        in_world({0.0, -1.0, -half_height})};
+        in_world({1.0, 0.0, least.x}),
+        in_world({-1.0, 0.0, -most.x}),
+        in_world({0.0, 1.0, least.y}),
+        in_world({0.0, -1.0, -most.y})};
 }
 
 bool in_view(

@@ -2,6 +2,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -15,6 +16,12 @@ struct Camera {
     glm::dquat view_to_world{1.0, 0.0, 0.0, 0.0};
     double vertical_fov_rad = 0.785398163397448; ///< 45 degrees
     double near_m = 0.5;
+    /// Where the middle of the picture's plane lies right of and above straight ahead, in units of
+    /// its distance; the plane stays square to straight ahead. The field of view is that of a
+    /// picture in the middle: twice the tangent of its half is the height of the plane.
+    glm::dvec2 middle{0.0};
+    /// Width over height of what a pixel covers.
+    double pixel_aspect = 1.0;
 };
 
 /// Camera at `eye_m` that looks at `target_m`, upright. Looking straight up or down keeps north up;
@@ -25,16 +32,17 @@ Camera camera_looking_at(const glm::dvec3& eye_m, const glm::dvec3& target_m);
 glm::mat4 world_to_view(const Camera& camera);
 
 /// Perspective with the depth reversed (1 at the near plane, 0 at infinity) and no far plane, for
-/// clip depth 0..1. `aspect` = width / height.
+/// clip depth 0..1. `aspect` = width / height of the picture in pixels, here and below.
 glm::mat4 view_to_clip(const Camera& camera, double aspect);
 
-/// Pixels that a metre covers one metre before the eye, in the middle of the picture.
+/// Pixels that a metre covers straight ahead, one metre before the eye, along the side of pixels
+/// that is the shorter one.
 double focal_px(const Camera& camera, int picture_height_px);
 
 /// The direction in which a camera looks, world axes.
 glm::dvec3 ahead_of(const Camera& camera);
 
-/// The cosine of the angle between that and the picture's corners.
+/// The cosine of the angle between that and the farthest of the picture's corners.
 double corner_cos(const Camera& camera, double aspect);
 
 /// Planes of the view frustum through the eye, eye-relative world axes, unit normals pointing

@@ -2,16 +2,13 @@
 
 #include "sim/aircraft_state.h"
 #include "visuals/scene/camera.h"
+#include "visuals/scene/ground_height.h"
 #include "visuals/scene/settings.h"
+#include "visuals/scene/tower.h"
 
-#include <functional>
-#include <optional>
-#include <span>
+#include <glm/vec3.hpp>
 
 namespace octant::visuals::scene {
-
-/// Height of the ground below a world position, metres; nothing outside the map.
-using GroundHeight = std::function<std::optional<double>(double x_m, double y_m)>;
 
 /// What a view must know of the aircraft it shows.
 struct Subject {
@@ -21,7 +18,7 @@ struct Subject {
 
 /// Where the views stand that do not follow the aircraft.
 struct FixedPoints {
-    glm::dvec3 tower_m{0.0};
+    Tower tower;
     glm::dvec3 free_eye_m{0.0};
     glm::dvec3 free_look_m{0.0};
 };
@@ -45,12 +42,5 @@ Camera camera_of(
     const Subject& subject,
     const FixedPoints& points,
     const GroundHeight& ground);
-
-/// A good place for the tower: within half the flight's extent around `around_m` a spot, 25
-/// m above the ground, from which as much of the flight is in sight as from any other (to 5 % of
-/// it); among those the highest, so that ground stands behind the aircraft; among equals the
-/// nearest.
-glm::dvec3 tower_place(
-    std::span<const glm::dvec3> flight_m, const glm::dvec2& around_m, const GroundHeight& ground);
 
 } // namespace octant::visuals::scene

@@ -67,6 +67,10 @@ public:
     /// the window after that. What `picture` held may become the memory of the next one.
     virtual void finish_and_read(Picture& picture) = 0;
 
+    /// finish(), then copies the picture, which may still be copied to the window. Not one that a
+    /// driver drew straight into the window (asserted).
+    virtual void finish_and_copy(Picture& picture) { finish_and_read(picture); }
+
     /// Of the last draw() and the insets since; consecutive aircraft of a step are one.
     virtual int draw_calls() const = 0;
 

@@ -3,6 +3,7 @@
 // deliberately apart from turning_parts.cpp, which does the same for finding orders.
 #include "visuals/separation/check_shape.h"
 
+#include "sim/base/plane.h"
 #include "sim/base/units.h"
 #include "visuals/separation/separation.h"
 
@@ -138,7 +139,7 @@ std::vector<CheckShape> check_shapes(
         const Plane plane = frame.from_body(models::polygons::plane_of(model, i));
         shape.fronts = {plane};
         if (std::ranges::find(two_sided, i) != two_sided.end()) {
-            shape.fronts.push_back({-plane.normal, -plane.offset_m});
+            shape.fronts.push_back(turned_over(plane));
         }
         shape.pivot = models::polygons::pivot_of(model, i);
         shape.swept = shape.corners;

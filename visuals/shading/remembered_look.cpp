@@ -4,19 +4,15 @@
 // between flat and smooth.
 #include "visuals/shading/remembered_look.h"
 
+#include "visuals/shading/angle.h"
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
 
 namespace octant::visuals::shading {
 
-namespace {
-
-double angle_rad(const glm::dvec3& one, const glm::dvec3& other) {
-    return std::atan2(glm::length(glm::cross(one, other)), glm::dot(one, other));
-}
-
-} // namespace
+namespace {} // namespace
 
 bool is_other_look(
     const RememberedLook& before,

@@ -9,6 +9,8 @@
 // the average is weighted by angles, and edges sharper than the crease angle stay sharp.
 #include "visuals/shading/vertex_normals.h"
 
+#include "visuals/shading/angle.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -62,10 +64,6 @@ std::vector<std::uint32_t> places_of(std::span<const glm::dvec3> vertices_m) {
         places[sorted[i]] = again ? places[sorted[i - 1]] : sorted[i];
     }
     return places;
-}
-
-double angle_rad(const glm::dvec3& one, const glm::dvec3& other) {
-    return std::atan2(glm::length(glm::cross(one, other)), glm::dot(one, other));
 }
 
 void add_corners(

@@ -7,6 +7,8 @@
 // those of open edges.
 #include "visuals/terrain/conformity.h"
 
+#include "sim/base/flat_area.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -24,10 +26,6 @@ namespace {
 constexpr double grid_parts = 256.0;
 
 constexpr std::uint64_t hash_factor = 0x9e3779b97f4a7c15ULL;
-
-double twice_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
 
 /// Whether any part of a line (relative to the eye) is inside the frustum by more than rounding.
 bool is_seen(const glm::dvec3& a_m, const glm::dvec3& b_m, const MeshView& view) {
@@ -126,7 +124,8 @@ void ConformityCheck::match_edges(const GroundMesh& mesh, Conformity& found) {
         const std::uint32_t a = mesh.indices[k];
         const std::uint32_t b = mesh.indices[k + 1];
         const std::uint32_t c = mesh.indices[k + 2];
-        found.turned_triangles += twice_area(places_[a], places_[b], places_[c]) > 0.0 ? 0 : 1;
+        found.turned_triangles +=
+            octant::twice_area(places_[a], places_[b], places_[c]) > 0.0 ? 0 : 1;
         add_edge(a, b);
         add_edge(b, c);
         add_edge(c, a);
@@ -197,7 +196,8 @@ int ConformityCheck::corners_on_open_edges() {
         const std::uint32_t end = turned ? edge.low : edge.high;
         auto at = std::upper_bound(sorted_.begin(), sorted_.end(), first, by_place);
         for (; at != sorted_.end() && before(places_[*at], places_[end]); ++at) {
-            corners += twice_area(places_[first], places_[end], places_[*at]) == 0.0 ? 1 : 0;
+            corners +=
+                octant::twice_area(places_[first], places_[end], places_[*at]) == 0.0 ? 1 : 0;
         }
     }
     return corners;

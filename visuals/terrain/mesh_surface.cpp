@@ -2,6 +2,8 @@
 // triangle is entered at the level of its own size.
 #include "visuals/terrain/mesh_surface.h"
 
+#include "sim/base/flat_area.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -20,10 +22,6 @@ constexpr std::uint32_t none = ~std::uint32_t{0};
 /// A position this far beyond an edge, as a share of the triangle's size, still belongs to the
 /// triangle. That is more than the rounding of floats far from the eye.
 constexpr double edge_share = 1e-6;
-
-double twice_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
 
 glm::ivec2 cell_of(const glm::dvec2& place_m, double cell_m) {
     return glm::ivec2(glm::floor(place_m / cell_m));
@@ -88,9 +86,9 @@ bool MeshSurface::covers(std::uint32_t triangle, const glm::dvec2& place_m) cons
     const glm::dvec2 p(a);
     const glm::dvec2 q(b);
     const glm::dvec2 r(c);
-    const double least = -edge_share * twice_area(p, q, r);
-    return twice_area(p, q, place_m) >= least && twice_area(q, r, place_m) >= least &&
-           twice_area(r, p, place_m) >= least;
+    const double least = -edge_share * octant::twice_area(p, q, r);
+    return octant::twice_area(p, q, place_m) >= least &&
+           octant::twice_area(q, r, place_m) >= least && octant::twice_area(r, p, place_m) >= least;
 }
 
 std::optional<std::uint32_t> MeshSurface::triangle_at(double x_m, double y_m) const {
@@ -118,12 +116,12 @@ std::optional<double> MeshSurface::height_at(double x_m, double y_m) const {
     }
     const auto [a, b, c] = corners_of(*triangle);
     const glm::dvec2 place_m = glm::dvec2(x_m, y_m) - glm::dvec2(eye_m_);
-    const double whole = twice_area(glm::dvec2(a), glm::dvec2(b), glm::dvec2(c));
+    const double whole = octant::twice_area(glm::dvec2(a), glm::dvec2(b), glm::dvec2(c));
     if (whole == 0.0) {
         return eye_m_.z + a.z;
     }
-    const double of_b = twice_area(glm::dvec2(a), place_m, glm::dvec2(c)) / whole;
-    const double of_c = twice_area(glm::dvec2(a), glm::dvec2(b), place_m) / whole;
+    const double of_b = octant::twice_area(glm::dvec2(a), place_m, glm::dvec2(c)) / whole;
+    const double of_c = octant::twice_area(glm::dvec2(a), glm::dvec2(b), place_m) / whole;
     return eye_m_.z + a.z + of_b * (b.z - a.z) + of_c * (c.z - a.z);
 }
 

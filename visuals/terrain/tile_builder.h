@@ -83,6 +83,9 @@ private:
     std::span<std::byte> memory_;
     int level_ = 0;
     float near_error_ = 0.0F; ///< The largest error that moves beside the eye, in numbers.
+    /// S (tile_builder_errors.cpp) beside the eye, and the most it may be far off.
+    float near_move_ = 0.0F;
+    float far_move_ = 0.0F;
     Extent extent_;
     std::vector<std::int16_t> copied_; ///< Every stride-th sample around the tile.
     const std::int16_t* lattice_ = nullptr;

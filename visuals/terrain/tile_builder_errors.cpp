@@ -16,14 +16,13 @@
 //   that need it and d / S more, so that it has the time to move into its place before they appear
 //   (error_mesher.cpp). S is how far a vertex may move, in wanted errors, while its distance
 //   shrinks by a small share of itself, divided by that share. A larger error moves at a larger
-//   distance, of which the eye's way is a smaller share; so S grows with it: with its square root,
-//   because the wanted error changes, too, and does so at all distances alike. It is taken of the
-//   least error that the sample can get, which keeps the outcome growing with the errors below.
+//   distance, of which the eye's way is a smaller share: S grows with the least error that the
+//   sample can get, up to where the wanted error's own changes count, which are alike at all
+//   distances. With the same triangles the wanted error grows with the ground's relief: S shrinks.
 #include "visuals/terrain/ground_tiles.h"
 #include "visuals/terrain/tile_builder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
 
@@ -33,9 +32,12 @@ namespace {
 
 constexpr int levels_unseen = 5; ///< Nodes so far below have an edge of one lattice step.
 
-/// S for vertices that move beside the eye, and for those far off.
-constexpr float near_move = 3.5F;
-constexpr float far_move = 7.0F;
+/// S on rugged ground, for vertices that move beside the eye and for those far off.
+constexpr float near_move = 2.0F;
+constexpr float far_move = 6.0F;
+/// The least relief of rugged ground, and how many times larger S is on flat ground at most.
+constexpr float rugged_m = 1200.0F;
+constexpr float most_ease = 2.5F;
 /// The largest error that moves beside the eye, as a share of the ground's relief.
 constexpr float near_error = 1.0F / 512.0F;
 
@@ -89,12 +91,17 @@ float TileBuilder::unseen(int column, int row) const {
     return unseen_[index_of(column + 1, row + 1, most + 2)];
 }
 
-/// Takes the ground's relief from the ranges in memory.
+/// Takes the ground's relief from the ranges in memory, and S from that.
 void TileBuilder::measure_relief() {
     HeightRange whole;
     std::memcpy(&whole, memory_.data() + layout_.level(0).ranges, sizeof whole);
     const int stored = whole.highest - whole.lowest;
-    near_error_ = near_error * static_cast<float>(stored) / static_cast<float>(heights_.multiplier);
+    const float relief = static_cast<float>(stored) / static_cast<float>(heights_.multiplier);
+    const float relief_m = relief * static_cast<float>(heights_.number_unit_m);
+    const float ease = std::clamp(rugged_m / relief_m, 1.0F, most_ease);
+    near_error_ = near_error * relief;
+    near_move_ = near_move * ease;
+    far_move_ = far_move * ease;
 }
 
 /// The least error of a sample with room to move, given the largest code of those that need it.
@@ -112,9 +119,9 @@ std::uint8_t TileBuilder::with_room(std::uint8_t below, const Halved& edge) cons
     }
     const float error = GroundTiles::error_m_of(below) / static_cast<float>(heights_.number_unit_m);
     const float move = 0.5F * static_cast<float>(std::abs(twice));
-    const float least = error + move / far_move;
+    const float least = error + move / far_move_;
     const float fastest_move =
-        std::clamp(near_move * std::sqrt(least / near_error_), near_move, far_move);
+        std::clamp(near_move_ * (least / near_error_), near_move_, far_move_);
     return std::max(below, coder_.code_of(error + move / fastest_move));
 }
 

@@ -2,7 +2,7 @@
 #include "tests/fuzz/formats/mesh_use.h"
 #include "tests/fuzz/formats/target.h"
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::ac3d_format {
 
 namespace {
 
@@ -42,4 +42,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::ac3d_format

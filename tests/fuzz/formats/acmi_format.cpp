@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::acmi_format {
 
 namespace {
 
@@ -104,4 +104,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::acmi_format

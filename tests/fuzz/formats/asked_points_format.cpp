@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::asked_points_format {
 
 namespace {
 
@@ -25,4 +25,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::asked_points_format

@@ -5,7 +5,7 @@
 #include "visuals/verify/certificate_reader.h"
 #include "visuals/verify/verify.h"
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::certificate_format {
 
 namespace {
 
@@ -32,4 +32,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::certificate_format

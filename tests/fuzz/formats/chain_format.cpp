@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::chain_format {
 
 namespace {
 
@@ -65,4 +65,4 @@ const Registered
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::chain_format

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::datagrams_format {
 
 namespace {
 
@@ -71,4 +71,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::datagrams_format

@@ -4,7 +4,7 @@
 #include "visuals/draworder/order_text.h"
 #include "visuals/draworder/ordered_model.h"
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::draw_order_format {
 
 namespace {
 
@@ -74,4 +74,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::draw_order_format

@@ -1,7 +1,7 @@
 #include "tests/fuzz/formats/target.h"
 #include "ui/world/entity_table.h"
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::entity_table_format {
 
 namespace {
 
@@ -39,4 +39,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::entity_table_format

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::eye_points_format {
 
 namespace {
 
@@ -27,4 +27,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::eye_points_format

@@ -3,7 +3,7 @@
 #include "ui/report/frame_times.h"
 #include "ui/report/statistics.h"
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::frames_format {
 
 namespace {
 
@@ -45,4 +45,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::frames_format

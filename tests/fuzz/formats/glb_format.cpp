@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::glb_format {
 
 namespace {
 
@@ -49,4 +49,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::glb_format

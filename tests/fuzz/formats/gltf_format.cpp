@@ -2,7 +2,7 @@
 #include "tests/fuzz/formats/mesh_use.h"
 #include "tests/fuzz/formats/target.h"
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::gltf_format {
 
 namespace {
 
@@ -50,4 +50,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::gltf_format

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::ground_format {
 
 namespace {
 
@@ -87,4 +87,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::ground_format

@@ -1,7 +1,7 @@
 #include "models/polygons/mtl_reader.h"
 #include "tests/fuzz/formats/target.h"
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::mtl_format {
 
 namespace {
 
@@ -29,4 +29,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::mtl_format

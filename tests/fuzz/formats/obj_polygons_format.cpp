@@ -3,7 +3,7 @@
 #include "models/polygons/polygon_check.h"
 #include "tests/fuzz/formats/target.h"
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::obj_polygons_format {
 
 namespace {
 
@@ -67,4 +67,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::obj_polygons_format

@@ -5,7 +5,7 @@
 #include "visuals/draworder/ordered_model.h"
 #include "visuals/ordercache/order_bytes.h"
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::order_cache_format {
 
 namespace {
 
@@ -54,4 +54,4 @@ const Registered target({.name = "order_cache", .file = "input.kept", .use = use
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::order_cache_format

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::path_script_format {
 
 namespace {
 
@@ -122,4 +122,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::path_script_format

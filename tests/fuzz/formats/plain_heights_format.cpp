@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::plain_heights_format {
 
 namespace {
 
@@ -32,4 +32,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::plain_heights_format

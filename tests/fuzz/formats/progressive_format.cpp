@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::progressive_format {
 
 namespace {
 
@@ -94,4 +94,4 @@ const Registered
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::progressive_format

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::run_file_format {
 
 namespace {
 
@@ -59,4 +59,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::run_file_format

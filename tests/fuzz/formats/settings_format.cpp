@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::settings_format {
 
 namespace {
 
@@ -45,4 +45,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::settings_format

@@ -2,7 +2,7 @@
 #include "tests/fuzz/formats/mesh_use.h"
 #include "tests/fuzz/formats/target.h"
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::stl_format {
 
 namespace {
 
@@ -31,4 +31,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::stl_format

@@ -3,7 +3,7 @@
 
 #include <set>
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::sweep_format {
 
 namespace {
 
@@ -71,4 +71,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::sweep_format

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::track_format {
 
 namespace {
 
@@ -66,4 +66,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::track_format

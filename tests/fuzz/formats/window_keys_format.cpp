@@ -2,7 +2,7 @@
 #include "tests/fuzz/formats/target.h"
 #include "ui/window/key_map.h"
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::window_keys_format {
 
 namespace {
 
@@ -33,4 +33,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::window_keys_format

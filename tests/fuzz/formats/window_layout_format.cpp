@@ -2,7 +2,7 @@
 #include "tests/fuzz/formats/target.h"
 #include "ui/window/panel_layout.h"
 
-namespace octant::tests::formats {
+namespace octant::tests::formats::window_layout_format {
 
 namespace {
 
@@ -29,4 +29,4 @@ const Registered target({
 
 } // namespace
 
-} // namespace octant::tests::formats
+} // namespace octant::tests::formats::window_layout_format

@@ -1,9 +1,13 @@
+#include "sim/links/cigi_host.h"
 #include "sim/links/cigi_image_generator.h"
 #include "tests/fuzz/links/packet_target.h"
+
+#include <cmath>
 
 using namespace octant::sim::links;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    start_of_frame_of(std::as_bytes(std::span(data, size)));
     CigiImageGenerator generator(nullptr);
     std::vector<Fix> moved;
     for (std::uint32_t frame = 0; frame < 3; ++frame) {
@@ -13,6 +17,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         octant::tests::expect(
             generator.parts().turned(frame).size() <= CigiParts::most_parts, "bounded parts");
+        for (const auto& [number, view] : generator.definitions()) {
+            for (const double side_rad :
+                 {view.left_rad, view.right_rad, view.top_rad, view.bottom_rad}) {
+                octant::tests::expect(std::abs(side_rad) < 1.5, "a side ahead");
+            }
+        }
         const auto answer = generator.message_for(frame, 1.0);
         octant::tests::expect(
             answer.size() <= CigiImageGenerator::most_message_bytes, "a message that fits");
@@ -48,6 +58,13 @@ std::vector<std::vector<std::byte>> octant::tests::packet_seeds() {
             message.add_zeros(static_cast<std::size_t>(bytes) - 2);
         }
         seeds.push_back(message.take());
+        WireWriter begin(order);
+        begin.add_zeros(24);
+        begin.set(0, std::uint8_t{101});
+        begin.set(1, std::uint8_t{24});
+        begin.set(2, std::uint8_t{3});
+        begin.set(6, std::uint16_t{0x8000});
+        seeds.push_back(begin.take());
     }
     return seeds;
 }

@@ -205,7 +205,16 @@ TEST_CASE("grids that cannot be laid on the ground are refused") {
     degrees.transform = {8.0, 0.001, 0.0, 47.0, 0.0, -0.001};
     check_raster_refused(
         degrees,
-        "expected a coordinate system, got none and cells of 0.001, which look like degrees");
+        "expected a coordinate system, got none and cells of 0.001, which look like degrees: "
+        "--terrain-system EPSG:4326 says that they are");
+    ImportOptions options;
+    for (const char* const name : {"nowhere", "EPSG:0", "http://localhost/system.wkt"}) {
+        options.system = name;
+        CHECK_THROWS_WITH(
+            read_height_field(tests::scratch_folder() / "refused.GTiff", options),
+            "--terrain-system: expected a coordinate system such as EPSG:4326, got '" +
+                std::string(name) + "'");
+    }
     const std::string no_frame =
         "expected upright ground up to 1000 km wide and away from the poles, got ground that no "
         "local frame fits";

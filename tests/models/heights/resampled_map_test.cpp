@@ -2,6 +2,7 @@
 #include "models/heights/height_source.h"
 #include "models/heights/local_frame.h"
 #include "tests/models/heights/sample_maps.h"
+#include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
 
@@ -29,6 +30,22 @@ Deviation deviation_of(const std::vector<path>& files, const HeightField& field)
 }
 
 } // namespace
+
+TEST_CASE("a map that names no coordinate system takes the one it is given") {
+    RasterFile raster = degree_hills(41, 41, 8.0, 47.0);
+    write_raster(scratch_file("named.tif"), "GTiff", raster);
+    const HeightField named = read_height_field(tests::scratch_folder() / "named.tif");
+    raster.system.clear();
+    write_raster(scratch_file("nameless.asc"), "AAIGrid", raster);
+    ImportOptions options;
+    options.system = "EPSG:4326";
+    const HeightField given = read_height_field(tests::scratch_folder() / "nameless.asc", options);
+    CHECK(most_apart_m(named, given) < 1e-3);
+    CHECK(given.place->latitude_deg == Approx(named.place->latitude_deg));
+    options.system = "EPSG:2056"; // a file's own system counts for more
+    const HeightField own = read_height_field(tests::scratch_folder() / "named.tif", options);
+    CHECK(most_apart_m(named, own) == 0.0);
+}
 
 TEST_CASE("a rotated map lies where its six numbers say") {
     constexpr double angle = 0.5;

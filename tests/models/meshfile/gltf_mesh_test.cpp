@@ -47,13 +47,13 @@ std::string gltf(const Parts& parts) {
            parts.uri + "\"}]" + parts.more + "}";
 }
 
-TriangleMesh read(const Parts& parts) {
+TriangleMesh read_gltf(const Parts& parts) {
     TriangleMesh mesh = read_mesh(file_with("part.gltf", gltf(parts)));
     CHECK(index_fault(mesh).empty());
     return mesh;
 }
 
-std::string refused(const Parts& parts) {
+std::string refused_gltf(const Parts& parts) {
     return error_of("part.gltf", gltf(parts));
 }
 
@@ -71,16 +71,16 @@ TEST_CASE("base64 comes back, and what is none is refused") {
 }
 
 TEST_CASE("strips, fans and lists of glTF give the triangles that they stand for") {
-    CHECK(read({}).triangles == std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}});
+    CHECK(read_gltf({}).triangles == std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}});
     Parts fan;
     fan.primitive = R"({"attributes":{"POSITION":0},"indices":1,"mode":6})";
-    CHECK(read(fan).triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
+    CHECK(read_gltf(fan).triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
     Parts plain;
     plain.primitive = R"({"attributes":{"POSITION":0},"mode":5})";
-    CHECK(read(plain).triangles == std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}});
+    CHECK(read_gltf(plain).triangles == std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}});
     Parts lines;
     lines.primitive = R"({"attributes":{"POSITION":0},"mode":1},)" + Parts().primitive;
-    CHECK(read(lines).notes.size() == 1);
+    CHECK(read_gltf(lines).notes.size() == 1);
 }
 
 TEST_CASE("nodes of glTF place their meshes; a mirror turns triangles round again") {
@@ -88,7 +88,7 @@ TEST_CASE("nodes of glTF place their meshes; a mirror turns triangles round agai
     parts.nodes = R"([{"children":[1,2],"translation":[10,0,0]},
         {"mesh":0,"rotation":[0,0,0.70710678118654752,0.70710678118654752],"scale":[2,1,1]},
         {"mesh":0,"matrix":[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,5,1]}])";
-    const TriangleMesh mesh = read(parts);
+    const TriangleMesh mesh = read_gltf(parts);
     REQUIRE(mesh.vertices_m.size() == 8);
     CHECK(glm::distance(mesh.vertices_m[1], glm::dvec3(10.0, 2.0, 0.0)) < 1e-12);
     CHECK(glm::distance(mesh.vertices_m[2], glm::dvec3(9.0, 0.0, 0.0)) < 1e-12);
@@ -103,7 +103,7 @@ TEST_CASE("primitives of one glTF mesh share the vertices of the same accessor")
                       R"({"attributes":{"POSITION":0},"indices":1,"mode":6,"material":1})";
     parts.more = R"(,"materials":[{},{"name":"red","pbrMetallicRoughness":
         {"baseColorFactor":[1,0.5,0,1]}}])";
-    const TriangleMesh mesh = read(parts);
+    const TriangleMesh mesh = read_gltf(parts);
     CHECK(mesh.vertices_m.size() == 4);
     REQUIRE(mesh.materials.size() == 2);
     CHECK(mesh.materials[0].name == "red");
@@ -126,7 +126,7 @@ TEST_CASE("colours of glTF in bytes stand for 0 to 1, linear in light") {
     parts.accessors.pop_back();
     parts.accessors += R"(,{"bufferView":0,"byteOffset":12,"componentType":5121,
         "normalized":true,"count":4,"type":"VEC4"}])";
-    const TriangleMesh mesh = read(parts);
+    const TriangleMesh mesh = read_gltf(parts);
     CHECK(mesh.colours[0].z == Approx(0.7366).margin(1e-4)); // 1.0F is 00 00 80 3f
 }
 
@@ -134,17 +134,17 @@ TEST_CASE("data of glTF may lie in files beside it, but not outside its folder")
     file_with("square data.bin", square_bytes());
     Parts parts;
     parts.uri = "square%20data.bin";
-    CHECK(read(parts).triangles.size() == 2);
+    CHECK(read_gltf(parts).triangles.size() == 2);
     for (const std::string uri :
          {"../x.bin", "/etc/passwd", "a/../../x.bin", "%2e%2e/x.bin", "file:///x", "..\\\\x", ""}) {
         parts.uri = uri;
         CHECK_THAT(
-            refused(parts),
+            refused_gltf(parts),
             Catch::StartsWith("part.gltf: buffers[0].uri: expected a file in the folder of this "
                               "one, got '"));
     }
     parts.uri = "none.bin";
-    CHECK(refused(parts) == "none.bin: expected a file, found none");
+    CHECK(refused_gltf(parts) == "none.bin: expected a file, found none");
 }
 
 TEST_CASE("a faulty glTF file is refused in one line that says what") {
@@ -161,33 +161,37 @@ TEST_CASE("a faulty glTF file is refused in one line that says what") {
         "part.gltf: expected JSON at most 64 deep, got more");
     Parts parts;
     parts.nodes = R"([{"mesh":7}])";
-    CHECK(refused(parts) == "part.gltf: nodes[0].mesh: expected a whole number below 1, got '7'");
+    CHECK(
+        refused_gltf(parts) ==
+        "part.gltf: nodes[0].mesh: expected a whole number below 1, got '7'");
     parts.nodes = R"([{"mesh":0,"children":[0]}])";
     CHECK(
-        refused(parts) ==
+        refused_gltf(parts) ==
         "part.gltf: nodes[0]: expected a node with one parent, got one that is met again");
     parts = {};
     parts.accessors =
         R"([{"bufferView":0,"componentType":5126,"count":5,"type":"VEC3"},
             {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"}])";
     CHECK(
-        refused(parts) == "part.gltf: accessors[0]: expected 1 or more entries that fit the 48 "
-                          "bytes of the view, got 5 from byte 0, 12 apart");
+        refused_gltf(parts) ==
+        "part.gltf: accessors[0]: expected 1 or more entries that fit the 48 "
+        "bytes of the view, got 5 from byte 0, 12 apart");
     parts.accessors =
         R"([{"sparse":{},"componentType":5126,"count":5,"type":"VEC3"},
             {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"}])";
     CHECK(
-        refused(parts) ==
+        refused_gltf(parts) ==
         "part.gltf: accessors[0]: expected an accessor that is not sparse, got a sparse one");
     parts.accessors =
         R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
             {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"}])";
-    CHECK(refused(parts) == "part.gltf: meshes[0].primitives: expected indices below 3, got 3");
+    CHECK(
+        refused_gltf(parts) == "part.gltf: meshes[0].primitives: expected indices below 3, got 3");
     parts = {};
     parts.more = R"(,"extensionsRequired":["KHR_draco_mesh_compression"])";
     CHECK(
-        refused(parts) == "part.gltf: extensionsRequired: expected plain accessors, got "
-                          "KHR_draco_mesh_compression");
+        refused_gltf(parts) == "part.gltf: extensionsRequired: expected plain accessors, got "
+                               "KHR_draco_mesh_compression");
     CHECK(
         error_of("part.glb", std::string("glTF\2\0\0\0\77\0\0\0", 12)) ==
         "part.glb: at byte 8: expected a length of 12, got 63");

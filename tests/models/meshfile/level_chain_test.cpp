@@ -14,7 +14,7 @@ using namespace octant::models::meshfile::test;
 
 namespace {
 
-std::string refused(const std::string& bytes) {
+std::string refused_chain(const std::string& bytes) {
     const std::filesystem::path path = file_with("a.chain", bytes);
     try {
         read_chain(path);
@@ -28,7 +28,7 @@ std::string refused(const std::string& bytes) {
 std::string said(const LevelChain& faulty) {
     const std::filesystem::path path = scratch_file("c.chain");
     write_chain(path, faulty);
-    return refused(octant::read_file(path));
+    return refused_chain(octant::read_file(path));
 }
 
 } // namespace
@@ -77,19 +77,22 @@ TEST_CASE("a file that is no chain, of another version, cut or changed is refuse
     const std::filesystem::path path = scratch_file("b.chain");
     write_chain(path, sample_chain());
     const std::string good = octant::read_file(path);
-    CHECK(refused(good).empty());
+    CHECK(refused_chain(good).empty());
     CHECK(
-        refused("octopus!") == "a.chain: at byte 0: expected a chain of levels, got another file");
+        refused_chain("octopus!") ==
+        "a.chain: at byte 0: expected a chain of levels, got another file");
     CHECK_THAT(
-        refused("oct"), Catch::StartsWith("a.chain: at byte 0: expected a chain of levels (8"));
+        refused_chain("oct"),
+        Catch::StartsWith("a.chain: at byte 0: expected a chain of levels (8"));
     std::string newer = good;
     newer[8] = 2;
-    CHECK(refused(newer) == "a.chain: at byte 8: expected version 1, got 2");
+    CHECK(refused_chain(newer) == "a.chain: at byte 8: expected version 1, got 2");
     CHECK_THAT(
-        refused(good.substr(0, good.size() - 1)), Catch::StartsWith("a.chain: at byte 16: "));
+        refused_chain(good.substr(0, good.size() - 1)), Catch::StartsWith("a.chain: at byte 16: "));
     std::string changed = good;
     changed[100] = static_cast<char>(changed[100] ^ 1);
-    CHECK_THAT(refused(changed), Catch::StartsWith("a.chain: at byte 24: expected the checksum "));
+    CHECK_THAT(
+        refused_chain(changed), Catch::StartsWith("a.chain: at byte 24: expected the checksum "));
 }
 
 TEST_CASE("a chain whose checksum is right but whose content is not is refused") {
@@ -113,7 +116,8 @@ TEST_CASE("a chain whose checksum is right but whose content is not is refused")
     write_chain(path, sample_chain());
     std::string bytes = octant::read_file(path);
     bytes[32 + 4] = 1; // of the name's length: now 2^32 more
-    CHECK_THAT(refused(sealed(bytes)), Catch::StartsWith("a.chain: at byte 40: expected a text ("));
+    CHECK_THAT(
+        refused_chain(sealed(bytes)), Catch::StartsWith("a.chain: at byte 40: expected a text ("));
 }
 
 TEST_CASE("polygons of a chain that no model can have are refused") {

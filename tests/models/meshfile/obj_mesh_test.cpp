@@ -12,7 +12,7 @@ using namespace octant::tests;
 
 namespace {
 
-TriangleMesh read(std::string_view text) {
+TriangleMesh read_obj_text(std::string_view text) {
     TriangleMesh mesh = read_mesh(file_with("part.obj", text));
     CHECK(index_fault(mesh).empty());
     return mesh;
@@ -28,8 +28,8 @@ constexpr std::string_view three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 TEST_CASE("an OBJ triangle is read, and all that says nothing about triangles is passed over") {
     const TriangleMesh mesh =
-        read("\xef\xbb\xbf# a comment\no part\ng one two\ns off\nvt 0 0\nvp 1\nl 1 2\n"
-             "v 0 0 0\nv 1e0 0 0 1.0\nv 0 +1 0\nnonsense\n\nf 1/1 \\\n 2/1/ 3\n");
+        read_obj_text("\xef\xbb\xbf# a comment\no part\ng one two\ns off\nvt 0 0\nvp 1\nl 1 2\n"
+                      "v 0 0 0\nv 1e0 0 0 1.0\nv 0 +1 0\nnonsense\n\nf 1/1 \\\n 2/1/ 3\n");
     CHECK(mesh.name == "part");
     CHECK(
         mesh.vertices_m ==
@@ -42,12 +42,14 @@ TEST_CASE("an OBJ triangle is read, and all that says nothing about triangles is
 }
 
 TEST_CASE("OBJ corners count back from the last vertex where they are negative") {
-    const TriangleMesh mesh = read("v 9 9 9\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf -4 -3 -2 -1\n");
+    const TriangleMesh mesh =
+        read_obj_text("v 9 9 9\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf -4 -3 -2 -1\n");
     CHECK(mesh.triangles == std::vector<Triangle>{{1, 2, 3}, {1, 3, 4}});
 }
 
 TEST_CASE("OBJ vertex colours are read; vertices without are white beside them") {
-    const TriangleMesh mesh = read("v 0 0 0 1 0 0.5\nv 1 0 0\nv 0 1 0 0 0 0\nv 5 5 5\nf 1 2 3");
+    const TriangleMesh mesh =
+        read_obj_text("v 0 0 0 1 0 0.5\nv 1 0 0\nv 0 1 0 0 0 0\nv 5 5 5\nf 1 2 3");
     CHECK(
         mesh.colours ==
         std::vector<glm::vec3>{
@@ -55,8 +57,8 @@ TEST_CASE("OBJ vertex colours are read; vertices without are white beside them")
 }
 
 TEST_CASE("OBJ normals are made unit vectors, and faulty or missing ones the triangle's own") {
-    const TriangleMesh mesh =
-        read(std::string(three) + "vn 0 3 4\nvn 0 0 0\nf 1//1 2//2 3//-2\nf 3 2 1\nf 1//1 2 3\n");
+    const TriangleMesh mesh = read_obj_text(
+        std::string(three) + "vn 0 3 4\nvn 0 0 0\nf 1//1 2//2 3//-2\nf 3 2 1\nf 1//1 2 3\n");
     REQUIRE(mesh.corner_normals.size() == 3);
     const auto normal = [&](std::size_t t, std::size_t k) {
         return mesh.normals[mesh.corner_normals[t][k]];
@@ -70,7 +72,7 @@ TEST_CASE("OBJ normals are made unit vectors, and faulty or missing ones the tri
 
 TEST_CASE("OBJ materials come in the order of their first polygon, with colours of the MTL file") {
     file_with("two words.mtl", "newmtl red\nKd 1 0 0\nnewmtl light blue\nKd 0.5 0.5 1\n");
-    const TriangleMesh mesh = read(
+    const TriangleMesh mesh = read_obj_text(
         std::string(three) + "mtllib two words.mtl\nf 1 2 3\nusemtl light blue\nf 1 2 3\n"
                              "usemtl red\nusemtl light blue\nf 3 2 1\nusemtl green\nf 1 2 3\n");
     REQUIRE(mesh.materials.size() == 3);
@@ -82,7 +84,8 @@ TEST_CASE("OBJ materials come in the order of their first polygon, with colours 
 }
 
 TEST_CASE("a missing MTL file is noted") {
-    const TriangleMesh mesh = read("mtllib none.mtl\n" + std::string(three) + "usemtl a\nf 1 2 3");
+    const TriangleMesh mesh =
+        read_obj_text("mtllib none.mtl\n" + std::string(three) + "usemtl a\nf 1 2 3");
     REQUIRE(mesh.notes.size() == 1);
     CHECK_THAT(
         mesh.notes[0],

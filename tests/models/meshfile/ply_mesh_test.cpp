@@ -15,13 +15,13 @@ namespace {
 
 const std::string start = "ply\nformat ascii 1.0\n";
 const std::string places = "property float x\nproperty float y\nproperty float z\n";
-const std::string corners = "property list uchar int vertex_indices\n";
+const std::string ply_corners = "property list uchar int vertex_indices\n";
 
-std::string refused(const std::string& text) {
+std::string refused_ply(const std::string& text) {
     return error_of("part.ply", text);
 }
 
-TriangleMesh read(const std::string& bytes) {
+TriangleMesh read_ply_text(const std::string& bytes) {
     TriangleMesh mesh = read_mesh(file_with("part.ply", bytes));
     CHECK(index_fault(mesh).empty());
     return mesh;
@@ -53,7 +53,7 @@ private:
 } // namespace
 
 TEST_CASE("an ascii PLY with what it need not have is read") {
-    const TriangleMesh mesh = read(
+    const TriangleMesh mesh = read_ply_text(
         start + "comment hello\nobj_info 3\nelement camera 1\nproperty list char float a\n" +
         "property float b\nelement vertex 4\nproperty uchar red\n" + places +
         "property float confidence\nproperty uchar green\nproperty uchar blue\n" +
@@ -80,7 +80,7 @@ TEST_CASE("binary PLY files of both byte orders are read alike") {
         }
         body.add(std::int32_t{3}).add(std::uint16_t{0}).add(std::uint16_t{1});
         body.add(std::uint16_t{2}).add(std::int8_t{-1});
-        const TriangleMesh mesh = read(
+        const TriangleMesh mesh = read_ply_text(
             std::string("ply\r\nformat ") +
             (order == std::endian::big ? "binary_big_endian" : "binary_little_endian") +
             " 1.0\r\nelement extra 1\r\nproperty list ushort double stuff\r\n"
@@ -98,95 +98,98 @@ TEST_CASE("binary PLY files of both byte orders are read alike") {
 }
 
 TEST_CASE("a faulty PLY header is refused in one line that says where") {
-    CHECK(refused("plo\n") == "part.ply:1: expected 'ply', got 'plo'");
+    CHECK(refused_ply("plo\n") == "part.ply:1: expected 'ply', got 'plo'");
     CHECK(
-        refused("ply\nelement vertex 3\n") ==
+        refused_ply("ply\nelement vertex 3\n") ==
         "part.ply:3: expected end_header, got the end of the file");
     CHECK(
-        refused("ply\nformat ascii 2.0\n") ==
+        refused_ply("ply\nformat ascii 2.0\n") ==
         "part.ply:2: expected 'format FORM 1.0', got 'format ascii 2.0'");
     CHECK(
-        refused("ply\nformat utf 1.0\n") ==
+        refused_ply("ply\nformat utf 1.0\n") ==
         "part.ply:2: expected ascii, binary_little_endian or binary_big_endian, got 'utf'");
     CHECK(
-        refused(start + "property int a\n") ==
+        refused_ply(start + "property int a\n") ==
         "part.ply:3: expected an element before its property, got 'property int a'");
     CHECK(
-        refused(start + "element vertex -3\n") ==
+        refused_ply(start + "element vertex -3\n") ==
         "part.ply:3: expected 'element NAME COUNT', got 'element vertex -3'");
     CHECK(
-        refused(start + "element vertex 3\nproperty real x\n") ==
+        refused_ply(start + "element vertex 3\nproperty real x\n") ==
         "part.ply:4: expected a type such as uchar, int or float, got 'real'");
     CHECK(
-        refused(start + "element vertex 3\nproperty list float int x\n") ==
+        refused_ply(start + "element vertex 3\nproperty list float int x\n") ==
         "part.ply:4: expected a whole number as the count of a list, got 'property list float "
         "int x'");
     CHECK(
-        refused(start + "hello\n") ==
+        refused_ply(start + "hello\n") ==
         "part.ply:3: expected format, element, property, comment or end_header, got 'hello'");
     CHECK(
-        refused("ply\nend_header\n") ==
+        refused_ply("ply\nend_header\n") ==
         "part.ply:2: expected a format line in the header, got none");
 }
 
 TEST_CASE("a PLY header that promises more than the file holds is refused by its size") {
     CHECK(
-        refused(start + "element vertex 2147483648\n" + places + "end_header\n0 0 0\n") ==
+        refused_ply(start + "element vertex 2147483648\n" + places + "end_header\n0 0 0\n") ==
         "part.ply:3: expected at most 1 of 'vertex' in a file of this size, got 2147483648");
     CHECK(
-        refused(
-            "ply\nformat binary_little_endian 1.0\nelement face 9000000000000000000\n" + corners +
-            "end_header\nabc") ==
+        refused_ply(
+            "ply\nformat binary_little_endian 1.0\nelement face 9000000000000000000\n" +
+            ply_corners + "end_header\nabc") ==
         "part.ply:3: expected at most 3 of 'face' in a file of this size, got "
         "9000000000000000000");
     // An element of nothing takes no room, but no time either.
     CHECK(
-        refused(start + "element nothing 9000000000000000000\nend_header\n") ==
+        refused_ply(start + "element nothing 9000000000000000000\nend_header\n") ==
         "part.ply: expected at least one triangle, got none");
 }
 
 TEST_CASE("a faulty PLY body is refused in one line that says where") {
     const std::string header = start + "element vertex 3\n" + places +
                                "property uchar red\nproperty uchar green\nproperty uchar blue\n" +
-                               "element face 1\n" + corners + "end_header\n";
+                               "element face 1\n" + ply_corners + "end_header\n";
     const std::string good = "0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n";
-    CHECK(refused(header + good + "3 0 1 2\n").empty());
-    CHECK(refused(header + good + "3 0 1 3\n") == "part.ply:16: expected a vertex below 3, got 3");
+    CHECK(refused_ply(header + good + "3 0 1 2\n").empty());
     CHECK(
-        refused(header + good + "3 0 1 -1\n") == "part.ply:16: expected a vertex below 3, got -1");
+        refused_ply(header + good + "3 0 1 3\n") ==
+        "part.ply:16: expected a vertex below 3, got 3");
     CHECK(
-        refused(header + good + "2 0 1 2\n") ==
+        refused_ply(header + good + "3 0 1 -1\n") ==
+        "part.ply:16: expected a vertex below 3, got -1");
+    CHECK(
+        refused_ply(header + good + "2 0 1 2\n") ==
         "part.ply:16: expected a face of 3 to 10000 corners, got 2");
     CHECK(
-        refused(header + good + "3 0 1\n") ==
+        refused_ply(header + good + "3 0 1\n") ==
         "part.ply:17: expected the number of a vertex, got the end of the file");
     CHECK(
-        refused(header + "0 0 inf 1 2 3\n" + good) ==
+        refused_ply(header + "0 0 inf 1 2 3\n" + good) ==
         "part.ply:13: expected a coordinate, got 'inf'");
     CHECK(
-        refused(header + "0 0 0 1 256 3\n" + good) ==
+        refused_ply(header + "0 0 0 1 256 3\n" + good) ==
         "part.ply:13: expected a part of a colour of 0 to 255, got 256");
     CHECK(
-        refused(start + "element face 0\n" + corners + "end_header\n") ==
+        refused_ply(start + "element face 0\n" + ply_corners + "end_header\n") ==
         "part.ply:6: expected the element vertex before the element face, got face first");
     CHECK(
-        refused(start + "element vertex 0\nproperty float x\nend_header\n") ==
+        refused_ply(start + "element vertex 0\nproperty float x\nend_header\n") ==
         "part.ply:6: expected the properties x, y and z of a vertex, got fewer");
 }
 
 TEST_CASE("a faulty binary PLY body is refused in one line that names the byte") {
     const std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex 1\n" + places +
-                               "element face 1\n" + corners + "end_header\n";
+                               "element face 1\n" + ply_corners + "end_header\n";
     const auto at = [&](std::size_t byte) {
         return "part.ply: at byte " + std::to_string(header.size() + byte) + ": expected ";
     };
     Body body(std::endian::little);
     body.add(0.0F).add(std::bit_cast<float>(0x7fc00000U)).add(0.0F);
-    CHECK_THAT(refused(header + body.bytes() + "a"), Catch::StartsWith(at(4) + "a coordinate"));
+    CHECK_THAT(refused_ply(header + body.bytes() + "a"), Catch::StartsWith(at(4) + "a coordinate"));
     Body cut(std::endian::little);
     cut.add(0.0F).add(0.0F).add(0.0F).add(std::uint8_t{3}).add(std::int32_t{0});
     CHECK(
-        refused(header + cut.bytes()) ==
+        refused_ply(header + cut.bytes()) ==
         at(17) + "the number of a vertex (4 bytes), got 0 to the end of the file");
 }
 

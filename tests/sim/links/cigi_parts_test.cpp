@@ -58,6 +58,60 @@ TEST_CASE("an articulated part keeps the angles that its host set, and goes on b
     CHECK(generator.parts().turned(8.0).empty());
 }
 
+TEST_CASE("an articulated part keeps the offsets that its host set, and goes on by its rates") {
+    CigiImageGenerator generator(nullptr);
+    std::vector<Fix> moved;
+    const auto offset_at = [&](double time_s) {
+        const auto parts = generator.parts().turned(time_s);
+        REQUIRE(parts.size() == 1);
+        return parts.front().offset_m;
+    };
+    const auto move = [&](std::uint8_t flags, float x, float y, float z, double at_s) {
+        HostMessage message(ByteOrder::Little, 1);
+        message.entity(0, 0.0, 0.0, 500.0);
+        message.begin(6, 32).set(4, std::uint8_t{3}).set(5, flags);
+        message.set(8, x).set(12, y).set(16, z);
+        generator.take(message.bytes(), moved, at_s);
+    };
+    move(0x0b, 1.0F, 7.0F, -2.0F, 1.0); // enabled; x and z are set
+    CHECK(offset_at(1.0) == glm::dvec3(1.0, 0.0, -2.0));
+    move(0x05, 9.0F, 7.0F, 9.0F, 2.0); // y alone
+    CHECK(offset_at(2.0) == glm::dvec3(1.0, 7.0, -2.0));
+    HostMessage rate(ByteOrder::Big, 2);
+    rate.begin(8, 32).set(4, std::uint8_t{3}).set(5, std::uint8_t{1}).set(16, 0.5F);
+    generator.take(rate.bytes(), moved, 3.0);
+    CHECK(offset_at(5.0) == glm::dvec3(1.0, 7.0, -1.0));
+    move(0x05, 0.0F, 1e9F, 0.0F, 6.0); // nothing has such a part
+    CHECK(offset_at(5.0) == glm::dvec3(1.0, 7.0, -1.0));
+}
+
+TEST_CASE("sides of a frustum that a host does not set stay as they were") {
+    CigiImageGenerator generator(nullptr);
+    std::vector<Fix> moved;
+    const auto define = [&](std::uint8_t flags, float left, float right, std::uint8_t kind) {
+        HostMessage message(ByteOrder::Big, 1);
+        message.begin(21, 32).set(2, std::uint16_t{4}).set(5, flags).set(6, kind);
+        message.set(16, left).set(20, right).set(24, 20.0F).set(28, NAN);
+        generator.take(message.bytes(), moved);
+    };
+    define(0x14, -10.0F, NAN, 0); // left and top
+    REQUIRE(generator.definitions().contains(4));
+    const CigiViewDefinition& view = generator.definitions().at(4);
+    CHECK(view.sets == glm::bvec4(true, false, true, false));
+    CHECK(deg_from_rad(view.left_rad) == Approx(-10.0));
+    CHECK_FALSE(view.parallel);
+    define(0x08, 50.0F, 40.0F, 8); // right; orthographic
+    CHECK(view.sets == glm::bvec4(true, true, true, false));
+    CHECK(deg_from_rad(view.left_rad) == Approx(-10.0));
+    CHECK(deg_from_rad(view.right_rad) == Approx(40.0));
+    CHECK(deg_from_rad(view.top_rad) == Approx(20.0));
+    CHECK(view.parallel);
+    define(0x0c, 50.0F, 45.0F, 0); // turned round: passed over
+    CHECK(deg_from_rad(view.left_rad) == Approx(-10.0));
+    define(0x20, 0.0F, 0.0F, 0); // a bottom that is no number: passed over
+    CHECK(view.sets == glm::bvec4(true, true, true, false));
+}
+
 TEST_CASE("parts of entities that are not there are passed over, and go with their entity") {
     CigiImageGenerator generator(nullptr);
     std::vector<Fix> moved;

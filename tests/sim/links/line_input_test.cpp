@@ -6,8 +6,11 @@
 #include <chrono>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <netinet/in.h>
+#include <string>
+#include <string_view>
 #include <sys/socket.h>
 #include <thread>
 #include <unistd.h>
@@ -48,13 +51,77 @@ public:
     Client(Client&&) = delete;
     Client& operator=(Client&&) = delete;
 
-    void say(const char* line) const { ::send(socket_, line, std::strlen(line), MSG_NOSIGNAL); }
+    void say(std::string_view text) const {
+        ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    }
 
 private:
     int socket_;
 };
 
+/// Reads until a line has come that begins so, two seconds at most. Returns whether one has.
+bool hears(LineServer& server, std::string_view beginning, const std::function<void()>& meanwhile) {
+    for (int i = 0; i < 1000; ++i) {
+        meanwhile();
+        std::vector<Datagram> lines;
+        server.drain(0.0, lines);
+        for (const Datagram& line : lines) {
+            const std::string text(
+                reinterpret_cast<const char*>(line.bytes.data()), line.bytes.size()); // NOLINT
+            CHECK(text.size() <= 4096);
+            if (text.starts_with(beginning)) {
+                return true;
+            }
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return false;
+}
+
 } // namespace
+
+TEST_CASE("an endless line, binary bytes and a slow writer keep no other line waiting") {
+    LineServer server(this_machine, 0);
+    const Client endless(this_machine, server.port());
+    const Client binary(this_machine, server.port());
+    const Client slow(this_machine, server.port());
+    const Client good(this_machine, server.port());
+    const std::string block(20000, 'x');
+    std::string bytes;
+    for (int i = 0; i < 5000; ++i) {
+        bytes += static_cast<char>(i * 37 % 256);
+    }
+    const std::string word = "slow,line\n";
+    std::size_t said = 0;
+    const auto hostile = [&] {
+        endless.say(block);
+        binary.say(bytes);
+        slow.say(std::string_view(word).substr(said++ % word.size(), 1));
+    };
+    good.say("t_s,north_m\n");
+    CHECK(hears(server, "t_s,north_m", hostile));
+    CHECK(hears(server, "slow,line", hostile));
+    good.say("1,2\n");
+    CHECK(hears(server, "1,2", hostile));
+}
+
+TEST_CASE("a thousand connections that say nothing keep out nobody who speaks") {
+    LineServer server(this_machine, 0);
+    const Client good(this_machine, server.port());
+    good.say("first\n");
+    CHECK(hears(server, "first", [] {}));
+    std::vector<std::unique_ptr<Client>> silent;
+    for (int i = 0; i < 1000; ++i) {
+        silent.push_back(std::make_unique<Client>(this_machine, server.port()));
+        std::vector<Datagram> lines;
+        server.drain(0.0, lines);
+    }
+    good.say("again\n");
+    CHECK(hears(server, "again", [] {}));
+    const Client late(this_machine, server.port());
+    late.say("late\n");
+    CHECK(hears(server, "late", [] {}));
+}
 
 TEST_CASE("clients of other machines than the one that counts hold no place") {
     LineServer server(this_machine, 0, this_machine);

@@ -3,6 +3,8 @@
 #include "sim/links/flightgear_fdm.h"
 #include "sim/links/line_input.h"
 #include "sim/links/live_traffic.h"
+#include "sim/links/mavlink.h"
+#include "tests/sim/links/receiver.h"
 
 #include <catch2/catch.hpp>
 
@@ -99,6 +101,65 @@ TEST_CASE("any bytes on any port leave what flies as it is, and memory bounded")
     CHECK(traffic.vehicles().empty());
     CHECK(traffic.counts().accepted == 0);
     CHECK(traffic.take_news().size() <= 50);
+}
+
+TEST_CASE("streams that come and go do not push out one that stays") {
+    LiveTraffic traffic(flat);
+    const auto from = [](Source source, std::string_view text, double arrival_s) {
+        Datagram datagram = line(text, arrival_s);
+        datagram.source = source;
+        return datagram;
+    };
+    constexpr Source stays{1, 1}; // the first by its address
+    traffic.take(from(stays, "t_s,north_m,east_m,alt_m", 0.0));
+    for (std::uint16_t i = 0; i < 500; ++i) {
+        traffic.take(from({2, i}, "t_s,north_m,east_m,alt_m", i));
+        CHECK(traffic.take(from(stays, "0,1,2,3", i)) != Taken::Wrong);
+    }
+}
+
+TEST_CASE("MAVLink systems beyond the cap wait until one has been silent for ten seconds") {
+    LiveTraffic traffic(flat);
+    WireWriter payload(ByteOrder::Little);
+    payload.add_zeros(28);
+    payload.set(4, std::int32_t{470000000});
+    payload.set(12, std::int32_t{100000});
+    const auto packet = [&](std::uint16_t port, double arrival_s) {
+        const auto bytes = encode_mavlink(
+            {MavLinkKind::GlobalPositionInt,
+             1,
+             {payload.bytes().begin(), payload.bytes().end()}},
+            0);
+        return Datagram{Protocol::MavLink, {1, port}, arrival_s, bytes};
+    };
+    for (std::uint16_t port = 0; port < 200; ++port) {
+        traffic.take(packet(port, 0.0));
+    }
+    CHECK(traffic.vehicles().size() == 64);
+    traffic.take(packet(300, 9.0));
+    CHECK(traffic.vehicles().size() == 64);
+    CHECK(traffic.take(packet(300, 11.0)) == Taken::Moved);
+}
+
+TEST_CASE("a sender of twenty thousand packets a second is remembered in bounded memory") {
+    LiveTraffic traffic(flat);
+    std::vector<AircraftState> states(1);
+    const double before = octant::tests::resident_bytes();
+    for (int i = 0; i < 200'000; ++i) {
+        const double time_s = 5e-5 * i;
+        Fix fix;
+        fix.latitude_deg = 1e-3 * time_s;
+        fix.altitude_m = 500.0;
+        fix.velocity_ned_mps = glm::dvec3(100.0, 0.0, 0.0);
+        fix.ticks = static_cast<std::uint32_t>(50 * i);
+        const auto bytes = encode_fdm(fix);
+        REQUIRE(traffic.take({Protocol::Fdm, {1, 1}, time_s, {bytes.begin(), bytes.end()}}) ==
+                Taken::Moved);
+    }
+    constexpr double mebibyte = 1048576.0;
+    CHECK(octant::tests::resident_bytes() - before < 4.0 * mebibyte);
+    REQUIRE(traffic.show(10.0, 4.0, states) == 1);
+    CHECK(states[0].position_m.y == Approx(600.0).margin(1.0)); // 4 s ago it was there
 }
 
 TEST_CASE("no more vehicles are kept than the cap, and silent ones make room") {

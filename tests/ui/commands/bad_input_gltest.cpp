@@ -1,4 +1,5 @@
 #include "sim/base/output_file.h"
+#include "tests/ui/commands/command_checks.h"
 #include "tests/ui/commands/command_line.h"
 
 #include <catch2/catch.hpp>
@@ -27,12 +28,7 @@ void check_refused(std::vector<std::string> arguments, const std::string& expect
     std::filesystem::remove_all(out);
     arguments.insert(arguments.begin(), "fly");
     arguments.insert(arguments.end(), {"--frames", "2", "--record", out.string()});
-    const tests::ProgramRun run = run_octant(arguments);
-    INFO(run.err);
-    CHECK(run.exit_code == 2);
-    CHECK(tests::lines_in(run.err) == 1);
-    CHECK(run.err.find(expected_in_line) != std::string::npos);
-    CHECK(run.out.empty());
+    tests::check_refusal(run_octant(arguments), expected_in_line);
     CHECK_FALSE(std::filesystem::exists(out));
 }
 

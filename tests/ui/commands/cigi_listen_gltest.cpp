@@ -7,6 +7,7 @@
 #include "sim/links/udp_port.h"
 #include "tests/ui/commands/command_line.h"
 #include "ui/report/frame_csv.h"
+#include "ui/report/png_file.h"
 
 #include <catch2/catch.hpp>
 
@@ -116,7 +117,8 @@ constexpr std::uint16_t jet = 1;
 
 /// What a host of the other byte order says in a frame: entity 0 of that type stands over the
 /// middle of the map and is seen from behind.
-links::WireWriter frame_of(std::uint32_t number, std::uint16_t type) {
+links::WireWriter frame_of(
+    std::uint32_t number, std::uint16_t type, double left_deg = -30.0, double right_deg = 30.0) {
     links::WireWriter message(links::ByteOrder::Little);
     links::CigiIgControl control;
     control.mode = links::CigiMode::Operate;
@@ -129,8 +131,8 @@ links::WireWriter frame_of(std::uint32_t number, std::uint16_t type) {
     entity.place = {0.0, 0.0, 700.0};
     links::add_entity(message, entity);
     links::CigiViewDefinition frustum;
-    frustum.right_rad = rad_from_deg(30.0);
-    frustum.left_rad = -frustum.right_rad;
+    frustum.left_rad = rad_from_deg(left_deg);
+    frustum.right_rad = rad_from_deg(right_deg);
     frustum.top_rad = rad_from_deg(20.0);
     frustum.bottom_rad = -frustum.top_rad;
     links::add_view_definition(message, frustum);
@@ -237,6 +239,65 @@ TEST_CASE("a CIGI host's entity types, parts, air, time and views are seen") {
         wrong.err,
         Contains(
             "packets.bin:1: expected entity type 9 to be one of 2 aircraft from 0, got number 2"));
+}
+
+TEST_CASE("a frustum beside straight ahead shows that part of the whole picture") {
+    const fs::path folder = tests::empty_folder("cigi-frusta");
+    const auto picture_of = [&](double left_deg, double right_deg, const std::string& size) {
+        const fs::path record = folder / size;
+        Host host;
+        const tests::ProgramRun run = generate_for(
+            host,
+            {"--step",
+             "--terrain",
+             "hills",
+             "--error-px",
+             "1",
+             "--size",
+             size,
+             "--pictures",
+             "1",
+             "--frames",
+             "1",
+             "--record",
+             record.string()},
+            [&] {
+                CHECK(host.await([](const Heard&) { return true; }));
+                host.send(frame_of(1, jet, left_deg, right_deg));
+                CHECK(host.await([](const Heard& heard) { return heard.host_frame == 1; }));
+            });
+        INFO(run.err);
+        REQUIRE(run.exit_code == 0);
+        return ui::report::read_png(record / "picture-00000.png");
+    };
+    // 20 degrees up and 30 to a side: 240 pixels are as wide as 151.4 high ones; 60 of them are the
+    // left quarter.
+    const auto whole = picture_of(-30.0, 30.0, "240x152");
+    const double middle_deg = deg_from_rad(std::atan(0.5 * std::tan(rad_from_deg(30.0))));
+    const auto part = picture_of(-30.0, -middle_deg, "60x152");
+    const auto centre = picture_of(-middle_deg, middle_deg, "120x152");
+    const auto level = [](const ui::report::Picture& picture, int x, int y, int channel) {
+        const int at = (y * picture.width_px + x) * picture.channels + channel;
+        return std::to_integer<int>(picture.bytes[static_cast<std::size_t>(at)]);
+    };
+    const auto different = [&](const ui::report::Picture& small, int first_x) {
+        int count = 0;
+        for (int i = 0; i < small.width_px * small.height_px; ++i) {
+            const int x = i % small.width_px;
+            const int y = i / small.width_px;
+            bool same = true;
+            for (int c = 0; c < 3; ++c) {
+                constexpr int most = 6;
+                same = same &&
+                       std::abs(level(small, x, y, c) - level(whole, first_x + x, y, c)) <= most;
+            }
+            count += same ? 0 : 1;
+        }
+        return static_cast<double>(count) / (small.width_px * small.height_px);
+    };
+    CHECK(different(part, 0) < 0.02);
+    CHECK(different(centre, 60) < 0.02);
+    CHECK(different(part, 90) > 0.1); // elsewhere it is another picture
 }
 
 TEST_CASE("an entity table says how many aircraft there are: --vehicles is refused beside it") {

@@ -14,16 +14,19 @@ PrintedJson figures_of(const std::string& command, std::vector<std::string> argu
     return PrintedJson(run.out);
 }
 
-void check_refused(
-    const std::string& command, std::vector<std::string> arguments, const std::string& expected) {
-    arguments.insert(arguments.begin(), command);
-    arguments.emplace_back("--quiet");
-    const ProgramRun run = run_octant(arguments);
+void check_refusal(const ProgramRun& run, const std::string& expected) {
     INFO(run.err);
     CHECK(run.exit_code == 2);
     CHECK(lines_in(run.err) == 1);
     CHECK(run.err.find(expected) != std::string::npos);
     CHECK(run.out.empty());
+}
+
+void check_refused(
+    const std::string& command, std::vector<std::string> arguments, const std::string& expected) {
+    arguments.insert(arguments.begin(), command);
+    arguments.emplace_back("--quiet");
+    check_refusal(run_octant(arguments), expected);
 }
 
 } // namespace octant::tests

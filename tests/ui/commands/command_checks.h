@@ -11,8 +11,10 @@ namespace octant::tests {
 /// Runs `octant COMMAND ARGUMENTS --json --quiet`, which must say nothing but its figures.
 PrintedJson figures_of(const std::string& command, std::vector<std::string> arguments);
 
-/// Checks that `octant COMMAND ARGUMENTS --quiet` ends with code 2 and one line that has `expected`
-/// in it.
+/// Checks that a run ended with code 2 and one line that has `expected` in it.
+void check_refusal(const ProgramRun& run, const std::string& expected);
+
+/// Checks that `octant COMMAND ARGUMENTS --quiet` is refused (check_refusal).
 void check_refused(
     const std::string& command, std::vector<std::string> arguments, const std::string& expected);
 

@@ -74,6 +74,8 @@ TEST_CASE("what is wrong with a command line is said as what was expected and wh
     CHECK(
         refusal_of({"fly", "--frames", "3", "--frames", "4"}) ==
         "--frames: expected N once, got 3 4");
+    CHECK(refusal_of({"fly", "--frames", ""}) == "--frames: expected N, got none");
+    CHECK(refusal_of({"terrain", "make", "", "--out", "a"}) == "IN: expected FILE, got none");
     CHECK(refusal_of({"fly", "--region", "1", "2"}) == "--region: expected X Y RADIUS, got 1 2");
     CHECK(
         refusal_of({"fly", "--quiet=perhaps"}) ==

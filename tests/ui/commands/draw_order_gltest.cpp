@@ -1,5 +1,6 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "tests/ui/commands/command_checks.h"
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/commands/printed_json.h"
 
@@ -12,13 +13,13 @@ using octant::tests::run_octant;
 
 namespace {
 
-std::filesystem::path folder() {
+std::filesystem::path order_folder() {
     static const auto made = tests::empty_folder("draw-order");
     return made;
 }
 
-std::string file(const std::string& name) {
-    return (folder() / name).string();
+std::string order_file(const std::string& name) {
+    return (order_folder() / name).string();
 }
 
 tests::ProgramRun draw_order(std::vector<std::string> arguments) {
@@ -26,18 +27,13 @@ tests::ProgramRun draw_order(std::vector<std::string> arguments) {
     return run_octant(arguments);
 }
 
-tests::PrintedJson figures(const tests::ProgramRun& run) {
+tests::PrintedJson order_figures(const tests::ProgramRun& run) {
     INFO(run.err);
     return tests::PrintedJson(run.out);
 }
 
-void check_refused(const std::vector<std::string>& arguments, const std::string& expected) {
-    const tests::ProgramRun run = draw_order(arguments);
-    INFO(run.err);
-    CHECK(run.exit_code == 2);
-    CHECK(tests::lines_in(run.err) == 1);
-    CHECK(run.err.find(expected) != std::string::npos);
-    CHECK(run.out.empty());
+void check_order_refused(const std::vector<std::string>& arguments, const std::string& expected) {
+    tests::check_refusal(draw_order(arguments), expected);
 }
 
 /// Two rectangles that pass through one another, each with a back.
@@ -70,7 +66,7 @@ TEST_CASE("the tree orders both aircraft for every eye, and the check agrees") {
         const auto run = draw_order({name, "--check", "--rays", "20000", "--json", "--quiet"});
         CHECK(run.exit_code == 0);
         CHECK(run.err.empty());
-        const auto result = figures(run);
+        const auto result = order_figures(run);
         CHECK(result["right"] == true);
         CHECK(result["pairs"] > 1000);
         CHECK(result["pairs_not_certified"] == 0);
@@ -89,89 +85,100 @@ TEST_CASE("a check that says no ends with exit code 1 and names the polygons") {
 }
 
 TEST_CASE("exported orders and the exported model pass the check, split polygons too") {
-    write_file(file("plates.obj"), crossing_plates);
+    write_file(order_file("plates.obj"), crossing_plates);
     for (const char* axes : {"right,up,back", "forward,left,up"}) {
         for (const char* method : {"cells", "tree"}) {
             const auto out = draw_order(
-                {file("plates.obj"),
+                {order_file("plates.obj"),
                  "--axes",
                  axes,
                  "--method",
                  method,
                  "--export",
-                 file("orders.txt"),
+                 order_file("orders.txt"),
                  "--export-model",
-                 file("split.obj"),
+                 order_file("split.obj"),
                  "--json"});
             CHECK(out.exit_code == 0);
-            CHECK(figures(out)["splits"] > 0);
-            CHECK(read_file(file("orders.txt")).find("\nparents 0 1 2 3 ") != std::string::npos);
+            CHECK(order_figures(out)["splits"] > 0);
+            CHECK(
+                read_file(order_file("orders.txt")).find("\nparents 0 1 2 3 ") !=
+                std::string::npos);
             const auto check = draw_order(
-                {file("split.obj"), "--axes", axes, "--check", file("orders.txt"), "--json"});
+                {order_file("split.obj"),
+                 "--axes",
+                 axes,
+                 "--check",
+                 order_file("orders.txt"),
+                 "--json"});
             CHECK(check.exit_code == 0);
-            CHECK(figures(check)["right"] == true);
-            CHECK(draw_order({file("plates.obj"), "--check", file("orders.txt")}).exit_code == 2);
+            CHECK(order_figures(check)["right"] == true);
+            CHECK(
+                draw_order({order_file("plates.obj"), "--check", order_file("orders.txt")})
+                    .exit_code == 2);
         }
     }
 }
 
 TEST_CASE("an order of another model's, or with two polygons exchanged, does not pass") {
-    const auto out = draw_order({"concave", "--method", "paper", "--export", file("table.txt")});
+    const auto out =
+        draw_order({"concave", "--method", "paper", "--export", order_file("table.txt")});
     CHECK(out.exit_code == 0);
-    CHECK(draw_order({"concave", "--check", file("table.txt")}).exit_code == 0);
-    std::string text = read_file(file("table.txt"));
+    CHECK(draw_order({"concave", "--check", order_file("table.txt")}).exit_code == 0);
+    std::string text = read_file(order_file("table.txt"));
     const std::size_t at = text.find("order 1 5"); // +-+: P2 must come before P6
     REQUIRE(at != std::string::npos);
-    write_file(file("swapped.txt"), text.replace(at, 9, "order 5 1"));
-    const auto run = draw_order({"concave", "--check", file("swapped.txt"), "--rays", "0"});
+    write_file(order_file("swapped.txt"), text.replace(at, 9, "order 5 1"));
+    const auto run = draw_order({"concave", "--check", order_file("swapped.txt"), "--rays", "0"});
     CHECK(run.exit_code == 1);
     CHECK(run.out.find("P6 is painted before P2 and may hide part of it") != std::string::npos);
-    CHECK(draw_order({"concave", "--check", file("swapped.txt")}).exit_code == 1);
+    CHECK(draw_order({"concave", "--check", order_file("swapped.txt")}).exit_code == 1);
 }
 
 TEST_CASE("rays alone find the file order of a missing cell") {
-    write_file(file("half.txt"), "draworder 1\nfaces 10\ncell half 1 0 1 0 0 order 0\n");
-    const auto run = draw_order({"concave", "--check", file("half.txt"), "--json"});
+    write_file(order_file("half.txt"), "draworder 1\nfaces 10\ncell half 1 0 1 0 0 order 0\n");
+    const auto run = draw_order({"concave", "--check", order_file("half.txt"), "--json"});
     CHECK(run.exit_code == 1);
-    const auto result = figures(run);
+    const auto result = order_figures(run);
     CHECK(result["eyes_without_cell"] > 100);
     CHECK(result["unlisted_not_certified"] > 0);
 }
 
 TEST_CASE("draw-order refuses wrong input in one line with exit code 2") {
-    check_refused({}, "model");
-    check_refused(
+    check_order_refused({}, "model");
+    check_order_refused(
         {"f16"},
         "model: expected f15, 500md, f15-detailed, 500md-detailed, concave, torus or an OBJ "
         "file, got 'f16'");
-    check_refused({"/nowhere/a.obj"}, "/nowhere/a.obj: expected a file, found none");
-    write_file(file("empty.obj"), "");
-    check_refused({file("empty.obj")}, "empty.obj");
-    check_refused({"f15", "--method", "magic"}, "--method: expected one of paper, cells, tree");
-    check_refused({"f15", "--min-distance", "nan"}, "--min-distance");
-    check_refused({"f15", "--rays", "-1"}, "--rays");
-    check_refused({"f15", "--export", "/nowhere/x.txt"}, "/nowhere/x.txt");
-    check_refused({"f15", "--export-model", file("x.txt")}, "ends in .obj");
-    check_refused(
-        {"f15", "--export", file("x.obj"), "--export-model", file("x.obj")},
+    check_order_refused({"/nowhere/a.obj"}, "/nowhere/a.obj: expected a file, found none");
+    write_file(order_file("empty.obj"), "");
+    check_order_refused({order_file("empty.obj")}, "empty.obj");
+    check_order_refused(
+        {"f15", "--method", "magic"}, "--method: expected one of paper, cells, tree");
+    check_order_refused({"f15", "--min-distance", "nan"}, "--min-distance");
+    check_order_refused({"f15", "--rays", "-1"}, "--rays");
+    check_order_refused({"f15", "--export", "/nowhere/x.txt"}, "/nowhere/x.txt");
+    check_order_refused({"f15", "--export-model", order_file("x.txt")}, "ends in .obj");
+    check_order_refused(
+        {"f15", "--export", order_file("x.obj"), "--export-model", order_file("x.obj")},
         "expected another file than --export-model");
-    CHECK_FALSE(std::filesystem::exists(folder() / "x.obj"));
-    check_refused({"f15", "--check", "/nowhere/x.txt"}, "/nowhere/x.txt: expected a file");
-    write_file(file("wrong.txt"), "draworder 1\nfaces 43\ncell ++- order 0 43\n");
-    check_refused(
-        {"f15", "--check", file("wrong.txt")},
+    CHECK_FALSE(std::filesystem::exists(order_folder() / "x.obj"));
+    check_order_refused({"f15", "--check", "/nowhere/x.txt"}, "/nowhere/x.txt: expected a file");
+    write_file(order_file("wrong.txt"), "draworder 1\nfaces 43\ncell ++- order 0 43\n");
+    check_order_refused(
+        {"f15", "--check", order_file("wrong.txt")},
         "wrong.txt:3: expected a polygon of the model (0 to 42), got '43'");
-    write_file(file("plates.obj"), crossing_plates);
-    check_refused({file("plates.obj"), "--axes", "up,up,up"}, "axes: expected");
-    check_refused(
-        {file("plates.obj"), "--export-model", file("plates.obj")},
+    write_file(order_file("plates.obj"), crossing_plates);
+    check_order_refused({order_file("plates.obj"), "--axes", "up,up,up"}, "axes: expected");
+    check_order_refused(
+        {order_file("plates.obj"), "--export-model", order_file("plates.obj")},
         "expected another file than the model");
-    CHECK_FALSE(std::filesystem::exists(folder() / "x.txt"));
+    CHECK_FALSE(std::filesystem::exists(order_folder() / "x.txt"));
 }
 
 TEST_CASE("the study of draw orders writes its tables") {
     const auto run =
-        run_octant({"study", "draw-order", "--out", file("study"), "--json", "--quiet"});
+        run_octant({"study", "draw-order", "--out", order_file("study"), "--json", "--quiet"});
     CHECK(run.exit_code == 0);
     const auto tables = tests::PrintedJson(run.out);
     REQUIRE(tables.size() == 5);
@@ -191,7 +198,7 @@ TEST_CASE("the study of draw orders writes its tables") {
     }
     for (const char* name :
          {"table-1.csv", "table-4.csv", "methods.csv", "wrong-pixels.csv", "bsp.csv"}) {
-        CHECK(std::filesystem::exists(folder() / "study" / name));
+        CHECK(std::filesystem::exists(order_folder() / "study" / name));
     }
     CHECK(run_octant({"study", "draw-order", "--out", "/proc/x"}).exit_code == 2);
 }

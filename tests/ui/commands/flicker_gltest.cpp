@@ -12,13 +12,13 @@ using octant::tests::run_octant;
 
 namespace {
 
-std::filesystem::path folder() {
+std::filesystem::path flicker_folder() {
     static const auto made = tests::empty_folder("flicker");
     return made;
 }
 
 std::string made_field(const std::string& kind) {
-    const std::string file = (folder() / (kind + ".tif")).string();
+    const std::string file = (flicker_folder() / (kind + ".tif")).string();
     const tests::ProgramRun run = run_octant(
         {"terrain",
          "make",
@@ -35,12 +35,12 @@ std::string made_field(const std::string& kind) {
     return file;
 }
 
-tests::ProgramRun study(const std::string& out) {
+tests::ProgramRun flicker_study(const std::string& out) {
     return run_octant(
         {"study",
          "flicker",
          "--out",
-         (folder() / out).string(),
+         (flicker_folder() / out).string(),
          "--gentle",
          made_field("hills"),
          "--rugged",
@@ -58,7 +58,7 @@ bool is_number_to_15(const tests::PrintedJson& cell) {
 } // namespace
 
 TEST_CASE("the flicker study writes its tables and figures, the same bytes each time") {
-    const tests::ProgramRun run = study("a");
+    const tests::ProgramRun run = flicker_study("a");
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     CHECK(run.err.empty());
@@ -89,7 +89,7 @@ TEST_CASE("the flicker study writes its tables and figures, the same bytes each 
         }
     }
     CHECK(met == 3);
-    CHECK(study("b").out == run.out);
+    CHECK(flicker_study("b").out == run.out);
     for (const char* file :
          {"fixed-rugged.csv",
           "fixed-gentle.csv",
@@ -101,12 +101,13 @@ TEST_CASE("the flicker study writes its tables and figures, the same bytes each 
           "path-rugged.csv",
           "flicker.md"}) {
         INFO(file);
-        const std::string text = read_file(folder() / "a" / file);
+        const std::string text = read_file(flicker_folder() / "a" / file);
         CHECK_FALSE(text.empty());
-        CHECK(read_file(folder() / "b" / file) == text);
+        CHECK(read_file(flicker_folder() / "b" / file) == text);
     }
-    CHECK(tests::lines_in(read_file(folder() / "a" / "path-rugged.csv")) == 100);
-    if (read_file(folder() / "a" / "flicker.md").find("figure-3.png") == std::string::npos) {
+    CHECK(tests::lines_in(read_file(flicker_folder() / "a" / "path-rugged.csv")) == 100);
+    if (read_file(flicker_folder() / "a" / "flicker.md").find("figure-3.png") ==
+        std::string::npos) {
         return; // gnuplot is not installed
     }
     for (const char* file :
@@ -116,15 +117,15 @@ TEST_CASE("the flicker study writes its tables and figures, the same bytes each 
           "figure-8.png",
           "figure-9.png",
           "damping.png"}) {
-        const std::string png = read_file(folder() / "a" / file);
+        const std::string png = read_file(flicker_folder() / "a" / file);
         CHECK(png.substr(1, 3) == "PNG");
-        CHECK(read_file(folder() / "b" / file) == png);
+        CHECK(read_file(flicker_folder() / "b" / file) == png);
     }
 }
 
 TEST_CASE("the flicker study refuses ground that is not there") {
-    const tests::ProgramRun run =
-        run_octant({"study", "flicker", "--out", (folder() / "none").string(), "--rugged", "hols"});
+    const tests::ProgramRun run = run_octant(
+        {"study", "flicker", "--out", (flicker_folder() / "none").string(), "--rugged", "hols"});
     CHECK(run.exit_code == 2);
     CHECK(tests::lines_in(run.err) == 1);
     CHECK(run.err.find("expected hills, canyon or a file, got 'hols'") != std::string::npos);

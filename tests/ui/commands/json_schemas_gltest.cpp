@@ -34,15 +34,18 @@ void check(const std::string& name, std::vector<std::string> line) {
     CHECK(tests::schema_faults(run.out, schema(name)) == std::vector<std::string>());
 }
 
-/// Names of all commands that have --json, as "terrain info".
-std::set<std::string> printing_commands() {
+bool prints_json(const ui::commands::Command& command) {
+    return std::ranges::any_of(
+        command.options, [](const auto& option) { return option.name == "--json"; });
+}
+
+/// Names of all commands that do something, with --json or without, as "terrain info".
+std::set<std::string> commands_with_json(bool with) {
     std::set<std::string> names;
     const auto visit = [&](const auto& self,
                            const ui::commands::Command& command,
                            const std::string& before) -> void {
-        const bool has_json = std::ranges::any_of(
-            command.options, [](const auto& option) { return option.name == "--json"; });
-        if (has_json) {
+        if (command.commands.empty() && prints_json(command) == with) {
             names.insert(before + command.name);
         }
         for (const auto& inner : command.commands) {
@@ -143,6 +146,10 @@ TEST_CASE("what commands on models and ground print is as their schemas say") {
     check("bench", {"bench", "--terrain", "none", "--size", "32x32", "--frames", "3", "--quiet"});
 }
 
+TEST_CASE("every command has --json but manual, which prints a page and completions") {
+    CHECK(commands_with_json(false) == std::set<std::string>{"manual"});
+}
+
 TEST_CASE("every command that prints JSON has a schema, and all tables have one form") {
     const std::map<std::string, std::string> schemas = {
         {"fly", "fly"},
@@ -162,8 +169,9 @@ TEST_CASE("every command that prints JSON has a schema, and all tables have one 
         {"terrain query", "terrain-query"},
         {"terrain check", "terrain-check"},
         {"terrain error", "tables"},
-        {"bench", "bench"}};
-    for (const std::string& command : printing_commands()) {
+        {"bench", "bench"},
+        {"view", "view-bench"}};
+    for (const std::string& command : commands_with_json(true)) {
         INFO(command);
         const auto found = schemas.find(command);
         const bool is_known = found != schemas.end() || command.starts_with("study ");
@@ -172,7 +180,7 @@ TEST_CASE("every command that prints JSON has a schema, and all tables have one 
             CHECK(fs::is_regular_file(schema(found->second)));
         }
     }
-    CHECK(printing_commands().size() >= schemas.size() + 8);
+    CHECK(commands_with_json(true).size() >= schemas.size() + 8);
     const std::vector<ui::report::HtmlTable> tables{
         {"T", {"a", "b"}, {{"x", "1.5"}, {"y"}}, "note"}, {}};
     CHECK(tests::schema_faults(ui::report::json_of(tables), schema("tables")).empty());

@@ -1,4 +1,5 @@
 #include "sim/base/output_file.h"
+#include "tests/ui/commands/command_checks.h"
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/commands/printed_json.h"
 
@@ -12,14 +13,14 @@ using octant::tests::run_octant;
 
 namespace {
 
-std::filesystem::path folder() {
+std::filesystem::path error_folder() {
     static const auto made = tests::empty_folder("mesh-error");
     return made;
 }
 
-std::string file_with(const std::string& name, std::string_view bytes) {
-    write_file(folder() / name, bytes);
-    return (folder() / name).string();
+std::string error_file_with(const std::string& name, std::string_view bytes) {
+    write_file(error_folder() / name, bytes);
+    return (error_folder() / name).string();
 }
 
 tests::ProgramRun mesh_error(std::vector<std::string> arguments) {
@@ -28,7 +29,7 @@ tests::ProgramRun mesh_error(std::vector<std::string> arguments) {
 }
 
 /// What it prints, less the times and the number of threads.
-tests::PrintedJson figures(std::vector<std::string> arguments) {
+tests::PrintedJson error_figures(std::vector<std::string> arguments) {
     arguments.emplace_back("--json");
     const tests::ProgramRun run = mesh_error(arguments);
     INFO(run.err);
@@ -39,13 +40,8 @@ tests::PrintedJson figures(std::vector<std::string> arguments) {
     return found.without({"read_ms", "measure_ms", "threads"});
 }
 
-void check_refused(const std::vector<std::string>& arguments, const std::string& expected) {
-    const tests::ProgramRun run = mesh_error(arguments);
-    INFO(run.err);
-    CHECK(run.exit_code == 2);
-    CHECK(tests::lines_in(run.err) == 1);
-    CHECK(run.err.find(expected) != std::string::npos);
-    CHECK(run.out.empty());
+void check_error_refused(const std::vector<std::string>& arguments, const std::string& expected) {
+    tests::check_refusal(mesh_error(arguments), expected);
 }
 
 /// 4 by 3, so that its diagonal is 5.
@@ -58,9 +54,9 @@ constexpr std::string_view raised_obj =
 } // namespace
 
 TEST_CASE("two plates are as far apart in the report as in their files") {
-    const std::string a = file_with("floor.obj", floor_obj);
-    const std::string b = file_with("raised.obj", raised_obj);
-    const tests::PrintedJson found = figures({a, b});
+    const std::string a = error_file_with("floor.obj", floor_obj);
+    const std::string b = error_file_with("raised.obj", raised_obj);
+    const tests::PrintedJson found = error_figures({a, b});
     CHECK(found["diagonal_units"] == 5.0);
     CHECK(found["a_triangles"] == 2);
     for (const char* way : {"both", "a_to_b", "b_to_a"}) {
@@ -75,9 +71,9 @@ TEST_CASE("two plates are as far apart in the report as in their files") {
 }
 
 TEST_CASE("what is wrong with B is told") {
-    const std::string a = file_with("floor.obj", floor_obj);
-    const std::string b = file_with("raised.obj", raised_obj);
-    const tests::PrintedJson found = figures({a, b});
+    const std::string a = error_file_with("floor.obj", floor_obj);
+    const std::string b = error_file_with("raised.obj", raised_obj);
+    const tests::PrintedJson found = error_figures({a, b});
     const tests::PrintedJson defects = found["defects_of_b"];
     CHECK(defects["turned_edges"] == 1);
     CHECK(defects["boundary_edges"] == 4);
@@ -89,22 +85,22 @@ TEST_CASE("what is wrong with B is told") {
 }
 
 TEST_CASE("the number of threads changes none of the figures") {
-    const std::string a = file_with("floor.obj", floor_obj);
-    const std::string b = file_with("raised.obj", raised_obj);
-    CHECK(figures({a, b, "--threads", "1"}) == figures({a, b, "--threads", "4"}));
+    const std::string a = error_file_with("floor.obj", floor_obj);
+    const std::string b = error_file_with("raised.obj", raised_obj);
+    CHECK(error_figures({a, b, "--threads", "1"}) == error_figures({a, b, "--threads", "4"}));
 }
 
 TEST_CASE("the difference in colour is given where both meshes have colours") {
     const std::string a =
-        file_with("dark.obj", "v 0 0 0 0 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
+        error_file_with("dark.obj", "v 0 0 0 0 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
     const std::string b =
-        file_with("red.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n");
-    CHECK(figures({a, b})["both"]["colour_rms"].number() == Approx(1.0));
+        error_file_with("red.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n");
+    CHECK(error_figures({a, b})["both"]["colour_rms"].number() == Approx(1.0));
     CHECK(mesh_error({a, b}).out.find("colour rms") != std::string::npos);
 }
 
 TEST_CASE("without --json the report is a table") {
-    const std::string a = file_with("floor.obj", floor_obj);
+    const std::string a = error_file_with("floor.obj", floor_obj);
     const tests::ProgramRun run = mesh_error({a, a, "--quiet", "--samples", "1000"});
     CHECK(run.exit_code == 0);
     CHECK(run.err.empty());
@@ -113,12 +109,12 @@ TEST_CASE("without --json the report is a table") {
 }
 
 TEST_CASE("files without a surface and wrong options are refused in one line") {
-    const std::string a = file_with("floor.obj", floor_obj);
-    const std::string points = file_with("points.obj", "v 0 0 0\nv 1 0 0\n");
-    check_refused({a, points}, "points.obj");
-    check_refused({a, (folder() / "none.obj").string()}, "none.obj");
-    check_refused({a, a, "--threads", "0"}, "--threads");
-    check_refused({a, a, "--samples", "0"}, "--samples");
-    check_refused({a, a, "--tightness", "1"}, "--tightness");
-    check_refused({a}, "B");
+    const std::string a = error_file_with("floor.obj", floor_obj);
+    const std::string points = error_file_with("points.obj", "v 0 0 0\nv 1 0 0\n");
+    check_error_refused({a, points}, "points.obj");
+    check_error_refused({a, (error_folder() / "none.obj").string()}, "none.obj");
+    check_error_refused({a, a, "--threads", "0"}, "--threads");
+    check_error_refused({a, a, "--samples", "0"}, "--samples");
+    check_error_refused({a, a, "--tightness", "1"}, "--tightness");
+    check_error_refused({a}, "B");
 }

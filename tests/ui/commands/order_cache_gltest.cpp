@@ -42,15 +42,15 @@ std::vector<std::string> short_flight(std::vector<std::string> further) {
 }
 
 /// Of states and pictures.
-std::string hashes_in(const tests::PrintedJson& figures) {
+std::string recorded_hashes_in(const tests::PrintedJson& figures) {
     return figures["state_hash"].text() + " " + figures["picture_hash"].text();
 }
 
 std::string hashes(const std::vector<std::string>& further) {
-    return hashes_in(figures_of("fly", short_flight(further)));
+    return recorded_hashes_in(figures_of("fly", short_flight(further)));
 }
 
-std::vector<fs::path> files_in(const fs::path& folder) {
+std::vector<fs::path> cached_files_in(const fs::path& folder) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder)) {
         files.push_back(entry.path());
@@ -65,11 +65,11 @@ TEST_CASE("a flight is the same with a cold order cache, a warm one and none") {
     const fs::path folder = tests::empty_folder("order-cache-flight") / "made" / "here";
     const std::string without = hashes({});
     CHECK(hashes({"--order-cache", folder.string()}) == without);
-    const std::vector<fs::path> files = files_in(folder);
+    const std::vector<fs::path> files = cached_files_in(folder);
     REQUIRE(files.size() == 2);
     const std::array written = {fs::last_write_time(files[0]), fs::last_write_time(files[1])};
     CHECK(hashes({"--order-cache", folder.string()}) == without);
-    CHECK(files_in(folder) == files);
+    CHECK(cached_files_in(folder) == files);
     CHECK(fs::last_write_time(files[0]) == written[0]);
     CHECK(fs::last_write_time(files[1]) == written[1]);
 }
@@ -77,7 +77,7 @@ TEST_CASE("a flight is the same with a cold order cache, a warm one and none") {
 TEST_CASE("a damaged order cache costs a line, is mended, and changes no picture") {
     const fs::path folder = tests::empty_folder("order-cache-damage");
     const std::string before = hashes({"--order-cache", folder.string()});
-    const fs::path file = files_in(folder).front();
+    const fs::path file = cached_files_in(folder).front();
     const std::string bytes = read_file(file);
     write_file(file, bytes.substr(0, bytes.size() / 2));
 
@@ -87,7 +87,7 @@ TEST_CASE("a damaged order cache costs a line, is mended, and changes no picture
     CHECK(run.exit_code == 0);
     CHECK_THAT(run.err, Contains("note: order cache " + file.string() + ": expected "));
     CHECK_THAT(run.err, Contains(": computed anew\n"));
-    CHECK(hashes_in(tests::PrintedJson(run.out)) == before);
+    CHECK(recorded_hashes_in(tests::PrintedJson(run.out)) == before);
     CHECK(read_file(file) == bytes);
 }
 
@@ -126,7 +126,7 @@ TEST_CASE("two programs may order one model into one cache at once") {
         CHECK(run.exit_code == 0);
         CHECK(run.err.empty());
     }
-    CHECK(files_in(folder).size() == 1);
+    CHECK(cached_files_in(folder).size() == 1);
     const auto warm = figures_of("draw-order", {"concave", "--order-cache", folder.string()});
     CHECK(warm["from_cache"] == true);
 }

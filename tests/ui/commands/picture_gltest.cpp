@@ -28,7 +28,7 @@ constexpr double most_outline_share = 0.002;
 // slopes beside the horizon, a pixel may show the next one.
 constexpr double most_other_outline_share = 0.006;
 
-ui::report::Picture drawn(const RunSettings& settings) {
+ui::report::Picture drawn_picture(const RunSettings& settings) {
     ui::flight::Session session(settings);
     for (int frame = 0; frame < session.frames(); ++frame) {
         session.draw(frame);
@@ -39,7 +39,7 @@ ui::report::Picture drawn(const RunSettings& settings) {
         "drawn", ui::report::png_bytes({picture.width, picture.height, 4, bytes}));
 }
 
-void check_same(
+void check_same_pictures(
     const ui::report::Picture& actual,
     const ui::report::Picture& expected,
     const std::string& name,
@@ -80,7 +80,7 @@ void check_against_golden(
     settings.view.samples = 1;
     for (const RendererKind kind : {RendererKind::Gl, RendererKind::Raster}) {
         settings.drawing.renderer = kind;
-        const ui::report::Picture actual = drawn(settings);
+        const ui::report::Picture actual = drawn_picture(settings);
         const std::string drawn_as = kind == RendererKind::Gl ? name : name + "-raster";
         const std::string approved_as = golden == Golden::OfEach ? drawn_as : name;
         const auto file =
@@ -88,7 +88,7 @@ void check_against_golden(
         if (std::getenv("OCTANT_APPROVE") == nullptr) {
             const bool own = approved_as == drawn_as;
             const double most_share = own ? most_outline_share : most_other_outline_share;
-            check_same(actual, ui::report::read_png(file), drawn_as, most_share);
+            check_same_pictures(actual, ui::report::read_png(file), drawn_as, most_share);
         } else if (approved_as == drawn_as) {
             ui::report::write_png(file, actual.view());
         }
@@ -111,7 +111,7 @@ small(const std::string& path, const std::string& aircraft, const std::string& t
 
 /// A checker of 8 x 8 fields with a red arrow that points north and a green corner in the
 /// north-east, as a file.
-std::filesystem::path made_drape() {
+std::filesystem::path painted_drape() {
     constexpr int side = 256;
     const auto colour_at = [](int x, int y) -> std::array<int, 3> {
         const bool head = y >= 32 && y < 128 && std::abs(x - 128) <= (y - 32) / 2;
@@ -199,7 +199,7 @@ TEST_CASE("pictures of textured ground are those that were approved") {
     check_against_golden("f15-jinking-canyon-textured", canyon, Golden::OfEach);
     RunSettings draped = small("straight", "f15", "hills", View::Free);
     draped.view.size_px = {320, 240};
-    draped.air.drape = made_drape().string();
+    draped.air.drape = painted_drape().string();
     draped.air.visibility_m = 0.0;
     draped.view.eye_m = glm::dvec3(0.0, -24000.0, 16000.0);
     draped.view.look_m = glm::dvec3(0.0, -2000.0, 0.0);

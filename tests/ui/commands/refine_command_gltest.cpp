@@ -23,13 +23,13 @@ namespace {
 
 using Faces = std::vector<std::array<int, 3>>;
 
-std::filesystem::path folder() {
+std::filesystem::path refine_folder() {
     static const auto made = tests::empty_folder("refine");
     return made;
 }
 
-std::string file(const std::string& name) {
-    return (folder() / name).string();
+std::string refine_file(const std::string& name) {
+    return (refine_folder() / name).string();
 }
 
 /// A wavy sheet of 30 x 30 vertices as an OBJ file, with its faces from 0.
@@ -115,20 +115,21 @@ tests::PrintedJson refine(const std::vector<std::string>& arguments) {
     return tests::figures_of("refine", arguments);
 }
 
-void check_refused(const std::vector<std::string>& arguments, const std::string& expected) {
+void check_refine_refused(const std::vector<std::string>& arguments, const std::string& expected) {
     tests::check_refused("refine", arguments, expected);
 }
 
 } // namespace
 
 TEST_CASE("a saved progressive mesh refined everywhere is the original, face for face") {
-    const Faces originals = write_sheet(file("sheet.obj"));
-    const auto made = refine({file("sheet.obj"), "--base", "50", "--save", file("sheet.pm")});
+    const Faces originals = write_sheet(refine_file("sheet.obj"));
+    const auto made =
+        refine({refine_file("sheet.obj"), "--base", "50", "--save", refine_file("sheet.pm")});
     CHECK(made["original_vertices"] == 900);
     CHECK(made["base_vertices"] == 50);
     CHECK(made["vertices"] == 50);
     const auto full = refine(
-        {file("sheet.pm"),
+        {refine_file("sheet.pm"),
          "--region",
          "sphere",
          "15",
@@ -136,21 +137,21 @@ TEST_CASE("a saved progressive mesh refined everywhere is the original, face for
          "0",
          "100",
          "--out",
-         file("full.obj")});
+         refine_file("full.obj")});
     CHECK(full["vertices"] == 900);
     CHECK(full["requested_splits"] == 850);
     CHECK(full["forced_by_rule"] == 0);
-    CHECK(faces_of_obj(file("full.obj")) == sorted(originals));
-    const auto coarse = refine({file("sheet.pm"), "--vertices", "300"});
+    CHECK(faces_of_obj(refine_file("full.obj")) == sorted(originals));
+    const auto coarse = refine({refine_file("sheet.pm"), "--vertices", "300"});
     CHECK(coarse["original_vertices"] == 300);
 }
 
 TEST_CASE("any active mesh is what the original file and the list of nodes say") {
-    const Faces originals = write_sheet(file("sheet.obj"));
+    const Faces originals = write_sheet(refine_file("sheet.obj"));
     std::vector<double> vertices;
     for (const char* rule : {"selective", "hoppe", "xia"}) {
         const auto figures = refine(
-            {file("sheet.obj"),
+            {refine_file("sheet.obj"),
              "--base",
              "50",
              "--rule",
@@ -168,11 +169,13 @@ TEST_CASE("any active mesh is what the original file and the list of nodes say")
              "0",
              "6",
              "--out",
-             file("part.obj"),
+             refine_file("part.obj"),
              "--nodes",
-             file("part.txt")});
+             refine_file("part.txt")});
         CHECK(figures["turned_faces"] == 0);
-        CHECK(faces_of_obj(file("part.obj")) == expected_faces(originals, file("part.txt")));
+        CHECK(
+            faces_of_obj(refine_file("part.obj")) ==
+            expected_faces(originals, refine_file("part.txt")));
         vertices.push_back(figures["vertices"].number());
     }
     CHECK(vertices[0] < vertices[1]);
@@ -181,9 +184,9 @@ TEST_CASE("any active mesh is what the original file and the list of nodes say")
 }
 
 TEST_CASE("a view refines what it sees, and the same input gives the same bytes") {
-    write_sheet(file("sheet.obj"));
+    write_sheet(refine_file("sheet.obj"));
     const std::vector<std::string> arguments = {
-        file("sheet.obj"),
+        refine_file("sheet.obj"),
         "--base",
         "50",
         "--error-px",
@@ -193,29 +196,29 @@ TEST_CASE("a view refines what it sees, and the same input gives the same bytes"
         "--look",
         "10,10,0"};
     auto first = arguments;
-    first.insert(first.end(), {"--out", file("one.ply")});
+    first.insert(first.end(), {"--out", refine_file("one.ply")});
     auto second = arguments;
-    second.insert(second.end(), {"--out", file("two.ply")});
+    second.insert(second.end(), {"--out", refine_file("two.ply")});
     const auto figures = refine(first);
     CHECK(figures["vertices"] > 60);
     CHECK(figures["vertices"] < 900);
     refine(second);
-    CHECK(read_file(file("one.ply")) == read_file(file("two.ply")));
+    CHECK(read_file(refine_file("one.ply")) == read_file(refine_file("two.ply")));
 }
 
 TEST_CASE("the partition is the original mesh with as many colours as there are active vertices") {
-    const Faces originals = write_sheet(file("sheet.obj"));
+    const Faces originals = write_sheet(refine_file("sheet.obj"));
     refine(
-        {file("sheet.obj"),
+        {refine_file("sheet.obj"),
          "--base",
          "20",
          "--out-partition",
-         file("partition.obj"),
+         refine_file("partition.obj"),
          "--colour-by",
          "region",
          "--out",
-         file("base.obj")});
-    CHECK(faces_of_obj(file("partition.obj")) == sorted(originals));
+         refine_file("base.obj")});
+    CHECK(faces_of_obj(refine_file("partition.obj")) == sorted(originals));
     const auto colours = [](const std::string& name) {
         const std::string text = read_file(name);
         std::set<std::string> found;
@@ -227,26 +230,30 @@ TEST_CASE("the partition is the original mesh with as many colours as there are 
         }
         return found;
     };
-    CHECK(colours(file("base.obj")).size() == 20);
-    CHECK(colours(file("partition.obj")) == colours(file("base.obj")));
+    CHECK(colours(refine_file("base.obj")).size() == 20);
+    CHECK(colours(refine_file("partition.obj")) == colours(refine_file("base.obj")));
 }
 
 TEST_CASE("refine refuses wrong input in one line with exit code 2") {
-    write_sheet(file("sheet.obj"));
-    check_refused({"/nowhere/a.obj"}, "/nowhere/a.obj");
-    check_refused({"/nowhere/a.pm"}, "/nowhere/a.pm: expected a file, found none");
-    write_file(file("bad.pm"), "nothing");
-    check_refused({file("bad.pm")}, "bad.pm: expected a progressive mesh");
-    check_refused({file("sheet.obj"), "--rule", "magic"}, "--rule");
-    check_refused({file("sheet.obj"), "--region", "box", "0", "0", "0", "1"}, "expected sphere");
-    check_refused({file("sheet.obj"), "--region", "sphere", "nan", "0", "0", "1"}, "--region");
-    check_refused({file("sheet.obj"), "--error-px", "1"}, "--eye");
-    check_refused(
-        {file("sheet.obj"), "--error-px", "1", "--eye", "0,0", "--look", "0,0,0"},
+    write_sheet(refine_file("sheet.obj"));
+    check_refine_refused({"/nowhere/a.obj"}, "/nowhere/a.obj");
+    check_refine_refused({"/nowhere/a.pm"}, "/nowhere/a.pm: expected a file, found none");
+    write_file(refine_file("bad.pm"), "nothing");
+    check_refine_refused({refine_file("bad.pm")}, "bad.pm: expected a progressive mesh");
+    check_refine_refused({refine_file("sheet.obj"), "--rule", "magic"}, "--rule");
+    check_refine_refused(
+        {refine_file("sheet.obj"), "--region", "box", "0", "0", "0", "1"}, "expected sphere");
+    check_refine_refused(
+        {refine_file("sheet.obj"), "--region", "sphere", "nan", "0", "0", "1"}, "--region");
+    check_refine_refused({refine_file("sheet.obj"), "--error-px", "1"}, "--eye");
+    check_refine_refused(
+        {refine_file("sheet.obj"), "--error-px", "1", "--eye", "0,0", "--look", "0,0,0"},
         "--eye: expected X,Y,Z, got '0,0'");
-    check_refused({file("sheet.obj"), "--save", file("x.obj")}, "ends in .pm");
-    check_refused({file("sheet.obj"), "--out", file("x.txt")}, "--out: expected a mesh file");
-    check_refused({file("sheet.obj"), "--save", "/nowhere/x.pm", "--quiet"}, "/nowhere/x.pm");
+    check_refine_refused({refine_file("sheet.obj"), "--save", refine_file("x.obj")}, "ends in .pm");
+    check_refine_refused(
+        {refine_file("sheet.obj"), "--out", refine_file("x.txt")}, "--out: expected a mesh file");
+    check_refine_refused(
+        {refine_file("sheet.obj"), "--save", "/nowhere/x.pm", "--quiet"}, "/nowhere/x.pm");
 }
 
 TEST_CASE("the study of refinement writes its tables") {
@@ -254,7 +261,7 @@ TEST_CASE("the study of refinement writes its tables") {
         {"study",
          "refinement",
          "--out",
-         file("study"),
+         refine_file("study"),
          "--frames",
          "40",
          "--base",
@@ -279,6 +286,6 @@ TEST_CASE("the study of refinement writes its tables") {
           "refinement-base.png",
           "refinement-partition.png",
           "refinement-region.png"}) {
-        CHECK(std::filesystem::exists(folder() / "study" / name));
+        CHECK(std::filesystem::exists(refine_folder() / "study" / name));
     }
 }

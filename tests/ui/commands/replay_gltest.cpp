@@ -1,6 +1,7 @@
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "tests/ui/commands/command_checks.h"
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/commands/printed_json.h"
 #include "ui/report/frame_csv.h"
@@ -70,14 +71,6 @@ tests::ProgramRun replay(const fs::path& folder, const std::vector<std::string>&
     std::vector<std::string> words = {"fly", "--replay", folder.string()};
     words.insert(words.end(), further.begin(), further.end());
     return run_octant(words);
-}
-
-void check_refused(const tests::ProgramRun& run, const std::string& expected) {
-    INFO(run.err);
-    CHECK(run.exit_code == 2);
-    CHECK(tests::lines_in(run.err) == 1);
-    CHECK(run.out.empty());
-    CHECK_THAT(run.err, Contains(expected));
 }
 
 } // namespace
@@ -186,40 +179,41 @@ TEST_CASE("what is left of a killed flight is replayed, and nothing says that it
 }
 
 TEST_CASE("rows that cannot be replayed are refused with their line") {
-    check_refused(replay("/nowhere"), "/nowhere/run.json: expected a file, found none");
+    tests::check_refusal(replay("/nowhere"), "/nowhere/run.json: expected a file, found none");
     const auto gap = changed("gap", [](Records& rows) { rows.erase(rows.begin() + 3); });
-    check_refused(replay(gap), "frames.csv:5: expected frame 3, got 4");
+    tests::check_refusal(replay(gap), "frames.csv:5: expected frame 3, got 4");
     const auto none = changed("none", [](Records& rows) { rows[7].triangle_target = 0; });
-    check_refused(replay(none), "frames.csv:9: expected a triangle_target from 1 to");
+    tests::check_refusal(replay(none), "frames.csv:9: expected a triangle_target from 1 to");
     const auto long_one = changed("long", [](Records& rows) {
         rows.push_back(rows.back());
         rows.back().frame = 60;
     });
-    check_refused(replay(long_one), "frames.csv:62: expected at most the 60 frames");
+    tests::check_refusal(replay(long_one), "frames.csv:62: expected at most the 60 frames");
     const auto empty = changed("empty", [](Records& rows) { rows.clear(); });
-    check_refused(replay(empty), "frames.csv: expected the rows of a flight, got none");
+    tests::check_refusal(replay(empty), "frames.csv: expected the rows of a flight, got none");
 
     const auto damaged = changed("damaged", [](Records&) {});
     const std::string text = read_text_file(damaged / "frames.csv");
     std::string renamed = text;
     renamed.replace(renamed.find("triangle_target"), 15, "triangle_budget");
     write_file(damaged / "frames.csv", renamed);
-    check_refused(replay(damaged), "frames.csv:1: expected a column triangle_target");
+    tests::check_refusal(replay(damaged), "frames.csv:1: expected a column triangle_target");
     write_file(damaged / "frames.csv", text + "60,x\n");
-    check_refused(replay(damaged), "frames.csv:62: expected 49 fields, got 2");
+    tests::check_refusal(replay(damaged), "frames.csv:62: expected 49 fields, got 2");
     fs::remove(damaged / "frames.csv");
-    check_refused(replay(damaged), "frames.csv: expected a file, found none");
+    tests::check_refusal(replay(damaged), "frames.csv: expected a file, found none");
 }
 
 TEST_CASE("beside a replay nothing may be asked for that changes pictures") {
     const std::string expected = "--replay: expected no option beside it that may change pictures";
-    check_refused(replay(recorded(), {"--triangles", "5000"}), expected + ", got --triangles");
-    check_refused(replay(recorded(), {"straight"}), expected + ", got path");
-    check_refused(replay(recorded(), {"--no-shadows"}), expected + ", got --shadows");
-    check_refused(
+    tests::check_refusal(
+        replay(recorded(), {"--triangles", "5000"}), expected + ", got --triangles");
+    tests::check_refusal(replay(recorded(), {"straight"}), expected + ", got path");
+    tests::check_refusal(replay(recorded(), {"--no-shadows"}), expected + ", got --shadows");
+    tests::check_refusal(
         replay(recorded(), {"--settings", (recorded() / "run.json").string()}),
         expected + ", got --settings");
-    check_refused(
+    tests::check_refusal(
         replay(recorded(), {"--record", recorded().string()}), "--record: expected another folder");
     CHECK(replay(recorded(), {"--warm-up", "0", "--pictures", "7"}).exit_code == 0);
 }
@@ -229,9 +223,10 @@ TEST_CASE("adaptation is refused where there is nothing to adapt") {
         words.insert(words.begin(), {"fly", "straight", "--adapt", "terrain", "--frames", "2"});
         return run_octant(words);
     };
-    check_refused(fly({"--detail", "damped"}), "--adapt terrain: expected --detail exact");
-    check_refused(fly({"--terrain", "background60"}), "expected ground with levels of detail");
-    check_refused(
+    tests::check_refusal(fly({"--detail", "damped"}), "--adapt terrain: expected --detail exact");
+    tests::check_refusal(
+        fly({"--terrain", "background60"}), "expected ground with levels of detail");
+    tests::check_refusal(
         run_octant({"fly", "straight", "--adapt", "terrain,sound"}),
         "--adapt: expected none or a list of terrain, shading, got 'terrain,sound'");
 }

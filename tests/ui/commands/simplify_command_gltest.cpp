@@ -19,13 +19,13 @@ using octant::tests::run_octant;
 
 namespace {
 
-std::filesystem::path folder() {
+std::filesystem::path simplify_folder() {
     static const auto made = tests::empty_folder("simplify");
     return made;
 }
 
 std::string file_named(const std::string& name) {
-    return (folder() / name).string();
+    return (simplify_folder() / name).string();
 }
 
 /// A square of `side` x `side` fields of two triangles each, with gentle waves, as an OBJ file.
@@ -82,11 +82,12 @@ std::string cubes(int count) {
     return file;
 }
 
-tests::PrintedJson figures(const std::vector<std::string>& arguments) {
+tests::PrintedJson simplify_figures(const std::vector<std::string>& arguments) {
     return tests::figures_of("simplify", arguments);
 }
 
-void check_refused(const std::vector<std::string>& arguments, const std::string& expected) {
+void check_simplify_refused(
+    const std::vector<std::string>& arguments, const std::string& expected) {
     tests::check_refused("simplify", arguments, expected);
 }
 
@@ -123,7 +124,8 @@ TEST_CASE("a mesh is simplified to the faces asked for, and its error is that of
     const std::string in = waves(24);
     const std::string out = file_named("small.ply");
     for (const char* method : {"surface", "fast"}) {
-        const tests::PrintedJson found = figures({in, out, "--faces", "200", "--method", method});
+        const tests::PrintedJson found =
+            simplify_figures({in, out, "--faces", "200", "--method", method});
         CHECK(found["faces"] <= 200);
         CHECK(found["faces"] >= 190);
         const models::TriangleMesh written = models::meshfile::read_mesh(out);
@@ -139,7 +141,7 @@ TEST_CASE("a mesh is simplified to the faces asked for, and its error is that of
 TEST_CASE("a goal below what all shells need drops the smallest; kept, it is missed with exit 1") {
     const std::string in = cubes(5);
     const std::string out = file_named("fewer.obj");
-    const tests::PrintedJson fewer = figures({in, out, "--faces", "12"});
+    const tests::PrintedJson fewer = simplify_figures({in, out, "--faces", "12"});
     CHECK(fewer["faces"] <= 12);
     CHECK(fewer["shells_gone"] == 3);
     const tests::ProgramRun kept =
@@ -154,10 +156,10 @@ TEST_CASE("a goal below what all shells need drops the smallest; kept, it is mis
 TEST_CASE("an error that is asked for is certified not to be exceeded") {
     const std::string in = waves(24);
     const std::string out = file_named("within.obj");
-    const tests::PrintedJson found = figures({in, out, "--error", "0.05"});
+    const tests::PrintedJson found = simplify_figures({in, out, "--error", "0.05"});
     CHECK(found["error"] <= 0.05);
     CHECK(found["faces"] < 1152);
-    const tests::PrintedJson share = figures({in, out, "--error", "0.1%"});
+    const tests::PrintedJson share = simplify_figures({in, out, "--error", "0.1%"});
     CHECK(share["error_of_diagonal"] <= 0.001);
 }
 
@@ -165,17 +167,18 @@ TEST_CASE("the same input gives the same file for any number of threads") {
     const std::string in = waves(20);
     const std::string one = file_named("one.obj");
     const std::string two = file_named("two.obj");
-    figures({in, one, "--faces", "150", "--threads", "1"});
-    figures({in, two, "--faces", "150", "--threads", "2"});
+    simplify_figures({in, one, "--faces", "150", "--threads", "1"});
+    simplify_figures({in, two, "--faces", "150", "--threads", "2"});
     CHECK(read_file(one) == read_file(two));
 }
 
 TEST_CASE("the paper's methods state how the paper was read and what it prints") {
     const std::string in = waves(20);
     const std::string out = file_named("printed.obj");
-    const tests::PrintedJson plane = figures({in, out, "--vertices", "100", "--method", "plane"});
+    const tests::PrintedJson plane =
+        simplify_figures({in, out, "--vertices", "100", "--method", "plane"});
     const tests::PrintedJson both =
-        figures({in, out, "--vertices", "100", "--method", "bidirectional"});
+        simplify_figures({in, out, "--vertices", "100", "--method", "bidirectional"});
     CHECK(plane["counted_vertices"] == 100);
     CHECK(plane["feet"] == 0);
     CHECK(both["feet"] > 1000);
@@ -187,7 +190,7 @@ TEST_CASE("the paper's methods state how the paper was read and what it prints")
 TEST_CASE("a chain of levels has rising certified errors and is flown") {
     const std::string in = waves(30);
     const std::string chain = file_named("waves.chain");
-    const tests::PrintedJson found = figures({in, chain, "--chain"});
+    const tests::PrintedJson found = simplify_figures({in, chain, "--chain"});
     const tests::PrintedJson levels = found["levels"];
     REQUIRE(levels.size() >= 3);
     for (std::size_t i = 1; i < levels.size(); ++i) {
@@ -207,19 +210,25 @@ TEST_CASE("a chain of levels has rising certified errors and is flown") {
 
 TEST_CASE("simplify refuses wrong input in one line with exit code 2") {
     const std::string in = waves(4);
-    check_refused({in, in, "--faces", "10"}, "another file than the input");
-    check_refused({in, file_named("x.xyz"), "--faces", "10"}, "expected a name that ends in");
-    check_refused({in, file_named("x.obj")}, "expected one of --vertices, --faces and --error");
-    check_refused({in, file_named("x.obj"), "--error", "-1"}, "--error: expected a number above 0");
-    check_refused({in, file_named("none/x.obj"), "--faces", "10"}, "none/x.obj: cannot be written");
-    check_refused({in, file_named("x.obj"), "--chain"}, "ends in .chain");
-    check_refused(
+    check_simplify_refused({in, in, "--faces", "10"}, "another file than the input");
+    check_simplify_refused(
+        {in, file_named("x.xyz"), "--faces", "10"}, "expected a name that ends in");
+    check_simplify_refused(
+        {in, file_named("x.obj")}, "expected one of --vertices, --faces and --error");
+    check_simplify_refused(
+        {in, file_named("x.obj"), "--error", "-1"}, "--error: expected a number above 0");
+    check_simplify_refused(
+        {in, file_named("none/x.obj"), "--faces", "10"}, "none/x.obj: cannot be written");
+    check_simplify_refused({in, file_named("x.obj"), "--chain"}, "ends in .chain");
+    check_simplify_refused(
         {in, file_named("x.chain"), "--chain", "--method", "plane"}, "--method plane: expected");
-    check_refused({file_named("absent.obj"), file_named("x.obj"), "--faces", "3"}, "absent.obj");
-    write_file(folder() / "bad.obj", "v 0 0 0\nv 1 0 x\n");
-    check_refused({file_named("bad.obj"), file_named("x.obj"), "--faces", "3"}, "bad.obj:2:");
-    CHECK_FALSE(std::filesystem::exists(folder() / "x.obj"));
-    CHECK_FALSE(std::filesystem::exists(folder() / "x.chain"));
+    check_simplify_refused(
+        {file_named("absent.obj"), file_named("x.obj"), "--faces", "3"}, "absent.obj");
+    write_file(simplify_folder() / "bad.obj", "v 0 0 0\nv 1 0 x\n");
+    check_simplify_refused(
+        {file_named("bad.obj"), file_named("x.obj"), "--faces", "3"}, "bad.obj:2:");
+    CHECK_FALSE(std::filesystem::exists(simplify_folder() / "x.obj"));
+    CHECK_FALSE(std::filesystem::exists(simplify_folder() / "x.chain"));
 }
 
 TEST_CASE("a plain mesh is refined in flight to the error asked for") {

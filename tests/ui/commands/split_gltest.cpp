@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <set>
 
 using namespace octant;
 using Catch::Contains;
@@ -77,6 +78,25 @@ void check_same(const fs::path& whole, const fs::path& merged, std::size_t frame
     }
 }
 
+/// Flies the settings whole and in as many parts, and finds no difference; gives the levels of
+/// detail that the aircraft was drawn with.
+std::set<int> levels_of_checked_parts(
+    const fs::path& folder, const std::string& settings, const std::string& parts) {
+    INFO(settings);
+    const std::string sweep = sweep_in(folder, settings);
+    fs::remove_all(folder / "whole");
+    fs::remove_all(folder / "parts");
+    fly(sweep, folder / "whole", {});
+    fly(sweep, folder / "parts", {"--split", parts});
+    const fs::path whole = folder / "whole/runs/one";
+    check_same(whole, folder / "parts/runs/one", rows_in(whole).size());
+    std::set<int> levels;
+    for (const auto& row : ui::report::read_frame_csv(whole / "frames.csv").records) {
+        levels.insert(row.aircraft_level);
+    }
+    return levels;
+}
+
 } // namespace
 
 TEST_CASE("a flight in four parts is the whole flight, picture by picture, and so is its video") {
@@ -103,19 +123,36 @@ TEST_CASE("parts of flights whose pictures depend on earlier frames are those of
           "frames = 30\npictures = 4",
           "path = \"straight\"\nterrain = \"canyon\"\nmesh = \"midpoint\"\ndetail = "
           "\"previous\"\nframes = 20\npictures = 4",
+          "path = \"turn\"\nterrain = \"hills\"\nmesh = \"midpoint\"\ndetail = \"fixed\"\ninset = "
+          "\"tower\"\nframes = 12",
           "path = \"pop-up\"\nterrain = \"background60\"\nframe-per-sample = true\nseconds = 1\n"
           "inset = \"tower\""}) {
-        INFO(settings);
-        const std::string sweep = sweep_in(made, settings);
-        fs::remove_all(made / "whole");
-        fs::remove_all(made / "parts");
-        fly(sweep, made / "whole", {});
-        fly(sweep, made / "parts", {"--split", "3"});
-        check_same(
-            made / "whole/runs/one",
-            made / "parts/runs/one",
-            rows_in(made / "whole/runs/one").size());
+        levels_of_checked_parts(made, settings, "3");
     }
+}
+
+TEST_CASE("levels of detail and smooth polygons are kept over the seams between parts") {
+    const auto made = tests::empty_folder("split-kept");
+    const tests::ProgramRun chain = run_octant(
+        {"simplify",
+         "torus",
+         (made / "torus.chain").string(),
+         "--faces",
+         "100",
+         "--chain",
+         "--quiet"});
+    REQUIRE(chain.exit_code == 0);
+    const auto levels = levels_of_checked_parts(
+        made,
+        "path = \"straight\"\nterrain = \"none\"\nview = \"tower\"\nfov = 9.5\naircraft = "
+        "\"torus.chain\"\naircraft-error-px = 0.02\nstart = 19\nframes = 45\nrate = 5",
+        "15");
+    CHECK(levels.size() >= 3);
+    levels_of_checked_parts(
+        made,
+        "path = \"turn\"\nterrain = \"none\"\naircraft = \"f15-detailed\"\nsmooth-share = "
+        "0.4\nstart = 10\nframes = 45\nrate = 20",
+        "15");
 }
 
 TEST_CASE("flights that cannot be divided are refused with the reason before anything is written") {

@@ -86,7 +86,18 @@ TEST_CASE("a sweep goes on past flights that fail, and tries them again") {
         "sweep", {file, "--out", foreign.string()}, "expected an empty folder or that of a sweep");
     CHECK(read_file(foreign / "jobs.txt") == "buy milk\n");
     CHECK_FALSE(fs::exists(foreign / "jobs"));
+    const fs::path searches = made / "searches";
+    fs::create_directories(searches / "jobs");
+    write_file(searches / "jobs/letter.txt", "Dear all\n");
+    tests::check_refused(
+        "sweep", {file, "--out", searches.string()}, "expected an empty folder or that of a sweep");
+    CHECK_FALSE(fs::exists(searches / "runs"));
     tests::check_refused(
         "sweep", {file, "--out", (made / "out").string(), "--jobs", "2"}, "--share-cores");
+    tests::check_refused(
+        "sweep", {file, "--hosts", "machines.txt"}, "--hosts: expected --on parallel beside it");
+    tests::check_refused(
+        "sweep", {file, "--on", "parallel", "--tasks", "4"}, "--tasks: expected --on slurm");
+    tests::check_refused("sweep", {file, "--minutes", "4"}, "--on slurm or parallel beside it");
     tests::check_refused("sweep", {(made / "none.toml").string()}, "expected a file, found none");
 }

@@ -52,6 +52,7 @@ void FakeRenderer::add_ground(const scene::FramePlan& plan) {
         hash.add(std::as_bytes(std::span(&plan.ground.vertices[index], 1)));
     }
     log_->grounds.push_back(hash.value());
+    log_->visibilities_m.push_back(plan.haze.visibility_m);
 }
 
 } // namespace octant::tests

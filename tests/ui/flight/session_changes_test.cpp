@@ -6,11 +6,13 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -224,6 +226,51 @@ TEST_CASE("a change while ground is meshed ahead gives the pictures of ground me
         settings.ground.mesh = scene::GroundMetric::Midpoint;
         settings.ground.error_px.reset();
     });
+}
+
+TEST_CASE("another visibility makes nothing anew, and an inset sees it too") {
+    RunSettings settings = small_settings();
+    settings.view.inset = scene::View::Tower;
+    settings.air.haze_height_m = 0.0;
+    Flown flown(settings);
+    flown.picture();
+    settings.air.visibility_m = 1234.0;
+    flown.apply(settings);
+    flown.picture();
+    CHECK(flown.log().calls.empty());
+    CHECK(flown.log().visibilities_m.back() == 1234.0F);
+    CHECK(flown.log().visibilities_m[flown.log().visibilities_m.size() - 2] == 1234.0F);
+}
+
+TEST_CASE("light that is made beside the pictures is that of a change in between") {
+    RunSettings settings = small_settings();
+    settings.view.inset = scene::View::Tower;
+    Flown beside(settings);
+    Flown at_once(settings);
+    beside.picture();
+    at_once.picture();
+    settings.air.time = "2026-06-21T08:30";
+    CHECK_FALSE(beside.session().take_light());
+    beside.session().relight_beside(settings);
+    CHECK(beside.session().is_relighting());
+    const std::uint64_t before = beside.last_ground();
+    while (!beside.session().take_light()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    CHECK_FALSE(beside.session().is_relighting());
+    at_once.apply(settings);
+    beside.log().calls.clear();
+    at_once.log().calls.clear();
+    check_same_pictures(beside, at_once);
+    CHECK(beside.last_ground() != before);
+
+    settings.air.time = "2026-06-21T18:30";
+    beside.session().relight_beside(settings);
+    settings.air.palette = scene::Palette::Arid; // loads its own light
+    beside.apply(settings);
+    at_once.apply(settings);
+    CHECK_FALSE(beside.session().is_relighting());
+    check_same_pictures(beside, at_once);
 }
 
 TEST_CASE("ground in another light has the colours of ground that was loaded so") {

@@ -226,6 +226,17 @@ TEST_CASE("one stray frame does not flatten a flight's plots") {
     CHECK(plot_ceiling_ms({}) == Approx(1.05 * 18.0));
 }
 
+TEST_CASE("frames far below 16.67 ms fill their plots, others leave room for its line") {
+    Statistics statistics;
+    statistics.p99_ms = 0.4;
+    statistics.max_ms = 0.5;
+    CHECK(plot_ceiling_ms(statistics) == Approx(1.05 * 0.5));
+    statistics.max_ms = 30.0;
+    CHECK(plot_ceiling_ms(statistics) == Approx(1.05 * 1.0));
+    statistics.p99_ms = 2.0;
+    CHECK(plot_ceiling_ms(statistics) == Approx(1.05 * 18.0));
+}
+
 TEST_CASE("a curve keeps every peak in the memory of a plot") {
     Curve curve;
     for (int i = 0; i < 1'000'000; ++i) {

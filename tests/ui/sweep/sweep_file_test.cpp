@@ -108,6 +108,7 @@ TEST_CASE("a sweep's faults are told by file and line") {
     check_refused("a = t\nb = 1", ":1: expected TOML, got a fault: ");
     check_refused(
         "\nflights = 3", ":2: expected name, repeats, [settings] or [vary], got 'flights'");
+    check_refused("name = 3", ":1: name: expected a text");
     check_refused("repeats = 0", ":1: repeats: expected a whole number from 1 to 1000");
     check_refused("[settings]\nsize = \"64\"", ":2: size: expected");
     check_refused("[vary]\naircraft = [\"=f15\"]", ":2: aircraft: expected NAME=PATH");
@@ -144,4 +145,5 @@ TEST_CASE("scripts of engines name each run once, whatever the program is called
     const std::string parallel = parallel_script(sweep, folder, options);
     CHECK_THAT(parallel, Contains("cd '/a b/sweep' || exit 2\n"));
     CHECK_THAT(parallel, Contains("--jobs 1 --sshloginfile '/hosts.txt'"));
+    CHECK_THAT(parallel, Contains("--arg-file todo.txt 'exec "));
 }

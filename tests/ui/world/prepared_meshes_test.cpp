@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 using namespace octant;
 using namespace octant::ui::world;
@@ -62,6 +63,36 @@ TEST_CASE("a mesh that was made ready before is read, the same to the bit") {
     check_same(*made.mesh, *kept.mesh);
     check_same(*made.mesh, *made_refine_mesh(input, mesh).mesh);
     CHECK(prepared_file(folder, ball({0.0F, 1.0F, 0.0F})) != file);
+}
+
+TEST_CASE("what was repaired in a mesh is told each time, whoever reads it under which name") {
+    const auto folder = empty_cache("repaired");
+    models::TriangleMesh mesh = ball({1.0F, 0.0F, 0.0F});
+    mesh.triangles.push_back(mesh.triangles.front());
+    mesh.notes = {"of its file"};
+    const auto notes_as = [&](const std::string& name) {
+        const RefineInput input{.file = name, .base = 0, .quiet = true};
+        return prepared_refine_mesh(folder, input, mesh).notes;
+    };
+    const std::vector<std::string> made = notes_as("ball");
+    REQUIRE(made.size() >= 2);
+    CHECK(made[0] == "of its file");
+    CHECK_THAT(made[1], Catch::StartsWith("ball: "));
+    CHECK(notes_as("ball") == made);
+    CHECK(notes_as("other")[1] == "other: " + made[1].substr(std::string("ball: ").size()));
+
+    const auto repairs = prepared_file(folder, mesh).replace_extension(".repairs");
+    const std::string whole = read_file(repairs, most_bytes);
+    std::string flipped = whole;
+    flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 4);
+    for (const std::string& bad : {flipped, whole.substr(0, whole.size() - 9), whole + "x"}) {
+        write_file(repairs, bad);
+        CHECK_THAT(notes_as("ball").back(), Catch::Contains("made anew"));
+        CHECK(read_file(repairs, most_bytes) == whole);
+    }
+    std::filesystem::remove(repairs);
+    CHECK_THAT(notes_as("ball").back(), Catch::Contains("made anew"));
+    CHECK(notes_as("ball") == made);
 }
 
 TEST_CASE("a prepared mesh that is damaged or cut off is made anew and replaced, with a note") {

@@ -1,8 +1,12 @@
 #include "models/heights/height_field_export.h"
+#include "models/measure/mesh_distance.h"
+#include "models/polygons/mesh_polygons.h"
+#include "models/polygons/obj_reader.h"
 #include "sim/aircraft_kind.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
+#include "ui/base/data_files.h"
 #include "ui/world/picture_times.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
@@ -14,6 +18,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 using namespace octant;
@@ -44,6 +49,29 @@ RunSettings over(const std::string& terrain) {
 }
 
 } // namespace
+
+TEST_CASE("no point of a detailed aircraft is farther from the plain one than its row says") {
+    int detailed = 0;
+    for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
+        if (kind.plain_name.empty()) {
+            continue;
+        }
+        ++detailed;
+        const auto shape_of = [](std::string_view name) {
+            const auto file = ui::base::aircraft_file(std::string(name));
+            return models::polygons::as_triangles(models::polygons::read_obj(file));
+        };
+        models::measure::DistanceOptions options;
+        options.tightness = 1.005;
+        options.samples = 0;
+        const models::measure::MeshDistance distance =
+            models::measure::distance(shape_of(kind.name), shape_of(kind.plain_name), options);
+        INFO(kind.name << ": " << distance.most_hausdorff_m() << " m");
+        CHECK(distance.most_hausdorff_m() <= kind.plain_error_m);
+        CHECK(distance.least_hausdorff_m() > 0.95 * kind.plain_error_m); // no larger than need be
+    }
+    CHECK(detailed >= 2);
+}
 
 TEST_CASE(
     "a world has each model once, however many aircraft fly it, and the first one's cockpit") {

@@ -1,4 +1,7 @@
+#include "sim/base/dice.h"
 #include "visuals/draworder/order_cells.h"
+#include "visuals/draworder/order_proof.h"
+#include "visuals/draworder/order_trial.h"
 #include "visuals/draworder/ordered_model.h"
 #include "visuals/draworder/parted_order.h"
 
@@ -177,4 +180,59 @@ TEST_CASE("a trial sees what is painted too early, off the origin and as a decal
     PolygonModel decal = octant::tests::fig_14();
     decal.polygons.push_back(decal.polygons[0]);
     CHECK(try_order(decal, DrawOrder(std::vector<std::uint32_t>{2, 1, 0}), {}).wrong > 0);
+}
+
+TEST_CASE("orders are proved before they are used, by every exact method") {
+    for (const Method method : {Method::Cells, Method::Tree, Method::Bsp}) {
+        for (const auto& model :
+             {shipped("f15"), shipped("500md"), shipped("concave"), octant::tests::three_bars()}) {
+            const OrderedModel found = by(method, model);
+            INFO(model.name << " by method " << static_cast<int>(method));
+            CHECK(found.trial.is_proof_whole);
+            CHECK(found.trial.unproved == 0);
+        }
+    }
+}
+
+TEST_CASE("what rays see of polygons that changed places the proof sees too, and more") {
+    const OrderedModel found = by(Method::Tree, shipped("500md"));
+    std::vector<std::vector<std::uint32_t>> lists;
+    for (int cell = 0; cell < found.order.cell_count(); ++cell) {
+        const auto list = found.order.polygons_of(cell);
+        lists.emplace_back(list.begin(), list.end());
+    }
+    int seen = 0;
+    int unproved = 0;
+    Dice dice(3);
+    for (int i = 0; i < 40; ++i) {
+        auto changed = lists;
+        auto& list = changed[static_cast<std::size_t>(dice.between(0, double(lists.size())))];
+        const auto at = static_cast<std::size_t>(dice.between(0, double(list.size()) - 4.0));
+        std::swap(list[at], list[at + 3]);
+        const auto nodes = found.order.nodes();
+        const DrawOrder order({nodes.begin(), nodes.end()}, changed);
+        const bool is_open = order_proof(found.model, order, 10.0).unproved > 0;
+        const bool is_wrong = try_order(found.model, order, {.proof_s = 0.0}).wrong > 0;
+        unproved += is_open ? 1 : 0;
+        seen += is_wrong ? 1 : 0;
+        CHECK((is_open || !is_wrong));
+        if (is_open) { // rays aimed at the open pairs
+            CHECK(try_order(found.model, order, {.proof_s = 10.0}).unproved > 0);
+        }
+    }
+    CHECK(seen > 0);
+    CHECK(unproved >= seen);
+}
+
+TEST_CASE("a proof ends when its work is spent, the same each time") {
+    const OrderedModel found = by(Method::Tree, octant::tests::torus(416));
+    CHECK(order_proof(found.model, found.order, 10.0).is_whole);
+    CHECK_FALSE(order_proof(found.model, found.order, 1e-5).is_whole);
+    CHECK(try_order(found.model, found.order, {.proof_s = 1e-5}).wrong == 0);
+    OrderOptions options;
+    options.seconds = 0.3;
+    const OrderedModel once = ordered(shipped("f15"), options);
+    const OrderedModel again = ordered(shipped("f15"), options);
+    CHECK(once.trial.is_proof_whole == again.trial.is_proof_whole);
+    CHECK(once.trial.unproved == again.trial.unproved);
 }

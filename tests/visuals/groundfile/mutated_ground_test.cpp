@@ -1,10 +1,8 @@
-#include "models/heights/height_field_export.h"
 #include "sim/base/error.h"
+#include "tests/damaged_grounds.h"
 #include "tests/scratch.h"
-#include "visuals/groundfile/damage_tally.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_header.h"
-#include "visuals/groundfile/ground_import.h"
 #include "visuals/terrain/conformity.h"
 #include "visuals/terrain/error_mesher.h"
 
@@ -16,7 +14,6 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <vector>
 
 namespace octant::visuals::groundfile {
 
@@ -29,87 +26,16 @@ using terrain::GroundMesh;
 using terrain::GroundSamples;
 using terrain::MeshView;
 
-constexpr int columns = 300;
-constexpr int rows = 200;
+using tests::damaged;
+using tests::is_noted;
+using tests::Numbers;
+using tests::sound_ground;
+using tests::wave_columns;
+using tests::wave_rows;
+using tests::waves;
+
 /// Beyond this a tile's mended heights are not those of smooth ground around it.
 constexpr double smooth_m = 6.0;
-
-/// Waves of 400 m height and 3 km length, whose finest samples lie within 2 m of their neighbours'
-/// means.
-models::heights::HeightField waves() {
-    std::vector<float> heights_m;
-    for (int row = 0; row < rows; ++row) {
-        for (int column = 0; column < columns; ++column) {
-            heights_m.push_back(static_cast<float>(
-                std::lround(400.0 * std::sin(0.06 * column) * std::cos(0.05 * row))));
-        }
-    }
-    return {columns, rows, 30.0, heights_m};
-}
-
-const std::string& sound_bytes() {
-    static const std::string bytes = [] {
-        const path tiff = tests::scratch_folder() / "waves.tif";
-        const path ground = tests::scratch_folder() / "waves.ground";
-        models::heights::write_height_field(tiff, waves());
-        import_ground({tiff}, ground, {}, [](ImportStage, double) { return false; });
-        std::ifstream in(ground, std::ios::binary);
-        return std::string(std::istreambuf_iterator<char>(in), {});
-    }();
-    return bytes;
-}
-
-/// Numbers from a seed, the same everywhere.
-class Numbers {
-public:
-    explicit Numbers(std::uint64_t seed)
-        : state_(seed * 0x9e3779b97f4a7c15U + 1) {}
-
-    std::size_t below(std::size_t end) {
-        state_ ^= state_ << 13U;
-        state_ ^= state_ >> 7U;
-        state_ ^= state_ << 17U;
-        return static_cast<std::size_t>(state_ % end);
-    }
-
-private:
-    std::uint64_t state_;
-};
-
-/// One of seven kinds of damage: a bit, a byte, noise, zeros, a part of the file in another's
-/// place, a cut, an end that is not its own.
-std::string damaged(std::string bytes, Numbers& numbers) {
-    const std::size_t kind = numbers.below(7);
-    const std::size_t at = numbers.below(bytes.size());
-    const std::size_t length = std::min(1 + numbers.below(40000), bytes.size() - at);
-    switch (kind) {
-    case 0:
-        bytes[at] = static_cast<char>(bytes[at] ^ (1 << numbers.below(8)));
-        break;
-    case 1:
-        bytes[at] = static_cast<char>(numbers.below(256));
-        break;
-    case 2:
-        for (std::size_t i = 0; i < length; ++i) {
-            bytes[at + i] = static_cast<char>(numbers.below(256));
-        }
-        break;
-    case 3:
-        std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), length, '\0');
-        break;
-    case 4: {
-        const std::string part = bytes.substr(numbers.below(bytes.size()), length);
-        bytes.replace(at, part.size(), part);
-        break;
-    }
-    case 5:
-        bytes.resize(at);
-        break;
-    default:
-        bytes.append(length, 'x');
-    }
-    return bytes;
-}
 
 path written(const std::string& name, const std::string& bytes) {
     const path file = tests::scratch_folder() / name;
@@ -117,18 +43,11 @@ path written(const std::string& name, const std::string& bytes) {
     return file;
 }
 
-bool is_noted(const path& file) {
-    const std::vector<std::string> lines = damage_lines();
-    return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
-        return line.starts_with(file.string() + ":");
-    });
-}
-
 /// How far the ground's samples lie from those of the field at most.
 double worst_m(const GroundTiles& ground, const models::heights::HeightField& field) {
     double worst = 0.0;
-    for (int row = 0; row < rows; ++row) {
-        for (int column = 0; column < columns; ++column) {
+    for (int row = 0; row < wave_rows; ++row) {
+        for (int column = 0; column < wave_columns; ++column) {
             worst = std::max(
                 worst,
                 std::abs(static_cast<double>(
@@ -150,8 +69,8 @@ std::string faults_of_mesh(const GroundTiles& ground) {
 
 /// The sound file with noise over one tile.
 std::string with_bad_tile(int level, std::size_t tile) {
-    std::string bytes = sound_bytes();
-    const GroundLayout layout(columns, rows);
+    std::string bytes = sound_ground();
+    const GroundLayout layout(wave_columns, wave_rows);
     const GroundLayout::Level& at = layout.level(level);
     const std::size_t start = GroundHeader::bytes + at.first_tile + tile * at.tile_bytes;
     Numbers numbers(static_cast<std::uint64_t>(level) + 1);
@@ -170,7 +89,7 @@ TEST_CASE("of 200 damaged grounds each is refused, named, or the same to the las
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         Numbers numbers(seed);
         const path file =
-            written("damaged" + std::to_string(seed) + ".ground", damaged(sound_bytes(), numbers));
+            written("damaged" + std::to_string(seed) + ".ground", damaged(sound_ground(), numbers));
         INFO("seed " << seed);
         try {
             const GroundTiles ground = open_ground(file);
@@ -190,7 +109,7 @@ TEST_CASE("of 200 damaged grounds each is refused, named, or the same to the las
 
 TEST_CASE("a damaged tile of any level is drawn from its neighbours, without cracks, and counted") {
     const models::heights::HeightField field = waves();
-    const GroundLayout layout(columns, rows);
+    const GroundLayout layout(wave_columns, wave_rows);
     for (int level = 0; level < layout.levels(); ++level) {
         const path file =
             written("level" + std::to_string(level) + ".ground", with_bad_tile(level, 0));
@@ -204,8 +123,8 @@ TEST_CASE("a damaged tile of any level is drawn from its neighbours, without cra
 }
 
 TEST_CASE("with all tiles damaged a ground still has heights and no cracks") {
-    std::string bytes = sound_bytes();
-    const GroundLayout layout(columns, rows);
+    std::string bytes = sound_ground();
+    const GroundLayout layout(wave_columns, wave_rows);
     for (int level = 0; level < layout.levels(); ++level) {
         const GroundLayout::Level& at = layout.level(level);
         const auto tiles =

@@ -16,7 +16,7 @@ using namespace octant::visuals::scene;
 
 namespace {
 
-constexpr std::string_view letters = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ.,-+/:%^";
+constexpr std::string_view letters = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ.,-+/:;_=()'%^";
 constexpr OverlayPen pen{4.0F, 2.0F, 0xff00ff00U, 0x80000000U};
 
 OverlayCanvas new_canvas() {

@@ -1,6 +1,9 @@
+#include "sim/base/dice.h"
+#include "visuals/parting/bit_matrix.h"
 #include "visuals/parting/clusters.h"
 #include "visuals/parting/parting_plane.h"
 #include "visuals/parting/parting_tree.h"
+#include "visuals/parting/piece_table.h"
 #include "visuals/parting/pieces.h"
 
 #include <catch2/catch.hpp>
@@ -10,6 +13,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <span>
 
 using namespace octant;
 using namespace octant::visuals::parting;
@@ -73,7 +77,99 @@ PolygonModel ball(int around, int across) {
     return model_of(outlines);
 }
 
+/// Polygons of 3 to 8 corners here and there, some of them in one plane.
+PolygonModel scattered(int count) {
+    Dice dice(7);
+    std::vector<Outline> outlines;
+    for (int i = 0; i < count; ++i) {
+        const int corners = 3 + i % 6;
+        const glm::dvec3 across =
+            i % 4 == 0 ? glm::dvec3(0.0, 0.0, 1.0) : glm::normalize(dice.direction());
+        const glm::dvec3 right = glm::normalize(glm::cross(across, {0.6, 0.0, 0.8}));
+        const glm::dvec3 up = glm::cross(across, right);
+        const glm::dvec3 middle(dice.between(-2, 2), dice.between(-2, 2), i % 3);
+        Outline& outline = outlines.emplace_back();
+        for (int k = 0; k < corners; ++k) {
+            const double turn = 2.0 * 3.14159265358979 * k / corners;
+            outline.push_back(middle + right * std::cos(turn) + up * std::sin(turn));
+        }
+    }
+    return model_of(outlines);
+}
+
 } // namespace
+
+TEST_CASE("a table of pieces says where they reach, as each of them does") {
+    const Pieces pieces(scattered(200));
+    const auto all = all_of(pieces);
+    for (const std::size_t count : {1U, 7U, 8U, 63U, 64U, 65U, 200U}) {
+        for (const std::size_t step : {1U, 3U}) {
+            const PieceTable table(pieces, std::span(all).first(count), step);
+            REQUIRE(table.count() == (count + step - 1) / step);
+            for (std::size_t i = 0; i < table.count(); ++i) {
+                for (std::uint32_t by = 0; by < pieces.count(); ++by) {
+                    const std::size_t block = i / PieceTable::pieces_a_block;
+                    const ReachBits bits = table.reach(block, *pieces[by].plane);
+                    const Reach own = pieces.reach(all[i * step], *pieces[by].plane);
+                    REQUIRE(((bits.before >> (i % 64)) & 1U) == (own.before ? 1U : 0U));
+                    REQUIRE(((bits.behind >> (i % 64)) & 1U) == (own.behind ? 1U : 0U));
+                    const std::size_t there = table.count_in(block);
+                    REQUIRE((there == 64 || (bits.before | bits.behind) >> there == 0));
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("rows of bits become columns") {
+    for (const std::size_t count : {1U, 64U, 65U, 150U}) {
+        BitMatrix matrix(count);
+        const auto is_in = [](std::size_t row, std::size_t column) {
+            return (row * 7 + column * 13) % 5 == 0;
+        };
+        for (std::size_t row = 0; row < count; ++row) {
+            for (std::size_t column = 0; column < count; ++column) {
+                if (is_in(row, column)) {
+                    matrix.add(row, column);
+                }
+            }
+        }
+        matrix.transpose();
+        for (std::size_t row = 0; row < count; ++row) {
+            for (std::size_t column = 0; column < count; ++column) {
+                const auto bit = (matrix.word(row, column / 64) >> (column % 64)) & 1U;
+                REQUIRE(bit == (is_in(column, row) ? 1U : 0U));
+            }
+        }
+    }
+}
+
+TEST_CASE("clusters in painting order never hide one painted later, pair by pair") {
+    std::size_t most_clusters = 0;
+    for (const int count : {8, 12, 20, 70, 150}) {
+        Pieces pieces(scattered(count));
+        const std::vector<glm::dvec3> around{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0.4}, {-1, 1, 0.4}};
+        pieces.make_swept(5, 0, around, true); // a body
+        pieces.make_swept(6, 1, around, false);
+        const auto found = clusters(pieces, all_of(pieces));
+        most_clusters = std::max(most_clusters, found.size());
+        std::vector<std::size_t> cluster_of(pieces.count(), found.size());
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            for (const std::uint32_t piece : found[i]) {
+                cluster_of[piece] = i;
+            }
+        }
+        for (std::uint32_t near_one = 0; near_one < pieces.count(); ++near_one) {
+            REQUIRE(cluster_of[near_one] < found.size());
+            for (std::uint32_t far_one = 0; far_one < pieces.count(); ++far_one) {
+                if (near_one != far_one && hides(pieces, near_one, far_one)) {
+                    REQUIRE(cluster_of[far_one] <= cluster_of[near_one]);
+                }
+            }
+        }
+    }
+    CHECK(most_clusters > 1);
+}
 
 TEST_CASE("a cut shares its corners with the other piece and with neighbours along the edge") {
     PolygonModel model = model_of({square(0), square(0, 1.0)});

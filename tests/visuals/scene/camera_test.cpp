@@ -83,6 +83,39 @@ TEST_CASE("the field of view is the height of the picture, its width follows the
     CHECK(corner.y / corner.w == Approx(1.0));
 }
 
+TEST_CASE("a picture beside the middle shows that part of a larger one, in pixels of any shape") {
+    Camera whole = camera_looking_at({0, 0, 0}, {300, -200, 50});
+    whole.vertical_fov_rad = quarter_turn_rad; // 2 high and, at this aspect, 4 wide at distance 1
+    Camera part = whole;
+    part.vertical_fov_rad = 2.0 * std::atan(0.25);
+    part.middle = {-1.5, 0.75};
+    part.pixel_aspect = 0.5;
+    const double aspect = 4.0;
+    const glm::mat4 large = view_to_clip(whole, 2.0);
+    const glm::mat4 small = view_to_clip(part, aspect);
+    const auto normals = frustum_normals(part, aspect);
+    for (const glm::vec2& at : {glm::vec2(-2, 1), {-1, 0.5}, {-2, 0.5}, {-1.5, 0.75}, {-1.1, 0.9}}) {
+        const glm::vec4 point(5.0F * at, -5.0F, 1.0F);
+        const glm::vec4 of_large = large * point;
+        const glm::vec4 of_small = small * point;
+        CHECK(of_large.x / of_large.w == Approx(at.x / 2.0F));
+        CHECK(of_large.y / of_large.w == Approx(at.y));
+        CHECK(of_small.x / of_small.w == Approx(2.0F * (at.x + 1.5F)).margin(1e-6));
+        CHECK(of_small.y / of_small.w == Approx(4.0F * (at.y - 0.75F)).margin(1e-6));
+    }
+    const auto inside = [&](double x, double y) {
+        return in_view(part.view_to_world * glm::dvec3(x, y, -1.0), 0.0, normals);
+    };
+    CHECK(inside(-1.999, 0.999));
+    CHECK(inside(-1.001, 0.501));
+    CHECK_FALSE(inside(-2.001, 0.9));
+    CHECK_FALSE(inside(-0.999, 0.9));
+    CHECK_FALSE(inside(-1.5, 1.001));
+    CHECK_FALSE(inside(-1.5, 0.499));
+    CHECK(corner_cos(part, aspect) == Approx(1.0 / std::sqrt(1.0 + 4.0 + 1.0)));
+    CHECK(focal_px(part, 100) == Approx(400.0)); // across: pixels are half as wide as high
+}
+
 TEST_CASE("the frustum's planes hold what the picture shows and nothing else") {
     Camera camera = camera_looking_at({0, 0, 0}, {300, -200, 50});
     const double aspect = 16.0 / 9.0;

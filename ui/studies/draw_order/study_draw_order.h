@@ -1,14 +1,10 @@
 #pragma once
 
-#include <filesystem>
+#include "ui/base/study_output.h"
 
 namespace octant::ui::studies::draw_order {
 
-struct DrawOrderStudyOptions {
-    std::filesystem::path out;
-    bool json = false; ///< print the tables as JSON instead of Markdown
-    bool quiet = false;
-};
+struct DrawOrderStudyOptions : base::StudyOutput {};
 
 /// Table 4 of the 1989 paper (the eight orders of its example object) with ours beside, and what
 /// the paper leaves open, for F-15, 500MD and the example: how many cells, lists and splits each

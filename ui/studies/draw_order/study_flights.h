@@ -1,17 +1,13 @@
 #pragma once
 
+#include "ui/base/study_output.h"
 #include "ui/settings/settings.h"
-
-#include <filesystem>
 
 namespace octant::ui::studies::draw_order {
 
-struct StudyOptions {
-    std::filesystem::path out;
+struct StudyOptions : base::StudyOutput {
     settings::RunSettings settings; ///< size, samples and context are taken from it
-    bool json = false;              ///< print the tables as JSON instead of Markdown
-    bool quiet = false;
-    int jobs = 1; ///< flights at once; above 1 their times depend on each other
+    int jobs = 1;                   ///< flights at once; above 1 their times depend on each other
 };
 
 /// Tables 5 and 6 of the 1989 paper: aircraft alone (100 frames of an orbit) and the four paths

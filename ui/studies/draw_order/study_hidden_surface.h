@@ -1,14 +1,13 @@
 #pragma once
 
+#include "ui/base/study_output.h"
 #include "ui/settings/settings.h"
 
-#include <filesystem>
 #include <string>
 
 namespace octant::ui::studies::draw_order {
 
-struct HiddenSurfaceStudy {
-    std::filesystem::path out;
+struct HiddenSurfaceStudy : base::StudyOutput {
     settings::RunSettings settings; ///< terrain, triangles and context are taken from it
     bool race = true;               ///< frames a second of the three ways
     bool pictures = true;           ///< polygon numbers against the depth buffer
@@ -16,9 +15,7 @@ struct HiddenSurfaceStudy {
     int race_frames = 200;
     int every = 10;       ///< every Nth frame is compared
     std::string aircraft; ///< compared in place of F-15 and 500MD, unless empty
-    bool json = false;
-    bool quiet = false;
-    int jobs = 1; ///< flights compared at once; the race is always one at a time
+    int jobs = 1;         ///< flights compared at once; the race is always one at a time
 };
 
 /// Three tables. Frames a second of octant order, depth buffer and removal of back faces, drawn in

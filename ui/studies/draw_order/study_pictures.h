@@ -1,18 +1,14 @@
 #pragma once
 
+#include "ui/base/study_output.h"
 #include "ui/settings/settings.h"
-
-#include <filesystem>
 
 namespace octant::ui::studies::draw_order {
 
-struct PictureStudyOptions {
-    std::filesystem::path out;
+struct PictureStudyOptions : base::StudyOutput {
     settings::RunSettings settings; ///< size, triangles and context are taken from it
     int frames = 4;                 ///< of each scene
     int jobs = 1;                   ///< scenes at once
-    bool json = false;              ///< print the tables as JSON instead of Markdown
-    bool quiet = false;
 };
 
 /// How near the pictures of both renderers, with 1, 4 and 16 samples a pixel, come to 8 x 8

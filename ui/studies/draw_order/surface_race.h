@@ -19,7 +19,7 @@ inline constexpr std::array raced_ways = {
 struct RacedWay {
     double median_ms = 0.0;
     double p99_ms = 0.0;
-    int draw_calls = 0; ///< median
+    int draw_calls = 0; ///< median over the frames
 };
 
 /// One scene, drawn by the three ways in turn, frame by frame, so that they see the same machine.

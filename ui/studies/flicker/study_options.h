@@ -1,19 +1,17 @@
 #pragma once
 
-#include <filesystem>
+#include "ui/base/study_output.h"
+
 #include <string>
 
 namespace octant::ui::studies::flicker {
 
 /// What the study of the triangle controls runs over.
-struct FlickerStudyOptions {
-    std::filesystem::path out;
+struct FlickerStudyOptions : base::StudyOutput {
     std::string gentle = "hills";  ///< name or file, as load_height_field takes them
     std::string rugged = "canyon"; ///< name or file, as `gentle`
     double spacing_m = 30.0;       ///< of height files that name no spacing
     int frames = 1000;             ///< of the path; a fifth of them, at least 60, at a fixed view
-    bool json = false;             ///< print the tables as JSON instead of Markdown
-    bool quiet = false;
 };
 
 } // namespace octant::ui::studies::flicker

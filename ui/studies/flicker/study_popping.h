@@ -1,19 +1,15 @@
 #pragma once
 
+#include "ui/base/study_output.h"
 #include "ui/settings/settings.h"
-
-#include <filesystem>
 
 namespace octant::ui::studies::flicker {
 
-struct PoppingStudyOptions {
-    std::filesystem::path out;
+struct PoppingStudyOptions : base::StudyOutput {
     settings::RunSettings settings; ///< terrain, size, triangles, error_px, rate, frames, ...
     bool shimmer = false;
     int every = 60; ///< shimmer: a pair of frames in so many
     int jobs = 1;   ///< flights at once
-    bool json = false;
-    bool quiet = false;
 };
 
 /// Along the four paths of the F-15, frame by frame: the largest jump of a vertex by change of

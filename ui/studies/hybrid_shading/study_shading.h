@@ -1,17 +1,16 @@
 #pragma once
 
+#include "ui/base/study_output.h"
+
 #include <filesystem>
 #include <vector>
 
 namespace octant::ui::studies::hybrid_shading {
 
-struct ShadingStudyOptions {
-    std::filesystem::path out;
+struct ShadingStudyOptions : base::StudyOutput {
     std::vector<std::filesystem::path> meshes; ///< files, beside the models of its own
     int size_px = 320;                         ///< of the square pictures
     bool times = true;                         ///< fly too, for frame times
-    bool json = false;                         ///< print the tables as JSON instead of Markdown
-    bool quiet = false;
     int jobs = 1; ///< models at once; flights for frame times are always one at a time
 };
 

@@ -149,7 +149,7 @@ PathRun run_path(const RefinedModel& model, int frames) {
 struct WantedSums {
     std::size_t wanted = 0;
     std::size_t bare = 0;     ///< splits of a fresh front without repair
-    std::size_t repaired = 0; ///< with
+    std::size_t repaired = 0; ///< splits of a fresh front with repair
 };
 
 /// What views along the path want alone, and what is split for it.

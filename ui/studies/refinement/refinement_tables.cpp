@@ -25,8 +25,8 @@ struct ForcedSums {
     std::size_t requested = 0;
     std::array<std::size_t, 3> forced{}; ///< by rule
     std::size_t faces = 0;
-    std::size_t turned = 0;       ///< without repair
-    std::size_t turned_after = 0; ///< with
+    std::size_t turned = 0;       ///< faces turned over without repair
+    std::size_t turned_after = 0; ///< faces turned over with repair
     std::size_t repairs = 0;
 };
 

@@ -1,18 +1,16 @@
 #pragma once
 
-#include <filesystem>
+#include "ui/base/study_output.h"
+
 #include <string>
 #include <vector>
 
 namespace octant::ui::studies::refinement {
 
-struct RefinementStudyOptions {
-    std::filesystem::path out;
+struct RefinementStudyOptions : base::StudyOutput {
     std::vector<std::string> meshes; ///< files; empty = made ground of 129 x 129 samples
     int base = 100;                  ///< vertices of the base meshes
     int frames = 600;                ///< of the path
-    bool json = false;               ///< print the tables as JSON instead of Markdown
-    bool quiet = false;
 };
 
 /// What selective refinement costs beyond what was asked for: splits forced by the paper's rule and

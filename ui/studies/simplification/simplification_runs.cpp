@@ -1,11 +1,10 @@
 #include "ui/studies/simplification/simplification_runs.h"
 
 #include "models/simplify/simplify.h"
+#include "sim/base/worker_team.h"
 #include "ui/base/stopwatch.h"
 
-#include <algorithm>
 #include <string>
-#include <thread>
 
 namespace octant::ui::studies::simplification {
 
@@ -22,7 +21,7 @@ measure::MeshDistance distance_to(const TriangleMesh& original, const TriangleMe
     measure::DistanceOptions options;
     options.tightness = 1.02;
     options.samples = 100'000;
-    options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    options.threads = core_count();
     return measure::distance(original, result, options);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "ui/base/study_output.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -7,15 +9,12 @@
 
 namespace octant::ui::studies::simplification {
 
-struct SimplificationStudyOptions {
-    std::filesystem::path out;
+struct SimplificationStudyOptions : base::StudyOutput {
     std::optional<std::filesystem::path> bunny; ///< bun_zipper.ply; not shipped
     std::vector<std::filesystem::path> meshes;  ///< more meshes
     std::vector<std::size_t> faces;             ///< goals; empty = 15, 5 and 2.5 % of each mesh
     std::optional<std::filesystem::path> peers; ///< octant-peers; empty = the one beside us
     bool paper_only = false;                    ///< tables 1 and 2, nothing of other methods
-    bool json = false;                          ///< print the tables as JSON instead of Markdown
-    bool quiet = false;
 };
 
 /// Tables 1 and 2 of Y. Kim and B. U. Lee's "Error measure for vertex simplification" with ours

@@ -1,0 +1,279 @@
+// F-15C Eagle by stations: s = metres aft of the nose tip, r = to the right, u = above the
+// wing-level reference line. The origin lies at s = 10.40, u = 0.11, as in f15.obj, which names the
+// sources of the main dimensions (length 19.43, span 13.05, fin tips 3.40 up, sweep, chords,
+// canopy, intake lips, nozzles, stabilators). Beside them: 2-degree cant of the fins, nozzle exit
+// of about 1 m, boundary layer gap of the intakes, by photographs (general knowledge of the type).
+//
+// The planes that part it: the deck u = 0.36 (canopy, spine and fins above), r = 1.73 (wings, booms
+// and stabilators outside), s = 8.2 (forebody and intakes ahead), s = 17.2 (nozzles behind), r =
+// 0.74 between forebody and intakes.
+
+#include "models/aircraft/detailed_aircraft.h"
+#include "models/aircraft/detailed_f15_frame.h"
+#include "models/aircraft/model_builder.h"
+#include "models/aircraft/painted_solid.h"
+#include "models/aircraft/stencil.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace octant::models::aircraft {
+
+namespace {
+
+using namespace f15;
+
+constexpr int body_sides = 12;
+
+/// A section between two heights, half `half` wide.
+Section section(
+    double s, double half, double top_u, double bottom_u, double flat = 0.0, double side = 0.0) {
+    const double middle_u = 0.5 * (top_u + bottom_u);
+    const glm::dvec3 middle_m = at(s, 0.0, middle_u);
+    const double tall = 0.5 * (top_u - bottom_u);
+    return {middle_m.x, 0.0, middle_m.z, half, tall, tall, flat, side};
+}
+
+/// A section above the deck: half an ellipse.
+Section hood(double s, double half, double rise, double flat = 0.0) {
+    const glm::dvec3 middle_m = at(s, 0.0, deck_u);
+    return {middle_m.x, 0.0, middle_m.z, half, rise, 0.0, flat, 0.0};
+}
+
+PaintedSolid forebody() {
+    const std::array<Section, 6> sections{
+        section(0.0, 0.0, -0.43, -0.43),
+        section(0.55, 0.2, -0.24, -0.60, 0.02, 0.02),
+        section(1.6, 0.44, 0.02, -0.79, 0.08, 0.06),
+        section(3.2, 0.62, deck_u, -0.92, 0.34, 0.14),
+        section(4.9, 0.69, deck_u, -0.95, 0.57, 0.2),
+        section(8.2, 0.72, deck_u, -0.95, 0.60, 0.3)};
+    PaintedSolid solid = lofted(sections, body_sides, "grey");
+    paint(solid, {{{{1.0, 0.0, 0.0}, -(10.40 - 1.55)}}}, "radome");
+    for (const double s : {1.55, 2.5, 3.15, 4.9, 6.4}) {
+        ring_line(solid, s);
+    }
+    // The tub under the canopy, the gun's and the nose gear's panels, the national marking.
+    const std::array<glm::dvec2, 6> tub{
+        {{10.4 - 3.8, -0.2},
+         {10.4 - 3.8, 0.2},
+         {10.4 - 4.5, 0.4},
+         {10.4 - 7.2, 0.4},
+         {10.4 - 7.2, -0.4},
+         {10.4 - 4.5, -0.4}}};
+    Stencil inside = outline(tub, 2);
+    inside.facing = up;
+    inside.least_cosine = 0.9;
+    paint(solid, inside, "tub");
+    const std::array<glm::dvec2, 4> door{
+        {{10.4 - 4.3, -0.28}, {10.4 - 4.3, 0.28}, {10.4 - 6.1, 0.28}, {10.4 - 6.1, -0.28}}};
+    Stencil gear = outline(door, 2);
+    gear.facing = down;
+    gear.least_cosine = 0.9;
+    paint(solid, gear, "panel");
+    for (const double side : {1.0, -1.0}) {
+        paint_roundel(
+            solid, {{10.4 - 3.95, 0.25}, 0.24, {0.0, -1.0}, 1, side * right}, "insignia", "white");
+    }
+    return solid;
+}
+
+PaintedSolid canopy() {
+    const std::array<Section, 5> sections{
+        hood(3.35, 0.10, 0.02),
+        hood(4.35, 0.46, 0.62, 0.06),
+        hood(5.2, 0.53, 0.84, 0.06),
+        hood(6.3, 0.53, 0.80, 0.06),
+        hood(7.3, 0.47, 0.56, 0.06)};
+    PaintedSolid solid = lofted(sections, body_sides, "glass");
+    std::erase_if(solid, [](const PaintedFace& face) { // the underside lies on the deck
+        return std::ranges::all_of(face.corners_m, [](const glm::dvec3& corner) {
+            return corner.z > 0.11 - deck_u - 1e-6;
+        });
+    });
+    paint(solid, stripe(at(4.35, 0.0, 0.0), {1.0, 0.0, 0.12}, 0.09), "frame");
+    paint(solid, stripe(at(7.24, 0.0, 0.0), {1.0, 0.0, 0.0}, 0.12), "frame");
+    paint(solid, {{{{0.0, 0.0, 1.0}, -(0.11 - deck_u - 0.07)}}}, "frame"); // the sill
+    return solid;
+}
+
+/// Seat, pilot and the hood over the panel: boxes under the glass.
+void add_cockpit(ModelBuilder& model) {
+    PaintedSolid hood_box = box_between(at(4.0, -0.3, deck_u), at(4.62, 0.3, 0.72), "tub");
+    const glm::dvec3 slope = glm::normalize(glm::dvec3(-0.5, 0.0, 1.0));
+    cut_off(hood_box, {slope, -glm::dot(slope, at(4.62, 0.0, 0.72))}, "tub");
+    model.add("cockpit", hood_box);
+    model.add("cockpit", box_between(at(4.86, -0.21, deck_u), at(5.2, 0.21, 0.80), "suit"));
+    const std::array<Section, 4> helmet{
+        section(4.90, 0.06, 0.99, 0.88),
+        section(4.96, 0.12, 1.07, 0.82),
+        section(5.10, 0.13, 1.09, 0.82),
+        section(5.18, 0.09, 1.05, 0.84)};
+    PaintedSolid head = lofted(helmet, 8, "helmet");
+    head.push_back(end_of(helmet.front(), 8, true, "tub"));
+    head.push_back(end_of(helmet.back(), 8, false, "helmet"));
+    model.add("cockpit", head);
+    model.add("cockpit", box_between(at(5.22, -0.25, deck_u), at(5.55, 0.25, 1.02), "seat"));
+    model.add("cockpit", box_between(at(6.1, -0.35, deck_u), at(7.1, 0.35, 0.62), "tub"));
+}
+
+void add_spine(ModelBuilder& model) {
+    const std::array<std::array<Section, 2>, 2> pieces{
+        {{hood(7.3, 0.47, 0.56, 0.06), hood(9.6, 0.42, 0.26, 0.06)},
+         {hood(9.6, 0.42, 0.26, 0.06), hood(14.0, 0.22, 0.03, 0.03)}}};
+    for (const auto& piece : pieces) {
+        PaintedSolid solid = lofted(piece, body_sides, "grey");
+        std::erase_if(solid, [](const PaintedFace& face) {
+            return std::ranges::all_of(face.corners_m, [](const glm::dvec3& corner) {
+                return corner.z > 0.11 - deck_u - 1e-6;
+            });
+        });
+        for (const double s : {8.4, 10.8}) {
+            ring_line(solid, s);
+        }
+        model.add("spine", solid);
+    }
+}
+
+PaintedSolid body() {
+    const std::array<Section, 5> sections{
+        section(8.2, 1.50, deck_u, -0.95, 1.2, 0.4),
+        section(9.6, side_r - 0.01, deck_u, -0.95, 1.4, 0.42),
+        section(14.4, side_r - 0.01, deck_u, -0.95, 1.4, 0.42),
+        section(16.2, 1.66, deck_u, -0.86, 1.2, 0.3),
+        section(17.2, 1.50, 0.30, -0.74, 0.9, 0.2)};
+    PaintedSolid solid = lofted(sections, body_sides, "grey");
+    solid.push_back(end_of(sections.front(), body_sides, true, "panel"));
+    solid.push_back(end_of(sections.back(), body_sides, false, "metal"));
+    for (const double s : {10.1, 12.2, 14.4, 16.2}) {
+        ring_line(solid, s);
+    }
+    paint(solid, {{{{-1.0, 0.0, 0.0}, 10.40 - 16.2 - 0.02}}}, "metal"); // bare around the engines
+    for (const double side : {1.0, -1.0}) {
+        Stencil seam = stripe(at(0.0, side * 0.72, 0.0), right, line_m);
+        seam.facing = up;
+        seam.least_cosine = 0.7;
+        paint(solid, seam, "line");
+        const std::array<glm::dvec2, 4> bay{
+            {{10.4 - 10.4, side * 0.85},
+             {10.4 - 10.4, side * 1.35},
+             {10.4 - 12.0, side * 1.35},
+             {10.4 - 12.0, side * 0.85}}};
+        Stencil gear = outline(bay, 2);
+        gear.facing = down;
+        gear.least_cosine = 0.9;
+        paint(solid, gear, "panel");
+    }
+    return solid;
+}
+
+PaintedSolid intake() {
+    PaintedSolid solid = box_between(at(5.2, 0.80, -0.95), at(8.2, 1.48, deck_u), "grey");
+    // Chamfered lower and upper outer edges, then the raked mouth.
+    for (const double sign : {1.0, -1.0}) {
+        const glm::dvec3 across = glm::normalize(glm::dvec3(0.0, -1.0, sign));
+        const double u = sign > 0.0 ? deck_u : -0.95;
+        cut_off(solid, {across, -glm::dot(across, at(0.0, 1.34, u))}, "grey");
+    }
+    const glm::dvec3 rake = glm::normalize(at(6.75, 0.0, -0.95) - at(5.5, 0.0, deck_u));
+    const glm::dvec3 aft = glm::normalize(glm::dvec3(rake.z, 0.0, -rake.x));
+    const glm::dvec3 inward = aft.x < 0.0 ? aft : -aft;
+    cut_off(solid, {inward, -glm::dot(inward, at(5.5, 0.0, deck_u))}, "lip");
+    const std::array<glm::dvec2, 4> mouth{
+        {{0.86, 0.11 - 0.28}, {1.30, 0.11 - 0.28}, {1.40, 0.11 + 0.80}, {0.86, 0.11 + 0.88}}};
+    Stencil dark = outline(mouth, 0);
+    dark.facing = -inward;
+    dark.least_cosine = 0.9;
+    paint(solid, dark, "dark");
+    std::erase_if(solid, [](const PaintedFace& face) { // its rear lies on the body
+        return std::ranges::all_of(
+            face.corners_m, [](const glm::dvec3& corner) { return corner.x < 10.40 - 8.2 + 1e-6; });
+    });
+    ring_line(solid, 7.3);
+    Stencil ramp = stripe(at(6.3, 0.0, 0.0), {1.0, 0.0, 0.0}, line_m);
+    ramp.facing = up;
+    ramp.least_cosine = 0.9;
+    paint(solid, ramp, "line");
+    return solid;
+}
+
+PaintedSolid wing() {
+    Aerofoil shape;
+    shape.root_m = at(8.40, side_r, 0.12);
+    shape.root_chord_m = 5.58;
+    shape.tip_m = at(13.19, 6.525, 0.04);
+    shape.tip_chord_m = 1.74;
+    shape.half_thickness_m = 0.14 * up;
+    PaintedSolid solid = wing_of(shape, "wing", "under");
+    const glm::dvec3 tip_edge = at(13.75, 6.525, 0.0) - at(12.71, 6.05, 0.0);
+    const glm::dvec3 inward = glm::normalize(glm::dvec3(tip_edge.y, -tip_edge.x, 0.0));
+    const glm::dvec3 kept = inward.y < 0.0 ? inward : -inward;
+    cut_off(solid, {kept, -glm::dot(kept, at(12.71, 6.05, 0.0))}, "under");
+    // Flap and aileron hinges at 0.78 of the chord, spars, ribs.
+    const auto along = [&](double share) {
+        const glm::dvec3 root = shape.root_m - glm::dvec3(share * shape.root_chord_m, 0.0, 0.0);
+        const glm::dvec3 tip = shape.tip_m - glm::dvec3(share * shape.tip_chord_m, 0.0, 0.0);
+        const glm::dvec3 line = tip - root;
+        return stripe(root, {line.y, -line.x, 0.0}, line_m);
+    };
+    paint(solid, along(0.78), "line");
+    paint(solid, along(0.1), "line");
+    for (const double r : {3.05, 4.75}) {
+        Stencil rib = stripe(at(0.0, r, 0.0), right, line_m);
+        paint(solid, rib, "line");
+    }
+    return solid;
+}
+
+void add_wings(ModelBuilder& model) {
+    PaintedSolid right_wing = wing();
+    PaintedSolid left_wing = right_wing;
+    const glm::dvec2 place(10.4 - 12.35, 4.05);
+    // On the upper left and the lower right, as the regulations have it; mirrored, r is positive.
+    paint_roundel(left_wing, {place, 0.5, {1.0, 0.0}, 2, up}, "insignia", "white");
+    paint_roundel(right_wing, {place, 0.5, {1.0, 0.0}, 2, down}, "insignia", "white");
+    model.add("wing_right", right_wing);
+    model.add("wing_left", mirrored(left_wing));
+}
+
+void add_materials(ModelBuilder& model) {
+    const std::vector<std::pair<std::string, glm::vec3>> materials{
+        {"radome", {0.45F, 0.47F, 0.50F}},   {"grey", {0.55F, 0.58F, 0.62F}},
+        {"line", {0.42F, 0.44F, 0.48F}},     {"panel", {0.50F, 0.53F, 0.57F}},
+        {"tub", {0.09F, 0.10F, 0.11F}},      {"suit", {0.30F, 0.33F, 0.26F}},
+        {"helmet", {0.62F, 0.63F, 0.62F}},   {"seat", {0.16F, 0.16F, 0.17F}},
+        {"glass", {0.34F, 0.46F, 0.56F}},    {"frame", {0.47F, 0.50F, 0.54F}},
+        {"lip", {0.50F, 0.53F, 0.57F}},      {"dark", {0.06F, 0.06F, 0.07F}},
+        {"metal", {0.30F, 0.29F, 0.28F}},    {"hot", {0.15F, 0.13F, 0.12F}},
+        {"burner", {0.10F, 0.08F, 0.08F}},   {"wing", {0.60F, 0.63F, 0.67F}},
+        {"under", {0.54F, 0.57F, 0.61F}},    {"fin", {0.57F, 0.60F, 0.65F}},
+        {"band", {0.20F, 0.30F, 0.52F}},     {"code", {0.25F, 0.27F, 0.30F}},
+        {"insignia", {0.17F, 0.22F, 0.36F}}, {"white", {0.82F, 0.84F, 0.86F}}};
+    for (const auto& [name, colour] : materials) {
+        model.add_material(name, colour);
+    }
+}
+
+} // namespace
+
+polygons::PolygonModel detailed_f15() {
+    ModelBuilder model("f15-detailed");
+    add_materials(model);
+    model.add("forebody", forebody());
+    model.add_both("intake", intake());
+    model.add("body", body());
+    add_wings(model);
+    add_tail(model);
+    model.add_both("nozzle", nozzle());
+    add_cockpit(model);
+    add_spine(model);
+    model.add("canopy", canopy());
+    return model.finish();
+}
+
+} // namespace octant::models::aircraft

@@ -1,0 +1,83 @@
+#include "models/aircraft/detailed_aircraft.h"
+#include "models/polygons/obj_reader.h"
+#include "models/polygons/obj_writer.h"
+#include "models/polygons/polygon_check.h"
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+
+#include <catch2/catch.hpp>
+#include <glm/common.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace octant;
+using namespace octant::models;
+
+namespace {
+
+std::vector<polygons::PolygonModel> both() {
+    return {aircraft::detailed_f15(), aircraft::detailed_500md()};
+}
+
+std::filesystem::path shipped(const polygons::PolygonModel& model, const char* ending) {
+    return std::filesystem::path(OCTANT_SOURCE_DIR) / "models" / (model.name + ending);
+}
+
+std::pair<glm::dvec3, glm::dvec3> extent_of(const polygons::PolygonModel& model) {
+    glm::dvec3 least(std::numeric_limits<double>::max());
+    glm::dvec3 most(std::numeric_limits<double>::lowest());
+    for (const glm::dvec3& vertex_m : model.vertices_m) {
+        least = glm::min(least, vertex_m);
+        most = glm::max(most, vertex_m);
+    }
+    return {least, most};
+}
+
+} // namespace
+
+TEST_CASE("the shipped detailed aircraft are what their makers make") {
+    for (const polygons::PolygonModel& model : both()) {
+        INFO(model.name << ": OCTANT_APPROVE=1 writes the files anew");
+        const polygons::ObjText text =
+            polygons::obj_text(model, {}, shipped(model, ".mtl").filename().string());
+        if (std::getenv("OCTANT_APPROVE") != nullptr) {
+            write_file(shipped(model, ".obj"), text.obj);
+            write_file(shipped(model, ".mtl"), text.mtl);
+        }
+        CHECK(read_text_file(shipped(model, ".obj")) == text.obj);
+        CHECK(read_text_file(shipped(model, ".mtl")) == text.mtl);
+    }
+}
+
+TEST_CASE(
+    "detailed aircraft are of convex planar polygons, 300 to 1,500, read back without notes") {
+    for (const polygons::PolygonModel& model : both()) {
+        INFO(model.name);
+        CHECK(model.polygons.size() >= 300);
+        CHECK(model.polygons.size() <= 1500);
+        int faults = 0;
+        for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+            faults += polygons::polygon_fault(model, i, 1e-7) ? 1 : 0;
+        }
+        CHECK(faults == 0);
+        const polygons::PolygonModel read = polygons::read_obj(shipped(model, ".obj"));
+        CHECK(read.notes.empty());
+        CHECK(read.polygons.size() == model.polygons.size());
+    }
+}
+
+TEST_CASE("detailed aircraft have their types' published sizes") {
+    const auto [f15_least, f15_most] = extent_of(aircraft::detailed_f15());
+    CHECK(f15_most.x - f15_least.x == Approx(19.43).margin(0.1));  // length
+    CHECK(f15_most.y - f15_least.y == Approx(13.05).margin(0.01)); // span
+    CHECK(f15_least.y == -f15_most.y);
+    CHECK(f15_most.z - f15_least.z == Approx(4.34).margin(0.03)); // height, gear up
+    const auto [md_least, md_most] = extent_of(aircraft::detailed_500md());
+    CHECK(md_most.y - md_least.y == Approx(8.04).epsilon(0.06)); // rotor, one blade ahead
+    CHECK(1.20 + md_most.z == Approx(2.4).margin(0.05));         // skids 1.20 below the origin
+}

@@ -1,0 +1,140 @@
+#include "models/meshfile/format_axes.h"
+#include "models/meshfile/mesh_file.h"
+#include "models/meshfile/turning_model.h"
+#include "models/meshfile/xml_tree.h"
+#include "tests/models/meshfile/mesh_samples.h"
+
+#include <catch2/catch.hpp>
+#include <glm/vec3.hpp>
+
+#include <string>
+
+using namespace octant;
+using namespace octant::models;
+using namespace octant::models::meshfile;
+using namespace octant::models::meshfile::test;
+
+TEST_CASE("FlightGear's models bring their sub-models, moved and turned") {
+    file_with("square.ac", ac3d_square("0x0"));
+    file_with(
+        "part.xml",
+        "<?xml version=\"1.0\"?><!-- one > two --><PropertyList><path>square.ac</path>"
+        "<offsets><z-m> 3 </z-m></offsets></PropertyList>");
+    const auto file = file_with(
+        "plane.xml",
+        "<PropertyList>\n <path>square.ac</path>\n <model n=\"1\"><path>part.xml</path><offsets>"
+        "<x-m>10</x-m><heading-deg>90</heading-deg></offsets></model>\n"
+        "<animation><type>spin</type><property>gear/rollspeed-ms</property></animation>"
+        "</PropertyList>");
+    const TriangleMesh mesh = read_mesh(file);
+    REQUIRE(mesh.vertices_m.size() == 8);
+    CHECK(mesh.vertices_m[2].x == Approx(1.0)); // AC3D's y is up
+    CHECK(mesh.vertices_m[2].z == Approx(1.0));
+    CHECK(mesh.vertices_m[6].x == Approx(10.0)); // x is turned to y
+    CHECK(mesh.vertices_m[6].y == Approx(1.0));
+    CHECK(mesh.vertices_m[6].z == Approx(4.0));
+    CHECK_THAT(mesh.notes.back(), Catch::Contains("left at rest: 1 spin"));
+    CHECK(axes_of_format(file)->text() == "back,right,up");
+}
+
+TEST_CASE("a faulty number in a range costs the range alone") {
+    file_with("square.ac", ac3d_square("0x0", "near"));
+    const TurningModel model = read_turning_model(
+        file_with(
+            "ranges.xml",
+            "<PropertyList><path>square.ac</path><animation><type>range</type>"
+            "<object-name>near</object-name><min-m>10,5</min-m></animation></PropertyList>"),
+        {});
+    CHECK(model.body.triangles.size() == 2);
+    CHECK_THAT(
+        model.body.notes.front(),
+        Catch::Contains("expected a number, got '10,5'; what it names is always shown"));
+}
+
+TEST_CASE("a FlightGear model includes files and names groups of objects") {
+    file_with("square.ac", ac3d_square("0x0", "blade"));
+    file_with(
+        "spin.xml",
+        "<PropertyList><type>spin</type><property>rotors/tail/rpm</property><axis><y>1</y></axis>"
+        "</PropertyList>");
+    file_with(
+        "common.xml",
+        "<PropertyList><model><path>square.ac</path></model><animation><name>all</name>"
+        "<object-name>blade</object-name></animation></PropertyList>");
+    const auto file = file_with(
+        "including.xml",
+        "<PropertyList include=\"common.xml\"><path>square.ac</path><animation n='3' include = "
+        "'spin.xml'><object-name>all</object-name></animation><animation include='gone.xml'/>"
+        "</PropertyList>");
+    const TurningModel model = read_turning_model(file, {});
+    CHECK(model.body.triangles.size() == 2); // the sub-model
+    REQUIRE(model.parts.size() == 1);
+    CHECK(model.parts[0].about.direction == glm::dvec3(0.0, 1.0, 0.0));
+    CHECK_THROWS_WITH(
+        read_mesh(file_with(
+            "endless.xml", "<PropertyList include='endless.xml'><path>x.ac</path></PropertyList>")),
+        Catch::Contains("expected includes at most 8 deep, got more"));
+}
+
+TEST_CASE("includes that multiply are refused, and words in other attributes include nothing") {
+    for (int i = 3; i > 0; --i) {
+        std::string text = "<PropertyList>";
+        for (int k = 0; k < 10; ++k) {
+            text += "<a include='many" + std::to_string(i) + ".xml'/>";
+        }
+        file_with("many" + std::to_string(i - 1) + ".xml", text + "</PropertyList>");
+    }
+    file_with("many3.xml", "<PropertyList/>");
+    CHECK_THROWS_WITH(
+        read_mesh(file_with(
+            "most.xml", "<PropertyList include='many0.xml'><path>x.ac</path></PropertyList>")),
+        Catch::Contains("expected at most 500 includes, got more"));
+    const auto quoted =
+        file_with("quoted.xml", "<PropertyList note=\"use include='gone.xml'\" n='1'/>");
+    CHECK(xml_tree(quoted, "<a note=\"use include='b.xml'\" n='1'/>").include.empty());
+    CHECK(xml_tree(quoted, "<a n='1' include = \"b.xml\"/>").include == "b.xml");
+}
+
+TEST_CASE("what a range shows from afar only is left out of a FlightGear model") {
+    file_with("square.ac", ac3d_square("0x0", "far"));
+    const auto near_file = file_with("near.ac", ac3d_square("0x0", "near"));
+    const auto file = file_with(
+        "ranges.xml",
+        "<PropertyList><path>near.ac</path><model><path>far.xml</path></model></PropertyList>");
+    file_with(
+        "far.xml",
+        "<PropertyList><path>square.ac</path><animation><type>range</type><min-m>100</min-m>"
+        "<object-name>far</object-name></animation></PropertyList>");
+    CHECK(read_mesh(file).triangles.size() == 2);
+    CHECK(read_mesh(near_file).triangles.size() == 2);
+}
+
+TEST_CASE("what FlightGear shows under a condition is there if it holds at rest") {
+    file_with("square.ac", ac3d_square("0x0", "lamp"));
+    const auto shown = [](const std::string& condition) {
+        const auto file = file_with(
+            "selected.xml",
+            "<PropertyList><path>square.ac</path><model><path>square.ac</path></model><animation>"
+            "<type>select</type><object-name>lamp</object-name><condition>" +
+                condition + "</condition></animation></PropertyList>");
+        return read_mesh(file).triangles.size() == 4; // else the sub-model's two alone
+    };
+    CHECK_FALSE(shown("<property>on</property>"));
+    CHECK(shown("<not><property>on</property></not>"));
+    CHECK(shown("<or><property>on</property><equals><property>gear</property><value>0</value>"
+                "</equals></or>"));
+    CHECK_FALSE(shown("<greater-than><property>gear</property><value>0.1</value></greater-than>"));
+    CHECK_FALSE(shown("<equals><property>name</property><value>red</value></equals>"));
+}
+
+TEST_CASE("faulty XML is refused in one line that says where") {
+    const auto fault = [](const std::string& text) { return error_of("faulty.xml", text); };
+    CHECK(fault("") == "faulty.xml:1: expected an element, got the end of the file");
+    CHECK(fault("<a>\n<b>\n</a>") == "faulty.xml:3: expected </b>, got 'a'");
+    CHECK(fault("<a>\n<b") == "faulty.xml:2: expected '>', got the end of the file");
+    CHECK(fault("<a><!-- x") == "faulty.xml:1: expected '-->', got the end of the file");
+    const XmlElement root = xml_tree("x", "<a> 1 &lt; 2<b c='>'/><![CDATA[ <]]></a>");
+    CHECK(root.text == "1 < 2 <");
+    CHECK(root.find("b") != nullptr);
+    CHECK(root.find("c") == nullptr);
+}

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+
+namespace octant::visuals::scene {
+
+/// Height of the ground below a world position, metres; nothing outside the map.
+using GroundHeight = std::function<std::optional<double>(double x_m, double y_m)>;
+
+/// Lifts an eye point that is below the ground or within 2 m of it.
+inline void lift_above_ground(glm::dvec3& eye_m, const GroundHeight& ground) {
+    constexpr double least_height_m = 2.0;
+    if (const auto height_m = ground(eye_m.x, eye_m.y)) {
+        eye_m.z = std::max(eye_m.z, *height_m + least_height_m);
+    }
+}
+
+} // namespace octant::visuals::scene

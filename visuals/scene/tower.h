@@ -1,0 +1,53 @@
+#pragma once
+
+#include "sim/aircraft_state.h"
+#include "visuals/scene/camera.h"
+#include "visuals/scene/ground_height.h"
+
+#include <glm/vec3.hpp>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::scene {
+
+/// Where the tower's camera stands, and what it knows of the land around it.
+struct Tower {
+    glm::dvec3 eye_m{0.0};
+    /// Elevation of the skyline at even steps of heading from north; empty: level all around.
+    std::vector<float> skyline_rad;
+    /// A narrower field of view would show single samples of the ground.
+    double least_fov_rad = 0.0122;
+};
+
+/// Elevation of the skyline at a heading, radians.
+double skyline_rad(const Tower& tower, double heading_rad);
+
+/// The tower's camera: near enough to know an aircraft of this radius, wider where that brings the
+/// skyline into the picture beside it, tilted towards the skyline by half the way.
+Camera tower_camera(const Tower& tower, const glm::dvec3& aircraft_m, double radius_m);
+
+/// What a place for the tower is chosen by.
+struct TowerWish {
+    std::span<const sim::AircraftState> flight; ///< at even times
+    double radius_m = 10.0;                     ///< of the sphere around the aircraft
+    double spacing_m = 0.0; ///< of the ground's samples; 0 = as fine as one likes
+    glm::dvec2 around_m{0.0}; ///< where it stands if nothing is known of the flight
+};
+
+/// A tower at an eye point, lifted out of the ground, for flights as in the wish.
+Tower tower_at(glm::dvec3 eye_m, const TowerWish& wish, const GroundHeight& ground);
+
+/// The tower on the ground from which the flight is seen best, as tower_score() has it; `around_m`
+/// where there is no ground beside the flight. The same wish gives the same tower. Loading work.
+Tower tower_for(const TowerWish& wish, const GroundHeight& ground);
+
+/// How well a flight is seen from an eye point, 0..1: the mean over its times of how large the
+/// aircraft is, how near to the middle of the picture the skyline runs, so that relief and sky are
+/// seen, and how many samples of the ground behind it the picture spans. Times at which ground
+/// hides the aircraft, or no operator could follow it, count nothing, and the more of them there are
+/// the less the others count.
+double tower_score(const glm::dvec3& eye_m, const TowerWish& wish, const GroundHeight& ground);
+
+} // namespace octant::visuals::scene

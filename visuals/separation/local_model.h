@@ -1,0 +1,63 @@
+#pragma once
+
+#include "models/polygons/file_axes.h"
+#include "models/polygons/polygon_model.h"
+#include "sim/base/plane.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace octant::visuals::separation {
+
+/// Lengths up to this are taken for none, in longest sides of the model's bounding box: builders
+/// decide by 1e-9 of its radius, a point from a plane and a polygon's own width alike.
+inline constexpr double tolerance_sizes = 2e-9;
+
+/// A line about which polygons turn; `along` is a unit vector.
+struct LocalAxis {
+    glm::dvec3 point{0.0};
+    glm::dvec3 along{0.0};
+};
+
+/// A polygon as witnesses are sought for it.
+struct LocalPolygon {
+    Plane plane;
+    std::vector<glm::dvec3> corners;
+    std::optional<std::uint32_t> axis;
+    bool keeps_plane = true; ///< It does not turn, or about an axis across its plane.
+    /// Points whose hull holds all that the polygon sweeps; the corners if it does not turn.
+    std::vector<glm::dvec3> swept;
+};
+
+/// A model in the axes of its file, about the middle of its bounding box, with the longest side of
+/// the box as unit.
+struct LocalModel {
+    glm::dvec3 middle_m{0.0}; ///< In the file's axes.
+    double size_m = 1.0;
+    double tolerance = tolerance_sizes; ///< Of the certificate.
+    std::vector<LocalAxis> axes;        ///< One for each pivot.
+    std::vector<LocalPolygon> polygons;
+
+    Plane from_file(const Plane& plane_m) const;
+    Plane in_file(const Plane& plane) const;
+};
+
+/// Where it is within the tolerance, pieces of one polygon share the plane of the largest, which is
+/// the one known best, and polygons that turn in their own plane have their axis as normal.
+LocalModel local_model(
+    const models::polygons::PolygonModel& model,
+    const models::polygons::FileAxes& axes,
+    double tolerance = tolerance_sizes);
+
+/// Whether no corner, at any angle where `turns`, is before a plane by more than the tolerance.
+bool is_behind(const LocalModel& model, std::uint32_t polygon, const Plane& plane, bool turns);
+
+inline bool
+is_before(const LocalModel& model, std::uint32_t polygon, const Plane& plane, bool turns) {
+    return is_behind(model, polygon, turned_over(plane), turns);
+}
+
+} // namespace octant::visuals::separation
