@@ -137,7 +137,10 @@ scene::Picture number_picture(Session& session, const settings::RunSettings& set
     // Meshed by the session's settings, so that all pictures show the same triangles.
     const planning::Scene& scene = session.world().scene;
     planning::Planner planner(
-        scene, settings, scene.ground->mesher(landscape::mesh_settings(session.settings())));
+        scene,
+        settings,
+        scene.ground->mesher(
+            landscape::mesh_settings(session.settings(), scene.ground_texture != nullptr)));
     planner.settle(session.camera());
     planning::IdPlan ids(scene);
     const auto renderer = session.renderer().beside(settings.view.size_px, 1);

@@ -62,7 +62,9 @@ void InsetView::follow(const settings::RunSettings& settings) {
     planner_.reset();
     place(settings);
     mesher = landscape::mesher_after(
-        std::move(mesher), *scene_.ground, landscape::mesh_settings(settings_));
+        std::move(mesher),
+        *scene_.ground,
+        landscape::mesh_settings(settings_, scene_.ground_texture != nullptr));
     settles_ = settles_ || !same_control || mesher.get() != before;
     planner_.emplace(scene_, settings_, std::move(mesher));
 }

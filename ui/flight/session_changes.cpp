@@ -213,7 +213,9 @@ void Session::follow_ground(bool other_control) {
     std::unique_ptr<landscape::GroundMesher> mesher = planner_->take_mesher();
     const landscape::GroundMesher* const before = mesher.get();
     mesher = landscape::mesher_after(
-        std::move(mesher), *world_.scene.ground, landscape::mesh_settings(settings_));
+        std::move(mesher),
+        *world_.scene.ground,
+        landscape::mesh_settings(settings_, world_.scene.ground_texture != nullptr));
     const bool settles = other_control || mesher.get() != before;
     planner_.reset();
     planner_.emplace(world_.scene, settings_, std::move(mesher));

@@ -82,7 +82,10 @@ inline constexpr std::tuple ground_rows{
          "are asked for have none"},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
     setting<&RunSettings::ground, &visuals::scene::GroundSettings::scenery>(
-        {"scenery", "", "screen error: made-up trees and houses near the eye"},
+        {"scenery",
+         "",
+         "screen error: made-up trees and houses near the eye; none where a texture colours the "
+         "ground"},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
     setting<&RunSettings::ground, &visuals::scene::GroundSettings::show_mesh>(
         {"show-mesh",

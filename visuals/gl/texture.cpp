@@ -81,8 +81,7 @@ Object make_texture(const Functions& gl, const scene::GrainPattern& pattern) {
     Object texture = make_texture(gl, "ground's fine pattern");
     const auto side = static_cast<GLsizei>(pattern.size);
     const auto levels = std::bit_width(static_cast<unsigned>(pattern.size));
-    gl.texture_storage_2d(
-        texture.name(), static_cast<GLsizei>(levels), GL_R8, side, side);
+    gl.texture_storage_2d(texture.name(), static_cast<GLsizei>(levels), GL_R8, side, side);
     gl.pixel_storei(GL_UNPACK_ALIGNMENT, 1);
     gl.texture_sub_image_2d(
         texture.name(), 0, 0, 0, side, side, GL_RED, GL_UNSIGNED_BYTE, pattern.texels.data());

@@ -4,11 +4,12 @@
 
 namespace octant::visuals::landscape {
 
-MeshSettings mesh_settings(const scene::Settings& settings) {
+MeshSettings mesh_settings(const scene::Settings& settings, bool textured) {
     return {
         settings.ground,
         settings.view.size_px.y,
-        settings.surface.hidden_surface == scene::HiddenSurface::DepthBuffer};
+        settings.surface.hidden_surface == scene::HiddenSurface::DepthBuffer,
+        textured};
 }
 
 const nature::Backdrop& Ground::surroundings() const {

@@ -22,9 +22,11 @@ struct MeshSettings {
     int picture_height_px = 720;
     /// Nearest triangles first, for pictures with a depth buffer; else farthest first.
     bool nearest_first = false;
+    /// A texture colours the ground: it then has no things on it, which would get its colours.
+    bool textured = false;
 };
 
-MeshSettings mesh_settings(const scene::Settings& settings);
+MeshSettings mesh_settings(const scene::Settings& settings, bool textured);
 
 /// From where the ground is meshed for one frame, and how finely.
 struct GroundRequest {

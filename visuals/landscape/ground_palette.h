@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -39,6 +40,7 @@ struct GroundPoint {
     float north_m = 0.0F;  ///< of the field's south-west corner
     float height_m = 0.0F; ///< above datum
     glm::vec3 normal{0.0F, 0.0F, 1.0F};
+    float shore = 0.0F; ///< of water: share of its surroundings that is land
 };
 
 /// Which colour ground has by place, height and slope: the same everywhere and for every field.
@@ -57,6 +59,13 @@ public:
     /// The colour as own() gives it under the light that reaches the place, display values.
     glm::vec3 lit(const GroundPoint& point, float footprint_m) const;
 
+    /// The colour as lit() gives it, packed; alpha is the share of the fine pattern that the ground
+    /// has there (scene::Grain): 0 on water and nowhere else.
+    std::uint32_t packed(const GroundPoint& point, float footprint_m) const;
+
+    /// Whether a place lies under water.
+    bool is_water(const GroundPoint& point) const;
+
     /// What stands at a place.
     nature::Growth growth(const GroundPoint& point, float footprint_m) const;
 
@@ -64,7 +73,6 @@ public:
     glm::vec3 light_left(const GroundPoint& point, float footprint_m) const;
 
 private:
-    bool is_water(const GroundPoint& point) const;
     nature::LightLeft left_at(const GroundPoint& point, float footprint_m) const;
 
     nature::Daylight daylight_;

@@ -23,10 +23,9 @@ namespace octant::visuals::landscape {
 
 namespace {
 
-constexpr double frames_ahead = 120.0;   ///< how far along the eye's way pages are asked for
-constexpr double least_error_px = 0.25;  ///< what is finer than this nobody sees
-constexpr double detail_below_m = 900.0; ///< height over the ground from where detail shows
-constexpr int most_detail = 8000;        ///< triangles of ground between samples and of scenery
+constexpr double frames_ahead = 120.0;  ///< how far along the eye's way pages are asked for
+constexpr double least_error_px = 0.25; ///< what is finer than this nobody sees
+constexpr double usual_triangles = 20000.0;
 
 /// Tiles, in memory or mapped from a file, and the palette of their colours.
 class TileGround final : public Ground {
@@ -117,7 +116,8 @@ public:
         picture_height_px_ = settings.picture_height_px;
         target_.error_px = settings.ground.error_px.value_or(least_error_px);
         target_.geomorphs = settings.ground.geomorphs;
-        detail_ = {settings.ground.near_detail, settings.ground.scenery};
+        detail_ = {settings.ground.near_detail, settings.ground.scenery && !settings.textured};
+        textured_ = settings.textured;
         is_coloured_ = false;
         earth_radius_m_ = settings.ground.earth_curvature ? terrain::earth_radius_m : 0.0;
     }
@@ -185,7 +185,7 @@ public:
 private:
     bool has_detail() const { return detail_.fine_ground || detail_.scenery; }
 
-    /// Of the triangles that are aimed at, detail gets up to two fifths where the eye is low.
+    /// Of the triangles that are aimed at, what detail may need is kept for it.
     void aim_at(const GroundRequest& request) {
         const glm::dvec3& eye_m = request.camera.eye_m;
         near_view_.eye_m = eye_m;
@@ -197,12 +197,18 @@ private:
             [](const glm::dvec3& normal) { return glm::vec3(normal); });
         const int triangles = request.triangle_target;
         const bool unlimited = triangles >= scene::unlimited_triangles;
-        const double over_m = eye_m.z - ground_->height_at(eye_m.x, eye_m.y).value_or(0.0);
-        const double low = has_detail() ? std::clamp(1.2 - over_m / detail_below_m, 0.0, 1.0) : 0.0;
-        const int kept = static_cast<int>(low * std::min(most_detail, triangles * 2 / 5));
-        near_view_.most_splits = static_cast<std::size_t>(detail_.scenery ? kept * 3 / 5 : kept);
-        near_view_.most_things = static_cast<std::size_t>(kept) -
-                                 (detail_.fine_ground ? near_view_.most_splits : std::size_t{0});
+        if (has_detail()) {
+            const double over_m = eye_m.z - ground_->height_at(eye_m.x, eye_m.y).value_or(0.0);
+            const double target = unlimited ? usual_triangles : triangles;
+            nature::share_out_detail(
+                {target / usual_triangles,
+                 request.camera.vertical_fov_rad * request.aspect,
+                 std::max(over_m, 0.0)},
+                detail_,
+                near_view_);
+        }
+        const int kept =
+            has_detail() ? static_cast<int>(near_view_.most_splits + near_view_.most_things) : 0;
         target_.most_triangles = unlimited ? terrain::any_triangles : std::max(triangles - kept, 1);
     }
 
@@ -212,6 +218,11 @@ private:
         if (!is_coloured_ || mesh.vertices.data() != mesh_.vertices.data()) {
             is_coloured_ = false;
             colours_.fill(mesher_.vertices(), mesh.origins);
+            if (textured_) {
+                for (models::ColourVertex& vertex : mesher_.vertices()) {
+                    vertex.colour |= 0xff000000U; // all of its light is left
+                }
+            }
             is_coloured_ = true;
             mesher_.measure_boxes();
             show(mesh);
@@ -222,7 +233,7 @@ private:
     void show(const terrain::GroundMesh& mesh) {
         shown_ = {mesh.vertices, mesh.indices};
         if (has_detail()) {
-            shown_ = near_.made(mesh, near_view_, detail_);
+            shown_ = near_.made(mesh, near_view_, detail_, textured_ ? nullptr : &place_colour_);
         }
     }
 
@@ -242,6 +253,11 @@ private:
     VertexColours colours_;
     nature::NearGround near_;
     nature::NearDetail detail_;
+    bool textured_ = false;
+    nature::PlaceColour place_colour_ =
+        [this](const glm::dvec2& place_m, const glm::vec3& from_eye_m) {
+            return colours_.at(place_m, from_eye_m);
+        };
     nature::FineView near_view_;
     nature::NearGround::Triangles shown_; ///< mesh_ with its detail
     terrain::PaintOrder order_ = terrain::PaintOrder::BackToFront;

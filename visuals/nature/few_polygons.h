@@ -25,13 +25,13 @@ inline constexpr std::array<glm::vec2, 8> compass = {
     {0.0F, -1.0F},
     {0.70710678F, -0.70710678F}};
 
-/// Appends vertices and triangles of things.
+/// Appends vertices and triangles of things, which have none of the ground's fine pattern.
 struct Builder {
     std::vector<models::ColourVertex>& vertices;
     std::vector<std::uint32_t>& indices;
 
     std::uint32_t add(const glm::vec3& at_m, const glm::vec3& colour) {
-        vertices.push_back({at_m, models::packed_colour(colour)});
+        vertices.push_back({at_m, models::packed_colour(colour) & 0x00ffffffU});
         return static_cast<std::uint32_t>(vertices.size() - 1);
     }
 

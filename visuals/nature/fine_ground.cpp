@@ -17,14 +17,13 @@ namespace octant::visuals::nature {
 namespace {
 
 constexpr std::size_t table_places = std::size_t{1} << 15U;
-constexpr float long_rad = 0.08F;       ///< edges that look shorter stay whole
 constexpr float least_edge = 1.0F / 24; ///< over the sample distance: edges below stay whole
 constexpr float full_at = 1.8F;         ///< times as long: the middle is where it belongs
 constexpr int most_depth = 14;
 constexpr float moved_a_slope = 0.3F;
-constexpr float shade = 0.24F;
-constexpr float level_slope = 0.015F; ///< edges more level than this have less of everything
-constexpr float quarter_edge = 1.2F;  ///< over the sample distance: quarters of cells are shorter
+constexpr float shade = 0.16F;
+constexpr float level_slope = 0.1F;  ///< edges more level than this have fewer shades
+constexpr float quarter_edge = 1.2F; ///< over the sample distance: quarters of cells are shorter
 
 /// The ground below the eye, and places no nearer than this, metres.
 constexpr float nearest_m = 3.0F;
@@ -47,23 +46,29 @@ float noise_at(std::int64_t column, std::int64_t row, std::uint32_t salt) {
     return static_cast<float>(h >> 8U) * (2.0F / 16777216.0F) - 1.0F;
 }
 
-std::uint32_t shaded(std::uint32_t a, std::uint32_t b, float factor) {
-    std::uint32_t mixed = 0xff000000U;
-    for (unsigned shift = 0; shift < 24; shift += 8) {
-        const auto sum = static_cast<float>((a >> shift & 0xffU) + (b >> shift & 0xffU));
-        const float part = std::clamp(0.5F * sum * factor + 0.5F, 0.0F, 255.0F);
-        mixed |= static_cast<std::uint32_t>(part) << shift;
+/// Each part of two colours mixed, red, green and blue times a factor.
+std::uint32_t blended(std::uint32_t a, std::uint32_t b, float share_of_b, float factor) {
+    std::uint32_t blend = 0;
+    for (unsigned shift = 0; shift < 32; shift += 8) {
+        const auto own = static_cast<float>(a >> shift & 0xffU);
+        const auto other = static_cast<float>(b >> shift & 0xffU);
+        const float mean = own + share_of_b * (other - own);
+        const float part = std::clamp(mean * (shift < 24 ? factor : 1.0F) + 0.5F, 0.0F, 255.0F);
+        blend |= static_cast<std::uint32_t>(part) << shift;
     }
-    return mixed;
+    return blend;
 }
 
-/// On which side of the way from a to b, seen from above, c lies: left above 0.
 } // namespace
 
 void FineGround::begin(
-    const FineView& view, std::span<const models::ColourVertex> vertices, Scenery* scenery) {
+    const FineView& view,
+    std::span<const models::ColourVertex> vertices,
+    Scenery* scenery,
+    const PlaceColour* colour) {
     view_ = view;
     scenery_ = scenery;
+    colour_ = colour;
     vertices_.assign(vertices.begin(), vertices.end());
     middles_.resize(table_places);
     ++frame_;
@@ -76,7 +81,7 @@ bool FineGround::looks_long(std::uint32_t a, std::uint32_t b) const {
     const float length2 = level_length2(from, to);
     const float distance2 = std::max(squared(0.5F * (from + to)), nearest_m * nearest_m);
     const float least = least_edge * static_cast<float>(view_.spacing_m);
-    return length2 > long_rad * long_rad * distance2 && length2 > least * least;
+    return length2 > view_.long_rad * view_.long_rad * distance2 && length2 > least * least;
 }
 
 /// The vertex in the middle of an edge that is halved; the edge's first end where it stays whole.
@@ -102,31 +107,43 @@ std::uint32_t FineGround::middle_of(std::uint32_t a, std::uint32_t b) {
     return middle.vertex;
 }
 
-std::uint32_t FineGround::make_middle(std::uint32_t a, std::uint32_t b) {
-    const models::ColourVertex& from = vertices_[a];
-    const models::ColourVertex& to = vertices_[b];
-    glm::vec3 at_m = 0.5F * (from.position_m + to.position_m);
-    const float length_m = std::sqrt(level_length2(from.position_m, to.position_m));
+/// How far the middle of an edge between neighbouring samples, or shorter, lies above it when it
+/// has wholly come; nothing under what stands on the ground, which stays even.
+float FineGround::moved_m(
+    const glm::vec3& from_m, const glm::vec3& to_m, const glm::dvec2& place_m) const {
+    if (scenery_ != nullptr && scenery_->bears_by(place_m)) {
+        return 0.0F;
+    }
     const auto spacing_m = static_cast<float>(view_.spacing_m);
-    float factor = 1.0F;
-    if (length_m < 1.45F * spacing_m) {
-        const float distance_m = std::max(std::sqrt(squared(at_m)), nearest_m);
-        const float grown =
-            std::clamp((length_m / (long_rad * distance_m) - 1.0F) / (full_at - 1.0F), 0.0F, 1.0F);
+    const float most_m = std::min(
+        moved_a_slope * std::abs(to_m.z - from_m.z), static_cast<float>(most_moved) * spacing_m);
+    const double cell_m = view_.spacing_m / 64.0;
+    return 0.5F * most_m *
+           noise_at(std::llround(place_m.x / cell_m), std::llround(place_m.y / cell_m), 1);
+}
+
+std::uint32_t FineGround::make_middle(std::uint32_t a, std::uint32_t b) {
+    const models::ColourVertex from = vertices_[a];
+    const models::ColourVertex to = vertices_[b];
+    glm::vec3 at_m = 0.5F * (from.position_m + to.position_m);
+    const glm::dvec2 place_m = glm::dvec2(at_m) + glm::dvec2(view_.eye_m);
+    const float length_m = std::sqrt(level_length2(from.position_m, to.position_m));
+    const float distance_m = std::max(std::sqrt(squared(at_m)), nearest_m);
+    const float grown = std::clamp(
+        (length_m / (view_.long_rad * distance_m) - 1.0F) / (full_at - 1.0F), 0.0F, 1.0F);
+    std::uint32_t colour = blended(from.colour, to.colour, 0.5F, 1.0F);
+    if (colour_ != nullptr) {
+        colour = blended(colour, (*colour_)(place_m, at_m), grown, 1.0F);
+    }
+    if (length_m < 1.45F * static_cast<float>(view_.spacing_m) && colour >> 24U != 0) {
         const float slope = std::abs(to.position_m.z - from.position_m.z) / length_m;
         const float rough = std::min(slope / level_slope, 1.0F);
         const double cell_m = view_.spacing_m / 64.0;
-        const glm::dvec2 place_m = glm::dvec2(at_m) + glm::dvec2(view_.eye_m);
-        const auto column = std::llround(place_m.x / cell_m);
-        const auto row = std::llround(place_m.y / cell_m);
-        if (scenery_ == nullptr || !scenery_->bears_by(place_m)) {
-            const float most_m = std::min(
-                moved_a_slope * slope * length_m, static_cast<float>(most_moved) * spacing_m);
-            at_m.z += 0.5F * grown * most_m * noise_at(column, row, 1);
-        }
-        factor = 1.0F + shade * grown * rough * noise_at(column, row, 2);
+        const float shades =
+            noise_at(std::llround(place_m.x / cell_m), std::llround(place_m.y / cell_m), 2);
+        at_m.z += grown * moved_m(from.position_m, to.position_m, place_m);
+        colour = blended(colour, colour, 0.0F, 1.0F + shade * grown * rough * shades);
     }
-    const std::uint32_t colour = shaded(from.colour, to.colour, factor);
     vertices_.push_back({at_m, colour});
     return static_cast<std::uint32_t>(vertices_.size() - 1);
 }

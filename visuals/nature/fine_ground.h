@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -12,18 +13,27 @@ namespace octant::visuals::nature {
 
 class Scenery;
 
+/// Own colour of a place of the world with its alpha, packed; where it lies from the eye.
+using PlaceColour =
+    std::function<std::uint32_t(const glm::dvec2& place_m, const glm::vec3& from_eye_m)>;
+
 /// Adds detail below the distance of samples to ground near the eye: edges that look long are
-/// halved, and the halves' middles are moved up or down and given other shades. Both follow from
-/// the middle's place in the world, the steepness of its edge and how long that looks, growing from
-/// nothing. What lies at samples stays where it is. Triangles that share an edge halve it alike, so
-/// that there are no cracks, and the parts of a triangle come from near to far. Under what stands
-/// on the ground, the ground stays even, and each thing goes with the part in which it stands.
+/// halved, and the halves' middles are moved up or down and take the colours of their places, in
+/// other shades where it is steep. All follow from the middle's place in the world, the steepness
+/// of its edge and how long that looks, growing from nothing. What lies at samples stays where it
+/// is. Triangles that share an edge halve it alike, so that there are no cracks, and the parts of a
+/// triangle come from near to far. Under what stands on the ground, the ground stays even, and each
+/// thing goes with the part in which it stands.
 class FineGround {
 public:
     /// Begins a frame: vertices of the mesh, with the eye subtracted, to which more are added.
-    /// `scenery`: what stands on the ground; null = nothing.
-    void
-    begin(const FineView& view, std::span<const models::ColourVertex> vertices, Scenery* scenery);
+    /// `scenery`: what stands on the ground; null = nothing. `colour`: of middles; null = between
+    /// those of the ends.
+    void begin(
+        const FineView& view,
+        std::span<const models::ColourVertex> vertices,
+        Scenery* scenery,
+        const PlaceColour* colour);
 
     /// Appends a triangle, in parts if it is near, to `indices`; each part after what stands on it
     /// where `bears` says that anything does.
@@ -51,6 +61,7 @@ private:
     bool looks_long(std::uint32_t a, std::uint32_t b) const;
     std::uint32_t middle_of(std::uint32_t a, std::uint32_t b);
     std::uint32_t make_middle(std::uint32_t a, std::uint32_t b);
+    float moved_m(const glm::vec3& from_m, const glm::vec3& to_m, const glm::dvec2& place_m) const;
     bool is_outside(const Corners& triangle) const;
     bool is_quarter_of_cell(const Corners& triangle) const;
     void add_things(const Corners& triangle, std::vector<std::uint32_t>& indices);
@@ -59,6 +70,7 @@ private:
 
     FineView view_;
     Scenery* scenery_ = nullptr;
+    const PlaceColour* colour_ = nullptr;
     std::uint32_t frame_ = 0;
     std::size_t added_ = 0;
     std::vector<models::ColourVertex> vertices_;

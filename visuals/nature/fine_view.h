@@ -20,6 +20,27 @@ struct FineView {
         glm::vec3(0.0F), glm::vec3(0.0F), glm::vec3(0.0F), glm::vec3(0.0F)};
     std::size_t most_splits = 2000; ///< triangles that may be added to the ground in a frame
     std::size_t most_things = 5000; ///< triangles of what stands on it
+    float long_rad = 0.08F;         ///< edges of the ground that look shorter stay whole
+    float reach_share = 1.0F;       ///< of the distance to which things stand
 };
+
+/// What is added to the mesh near the eye.
+struct NearDetail {
+    bool fine_ground = true;
+    bool scenery = true;
+
+    bool operator==(const NearDetail&) const = default;
+};
+
+/// For how much detail there is room, and how much there is to see.
+struct DetailRoom {
+    double share = 1.0;     ///< of the usual number of triangles, which is 20,000
+    double width_rad = 1.4; ///< of the picture
+    double over_m = 0.0;    ///< the eye over the ground
+};
+
+/// Sets how long edges look that are halved, how far things stand, and the numbers of both, so that
+/// these limits are hardly ever met: what they cut off would appear in a step.
+void share_out_detail(const DetailRoom& room, const NearDetail& detail, FineView& view);
 
 } // namespace octant::visuals::nature

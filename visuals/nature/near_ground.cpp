@@ -30,12 +30,15 @@ void reverse_triangles(std::vector<std::uint32_t>& indices) {
 } // namespace
 
 /// Goes from near to far, so that what there is no room for is far off.
-NearGround::Triangles
-NearGround::made(const terrain::GroundMesh& mesh, const FineView& view, const NearDetail& detail) {
+NearGround::Triangles NearGround::made(
+    const terrain::GroundMesh& mesh,
+    const FineView& view,
+    const NearDetail& detail,
+    const PlaceColour* colour) {
     frame_ = 1 - frame_;
     Frame& frame = frames_[frame_];
     std::swap(fine_.vertices(), frame.vertices); // memory of the frame before the last
-    fine_.begin(view, mesh.vertices, detail.scenery ? &scenery_ : nullptr);
+    fine_.begin(view, mesh.vertices, detail.scenery ? &scenery_ : nullptr, colour);
     scenery_.begin(view);
     const bool far_first = view.order == terrain::PaintOrder::BackToFront;
     const auto reach_m = static_cast<float>(detail.scenery ? scenery_.reach_m() : 0.0);

@@ -15,14 +15,6 @@
 
 namespace octant::visuals::nature {
 
-/// What is added to the mesh near the eye.
-struct NearDetail {
-    bool fine_ground = true;
-    bool scenery = true;
-
-    bool operator==(const NearDetail&) const = default;
-};
-
 /// The mesh of a frame with what stands on it and detail below its samples.
 class NearGround {
 public:
@@ -36,8 +28,13 @@ public:
         std::span<const std::uint32_t> indices; ///< in the order of the mesh
     };
 
-    /// The mesh comes coloured. The triangles stay valid until the next call but one.
-    Triangles made(const terrain::GroundMesh& mesh, const FineView& view, const NearDetail& detail);
+    /// The mesh comes coloured; `colour` as FineGround::begin() has it. The triangles stay valid
+    /// until the next call but one.
+    Triangles made(
+        const terrain::GroundMesh& mesh,
+        const FineView& view,
+        const NearDetail& detail,
+        const PlaceColour* colour = nullptr);
 
     /// Replaces numbers of triangles of the last mesh, ascending, by those of the triangles that
     /// were made in their places.

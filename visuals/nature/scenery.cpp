@@ -22,10 +22,14 @@ constexpr double least_cell_m = 15.0; ///< denser ground bears something in some
 constexpr float least_radius_m = 1.2F;
 constexpr float house_radius_m = 4.0F; ///< no house where less fits
 constexpr float house_m = 7.5F;        ///< its height
-constexpr float near_m = 110.0F;
-constexpr float far_off_m = 300.0F;
-constexpr std::size_t upwards = 8; ///< place of the light from above, after the eight sides
-constexpr double fits = 0.19;      ///< radius that fits into a quarter of a cell, over its side
+constexpr float house_length = 1.25F;  ///< half of it, over the half size
+constexpr float house_width = 0.85F;
+constexpr float house_corner = 1.52F; ///< its farthest corner from its middle, likewise
+constexpr float near_m = 60.0F;
+constexpr float far_off_m = 130.0F;
+constexpr float first_begin = 0.35F; ///< of the reach: all things have grown by then
+constexpr std::size_t upwards = 8;   ///< place of the light from above, after the eight sides
+constexpr double fits = 0.19;        ///< radius that fits into a quarter of a cell, over its side
 
 /// Middles of the four quarters into which its diagonals cut a cell.
 constexpr std::array<glm::dvec2, 4> spots = {
@@ -36,10 +40,34 @@ float share_of(std::uint32_t dice, unsigned shift) {
     return static_cast<float>(dice >> shift & 0xffU) * (1.0F / 256.0F);
 }
 
+/// Of a tree, over its species'.
+float size_of(std::uint32_t dice) {
+    return 0.7F + 0.6F * share_of(dice, 16);
+}
+
 TreeDetail detail_at(float distance_m) {
     return distance_m < near_m      ? TreeDetail::Near
            : distance_m < far_off_m ? TreeDetail::Usual
                                     : TreeDetail::Far;
+}
+
+/// Leaves out triangles from `first` on that face away: near the outline of a thing far off, where
+/// renderers cannot tell, they would be painted over those before them.
+void keep_facing(
+    const std::vector<models::ColourVertex>& vertices,
+    std::size_t first,
+    std::vector<std::uint32_t>& indices) {
+    std::size_t kept = first;
+    for (std::size_t i = first; i < indices.size(); i += 3) {
+        const glm::vec3& a = vertices[indices[i]].position_m;
+        const glm::vec3& b = vertices[indices[i + 1]].position_m;
+        const glm::vec3& c = vertices[indices[i + 2]].position_m;
+        if (glm::dot(glm::cross(b - a, c - a), a) < 0.0F) {
+            std::copy_n(&indices[i], 3, &indices[kept]);
+            kept += 3;
+        }
+    }
+    indices.resize(kept);
 }
 
 struct Species {
@@ -164,7 +192,7 @@ void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
     const float area = twice_area(a, b, c);
     const glm::vec3 across = glm::cross(b - a, c - a);
     const glm::vec2 rise = glm::vec2(across) / -across.z;
-    const auto reach2_m2 = static_cast<float>(reach_m_ * reach_m_);
+    const auto reach2_m2 = static_cast<float>(reach_m() * reach_m());
     const auto first_of = [&](double from) {
         const int cell = std::max(static_cast<int>(std::floor(from)), 0);
         return (cell + stride_ - 1) / stride_ * stride_;
@@ -184,13 +212,14 @@ void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
                     continue;
                 }
                 at_m.z = u * a.z + v * b.z + (1.0F - u - v) * c.z;
-                const float distance2_m2 = glm::dot(at_m, at_m);
-                if (distance2_m2 > reach2_m2) {
+                if (glm::dot(at_m, at_m) > reach2_m2) {
                     continue;
                 }
                 const Thing thing = thing_at(column, row, spot);
                 if (thing.kind != Kind::Nothing) {
-                    standing_.push_back({at_m, rise, at_m.x * at_m.x + at_m.y * at_m.y, thing});
+                    const float radius = radius_m(thing);
+                    const float power_m2 = at_m.x * at_m.x + at_m.y * at_m.y - radius * radius;
+                    standing_.push_back({at_m, rise, thing, power_m2});
                 }
             }
         }
@@ -204,13 +233,13 @@ void Scenery::add(
     standing_.clear();
     collect(triangle_m);
     std::ranges::sort(standing_, [&](const Standing& one, const Standing& other) {
-        return one.distance2_m2 < other.distance2_m2;
+        return one.power_m2 < other.power_m2;
     });
     for (const Standing& one : standing_) {
         const float distance_m = glm::length(one.at_m);
         // Each grows out of the ground at a distance of its own.
-        const float begins_m =
-            static_cast<float>(reach_m_) * (0.55F + 0.45F * share_of(one.thing.dice, 0));
+        const float begins_m = static_cast<float>(reach_m()) *
+                               (first_begin + (1.0F - first_begin) * share_of(one.thing.dice, 0));
         const float grown = std::clamp(4.0F - 4.0F * distance_m / begins_m, 0.0F, 1.0F);
         if (grown <= 0.0F || added_ >= view_.most_things) {
             continue;
@@ -221,8 +250,22 @@ void Scenery::add(
         } else {
             build_tree(one, grown, detail_at(distance_m), vertices, indices);
         }
+        keep_facing(vertices, before, indices);
         added_ += (indices.size() - before) / 3;
     }
+}
+
+float Scenery::house_half_m() const {
+    return std::min(0.62F * most_radius_m_, 5.5F);
+}
+
+/// Of a circle that holds it in plan, its middle where it stands.
+float Scenery::radius_m(const Thing& thing) const {
+    if (thing.kind == Kind::House) {
+        return house_corner * house_half_m();
+    }
+    const Species& species = species_of(static_cast<std::size_t>(thing.kind));
+    return std::min(size_of(thing.dice) * species.radius_m, most_radius_m_);
 }
 
 /// A colour under the light on one of the eight sides, or from above.
@@ -246,13 +289,13 @@ void Scenery::build_house(
     const auto roof = [&](std::size_t eighths) {
         return 0.5F * (lit(one, tiles, (turn + eighths) % 8) + lit(one, tiles, upwards));
     };
-    const float half_m = std::min(0.62F * most_radius_m_, 5.5F);
+    const float half_m = house_half_m();
     Builder to{vertices, indices};
     add_house(
         to,
         {one.at_m, one.rise},
         compass[turn],
-        glm::vec3(1.25F * half_m, 0.85F * half_m, house_m),
+        glm::vec3(house_length * half_m, house_width * half_m, house_m),
         grown,
         {wall(0), wall(2), wall(4), wall(6)},
         {roof(2), roof(6)});
@@ -270,12 +313,11 @@ void Scenery::build_tree(
     for (std::size_t side = 0; side < light.sides.size(); ++side) {
         light.sides[side] = lit(one, leaf, side);
     }
-    const float size = 0.7F + 0.6F * share_of(one.thing.dice, 16);
     Builder to{vertices, indices};
     add_tree(
         to,
         {one.at_m, one.rise},
-        {std::min(size * species.radius_m, most_radius_m_), size * species.height_m * grown},
+        {radius_m(one.thing), size_of(one.thing.dice) * species.height_m * grown},
         species.shape,
         detail,
         light);

@@ -59,7 +59,7 @@ public:
     static constexpr double highest_m = 16.0; ///< of all that stands here, above its ground
 
     /// Farther off nothing stands.
-    double reach_m() const { return reach_m_; }
+    double reach_m() const { return reach_m_ * static_cast<double>(view_.reach_share); }
 
 private:
     enum class Kind : std::uint8_t { Nothing, Broadleaf, Conifer, Shrub, House };
@@ -78,12 +78,16 @@ private:
     struct Standing {
         glm::vec3 at_m;
         glm::vec2 rise; ///< of its ground, metres up a metre east and north
-        float distance2_m2;
         Thing thing;
+        /// The power of the eye in plan with respect to the circle around it: of two that stand
+        /// apart, the one with the greater power hides no part of the other.
+        float power_m2 = 0.0F;
     };
 
     Thing thing_at(int column, int row, int spot);
     void collect(const std::array<glm::vec3, 3>& triangle_m);
+    float radius_m(const Thing& thing) const;
+    float house_half_m() const;
     glm::vec3 lit(const Standing& one, const glm::vec3& own, std::size_t side) const;
     void build_house(
         const Standing& one,

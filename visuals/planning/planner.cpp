@@ -15,9 +15,9 @@ namespace octant::visuals::planning {
 
 namespace {
 
-constexpr double coarsest_grain_m = 2.0;
+constexpr double coarsest_grain_m = 4.0;
 constexpr double least_grain_reach_m = 250.0;
-constexpr double most_grain_reach_m = 1500.0;
+constexpr double most_grain_reach_m = 2000.0;
 
 /// At the ground's mean height. Without a sky the haze is the background all around.
 scene::Haze haze_of(const scene::AirSettings& air, const nature::Daylight& day) {
@@ -91,7 +91,10 @@ Planner::Planner(
     std::unique_ptr<landscape::GroundMesher> mesher)
     : scene_(scene)
     , settings_(settings)
-    , mesher_(mesher ? std::move(mesher) : scene.ground->mesher(landscape::mesh_settings(settings)))
+    , mesher_(
+          mesher ? std::move(mesher)
+                 : scene.ground->mesher(
+                       landscape::mesh_settings(settings, scene.ground_texture != nullptr)))
     , aspect_(static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y)
     , daylight_(landscape::daylight_of(settings.air))
     , to_sun_(landscape::direction_to_sun(settings.air))
@@ -127,7 +130,9 @@ void Planner::plan_light() {
 bool Planner::relight() {
     const landscape::GroundMesher* const before = mesher_.get();
     mesher_ = landscape::mesher_after(
-        std::move(mesher_), *scene_.ground, landscape::mesh_settings(settings_));
+        std::move(mesher_),
+        *scene_.ground,
+        landscape::mesh_settings(settings_, scene_.ground_texture != nullptr));
     daylight_ = landscape::daylight_of(settings_.air);
     to_sun_ = landscape::direction_to_sun(settings_.air);
     sky_ = sky_of(*scene_.ground, settings_.air, daylight_);

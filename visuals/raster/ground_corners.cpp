@@ -202,8 +202,8 @@ HWY_INLINE void place_each(
 HWY_INLINE Real grain_share(const Places& at, const Light& light) {
     const auto squares =
         hn::Add(hn::Add(hn::Mul(at.x, at.x), hn::Mul(at.y, at.y)), hn::Mul(at.z, at.z));
-    const auto left = hn::Mul(
-        hn::Sub(set(light.grain_reach_m), hn::Sqrt(squares)), set(light.grain_per_m));
+    const auto left =
+        hn::Mul(hn::Sub(set(light.grain_reach_m), hn::Sqrt(squares)), set(light.grain_per_m));
     const auto near = hn::Min(hn::Max(left, hn::Zero(Reals())), set(1.0F));
     return hn::Mul(hn::Div(at.level<24>(), set(most_level)), near);
 }
@@ -214,8 +214,7 @@ void PlaceColoured(
     const Light& light,
     const ScreenCorners& to) {
     const auto own = [&](const Places& at, CornerStore& store) HWY_ATTR {
-        store.put_values(
-            at.level<0>(), at.level<8>(), at.level<16>(), grain_share(at, light));
+        store.put_values(at.level<0>(), at.level<8>(), at.level<16>(), grain_share(at, light));
     };
     const auto in_haze = [&](const Places& at, CornerStore& store) HWY_ATTR {
         const Haze haze(at, light);

@@ -184,13 +184,10 @@ PixelColour by_grain(const TileTriangle& one, const TileJob& job, int column, in
     const double size2 = 0.5 * std::max(moves(&RealPlane::per_x), moves(&RealPlane::per_y));
     const auto& levels = job.grain->levels();
     const double level = size2 > 1.0 ? 0.5 * coarse_log2(size2) : 0.0;
-    const auto number =
-        std::min(static_cast<std::size_t>(level + 0.5), levels.size() - 1);
+    const auto number = std::min(static_cast<std::size_t>(level + 0.5), levels.size() - 1);
     const double scale = 1.0 / static_cast<double>(std::uint64_t{1} << number);
     const double grain = grain_at(
-        levels[number],
-        (rays.at_eye.x + x) * scale - 0.5,
-        (rays.at_eye.y + y) * scale - 0.5);
+        levels[number], (rays.at_eye.x + x) * scale - 0.5, (rays.at_eye.y + y) * scale - 0.5);
     const double share = std::clamp(extra.by_w[3].at(column, row) * w, 0.0, 1.0) *
                          static_cast<double>(scene::GrainPattern::most_share);
     PixelColour colour = by_perspective(one, column, row);

@@ -35,11 +35,11 @@ struct TileJob {
     glm::vec3 haze{0.0F};                ///< levels, for textures
     const GrainImage* grain = nullptr;   ///< for Fill::Grain
     const GrainRays* grain_rays = nullptr;
-    const Light* light = nullptr;        ///< for Fill::Lit
-    bool tints_mesh_levels = false;      ///< for Fill::Mesh
-    bool far_to_near = false;            ///< each triangle over what is there; one sample a pixel
-    bool blue_first = false;             ///< in each pixel; else red
-    std::uint8_t* rgba = nullptr;        ///< of its upper left pixel
+    const Light* light = nullptr;   ///< for Fill::Lit
+    bool tints_mesh_levels = false; ///< for Fill::Mesh
+    bool far_to_near = false;       ///< each triangle over what is there; one sample a pixel
+    bool blue_first = false;        ///< in each pixel; else red
+    std::uint8_t* rgba = nullptr;   ///< of its upper left pixel
     std::size_t row_bytes = 0;
 
     /// TileBuffer::full of a row that is covered whole.

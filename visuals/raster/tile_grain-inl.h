@@ -1,5 +1,5 @@
 // Paints a triangle of ground with its fine pattern: colours, and places in the pattern, are right
-// in perspective at both ends of sixteen pixels and even in between.
+// in perspective at both ends of at most 32 pixels of a row and even in between.
 // Included once for each instruction set.
 #if defined(OCTANT_RASTER_GRAIN_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_GRAIN_INL
@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -67,144 +68,211 @@ private:
     const GrainRays& rays_;
 };
 
-/// The pattern along a block, 2^-15: from -1 to 1.
-struct BlockGrain {
-    alignas(32) std::array<std::int16_t, block_px> share;
+/// What a triangle with grain has along pixels of a row, from their first one on.
+struct GrainRow {
+    std::array<double, 2> place;
+    std::array<double, 2> place_per_px;
+    std::array<double, 4> value;
+    std::array<double, 4> value_per_px;
+    double across2; ///< how many texels a pixel is wide and high, squared
+    double down2;
+
+    HWY_INLINE GrainRow(const GrainPlanes& planes, const glm::ivec2& at, int px) {
+        static constexpr auto one_over = [] {
+            std::array<double, strip_px> shares{};
+            for (int count = 1; count < strip_px; ++count) {
+                shares[static_cast<std::size_t>(count)] = 1.0 / count;
+            }
+            return shares;
+        }();
+        const double share = one_over[static_cast<std::size_t>(px)];
+        const GrainPoint here = planes.at(at.x, at.y);
+        const GrainPoint end = planes.at(at.x + px, at.y);
+        place = {here.x, here.y};
+        place_per_px = {(end.x - here.x) * share, (end.y - here.y) * share};
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            value[i] = here.value[i];
+            value_per_px[i] = (end.value[i] - here.value[i]) * share;
+        }
+        across2 = place_per_px[0] * place_per_px[0] + place_per_px[1] * place_per_px[1];
+        down2 = planes.down2(here);
+    }
 };
 
-/// A level's pattern along a line of places, mixed from four texels.
-HWY_INLINE void
-sample_grain(const GrainImage::Level& level, const TexelLine& line, BlockGrain& to) {
-    const Texels texels;
-    const hn::RebindToSigned<Texels> sign;
-    const hn::Rebind<std::int16_t, Texels> halves;
+/// The pattern along a strip, 2^-15: from -1 to 1; and what is worked out beyond it.
+using StripGrain = std::array<std::int16_t, 3 * strip_px>;
+
+/// Places in a level of the pattern, 2^-16 texel, and their steps.
+struct GrainLine {
+    std::array<std::int32_t, 2> first;
+    std::array<std::int32_t, 2> step;
+
+    HWY_INLINE GrainLine(const GrainRow& along, std::size_t level, int px_a_step) {
+        const double scale = texel_scale(level);
+        for (std::size_t k = 0; k < 2; ++k) {
+            first[k] = static_cast<std::int32_t>(along.place[k] * scale - 32768.0);
+            step[k] = static_cast<std::int32_t>(along.place_per_px[k] * (scale * px_a_step));
+        }
+    }
+};
+
+using GrainTexels = hn::CappedTag<std::uint32_t, 8>;
+using GrainValues = hn::RebindToSigned<GrainTexels>;
+constexpr int grain_at_once = static_cast<int>(hn::MaxLanes(GrainTexels()));
+
+/// A level's pattern at some places of a line, from one on, mixed from four texels; 2^-15.
+HWY_INLINE hn::Vec<GrainValues>
+grain_at(const GrainImage::Level& level, const GrainLine& line, int number) {
+    const GrainValues sign;
     const auto* const from = reinterpret_cast<const std::uint32_t*>(level.texels.data());
     const auto side = hn::Set(sign, level.size - 1);
-    for (std::size_t i = 0; i < block_px; i += hn::MaxLanes(texels)) {
-        const auto steps = hn::Iota(sign, static_cast<std::int32_t>(i));
-        const auto place = [&](std::size_t k) HWY_ATTR {
-            return hn::Add(
-                hn::Set(sign, line.first[k]), hn::Mul(steps, hn::Set(sign, line.per_px[k])));
-        };
-        const auto x = place(0);
-        const auto y = place(1);
-        const auto column = hn::And(hn::ShiftRight<16>(x), side);
-        const auto row = hn::And(hn::ShiftRight<16>(y), side);
-        const auto next_row = hn::And(hn::Add(row, hn::Set(sign, 1)), side);
-        const auto part = [&](auto at) HWY_ATTR {
-            return hn::And(hn::ShiftRight<8>(at), hn::Set(sign, 0xff));
-        };
-        const auto right = part(x);
-        const auto along_row = [&](auto in_row) HWY_ATTR {
-            const auto offset = hn::Add(hn::Mul(in_row, hn::Set(sign, level.stride)), column);
-            const auto both = hn::BitCast(sign, hn::GatherOffset(texels, from, offset));
-            const auto byte = hn::Set(sign, 0xff);
-            const auto here = hn::And(both, byte);
-            const auto beside = hn::And(hn::ShiftRight<8>(both), byte);
-            return hn::Add(hn::ShiftLeft<8>(here), hn::Mul(hn::Sub(beside, here), right));
-        };
-        const auto low = along_row(row);
-        const auto high = along_row(next_row);
-        const auto mean =
-            hn::Add(low, hn::ShiftRight<8>(hn::Mul(hn::Sub(high, low), part(y))));
-        const auto from_middle = hn::Sub(mean, hn::Set(sign, 128 * 256));
-        hn::StoreU(hn::DemoteTo(halves, from_middle), halves, &to.share[i]);
+    const auto byte = hn::Set(sign, 0xff);
+    const auto steps = hn::Iota(sign, number);
+    const auto x =
+        hn::Add(hn::Set(sign, line.first[0]), hn::Mul(steps, hn::Set(sign, line.step[0])));
+    const auto y =
+        hn::Add(hn::Set(sign, line.first[1]), hn::Mul(steps, hn::Set(sign, line.step[1])));
+    const auto column = hn::And(hn::ShiftRight<16>(x), side);
+    const auto row = hn::And(hn::ShiftRight<16>(y), side);
+    const auto next_row = hn::And(hn::Add(row, hn::Set(sign, 1)), side);
+    const auto right = hn::And(hn::ShiftRight<8>(x), byte);
+    const auto up = hn::And(hn::ShiftRight<8>(y), byte);
+    const auto along_row = [&](hn::Vec<GrainValues> in_row) HWY_ATTR {
+        const auto offset = hn::Add(hn::Mul(in_row, hn::Set(sign, level.stride)), column);
+        const auto both = hn::BitCast(sign, hn::GatherOffset(GrainTexels(), from, offset));
+        const auto here = hn::And(both, byte);
+        const auto beside = hn::And(hn::ShiftRight<8>(both), byte);
+        return hn::Add(hn::ShiftLeft<8>(here), hn::Mul(hn::Sub(beside, here), right));
+    };
+    const auto low = along_row(row);
+    const auto high = along_row(next_row);
+    const auto mean = hn::Add(low, hn::ShiftRight<8>(hn::Mul(hn::Sub(high, low), up)));
+    return hn::Sub(mean, hn::Set(sign, 128 * 256));
+}
+
+/// The pattern at each of `px` pixels.
+HWY_INLINE void
+sample_each(const GrainImage::Level& level, const GrainLine& line, int px, std::int16_t* to) {
+    const hn::Rebind<std::int16_t, GrainValues> halves;
+    for (int i = 0; i < px; i += grain_at_once) {
+        hn::StoreU(hn::DemoteTo(halves, grain_at(level, line, i)), halves, to + i);
     }
 }
 
-/// Places along a block in one of the pattern's levels.
-HWY_INLINE TexelLine
-grain_line(const GrainPoint& here, double step_x, double step_y, std::size_t level) {
-    const double scale = texel_scale(level);
-    const auto place = [&](double at) HWY_ATTR {
-        return static_cast<std::int32_t>(at * scale - 32768.0);
-    };
-    return {
-        {place(here.x), place(here.y)},
-        {static_cast<std::int32_t>(step_x * scale), static_cast<std::int32_t>(step_y * scale)}};
+/// The pattern at every second pixel, and the mean of both neighbours in between.
+HWY_INLINE void sample_every_second(
+    const GrainImage::Level& level, const GrainLine& line, int px, std::int16_t* to) {
+    const GrainValues sign;
+    const hn::Repartition<std::int16_t, GrainValues> halves;
+    std::array<std::int32_t, strip_px / 2 + 2 * grain_at_once> each;
+    for (int i = 0; 2 * i < px + 2; i += grain_at_once) {
+        hn::StoreU(grain_at(level, line, i), sign, &each[static_cast<std::size_t>(i)]);
+    }
+    for (int i = 0; 2 * i < px; i += grain_at_once) {
+        const auto here = hn::LoadU(sign, &each[static_cast<std::size_t>(i)]);
+        const auto next = hn::LoadU(sign, &each[static_cast<std::size_t>(i) + 1]);
+        const auto between = hn::ShiftLeft<15>(hn::Add(here, next));
+        const auto upper = hn::AndNot(hn::Set(sign, 0xffff), between);
+        const auto both = hn::Or(hn::And(here, hn::Set(sign, 0xffff)), upper);
+        hn::StoreU(hn::BitCast(halves, both), halves, to + 2 * i);
+    }
+}
+
+/// One level's pattern along a row. Where pixels look much farther down than across, the level is
+/// so coarse that every second pixel tells enough.
+HWY_INLINE void sample_grain(
+    const GrainImage& image, std::size_t level, const GrainRow& along, int px, std::int16_t* to) {
+    if (4.0 * along.across2 < along.down2) {
+        sample_every_second(image.levels()[level], GrainLine(along, level, 2), px, to);
+    } else {
+        sample_each(image.levels()[level], GrainLine(along, level, 1), px, to);
+    }
 }
 
 /// A product of 2^-15 with 2^-15.
-HWY_INLINE hn::Vec<PixelsSigned> product(hn::Vec<PixelsSigned> a, hn::Vec<PixelsSigned> b) {
+HWY_INLINE hn::Vec<StripSigned> product(hn::Vec<StripSigned> a, hn::Vec<StripSigned> b) {
     return hn::ShiftLeft<1>(hn::MulHigh(a, b));
 }
 
-/// The pattern by the levels that a block looks at.
-HWY_INLINE BlockGrain
-grain_of(const GrainImage& image, const GrainPoint& here, double step_x, double step_y, double size2) {
-    // What the level above leaves out the pattern hardly has: its finest features are two texels.
-    const TextureLevels chosen = levels_of(0.5 * size2, image.levels().size());
-    BlockGrain grain;
-    sample_grain(
-        image.levels()[chosen.fine], grain_line(here, step_x, step_y, chosen.fine), grain);
+/// The pattern by the levels that a row looks at, from its first pixel on.
+HWY_INLINE void
+grain_along(const GrainImage& image, const GrainRow& along, int px, std::int16_t* grain) {
+    // The pattern's finest features are two texels wide: half a level finer than usual will do.
+    const double size2 = 0.5 * std::max(along.across2, along.down2);
+    const TextureLevels chosen = levels_of(size2, image.levels().size());
+    sample_grain(image, chosen.fine, along, px, grain);
     if (chosen.coarse_share == 0) {
-        return grain;
+        return;
     }
-    BlockGrain coarse;
-    const std::size_t next = chosen.fine + 1;
-    sample_grain(image.levels()[next], grain_line(here, step_x, step_y, next), coarse);
-    const PixelsSigned sign;
+    StripGrain coarse;
+    sample_grain(image, chosen.fine + 1, along, px, coarse.data());
+    const StripSigned sign;
     const auto share = static_cast<std::int16_t>(chosen.coarse_share / 2);
     const auto to_coarse = hn::Set(sign, share);
     const auto to_fine = hn::Set(sign, static_cast<std::int16_t>(32767 - share));
-    for (std::size_t i = 0; i < block_px; i += hn::Lanes(sign)) {
-        const auto fine = hn::LoadU(sign, &grain.share[i]);
-        const auto other = hn::LoadU(sign, &coarse.share[i]);
-        hn::StoreU(
-            hn::Add(product(fine, to_fine), product(other, to_coarse)), sign, &grain.share[i]);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(px); i += part_px) {
+        const auto fine = hn::LoadU(sign, grain + i);
+        const auto other = hn::LoadU(sign, &coarse[i]);
+        hn::StoreU(hn::Add(product(fine, to_fine), product(other, to_coarse)), sign, grain + i);
     }
-    return grain;
 }
 
-/// Adds a block's colours, each with its share of the pattern, to the sums.
-HWY_INLINE void add_grained(
+/// Numbers of 16 bits along a strip, wrapping where nothing is looked at.
+struct StripWalk {
+    std::int16_t first;
+    std::int16_t per_px;
+
+    HWY_INLINE StripWalk(double at_first, double step)
+        : first(static_cast<std::int16_t>(static_cast<std::int32_t>(at_first)))
+        , per_px(static_cast<std::int16_t>(std::clamp(step, -2000.0, 2000.0))) {}
+
+    HWY_INLINE hn::Vec<StripSigned> at(std::size_t pixel) const {
+        const StripSigned sign;
+        const auto steps = hn::Iota(sign, static_cast<std::int16_t>(pixel));
+        return hn::Add(hn::Set(sign, first), hn::Mul(steps, hn::Set(sign, per_px)));
+    }
+};
+
+/// Adds what is new in a row of a strip, each pixel's colour with its share of the pattern.
+/// `fresh`: of `pixels`, a bit each, at least one, from `at` in the picture and `pixel` in the
+/// tile.
+HWY_INLINE void add_grained_row(
     const GrainPlanes& planes,
     const Levels& levels,
-    const TileJob& job,
-    const TextureBlock& block,
+    const GrainImage& image,
+    const glm::ivec2& at,
+    std::uint32_t pixels,
+    const StripValues& fresh,
+    std::size_t pixel,
     TileBuffer& buffer) {
-    const double by_px = 1.0 / block.px();
-    const GrainPoint here = planes.at(block.at.x, block.at.y);
-    const GrainPoint end = planes.at(block.at.x + block.px(), block.at.y);
-    const double step_x = (end.x - here.x) * by_px;
-    const double step_y = (end.y - here.y) * by_px;
-    const double size2 = std::max(step_x * step_x + step_y * step_y, planes.down2(here));
-    const BlockGrain grain = grain_of(*job.grain, here, step_x, step_y, size2);
-    const auto share_at = [](const GrainPoint& point) HWY_ATTR {
-        constexpr double unit = 32767.0 * static_cast<double>(scene::GrainPattern::most_share);
-        return std::clamp(point.value[3], 0.0, 1.0) * unit;
+    const int first = std::countr_zero(pixels);
+    const int last = 31 - std::countl_zero(pixels);
+    const GrainRow along(planes, at + glm::ivec2(first, 0), std::max(last - first, 1));
+    alignas(64) StripGrain grain{};
+    grain_along(image, along, last - first + 1, grain.data() + first);
+    const auto walk = [&](std::size_t k, double middle, double unit) HWY_ATTR {
+        const double per_px = along.value_per_px[k] * unit;
+        return StripWalk((along.value[k] - middle) * unit - first * per_px, per_px);
     };
-    const double first_share = share_at(here);
-    const auto share_per_px =
-        static_cast<std::int16_t>((share_at(end) - first_share) * by_px);
-    const PixelsSigned sign;
-    const Pixels px;
-    for (std::size_t i = 0; i < block_px; i += hn::Lanes(px)) {
-        const auto steps = hn::Iota(sign, static_cast<std::int16_t>(i));
-        const auto along = [&](double first, std::int16_t per_px) HWY_ATTR {
-            return hn::Add(
-                hn::Set(sign, static_cast<std::int16_t>(first)),
-                hn::Mul(steps, hn::Set(sign, per_px)));
-        };
-        const auto change =
-            product(hn::LoadU(sign, &grain.share[i]), along(first_share, share_per_px));
-        const auto count = hn::LoadU(px, block.counts + i);
+    constexpr double share_unit = 32767.0 * static_cast<double>(scene::GrainPattern::most_share);
+    const StripWalk share = walk(3, 0.0, share_unit);
+    const std::array walks{walk(0, 128.0, 128.0), walk(1, 128.0, 128.0), walk(2, 128.0, 128.0)};
+    const StripSigned sign;
+    for (std::size_t i = 0; i < strip_parts; ++i) {
+        const std::size_t part = i * part_px;
+        const auto within = hn::Max(share.at(part), hn::Zero(sign));
+        const auto change = product(hn::Load(sign, &grain[part]), within);
+        const auto counts = hn::PopulationCount(fresh[i]);
         for (std::size_t k = 0; k < 3; ++k) {
-            const double first = std::clamp((here.value[k] - 128.0) * 128.0, -32000.0, 32000.0);
-            const double per_px = (end.value[k] - here.value[k]) * by_px * 128.0;
-            const auto raw =
-                along(first, static_cast<std::int16_t>(std::clamp(per_px, -2000.0, 2000.0)));
             const auto level = hn::Min(
-                hn::Max(raw, hn::Set(sign, levels.least[k])), hn::Set(sign, levels.most[k]));
-            // To 1/16 level from 0, rounded.
-            const auto from_zero = hn::Add(hn::BitCast(px, level), hn::Set(px, 128 * 128 + 4));
-            const auto own = hn::BitCast(sign, hn::ShiftRight<3>(from_zero));
+                hn::Max(walks[k].at(part), hn::Set(sign, levels.least[k])),
+                hn::Set(sign, levels.most[k]));
+            const auto own = hn::BitCast(sign, from_level(level));
             const auto changed =
                 hn::Add(own, hn::ShiftRight<2>(hn::MulHigh(hn::ShiftLeft<3>(own), change)));
-            const auto colour = hn::BitCast(
-                px, hn::Min(hn::Max(changed, hn::Zero(sign)), hn::Set(sign, 255 * 16)));
-            std::uint16_t* const sums = buffer.sums[k].data() + block.pixel + i;
-            hn::StoreU(hn::Add(hn::LoadU(px, sums), hn::Mul(colour, count)), px, sums);
+            const auto colour = hn::BitCast(Strip(), hn::Min(changed, hn::Set(sign, 255 * 16)));
+            std::uint16_t* const sums = buffer.sums[k].data() + pixel + part;
+            hn::StoreU(hn::Add(hn::LoadU(Strip(), sums), hn::Mul(colour, counts)), Strip(), sums);
         }
     }
 }
@@ -217,11 +285,17 @@ HWY_NOINLINE void paint_grain(
         return;
     }
     const GrainPlanes planes(*one.extra, *job.grain_rays);
-    const auto add = [&](const TextureBlock& block) HWY_ATTR {
-        add_grained(planes, one.triangle->levels, job, block, buffer);
-    };
+    const auto add_row =
+        [&](const glm::ivec2& at, const StripValues&, const StripValues& fresh, std::size_t pixel)
+            HWY_ATTR {
+                const std::uint32_t pixels = set_bits(fresh);
+                if (pixels != 0) {
+                    add_grained_row(
+                        planes, one.triangle->levels, *job.grain, at, pixels, fresh, pixel, buffer);
+                }
+            };
     for (int left = box.left; left <= box.right; left += strip_px) {
-        paint_textured_strip(*one.triangle, add, job, lanes, box, left, buffer);
+        paint_strip_by_rows(*one.triangle, add_row, job, lanes, box, left, buffer);
     }
 }
 

@@ -189,11 +189,12 @@ HWY_INLINE void add_textured_row(
     }
 }
 
-/// Paints the strip of a textured triangle that begins at a column of the tile.
-template <class AddBlock>
-HWY_INLINE void paint_textured_strip(
+/// Paints the strip of a triangle that begins at a column of the tile, the new samples of each row
+/// by add_row(its first pixel in the picture, masks, new samples, its first pixel in the tile).
+template <class AddRow>
+HWY_INLINE void paint_strip_by_rows(
     const Triangle& triangle,
-    const AddBlock& add_block,
+    const AddRow& add_row,
     const TileJob& job,
     const SampleLanes& lanes,
     const TileBox& box,
@@ -220,7 +221,7 @@ HWY_INLINE void paint_textured_strip(
             full |= std::uint64_t{full_bits(after)} << left;
             buffer.full_rows |= std::uint32_t{(full & job.full_row()) == job.full_row()} << row;
             const glm::ivec2 at = job.first_px + glm::ivec2(left, row);
-            add_textured_row(add_block, at, masks, fresh, pixel);
+            add_row(at, masks, fresh, pixel);
         }
         coverage.next_row();
     }
@@ -243,8 +244,13 @@ HWY_NOINLINE void paint_texture(
             add_texture(planes, job, block, buffer);
         }
     };
+    const auto add_row = [&](const glm::ivec2& at,
+                             const StripValues& masks,
+                             const StripValues& fresh,
+                             std::size_t pixel)
+                             HWY_ATTR { add_textured_row(add, at, masks, fresh, pixel); };
     for (int left = box.left; left <= box.right; left += strip_px) {
-        paint_textured_strip(*one.triangle, add, job, lanes, box, left, buffer);
+        paint_strip_by_rows(*one.triangle, add_row, job, lanes, box, left, buffer);
     }
 }
 

@@ -21,18 +21,31 @@ constexpr std::array octaves = {
     Octave{4, 0.8F},
     Octave{8, 0.9F},
     Octave{16, 0.8F},
-    Octave{32, 0.7F},
-    Octave{64, 0.5F}};
+    Octave{32, 0.75F},
+    Octave{64, 0.6F},
+    Octave{128, 0.45F}};
 
 /// Levels a unit of noise: what lies beyond a byte is cut, a few texels in a thousand.
 constexpr float contrast = 105.0F;
 
 /// Sixteen directions around, so that no lattice line is seen.
 constexpr std::array<glm::vec2, 16> directions = {
-    glm::vec2(1.0F, 0.0F), {0.924F, 0.383F},   {0.707F, 0.707F},   {0.383F, 0.924F},
-    {0.0F, 1.0F},          {-0.383F, 0.924F},  {-0.707F, 0.707F},  {-0.924F, 0.383F},
-    {-1.0F, 0.0F},         {-0.924F, -0.383F}, {-0.707F, -0.707F}, {-0.383F, -0.924F},
-    {0.0F, -1.0F},         {0.383F, -0.924F},  {0.707F, -0.707F},  {0.924F, -0.383F}};
+    glm::vec2(1.0F, 0.0F),
+    {0.924F, 0.383F},
+    {0.707F, 0.707F},
+    {0.383F, 0.924F},
+    {0.0F, 1.0F},
+    {-0.383F, 0.924F},
+    {-0.707F, 0.707F},
+    {-0.924F, 0.383F},
+    {-1.0F, 0.0F},
+    {-0.924F, -0.383F},
+    {-0.707F, -0.707F},
+    {-0.383F, -0.924F},
+    {0.0F, -1.0F},
+    {0.383F, -0.924F},
+    {0.707F, -0.707F},
+    {0.924F, -0.383F}};
 
 glm::vec2 direction_at(int column, int row, int salt) {
     std::uint32_t h = static_cast<std::uint32_t>(column) * 0x9e3779b1U ^

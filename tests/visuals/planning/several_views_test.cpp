@@ -117,7 +117,7 @@ TEST_CASE("a planner that is given the last one's mesher goes on with its detail
             scene,
             settings,
             landscape::mesher_after(
-                planner->take_mesher(), *scene.ground, landscape::mesh_settings(settings)));
+                planner->take_mesher(), *scene.ground, landscape::mesh_settings(settings, false)));
     }
     CHECK(triangles == expected);
 }
@@ -162,7 +162,7 @@ TEST_CASE("a mesher of tiles goes on over them in other colours, not over others
     const auto tiles =
         landscape::ground_from_tiles(terrain::ground_of(rough_field()), settings.air);
     std::unique_ptr<landscape::GroundMesher> mesher =
-        tiles->mesher(landscape::mesh_settings(settings));
+        tiles->mesher(landscape::mesh_settings(settings, false));
     const landscape::GroundMesher* const before = mesher.get();
     const landscape::GroundRequest request{camera_at(0), 1.0, 500};
     landscape::GroundCounts counts;
@@ -172,13 +172,14 @@ TEST_CASE("a mesher of tiles goes on over them in other colours, not over others
     settings.air.sun_elevation_deg = 70.0;
     settings.air.palette = scene::Palette::Arid;
     const auto lit = tiles->remade(settings.ground, settings.air);
-    mesher = landscape::mesher_after(std::move(mesher), *lit, landscape::mesh_settings(settings));
+    mesher =
+        landscape::mesher_after(std::move(mesher), *lit, landscape::mesh_settings(settings, false));
     CHECK(mesher.get() == before);
     CHECK(&mesher->ground() == lit.get());
     for (const int frame : {0, 1, 1, 2}) {
         const landscape::GroundRequest next{camera_at(frame), 1.0, 500};
         const scene::TriangleDraw drawn = mesher->triangles(next, counts);
-        const auto fresh = lit->mesher(landscape::mesh_settings(settings));
+        const auto fresh = lit->mesher(landscape::mesh_settings(settings, false));
         const scene::TriangleDraw expected = fresh->triangles(next, counts);
         const auto colours = [](const scene::TriangleDraw& draw) {
             std::vector<std::uint32_t> each;

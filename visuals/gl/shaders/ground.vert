@@ -13,9 +13,9 @@ out vec3 place_m;
 out vec2 grain_at;
 out float grain_share;
 
-const float tile_m = 32.0; // scene::GrainPattern
+const float tile_m = 128.0; // scene::GrainPattern
 const vec2 lean = vec2(0.6, -0.8);
-const float most_share = 0.5;
+const float most_share = 0.32;
 #endif
 
 void main() {

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "visuals/landscape/ground_palette.h"
+#include "visuals/nature/climate.h"
+
+#include <glm/vec3.hpp>
+
+namespace octant::visuals::landscape {
+
+/// A place of ground before light falls on it.
+struct Site {
+    float east_m;      ///< of the field's south-west corner
+    float north_m;     ///< of the field's south-west corner
+    float height_m;    ///< above the water level
+    float steepness;   ///< 1 - cosine of the slope
+    float footprint_m; ///< what is smaller is seen as its mean
+    float patches;     ///< noise in [-1, 1], features of some hundred metres
+};
+
+/// What covers a place of temperate ground, shares 0..1.
+struct Cover {
+    float below_trees = 0.0F;
+    float farmed = 0.0F;
+    float wooded = 0.0F;
+    float bare = 0.0F;
+};
+
+/// Smooth noise in [-1, 1] whose features are `cell_m` wide.
+float patch_noise(float east_m, float north_m, float cell_m);
+
+Site site_of(const GroundPoint& point, float footprint_m, float water_m);
+
+/// The height at which temperate ground has what grows at a place's height in its climate.
+float height_of_cover_m(float height_m, const nature::Climate& climate);
+
+/// How much of a place lies under snow: more on the shaded side, none where it is too steep to
+/// hold.
+float snow_cover(const Site& site, const glm::vec3& normal, const nature::Climate& climate);
+
+/// Of a place whose height is that of height_of_cover_m().
+Cover cover_of(const Site& site);
+
+/// Own colour of temperate ground, display values; the height as for cover_of().
+glm::vec3 temperate(const Site& site);
+
+/// Share of desert ground that shrubs cover, 0..1.
+float shrubs_of(const Site& site);
+
+/// Own colour of desert ground, display values.
+glm::vec3 arid(const Site& site);
+
+} // namespace octant::visuals::landscape
