@@ -55,7 +55,8 @@ enum class Fill : std::uint8_t {
     Perspective, ///< as Levels, corrected for perspective
     Texture,
     Mesh, ///< levels, and lines along the edges
-    Lit   ///< by light and normal in each pixel
+    Lit,  ///< by light and normal in each pixel
+    Veil  ///< levels, blended by their alpha over what lies farther
 };
 
 /// What only some triangles need.
