@@ -19,7 +19,8 @@ constexpr float names_a_picture = 60.0F; ///< heights of a capital, one above th
 constexpr float least_name_px = 7.0F;
 constexpr std::uint32_t name_colour = 0xffffffffU;
 constexpr std::uint32_t name_shade = 0xb0000000U;
-constexpr float scale_width = 0.18F; ///< of the picture's width that the scale may take
+constexpr float scale_width = 0.18F;    ///< of the picture's width that the scale may take
+constexpr double nearest_scale_m = 8.0; ///< within the aircraft a scale says nothing
 constexpr double farthest_name_m = 15000.0;
 
 /// 1, 2 or 5 times a power of ten, at most that.
@@ -48,7 +49,9 @@ void PathMarks::begin(
     canvas_.clip_to({glm::vec2(0.0F), size_px_});
     const float margin_px = 2.5F * letter_px_;
     draw_north({margin_px + 2.0F * letter_px_, size_px_.y - margin_px - 4.5F * letter_px_});
-    draw_scale({margin_px, size_px_.y - margin_px});
+    if (aircraft_m_ > nearest_scale_m) {
+        draw_scale({margin_px, size_px_.y - margin_px});
+    }
 }
 
 /// An arrow in a circle: up is the way one looks, level.

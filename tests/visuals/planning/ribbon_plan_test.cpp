@@ -86,3 +86,49 @@ TEST_CASE("what has been flown of a ribbon is stronger, legs differ in colour") 
         CHECK(vertex.at_px.x < 860.0F);
     }
 }
+
+TEST_CASE("with a ribbon among them ground and aircraft are painted in the right order") {
+    Scene scene;
+    // A ridge between the eyes and the path, with gaps in it.
+    scene.ground = cell_ground(16, 60.0, [](double x_m, double y_m) {
+        return std::abs(y_m + 150.0) < 40.0 ? 190.0 + 60.0 * std::sin(x_m / 90.0) : 40.0;
+    });
+    scene.add_model(convex_aircraft(box_model({10.0, 3.0, 2.0})));
+    scene.aircraft = {0, 0, 0};
+    scene.path = std::make_shared<const FlownPath>(eastward());
+    Settings settings = plain_settings();
+    settings.view.path_ribbon = true;
+    Planner planner(scene, settings);
+    PlaceDice dice(5);
+    int seen = 0;
+    int wrong = 0;
+    int veils = 0;
+    int hidden_again = 0;
+    for (int i = 0; i < 40; ++i) {
+        std::vector<sim::AircraftState> states{
+            state_at({0.0, 0.0, 200.0}),
+            state_at(dice.in_box({300.0, 100.0, 40.0}) + glm::dvec3(0, 0, 220), dice.attitude()),
+            state_at(dice.in_box({300.0, 100.0, 40.0}) + glm::dvec3(0, 0, 220), dice.attitude())};
+        for (sim::AircraftState& state : states) {
+            state.time_s = ribbon_time_s;
+        }
+        Camera camera = camera_looking_at(
+            dice.in_box({400.0, 60.0, 30.0}) + glm::dvec3(0, -380, 190), states.front().position_m);
+        camera.near_m = 1e-3;
+        const auto [plan, counts] = planner.plan({camera, states});
+        const SightCount count = count_wrong_sights(plan, scene, states, camera, dice);
+        seen += count.seen;
+        wrong += count.wrong;
+        veils += counts.veil_triangles;
+        for (std::size_t step = 0; step + 1 < plan.steps.size(); ++step) {
+            hidden_again += plan.steps[step].what == PaintStep::What::Veil &&
+                                    plan.steps[step + 1].what == PaintStep::What::GroundAgain
+                                ? 1
+                                : 0;
+        }
+    }
+    CHECK(seen > 500);
+    CHECK(wrong == 0);
+    CHECK(veils > 100);
+    CHECK(hidden_again > 10); // ground before a dash is painted once more, right after it
+}
