@@ -290,6 +290,7 @@ void Session::fill_in(const planning::PlanCounts& counts, report::FrameRecord& r
     record.draw_cell = counts.draw_cell;
     record.draw_calls = renderer_->draw_calls();
     record.shadow_triangles = counts.shadow_triangles;
+    record.veil_triangles = counts.veil_triangles;
     record.cuts = counts.cuts;
     record.unordered = counts.unordered;
     record.resolution_c = counts.ground.resolution;

@@ -140,6 +140,7 @@ void Session::change_picture(const settings::RunSettings& settings) {
     settings::check_settings(settings);
     const scene::FixedPoints points = world::fixed_points(settings, world_);
     world::SceneGround ground = ground_for(settings);
+    world::check_clouds(settings.air, *ground.ground);
     wait_for_meshes();
     make_renderer_ready(settings.view, ground.texture.get());
 

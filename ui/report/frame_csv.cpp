@@ -84,6 +84,7 @@ constexpr std::array frame_columns{
     column<&R::record_ms>("record_ms", Kind::Number, milliseconds),
     column<&R::draw_calls>("draw_calls"),
     column<&R::shadow_triangles>("shadow_triangles"),
+    column<&R::veil_triangles>("veil_triangles"),
     column<&R::cuts>("cuts"),
     column<&R::unordered>("unordered"),
     axis_column<&R::eye_m, 0>("eye_x_m"),

@@ -39,6 +39,7 @@ struct FrameRecord {
     int overrun = 0; ///< 1 when frame_ms is above 16.67
     int draw_calls = 0;
     int shadow_triangles = 0;
+    int veil_triangles = 0;
     int cuts = 0;      ///< ground triangles and aircraft polygons painted again, cut by planes
     int unordered = 0; ///< overlaps for which no painting order was found
     glm::dvec3 eye_m{0.0};

@@ -47,6 +47,16 @@ inline constexpr std::tuple air_rows{
     setting<&RunSettings::air, &visuals::scene::AirSettings::relief_shadows>(
         {"relief-shadows", "", "shadows of the ground on itself, and less light in its hollows"},
         {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
+    setting<&RunSettings::air, &visuals::scene::AirSettings::clouds>(
+        {"clouds", "SHARE", "share of the sky that a thin layer of clouds covers", 0.0, 1.0},
+        {.group = SettingGroup::Air, .change = SettingsChange::Picture}),
+    setting<&RunSettings::air, &visuals::scene::AirSettings::cloud_height_m>(
+        {"cloud-height",
+         "METRES",
+         "of the clouds above datum, above all ground [500 m above the highest ground]",
+         -1000.0,
+         20000.0},
+        {.group = SettingGroup::Air, .change = SettingsChange::Picture, .start = 3000.0}),
     setting<&RunSettings::air, &visuals::scene::AirSettings::water_level_m>(
         {"water-level", "METRES", "level ground at or below it is water", -12000.0, 9000.0},
         {.group = SettingGroup::Air, .change = SettingsChange::Picture}),

@@ -37,6 +37,9 @@ inline constexpr std::tuple surface_rows{
     setting<&RunSettings::surface, &visuals::scene::SurfaceSettings::shadows>(
         {"shadows", "", "shadows of aircraft on the ground"},
         {.group = SettingGroup::Surface, .change = SettingsChange::Picture}),
+    setting<&RunSettings::surface, &visuals::scene::SurfaceSettings::effects>(
+        {"effects", "", "rotor discs, exhaust, afterburners and vapour at the wingtips"},
+        {.group = SettingGroup::Surface, .change = SettingsChange::Picture}),
     setting<&RunSettings::surface, &visuals::scene::SurfaceSettings::aircraft_error_px>(
         {"aircraft-error-px",
          "PIXELS",

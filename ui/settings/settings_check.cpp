@@ -118,6 +118,23 @@ void check_ground_texture(const scene::AirSettings& air, const std::string& terr
     }
 }
 
+/// What is seen through is painted in order and has no depth.
+void check_veils(const RunSettings& settings) {
+    const auto refuse_depth = [&](const char* option, bool is_on) {
+        if (is_on && settings.surface.hidden_surface == scene::HiddenSurface::DepthBuffer) {
+            throw Error(fmt::format(
+                "{}: expected --hidden-surface octant or back-face beside it, got depth-buffer",
+                option));
+        }
+    };
+    refuse_depth("--clouds", settings.air.clouds > 0.0);
+    refuse_depth("--effects", settings.surface.effects);
+    refuse_depth("--path-ribbon", settings.view.path_ribbon);
+    if (settings.view.path_ribbon && settings.path.name == live_path) {
+        throw Error("--path-ribbon: expected a path or a track, got what others fly");
+    }
+}
+
 } // namespace
 
 void check_eye_point(const scene::ViewSettings& view) {
@@ -153,6 +170,7 @@ void check_settings(const RunSettings& settings) {
     check_ground_texture(settings.air, settings.path.terrain);
     check_eye_point(settings.view);
     check_time(settings.air);
+    check_veils(settings);
     if (settings.drawing.renderer == RendererKind::Gl && settings.view.samples == 16) {
         throw Error("--samples: expected 1 or 4 beside --renderer gl, got 16");
     }

@@ -67,6 +67,11 @@ inline constexpr std::tuple view_rows{
     setting<&RunSettings::view, &visuals::scene::ViewSettings::head_up_display>(
         {"head-up-display", "", "speed, heading, pitch ladder and more before the cockpit view"},
         {.group = SettingGroup::View, .change = SettingsChange::Picture}),
+    setting<&RunSettings::view, &visuals::scene::ViewSettings::path_ribbon>(
+        {"path-ribbon",
+         "",
+         "the first aircraft's path as a ribbon with its legs named, a scale and a north mark"},
+        {.group = SettingGroup::View, .change = SettingsChange::Picture}),
     setting<&RunSettings::view, &visuals::scene::ViewSettings::size_px>(
         {"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192},
         {.group = SettingGroup::View, .change = SettingsChange::Picture, .set_by_window = true}),

@@ -14,11 +14,12 @@
 #include "ui/world/scene_ground.h"
 #include "ui/world/sun_of_time.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <future>
-#include <glm/common.hpp>
 #include <utility>
 #include <vector>
 
@@ -139,6 +140,15 @@ void check_own_paths(const settings::RunSettings& settings, bool is_live) {
     }
 }
 
+std::shared_ptr<const planning::FlownPath> drawn_path(const Flight& flight) {
+    std::vector<planning::NamedTime> legs;
+    for (const flightpaths::LegBegin& leg : flight.legs) {
+        legs.push_back({leg.time_s, leg.label});
+    }
+    return std::make_shared<const planning::FlownPath>(
+        planning::flown_path(flight.trajectory, legs));
+}
+
 /// What the tower is placed by; `flight` keeps the states.
 scene::TowerWish tower_wish(const World& world, std::vector<sim::AircraftState>& flight) {
     constexpr int looks = 160;
@@ -206,6 +216,19 @@ scene::FixedPoints fixed_points(const settings::RunSettings& settings, const Wor
     return points;
 }
 
+void check_clouds(const scene::AirSettings& air, const visuals::landscape::Ground& ground) {
+    if (air.clouds <= 0.0 || !air.cloud_height_m) {
+        return;
+    }
+    const double highest_m = visuals::landscape::highest_m(ground);
+    if (*air.cloud_height_m <= highest_m) {
+        throw Error(fmt::format(
+            "--cloud-height: expected more than the highest ground, {:.0f} m, got {:.0f}",
+            highest_m,
+            *air.cloud_height_m));
+    }
+}
+
 World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     settings::check_settings(settings);
     check_place(settings.path);
@@ -225,6 +248,7 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     LoadedAircraft aircraft = load_aircraft(
         settings, shapes_of(settings, script ? script->other_shapes : std::vector<std::string>()));
     SceneGround ground = coming_ground.get();
+    check_clouds(settings.air, *ground.ground);
     World world;
     world.notes = std::move(aircraft.notes);
     world.order_files = std::move(aircraft.order_files);
@@ -241,8 +265,10 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
         std::move(aircraft.aircraft),
         std::move(aircraft.far_models),
         aircraft.cockpit,
-        std::move(aircraft.dials)};
+        std::move(aircraft.dials),
+        nullptr};
     if (!is_live) {
+        world.scene.path = drawn_path(world.flight);
         add_own_paths(settings, ground, world);
         check_wingmen(world);
     }

@@ -196,6 +196,7 @@ void Renderer::paint(const FramePlan& plan, const Place& place) {
         case PaintStep::What::Refined:
             refined_.draw(step, clip, aircraft_.programs());
             break;
+        case PaintStep::What::Veil:
         case PaintStep::What::Overlay:
             overlay_.draw(step);
             break;

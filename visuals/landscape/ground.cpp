@@ -1,8 +1,32 @@
 #include "visuals/landscape/ground.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace octant::visuals::landscape {
+
+double highest_m(const Ground& ground) {
+    constexpr int most_steps = 512;
+    const glm::dvec2 half_m = ground.half_extent_m();
+    const double spacing_m = ground.spacing_m();
+    if (spacing_m <= 0.0) {
+        return std::isfinite(ground.mean_height_m()) ? ground.mean_height_m() : 0.0;
+    }
+    const auto steps_over = [&](double half) {
+        return std::clamp(static_cast<int>(std::lround(2.0 * half / spacing_m)), 1, most_steps);
+    };
+    const glm::ivec2 steps(steps_over(half_m.x), steps_over(half_m.y));
+    double highest = ground.mean_height_m();
+    for (int row = 0; row <= steps.y; ++row) {
+        for (int column = 0; column <= steps.x; ++column) {
+            const glm::dvec2 share = glm::dvec2(column, row) / glm::dvec2(steps);
+            const glm::dvec2 at_m = (2.0 * share - 1.0) * half_m;
+            highest = std::max(highest, ground.height_at(at_m.x, at_m.y).value_or(highest));
+        }
+    }
+    return highest;
+}
 
 MeshSettings mesh_settings(const scene::Settings& settings, bool textured) {
     return {

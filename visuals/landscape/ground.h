@@ -95,6 +95,10 @@ private:
     mutable nature::Backdrop surroundings_;
 };
 
+/// The highest of the ground's samples, at most every 1/512 of its extent; 0 where there is none.
+/// Loading work.
+double highest_m(const Ground& ground);
+
 /// The mesher by which a view goes on under other settings: `before` where it meshes this very
 /// ground or the same one in other colours, else a new one. As Ground::mesher.
 std::unique_ptr<GroundMesher> mesher_after(

@@ -141,6 +141,7 @@ const scene::FramePlan& IdPlan::of(const scene::FramePlan& plan) {
     plan_.sunlight = glm::vec3(0.0F);
     std::erase_if(plan_.steps, [](const scene::PaintStep& step) {
         return step.what == scene::PaintStep::What::Sky ||
+               step.what == scene::PaintStep::What::Veil ||
                step.what == scene::PaintStep::What::Overlay;
     });
     std::ranges::fill(plan_.smooth, 0U); // a flat polygon has one colour

@@ -6,6 +6,7 @@
 #include "visuals/scene/grain_pattern.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -76,6 +77,11 @@ places_for(const Scene& scene, scene::View view, std::vector<glm::dmat4>& parts)
     return placed;
 }
 
+double height_of_clouds_m(const landscape::Ground& ground, const scene::AirSettings& air) {
+    constexpr double above_ground_m = 500.0;
+    return air.cloud_height_m ? *air.cloud_height_m : landscape::highest_m(ground) + above_ground_m;
+}
+
 refine::ViewRefinerOptions refiner_options(const scene::Settings& settings) {
     refine::ViewRefinerOptions options;
     options.error_px = settings.surface.aircraft_error_px;
@@ -116,6 +122,20 @@ Planner::Planner(
                 : nullptr);
     }
     was_refined_.resize(placed_.size());
+    if (settings.air.clouds > 0.0) {
+        clouds_.emplace(settings.air.clouds);
+        clouds_->light_by(daylight_);
+        cloud_height_m_ = height_of_clouds_m(*scene.ground, settings.air);
+    }
+    if (settings.view.path_ribbon && scene.path) {
+        ribbon_.emplace(*scene.path);
+    }
+    for (const std::uint32_t model : scene.aircraft) {
+        if (settings.surface.effects) {
+            effects_.emplace_back(scene.models[model]->polygons);
+        }
+    }
+    effect_ranges_.resize(effects_.size());
     hulls_.resize(scene.aircraft.size());
     near_to_far_.resize(scene.aircraft.size());
 }
@@ -179,18 +199,20 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
     plan_haze(camera);
     plan_sky(camera);
     plan_grain(camera);
+    plan_veils(request);
     plan_overlay(request);
     const SmoothChoice::Count shaded = choose_smooth(request.smooth);
     counts.may_be_smooth = shaded.polygons;
     counts.smooth_polygons = shaded.smooth;
     count_aircraft(counts);
+    counts.veil_triangles = static_cast<int>(veils_.draw().indices.size() / 3);
     counts.shadow_triangles = static_cast<int>(ground_.shadow_indices.size() / 3);
     if (settings_.surface.hidden_surface == scene::HiddenSurface::DepthBuffer) {
         paint_by_depth();
     } else {
         paint_in_order(camera, counts);
     }
-    steps_.paint_overlay();
+    steps_.paint_overlay(veils_.draw().indices.size());
     return {plan_, counts};
 }
 
@@ -261,6 +283,53 @@ void Planner::plan_grain(const scene::Camera& camera) {
         static_cast<float>(reach_m)};
 }
 
+/// What is seen through, apart from its place in the painting order.
+void Planner::plan_veils(const PlanRequest& request) {
+    const scene::Camera& camera = request.camera;
+    veils_.begin(plan_.view_to_clip * plan_.world_to_view, settings_.view.size_px, plan_.haze);
+    if (clouds_) {
+        const auto clouds =
+            clouds_->seen_from(camera.eye_m, cloud_height_m_, mesher_->earth_radius_m());
+        cloud_range_ = veils_.add(clouds.vertices, clouds.indices);
+    }
+    constexpr double least_px = 6.0; ///< smaller aircraft have no effects
+    for (std::size_t i = 0; i < effects_.size(); ++i) {
+        const double away_m = glm::length(hulls_[i].centre_m);
+        const bool is_seen = radius_m(hulls_[i]) > least_px * pixel_rad_ * away_m &&
+                             scene::in_view(hulls_[i].centre_m, radius_m(hulls_[i]), frustum_);
+        effect_ranges_[i] =
+            is_seen ? effects_[i].add(placed_[i].parts[0], strength_of(request.states[i]), veils_)
+                    : AircraftEffects::Ranges();
+    }
+    plan_ribbon(request);
+}
+
+void Planner::plan_ribbon(const PlanRequest& request) {
+    boxes_.assign(hulls_.begin(), hulls_.end());
+    if (!ribbon_) {
+        return;
+    }
+    const double radius = scene_.model_of(0).subject.radius_m;
+    constexpr double half_width = 0.3; ///< of the aircraft's radius
+    constexpr double gap = 1.8;
+    const auto made = ribbon_->dashes(
+        {request.camera.eye_m,
+         mesher_->earth_radius_m(),
+         request.states.front().time_s,
+         half_width * radius,
+         gap * radius},
+        veils_);
+    // A dash that meets an aircraft has no place in the painting order beside it.
+    dashes_.clear();
+    for (const PathRibbon::Dash& dash : made) {
+        if (std::ranges::none_of(
+                hulls_, [&](const HullBox& hull) { return hiding_pair(hull, dash.box).meet; })) {
+            dashes_.push_back(dash);
+            boxes_.push_back(dash.box);
+        }
+    }
+}
+
 void Planner::write_parts() {
     plan_.parts.resize(parts_.size());
     std::ranges::transform(
@@ -288,10 +357,19 @@ overlay::HeadUpInputs Planner::shown_inputs(const sim::AircraftState& state) con
     return inputs;
 }
 
-/// What lies over the picture: dials, head-up display, words.
+/// The veils, and what lies over the picture: dials, head-up display, words.
 void Planner::plan_overlay(const PlanRequest& request) {
     const glm::ivec2& size_px = settings_.view.size_px;
     overlays_.clear();
+    overlays_.add(veils_.draw());
+    if (ribbon_) {
+        const glm::dvec3& eye_m = request.camera.eye_m;
+        marks_.begin(request.camera, size_px, request.states.front().position_m - eye_m);
+        for (const FlownPath::Leg& leg : scene_.path->legs) {
+            marks_.add({scene_.path->points[leg.first_point].position_m - eye_m, leg.name});
+        }
+        overlays_.add(marks_.finish());
+    }
     if (settings_.view.kind == scene::View::Cockpit) {
         const overlay::HeadUpInputs inputs = shown_inputs(request.states.front());
         overlays_.add(instruments_.draw(scene_.dials, inputs, request.camera, size_px));

@@ -2,13 +2,17 @@
 
 #include "sim/aircraft_state.h"
 #include "visuals/landscape/ground_mesher.h"
+#include "visuals/nature/cloud_layer.h"
 #include "visuals/overlay/head_up_display.h"
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/overlay/overlay_layers.h"
+#include "visuals/overlay/path_marks.h"
 #include "visuals/overlay/picture_text.h"
+#include "visuals/planning/aircraft_effects.h"
 #include "visuals/planning/aircraft_hull.h"
 #include "visuals/planning/ground_frame.h"
 #include "visuals/planning/ground_in_front.h"
+#include "visuals/planning/path_ribbon.h"
 #include "visuals/planning/placed_aircraft.h"
 #include "visuals/planning/polygon_repaint.h"
 #include "visuals/planning/refined_aircraft.h"
@@ -18,6 +22,7 @@
 #include "visuals/planning/sky.h"
 #include "visuals/planning/smooth_choice.h"
 #include "visuals/planning/step_writer.h"
+#include "visuals/planning/veils.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
@@ -44,6 +49,7 @@ struct PlanCounts {
     int knots = 0;     ///< groups of aircraft that meet or stand in a ring, painted by polygons
     int unordered = 0; ///< polygons that should have been painted again and were too many
     int shadow_triangles = 0;
+    int veil_triangles = 0;   ///< clouds and all else that is seen through, in view
     int may_be_smooth = 0;    ///< polygons of whole models and triangles of refined meshes
     int smooth_polygons = 0;  ///< those of may_be_smooth that are lit smoothly
     int aircraft_level = 0;   ///< representation of the first aircraft, 0 = the finest
@@ -133,6 +139,8 @@ private:
     void plan_haze(const scene::Camera& camera);
     void plan_sky(const scene::Camera& camera);
     void plan_grain(const scene::Camera& camera);
+    void plan_veils(const PlanRequest& request);
+    void plan_ribbon(const PlanRequest& request);
     void place_aircraft(const scene::Camera& camera, std::span<const sim::AircraftState> states);
     void place(PlacedAircraft& aircraft, const sim::AircraftState& state, const glm::dvec3& eye_m);
     void choose_model(PlacedAircraft& aircraft, double distance_m) const;
@@ -145,9 +153,13 @@ private:
     void paint_in_order(const scene::Camera& camera, PlanCounts& counts);
     void paint(const PlacedAircraft& aircraft, scene::DepthUse depth);
     void paint_clear(const PlacedAircraft& aircraft);
-    void paint_knots(const scene::Camera& camera, PlanCounts& counts);
+    void paint_knots(const scene::Camera& camera, bool beyond_clouds, PlanCounts& counts);
+    bool is_beyond_clouds(const Knot& knot, const scene::Camera& camera) const;
     void paint_knot(const Knot& knot, const scene::Camera& camera, PlanCounts& counts);
+    void paint_aircraft(const Knot& knot, PlanCounts& counts);
     void paint_members(const Knot& knot, PlanCounts& counts);
+    void paint_effects(bool after);
+    void paint_dashes(double farther_m2, double nearer_m2);
     void paint_members_by_depth(const Knot& knot);
     bool is_nearer(std::uint32_t a, std::uint32_t b) const;
     void plan_overlay(const PlanRequest& request);
@@ -161,6 +173,15 @@ private:
     nature::Daylight daylight_;
     glm::dvec3 to_sun_;
     Sky sky_;
+    std::optional<nature::CloudLayer> clouds_;
+    double cloud_height_m_ = 0.0;
+    Veils veils_;
+    VeilRange cloud_range_; ///< of veils_
+    std::optional<PathRibbon> ribbon_;
+    std::vector<PathRibbon::Dash> dashes_;                       ///< of this frame
+    std::vector<std::uint32_t> knot_dashes_;                     ///< of the knot at hand
+    std::vector<AircraftEffects> effects_;                       ///< of Scene::aircraft, or none
+    std::vector<AircraftEffects::Ranges> effect_ranges_;         ///< of effects_, of veils_
     ShadowCaster shadows_;
     SceneOrder order_;
     GroundInFront in_front_;
@@ -178,6 +199,7 @@ private:
     int refine_splits_ = 0;
     int refine_collapses_ = 0;
     std::vector<HullBox> hulls_; ///< of Scene::aircraft
+    std::vector<HullBox> boxes_; ///< hulls_, then those of dashes_
     std::vector<const PlacedAircraft*> members_;
     std::vector<std::uint32_t> near_to_far_;
     std::vector<std::uint32_t> facing_indices_;
@@ -185,6 +207,7 @@ private:
     StepWriter steps_;
     overlay::InstrumentPanel instruments_;
     overlay::HeadUpDisplay head_up_display_;
+    overlay::PathMarks marks_;
     overlay::PictureText text_;
     overlay::OverlayLayers overlays_;
 };

@@ -6,14 +6,17 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <ranges>
 
 // Writes the painting steps of a plan: in which order, and how, what has been planned is drawn.
 //
 // In painting order (HiddenSurface::Octant, BackFace): sky, ground with its shadows in place, then
-// the aircraft from far to near. After each knot of aircraft the ground that lies before it is
-// painted again, cut to where the knot is seen. Meshes alone ask for depth, within their knot.
+// the aircraft from far to near. Clouds come before what lies on the eye's side of them and after
+// the rest: seen from below before all ground, seen from above after it. After each knot of
+// aircraft the ground that lies before it is painted again, cut to where the knot is seen. Meshes
+// alone ask for depth, within their knot.
 //
 // By depth (HiddenSurface::DepthBuffer): from near to far, so that what is hidden is not coloured
 // first: aircraft, ground, shadows, sky. Where aircraft and ground are equally near the aircraft is
@@ -64,9 +67,21 @@ void Planner::paint_by_depth() {
 
 void Planner::paint_in_order(const scene::Camera& camera, PlanCounts& counts) {
     plan_.ground = facing_the_eye(ground_, pixel_rad_, facing_indices_);
+    order_.arrange(boxes_);
     steps_.paint_sky();
-    steps_.paint_ground();
-    paint_knots(camera, counts);
+    // The clouds lie above all ground.
+    const bool from_above = clouds_ && camera.eye_m.z > cloud_height_m_;
+    if (from_above) {
+        steps_.paint_ground();
+    }
+    if (clouds_) {
+        paint_knots(camera, true, counts);
+        steps_.paint_veil(cloud_range_.first, cloud_range_.count);
+    }
+    if (!from_above) {
+        steps_.paint_ground();
+    }
+    paint_knots(camera, false, counts);
     if (placed_.size() > hulls_.size()) {
         paint(placed_.back(), scene::DepthUse::None); // the cockpit is nearer than all
     }
@@ -102,18 +117,31 @@ void Planner::paint_clear(const PlacedAircraft& aircraft) {
     }
 }
 
-void Planner::paint_knots(const scene::Camera& camera, PlanCounts& counts) {
-    order_.arrange(hulls_);
+/// By the middle of its box.
+bool Planner::is_beyond_clouds(const Knot& knot, const scene::Camera& camera) const {
+    const double knot_m = camera.eye_m.z + knot.box.centre_m.z;
+    return clouds_ && (knot_m > cloud_height_m_) != (camera.eye_m.z > cloud_height_m_);
+}
+
+/// Those that lie beyond the clouds, or those that do not.
+void Planner::paint_knots(const scene::Camera& camera, bool beyond_clouds, PlanCounts& counts) {
     for (const Knot& knot : order_.knots()) {
-        paint_knot(knot, camera, counts);
+        if (is_beyond_clouds(knot, camera) == beyond_clouds) {
+            paint_knot(knot, camera, counts);
+        }
     }
 }
 
 /// Paints a knot and again what lies before it; nothing again where it is out of view.
 void Planner::paint_knot(const Knot& knot, const scene::Camera& camera, PlanCounts& counts) {
     members_.clear();
+    knot_dashes_.clear();
     for (const std::uint32_t member : order_.members(knot)) {
-        members_.push_back(&placed_[member]);
+        if (member < hulls_.size()) {
+            members_.push_back(&placed_[member]);
+        } else {
+            knot_dashes_.push_back(member);
+        }
     }
     if (!scene::in_view(knot.box.centre_m, radius_m(knot.box), frustum_)) {
         for (const PlacedAircraft* member : members_) {
@@ -122,15 +150,55 @@ void Planner::paint_knot(const Knot& knot, const scene::Camera& camera, PlanCoun
         return;
     }
     in_front_.find(knot.box, *mesher_, ground_.all, camera.eye_m);
-    paint_members(knot, counts);
+    paint_aircraft(knot, counts);
     if (in_front_.found().empty() || holds_eye(knot.box)) {
         return;
     }
     // Not in the cone of a knot's box: between the members a farther knot may be seen before the
     // ground. What was painted earlier and is seen in a member's cone lies behind the member.
     for (const std::uint32_t member : order_.members(knot)) {
-        steps_.paint_before(ground_, in_front_.found(), knot.box, cone_of(hulls_[member]));
+        steps_.paint_before(ground_, in_front_.found(), knot.box, cone_of(boxes_[member]));
         counts.cuts += static_cast<int>(in_front_.found().size());
+    }
+}
+
+/// The aircraft of a knot with their effects, and the dashes of a ribbon behind and before them.
+void Planner::paint_aircraft(const Knot& knot, PlanCounts& counts) {
+    constexpr double endless_m2 = std::numeric_limits<double>::infinity();
+    const double away_m2 = members_.empty() ? 0.0 : glm::dot(knot.box.centre_m, knot.box.centre_m);
+    paint_dashes(endless_m2, away_m2);
+    if (!members_.empty()) {
+        paint_effects(false);
+        paint_members(knot, counts);
+        paint_effects(true);
+    }
+    paint_dashes(away_m2, -1.0);
+}
+
+/// Of the knot's aircraft, what lies behind them or before them.
+void Planner::paint_effects(bool after) {
+    for (const PlacedAircraft* member : members_) {
+        const auto i = static_cast<std::size_t>(member - placed_.data());
+        if (i < effect_ranges_.size()) {
+            const VeilRange& range = after ? effect_ranges_[i].after : effect_ranges_[i].before;
+            steps_.paint_veil(range.first, range.count);
+        }
+    }
+}
+
+/// Of the knot's dashes those whose middles lie so far off, the farthest first.
+void Planner::paint_dashes(double farther_m2, double nearer_m2) {
+    const auto away_m2 = [&](std::uint32_t box) {
+        return glm::dot(boxes_[box].centre_m, boxes_[box].centre_m);
+    };
+    std::ranges::sort(knot_dashes_, [&](std::uint32_t a, std::uint32_t b) {
+        return away_m2(a) != away_m2(b) ? away_m2(a) > away_m2(b) : a < b;
+    });
+    for (const std::uint32_t box : knot_dashes_) {
+        if (away_m2(box) <= farther_m2 && away_m2(box) > nearer_m2) {
+            const VeilRange& range = dashes_[box - hulls_.size()].range;
+            steps_.paint_veil(range.first, range.count);
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 #include "visuals/planning/mesh_levels.h"
 #include "visuals/planning/planner.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -75,7 +76,12 @@ void Planner::place_aircraft(
         const glm::dvec3 position_m = state.position_m - camera.eye_m;
         const double margin_m =
             hull_margin_m + hull_margin_px * pixel_rad_ * glm::length(position_m);
-        hulls_[i] = placed_hull(placed_[i].model->hull, position_m, state.body_to_world, margin_m);
+        HullExtent extent = placed_[i].model->hull;
+        if (i < effects_.size() && !effects_[i].empty()) {
+            extent.least_m = glm::min(extent.least_m, effects_[i].extent().least_m);
+            extent.most_m = glm::max(extent.most_m, effects_[i].extent().most_m);
+        }
+        hulls_[i] = placed_hull(extent, position_m, state.body_to_world, margin_m);
     }
     if (placed_.size() > states.size()) {
         sim::AircraftState around_eye = states.front();

@@ -65,9 +65,16 @@ void StepWriter::paint_shadows_by_depth(const GroundFrame& ground) {
         scene::PaintStep::What::GroundAgain, first, pieces.size(), scene::DepthUse::OnGround);
 }
 
-void StepWriter::paint_overlay() {
+void StepWriter::paint_veil(std::size_t first, std::size_t count) {
+    paint_range(scene::PaintStep::What::Veil, first, count, scene::DepthUse::None);
+}
+
+void StepWriter::paint_overlay(std::size_t first) {
     paint_range(
-        scene::PaintStep::What::Overlay, 0, plan_.overlay.indices.size(), scene::DepthUse::None);
+        scene::PaintStep::What::Overlay,
+        first,
+        plan_.overlay.indices.size() - first,
+        scene::DepthUse::None);
 }
 
 void StepWriter::paint(const scene::AircraftDraw& draw, scene::DepthUse depth) {

@@ -35,8 +35,11 @@ public:
     /// All shadows, where ground has been drawn by depth.
     void paint_shadows_by_depth(const GroundFrame& ground);
 
-    /// The plan's overlay; nothing where it is empty.
-    void paint_overlay();
+    /// A range of the plan's overlay, over what has been painted; nothing where it is empty.
+    void paint_veil(std::size_t first, std::size_t count);
+
+    /// The plan's overlay from an index on; nothing where it is empty.
+    void paint_overlay(std::size_t first);
 
     /// A whole aircraft. Consecutive ones that are drawn alike become one step.
     void paint(const scene::AircraftDraw& draw, scene::DepthUse depth = scene::DepthUse::None);

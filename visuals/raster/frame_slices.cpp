@@ -53,6 +53,11 @@ void FrameSlices::add_step(const FrameInput& input, const PaintStep& step, DrawS
     case PaintStep::What::ClearDepth:
     case PaintStep::What::Overlay:
         break;
+    case PaintStep::What::Veil:
+        style.fill = Fill::Veil;
+        add_slice(
+            {.indices = plan.overlay.indices.subspan(step.first, step.count), .style = style});
+        break;
     case PaintStep::What::Sky:
         add_slice(
             {.indices = plan.sky.indices.subspan(step.first, step.count),

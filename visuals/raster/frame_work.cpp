@@ -35,6 +35,21 @@ ScreenVertex overlay_vertex(const scene::OverlayVertex& from) {
     return vertex;
 }
 
+/// Appends triangles of the overlay.
+void add_overlay(
+    const scene::OverlayDraw& overlay,
+    std::span<const std::uint32_t> indices,
+    TriangleSetup& setup,
+    TriangleList& list) {
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        std::array<ScreenVertex, 3> corners;
+        for (std::size_t k = 0; k < 3; ++k) {
+            corners[k] = overlay_vertex(overlay.vertices[indices[i + k]]);
+        }
+        setup.add_overlay(corners[0], corners[1], corners[2], list);
+    }
+}
+
 /// How many times the longest edge of a triangle is twice the ground's sample spacing.
 float mesh_level(
     const glm::vec3& a_m, const glm::vec3& b_m, const glm::vec3& c_m, float sample_spacing_m) {
@@ -159,6 +174,10 @@ void FrameWork::set_up(const FrameInput& input, Batch& batch, TriangleSetup& set
     for (std::size_t s = batch.first; s < batch.end; ++s) {
         const FrameSlice& slice = slices_.slices()[s];
         setup.begin_step(slice.style);
+        if (slice.style.fill == Fill::Veil) {
+            add_overlay(plan.overlay, slice.indices, setup, batch.list);
+            continue;
+        }
         const ScreenCorners corners{vertices_, clip_, {}, lit_};
         const auto vertex = [&](std::uint32_t index) {
             return static_cast<std::uint32_t>(slice.first_corner + index);
@@ -194,12 +213,8 @@ void FrameWork::set_up_overlay(const FrameInput& input) {
     }
     TriangleSetup setup(projection_, input.plan, samples_, 0);
     setup.begin_step({});
-    for (std::size_t i = first; i + 2 < end; i += 3) {
-        std::array<ScreenVertex, 3> corners;
-        for (std::size_t k = 0; k < 3; ++k) {
-            corners[k] = overlay_vertex(overlay.vertices[overlay.indices[i + k]]);
-        }
-        setup.add_overlay(corners[0], corners[1], corners[2], overlay_.list);
+    if (first < end) {
+        add_overlay(overlay, overlay.indices.subspan(first, end - first), setup, overlay_.list);
     }
     bin(overlay_);
 }

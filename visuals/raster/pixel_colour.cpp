@@ -332,6 +332,7 @@ PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, i
     case Fill::Lit:
         return by_light(one, job, column, row);
     case Fill::Levels:
+    case Fill::Veil:
         break;
     }
     return by_levels(*one.triangle, column, row);

@@ -83,7 +83,15 @@ struct ClearPixel {
     std::uint16_t pixel = 0;
     std::uint16_t mask = 0;                ///< samples where it is seen
     std::array<std::uint16_t, 3> colour{}; ///< as PixelColour
-    float opacity = 1.0F;
+    std::uint16_t share = whole;           ///< of the pixel that it hides
+
+    static constexpr std::uint16_t whole = 4096;
+
+    /// What so many samples of sixteen hide, each by an opacity.
+    static std::uint16_t share_of(float opacity, int samples) {
+        return static_cast<std::uint16_t>(
+            static_cast<int>(opacity * 256.0F + 0.5F) * samples);
+    }
 };
 
 /// What a thread works on: sums of colours and masks of covered samples for the pixels of a tile.
@@ -109,6 +117,7 @@ struct TileBuffer {
     /// order.
     std::vector<ClearPixel> clear;
     std::vector<std::size_t> first_clear; ///< of each group that has any
+    std::vector<std::uint32_t> last_veil; ///< of each pixel: place in `clear`, from 1; 0: none
     // Of the overlay: what waits to be blended.
     std::vector<std::uint16_t> waiting;
     std::vector<std::uint32_t> waiting_colour;

@@ -10,6 +10,7 @@
 
 #include "visuals/raster/tile_depth-inl.h"
 #include "visuals/raster/tile_levels-inl.h"
+#include "visuals/raster/tile_veil-inl.h"
 
 #include <algorithm>
 
@@ -174,7 +175,8 @@ HWY_INLINE bool is_painted_over(const TileJob& job, const SampleLanes& lanes) {
     }
     const std::uint16_t first = job.triangles.front().triangle->group;
     const bool one_group = first != 0 && first == job.triangles.back().triangle->group;
-    return (job.far_to_near || one_group) && std::ranges::none_of(job.triangles, is_clear);
+    return (job.far_to_near || one_group) && std::ranges::none_of(job.triangles, is_clear) &&
+           std::ranges::none_of(job.triangles, is_veil);
 }
 
 /// All triangles of a tile, from the first to the last.

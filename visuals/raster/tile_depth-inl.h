@@ -186,7 +186,7 @@ HWY_INLINE void note_clear(
                     {static_cast<std::uint16_t>(pixel),
                      static_cast<std::uint16_t>(seen),
                      colour_of(one, job, job.first_px.x + column, job.first_px.y + row),
-                     one.extra->opacity});
+                     ClearPixel::share_of(one.extra->opacity, std::popcount(seen))});
             }
         }
     }

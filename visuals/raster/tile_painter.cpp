@@ -21,6 +21,7 @@
 #include "visuals/raster/tile_levels-inl.h"
 #include "visuals/raster/tile_picture-inl.h"
 #include "visuals/raster/tile_texture-inl.h"
+#include "visuals/raster/tile_veil-inl.h"
 
 #include <hwy/highway.h>
 #include <hwy/targets.h>
@@ -54,7 +55,12 @@ paint_near_to_far(const TileJob& job, const SampleLanes& lanes, TileBuffer& buff
     while (end > 0 && buffer.full_rows != job.full_rows()) {
         const std::uint16_t group = job.triangles[end - 1].triangle->group;
         std::size_t first = end - 1;
-        if (group == 0) {
+        if (is_veil(job.triangles[first])) {
+            while (first > 0 && is_veil(job.triangles[first - 1])) {
+                --first;
+            }
+            note_veil({job.triangles.data() + first, end - first}, job, lanes, buffer);
+        } else if (group == 0) {
             const TileTriangle& one = job.triangles[first];
             paint_one(one, job, lanes, buffer);
         } else {

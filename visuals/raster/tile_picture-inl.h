@@ -135,10 +135,8 @@ HWY_INLINE void blend(const TileJob& job, int column, int row, TileBuffer& buffe
 
 /// Blends one clear triangle over a pixel.
 HWY_INLINE void blend_clear(const TileJob& job, const ClearPixel& clear) {
-    constexpr std::uint32_t whole = 16 * 256;
-    const auto opacity = static_cast<std::uint32_t>(clear.opacity * 256.0F + 0.5F);
-    const std::uint32_t share =
-        opacity * static_cast<std::uint32_t>(std::popcount(std::uint32_t{clear.mask}));
+    constexpr std::uint32_t whole = ClearPixel::whole;
+    const std::uint32_t share = clear.share;
     const int row = clear.pixel / tile_width;
     const int column = clear.pixel % tile_width;
     std::uint8_t* const to = job.rgba + static_cast<std::size_t>(row) * job.row_bytes +

@@ -58,7 +58,8 @@ enum class Fill : std::uint8_t {
     Texture,     ///< places in the texture, light and haze as planes: EvenTexture
     TextureInPerspective,
     Mesh, ///< levels, and lines along the edges
-    Lit   ///< by light and normal in each pixel
+    Lit,  ///< by light and normal in each pixel
+    Veil  ///< levels, blended by their alpha over what lies farther
 };
 
 /// What only some triangles need.

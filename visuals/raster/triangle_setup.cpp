@@ -112,7 +112,7 @@ void TriangleSetup::add_overlay(
     if (((a.outside | b.outside | c.outside) & unplaced) != 0) {
         return;
     }
-    fill_ = Fill::Levels;
+    fill_ = style_.fill;
     flat_ = nullptr;
     extra_ = Triangle::none;
     is_overlay_ = true;

@@ -57,16 +57,14 @@ Camera tower_camera(const Tower& tower, const glm::dvec3& aircraft_m, double rad
     const double wanted_rad = std::abs(above_rad) / (aircraft_off + skyline_off);
     // 1 where the skyline can be had, 0 where it is so far off that it is given up.
     const double reach = 1.0 - glm::smoothstep(1.0, 1.6, wanted_rad / wide_rad);
-    const double fov_rad =
-        glm::mix(close_rad, std::clamp(wanted_rad, close_rad, wide_rad), reach);
+    const double fov_rad = glm::mix(close_rad, std::clamp(wanted_rad, close_rad, wide_rad), reach);
     Camera camera = camera_looking_at(tower.eye_m, aircraft_m);
     camera.vertical_fov_rad = std::max(
-        fov_rad,
-        std::min(tower.least_fov_rad, fov_for_share(radius_m, distance_m, least_share)));
+        fov_rad, std::min(tower.least_fov_rad, fov_for_share(radius_m, distance_m, least_share)));
     const double most_rad = aircraft_off * camera.vertical_fov_rad;
     const double tilt_rad = reach * std::clamp(0.5 * above_rad, -most_rad, most_rad);
-    camera.view_to_world = glm::normalize(
-        camera.view_to_world * glm::angleAxis(-tilt_rad, glm::dvec3(1.0, 0.0, 0.0)));
+    camera.view_to_world =
+        glm::normalize(camera.view_to_world * glm::angleAxis(-tilt_rad, glm::dvec3(1.0, 0.0, 0.0)));
     return camera;
 }
 

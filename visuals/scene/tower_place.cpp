@@ -38,8 +38,8 @@ constexpr double fine_walk = 1.03;
 /// Beside the flight, in radii of the aircraft, and above the ground, metres.
 constexpr std::array sideways_radii = {7.0, 14.0, 28.0, 56.0, 112.0, 224.0};
 constexpr std::array heights_m = {4.0, 25.0, 90.0};
-constexpr std::size_t most_stations = 24;  ///< of the flight, beside which spots lie
-constexpr std::size_t coarse_looks = 32;   ///< at the flight
+constexpr std::size_t most_stations = 24;    ///< of the flight, beside which spots lie
+constexpr std::size_t coarse_looks = 32;     ///< at the flight
 constexpr std::size_t looked_at_finely = 16; ///< spots
 
 double rising(double low, double high, double value) {
@@ -48,9 +48,9 @@ double rising(double low, double high, double value) {
 
 /// What lies along a look at the aircraft and on beyond it.
 struct Look {
-    bool free = true;         ///< of ground before the aircraft
-    double skyline_rad = 0.0; ///< beyond it
-    double behind_m = farthest_m; ///< distance of the ground that the aircraft is seen before
+    bool free = true;              ///< of ground before the aircraft
+    double skyline_rad = 0.0;      ///< beyond it
+    double behind_m = farthest_m;  ///< distance of the ground that the aircraft is seen before
     double skyline_m = farthest_m; ///< distance of the skyline
 };
 
@@ -168,8 +168,9 @@ std::vector<glm::dvec3> spots_for(const TowerWish& wish, const GroundHeight& gro
         const glm::dvec2 ahead = speed_mps > 1e-3 ? course / speed_mps : glm::dvec2(0.0, 1.0);
         for (const double radii : sideways_radii) {
             for (const double side : {-1.0, 1.0}) {
-                const glm::dvec2 at_m = glm::dvec2(state.position_m) +
-                                        side * radii * wish.radius_m * glm::dvec2(ahead.y, -ahead.x);
+                const glm::dvec2 at_m =
+                    glm::dvec2(state.position_m) +
+                    side * radii * wish.radius_m * glm::dvec2(ahead.y, -ahead.x);
                 const auto height_m = ground(at_m.x, at_m.y);
                 for (const double above_m : heights_m) {
                     if (height_m) {
@@ -212,8 +213,7 @@ double finest_fov_rad(const glm::dvec3& eye_m, const TowerWish& wish, const Grou
         const glm::dvec2 level_m(state.position_m - eye_m);
         const double size_m = std::max(glm::length(level_m), 1e-3);
         const double slope = (state.position_m.z - eye_m.z) / size_m;
-        const Look look =
-            look_along(eye_m, level_m / size_m, size_m, slope, coarse_walk, ground);
+        const Look look = look_along(eye_m, level_m / size_m, size_m, slope, coarse_walk, ground);
         behind_m.push_back(std::min(look.behind_m, look.skyline_m));
     }
     if (behind_m.empty()) {
@@ -245,8 +245,7 @@ Tower tower_for(const TowerWish& wish, const GroundHeight& ground) {
         const double ground_m = ground(wish.around_m.x, wish.around_m.y).value_or(0.0);
         return tower_at({wish.around_m, ground_m + usual_height_m}, wish, ground);
     }
-    std::ranges::stable_sort(
-        spots, [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::ranges::stable_sort(spots, [](const auto& a, const auto& b) { return a.first > b.first; });
     spots.resize(std::min(spots.size(), looked_at_finely));
     for (auto& [value, spot_m] : spots) {
         value = tower_score(spot_m, wish, ground);

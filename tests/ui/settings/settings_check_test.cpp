@@ -42,6 +42,26 @@ TEST_CASE("a time is a day that a calendar has, and a minute of it") {
         settings, "--time: expected a day and an hour as YYYY-MM-DDTHH:MM, got '2023-02-29T12:00'");
 }
 
+TEST_CASE("what is seen through is refused beside a depth buffer, a ribbon without a path") {
+    RunSettings settings;
+    settings.air.clouds = 0.5;
+    settings.view.path_ribbon = true;
+    settings.surface.effects = true;
+    CHECK_NOTHROW(ui::settings::check_settings(settings));
+    settings.path.name = std::string(ui::settings::live_path);
+    check_refused(settings, "--path-ribbon: expected a path or a track, got what others fly");
+    settings.view.path_ribbon = false;
+    CHECK_NOTHROW(ui::settings::check_settings(settings));
+    settings.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
+    check_refused(
+        settings,
+        "--clouds: expected --hidden-surface octant or back-face beside it, got depth-buffer");
+    settings.air.clouds = 0.0;
+    check_refused(
+        settings,
+        "--effects: expected --hidden-surface octant or back-face beside it, got depth-buffer");
+}
+
 TEST_CASE("eye points are refused where the view does not take them") {
     RunSettings settings;
     settings.view.eye_m = glm::dvec3(1.0, 2.0, 3.0);

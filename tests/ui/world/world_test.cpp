@@ -253,3 +253,36 @@ TEST_CASE("pictures are taken at the path's samples or at a rate, as long as is 
     settings.time.start_s = 1000.0;
     CHECK_THROWS_AS(ui::world::picture_times_of(settings, flight), Error);
 }
+
+TEST_CASE("the tower of a known flight stands by it; a live one's says that it knows no flight") {
+    RunSettings settings = over(rolling_ground());
+    settings.view.kind = octant::visuals::scene::View::Tower;
+    const auto says_so = [](const ui::world::World& world) {
+        return std::ranges::any_of(
+            world.notes, [](const std::string& note) { return note.starts_with("tower: "); });
+    };
+    const ui::world::World known = ui::world::load_world(settings);
+    CHECK(!says_so(known));
+    double nearest_m = 1e9;
+    for (const sim::AircraftState& state : known.flight.trajectory.samples()) {
+        nearest_m = std::min(nearest_m, glm::distance(state.position_m, known.points.tower.eye_m));
+    }
+    CHECK(nearest_m < 3000.0);
+    settings.path.name = std::string(ui::settings::live_path);
+    const ui::world::World live = ui::world::load_world(settings);
+    CHECK(says_so(live));
+    CHECK(live.scene.path == nullptr);
+    REQUIRE(known.scene.path != nullptr);
+    CHECK(known.scene.path->points.size() > 10);
+}
+
+TEST_CASE("clouds that would lie in the ground are refused with its height") {
+    RunSettings settings = over(rolling_ground());
+    settings.air.clouds = 0.4;
+    settings.air.cloud_height_m = 101.0;
+    CHECK_NOTHROW(ui::world::load_world(settings));
+    settings.air.cloud_height_m = 99.0;
+    CHECK_THROWS_WITH(
+        ui::world::load_world(settings),
+        "--cloud-height: expected more than the highest ground, 100 m, got 99");
+}

@@ -1,0 +1,116 @@
+#include "visuals/planning/aircraft_effects.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+#include "small_world.h"
+
+using namespace octant;
+using namespace octant::tests;
+using namespace octant::visuals::planning;
+using namespace octant::visuals::scene;
+using models::polygons::PolygonModel;
+
+namespace {
+
+/// Adds one more box as a part of its own.
+void add_part(
+    PolygonModel& model,
+    const std::string& name,
+    const glm::dvec3& at_m,
+    const glm::dvec3& half_m) {
+    const PolygonModel box = box_model(half_m);
+    const auto vertices = static_cast<std::uint32_t>(model.vertices_m.size());
+    const auto corners = static_cast<std::uint32_t>(model.corner_vertices.size());
+    model.parts.push_back(name);
+    for (const glm::dvec3& vertex_m : box.vertices_m) {
+        model.vertices_m.push_back(vertex_m + at_m);
+    }
+    for (const std::uint32_t corner : box.corner_vertices) {
+        model.corner_vertices.push_back(corner + vertices);
+    }
+    for (models::polygons::Polygon polygon : box.polygons) {
+        polygon.first_corner += corners;
+        polygon.part = static_cast<std::uint32_t>(model.parts.size() - 1);
+        model.polygons.push_back(polygon);
+    }
+}
+
+PolygonModel jet() {
+    PolygonModel model = box_model({8.0, 5.0, 1.0});
+    add_part(model, "nozzle_right", {-8.5, 1.0, 0.0}, {0.5, 0.6, 0.6});
+    add_part(model, "nozzle_left", {-8.5, -1.0, 0.0}, {0.5, 0.6, 0.6});
+    return model;
+}
+
+PolygonModel helicopter(double rotor_down_m) {
+    PolygonModel model = box_model({4.0, 0.8, 1.0});
+    add_part(model, "rotor", {0.0, 0.0, rotor_down_m}, {4.0, 0.1, 0.02});
+    model.pivots.push_back({1, {0.0, 0.0, rotor_down_m}, {0.0, 0.0, -1.0}, 8.0});
+    return model;
+}
+
+/// Triangles before and after the aircraft, for an eye at a place of its body axes.
+struct Painted {
+    std::size_t before = 0;
+    std::size_t after = 0;
+};
+
+Painted painted(AircraftEffects& effects, const glm::dvec3& eye_m, const EffectStrength& strength) {
+    const Camera camera = camera_looking_at(eye_m, {0.0, 0.0, 0.0});
+    Veils veils;
+    const Haze haze;
+    veils.begin(view_to_clip(camera, 1.0) * world_to_view(camera), {400, 400}, haze);
+    glm::dmat4 place(1.0);
+    place[3] = glm::dvec4(-eye_m, 1.0);
+    const auto ranges = effects.add(place, strength, veils);
+    return {ranges.before.count / 3, ranges.after.count / 3};
+}
+
+} // namespace
+
+TEST_CASE("a plume is painted after the aircraft for eyes behind it, else before") {
+    AircraftEffects effects(jet());
+    const EffectStrength strength{1.0, 1.0, 0.0};
+    const Painted from_behind = painted(effects, {-60.0, 3.0, -5.0}, strength);
+    CHECK(from_behind.before == 0);
+    CHECK(from_behind.after > 20);
+    const Painted from_ahead = painted(effects, {60.0, 3.0, -5.0}, strength);
+    CHECK(from_ahead.before > 20);
+    CHECK(from_ahead.after == 0);
+    CHECK(effects.extent().least_m.x < -11.0);
+}
+
+TEST_CASE("vapour lies beyond each wingtip and only under load") {
+    AircraftEffects effects(jet());
+    const Painted with = painted(effects, {10.0, 60.0, -5.0}, {0.0, 0.0, 1.0});
+    const Painted without = painted(effects, {10.0, 60.0, -5.0}, {0.0, 0.0, 0.0});
+    CHECK(with.after > without.after);   // of the right wingtip
+    CHECK(with.before > without.before); // of the left one
+}
+
+TEST_CASE("a rotor has a disc only where a plane parts it from the rest") {
+    AircraftEffects above(helicopter(-1.6));
+    CHECK(!above.empty());
+    CHECK(painted(above, {-20.0, 3.0, -15.0}, {}).after > 0);
+    CHECK(painted(above, {-20.0, 3.0, 15.0}, {}).before > 0);
+    CHECK(AircraftEffects(helicopter(0.0)).empty());
+    CHECK(AircraftEffects(box_model({4.0, 0.8, 1.0})).empty());
+}
+
+TEST_CASE("thrust and load say how strong effects are") {
+    sim::AircraftState state = state_at({0.0, 0.0, 500.0});
+    state.velocity_mps = {200.0, 0.0, 0.0};
+    state.load_factor = 1.0;
+    CHECK(strength_of(state).burner == 0.0);
+    CHECK(strength_of(state).vapour == 0.0);
+    state.load_factor = 6.5;
+    CHECK(strength_of(state).burner > 0.9);
+    CHECK(strength_of(state).vapour == 1.0);
+    state.load_factor = 1.0;
+    state.velocity_mps = {150.0, 0.0, 150.0};
+    CHECK(strength_of(state).burner == 1.0);
+    CHECK(strength_of(state).vapour == 0.0);
+}

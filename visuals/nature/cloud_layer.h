@@ -1,0 +1,67 @@
+#pragma once
+
+#include "models/colour_vertex.h"
+#include "visuals/nature/daylight.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::nature {
+
+/// One thin layer of clouds: a level sheet of triangles around the eye, finer near it, with
+/// density and light at its corners. Where clouds are follows from the place alone, so that they
+/// stand still over the ground.
+class CloudLayer {
+public:
+    /// `cover`: share of the sky that has clouds, 0..1. Makes the density of all places.
+    explicit CloudLayer(double cover);
+
+    /// Colours of the clouds by a daylight.
+    void light_by(const Daylight& day);
+
+    /// Clear triangles in world axes with the eye subtracted, their alpha the density. None lies
+    /// before another.
+    struct Triangles {
+        std::span<const models::ColourVertex> vertices;
+        std::span<const std::uint32_t> indices;
+    };
+
+    /// The layer at `height_m` as seen from an eye; it sinks with the square of the distance over a
+    /// round earth (radius 0: flat). Near the layer's height it thins out, so that an eye passes
+    /// through. Valid until the next call, in the same memory.
+    Triangles seen_from(const glm::dvec3& eye_m, double height_m, double earth_radius_m);
+
+    /// Farther off there are no clouds.
+    static constexpr double reach_m = 32000.0;
+
+private:
+    static constexpr int levels = 6; ///< each with cells of twice the size
+    static constexpr int side = 32;  ///< cells of each level along one side of its square
+    static constexpr int nodes = side + 1;
+
+    struct Node {
+        float density = 0.0F;
+        float light = 0.0F; ///< of the slope towards the sun, -1..1
+    };
+
+    Node node(int level, std::int64_t column, std::int64_t row) const;
+    Node seen_node(int level, std::int64_t column, std::int64_t row, float coarser) const;
+    models::ColourVertex
+    vertex(const Node& node, const glm::dvec3& at_m, bool from_above, float thinned) const;
+    void add_level(int level, const glm::dvec3& eye_m, double height_m, double earth_radius_m);
+
+    std::array<std::vector<float>, levels + 1> density_; ///< periodic; 0 = none, 1 = full
+    glm::vec2 to_sun_level_{0.0F};
+    glm::vec3 bright_{1.0F};
+    glm::vec3 dark_{0.6F};
+    std::vector<models::ColourVertex> vertices_;
+    std::vector<std::uint32_t> indices_;
+};
+
+} // namespace octant::visuals::nature

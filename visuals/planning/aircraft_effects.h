@@ -1,0 +1,72 @@
+#pragma once
+
+#include "models/colour_vertex.h"
+#include "models/polygons/polygon_model.h"
+#include "sim/aircraft_state.h"
+#include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/veils.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace octant::visuals::planning {
+
+/// How much of an aircraft's effects is seen in a state, each 0..1.
+struct EffectStrength {
+    double exhaust = 0.0; ///< hot air behind the nozzles
+    double burner = 0.0;  ///< afterburners: climb and load ask for more thrust than without them
+    double vapour = 0.0;  ///< at the wingtips, under load
+};
+
+EffectStrength strength_of(const sim::AircraftState& state);
+
+/// What is seen through around an aircraft: discs of quick rotors and propellers, plumes behind
+/// nozzles, vapour behind wingtips. Each lies on one side of a plane that has all the rest of the
+/// aircraft on its other side, so that it is painted after the aircraft for eyes on its own side
+/// and before it for all others. A rotor without such a plane has no disc.
+class AircraftEffects {
+public:
+    /// Of a model in body axes: its pivots that turn fast, its polygons of materials named as
+    /// nozzles and burners, and the ends of its span, of models with a nozzle.
+    explicit AircraftEffects(const models::polygons::PolygonModel& model);
+
+    bool empty() const { return veils_.empty(); }
+
+    /// Corners of a box in body axes that holds them all, at any strength.
+    const HullExtent& extent() const { return extent_; }
+
+    struct Ranges {
+        VeilRange before; ///< the aircraft
+        VeilRange after;
+    };
+
+    /// Adds what is seen to a frame's veils.
+    Ranges
+    add(const glm::dmat4& body_to_eye_world, const EffectStrength& strength, Veils& veils);
+
+private:
+    enum class Kind : std::uint8_t { Disc, Plume, Vapour };
+
+    /// `out` is the unit vector from the plane through `place_m` to the effect's side.
+    struct Effect {
+        Kind kind = Kind::Disc;
+        glm::dvec3 place_m{0.0};
+        glm::dvec3 out{0.0, 0.0, -1.0};
+        double radius_m = 1.0;
+    };
+
+    void find_discs(const models::polygons::PolygonModel& model);
+    void find_plumes(const models::polygons::PolygonModel& model);
+    void find_vapour(const models::polygons::PolygonModel& model);
+    void add_effect(const Effect& effect, const glm::dvec3& reach_m);
+
+    std::vector<Effect> veils_;
+    HullExtent extent_;
+    std::vector<models::ColourVertex> vertices_; ///< of the frame at hand
+    std::vector<std::uint32_t> indices_;
+};
+
+} // namespace octant::visuals::planning

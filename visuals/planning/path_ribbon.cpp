@@ -1,0 +1,114 @@
+#include "visuals/planning/path_ribbon.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace octant::visuals::planning {
+
+namespace {
+
+constexpr std::size_t most_dashes = 80;
+constexpr double dash_s = 1.0; ///< where that are not too many
+constexpr double box_margin_m = 0.2;
+constexpr double farthest_m = 40000.0;
+constexpr std::array<std::uint32_t, 2> leg_colours{0x001e8cffU, 0x00e6d232U}; ///< amber, cyan
+constexpr std::uint32_t flown_alpha = 0xd0U;
+constexpr std::uint32_t coming_alpha = 0x68U;
+
+/// The smallest box along a dash's chord that holds its corners.
+HullBox box_around(std::span<const models::ColourVertex> corners, const glm::dvec3& chord) {
+    HullBox box;
+    const double length_m = glm::length(chord);
+    const glm::dvec3 along = length_m > 1e-6 ? chord / length_m : glm::dvec3(1.0, 0.0, 0.0);
+    const glm::dvec3 level(-along.y, along.x, 0.0);
+    const glm::dvec3 side =
+        glm::length(level) > 1e-6 ? glm::normalize(level) : glm::dvec3(0.0, 1.0, 0.0);
+    box.axes = glm::dmat3(along, side, glm::cross(along, side));
+    glm::dvec3 least(1e300);
+    glm::dvec3 most(-1e300);
+    for (const models::ColourVertex& corner : corners) {
+        const glm::dvec3 at = glm::transpose(box.axes) * glm::dvec3(corner.position_m);
+        least = glm::min(least, at);
+        most = glm::max(most, at);
+    }
+    box.centre_m = box.axes * (0.5 * (least + most));
+    box.half_m = 0.5 * (most - least) + box_margin_m;
+    return box;
+}
+
+} // namespace
+
+PathRibbon::PathRibbon(const FlownPath& path)
+    : path_(path) {
+    const auto usual = static_cast<std::size_t>(std::lround(dash_s / path.step_s));
+    points_a_dash_ = std::max({usual, path.points.size() / most_dashes, std::size_t{2}});
+}
+
+std::span<const PathRibbon::Dash> PathRibbon::dashes(const RibbonView& view, Veils& veils) {
+    dashes_.clear();
+    if (path_.points.size() < 2) {
+        return dashes_;
+    }
+    const std::size_t last = path_.points.size() - 1;
+    for (std::size_t first = 0; first < last; first += points_a_dash_) {
+        // The last tenth is the gap to the next dash.
+        const std::size_t gap = std::max<std::size_t>(points_a_dash_ / 10, 1);
+        add_dash(first, std::min(first + points_a_dash_ - gap, last), view, veils);
+    }
+    return dashes_;
+}
+
+/// The dash of points first .. last, without those that are beside the aircraft.
+void PathRibbon::add_dash(
+    std::size_t first, std::size_t last, const RibbonView& view, Veils& veils) {
+    const double now = (view.time_s - path_.first_s) / path_.step_s; // in points
+    const auto own = static_cast<std::size_t>(
+        std::clamp(std::lround(now), 0L, static_cast<long>(path_.points.size() - 1)));
+    const glm::dvec3 aircraft_m = path_.points[own].position_m;
+    const auto close = [&](std::size_t point) {
+        return glm::distance(path_.points[point].position_m, aircraft_m) < view.gap_m;
+    };
+    while (first < last && close(first)) {
+        ++first;
+    }
+    while (last > first && close(last)) {
+        --last;
+    }
+    if (first >= last || glm::distance(path_.points[first].position_m, view.eye_m) > farthest_m) {
+        return;
+    }
+    const auto next_leg =
+        std::ranges::upper_bound(path_.legs, first, {}, &FlownPath::Leg::first_point);
+    const auto leg = static_cast<std::size_t>(next_leg - path_.legs.begin());
+    vertices_.clear();
+    indices_.clear();
+    for (std::size_t i = first; i <= last; ++i) {
+        const FlownPath::Point& point = path_.points[i];
+        const bool flown = static_cast<double>(i) <= now;
+        const std::uint32_t colour =
+            leg_colours[leg % leg_colours.size()] | (flown ? flown_alpha : coming_alpha) << 24U;
+        for (const double side : {-1.0, 1.0}) {
+            glm::dvec3 at_m =
+                point.position_m + side * view.half_width_m * point.right - view.eye_m;
+            if (view.earth_radius_m > 0.0) {
+                at_m.z -= (at_m.x * at_m.x + at_m.y * at_m.y) / (2.0 * view.earth_radius_m);
+            }
+            vertices_.push_back({glm::vec3(at_m), colour});
+        }
+        if (i > first) {
+            const auto a = static_cast<std::uint32_t>(vertices_.size() - 4);
+            indices_.insert(indices_.end(), {a, a + 1, a + 3, a, a + 3, a + 2});
+        }
+    }
+    const glm::dvec3 chord = path_.points[last].position_m - path_.points[first].position_m;
+    const VeilRange range = veils.add(vertices_, indices_);
+    if (range.count > 0) {
+        dashes_.push_back({box_around(vertices_, chord), range});
+    }
+}
+
+} // namespace octant::visuals::planning

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "models/colour_vertex.h"
+#include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/flown_path.h"
+#include "visuals/planning/veils.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::planning {
+
+/// What a ribbon is made by.
+struct RibbonView {
+    glm::dvec3 eye_m{0.0};
+    double earth_radius_m = 0.0; ///< what is far sinks; 0 = flat
+    double time_s = 0.0;         ///< what has been flown by then is stronger
+    double half_width_m = 3.0;
+    double gap_m = 15.0; ///< before and behind the aircraft, which is not covered
+};
+
+/// A path as a ribbon along the wings, in dashes of about equal times with gaps between them, so
+/// that each has a place of its own in the painting order. Legs have two colours in turn. Keeps its
+/// memory.
+class PathRibbon {
+public:
+    /// The path must outlive the ribbon.
+    explicit PathRibbon(const FlownPath& path);
+
+    struct Dash {
+        HullBox box; ///< holds it; eye at the origin
+        VeilRange range;
+    };
+
+    /// The dashes of a frame, added to its veils. Valid until the next call.
+    std::span<const Dash> dashes(const RibbonView& view, Veils& veils);
+
+private:
+    void add_dash(std::size_t first, std::size_t last, const RibbonView& view, Veils& veils);
+
+    const FlownPath& path_;
+    std::size_t points_a_dash_ = 1;
+    std::vector<Dash> dashes_;
+    std::vector<models::ColourVertex> vertices_;
+    std::vector<std::uint32_t> indices_;
+};
+
+} // namespace octant::visuals::planning

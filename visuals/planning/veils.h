@@ -1,0 +1,60 @@
+#pragma once
+
+#include "models/colour_vertex.h"
+#include "visuals/scene/frame_plan.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::planning {
+
+/// A range of Veils::draw()'s indices.
+struct VeilRange {
+    std::size_t first = 0;
+    std::size_t count = 0;
+};
+
+/// Clear triangles of a frame on their way into the picture: seen through the haze, cut at the
+/// view's edges and placed. Keeps its memory.
+class Veils {
+public:
+    /// Forgets the last frame. The haze must outlive the frame.
+    void begin(const glm::mat4& world_to_clip, const glm::ivec2& size_px, const scene::Haze& haze);
+
+    /// Adds triangles, either way round: world axes with the eye subtracted, their alpha says how
+    /// much of what is behind they cover. Returns what is seen of them.
+    VeilRange
+    add(std::span<const models::ColourVertex> vertices, std::span<const std::uint32_t> indices);
+
+    /// All that was added. Valid until the next call of another member.
+    scene::OverlayDraw draw() const { return {vertices_, indices_}; }
+
+private:
+    struct Corner {
+        glm::vec4 clip{0.0F};
+        glm::vec4 colour{-1.0F}; ///< display values and alpha; below 0 until it is asked for
+        std::uint32_t outside = 0; ///< a bit for each plane that it is behind
+    };
+
+    Corner placed(const models::ColourVertex& vertex) const;
+    void colour(const models::ColourVertex& vertex, Corner& corner) const;
+    void cut();
+    void add_polygon(std::span<const Corner> corners);
+
+    glm::mat4 world_to_clip_{1.0F};
+    glm::vec2 size_px_{1.0F};
+    const scene::Haze* haze_ = nullptr;
+    std::vector<Corner> corners_;
+    std::vector<Corner> polygon_;
+    std::vector<Corner> scratch_;
+    std::vector<scene::OverlayVertex> vertices_;
+    std::vector<std::uint32_t> indices_;
+};
+
+} // namespace octant::visuals::planning
