@@ -135,7 +135,10 @@ private:
     ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const;
     void place_and_refine(const PlanRequest& request);
     SmoothChoice::Count choose_smooth(const SmoothWish& wish);
+    Sky sky_under(const nature::Daylight& day) const;
     void plan_light();
+    void make_veils();
+    void light_clouds();
     void plan_haze(const scene::Camera& camera);
     void plan_sky(const scene::Camera& camera);
     void plan_grain(const scene::Camera& camera);
@@ -178,10 +181,10 @@ private:
     Veils veils_;
     VeilRange cloud_range_; ///< of veils_
     std::optional<PathRibbon> ribbon_;
-    std::vector<PathRibbon::Dash> dashes_;                       ///< of this frame
-    std::vector<std::uint32_t> knot_dashes_;                     ///< of the knot at hand
-    std::vector<AircraftEffects> effects_;                       ///< of Scene::aircraft, or none
-    std::vector<AircraftEffects::Ranges> effect_ranges_;         ///< of effects_, of veils_
+    std::vector<PathRibbon::Dash> dashes_;               ///< of this frame
+    std::vector<std::uint32_t> knot_dashes_;             ///< of the knot at hand
+    std::vector<AircraftEffects> effects_;               ///< of Scene::aircraft, or none
+    std::vector<AircraftEffects::Ranges> effect_ranges_; ///< of effects_, of veils_
     ShadowCaster shadows_;
     SceneOrder order_;
     GroundInFront in_front_;
