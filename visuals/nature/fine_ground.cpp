@@ -17,8 +17,7 @@ namespace octant::visuals::nature {
 namespace {
 
 constexpr std::size_t table_places = std::size_t{1} << 15U;
-constexpr float least_edge = 1.0F / 24; ///< over the sample distance: edges below stay whole
-constexpr float full_at = 1.8F;         ///< times as long: the middle is where it belongs
+constexpr float full_at = 1.8F; ///< times as long: the middle is where it belongs
 constexpr int most_depth = 14;
 constexpr float moved_a_slope = 0.3F;
 constexpr float shade = 0.16F;
@@ -80,7 +79,7 @@ bool FineGround::looks_long(std::uint32_t a, std::uint32_t b) const {
     const glm::vec3& to = vertices_[b].position_m;
     const float length2 = level_length2(from, to);
     const float distance2 = std::max(squared(0.5F * (from + to)), nearest_m * nearest_m);
-    const float least = least_edge * static_cast<float>(view_.spacing_m);
+    const float least = least_fine_edge * static_cast<float>(view_.spacing_m);
     return length2 > view_.long_rad * view_.long_rad * distance2 && length2 > least * least;
 }
 

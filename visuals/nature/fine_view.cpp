@@ -9,7 +9,6 @@ namespace {
 
 constexpr double usual_edge_rad = 0.08;
 constexpr double usual_width_rad = 1.4;
-constexpr double least_edge = 1.0 / 24.0; ///< as FineGround
 /// Halvings over those that even level ground takes: slopes, edges of the picture.
 constexpr double more_than_level = 1.3;
 constexpr double always = 500.0; ///< halvings of large level triangles, wherever the eye is
@@ -25,10 +24,11 @@ void share_out_detail(const DetailRoom& room, const NearDetail& detail, FineView
     const double wide = std::clamp(room.width_rad / usual_width_rad, 0.01, 2.0);
     const double edge_rad = usual_edge_rad * std::sqrt(wide / share);
     view.long_rad = static_cast<float>(edge_rad);
-    const double far_m = 1.42 * view.spacing_m / edge_rad;
-    const double near_m = std::max(room.over_m, least_edge * view.spacing_m / edge_rad);
+    const double to_m = 1.42 * view.spacing_m / edge_rad;
+    const double from_m =
+        std::max(room.over_m, static_cast<double>(least_fine_edge) * view.spacing_m / edge_rad);
     const double level =
-        2.0 * room.width_rad / (edge_rad * edge_rad) * std::log(std::max(far_m / near_m, 1.0));
+        2.0 * room.width_rad / (edge_rad * edge_rad) * std::log(std::max(to_m / from_m, 1.0));
     const double splits = more_than_level * level + always * share;
     view.most_splits = detail.fine_ground ? static_cast<std::size_t>(splits) : 0;
     const double low = std::clamp(1.2 - room.over_m / things_below_m, 0.0, 1.0);

@@ -9,6 +9,9 @@
 
 namespace octant::visuals::nature {
 
+/// Edges of the ground that are shorter stay whole; over the distance of samples.
+inline constexpr float least_fine_edge = 1.0F / 24.0F;
+
 /// From where ground is looked at, and how finely it is sampled.
 struct FineView {
     glm::dvec3 eye_m{0.0}; ///< world axes

@@ -233,21 +233,24 @@ struct StripWalk {
     }
 };
 
-/// Adds what is new in a row of a strip, each pixel's colour with its share of the pattern.
-/// `fresh`: of `pixels`, a bit each, at least one, from `at` in the picture and `pixel` in the
-/// tile.
+/// What a triangle newly covers in a row of a strip.
+struct NewPixels {
+    glm::ivec2 at;            ///< the strip's first pixel in the picture ...
+    std::size_t pixel;        ///< ... and in the tile
+    const StripValues& fresh; ///< samples
+    std::uint32_t pixels;     ///< those with any, a bit each; at least one
+};
+
+/// Adds the colours of new samples, each pixel's with its share of the pattern.
 HWY_INLINE void add_grained_row(
     const GrainPlanes& planes,
     const Levels& levels,
     const GrainImage& image,
-    const glm::ivec2& at,
-    std::uint32_t pixels,
-    const StripValues& fresh,
-    std::size_t pixel,
+    const NewPixels& row,
     TileBuffer& buffer) {
-    const int first = std::countr_zero(pixels);
-    const int last = 31 - std::countl_zero(pixels);
-    const GrainRow along(planes, at + glm::ivec2(first, 0), std::max(last - first, 1));
+    const int first = std::countr_zero(row.pixels);
+    const int last = 31 - std::countl_zero(row.pixels);
+    const GrainRow along(planes, row.at + glm::ivec2(first, 0), std::max(last - first, 1));
     alignas(64) StripGrain grain{};
     grain_along(image, along, last - first + 1, grain.data() + first);
     const auto walk = [&](std::size_t k, double middle, double unit) HWY_ATTR {
@@ -262,7 +265,7 @@ HWY_INLINE void add_grained_row(
         const std::size_t part = i * part_px;
         const auto within = hn::Max(share.at(part), hn::Zero(sign));
         const auto change = product(hn::Load(sign, &grain[part]), within);
-        const auto counts = hn::PopulationCount(fresh[i]);
+        const auto counts = hn::PopulationCount(row.fresh[i]);
         for (std::size_t k = 0; k < 3; ++k) {
             const auto level = hn::Min(
                 hn::Max(walks[k].at(part), hn::Set(sign, levels.least[k])),
@@ -271,7 +274,7 @@ HWY_INLINE void add_grained_row(
             const auto changed =
                 hn::Add(own, hn::ShiftRight<2>(hn::MulHigh(hn::ShiftLeft<3>(own), change)));
             const auto colour = hn::BitCast(Strip(), hn::Min(changed, hn::Set(sign, 255 * 16)));
-            std::uint16_t* const sums = buffer.sums[k].data() + pixel + part;
+            std::uint16_t* const sums = buffer.sums[k].data() + row.pixel + part;
             hn::StoreU(hn::Add(hn::LoadU(Strip(), sums), hn::Mul(colour, counts)), Strip(), sums);
         }
     }
@@ -285,15 +288,16 @@ HWY_NOINLINE void paint_grain(
         return;
     }
     const GrainPlanes planes(*one.extra, *job.grain_rays);
-    const auto add_row =
-        [&](const glm::ivec2& at, const StripValues&, const StripValues& fresh, std::size_t pixel)
-            HWY_ATTR {
-                const std::uint32_t pixels = set_bits(fresh);
-                if (pixels != 0) {
-                    add_grained_row(
-                        planes, one.triangle->levels, *job.grain, at, pixels, fresh, pixel, buffer);
-                }
-            };
+    const auto add_row = [&](const glm::ivec2& at,
+                             const StripValues&,
+                             const StripValues& fresh,
+                             std::size_t pixel) HWY_ATTR {
+        const std::uint32_t pixels = set_bits(fresh);
+        if (pixels != 0) {
+            add_grained_row(
+                planes, one.triangle->levels, *job.grain, {at, pixel, fresh, pixels}, buffer);
+        }
+    };
     for (int left = box.left; left <= box.right; left += strip_px) {
         paint_strip_by_rows(*one.triangle, add_row, job, lanes, box, left, buffer);
     }
