@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 // Density is gradient-free value noise in octaves over a periodic lattice, of which the share
 // `cover` lies above a threshold. Squares of cells lie around the eye like those of a geometry
