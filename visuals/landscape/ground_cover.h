@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/landscape/ground_palette.h"
+#include "visuals/landscape/ground_point.h"
 #include "visuals/nature/climate.h"
 
 #include <glm/vec3.hpp>

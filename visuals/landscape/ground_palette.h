@@ -1,5 +1,6 @@
 #pragma once
 
+#include "visuals/landscape/ground_point.h"
 #include "visuals/nature/climate.h"
 #include "visuals/nature/daylight.h"
 #include "visuals/nature/relief_light.h"
@@ -33,15 +34,6 @@ nature::Climate climate_at(const std::optional<models::heights::GeoPlace>& place
 
 /// Whether ground has the same colours under both: its sun, water and palette.
 bool same_colours(const scene::AirSettings& a, const scene::AirSettings& b);
-
-/// A place on the ground.
-struct GroundPoint {
-    float east_m = 0.0F;   ///< of the field's south-west corner
-    float north_m = 0.0F;  ///< of the field's south-west corner
-    float height_m = 0.0F; ///< above datum
-    glm::vec3 normal{0.0F, 0.0F, 1.0F};
-    float shore = 0.0F; ///< of water: share of its surroundings that is land
-};
 
 /// Which colour ground has by place, height and slope: the same everywhere and for every field.
 class GroundPalette {
