@@ -12,7 +12,7 @@ namespace {
 
 /// About the work of one of each (SearchBudget).
 constexpr std::uint64_t units_of_pair = 20;
-constexpr std::uint64_t units_of_witness = 5'000;
+constexpr std::uint64_t units_of_witness = 2'000;
 constexpr std::uint64_t units_of_none = 1'000'000;
 constexpr std::uint64_t units_of_polygon_in_part = 60;
 
