@@ -9,7 +9,9 @@
 #endif
 
 #include "visuals/raster/pixel_colour.h"
+#include "visuals/raster/strip_level-inl.h"
 #include "visuals/raster/tile_coverage-inl.h"
+#include "visuals/raster/tile_fill-inl.h"
 
 #include <bit>
 
@@ -192,46 +194,39 @@ HWY_INLINE void note_clear(
     }
 }
 
-/// Colours what is seen of a group in a pixel where nothing nearer covers it.
-HWY_INLINE void fold_pixel(
-    std::span<const TileTriangle> group,
-    const TileJob& job,
-    int column,
-    int row,
-    TileBuffer& buffer) {
-    const auto pixel = static_cast<std::size_t>(row * tile_width + column);
-    const std::uint32_t* const seen = buffer.seen.data() + pixel * samples;
+/// The samples of a pixel that show a triangle of its group.
+HWY_INLINE std::uint16_t samples_showing(std::uint32_t name, const std::uint32_t* seen) {
     const Seen whole;
-    std::uint32_t left = 0;
-    const auto equal_to = [&](std::uint32_t name) HWY_ATTR {
-        std::uint32_t bits = 0;
-        for (std::size_t lane = 0; lane < samples; lane += hn::Lanes(whole)) {
-            alignas(8) std::array<std::uint8_t, 8> some{};
-            hn::StoreMaskBits(
-                whole, hn::Eq(hn::LoadU(whole, seen + lane), hn::Set(whole, name)), some.data());
-            bits |= static_cast<std::uint32_t>(some[0] | some[1] << 8) << lane;
-        }
-        return bits & 0xffffU;
-    };
-    left = ~equal_to(0U) & 0xffffU & ~static_cast<std::uint32_t>(buffer.covered[pixel]);
-    buffer.covered[pixel] = static_cast<std::uint16_t>(buffer.covered[pixel] | left);
-    if (buffer.covered[pixel] == 0xffffU) {
-        std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
-        full |= std::uint64_t{1} << column;
-        buffer.full_rows |=
-            (full & job.full_row()) == job.full_row() ? std::uint32_t{1} << row : 0U;
+    std::uint32_t bits = 0;
+    for (std::size_t lane = 0; lane < samples; lane += hn::Lanes(whole)) {
+        alignas(8) std::array<std::uint8_t, 8> some{};
+        hn::StoreMaskBits(
+            whole, hn::Eq(hn::LoadU(whole, seen + lane), hn::Set(whole, name)), some.data());
+        bits |= static_cast<std::uint32_t>(some[0] | some[1] << 8) << lane;
     }
-    while (left != 0) {
-        const std::uint32_t name = seen[std::countr_zero(left)];
-        const std::uint32_t own = equal_to(name) & left;
-        const auto count = static_cast<std::uint32_t>(std::popcount(own));
-        const PixelColour colour =
-            colour_of(group[name - 1], job, job.first_px.x + column, job.first_px.y + row);
-        for (std::size_t k = 0; k < 3; ++k) {
-            buffer.sums[k][pixel] =
-                static_cast<std::uint16_t>(buffer.sums[k][pixel] + colour[k] * count);
+    return static_cast<std::uint16_t>(bits);
+}
+
+/// Makes what is seen of a triangle of a group its coverage.
+HWY_INLINE void
+cover_seen(const TileTriangle& one, std::uint32_t name, const TileJob& job, TileBuffer& buffer) {
+    const TileBox box(*one.triangle, job);
+    buffer.coverage.first_row = box.first_row;
+    buffer.coverage.last_row = box.last_row;
+    for (int row = box.first_row; row <= box.last_row; ++row) {
+        std::uint16_t* const masks =
+            buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
+        int first = box.right + 1;
+        int last = box.left - 1;
+        for (int column = box.left; column <= box.right; ++column) {
+            const auto pixel = static_cast<std::size_t>(row * tile_width + column);
+            masks[column] = samples_showing(name, buffer.seen.data() + pixel * samples);
+            first = masks[column] != 0 ? std::min(first, column) : first;
+            last = masks[column] != 0 ? column : last;
         }
-        left &= ~own;
+        std::fill_n(masks + box.right + 1, block_px, std::uint16_t{0});
+        const int blocks = first <= last ? (last - first) / block_px + 1 : 0;
+        buffer.coverage.rows[static_cast<std::size_t>(row)] = {first, last, blocks};
     }
 }
 
@@ -259,10 +254,10 @@ HWY_INLINE void paint_group(
     if (buffer.clear.size() > clear_before) {
         buffer.first_clear.push_back(clear_before);
     }
-    for (int row = box.first_row; row <= box.last_row; ++row) {
-        for (int column = box.left; column <= box.right; ++column) {
-            fold_pixel(group, job, column, row, buffer);
-        }
+    // Each of its samples shows one triangle: they are coloured in any order.
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        cover_seen(group[i], static_cast<std::uint32_t>(i + 1), job, buffer);
+        fill(group[i], job, buffer);
     }
 }
 
