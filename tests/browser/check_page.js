@@ -43,6 +43,10 @@
       const a = card.getBoundingClientRect(), b = inside.getBoundingClientRect();
       if (b.left < a.left - 1 || b.right > a.right + 1) fault(`${inside.tagName} leaves its card`);
     }
+  for (const table of document.querySelectorAll(".scroll"))
+    if (table.scrollWidth > table.clientWidth + 1) fault(`a table is cut: ${table.scrollWidth} px in ${table.clientWidth}`);
+  for (const text of document.querySelectorAll("h3, figcaption, dd, dt"))
+    if (text.scrollWidth > text.clientWidth + 1) fault(`text leaves its box: ${text.textContent.slice(0, 30)}`);
   const plots = document.querySelectorAll(".plot svg");
   for (const svg of plots) {
     const whole = svg.getBoundingClientRect();

@@ -9,6 +9,7 @@ folder=$2
 browser=$(command -v chromium || command -v google-chrome || true)
 [[ -n $browser ]] || { echo "SKIPPED: chromium is not installed"; exit 0; }
 fail() { echo "FAILED: $*" >&2; exit 1; }
+study=a-study-with-a-name-as-long-as-people-give # whole paths stand in the page of 200
 rm -rf "$folder"
 mkdir -p "$folder/profile"
 cat >"$folder/eight.toml" <<'EOF'
@@ -24,8 +25,8 @@ terrain = "background60"
 path = ["straight", "turn"]
 order-method = ["tree", "cells"]
 EOF
-"$octant" sweep "$folder/eight.toml" --out "$folder/sweep" --share-cores --quiet || fail "the sweep failed"
-runs=("$folder"/sweep/runs/*)
+"$octant" sweep "$folder/eight.toml" --out "$folder/$study" --share-cores --quiet || fail "the sweep failed"
+runs=("$folder/$study"/runs/*)
 "$octant" report "${runs[0]}" --out "$folder/report-1.html" --quiet || fail "report of one"
 "$octant" report "${runs[0]}" "${runs[2]}" --out "$folder/report-2.html" --quiet || fail "report of two"
 "$octant" report "${runs[@]}" --out "$folder/report-8.html" --quiet || fail "report of eight"

@@ -79,7 +79,7 @@ table.sortable th[aria-sort=descending]::after { content: " \25BC"; }
 table.runs { width: auto; }
 table.runs th { overflow-wrap: normal; }
 table.runs td { white-space: nowrap; overflow-wrap: normal; }
-table.runs td:first-child { width: auto; min-width: 0; }
+table.runs td:first-child { width: auto; min-width: 13rem; white-space: normal; overflow-wrap: anywhere; }
 table.runs .number { padding-right: 1.6rem; }
 .card h3 { margin-top: .6rem; }
 .card > h3:first-child, .small-plots h3 { margin-top: 0; }
@@ -92,7 +92,7 @@ code { font: .86em ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace;
 .sheet { display: grid; gap: .8rem; grid-template-columns: repeat(auto-fill, minmax(240px, 1fr)); }
 figure { margin: 0; }
 figure img { display: block; width: 100%; height: auto; border-radius: 6px; border: 1px solid var(--line); }
-figcaption { font-size: .8rem; padding-top: .2rem; }
+figcaption { font-size: .8rem; padding-top: .2rem; overflow-wrap: anywhere; }
 .note + .sheet { margin-top: .8rem; }
 .missing { border: 1px dashed var(--line); border-radius: 6px; padding: 1rem; }
 @media (max-width: 800px) {
