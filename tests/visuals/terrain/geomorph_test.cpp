@@ -61,7 +61,7 @@ TEST_CASE(
         double fastest; ///< in wanted errors for a move by the whole distance
     };
 
-    for (const Ground& of : {Ground{1.0F, 18.0}, Ground{200.0F, 8.0}}) {
+    for (const Ground& of : {Ground{1.0F, 11.0}, Ground{200.0F, 6.5}}) {
         for (const int size : {65, 129}) {
             const double height = static_cast<double>(of.height);
             INFO(size << " samples, " << height << " times as high");
