@@ -101,6 +101,10 @@ IdComparison compare_with_depth_buffer(
     painted.view.samples = 1;
     settings::RunSettings tested = painted;
     tested.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
+    // What is seen through has no numbers, and no depth.
+    tested.surface.effects = false;
+    tested.air.clouds = 0.0;
+    tested.view.path_ribbon = false;
     Session painter(painted, Shows::PolygonNumbers);
     Session reference(tested, Shows::PolygonNumbers);
     LargeReference large(tested);
