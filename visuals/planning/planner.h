@@ -160,10 +160,10 @@ private:
     Veils veils_;
     VeilRange cloud_range_; ///< of veils_
     std::optional<PathRibbon> ribbon_;
-    std::vector<PathRibbon::Dash> dashes_;                       ///< of this frame
-    std::vector<std::uint32_t> knot_dashes_;                     ///< of the knot at hand
-    std::vector<AircraftEffects> effects_;                       ///< of Scene::aircraft, or none
-    std::vector<AircraftEffects::Ranges> effect_ranges_;         ///< of effects_, of veils_
+    std::vector<PathRibbon::Dash> dashes_;               ///< of this frame
+    std::vector<std::uint32_t> knot_dashes_;             ///< of the knot at hand
+    std::vector<AircraftEffects> effects_;               ///< of Scene::aircraft, or none
+    std::vector<AircraftEffects::Ranges> effect_ranges_; ///< of effects_, of veils_
     ShadowCaster shadows_;
     SceneOrder order_;
     GroundInFront in_front_;
