@@ -98,7 +98,12 @@ ComparedSettings compared_settings(const settings::RunSettings& settings) {
         one->surface.shadows = false;
         one->view.samples = 1;
     }
-    compared.by_depth.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
+    settings::RunSettings& by_depth = compared.by_depth;
+    by_depth.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
+    // What is seen through has no numbers, and no depth.
+    by_depth.surface.effects = false;
+    by_depth.air.clouds = 0.0;
+    by_depth.view.path_ribbon = false;
     return compared;
 }
 

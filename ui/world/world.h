@@ -54,8 +54,7 @@ void states_beside(
 visuals::scene::FixedPoints fixed_points(const settings::RunSettings& settings, const World& world);
 
 /// Throws Error where clouds would lie in the ground.
-void check_clouds(
-    const visuals::scene::AirSettings& air, const visuals::landscape::Ground& ground);
+void check_clouds(const visuals::scene::AirSettings& air, const visuals::landscape::Ground& ground);
 
 /// Loads aircraft, ground and path of a run and lays the path over the ground. Throws Error.
 World load_world(const settings::RunSettings& settings, DrawnBy drawn_by = DrawnBy::Processor);

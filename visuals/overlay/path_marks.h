@@ -23,8 +23,8 @@ struct PlaceName {
 class PathMarks {
 public:
     /// Begins a picture; `aircraft_m` off the eye.
-    void begin(
-        const scene::Camera& camera, const glm::ivec2& size_px, const glm::dvec3& aircraft_m);
+    void
+    begin(const scene::Camera& camera, const glm::ivec2& size_px, const glm::dvec3& aircraft_m);
 
     /// Writes a name where its place is in the picture, if that is before the eye and in view.
     void add(const PlaceName& place);

@@ -44,8 +44,7 @@ public:
     };
 
     /// Adds what is seen to a frame's veils.
-    Ranges
-    add(const glm::dmat4& body_to_eye_world, const EffectStrength& strength, Veils& veils);
+    Ranges add(const glm::dmat4& body_to_eye_world, const EffectStrength& strength, Veils& veils);
 
 private:
     enum class Kind : std::uint8_t { Disc, Plume, Vapour };

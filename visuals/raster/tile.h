@@ -89,8 +89,7 @@ struct ClearPixel {
 
     /// What so many samples of sixteen hide, each by an opacity.
     static std::uint16_t share_of(float opacity, int samples) {
-        return static_cast<std::uint16_t>(
-            static_cast<int>(opacity * 256.0F + 0.5F) * samples);
+        return static_cast<std::uint16_t>(static_cast<int>(opacity * 256.0F + 0.5F) * samples);
     }
 };
 

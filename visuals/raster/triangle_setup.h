@@ -46,8 +46,8 @@ public:
         const FlatColour* flat,
         TriangleList& list);
 
-    /// Appends a triangle of the overlay, whose fourth value is its alpha: Fill::Levels for what lies
-    /// over the picture, else Fill::Veil.
+    /// Appends a triangle of the overlay, whose fourth value is its alpha: Fill::Levels for what
+    /// lies over the picture, else Fill::Veil.
     void add_overlay(
         const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list);
 

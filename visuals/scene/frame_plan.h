@@ -161,8 +161,8 @@ struct FramePlan {
     std::vector<std::uint32_t> smooth;
     /// Smooth polygons are lit in each pixel (Phong's shading) instead of at their corners.
     bool lights_pixels = false;
-    /// What is drawn on the picture without haze: veils, which lie behind what later steps draw, and
-    /// then what lies over the picture.
+    /// What is drawn on the picture without haze: veils, which lie behind what later steps draw,
+    /// and then what lies over the picture.
     OverlayDraw overlay;
 
     Haze haze;

@@ -41,8 +41,8 @@ struct PaintStep {
         GroundAgain, ///< FramePlan::repaint_indices
         Aircraft,    ///< FramePlan::aircraft; back faces are not drawn
         Refined,     ///< FramePlan::refined; back faces are not drawn
-        Veil,        ///< indices of FramePlan::overlay, as Overlay; what comes later is drawn over it
-        Overlay      ///< indices of FramePlan::overlay, blended by their alpha, after all others
+        Veil,   ///< indices of FramePlan::overlay, as Overlay; what comes later is drawn over it
+        Overlay ///< indices of FramePlan::overlay, blended by their alpha, after all others
     };
     static constexpr std::uint32_t whole = ~std::uint32_t{0};
     What what = What::Aircraft;

@@ -51,7 +51,7 @@ struct ViewSettings {
     double zoom = 1.0;         ///< chase, orbit: how many times nearer; else how many times larger
     std::optional<View> inset; ///< a second view, drawn small into a corner of the picture
     bool head_up_display = true; ///< of the cockpit view
-    bool path_ribbon = false; ///< the first aircraft's path, its legs, a scale and a north mark
+    bool path_ribbon = false;    ///< the first aircraft's path, its legs, a scale and a north mark
     glm::ivec2 size_px{1280, 720};
     std::optional<int> samples; ///< a pixel; nothing: the renderer's own
 
@@ -122,8 +122,8 @@ struct AirSettings {
     std::optional<std::string> time;
     double sun_azimuth_deg = 225.0; ///< clockwise from north
     double sun_elevation_deg = 35.0;
-    bool relief_shadows = true;     ///< of the ground on itself, and less light in its hollows
-    double clouds = 0.0; ///< share of the sky that a layer of clouds covers
+    bool relief_shadows = true; ///< of the ground on itself, and less light in its hollows
+    double clouds = 0.0;        ///< share of the sky that a layer of clouds covers
     /// Above datum. Nothing: well above the highest ground.
     std::optional<double> cloud_height_m;
     double water_level_m = 0.0;     ///< ground at or below it is drawn as water

@@ -32,7 +32,7 @@ Camera tower_camera(const Tower& tower, const glm::dvec3& aircraft_m, double rad
 struct TowerWish {
     std::span<const sim::AircraftState> flight; ///< at even times
     double radius_m = 10.0;                     ///< of the sphere around the aircraft
-    double spacing_m = 0.0; ///< of the ground's samples; 0 = as fine as one likes
+    double spacing_m = 0.0;   ///< of the ground's samples; 0 = as fine as one likes
     glm::dvec2 around_m{0.0}; ///< where it stands if nothing is known of the flight
 };
 
@@ -46,8 +46,8 @@ Tower tower_for(const TowerWish& wish, const GroundHeight& ground);
 /// How well a flight is seen from an eye point, 0..1: the mean over its times of how large the
 /// aircraft is, how near to the middle of the picture the skyline runs, so that relief and sky are
 /// seen, and how many samples of the ground behind it the picture spans. Times at which ground
-/// hides the aircraft, or no operator could follow it, count nothing, and the more of them there are
-/// the less the others count.
+/// hides the aircraft, or no operator could follow it, count nothing, and the more of them there
+/// are the less the others count.
 double tower_score(const glm::dvec3& eye_m, const TowerWish& wish, const GroundHeight& ground);
 
 } // namespace octant::visuals::scene

@@ -111,6 +111,16 @@ TEST_CASE("a drape that cannot be laid over the ground is refused in one line wi
         "--ground-shading texture: expected ground with heights");
 }
 
+TEST_CASE("clouds in the ground, and what is seen through beside a depth buffer, are refused") {
+    check_refused(
+        {"straight", "--terrain", "hills", "--clouds", "0.4", "--cloud-height", "10"},
+        "--cloud-height: expected more than the highest ground, ");
+    check_refused({"straight", "--clouds", "1.5"}, "clouds");
+    check_refused(
+        {"straight", "--path-ribbon", "--hidden-surface", "depth-buffer"},
+        "--path-ribbon: expected --hidden-surface octant or back-face beside it, got depth-buffer");
+}
+
 TEST_CASE("a wrong aircraft is refused in one line with exit code 2") {
     check_refused(
         {"straight", "--aircraft", "f16"},

@@ -85,6 +85,24 @@ TEST_CASE("detail between samples, trees and houses are painted as the depth buf
     }
 }
 
+TEST_CASE("with clouds, a ribbon and effects the polygons are those that the depth buffer shows") {
+    using visuals::scene::View;
+    for (const auto& [aircraft, terrain] : {std::pair{"f15", "canyon"}, {"500md", "hills"}}) {
+        for (const View view : {View::Chase, View::Tower, View::Orbit}) {
+            INFO(aircraft << " view " << static_cast<int>(view));
+            ui::settings::RunSettings settings = canyon_flight("pop-up", aircraft, view);
+            settings.path.terrain = terrain;
+            settings.air.clouds = 0.5;
+            settings.surface.effects = true;
+            settings.view.path_ribbon = true;
+            const ui::flight::IdComparison result = compare(settings, 240);
+            CHECK(result.frames > 5);
+            CHECK(result.unordered == 0);
+            CHECK(result.wrong == 0);
+        }
+    }
+}
+
 TEST_CASE("painting in order shows the polygons that the depth buffer shows, over rugged ground") {
     using visuals::scene::View;
     constexpr int every = 240;
