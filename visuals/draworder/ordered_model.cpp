@@ -26,6 +26,8 @@ constexpr std::size_t most_polygons_searched = 2'000;
 
 /// So much of the time that a search may take goes to the proof of what is found.
 constexpr double proof_share = 0.02;
+/// Of larger models: their parts are right as they are made, and a proof would not come to its end.
+constexpr double proof_share_of_large = 0.002;
 
 OrderedModel by_paper(models::polygons::PolygonModel model, const OrderOptions& options) {
     const OctantOrders orders = paper_orders(model, options.paper);
@@ -140,6 +142,7 @@ std::optional<OrderedModel> searched(
 
 /// Tries an order; whether it may be used.
 bool is_right(OrderedModel& ordered, double search_s) {
+    const bool is_large = ordered.model.polygons.size() > most_polygons_searched;
     // Where no order is right for turning parts, they say nothing about the others.
     ordered.trial = try_order(
         ordered.model,
@@ -147,7 +150,7 @@ bool is_right(OrderedModel& ordered, double search_s) {
         {.turning_parts = ordered.notes.empty(),
          .min_distance_m = ordered.min_distance_m,
          .centre_m = ordered.centre_m,
-         .proof_s = search_s * proof_share});
+         .proof_s = search_s * (is_large ? proof_share_of_large : proof_share)});
     return ordered.trial.wrong == 0;
 }
 
