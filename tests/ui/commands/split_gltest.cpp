@@ -145,7 +145,7 @@ TEST_CASE("levels of detail and smooth polygons are kept over the seams between 
     const auto levels = levels_of_checked_parts(
         made,
         "path = \"straight\"\nterrain = \"none\"\nview = \"tower\"\nfov = 9.5\naircraft = "
-        "\"torus.chain\"\naircraft-error-px = 0.02\nstart = 19\nframes = 45\nrate = 5",
+        "\"torus.chain\"\naircraft-error-px = 0.02\nstart = 14\nframes = 45\nrate = 5",
         "15");
     CHECK(levels.size() >= 3);
     levels_of_checked_parts(
