@@ -7,7 +7,6 @@
 #include "ui/report/overruns.h"
 #include "ui/report/stage_columns.h"
 
-
 namespace octant::ui::report {
 
 /// Triangles of ground that a flight's frames aimed at.

@@ -67,8 +67,9 @@ public:
     virtual bool move_to(const std::shared_ptr<const Ground>& /*ground*/) { return false; }
 
     /// Begins the work of the next triangles() beside the caller, which should then ask for the
-    /// same, on a thread that is spared for it or on another one; a second call before that one does nothing. Until that call nothing else may be asked
-    /// about triangles; those of the last one stay valid. May be left out: changes no mesh.
+    /// same, on a thread that is spared for it or on another one; a second call before that one
+    /// does nothing. Until that call nothing else may be asked about triangles; those of the last
+    /// one stay valid. May be left out: changes no mesh.
     virtual void prepare(const GroundRequest& /*request*/, const Beside& /*beside*/) {}
 
     /// Returns when nothing is being prepared. Throws what that work threw; the mesh is then made

@@ -149,7 +149,9 @@ TEST_CASE("a file of another version, kind or model is computed anew, whatever i
     const Kept kept = kept_plates("version");
     std::string older = kept.bytes;
     older[8] = static_cast<char>(order_version + 1);
-    CHECK_THAT(note_about(kept, with_checksum(older)), Contains(fmt::format("expected version {}, got {}", order_version, order_version + 1)));
+    CHECK_THAT(
+        note_about(kept, with_checksum(older)),
+        Contains(fmt::format("expected version {}, got {}", order_version, order_version + 1)));
     CHECK_THAT(note_about(kept, "v 0 0 0\nv 1 0 0\n"), Contains("got another kind of file"));
 
     PolygonModel moved = crossing_plates();
