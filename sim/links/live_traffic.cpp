@@ -138,6 +138,10 @@ LiveTraffic::Taken LiveTraffic::take_fdm(const Datagram& datagram) {
 LiveTraffic::Taken LiveTraffic::take_line(const Datagram& datagram) {
     // No more clients than that are connected at a time: who is silent longest has gone.
     auto* const stream = stream_of(columns_, datagram.source, datagram.arrival_s, 0.0);
+    if (stream == nullptr) {
+        ++counts_.unused;
+        return Taken::Wrong;
+    }
     Fix fix;
     const Verdict verdict = stream->value.take(datagram.bytes, fix);
     Verdict said = verdict;

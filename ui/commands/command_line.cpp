@@ -223,7 +223,6 @@ private:
             "expected one of its options, got {}{}", printable(got), perhaps_meant(name, names));
     }
 
-    /// The option's words are too few or too many.
     /// Throws Error for a word of no letters, as a shell gives for a variable that is not set.
     static void refuse_empty_words(const Option& row, const Words& words) {
         const bool may_be_empty = row.takes == Takes::Nothing || row.takes == Takes::PerhapsOneWord;
@@ -232,6 +231,7 @@ private:
         }
     }
 
+    /// The option's words are too few or too many.
     static std::string text_of_words(const Option& row, const Words& got) {
         std::string name = row.name.substr(0, row.name.find(','));
         if (!name.starts_with('-')) {

@@ -25,7 +25,7 @@ namespace octant::ui::commands {
 namespace {
 
 /// Settings that say something about a path of our own.
-constexpr std::array<std::string_view, 8> of_paths{
+constexpr std::array<std::string_view, 9> of_paths{
     "path",
     "--heading",
     "--height-mode",
@@ -33,7 +33,8 @@ constexpr std::array<std::string_view, 8> of_paths{
     "--start",
     "--frame-per-sample,!--no-frame-per-sample",
     "--realtime,!--no-realtime",
-    "--mesh-ahead,!--no-mesh-ahead"};
+    "--mesh-ahead,!--no-mesh-ahead",
+    "--path-ribbon,!--no-path-ribbon"};
 
 constexpr double look_every_s = 0.0005; ///< in steps, for the next packet
 

@@ -64,7 +64,7 @@ constexpr std::array<std::pair<const char*, const char*>, 6> shown_figures{
      {"low_1pct_fps", "1 % low, 1/s"},
      {"overruns_16ms", "above 16.67 ms"}}};
 
-/// How sweeps flew them, where sweeps did: " 24 flights: one at a time."
+/// How sweeps flew them, where sweeps did: " 24 flown by a sweep one at a time."
 std::string swept_text(Recordings recordings) {
     std::map<std::string, int> counts;
     for (const LoadedRecording& recording : recordings) {

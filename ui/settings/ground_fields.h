@@ -78,13 +78,13 @@ inline constexpr std::tuple ground_rows{
     setting<&RunSettings::ground, &visuals::scene::GroundSettings::near_detail>(
         {"near-detail",
          "",
-         "screen error: ground near the eye gets made-up detail between its samples; heights that "
+         "screen-error: ground near the eye gets made-up detail between its samples; heights that "
          "are asked for have none"},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
     setting<&RunSettings::ground, &visuals::scene::GroundSettings::scenery>(
         {"scenery",
          "",
-         "screen error: made-up trees and houses near the eye; none where a texture colours the "
+         "screen-error: made-up trees and houses near the eye; none where a texture colours the "
          "ground"},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
     setting<&RunSettings::ground, &visuals::scene::GroundSettings::show_mesh>(

@@ -70,6 +70,9 @@ void find_files_from(const fs::path& folder, RunSettings& settings) {
         name = text_of(flown);
     }
     find_from(folder, built_in_terrains, settings.path.terrain);
+    if (settings.path.terrain_system) {
+        find_from(folder, none, *settings.path.terrain_system);
+    }
     if (settings.air.drape) {
         find_from(folder, none, *settings.air.drape);
     }

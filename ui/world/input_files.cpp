@@ -165,6 +165,11 @@ struct Collector {
     }
 };
 
+/// Whether the coordinate system of the ground's files stands in a file, as a .prj does.
+bool names_system_file(const settings::RunSettings& settings) {
+    return settings.path.terrain_system && is_file(*settings.path.terrain_system);
+}
+
 } // namespace
 
 settings::RunSettings with_absolute_files(settings::RunSettings settings) {
@@ -186,6 +191,9 @@ settings::RunSettings with_absolute_files(settings::RunSettings settings) {
     if (!settings::is_built_in_ground(settings.path.terrain) &&
         (is_file(settings.path.terrain) || is_folder_or_pattern(settings.path.terrain))) {
         settings.path.terrain = absolute(settings.path.terrain);
+    }
+    if (names_system_file(settings)) {
+        settings.path.terrain_system = absolute(*settings.path.terrain_system);
     }
     if (settings.air.drape) {
         settings.air.drape = absolute(*settings.air.drape);
@@ -211,6 +219,9 @@ std::vector<InputFile> input_files(const settings::RunSettings& settings) {
     }
     for (const fs::path& file : ground_files(settings.path.terrain)) {
         found.add_outside(file);
+    }
+    if (names_system_file(settings)) {
+        found.add(*settings.path.terrain_system);
     }
     if (settings.air.drape) {
         found.add_outside(*settings.air.drape);
@@ -261,6 +272,9 @@ settings::RunSettings as_recorded(const settings::RunSettings& settings, const f
         name = settings::text_of(flown);
     }
     rename(renamed.path.terrain);
+    if (names_system_file(settings)) {
+        rename(*renamed.path.terrain_system);
+    }
     if (renamed.air.drape) {
         rename(*renamed.air.drape);
     }

@@ -223,7 +223,7 @@ void check_clouds(const scene::AirSettings& air, const visuals::landscape::Groun
     const double highest_m = visuals::landscape::highest_m(ground);
     if (*air.cloud_height_m <= highest_m) {
         throw Error(fmt::format(
-            "--cloud-height: expected more than the highest ground, {:.0f} m, got {:.0f}",
+            "--cloud-height: expected more than the highest ground, {:.1f} m, got {}",
             highest_m,
             *air.cloud_height_m));
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace octant::visuals::landscape {
 
@@ -17,7 +18,7 @@ double highest_m(const Ground& ground) {
         return std::clamp(static_cast<int>(std::lround(2.0 * half / spacing_m)), 1, most_steps);
     };
     const glm::ivec2 steps(steps_over(half_m.x), steps_over(half_m.y));
-    double highest = ground.mean_height_m();
+    double highest = -std::numeric_limits<double>::infinity();
     for (int row = 0; row <= steps.y; ++row) {
         for (int column = 0; column <= steps.x; ++column) {
             const glm::dvec2 share = glm::dvec2(column, row) / glm::dvec2(steps);
@@ -25,7 +26,7 @@ double highest_m(const Ground& ground) {
             highest = std::max(highest, ground.height_at(at_m.x, at_m.y).value_or(highest));
         }
     }
-    return highest;
+    return std::isfinite(highest) ? highest : 0.0;
 }
 
 MeshSettings mesh_settings(const scene::Settings& settings, bool textured) {

@@ -194,7 +194,8 @@ void AircraftEffects::add_effect(const Effect& effect, const glm::dvec3& reach_m
 }
 
 void AircraftEffects::find_discs(const PolygonModel& model) {
-    for (const Pivot& pivot : model.pivots) {
+    for (std::uint32_t number = 0; number < model.pivots.size(); ++number) {
+        const Pivot& pivot = model.pivots[number];
         if (std::abs(pivot.turns_per_s) < quick_turns_per_s) {
             continue;
         }
@@ -220,7 +221,7 @@ void AircraftEffects::find_discs(const PolygonModel& model) {
         for (const double side : {-1.0, 1.0}) {
             const glm::dvec3 out = side * pivot.axis;
             if (reach_along(model, out, pivot.part) <= glm::dot(out, centre_m) + slack * radius_m) {
-                add_effect({Kind::Disc, centre_m, out, radius_m}, glm::dvec3(0.0));
+                add_effect({Kind::Disc, centre_m, out, radius_m, number}, glm::dvec3(0.0));
                 break;
             }
         }
@@ -277,7 +278,16 @@ void AircraftEffects::find_vapour(const PolygonModel& model) {
 }
 
 AircraftEffects::Ranges AircraftEffects::add(
-    const glm::dmat4& body_to_eye_world, const EffectStrength& strength, Veils& veils) {
+    const glm::dmat4& body_to_eye_world,
+    const EffectStrength& strength,
+    std::span<const TurnedPart> turned,
+    std::uint32_t number,
+    Veils& veils) {
+    const auto is_moved = [&](std::uint32_t pivot) {
+        return std::ranges::any_of(turned, [&](const TurnedPart& part) {
+            return part.aircraft == number && part.pivot == pivot;
+        });
+    };
     const glm::dvec3 eye_m(glm::inverse(body_to_eye_world)[3]);
     Ranges ranges;
     for (const bool after : {false, true}) {
@@ -289,7 +299,9 @@ AircraftEffects::Ranges AircraftEffects::add(
                 continue;
             }
             if (effect.kind == Kind::Disc) {
-                draw_disc(effect.place_m, effect.out, effect.radius_m, shape);
+                if (!is_moved(effect.pivot)) {
+                    draw_disc(effect.place_m, effect.out, effect.radius_m, shape);
+                }
             } else if (effect.kind == Kind::Plume) {
                 draw_plume(effect.place_m, effect.radius_m, strength, shape);
             } else if (strength.vapour > 0.0) {

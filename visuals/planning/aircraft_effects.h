@@ -1,15 +1,18 @@
 #pragma once
 
 #include "models/colour_vertex.h"
+#include "models/no_index.h"
 #include "models/polygons/polygon_model.h"
 #include "sim/aircraft_state.h"
 #include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/turned_part.h"
 #include "visuals/planning/veils.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace octant::visuals::planning {
@@ -29,8 +32,8 @@ EffectStrength strength_of(const sim::AircraftState& state);
 /// and before it for all others. A rotor without such a plane has no disc.
 class AircraftEffects {
 public:
-    /// Of a model in body axes: its pivots that turn fast, its polygons of materials named as
-    /// nozzles and burners, and the ends of its span, of models with a nozzle.
+    /// Of a model in body axes: its pivots that turn fast, its parts named as nozzles and
+    /// burners, and the ends of its span, of models with a nozzle.
     explicit AircraftEffects(const models::polygons::PolygonModel& model);
 
     bool empty() const { return veils_.empty(); }
@@ -43,8 +46,14 @@ public:
         VeilRange after;
     };
 
-    /// Adds what is seen to a frame's veils.
-    Ranges add(const glm::dmat4& body_to_eye_world, const EffectStrength& strength, Veils& veils);
+    /// Adds what is seen to a frame's veils. A rotor that somebody else moves, as `turned` says of
+    /// the scene's aircraft `number`, has no disc.
+    Ranges
+    add(const glm::dmat4& body_to_eye_world,
+        const EffectStrength& strength,
+        std::span<const TurnedPart> turned,
+        std::uint32_t number,
+        Veils& veils);
 
 private:
     enum class Kind : std::uint8_t { Disc, Plume, Vapour };
@@ -55,6 +64,7 @@ private:
         glm::dvec3 place_m{0.0};
         glm::dvec3 out{0.0, 0.0, -1.0};
         double radius_m = 1.0;
+        std::uint32_t pivot = models::no_index; ///< of a disc
     };
 
     void find_discs(const models::polygons::PolygonModel& model);

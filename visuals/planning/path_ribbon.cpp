@@ -62,25 +62,55 @@ std::span<const PathRibbon::Dash> PathRibbon::dashes(const RibbonView& view, Vei
     return dashes_;
 }
 
-/// The dash of points first .. last, without those that are beside the aircraft.
+PathRibbon::Own PathRibbon::own_place(double time_s) const {
+    const double now = (time_s - path_.first_s) / path_.step_s;
+    const auto last = static_cast<double>(path_.points.size() - 1);
+    const double at = std::clamp(now, 0.0, last);
+    const auto point = static_cast<std::size_t>(at);
+    const std::size_t next = std::min(point + 1, path_.points.size() - 1);
+    return {
+        now,
+        point,
+        glm::mix(
+            path_.points[point].position_m,
+            path_.points[next].position_m,
+            at - static_cast<double>(point))};
+}
+
+/// The dash of points first .. last, but for what is beside the aircraft: two pieces where that is
+/// in its middle.
 void PathRibbon::add_dash(
     std::size_t first, std::size_t last, const RibbonView& view, Veils& veils) {
-    const double now = (view.time_s - path_.first_s) / path_.step_s; // in points
-    const auto own = static_cast<std::size_t>(
-        std::clamp(std::lround(now), 0L, static_cast<long>(path_.points.size() - 1)));
-    const glm::dvec3 aircraft_m = path_.points[own].position_m;
+    const Own own = own_place(view.time_s);
     const auto close = [&](std::size_t point) {
-        return glm::distance(path_.points[point].position_m, aircraft_m) < view.gap_m;
+        return glm::distance(path_.points[point].position_m, own.place_m) < view.gap_m;
     };
-    while (first < last && close(first)) {
-        ++first;
+    const bool holds_aircraft = own.point >= first && own.point < last;
+    std::size_t until = holds_aircraft ? own.point : last;
+    std::size_t from = holds_aircraft ? own.point + 1 : first;
+    while (until > first && close(until)) {
+        --until;
     }
-    while (last > first && close(last)) {
-        --last;
+    while (from < last && close(from)) {
+        ++from;
     }
-    if (first >= last || glm::distance(path_.points[first].position_m, view.eye_m) > farthest_m) {
+    if (holds_aircraft) {
+        add_piece(first, until, view, veils);
+        add_piece(from, last, view, veils);
+    } else {
+        add_piece(from, until, view, veils);
+    }
+}
+
+void PathRibbon::add_piece(
+    std::size_t first, std::size_t last, const RibbonView& view, Veils& veils) {
+    const auto away_m = [&](std::size_t point) {
+        return glm::distance(path_.points[point].position_m, view.eye_m);
+    };
+    if (first >= last || std::min(away_m(first), away_m(last)) > farthest_m) {
         return;
     }
+    const double now = own_place(view.time_s).now;
     const auto next_leg =
         std::ranges::upper_bound(path_.legs, first, {}, &FlownPath::Leg::first_point);
     const auto leg = static_cast<std::size_t>(next_leg - path_.legs.begin());

@@ -38,7 +38,16 @@ public:
     std::span<const Dash> dashes(const RibbonView& view, Veils& veils);
 
 private:
+    /// Where the aircraft is: past `point`, before the next one.
+    struct Own {
+        double now;        ///< in points
+        std::size_t point; ///< the last one that it has passed
+        glm::dvec3 place_m;
+    };
+
+    Own own_place(double time_s) const;
     void add_dash(std::size_t first, std::size_t last, const RibbonView& view, Veils& veils);
+    void add_piece(std::size_t first, std::size_t last, const RibbonView& view, Veils& veils);
 
     const FlownPath& path_;
     std::size_t points_a_dash_ = 1;

@@ -52,9 +52,13 @@ void Planner::plan_veils(const PlanRequest& request) {
         const double away_m = glm::length(hulls_[i].centre_m);
         const bool is_seen = radius_m(hulls_[i]) > least_px * pixel_rad_ * away_m &&
                              scene::in_view(hulls_[i].centre_m, radius_m(hulls_[i]), frustum_);
-        effect_ranges_[i] =
-            is_seen ? effects_[i].add(placed_[i].parts[0], strength_of(request.states[i]), veils_)
-                    : AircraftEffects::Ranges();
+        effect_ranges_[i] = is_seen ? effects_[i].add(
+                                          placed_[i].parts[0],
+                                          strength_of(request.states[i]),
+                                          turned_,
+                                          static_cast<std::uint32_t>(i),
+                                          veils_)
+                                    : AircraftEffects::Ranges();
     }
     plan_ribbon(request);
 }

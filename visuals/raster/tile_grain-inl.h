@@ -217,13 +217,14 @@ grain_along(const GrainImage& image, const GrainRow& along, int px, std::int16_t
     }
 }
 
-/// Numbers of 16 bits along a strip, wrapping where nothing is looked at.
+/// Numbers of 16 bits along a strip. What lies outside the triangle may be any number.
 struct StripWalk {
     std::int16_t first;
     std::int16_t per_px;
 
     HWY_INLINE StripWalk(double at_first, double step)
-        : first(static_cast<std::int16_t>(static_cast<std::int32_t>(at_first)))
+        : first(static_cast<std::int16_t>(
+              static_cast<std::int32_t>(std::clamp(at_first, -2147483648.0, 2147483647.0))))
         , per_px(static_cast<std::int16_t>(std::clamp(step, -2000.0, 2000.0))) {}
 
     HWY_INLINE hn::Vec<StripSigned> at(std::size_t pixel) const {

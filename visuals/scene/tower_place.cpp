@@ -227,7 +227,7 @@ double finest_fov_rad(const glm::dvec3& eye_m, const TowerWish& wish, const Grou
 } // namespace
 
 double tower_score(const glm::dvec3& eye_m, const TowerWish& wish, const GroundHeight& ground) {
-    return score(eye_m, wish, wish.flight.size(), fine_walk, ground);
+    return wish.flight.empty() ? 0.0 : score(eye_m, wish, wish.flight.size(), fine_walk, ground);
 }
 
 Tower tower_at(glm::dvec3 eye_m, const TowerWish& wish, const GroundHeight& ground) {

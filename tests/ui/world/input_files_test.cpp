@@ -85,6 +85,25 @@ TEST_CASE("pictures, buffers and sub-models of an aircraft are inputs of the run
     CHECK(files_to_keep(flown_by({folder / "m/a.gltf"}), {}).size() == 2);
 }
 
+TEST_CASE("a file that names the ground's coordinate system is kept with the run") {
+    const fs::path folder = empty_folder("inputs-system");
+    write_file(folder / "utm.prj", "PROJCS");
+    ui::settings::RunSettings settings = flown_by({"f15"});
+    settings.path.terrain_system = "EPSG:4326";
+    CHECK(files_to_keep(settings, {}).empty());
+    CHECK(as_recorded(settings, folder).path.terrain_system == "EPSG:4326");
+    settings.path.terrain_system = (folder / "utm.prj").string();
+    const auto kept = files_to_keep(settings, {});
+    REQUIRE(kept.size() == 1);
+    CHECK(kept[0].first == "inputs/utm.prj");
+    ui::settings::RunSettings again = as_recorded(settings, folder);
+    CHECK(again.path.terrain_system == "inputs/utm.prj");
+    fs::create_directories(folder / "inputs");
+    write_file(folder / "inputs/utm.prj", "PROJCS");
+    ui::settings::find_files_from(folder, again);
+    CHECK(again.path.terrain_system == (folder / "inputs/utm.prj").string());
+}
+
 TEST_CASE("models whose materials have one name keep their own") {
     const fs::path folder = empty_folder("inputs-two");
     for (const char* const name : {"a", "b"}) {

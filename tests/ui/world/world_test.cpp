@@ -284,5 +284,5 @@ TEST_CASE("clouds that would lie in the ground are refused with its height") {
     settings.air.cloud_height_m = 99.0;
     CHECK_THROWS_WITH(
         ui::world::load_world(settings),
-        "--cloud-height: expected more than the highest ground, 100 m, got 99");
+        "--cloud-height: expected more than the highest ground, 100.0 m, got 99");
 }

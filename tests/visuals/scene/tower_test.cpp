@@ -136,6 +136,7 @@ TEST_CASE("the tower's look and zoom move without jumps from picture to picture"
 }
 
 TEST_CASE("where there is no ground beside the flight the tower stands where it is told") {
+    CHECK(tower_score({0.0, 0.0, 20.0}, TowerWish(), even_ground) == 0.0);
     const auto flight = northward(0.0, 300.0, -1000.0, 1000.0);
     const Tower chosen = tower_for({flight, radius_m, 0.0, {70.0, 90.0}}, no_ground);
     CHECK(chosen.eye_m == glm::dvec3(70.0, 90.0, 25.0));
