@@ -1,8 +1,10 @@
 #include "models/heights/height_field_import.h"
 
+#include "models/heights/gdal_session.h"
 #include "models/heights/height_raster.h"
 #include "models/heights/height_source.h"
 #include "models/heights/height_voids.h"
+#include "models/heights/local_frame.h"
 #include "sim/base/error.h"
 
 #include <cassert>
@@ -50,6 +52,13 @@ HeightField read_height_field(const std::vector<path>& files, const ImportOption
         return field_from(files, options);
     } catch (const std::bad_alloc&) {
         error_in(files.front(), "expected a height field that fits in memory, got a larger one");
+    }
+}
+
+void check_system(const ImportOptions& options) {
+    if (options.system) {
+        const GdalSession gdal;
+        system_named(*options.system);
     }
 }
 

@@ -34,4 +34,8 @@ HeightField read_height_field(const std::filesystem::path& file, const ImportOpt
 HeightField read_height_field(
     const std::vector<std::filesystem::path>& files, const ImportOptions& options = {});
 
+/// Throws Error where the options name a coordinate system that is none, also for files that need
+/// none.
+void check_system(const ImportOptions& options);
+
 } // namespace octant::models::heights

@@ -1,5 +1,6 @@
 #include "ui/world/scene_ground.h"
 
+#include "models/heights/height_field_import.h"
 #include "models/made/made_up.h"
 #include "ui/settings/terrain_name.h"
 #include "ui/world/sun_of_time.h"
@@ -116,6 +117,7 @@ std::optional<SceneGround> remade_scene_ground(
 }
 
 SceneGround load_scene_ground(const settings::RunSettings& settings, DrawnBy drawn_by) {
+    models::heights::check_system(import_options(settings.path));
     if (settings::is_drawn_whole(settings.path.terrain)) {
         return load_polygons(settings);
     }

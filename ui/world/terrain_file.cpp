@@ -13,6 +13,7 @@ namespace octant::ui::world {
 
 models::heights::HeightField
 load_height_field(const std::string& name_or_file, const models::heights::ImportOptions& options) {
+    models::heights::check_system(options);
     if (auto made = models::made::made_terrain(name_or_file, {})) {
         return std::move(*made);
     }

@@ -111,6 +111,14 @@ TEST_CASE("a drape that cannot be laid over the ground is refused in one line wi
         "--ground-shading texture: expected ground with heights");
 }
 
+TEST_CASE("a coordinate system that is none is refused, whether or not the ground needs one") {
+    for (const char* const ground : {"hills", "none"}) {
+        check_refused(
+            {"straight", "--terrain", ground, "--terrain-system", "EPSG:99999"},
+            "--terrain-system: expected a coordinate system such as EPSG:4326, got 'EPSG:99999'");
+    }
+}
+
 TEST_CASE("clouds in the ground, and what is seen through beside a depth buffer, are refused") {
     check_refused(
         {"straight", "--terrain", "hills", "--clouds", "0.4", "--cloud-height", "10"},
