@@ -45,6 +45,8 @@ std::vector<Motion> motions() {
     return all;
 }
 
+/// With a share of the time for the proof that is smaller than by default: it has no part in which
+/// lists are found.
 OrderedModel ordered_after(PolygonModel model, const Motion& motion) {
     for (glm::dvec3& vertex_m : model.vertices_m) {
         vertex_m = motion(vertex_m);
@@ -53,7 +55,9 @@ OrderedModel ordered_after(PolygonModel model, const Motion& motion) {
         pivot.point_m = motion(pivot.point_m);
         pivot.axis = motion.turn * pivot.axis;
     }
-    return visuals::draworder::ordered(std::move(model));
+    visuals::draworder::OrderOptions options;
+    options.seconds = 4.0;
+    return visuals::draworder::ordered(std::move(model), options);
 }
 
 /// What differs between two orders; empty if their lists, nodes and splits are the same.
