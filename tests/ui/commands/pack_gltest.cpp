@@ -61,7 +61,9 @@ TEST_CASE("a packed recording is flown and reported when nothing else of it is l
     INFO(again.err);
     REQUIRE(again.exit_code == 0);
     CHECK(hashes_in(again.out) == hashes_in(flown.out));
-    CHECK(run_octant({"fly", "--replay", zip, "--quiet"}).exit_code == 0);
+    const tests::ProgramRun replay = run_octant({"fly", "--replay", zip, "--quiet"});
+    CHECK(replay.exit_code == 0);
+    CHECK(replay.out.find("same states, same pictures as " + zip + "\n") != std::string::npos);
     const std::string page = (made / "page.html").string();
     CHECK(run_octant({"report", zip, "--out", page, "--quiet"}).exit_code == 0);
     CHECK(read_file(page).find(hashes_in(flown.out).substr(14, 16)) != std::string::npos);
