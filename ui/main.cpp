@@ -1,4 +1,5 @@
 #include "sim/base/utf8.h"
+#include "ui/base/other_names.h"
 #include "ui/base/stop_signals.h"
 #include "ui/commands/command_line.h"
 #include "ui/commands/commands.h"
@@ -24,7 +25,8 @@ constexpr int check_said_no = 1;
 constexpr int wrong_input = 2;
 
 int fail(const std::string& line) {
-    std::fputs(fmt::format("octant: {}\n", octant::one_line(line)).c_str(), stderr);
+    const std::string named = octant::ui::base::with_other_names(line);
+    std::fputs(fmt::format("octant: {}\n", octant::one_line(named)).c_str(), stderr);
     return wrong_input;
 }
 

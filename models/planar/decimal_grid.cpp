@@ -9,13 +9,20 @@ namespace octant::models::planar {
 
 namespace {
 
-/// Decimal steps finer than so many roundings of the largest coordinate are not told from noise.
-constexpr double least_roundings = 64.0;
+/// What reading a decimal, moving or scaling it, and looking at it here may round off a number, as
+/// a share of it. (Each of these steps rounds by at most half an epsilon.)
+constexpr double rounding_share = 2.5 * std::numeric_limits<double>::epsilon();
+/// Decimal steps finer than so many of these, of the largest coordinate, are not told from noise:
+/// of numbers without a grid one in eight lies that near to a multiple.
+constexpr double least_roundings = 16.0;
 
-/// Whether a number is a multiple of a step but for the rounding of its last bits.
-bool is_multiple(double value, double step) {
-    const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(value);
-    return std::abs(value - std::round(value / step) * step) <= rounding;
+/// Whether a number is a multiple of 10 to some power but for rounding. Powers above 1 are exact,
+/// their inverses are not.
+bool is_multiple(double value, int power) {
+    const double scale = std::pow(10.0, std::abs(power));
+    const double nearest =
+        power < 0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
+    return std::abs(value - nearest) <= rounding_share * std::abs(value);
 }
 
 } // namespace
@@ -32,14 +39,16 @@ double decimal_grid(std::span<const glm::dvec3> points) {
     if (most == 0.0) {
         return 0.0;
     }
-    const double least = least_roundings * std::numeric_limits<double>::epsilon() * most;
-    for (double power = std::floor(std::log10(most)); std::pow(10.0, power) > least; power -= 1.0) {
+    const double least = least_roundings * rounding_share * most;
+    for (int power = static_cast<int>(std::floor(std::log10(most)));; --power) {
         const double step = std::pow(10.0, power);
-        if (std::ranges::all_of(values, [&](double value) { return is_multiple(value, step); })) {
+        if (step <= least) {
+            return 0.0;
+        }
+        if (std::ranges::all_of(values, [&](double value) { return is_multiple(value, power); })) {
             return step;
         }
     }
-    return 0.0;
 }
 
 } // namespace octant::models::planar

@@ -8,6 +8,8 @@
 // - A second triangulation prefers ears beside dents, so that cuts end where outlines turn right;
 //   the one that gives fewer pieces is taken.
 // - A diagonal is removed only where the piece that results passes corners_fault.
+// - Ears and diagonals that only rounding tells apart come in the order of the corners, so that a
+//   model is cut alike wherever it lies and whichever way it is turned.
 
 #include "models/polygons/convex_pieces.h"
 
@@ -35,8 +37,26 @@ using Piece = std::vector<std::size_t>;
 /// What makes one ear better than another.
 enum class Prefer { High, BesideDents };
 
-/// How good an ear is, best first compared; nothing where a corner is no ear.
-using Rank = std::optional<std::tuple<bool, int, double>>;
+/// Heights and lengths nearer to one another, as a share, are equal: rounding may tell them apart.
+constexpr double equal_share = 1e-7;
+
+/// How good an ear is.
+struct Ear {
+    bool in_a_plane = false;
+    int dents_beside = 0;
+    double height_m = 0.0;
+
+    /// Whether this one is to be clipped before another one.
+    bool is_better_than(const Ear& other) const {
+        const auto kind = std::tuple(in_a_plane, dents_beside);
+        const auto other_kind = std::tuple(other.in_a_plane, other.dents_beside);
+        return kind != other_kind ? kind > other_kind
+                                  : height_m > other.height_m * (1.0 + equal_share);
+    }
+};
+
+/// Nothing where a corner is no ear.
+using Rank = std::optional<Ear>;
 
 class EarClipper {
 public:
@@ -91,9 +111,13 @@ private:
     }
 
     std::optional<std::size_t> best() const {
-        const auto found = std::ranges::max_element(ranks_);
-        return *found ? std::optional(static_cast<std::size_t>(found - ranks_.begin()))
-                      : std::nullopt;
+        std::optional<std::size_t> found;
+        for (std::size_t i = 0; i < ranks_.size(); ++i) {
+            if (ranks_[i] && (!found || ranks_[i]->is_better_than(*ranks_[*found]))) {
+                found = i;
+            }
+        }
+        return found;
     }
 
     void clip(std::size_t ear) {
@@ -118,7 +142,7 @@ private:
             return std::nullopt;
         }
         const bool beside = prefer_ == Prefer::BesideDents;
-        return std::tuple(in_a_plane(i), beside ? dents_beside(i) : 0, height_m);
+        return Ear{in_a_plane(i), beside ? dents_beside(i) : 0, height_m};
     }
 
     /// True when no other corner lies in the ear or nearer to it than the clearance.
@@ -198,6 +222,9 @@ struct Diagonal {
     std::size_t from = 0;
     std::size_t to = 0;
     double length_m = 0.0;
+
+    /// The length in steps so small that those of equal ones are equal.
+    double steps(double longest_m) const { return std::round(length_m / longest_m / equal_share); }
 };
 
 /// Diagonals of a triangulation, longest first.
@@ -212,7 +239,13 @@ std::vector<Diagonal> diagonals_of(Corners corners_m, const std::vector<Piece>& 
             }
         }
     }
-    std::ranges::stable_sort(out, std::ranges::greater(), &Diagonal::length_m);
+    double longest_m = 0.0;
+    for (const Diagonal& diagonal : out) {
+        longest_m = std::max(longest_m, diagonal.length_m);
+    }
+    std::ranges::stable_sort(out, std::ranges::greater(), [&](const Diagonal& diagonal) {
+        return diagonal.steps(longest_m);
+    });
     return out;
 }
 

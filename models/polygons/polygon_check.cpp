@@ -1,8 +1,8 @@
 #include "models/polygons/polygon_check.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
@@ -49,22 +49,28 @@ glm::dvec3 double_area_vector(Corners corners) {
     return sum;
 }
 
-double extent_of(Corners corners) {
-    glm::dvec3 least = corners[0];
-    glm::dvec3 most = corners[0];
+/// The mean of some points.
+glm::dvec3 middle_of(Corners corners) {
+    glm::dvec3 sum(0.0);
     for (const glm::dvec3& corner : corners) {
-        least = glm::min(least, corner);
-        most = glm::max(most, corner);
+        sum += corner - corners[0]; // far from the origin, no digits are lost
     }
-    return glm::distance(least, most);
+    return corners[0] + sum / static_cast<double>(corners.size());
+}
+
+/// The diameter of the sphere about the mean of some points that holds all of them: the same
+/// whichever way they are turned, as the box around them is not.
+double extent_of(Corners corners) {
+    const glm::dvec3 middle = middle_of(corners);
+    double farthest_m = 0.0;
+    for (const glm::dvec3& corner : corners) {
+        farthest_m = std::max(farthest_m, glm::distance(corner, middle));
+    }
+    return 2.0 * farthest_m;
 }
 
 std::optional<std::string> bent(Corners corners, const glm::dvec3& normal, double tolerance_m) {
-    glm::dvec3 middle(0.0);
-    for (const glm::dvec3& corner : corners) {
-        middle += corner - corners[0];
-    }
-    middle = corners[0] + middle / static_cast<double>(corners.size());
+    const glm::dvec3 middle = middle_of(corners);
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const double off_m = std::abs(glm::dot(corners[i] - middle, normal));
         if (off_m > tolerance_m) {

@@ -11,8 +11,9 @@
 namespace octant::models::polygons {
 
 /// How far a corner may lie beside its polygon's plane or an edge's line before the polygon counts
-/// as bent or dented: 1e-4 of the diagonal of the model's bounding box, metres. Wide enough for
-/// files that keep four digits, too narrow to see.
+/// as bent or dented: 1e-4 of the diameter of the sphere about the mean of the model's vertices
+/// that holds them all, metres, however the model lies. Wide enough for files that keep four
+/// digits, too narrow to see.
 double flatness_tolerance_m(const PolygonModel& model);
 
 /// What is wrong with one polygon, as "expected ..., got ..."; nothing for a good one. Checked in

@@ -1,6 +1,7 @@
 #include "ui/base/progress.h"
 
 #include "sim/base/utf8.h"
+#include "ui/base/other_names.h"
 
 #include <cstdio>
 #include <fmt/format.h>
@@ -55,7 +56,7 @@ void Progress::finish() {
 
 void say(bool quiet, const std::string& line) {
     if (!quiet) {
-        std::fputs(fmt::format("{}\n", one_line(line)).c_str(), stderr);
+        std::fputs(fmt::format("{}\n", one_line(with_other_names(line))).c_str(), stderr);
     }
 }
 

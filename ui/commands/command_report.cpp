@@ -44,7 +44,7 @@ base::Figures figures_of(const report::LoadedRecording& recording) {
         return text.empty() ? base::Figures() : base::Figures(text);
     };
     return {
-        {"folder", recording.folder.string()},
+        {"folder", recording.called},
         {"title", recording.run.title},
         {"host", recording.run.machine_info.host},
         {"frames", recording.flight.frames()},
@@ -97,7 +97,7 @@ void make_report(const ReportOptions& options) {
             if (!recording.disagreement.empty()) {
                 const std::string line = fmt::format(
                     "{}: summary and rows disagree, as if rows were cut off: {}\n",
-                    printable(recording.folder.string()),
+                    printable(recording.called),
                     recording.disagreement);
                 std::fputs(line.c_str(), stdout);
             }

@@ -1,6 +1,7 @@
 #include "ui/flight/replay.h"
 
 #include "sim/base/error.h"
+#include "ui/base/other_names.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/run_file.h"
 
@@ -77,7 +78,7 @@ verdict_on(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture
     verdict.picture_hash =
         compared(replay, replay.picture_hash, fmt::format("{:016x}", picture_hash));
     verdict.is_same = verdict.state_hash == "same" && verdict.picture_hash == "same";
-    const std::string name = replay.folder.string();
+    const std::string name = base::with_other_names(replay.folder.string());
     verdict.line =
         replay.ended
             ? fmt::format(

@@ -7,6 +7,7 @@
 #include <assimp/scene.h>
 #include <cmath>
 #include <fmt/format.h>
+#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -123,6 +124,9 @@ void read_by_assimp(const std::filesystem::path& file, MeshBuilder& mesh) {
         file.string(),
         aiProcess_PreTransformVertices | aiProcess_SortByPType | aiProcess_ValidateDataStructure);
     if (scene == nullptr) {
+        if (std::string_view(importer.GetErrorString()) == std::bad_alloc().what()) {
+            throw std::bad_alloc();
+        }
         error_in(
             file,
             fmt::format(

@@ -12,7 +12,7 @@ namespace octant::ui::report {
 std::string label_of(Recordings recordings, const LoadedRecording& recording) {
     const auto same = [&](const auto& each) { return each.name == recording.name; };
     const bool unique = std::ranges::count_if(recordings, same) == 1;
-    return unique ? recording.name : recording.folder.string();
+    return unique ? recording.name : recording.called;
 }
 
 std::string value_of(const Rows& rows, std::string_view name) {

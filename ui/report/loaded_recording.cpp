@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "ui/base/other_names.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/kernel_counters.h"
 
@@ -76,6 +77,7 @@ LoadedRecording load_recording(const fs::path& folder) {
     }
     LoadedRecording recording;
     recording.folder = folder;
+    recording.called = base::with_other_names(folder.string());
     const fs::path whole = fs::absolute(folder).lexically_normal();
     recording.name =
         (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();

@@ -16,7 +16,8 @@ namespace octant::ui::report {
 /// A recording read back. The figures come from frames.csv, whether the flight ended or not.
 struct LoadedRecording {
     std::filesystem::path folder;
-    std::string name; ///< the folder's own name
+    std::string name;   ///< the folder's own name
+    std::string called; ///< what messages call it: the folder, or the file that it was packed in
     RunFile run;
     FlightDigest flight;
     Statistics statistics;

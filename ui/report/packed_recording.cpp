@@ -4,6 +4,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "ui/base/json_name.h"
+#include "ui/base/other_names.h"
 #include "ui/report/folder_lock.h"
 #include "ui/report/json_text.h"
 #include "ui/report/recording_names.h"
@@ -176,6 +177,7 @@ fs::path unpacked(const fs::path& zip, const fs::path& into) {
     const fs::path stem = zip.stem(); // reports call it by its name
     const fs::path folder =
         into / (stem.empty() || stem == "." || stem == ".." ? "recording" : stem);
+    base::call_by(folder, zip.string());
     for (const ZipEntry& entry : entries) {
         make_folder((folder / entry.name).parent_path());
         extract(zip, entry.name, folder / entry.name);

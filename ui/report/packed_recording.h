@@ -20,7 +20,8 @@ Packing pack_recording(
     const std::filesystem::path& folder, const std::filesystem::path& zip, bool with_terrain);
 
 /// The folder of a recording that is a folder or was packed. A packed one is unpacked into a folder
-/// of its own, which lives until the program ends. Throws Error for a file that is no packed
+/// of its own, which lives until the program ends; messages call that by the packed file's name
+/// (ui/base/other_names.h). Throws Error for a file that is no packed
 /// recording or has anything else in it.
 std::filesystem::path recording_folder(const std::filesystem::path& folder_or_zip);
 

@@ -34,7 +34,8 @@ link_of(Recordings recordings, const LoadedRecording& recording, const fs::path&
     const std::string label = escaped(label_of(recordings, recording));
     std::error_code ignored;
     const fs::path page = recording.folder / "report.html";
-    if (page_folder.empty() || !fs::is_regular_file(page, ignored)) {
+    const bool is_unpacked = recording.called != recording.folder.string(); // and goes with us
+    if (page_folder.empty() || is_unpacked || !fs::is_regular_file(page, ignored)) {
         return label;
     }
     const fs::path way = fs::absolute(page).lexically_normal().lexically_relative(

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <string>
@@ -25,6 +26,10 @@ struct Library {
     std::string_view name;
     std::string_view endings;
 };
+
+/// As with Octant's own readers. Of larger files the libraries read for a minute and then find no
+/// room for them.
+constexpr std::uintmax_t largest_bytes = std::uintmax_t{1} << 30U;
 
 constexpr std::array libraries{
     Library{
@@ -88,6 +93,9 @@ models::TriangleMesh read_library_mesh(const fs::path& file) {
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) {
         error_in(file, "expected a file that can be read, got none");
+    }
+    if (fs::file_size(file, ignored) > largest_bytes) {
+        error_in(file, fmt::format("expected at most {} bytes, got more", largest_bytes));
     }
     const fs::path program = reader_program();
     if (program.empty()) {

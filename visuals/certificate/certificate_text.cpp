@@ -47,15 +47,18 @@ void CertificateText::add_model(
     const models::polygons::PolygonModel& model, const LocalModel& local, const FileAxes& axes) {
     append(text_, "octant-certificate 1\n");
     append(text_, "tolerance {}\n", local.tolerance * size_m_);
+    const auto place = [&](const glm::dvec3& point_m) {
+        return text_of(axes.file_from_body(point_m) - local.about_m);
+    };
+    if (local.about_m != glm::dvec3(0.0)) {
+        append(text_, "about {}\n", text_of(local.about_m));
+    }
     for (const glm::dvec3& vertex_m : model.vertices_m) {
-        append(text_, "vertex {}\n", text_of(axes.file_from_body(vertex_m)));
+        append(text_, "vertex {}\n", place(vertex_m));
     }
     for (const models::polygons::Pivot& pivot : model.pivots) {
         append(
-            text_,
-            "axis {} {}\n",
-            text_of(axes.file_from_body(pivot.point_m)),
-            text_of(axes.file_from_body(pivot.axis)));
+            text_, "axis {} {}\n", place(pivot.point_m), text_of(axes.file_from_body(pivot.axis)));
     }
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
         const LocalPolygon& polygon = local.polygons[i];
@@ -64,12 +67,13 @@ void CertificateText::add_model(
             "{} {} {}",
             polygon.axis ? fmt::format("turning {}", *polygon.axis) : "polygon",
             model.parent_of(i),
-            text_of(local.in_file(polygon.plane)));
+            text_of(local.in_metres(polygon.plane)));
         add_numbers(model.corners(i));
     }
 }
 
-void CertificateText::add_tree(const DrawOrder& order, const FileAxes& axes) {
+void CertificateText::add_tree(
+    const DrawOrder& order, const LocalModel& local, const FileAxes& axes) {
     for (int list = 0; list < order.cell_count(); ++list) {
         text_ += "list";
         add_numbers(order.polygons_of(list));
@@ -88,7 +92,7 @@ void CertificateText::add_tree(const DrawOrder& order, const FileAxes& axes) {
             text_,
             "node {} {}{}{}\n",
             parts ? "parting" : "choice",
-            text_of(Plane{axes.file_from_body(node.plane.normal), node.plane.offset_m}),
+            text_of(local.about({axes.file_from_body(node.plane.normal), node.plane.offset_m})),
             children,
             parts ? text_of_child(node.along) + text_of_child(node.against) : "");
     }

@@ -30,7 +30,10 @@ public:
         const models::polygons::FileAxes& axes);
 
     /// The lists and nodes. Where a choice has nothing on a side, its eyes are left unclaimed.
-    void add_tree(const draworder::DrawOrder& order, const models::polygons::FileAxes& axes);
+    void add_tree(
+        const draworder::DrawOrder& order,
+        const separation::LocalModel& local,
+        const models::polygons::FileAxes& axes);
 
     void begin_pairs(int part, std::uint32_t later, std::size_t count) override;
     void add_pair(separation::Decider by) override;

@@ -40,6 +40,9 @@ struct ClipPlace {
 struct FlatColour {
     std::array<float, 3> rgb{}; ///< 0..255
     bool is_smooth = false;     ///< the corners' own colours count
+    /// The eye sees its back, by more than rounding. Of its triangles those that are as narrow as
+    /// the rounding of corners may seem to face the eye nevertheless.
+    bool is_turned_away = false;
 };
 
 /// What a corner of a polygon that is lit in each pixel brings.

@@ -51,6 +51,9 @@ void TriangleSetup::add(
     const std::array<std::uint32_t, 3>& triangle,
     const FlatColour* flat,
     TriangleList& list) {
+    if (style_.culls_back_faces && flat != nullptr && flat->is_turned_away) {
+        return;
+    }
     const auto& vertices = corners.vertices;
     const auto [a, b, c] = triangle;
     constexpr std::uint32_t sides = left_of_view | right_of_view | above_view | below_view;

@@ -13,6 +13,9 @@ namespace octant::visuals::raster {
 namespace {
 
 constexpr float most_level = 255.0F;
+/// Cosine between a line of sight and a polygon's normal above which its back is seen: a hundred
+/// times what rounding leaves open.
+constexpr float least_turn = 1e-5F;
 
 glm::vec4 unpacked(std::uint32_t colour) {
     const auto byte = [&](unsigned shift) { return static_cast<float>(colour >> shift & 0xffU); };
@@ -110,6 +113,8 @@ void place_aircraft(
             };
         set_three(coloured(vertex.colour, look.tints.smooth, vertex.normal), to.vertices[i].value);
         to.flat[i].is_smooth = smooth;
+        to.flat[i].is_turned_away =
+            glm::dot(glm::mat3(turn) * vertex.face_normal, at_m) > least_turn * glm::length(at_m);
         set_three(
             coloured(vertex.face_colour, look.tints.flat, vertex.face_normal), to.flat[i].rgb);
         if (!to.lit.empty()) {

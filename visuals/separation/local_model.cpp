@@ -21,6 +21,8 @@ constexpr double safe = 0.999;
 /// How far a corner may be from a plane that is not quite the polygon's own, in tolerances.
 constexpr double share_of_borrowed = 0.25;
 constexpr int circle_sides = 24;
+/// A model farther from the origin than this is far from it, in sizes.
+constexpr double far_sizes = 100.0;
 
 /// Twice the area, along the normal (Newell's sum about the first corner).
 glm::dvec3 area_of(const std::vector<glm::dvec3>& corners) {
@@ -105,10 +107,19 @@ Plane LocalModel::from_file(const Plane& plane_m) const {
     return {plane_m.normal, static_cast<double>(offset / size_m)};
 }
 
-Plane LocalModel::in_file(const Plane& plane) const {
-    long double offset = static_cast<long double>(plane.offset_m) * size_m;
+Plane LocalModel::about(const Plane& plane_m) const {
+    long double offset = plane_m.offset_m;
     for (int i = 0; i < 3; ++i) {
-        offset -= static_cast<long double>(plane.normal[i]) * middle_m[i];
+        offset += static_cast<long double>(plane_m.normal[i]) * about_m[i];
+    }
+    return {plane_m.normal, static_cast<double>(offset)};
+}
+
+Plane LocalModel::in_metres(const Plane& plane) const {
+    long double offset = static_cast<long double>(plane.offset_m) * size_m;
+    const glm::dvec3 to_middle_m = middle_m - about_m;
+    for (int i = 0; i < 3; ++i) {
+        offset -= static_cast<long double>(plane.normal[i]) * to_middle_m[i];
     }
     return {plane.normal, static_cast<double>(offset)};
 }
@@ -129,6 +140,9 @@ local_model(const PolygonModel& model, const models::polygons::FileAxes& axes, d
     const glm::dvec3 box = most - least;
     out.middle_m = least + box * 0.5;
     out.size_m = std::max({box.x, box.y, box.z});
+    if (glm::length(out.middle_m) > far_sizes * out.size_m) {
+        out.about_m = out.middle_m;
+    }
     const auto local = [&](const glm::dvec3& point_m) {
         return (axes.file_from_body(point_m) - out.middle_m) / out.size_m;
     };

@@ -57,9 +57,9 @@ private:
 
     void take_structure() {
         if (!structure_.take()) {
-            words_.refuse(
-                "tolerance, vertex, axis, polygon, turning, list, node, pairs, sum, never, away or "
-                "unproved");
+            words_.refuse("tolerance, about, vertex, axis, polygon, turning, list, node, pairs, "
+                          "sum, never, away or "
+                          "unproved");
         }
         if (claims_) {
             error_at(

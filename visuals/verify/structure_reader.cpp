@@ -7,6 +7,7 @@ namespace octant::visuals::verify {
 
 bool StructureReader::take() {
     return words_.skip("tolerance") ? take_tolerance()
+           : words_.skip("about")   ? take_about()
            : words_.skip("vertex")  ? take_vertex()
            : words_.skip("axis")    ? take_axis()
            : words_.skip("polygon") ? take_polygon(false)
@@ -20,6 +21,15 @@ bool StructureReader::take_tolerance() {
         words_.refuse("one tolerance");
     }
     made_.tolerance = words_.number("a tolerance", 1e-30, largest_number);
+    return true;
+}
+
+/// Where the certificate measures from changes nothing of what it proves.
+bool StructureReader::take_about() {
+    if (!made_.vertices.empty() || !made_.axes.empty()) {
+        words_.refuse("'about' before all places");
+    }
+    words_.vector("a coordinate");
     return true;
 }
 

@@ -21,6 +21,7 @@ public:
 
 private:
     bool take_tolerance();
+    bool take_about();
     bool take_vertex();
     bool take_axis();
     bool take_polygon(bool turning);

@@ -88,7 +88,14 @@ PolygonModel plate() {
 TEST_CASE("the grid of a file is the last decimal that any coordinate needs") {
     CHECK(decimal_grid(std::vector<glm::dvec3>{{12.5, -0.25, 3.0}}) == Approx(0.01));
     CHECK(decimal_grid(std::vector<glm::dvec3>{{1e6 + 0.125, 2e-3, 0.0}}) == Approx(1e-3));
+    const std::vector<glm::dvec3> eight_decimals{{-10.534324, -6.385421, -0.00775233}};
+    for (const double scale : {1e-6, 1.0, 1e6}) {
+        CHECK(
+            decimal_grid(std::vector<glm::dvec3>{scale * (eight_decimals[0] + 1e6)}) ==
+            Approx(scale * 1e-8));
+    }
     CHECK(decimal_grid(std::vector<glm::dvec3>{{1.0 / 3.0, 1.0, 0.0}}) == 0.0);
+    CHECK(decimal_grid(std::vector<glm::dvec3>{1e6 + glm::dvec3(1.0, 2.0, 4.0) / 3.0}) == 0.0);
     CHECK(decimal_grid(std::vector<glm::dvec3>{{0.0, 0.0, 0.0}}) == 0.0);
 }
 

@@ -2,6 +2,10 @@
 #include "models/polygons/polygon_model.h"
 
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <cmath>
 
 using namespace octant::models;
 using namespace octant::models::polygons;
@@ -50,8 +54,22 @@ TEST_CASE("the radius is that of the farthest vertex") {
     CHECK(radius_m(polygon({{0, 0, 0}, {3, 4, 0}, {0, -2, 0}})) == 5.0);
 }
 
-TEST_CASE("the tolerance is 1e-4 of the bounding box diagonal") {
-    CHECK(flatness_tolerance_m(polygon({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}})) == Approx(5e-4));
+TEST_CASE("the tolerance is 1e-4 of the size, whichever way a model is turned") {
+    const double half_box = std::sqrt(3.0);
+    std::vector<glm::dvec3> corners_m;
+    for (const double x : {-1.0, 1.0}) {
+        for (const double y : {-1.0, 1.0}) {
+            for (const double z : {-1.0, 1.0}) {
+                corners_m.emplace_back(x, y, z);
+            }
+        }
+    }
+    CHECK(flatness_tolerance_m(polygon(corners_m)) == Approx(2e-4 * half_box));
+    const glm::dquat turn = glm::angleAxis(1.0, glm::normalize(glm::dvec3(1, -2, 0.5)));
+    for (glm::dvec3& corner_m : corners_m) {
+        corner_m = turn * corner_m + glm::dvec3(1e6, 0, -1e6);
+    }
+    CHECK(flatness_tolerance_m(polygon(corners_m)) == Approx(2e-4 * half_box).epsilon(1e-9));
 }
 
 TEST_CASE("convex planar polygons have no fault") {

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <cmath>
 #include <fmt/format.h>
@@ -47,6 +48,17 @@ std::size_t checked_pieces(const Corners& corners) {
     return cut.pieces.size();
 }
 
+/// A wheel with as many teeth: all of its ears are alike, and so are many of its diagonals.
+Corners wheel(int teeth) {
+    Corners corners;
+    const double step = glm::radians(180.0) / teeth;
+    for (int i = 0; i < 2 * teeth; ++i) {
+        const double radius_m = i % 2 == 0 ? 1.0 : 0.4;
+        corners.push_back(radius_m * glm::dvec3(std::cos(i * step), std::sin(i * step), 0.0));
+    }
+    return corners;
+}
+
 /// An outline with `teeth` dents along its top.
 Corners saw(int teeth) {
     Corners corners{{0, 0, 0}, {2.0 * teeth, 0, 0}};
@@ -61,6 +73,24 @@ Corners saw(int teeth) {
 const std::string saddle = "v 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\n";
 
 } // namespace
+
+TEST_CASE("a polygon is cut alike wherever it lies and whichever way it is turned") {
+    for (const int teeth : {3, 4, 5, 8, 12}) {
+        const Corners corners = wheel(teeth);
+        const auto pieces = convex_pieces(corners, 1e-4).pieces;
+        CHECK(pieces.size() > 1);
+        for (int degrees = 7; degrees < 180; degrees += 10) {
+            const glm::dquat turn =
+                glm::angleAxis(glm::radians(double(degrees)), glm::normalize(glm::dvec3(1, -2, 3)));
+            Corners moved;
+            for (const glm::dvec3& corner : corners) {
+                moved.push_back(turn * corner + glm::dvec3(1e4, -1e4, 0.0));
+            }
+            INFO(teeth << " teeth turned by " << degrees << " degrees");
+            CHECK(convex_pieces(moved, 1e-4).pieces == pieces);
+        }
+    }
+}
 
 TEST_CASE("an arrowhead is cut into two triangles through its dent") {
     const PolygonModel model =

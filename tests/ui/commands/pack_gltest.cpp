@@ -61,7 +61,9 @@ TEST_CASE("a packed recording is flown and reported when nothing else of it is l
     INFO(again.err);
     REQUIRE(again.exit_code == 0);
     CHECK(hashes_in(again.out) == hashes_in(flown.out));
-    CHECK(run_octant({"fly", "--replay", zip, "--quiet"}).exit_code == 0);
+    const tests::ProgramRun replay = run_octant({"fly", "--replay", zip, "--quiet"});
+    CHECK(replay.exit_code == 0);
+    CHECK(replay.out.find("same states, same pictures as " + zip + "\n") != std::string::npos);
     const std::string page = (made / "page.html").string();
     CHECK(run_octant({"report", zip, "--out", page, "--quiet"}).exit_code == 0);
     CHECK(read_file(page).find(hashes_in(flown.out).substr(14, 16)) != std::string::npos);
@@ -85,6 +87,28 @@ TEST_CASE("a run is not flown again where its recording lies, and takes the plac
     INFO(again.err);
     CHECK(again.exit_code == 0);
     CHECK(read_file(recording / "inputs/way.toml") == before);
+}
+
+TEST_CASE("a fault in a packed recording names the packed file") {
+    const auto made = tests::empty_folder("faulty-pack");
+    const auto recording = made / "flight";
+    REQUIRE(run_octant(flight_in(made, recording)).exit_code == 0);
+    const std::string zip = (made / "flight.zip").string();
+    const std::string page = (made / "page.html").string();
+    REQUIRE(run_octant({"pack", recording.string(), "--out", zip, "--quiet"}).exit_code == 0);
+    const tests::ProgramRun figures = run_octant({"report", zip, "--out", page, "--json"});
+    CHECK(figures.out.find("\"folder\": \"" + zip + "\"") != std::string::npos);
+
+    std::string rows = read_file(recording / "frames.csv");
+    const std::size_t third_line = rows.find('\n', rows.find('\n') + 1) + 1;
+    rows.replace(third_line, 1, "x");
+    write_file(recording / "frames.csv", rows);
+    const std::string faulty = (made / "faulty.zip").string();
+    REQUIRE(run_octant({"pack", recording.string(), "--out", faulty, "--quiet"}).exit_code == 0);
+    tests::check_refused("report", {faulty, "--out", page}, faulty + "/frames.csv:3: expected");
+    const tests::ProgramRun replay = run_octant({"fly", "--replay", faulty});
+    CHECK(replay.exit_code == 2);
+    CHECK(replay.err.find("octant: " + faulty + "/frames.csv:3: expected") == 0);
 }
 
 TEST_CASE("what cannot be packed is told in one line") {

@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fmt/format.h>
 #include <set>
@@ -153,6 +154,24 @@ TEST_CASE("levels of detail and smooth polygons are kept over the seams between 
         "path = \"turn\"\nterrain = \"none\"\naircraft = \"f15-detailed\"\nsmooth-share = "
         "0.4\nstart = 10\nframes = 45\nrate = 20",
         "15");
+}
+
+TEST_CASE("an aircraft that is refined as it flies is the same in parts") {
+    const auto made = tests::empty_folder("split-refined");
+    const tests::ProgramRun globe =
+        run_octant({"refine", "globe", "--save", (made / "globe.pm").string(), "--quiet"});
+    INFO(globe.err);
+    REQUIRE(globe.exit_code == 0);
+    levels_of_checked_parts(
+        made,
+        "path = \"straight\"\nterrain = \"none\"\nview = \"orbit\"\naircraft = "
+        "\"globe.pm\"\nsmooth-share = 0.5\nframes = 24\nrate = 4\npictures = 1",
+        "6");
+    std::set<std::uint64_t> polygons;
+    for (const auto& row : ui::report::read_frame_csv(made / "whole/runs/one/frames.csv").records) {
+        polygons.insert(static_cast<std::uint64_t>(row.aircraft_polygons));
+    }
+    CHECK(polygons.size() > 10); // it was refined anew
 }
 
 TEST_CASE("flights that cannot be divided are refused with the reason before anything is written") {

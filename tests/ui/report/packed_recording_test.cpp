@@ -3,6 +3,7 @@
 #include "sim/base/text_file.h"
 #include "tests/ui/report/scratch.h"
 #include "ui/report/folder_lock.h"
+#include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/packed_recording.h"
 #include "ui/report/recording.h"
@@ -12,6 +13,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 using namespace octant;
 using namespace octant::ui::report;
@@ -69,6 +71,23 @@ TEST_CASE("a packed recording is the same wherever it is unpacked, and the same 
     CHECK_FALSE(fs::exists(folder / "notes.txt"));
     CHECK(run_file_of(scratch / "a.zip") == folder / "run.json");
     CHECK(run_file_of(scratch / "rec") == scratch / "rec/run.json");
+}
+
+TEST_CASE("what is read out of a packed recording is called by the packed file") {
+    const ScratchFolder scratch;
+    record(scratch / "rec");
+    pack_recording(scratch / "rec", scratch / "a.zip", false);
+    fs::create_directory(scratch / "other");
+    fs::copy_file(scratch / "a.zip", scratch / "other/a.zip");
+    const std::vector<LoadedRecording> both = {
+        load_recording(recording_folder(scratch / "a.zip")),
+        load_recording(recording_folder(scratch / "other/a.zip"))};
+    CHECK(both[0].called == (scratch / "a.zip").string());
+    CHECK(both[1].called == (scratch / "other/a.zip").string());
+    const std::string page = html_report(both, {}, scratch / "there");
+    CHECK_THAT(page, Contains(both[0].called) && Contains(both[1].called));
+    CHECK_THAT(page, !Contains(both[0].folder.string()) && !Contains(both[1].folder.string()));
+    CHECK(load_recording(scratch / "rec").called == (scratch / "rec").string());
 }
 
 TEST_CASE("a terrain is packed where that is asked for, with what belongs to it") {

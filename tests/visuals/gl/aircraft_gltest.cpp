@@ -29,6 +29,22 @@ TEST_CASE("back faces of aircraft are not drawn, those of ground and sky are") {
     }
 }
 
+TEST_CASE("a polygon whose back is seen by its plane is not drawn, however its corners go round") {
+    Studio studio;
+    for (const float outwards : {1.0F, -1.0F}) { // as of slivers that the rounding of corners turns
+        scene::ModelBuffers model = square_model(red);
+        for (scene::ModelVertex& vertex : model.vertices) {
+            vertex.face_normal *= outwards;
+        }
+        studio.renderer().load_models({&model, 1});
+        scene::FramePlan plan = empty_plan();
+        set_square(plan, 0, ahead(10.0F));
+        for (const Way way : all_ways) {
+            CHECK(middle(studio.picture(plan, way)) == (outwards > 0.0F ? red_px : grey_px));
+        }
+    }
+}
+
 TEST_CASE("with depth an aircraft behind a wall of ground is hidden, else it is painted over it") {
     Studio studio;
     load_squares(studio);

@@ -157,6 +157,43 @@ TEST_CASE("polygons of an aircraft are flat or smooth as their bits say, whichev
     CHECK(pixel(picture, 10, 60) == glm::ivec3(0));
 }
 
+TEST_CASE("a sliver of a polygon that faces away is not drawn where rounding turns it round") {
+    // The corners, not much farther apart than they are rounded, go round as those of a front do;
+    // whether it is one, the polygon's normal says where there is one.
+    const float px = 2.0F / 64.0F;
+    for (const float outwards : {1.0F, -1.0F, 0.0F}) {
+        scene::ModelBuffers model;
+        for (const glm::vec2 at :
+             {glm::vec2(0.497F, 20.0F), glm::vec2(0.497F, -20.0F), glm::vec2(0.503F, 20.0F)}) {
+            scene::ModelVertex vertex;
+            vertex.position_m = glm::vec3(px * at, -1.0F);
+            vertex.face_normal = glm::vec3(0.0F, 0.0F, outwards);
+            vertex.face_colour = red;
+            model.vertices.push_back(vertex);
+            model.indices.push_back(static_cast<std::uint32_t>(model.indices.size()));
+        }
+        FlatPlan plan(size_px);
+        scene::FramePlan& frame = plan.plan();
+        frame.ambient = glm::vec3(1.0F);
+        frame.parts = {glm::mat4(1.0F)};
+        frame.smooth = {0U};
+        frame.aircraft = {{.model = 0, .first_index = 0, .index_count = 3}};
+        frame.steps.push_back({PaintStep::What::Aircraft, 0, 1});
+        Renderer renderer(std::make_shared<Workers>(1), size_px, 1);
+        renderer.load_models(std::span(&model, 1));
+        renderer.draw(frame);
+        scene::Picture picture;
+        renderer.finish_and_read(picture);
+        int drawn_px = 0;
+        for (int y = 0; y < size_px.y; ++y) {
+            for (int x = 0; x < size_px.x; ++x) {
+                drawn_px += pixel(picture, x, y) == red_px ? 1 : 0;
+            }
+        }
+        CHECK((drawn_px > 0) == (outwards >= 0.0F));
+    }
+}
+
 TEST_CASE("a clear surface is blended over what is seen behind it, none over what is nearer") {
     scene::ModelBuffers model;
     for (const std::uint32_t colour : {red, green, 0xffff0000U}) {

@@ -80,6 +80,12 @@ TEST_CASE("of two squares that face alike the farther one is painted first") {
     CHECK(verdict.claims.by_polygons == 1);
 }
 
+TEST_CASE("the point from which a certificate measures changes nothing") {
+    std::string far = model + "list 0 1\npairs list 0 1 1l\n";
+    far.insert(far.find("vertex"), "about 1e6 -1e6 0\n");
+    CHECK(verdict_of(far).proved());
+}
+
 TEST_CASE("the nearer one painted first is refused, whatever the witness") {
     CHECK(
         refusal_of(model + "list 1 0\npairs list 0 0 1l\n") ==
@@ -217,8 +223,9 @@ TEST_CASE("what is no certificate is refused with its line") {
     CHECK(error_of("") == ": expected 'octant-certificate 1' first, got an empty file");
     CHECK(
         error_of("draworder 1\n") == ":1: expected 'octant-certificate 1' first, got 'draworder'");
-    CHECK(error_of(model + "vortex\n").starts_with(":13: expected tolerance, vertex"));
+    CHECK(error_of(model + "vortex\n").starts_with(":13: expected tolerance, about, vertex"));
     CHECK(error_of(model + "vertex 1 2\n").ends_with("got none"));
+    CHECK(error_of(model + "about 1 2 3\n").starts_with(":13: expected 'about' before all places"));
     CHECK(error_of(model + "vertex 1 2 inf\n").ends_with("got 'inf'"));
     CHECK(
         error_of(model + "polygon 2 0 0 9 0  0 1 2\n") ==

@@ -1,7 +1,7 @@
 #version 450 core
 // Aircraft: each polygon flat or smooth.
 
-flat in vec4 flat_colour; // a = 1: the smooth one counts
+flat in vec4 flat_colour; // a = 1: the smooth one counts; a < 0: the polygon's back is seen
 #ifdef PHONG
 #include "picture.glsl"
 
@@ -34,6 +34,9 @@ vec3 smooth_light() {
 #endif
 
 void main() {
+    if (flat_colour.a < 0.0) { // of slivers that the rounding of corners turned round
+        discard;
+    }
     cut();
     pixel = vec4(mix(flat_colour.rgb, smooth_light(), flat_colour.a), 1.0);
 }

@@ -23,7 +23,7 @@ layout(std430, binding = 1) readonly buffer Smooth {
     uint smooth_polygons[]; // a bit each
 };
 
-flat out vec4 flat_colour; // a = 1: the smooth one counts
+flat out vec4 flat_colour; // a = 1: the smooth one counts; a < 0: the polygon's back is seen
 #ifdef PHONG
 out vec3 surface_colour;
 out vec3 surface_normal; // world axes
@@ -44,7 +44,11 @@ void main() {
     mat3 turn = mat3(part_to_eye_world);
     uint bit = smooth_polygons[first_smooth + polygon / 32u] >> (polygon % 32u) & 1u;
     vec4 air = haze_before(place.xyz);
-    flat_colour = vec4(mix(lit(mix(face_colour.rgb, flat_tint.rgb, flat_tint.a), turn * face_normal), air.rgb, air.a), float(bit));
+    vec3 outwards = turn * face_normal;
+    // Cosine between the line of sight and the normal above which a back is seen: a hundred times
+    // what rounding leaves open.
+    bool turned_away = dot(outwards, place.xyz) > 1e-5 * length(place.xyz);
+    flat_colour = vec4(mix(lit(mix(face_colour.rgb, flat_tint.rgb, flat_tint.a), outwards), air.rgb, air.a), turned_away ? -1.0 : float(bit));
     vec3 own = mix(own_colour.rgb, smooth_tint.rgb, smooth_tint.a);
 #ifdef PHONG
     surface_colour = own;
