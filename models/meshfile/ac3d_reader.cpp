@@ -2,10 +2,12 @@
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/placement.h"
 #include "models/meshfile/word_scanner.h"
+#include "models/polygons/obj_lines.h"
 #include "sim/base/text_file.h"
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <fmt/format.h>
 #include <optional>
@@ -24,13 +26,24 @@ constexpr std::size_t least_vertex_bytes = 6; ///< "0 0 0" and what parts it fro
 constexpr std::array<std::string_view, 6> ignored_keywords{
     "subdiv", "crease", "url", "hidden", "locked", "folded"};
 
+/// Whether an object's name says that it is shown in place of blades while they turn, or as a
+/// shadow on the ground.
+bool is_stand_in(std::string name) {
+    std::ranges::transform(
+        name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto has = [&](std::string_view part) { return name.find(part) != name.npos; };
+    const bool of_blades = has("prop") || has("rotor") || has("blade") || has("pdis");
+    return (of_blades && (has("disc") || has("disk") || has("blur"))) ||
+           (has("shadow") && !has("noshadow"));
+}
+
 class Ac3dReading {
 public:
     Ac3dReading(
         const std::filesystem::path& path, std::string_view text, const ReadOptions& options)
         : path_(path)
         , options_(options)
-        , words_(path, text, 1)
+        , words_(path, polygons::without_byte_order_mark(text), 1)
         , mesh_(path, options) {}
 
     /// What the file holds, to be finished.
@@ -80,7 +93,7 @@ private:
             } else if (word == "name") {
                 std::string_view rest = words_.rest_of_line();
                 const std::string name = taken_ac3d_name(rest, words_);
-                is_left_out_ = is_left_out_ || options_.left_out.contains(name);
+                leave_out(name);
                 take_group(name);
             } else if (word == "texture") {
                 take_picture(picture);
@@ -112,6 +125,12 @@ private:
         }
         is_left_out_ = was_left_out;
         group_ = group_before;
+    }
+
+    void leave_out(const std::string& name) {
+        const bool stands_in = !is_left_out_ && !options_.stand_ins && is_stand_in(name);
+        stand_ins_ += static_cast<std::size_t>(stands_in);
+        is_left_out_ = is_left_out_ || stands_in || options_.left_out.contains(name);
     }
 
     void take_group(const std::string& name) {
@@ -266,6 +285,12 @@ private:
                 path_.string(),
                 missing_kids_));
         }
+        if (stand_ins_ > 0) {
+            mesh_.add_note(fmt::format(
+                "{}: {} objects are left out that stand for turning blades or shadows",
+                path_.string(),
+                stand_ins_));
+        }
         if (skipped_ > 0) {
             mesh_.add_note(fmt::format(
                 "{}: {} lines and other surfaces without an area are not read",
@@ -286,6 +311,7 @@ private:
     MeshBuilder mesh_;
     Ac3dMaterials materials_;
     std::vector<Corner> corners_;
+    std::size_t stand_ins_ = 0; ///< objects left out
     std::size_t skipped_ = 0;
     std::size_t two_sided_ = 0;
     long missing_kids_ = 0;          ///< that are announced and not there
@@ -293,16 +319,25 @@ private:
     std::uint32_t group_ = no_index; ///< its
 };
 
+/// What the file holds, to be finished.
+MeshBuilder built(const std::filesystem::path& path, ReadOptions options) {
+    const std::string text = read_text_file(path, largest_ac3d_bytes);
+    MeshBuilder mesh = Ac3dReading(path, text, options).read();
+    if (mesh.is_empty() && !options.stand_ins) {
+        options.stand_ins = true;
+        return Ac3dReading(path, text, options).read();
+    }
+    return mesh;
+}
+
 } // namespace
 
 TriangleMesh read_ac3d_mesh(const std::filesystem::path& path, const ReadOptions& options) {
-    const std::string text = read_text_file(path, largest_ac3d_bytes);
-    return Ac3dReading(path, text, options).read().finish();
+    return built(path, options).finish();
 }
 
 MeshParts read_ac3d_parts(const std::filesystem::path& path, const ReadOptions& options) {
-    const std::string text = read_text_file(path, largest_ac3d_bytes);
-    return Ac3dReading(path, text, options).read().finish_parts();
+    return built(path, options).finish_parts();
 }
 
 } // namespace octant::models::meshfile

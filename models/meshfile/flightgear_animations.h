@@ -14,8 +14,9 @@ namespace octant::models::meshfile {
 /// What the animations of one FlightGear model do to the objects of its mesh and to its
 /// sub-models, by their names; axes of that model.
 struct FlightGearAnimations {
-    /// What a range shows only to eyes farther away, what a select hides at rest, and what is moved
-    /// along the ground as a shadow. An empty name stands for all of the model.
+    /// What a range shows only to eyes farther than some metres away, what a select hides at rest,
+    /// what stands for a light's reach, and what is moved along the ground as a shadow. An empty
+    /// name stands for all of the model.
     std::set<std::string> hidden;
     std::vector<FlightGearTurn> turns;  ///< of objects about the same axis only one
     std::map<std::string, int> at_rest; ///< how many others there are, by their types

@@ -38,6 +38,7 @@ namespace fs = std::filesystem;
 
 constexpr int most_model_depth = 8;
 constexpr std::size_t most_models = 500;
+constexpr std::size_t most_notes = 20;
 
 glm::dmat3 turn_about(int axis, double angle_rad) {
     glm::dmat3 turn(1.0);
@@ -67,6 +68,11 @@ public:
         }
         if (model_.body.triangles.empty()) {
             error_in(path_, "expected a model with a mesh, got none");
+        }
+        if (const std::size_t all = model_.body.notes.size(); all > most_notes) {
+            model_.body.notes.resize(most_notes);
+            model_.body.notes.push_back(fmt::format(
+                "{}: {} more notes on its sub-models", path_.string(), all - most_notes));
         }
         model_.body.name = path_.stem().string();
         if (!at_rest_.empty()) {
@@ -117,9 +123,11 @@ private:
             return;
         }
         about = about == nullptr ? animated.axis_of("") : about;
+        options_.pictures_in = folder_of_pictures(file, root);
         if (const std::string name(root.text_of("path")); !name.empty()) {
             take_named(file, name, own, animated, about, depth);
         }
+        options_.pictures_in.clear();
         for (const XmlElement& child : root.children) {
             const std::string path(child.text_of("path"));
             const std::string name(child.text_of("name"));
@@ -130,6 +138,11 @@ private:
                 take_named(file, path, own.of(offsets(file, child)), {}, turned, depth);
             }
         }
+    }
+
+    static fs::path folder_of_pictures(const fs::path& file, const XmlElement& root) {
+        const std::string folder(root.text_of("texture-path"));
+        return folder.empty() ? fs::path() : file.parent_path() / folder;
     }
 
     FlightGearAnimations
@@ -264,7 +277,9 @@ TurningModel read_turning_model(const fs::path& path, const ReadOptions& options
     if (ending_of(path) == ".xml") {
         return FlightGearReading(path, options).read();
     }
-    MeshParts parts = read_parts(path, options);
+    ReadOptions alone = options;
+    alone.stand_ins = false;
+    MeshParts parts = read_parts(path, alone);
     if (parts.body.triangles.empty()) { // then nothing is to be seen through the rest
         return {read_mesh(path, options), {}, {}};
     }

@@ -49,6 +49,8 @@ public:
 
     BakedPictures& pictures() { return pictures_; }
 
+    bool is_empty() const { return mesh_.triangles.empty(); }
+
     std::size_t vertex_count() const { return mesh_.vertices_m.size(); }
 
     const glm::dvec3& vertex_m(std::uint32_t vertex) const { return mesh_.vertices_m[vertex]; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,8 +14,13 @@ struct ReadOptions {
     /// colours of their own they are left out. Triangles on which the picture is mostly transparent
     /// (shadows on the ground, turning propellers, clear glass) are left out, unless all are.
     bool pictures = false;
+    /// Where pictures are looked for before the mesh's own folder; empty: there alone.
+    std::filesystem::path pictures_in = {};
     /// Sheets that .ac and glTF files call two-sided get backs (sheet_backs.h).
     bool backs = false;
+    /// Objects of .ac files that by their names are discs shown in place of turning blades, or
+    /// shadows on the ground, unless there is nothing else.
+    bool stand_ins = true;
     /// Objects of .ac files that are left out, by their names, with what hangs on them.
     std::set<std::string> left_out = {};
     /// Objects of .ac files that read_parts gives apart, by their names, with what hangs on them:

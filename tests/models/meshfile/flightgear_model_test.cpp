@@ -109,6 +109,43 @@ TEST_CASE("what a range shows from afar only is left out of a FlightGear model")
     CHECK(read_mesh(near_file).triangles.size() == 2);
 }
 
+TEST_CASE("ranges, lights and views of a FlightGear model show what is seen from outside") {
+    file_with("square.ac", ac3d_square("0x0", "pilot"));
+    const auto shown = [](const std::string& animation) {
+        const auto file = file_with(
+            "outside.xml",
+            "<PropertyList><path>square.ac</path><model><path>square.ac</path></model><animation>"
+            "<object-name>pilot</object-name>" +
+                animation + "</animation></PropertyList>");
+        return read_mesh(file).triangles.size() == 4; // else the sub-model's two alone
+    };
+    CHECK(shown("<type>range</type><min-m>1</min-m><max-m>500</max-m>")); // not from his own eye
+    CHECK(shown("<type>range</type><max-property>level/detailed</max-property>"));
+    CHECK_FALSE(shown("<type>range</type><min-property>level/detailed</min-property>"));
+    CHECK_FALSE(shown("<type>light</type><light-type>point</light-type>"));
+    const auto in_view = [](const std::string& relation, const std::string& number) {
+        return "<type>select</type><condition><" + relation +
+               "><property>sim/current-view/view-number</property><value>" + number + "</value></" +
+               relation + "></condition>";
+    };
+    CHECK_FALSE(shown(in_view("equals", "0")));
+    CHECK(shown(in_view("not-equals", "0")));
+    CHECK(shown(in_view("greater-than", "0")));
+}
+
+TEST_CASE("what is said of a FlightGear model's many parts ends with a count") {
+    std::string models;
+    for (int i = 0; i < 30; ++i) {
+        models += "<model><path>none" + std::to_string(i) + ".ac</path></model>";
+    }
+    file_with("square.ac", ac3d_square("0x0"));
+    const TriangleMesh mesh = read_mesh(
+        file_with("many.xml", "<PropertyList><path>square.ac</path>" + models + "</PropertyList>"));
+    REQUIRE(mesh.notes.size() == 21);
+    CHECK_THAT(mesh.notes.front(), Catch::Contains("no file of path 'none0.ac'"));
+    CHECK_THAT(mesh.notes.back(), Catch::Contains("10 more notes on its sub-models"));
+}
+
 TEST_CASE("what FlightGear shows under a condition is there if it holds at rest") {
     file_with("square.ac", ac3d_square("0x0", "lamp"));
     const auto shown = [](const std::string& condition) {

@@ -126,6 +126,25 @@ TEST_CASE("of a mesh whose objects are not told apart nothing turns, and it is t
     CHECK(model.parts.empty());
 }
 
+TEST_CASE("an AC3D aircraft alone shows its blades and not the discs that stand for them") {
+    const auto objects_left = [](const std::string& first, const std::string& second) {
+        const std::string object = "\"\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\n"
+                                   "mat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n";
+        const auto file = file_with(
+            "alone.ac",
+            "\xef\xbb\xbf"
+            "AC3Db\nMATERIAL \"w\" rgb 1 1 1\nOBJECT world\nkids 2\n"
+            "OBJECT poly\nname \"" +
+                first + object + "OBJECT poly\nname \"" + second + object);
+        CHECK(read_mesh(file).triangles.size() == 2);
+        return read_turning_model(file, {}).body.triangles.size();
+    };
+    CHECK(objects_left("heliceG", "propdiscG") == 1);
+    CHECK(objects_left("PropBlurFastL", "wing") == 1);
+    CHECK(objects_left("Rotor-Disc_M-Pale", "shadow") == 2); // there is nothing else
+    CHECK(objects_left("noshadow.glass", "disk") == 2);
+}
+
 TEST_CASE("a sub-model turns as the model that holds it says by its name") {
     file_with("square.ac", ac3d_square("0x0"));
     const auto file = file_with(
