@@ -141,7 +141,7 @@ private:
     }
 
     static fs::path folder_of_pictures(const fs::path& file, const XmlElement& root) {
-        const std::string folder(root.text_of("texture-path"));
+        const fs::path folder = fs::path(root.text_of("texture-path")).relative_path();
         return folder.empty() ? fs::path() : file.parent_path() / folder;
     }
 

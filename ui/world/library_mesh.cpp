@@ -3,10 +3,12 @@
 #include "models/meshfile/level_chain.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "sim/base/utf8.h"
 #include "ui/report/child_program.h"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <string>
@@ -47,10 +49,8 @@ const Library* library_of(const fs::path& file) {
     if (const std::string named = file.string() + ": "; complaint.starts_with(named)) {
         complaint.remove_prefix(named.size());
     }
-    std::string words;
-    for (const char c : complaint.substr(0, 300)) {
-        words += c >= ' ' && c < '\x7f' ? c : '?';
-    }
+    constexpr std::size_t longest = 300;
+    const std::string words = one_line(complaint.substr(0, longest));
     error_in(
         file,
         words.starts_with("expected ")

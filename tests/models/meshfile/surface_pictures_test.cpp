@@ -143,10 +143,12 @@ TEST_CASE("a FlightGear model says in which folder its pictures lie") {
             {.pictures = true});
     };
     CHECK(model("").colours.empty());
-    const TriangleMesh painted = model("<texture-path>Texture-RAF/</texture-path>");
-    CHECK(painted.notes.empty());
-    REQUIRE(painted.colours.size() == 4);
-    CHECK(painted.colours[0].x > 0.75F);
+    for (const std::string name : {"Texture-RAF/", "/Texture-RAF"}) {
+        const TriangleMesh painted = model("<texture-path>" + name + "</texture-path>");
+        CHECK(painted.notes.empty());
+        REQUIRE(painted.colours.size() == 4);
+        CHECK(painted.colours[0].x > 0.75F);
+    }
 }
 
 TEST_CASE("a picture that is missing is told, and the material's colour stays") {
