@@ -26,15 +26,16 @@ constexpr std::size_t least_vertex_bytes = 6; ///< "0 0 0" and what parts it fro
 constexpr std::array<std::string_view, 6> ignored_keywords{
     "subdiv", "crease", "url", "hidden", "locked", "folded"};
 
-/// Whether an object's name says that it is shown in place of blades while they turn, or as a
-/// shadow on the ground.
+/// Whether an object's name says that it is shown in place of blades while they turn, of a lamp's
+/// light, or of a shadow on the ground.
 bool is_stand_in(std::string name) {
     std::ranges::transform(
         name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const auto has = [&](std::string_view part) { return name.find(part) != name.npos; };
     const bool of_blades = has("prop") || has("rotor") || has("blade") || has("pdis");
-    return (of_blades && (has("disc") || has("disk") || has("blur"))) ||
-           (has("shadow") && !has("noshadow"));
+    const bool turns_fast = has("disc") || has("disk") || has("blur") || has("fast");
+    const bool is_of_light = has("light") && (has("cone") || has("volume") || has("beam"));
+    return (of_blades && turns_fast) || is_of_light || (has("shadow") && !has("noshadow"));
 }
 
 class Ac3dReading {
@@ -287,7 +288,7 @@ private:
         }
         if (stand_ins_ > 0) {
             mesh_.add_note(fmt::format(
-                "{}: {} objects are left out that stand for turning blades or shadows",
+                "{}: {} objects are left out that stand for turning blades, light or shadows",
                 path_.string(),
                 stand_ins_));
         }

@@ -18,8 +18,9 @@ struct ReadOptions {
     std::filesystem::path pictures_in = {};
     /// Sheets that .ac and glTF files call two-sided get backs (sheet_backs.h).
     bool backs = false;
-    /// Objects of .ac files that by their names are discs shown in place of turning blades, or
-    /// shadows on the ground, unless there is nothing else.
+    /// Objects of .ac files that by their names stand for what is no surface (discs of turning
+    /// blades, cones of light, shadows on the ground) are read like others. They are in any case if
+    /// there is nothing else.
     bool stand_ins = true;
     /// Objects of .ac files that are left out, by their names, with what hangs on them.
     std::set<std::string> left_out = {};

@@ -126,7 +126,7 @@ TEST_CASE("of a mesh whose objects are not told apart nothing turns, and it is t
     CHECK(model.parts.empty());
 }
 
-TEST_CASE("an AC3D aircraft alone shows its blades and not the discs that stand for them") {
+TEST_CASE("an AC3D aircraft alone shows its blades, not what stands for discs, light and shadows") {
     const auto objects_left = [](const std::string& first, const std::string& second) {
         const std::string object = "\"\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\n"
                                    "mat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n";
@@ -141,6 +141,8 @@ TEST_CASE("an AC3D aircraft alone shows its blades and not the discs that stand 
     };
     CHECK(objects_left("heliceG", "propdiscG") == 1);
     CHECK(objects_left("PropBlurFastL", "wing") == 1);
+    CHECK(objects_left("taxi-light-cone", "light") == 1);
+    CHECK(objects_left("Fastprop", "Slowprop") == 1);
     CHECK(objects_left("Rotor-Disc_M-Pale", "shadow") == 2); // there is nothing else
     CHECK(objects_left("noshadow.glass", "disk") == 2);
 }
