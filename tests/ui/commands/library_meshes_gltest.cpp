@@ -45,6 +45,8 @@ TEST_CASE("meshes that libraries read come through, switches that are all off sh
     const auto by_osg = information("triangle.osg", triangle);
     CHECK(by_osg.exit_code == 0);
     CHECK_THAT(by_osg.out, Catch::Contains("faces           1"));
+    CHECK_THAT(by_assimp.out, Catch::Contains("nose towards -z, up +y: taken for granted"));
+    CHECK_THAT(by_osg.out, Catch::Contains("nose towards +y, up +z: taken for granted"));
     const auto switched = information(
         "switched.osg",
         "Switch {\n ValueList {\n  0\n }\n num_children 1\n " + std::string(triangle) + "}\n");
