@@ -57,7 +57,7 @@ public:
         , options_(options) {}
 
     TurningModel read() {
-        take_model(path_, {}, nullptr, 0);
+        take_model(model_file(), {}, nullptr, 0);
         if (model_.body.triangles.empty()) { // all of it turns: then none of it does
             for (TurningPart& part : std::exchange(model_.parts, {})) {
                 join_mesh(model_.body, std::move(part.mesh), {});
@@ -87,6 +87,29 @@ public:
     }
 
 private:
+    /// An aircraft's own file, such as b25-set.xml, names its model among much else.
+    fs::path model_file() const {
+        if (!path_.filename().string().ends_with("-set.xml")) {
+            return path_;
+        }
+        const XmlElement root = flightgear_tree(path_);
+        for (const XmlElement& sim : root.children) {
+            const XmlElement* model = sim.name == "sim" ? sim.find("model") : nullptr;
+            const std::string name(model == nullptr ? "" : model->text_of("path"));
+            if (name.empty()) {
+                continue;
+            }
+            fs::path file = flightgear_file(path_, name);
+            if (file.empty()) {
+                error_in(
+                    path_,
+                    "expected a file of its sim/model/path, got none called " + in_quotes(name));
+            }
+            return file;
+        }
+        error_in(path_, "expected a model's path in sim/model, got none");
+    }
+
     Placement offsets(const fs::path& file, const XmlElement& parent) const {
         const XmlElement* found = parent.find("offsets");
         if (found == nullptr) {

@@ -37,6 +37,30 @@ TEST_CASE("FlightGear's models bring their sub-models, moved and turned") {
     CHECK(axes_of_format(file)->text() == "back,right,up");
 }
 
+TEST_CASE("an aircraft of FlightGear is read by its own file, which names its model") {
+    file_with("square.ac", ac3d_square("0x0"));
+    file_with("flier.xml", "<PropertyList><path>square.ac</path></PropertyList>");
+    file_with(
+        "base.xml",
+        "<PropertyList><sim><model><path>flier.xml</path></model></sim></PropertyList>");
+    const auto read_set = [](const std::string& sim) {
+        return file_with(
+            "flier-set.xml", "<PropertyList include='base.xml'>" + sim + "</PropertyList>");
+    };
+    CHECK(read_mesh(read_set("<sim><aero>x</aero></sim>")).triangles.size() == 2);
+    CHECK(
+        read_mesh(read_set("<sim><model><path>Aircraft/F/square.ac</path></model></sim>"))
+            .triangles.size() == 2);
+    CHECK_THAT(
+        error_of(
+            "none-set.xml",
+            "<PropertyList><sim><model><path>none.xml</path></model></sim></PropertyList>"),
+        Catch::Contains("expected a file of its sim/model/path, got none called 'none.xml'"));
+    CHECK_THAT(
+        error_of("void-set.xml", "<PropertyList><sim/></PropertyList>"),
+        Catch::Contains("expected a model's path in sim/model, got none"));
+}
+
 TEST_CASE("a faulty number in a range costs the range alone") {
     file_with("square.ac", ac3d_square("0x0", "near"));
     const TurningModel model = read_turning_model(
