@@ -148,6 +148,9 @@ private:
         about = about == nullptr ? animated.axis_of("") : about;
         options_.pictures_in = folder_of_pictures(file, root);
         if (const std::string name(root.text_of("path")); !name.empty()) {
+            if (depth == 0 && flightgear_file(file, name).empty()) {
+                error_in(file, "expected a file of its path, got none called " + in_quotes(name));
+            }
             take_named(file, name, own, animated, about, depth);
         }
         options_.pictures_in.clear();
@@ -190,9 +193,6 @@ private:
         const TurningAxis* about,
         int depth) {
         const fs::path file = flightgear_file(from, name);
-        if (file.empty() && depth == 0 && model_.body.triangles.empty()) {
-            error_in(from, "expected a file of its path, got none called " + in_quotes(name));
-        }
         if (file.empty()) {
             note_once(fmt::format("{}: no file of path '{}'", from.string(), printable(name)));
         } else if (ending_of(file) == ".xml") {

@@ -52,6 +52,16 @@ TEST_CASE("an aircraft of FlightGear is read by its own file, which names its mo
         read_mesh(read_set("<sim><model><path>Aircraft/F/square.ac</path></model></sim>"))
             .triangles.size() == 2);
     CHECK_THAT(
+        read_mesh(file_with(
+                      "first.xml",
+                      "<PropertyList><model><path>none.xml</path></model>"
+                      "<model><path>square.ac</path></model></PropertyList>"))
+            .notes.front(),
+        Catch::Contains("no file of path 'none.xml'"));
+    CHECK_THAT(
+        error_of("first.xml", "<PropertyList><path>none.ac</path></PropertyList>"),
+        Catch::Contains("expected a file of its path, got none called 'none.ac'"));
+    CHECK_THAT(
         error_of(
             "none-set.xml",
             "<PropertyList><sim><model><path>none.xml</path></model></sim></PropertyList>"),
