@@ -1,4 +1,5 @@
 #include "models/meshfile/ac3d_materials.h"
+#include "models/meshfile/ac3d_object.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/placement.h"
 #include "models/meshfile/word_scanner.h"
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <fmt/format.h>
 #include <optional>
@@ -25,18 +25,6 @@ constexpr std::size_t least_vertex_bytes = 6; ///< "0 0 0" and what parts it fro
 /// Keywords of an object that say nothing about its shape.
 constexpr std::array<std::string_view, 6> ignored_keywords{
     "subdiv", "crease", "url", "hidden", "locked", "folded"};
-
-/// Whether an object's name says that it is shown in place of blades while they turn, of a lamp's
-/// light, or of a shadow on the ground.
-bool is_stand_in(std::string name) {
-    std::ranges::transform(
-        name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const auto has = [&](std::string_view part) { return name.find(part) != name.npos; };
-    const bool of_blades = has("prop") || has("rotor") || has("blade") || has("pdis");
-    const bool turns_fast = has("disc") || has("disk") || has("blur") || has("fast");
-    const bool is_of_light = has("light") && (has("cone") || has("volume") || has("beam"));
-    return (of_blades && turns_fast) || is_of_light || (has("shadow") && !has("noshadow"));
-}
 
 class Ac3dReading {
 public:
@@ -75,8 +63,7 @@ private:
         words_.word("a kind of object");
         Placement own;
         ObjectPicture picture;
-        const bool was_left_out = is_left_out_;
-        const std::uint32_t group_before = group_;
+        const Ac3dObject holder = object_;
         const std::size_t first_vertex = mesh_.vertex_count();
         while (true) {
             const std::string_view word = words_.word("kids");
@@ -88,14 +75,14 @@ private:
             } else if (word == "rot") {
                 take_turn(own.turn);
             } else if (word == "numvert") {
-                take_vertices(parent.of(own));
+                take_vertices(object_.moved.of(parent.of(own)));
             } else if (word == "numsurf") {
                 take_surfaces(first_vertex, parent.of(own).mirrors(), picture);
             } else if (word == "name") {
                 std::string_view rest = words_.rest_of_line();
                 const std::string name = taken_ac3d_name(rest, words_);
-                leave_out(name);
-                take_group(name);
+                object_ = object_called(name, holder, options_);
+                stand_ins_ += static_cast<std::size_t>(object_.stands_in);
             } else if (word == "texture") {
                 take_picture(picture);
             } else if (word == "texrep" || word == "texoff") {
@@ -124,22 +111,7 @@ private:
             }
             take_object(parent.of(own), depth + 1);
         }
-        is_left_out_ = was_left_out;
-        group_ = group_before;
-    }
-
-    void leave_out(const std::string& name) {
-        const bool stands_in = !is_left_out_ && !options_.stand_ins && is_stand_in(name);
-        stand_ins_ += static_cast<std::size_t>(stands_in);
-        is_left_out_ = is_left_out_ || stands_in || options_.left_out.contains(name);
-    }
-
-    void take_group(const std::string& name) {
-        const auto found = std::ranges::find_if(
-            options_.groups, [&](const auto& group) { return group.contains(name); });
-        if (group_ == no_index && found != options_.groups.end()) {
-            group_ = static_cast<std::uint32_t>(found - options_.groups.begin());
-        }
+        object_ = holder;
     }
 
     /// How an object's picture lies on its surfaces.
@@ -266,13 +238,13 @@ private:
             ++skipped_;
             return;
         }
-        if (is_left_out_) {
+        if (object_.is_left_out) {
             return;
         }
         const bool is_two_sided = (kind & 0x20U) != 0;
         two_sided_ += static_cast<std::size_t>(is_two_sided && !mesh_.takes_backs());
         mesh_.set_two_sided(is_two_sided);
-        mesh_.set_group(group_);
+        mesh_.set_group(object_.group);
         if (mirrored) {
             std::ranges::reverse(corners_);
         }
@@ -315,9 +287,8 @@ private:
     std::size_t stand_ins_ = 0; ///< objects left out
     std::size_t skipped_ = 0;
     std::size_t two_sided_ = 0;
-    long missing_kids_ = 0;          ///< that are announced and not there
-    bool is_left_out_ = false;       ///< the object at hand
-    std::uint32_t group_ = no_index; ///< its
+    long missing_kids_ = 0; ///< that are announced and not there
+    Ac3dObject object_;     ///< at hand
 };
 
 /// What the file holds, to be finished.

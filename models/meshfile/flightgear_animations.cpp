@@ -85,15 +85,17 @@ void add_turn(FlightGearTurn turn, std::vector<FlightGearTurn>& turns) {
     }
 }
 
-/// One whose numbers are faulty is left at rest.
-std::optional<FlightGearTurn> turn_of(
+/// What `read(file, animation)` gives; nothing for one whose numbers are faulty.
+template <typename Read>
+auto unless_faulty(
+    const Read& read,
     const std::filesystem::path& file,
     const XmlElement& animation,
-    std::vector<std::string>& notes) {
+    std::vector<std::string>& notes) -> decltype(read(file, animation)) {
     try {
-        return turn_in_flight(file, animation);
+        return read(file, animation);
     } catch (const Error& fault) {
-        notes.push_back(fmt::format("{}; what it turns is left at rest", fault.what()));
+        notes.push_back(fmt::format("{}; what it moves is left at rest", fault.what()));
         return std::nullopt;
     }
 }
@@ -129,6 +131,16 @@ const TurningAxis* FlightGearAnimations::axis_of(const std::string& object) cons
     return found == turns.end() ? nullptr : &found->about;
 }
 
+Placement FlightGearAnimations::place_of(const std::string& object) const {
+    Placement place;
+    for (const FlightGearMove& move : moves) {
+        if (move.objects.contains(object) && axis_of(object) == nullptr) {
+            place = place.of(move.placement);
+        }
+    }
+    return place;
+}
+
 FlightGearAnimations
 flightgear_animations(const std::filesystem::path& file, const XmlElement& root) {
     const Groups groups = groups_in(root);
@@ -142,13 +154,17 @@ flightgear_animations(const std::filesystem::path& file, const XmlElement& root)
             if (hides(file, child, animated.notes)) {
                 add_names(child, animated.hidden);
             }
-        } else if (auto turn = turn_of(file, child, animated.notes)) {
+        } else if (auto turn = unless_faulty(turn_in_flight, file, child, animated.notes)) {
             expand(turn->objects, groups);
             add_turn(std::move(*turn), animated.turns);
         } else {
             ++animated.at_rest[kind];
             if (kind == "translate" || kind == "rotate") {
                 add_shadows(child, animated.hidden);
+            }
+            if (auto move = unless_faulty(move_at_rest, file, child, animated.notes)) {
+                expand(move->objects, groups);
+                animated.moves.push_back(std::move(*move));
             }
         }
     }

@@ -20,6 +20,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,9 @@ namespace fs = std::filesystem;
 constexpr int most_model_depth = 8;
 constexpr std::size_t most_models = 500;
 constexpr std::size_t most_notes = 20;
+
+/// Columns: where x, y and z of AC3D files point in a model.
+const glm::dmat3 from_ac3d(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
 
 glm::dmat3 turn_about(int axis, double angle_rad) {
     glm::dmat3 turn(1.0);
@@ -140,7 +144,7 @@ private:
                 file, fmt::format("expected models at most {} deep, got more", most_model_depth));
         }
         const XmlElement root = flightgear_tree(file);
-        const Placement own = parent.of(offsets(file, root));
+        Placement own = parent.of(offsets(file, root));
         const FlightGearAnimations animated = animations_of(file, root, own);
         if (animated.hidden.contains("") && depth > 0) {
             return;
@@ -161,7 +165,8 @@ private:
             if (child.name == "model" && !path.empty() && !is_hidden && holds_at_rest(child)) {
                 const TurningAxis* turned =
                     about == nullptr && !name.empty() ? animated.axis_of(name) : about;
-                take_named(file, path, own.of(offsets(file, child)), {}, turned, depth);
+                const Placement moved = name.empty() ? own : own.of(animated.place_of(name));
+                take_named(file, path, moved.of(offsets(file, child)), {}, turned, depth);
             }
         }
     }
@@ -171,9 +176,11 @@ private:
         return folder.empty() ? fs::path() : file.parent_path() / folder;
     }
 
+    /// Also moves `own`, the model, to where it stands at rest.
     FlightGearAnimations
-    animations_of(const fs::path& file, const XmlElement& root, const Placement& own) {
+    animations_of(const fs::path& file, const XmlElement& root, Placement& own) {
         FlightGearAnimations animated = flightgear_animations(file, root);
+        own = own.of(animated.place_of(""));
         for (FlightGearTurn& turn : animated.turns) {
             turn.about.point_m = own.turn * turn.about.point_m + own.shift_m;
             turn.about.direction = own.turn * turn.about.direction;
@@ -224,6 +231,11 @@ private:
         }
         ReadOptions options = options_;
         options.left_out = animated.hidden;
+        for (const FlightGearMove& move : animated.moves) {
+            for (const std::string& object : move.objects) {
+                options.moved[object] = in_ac3d(animated.place_of(object));
+            }
+        }
         for (const FlightGearTurn& turn : animated.turns) {
             if (about == nullptr) {
                 options.groups.push_back(turn.objects);
@@ -260,8 +272,14 @@ private:
                           : all.opacity + (more.opacity - all.opacity) * share;
     }
 
+    /// A move within a model, within an AC3D file.
+    static Placement in_ac3d(const Placement& in_model) {
+        return {
+            glm::transpose(from_ac3d) * in_model.turn * from_ac3d,
+            glm::transpose(from_ac3d) * in_model.shift_m};
+    }
+
     static Placement in_model(const fs::path& file, const Placement& placement) {
-        const glm::dmat3 from_ac3d(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
         return placement.of({ending_of(file) == ".ac" ? from_ac3d : glm::dmat3(1.0)});
     }
 

@@ -2,6 +2,7 @@
 #include "models/meshfile/gltf_data.h"
 #include "models/meshfile/gltf_pictures.h"
 #include "models/meshfile/gltf_scene.h"
+#include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/placement.h"
 

@@ -1,5 +1,7 @@
 #include "models/meshfile/placement.h"
 
+#include "models/meshfile/mesh_builder.h"
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "models/meshfile/placement.h"
+
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -24,6 +27,9 @@ struct ReadOptions {
     bool stand_ins = true;
     /// Objects of .ac files that are left out, by their names, with what hangs on them.
     std::set<std::string> left_out = {};
+    /// Where objects of .ac files are moved to, by their names, with what hangs on them; axes of
+    /// the file. What moves an object moves those that hang on it after they were moved themselves.
+    std::map<std::string, Placement> moved = {};
     /// Objects of .ac files that read_parts gives apart, by their names, with what hangs on them:
     /// of nested ones the outermost counts, of several groups the first.
     std::vector<std::set<std::string>> groups = {};

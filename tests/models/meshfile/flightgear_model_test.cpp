@@ -5,9 +5,11 @@
 #include "tests/models/meshfile/mesh_samples.h"
 
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <string>
+#include <utility>
 
 using namespace octant;
 using namespace octant::models;
@@ -165,6 +167,53 @@ TEST_CASE("ranges, lights and views of a FlightGear model show what is seen from
     CHECK_FALSE(shown(in_view("equals", "0")));
     CHECK(shown(in_view("not-equals", "0")));
     CHECK(shown(in_view("greater-than", "0")));
+}
+
+TEST_CASE("what animations move stands where it is at rest: landing gear up") {
+    file_with("square.ac", ac3d_square("0x0", "leg"));
+    const auto corner_m = [](const std::string& animations) {
+        const TriangleMesh mesh = read_mesh(file_with(
+            "gear.xml",
+            "<PropertyList><path>square.ac</path><model><name>wheel</name><path>square.ac</path>"
+            "</model>" +
+                animations + "</PropertyList>"));
+        REQUIRE(mesh.vertices_m.size() == 8);
+        CHECK(mesh.notes.size() == 1); // of what is left at rest
+        return std::pair(mesh.vertices_m[2], mesh.vertices_m[6]);
+    };
+    const auto is_at = [](const glm::dvec3& place_m, double x_m, double z_m) {
+        return glm::distance(place_m, glm::dvec3(x_m, 0.0, z_m)) < 1e-9;
+    };
+    const std::string turned =
+        "<animation><type>rotate</type><object-name>leg</object-name><object-name>wheel</"
+        "object-name>"
+        "<property>gear/gear/position-norm</property><interpolation><entry><ind>0</ind><dep>90</"
+        "dep>"
+        "</entry><entry><ind>1</ind><dep>0</dep></entry></interpolation><axis><y>2</y></axis>"
+        "<center><x-m>1</x-m></center></animation>";
+    const std::string shifted =
+        "<animation><type>translate</type><object-name>leg</object-name><offset-m>2</offset-m>"
+        "<axis><x>1</x></axis></animation>";
+    const auto [leg_m, wheel_m] = corner_m(turned); // from x = 1, z = 1
+    CHECK(is_at(leg_m, 2.0, 0.0));
+    CHECK(is_at(wheel_m, 2.0, 0.0));
+    CHECK(is_at(corner_m(turned + shifted).first, 2.0, -2.0)); // shifted, then turned
+    CHECK(is_at(corner_m(shifted + turned).first, 4.0, 0.0));
+    CHECK(is_at(corner_m(turned + shifted).second, 2.0, 0.0));
+    const std::string limited =
+        "<animation><type>rotate</type><property>canopy</property><offset-deg>400</offset-deg>"
+        "<max-deg>180</max-deg><axis><x1-m>0</x1-m><y1-m>-1</y1-m><y2-m>1</y2-m></axis></"
+        "animation>";
+    CHECK(is_at(
+        corner_m("<animation><type>rotate</type><property>canopy</property><factor>7</factor>"
+                 "<axis><y>1</y></axis></animation>")
+            .first,
+        1.0,
+        1.0));
+    file_with("whole.xml", "<PropertyList><path>square.ac</path>" + limited + "</PropertyList>");
+    const TriangleMesh whole = read_mesh(file_with(
+        "holder.xml", "<PropertyList><model><path>whole.xml</path></model></PropertyList>"));
+    CHECK(is_at(whole.vertices_m.at(2), -1.0, -1.0));
 }
 
 TEST_CASE("what is said of a FlightGear model's many parts ends with a count") {

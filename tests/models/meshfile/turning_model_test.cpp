@@ -64,7 +64,7 @@ TEST_CASE("propellers and rotors of a FlightGear model turn, wheels stay with th
     CHECK_THAT(model.body.notes.back(), Catch::Contains("left at rest: 2 rotate, 2 spin"));
     CHECK_THAT(
         model.body.notes.front(),
-        Catch::Contains("expected a number, got '1,5'; what it turns is left at rest"));
+        Catch::Contains("expected a number, got '1,5'; what it moves is left at rest"));
     CHECK(read_mesh(file).triangles.size() == 6); // as one mesh all of it is there
     CHECK(read_turning_model(file.parent_path() / "parts.ac", {}).parts.empty());
 }
