@@ -1,6 +1,6 @@
 #include "models/meshfile/placement.h"
 
-#include "models/meshfile/mesh_builder.h"
+#include "models/meshfile/mesh_limits.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
