@@ -150,7 +150,7 @@ private:
             return;
         }
         about = about == nullptr ? animated.axis_of("") : about;
-        options_.pictures_in = folder_of_pictures(file, root);
+        options_.pictures_in = flightgear_pictures(file, std::string(root.text_of("texture-path")));
         if (const std::string name(root.text_of("path")); !name.empty()) {
             if (depth == 0 && flightgear_file(file, name).empty()) {
                 error_in(file, "expected a file of its path, got none called " + in_quotes(name));
@@ -169,11 +169,6 @@ private:
                 take_named(file, path, moved.of(offsets(file, child)), {}, turned, depth);
             }
         }
-    }
-
-    static fs::path folder_of_pictures(const fs::path& file, const XmlElement& root) {
-        const fs::path folder = fs::path(root.text_of("texture-path")).relative_path();
-        return folder.empty() ? fs::path() : file.parent_path() / folder;
     }
 
     /// Also moves `own`, the model, to where it stands at rest.
