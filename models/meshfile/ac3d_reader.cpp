@@ -23,8 +23,8 @@ constexpr long most_count = 0x7fffffff;
 constexpr std::size_t least_vertex_bytes = 6; ///< "0 0 0" and what parts it from the next
 
 /// Keywords of an object that say nothing about its shape.
-constexpr std::array<std::string_view, 6> ignored_keywords{
-    "subdiv", "crease", "url", "hidden", "locked", "folded"};
+constexpr std::array<std::string_view, 7> ignored_keywords{
+    "subdiv", "crease", "url", "hidden", "locked", "folded", "showname"};
 
 class Ac3dReading {
 public:
