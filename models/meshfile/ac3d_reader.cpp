@@ -1,7 +1,9 @@
 #include "models/meshfile/ac3d_materials.h"
+#include "models/meshfile/ac3d_object.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/placement.h"
 #include "models/meshfile/word_scanner.h"
+#include "models/polygons/obj_lines.h"
 #include "sim/base/text_file.h"
 
 #include <algorithm>
@@ -21,8 +23,8 @@ constexpr long most_count = 0x7fffffff;
 constexpr std::size_t least_vertex_bytes = 6; ///< "0 0 0" and what parts it from the next
 
 /// Keywords of an object that say nothing about its shape.
-constexpr std::array<std::string_view, 6> ignored_keywords{
-    "subdiv", "crease", "url", "hidden", "locked", "folded"};
+constexpr std::array<std::string_view, 7> ignored_keywords{
+    "subdiv", "crease", "url", "hidden", "locked", "folded", "showname"};
 
 class Ac3dReading {
 public:
@@ -30,7 +32,7 @@ public:
         const std::filesystem::path& path, std::string_view text, const ReadOptions& options)
         : path_(path)
         , options_(options)
-        , words_(path, text, 1)
+        , words_(path, polygons::without_byte_order_mark(text), 1)
         , mesh_(path, options) {}
 
     /// What the file holds, to be finished.
@@ -61,8 +63,7 @@ private:
         words_.word("a kind of object");
         Placement own;
         ObjectPicture picture;
-        const bool was_left_out = is_left_out_;
-        const std::uint32_t group_before = group_;
+        const Ac3dObject holder = object_;
         const std::size_t first_vertex = mesh_.vertex_count();
         while (true) {
             const std::string_view word = words_.word("kids");
@@ -74,14 +75,14 @@ private:
             } else if (word == "rot") {
                 take_turn(own.turn);
             } else if (word == "numvert") {
-                take_vertices(parent.of(own));
+                take_vertices(object_.moved.of(parent.of(own)));
             } else if (word == "numsurf") {
                 take_surfaces(first_vertex, parent.of(own).mirrors(), picture);
             } else if (word == "name") {
                 std::string_view rest = words_.rest_of_line();
                 const std::string name = taken_ac3d_name(rest, words_);
-                is_left_out_ = is_left_out_ || options_.left_out.contains(name);
-                take_group(name);
+                object_ = object_called(name, holder, options_);
+                stand_ins_ += static_cast<std::size_t>(object_.stands_in);
             } else if (word == "texture") {
                 take_picture(picture);
             } else if (word == "texrep" || word == "texoff") {
@@ -110,16 +111,7 @@ private:
             }
             take_object(parent.of(own), depth + 1);
         }
-        is_left_out_ = was_left_out;
-        group_ = group_before;
-    }
-
-    void take_group(const std::string& name) {
-        const auto found = std::ranges::find_if(
-            options_.groups, [&](const auto& group) { return group.contains(name); });
-        if (group_ == no_index && found != options_.groups.end()) {
-            group_ = static_cast<std::uint32_t>(found - options_.groups.begin());
-        }
+        object_ = holder;
     }
 
     /// How an object's picture lies on its surfaces.
@@ -246,13 +238,13 @@ private:
             ++skipped_;
             return;
         }
-        if (is_left_out_) {
+        if (object_.is_left_out) {
             return;
         }
         const bool is_two_sided = (kind & 0x20U) != 0;
         two_sided_ += static_cast<std::size_t>(is_two_sided && !mesh_.takes_backs());
         mesh_.set_two_sided(is_two_sided);
-        mesh_.set_group(group_);
+        mesh_.set_group(object_.group);
         if (mirrored) {
             std::ranges::reverse(corners_);
         }
@@ -265,6 +257,12 @@ private:
                 "{}: the file ends {} objects before what it announces",
                 path_.string(),
                 missing_kids_));
+        }
+        if (stand_ins_ > 0) {
+            mesh_.add_note(fmt::format(
+                "{}: {} objects are left out that stand for turning blades, light or shadows",
+                path_.string(),
+                stand_ins_));
         }
         if (skipped_ > 0) {
             mesh_.add_note(fmt::format(
@@ -286,23 +284,32 @@ private:
     MeshBuilder mesh_;
     Ac3dMaterials materials_;
     std::vector<Corner> corners_;
+    std::size_t stand_ins_ = 0; ///< objects left out
     std::size_t skipped_ = 0;
     std::size_t two_sided_ = 0;
-    long missing_kids_ = 0;          ///< that are announced and not there
-    bool is_left_out_ = false;       ///< the object at hand
-    std::uint32_t group_ = no_index; ///< its
+    long missing_kids_ = 0; ///< that are announced and not there
+    Ac3dObject object_;     ///< at hand
 };
+
+/// What the file holds, to be finished.
+MeshBuilder built(const std::filesystem::path& path, ReadOptions options) {
+    const std::string text = read_text_file(path, largest_ac3d_bytes);
+    MeshBuilder mesh = Ac3dReading(path, text, options).read();
+    if (mesh.is_empty() && !options.stand_ins) {
+        options.stand_ins = true;
+        return Ac3dReading(path, text, options).read();
+    }
+    return mesh;
+}
 
 } // namespace
 
 TriangleMesh read_ac3d_mesh(const std::filesystem::path& path, const ReadOptions& options) {
-    const std::string text = read_text_file(path, largest_ac3d_bytes);
-    return Ac3dReading(path, text, options).read().finish();
+    return built(path, options).finish();
 }
 
 MeshParts read_ac3d_parts(const std::filesystem::path& path, const ReadOptions& options) {
-    const std::string text = read_text_file(path, largest_ac3d_bytes);
-    return Ac3dReading(path, text, options).read().finish_parts();
+    return built(path, options).finish_parts();
 }
 
 } // namespace octant::models::meshfile

@@ -130,13 +130,15 @@ std::uint32_t BakedPictures::kept(const std::string& name, Read&& read) {
 
 std::uint32_t BakedPictures::picture(const std::string& name) {
     return kept(name, [&] {
-        const fs::path folder = mesh_file_.parent_path();
         std::string slashes = name;
         std::ranges::replace(slashes, '\\', '/');
         std::error_code ignored;
-        for (const fs::path& file : {folder / slashes, folder / fs::path(slashes).filename()}) {
-            if (fs::is_regular_file(file, ignored)) {
-                return heights::read_image(file);
+        const fs::path beside = mesh_file_.parent_path();
+        for (const fs::path& folder : {folder_.empty() ? beside : folder_, beside}) {
+            for (const fs::path& file : {folder / slashes, folder / fs::path(slashes).filename()}) {
+                if (fs::is_regular_file(file, ignored)) {
+                    return heights::read_image(file);
+                }
             }
         }
         error_in(mesh_file_, fmt::format("expected a picture '{}', got none", printable(name)));

@@ -23,11 +23,13 @@ public:
     /// Stands for no picture.
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-    explicit BakedPictures(std::filesystem::path mesh_file)
-        : mesh_file_(std::move(mesh_file)) {}
+    /// `folder`: where pictures are looked for before the mesh's own one; empty: there alone.
+    explicit BakedPictures(std::filesystem::path mesh_file, std::filesystem::path folder = {})
+        : mesh_file_(std::move(mesh_file))
+        , folder_(std::move(folder)) {}
 
-    /// The number of a picture beside the mesh's file: as it is named, else by its last name in
-    /// that folder. None where there is no such file, or none that can be read.
+    /// The number of a picture in one of the folders: as it is named, else by its last name. None
+    /// where there is no such file, or none that can be read.
     std::uint32_t picture(const std::string& name);
 
     /// The number of a picture that stands in a file; `name` is only told.
@@ -69,6 +71,7 @@ private:
     std::uint32_t kept(const std::string& name, Read&& read);
 
     std::filesystem::path mesh_file_;
+    std::filesystem::path folder_;
     std::vector<std::shared_ptr<const heights::Image>> pictures_; ///< copies share them
     std::vector<bool> hide_all_; ///< one a picture: nothing is seen through it
     std::map<std::string, std::uint32_t> known_;

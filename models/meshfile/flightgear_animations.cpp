@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace octant::models::meshfile {
@@ -59,7 +60,7 @@ bool is_shadow(const std::string& name) {
     std::string lower = name;
     std::ranges::transform(
         lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return lower.find("shadow") != lower.npos;
+    return lower.find("shadow") != lower.npos && lower.find("noshadow") == lower.npos;
 }
 
 /// Sheets that FlightGear's older models move along the ground below them.
@@ -84,30 +85,37 @@ void add_turn(FlightGearTurn turn, std::vector<FlightGearTurn>& turns) {
     }
 }
 
-/// One whose numbers are faulty is left at rest.
-std::optional<FlightGearTurn> turn_of(
+/// What `read(file, animation)` gives; nothing for one whose numbers are faulty.
+template <typename Read>
+auto unless_faulty(
+    const Read& read,
     const std::filesystem::path& file,
     const XmlElement& animation,
-    std::vector<std::string>& notes) {
+    std::vector<std::string>& notes) -> decltype(read(file, animation)) {
     try {
-        return turn_in_flight(file, animation);
+        return read(file, animation);
     } catch (const Error& fault) {
-        notes.push_back(fmt::format("{}; what it turns is left at rest", fault.what()));
+        notes.push_back(fmt::format("{}; what it moves is left at rest", fault.what()));
         return std::nullopt;
     }
 }
 
-/// Whether a range or select hides what it names from near eyes at rest. One whose numbers are
-/// faulty hides nothing.
+/// Whether an animation hides what it names from an eye outside, at rest. Ranges that begin within
+/// some metres hide a pilot from his own eye; those that begin at a level of detail hold coarser
+/// levels, which are not needed: the finest one is refined. One whose numbers are faulty hides
+/// nothing.
 bool hides(
     const std::filesystem::path& file,
     const XmlElement& animation,
     std::vector<std::string>& notes) {
-    if (animation.text_of("type") == "select") {
-        return !holds_at_rest(animation);
+    const std::string_view kind = animation.text_of("type");
+    if (kind != "range") {
+        return kind == "light" || !holds_at_rest(animation);
     }
     try {
-        return number_in(file, animation, "min-m") > 0.0;
+        constexpr double eye_outside_m = 10.0;
+        return animation.find("min-property") != nullptr ||
+               number_in(file, animation, "min-m") > eye_outside_m;
     } catch (const Error& fault) {
         notes.push_back(fmt::format("{}; what it names is always shown", fault.what()));
         return false;
@@ -123,6 +131,16 @@ const TurningAxis* FlightGearAnimations::axis_of(const std::string& object) cons
     return found == turns.end() ? nullptr : &found->about;
 }
 
+Placement FlightGearAnimations::place_of(const std::string& object) const {
+    Placement place;
+    for (const FlightGearMove& move : moves) {
+        if (move.objects.contains(object) && axis_of(object) == nullptr) {
+            place = place.of(move.placement);
+        }
+    }
+    return place;
+}
+
 FlightGearAnimations
 flightgear_animations(const std::filesystem::path& file, const XmlElement& root) {
     const Groups groups = groups_in(root);
@@ -132,17 +150,21 @@ flightgear_animations(const std::filesystem::path& file, const XmlElement& root)
         if (child.name != "animation" || kind.empty()) {
             continue;
         }
-        if (kind == "range" || kind == "select") {
+        if (kind == "range" || kind == "select" || kind == "light") {
             if (hides(file, child, animated.notes)) {
                 add_names(child, animated.hidden);
             }
-        } else if (auto turn = turn_of(file, child, animated.notes)) {
+        } else if (auto turn = unless_faulty(turn_in_flight, file, child, animated.notes)) {
             expand(turn->objects, groups);
             add_turn(std::move(*turn), animated.turns);
         } else {
             ++animated.at_rest[kind];
             if (kind == "translate" || kind == "rotate") {
                 add_shadows(child, animated.hidden);
+            }
+            if (auto move = unless_faulty(move_at_rest, file, child, animated.notes)) {
+                expand(move->objects, groups);
+                animated.moves.push_back(std::move(*move));
             }
         }
     }

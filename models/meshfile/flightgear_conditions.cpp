@@ -16,9 +16,14 @@ bool all_hold(const XmlElement& group) {
     return std::ranges::all_of(group.children, holds);
 }
 
-/// What a side of a comparison is worth: properties are 0.
+double at_rest(std::string_view property) {
+    constexpr double chase_view = 2.0; // 0 is the pilot's, in which much of the outside is hidden
+    return property.ends_with("current-view/view-number") ? chase_view : 0.0;
+}
+
+/// What a side of a comparison is worth.
 double number_of(const XmlElement& side) {
-    return side.name == "property" ? 0.0 : finite_number(side.text).value_or(0.0);
+    return side.name == "property" ? at_rest(side.text) : finite_number(side.text).value_or(0.0);
 }
 
 /// Less, equal or greater, as -1, 0 or 1. Of texts only whether they are empty counts, as a
@@ -38,7 +43,7 @@ int order_of(const XmlElement& comparison) {
 bool holds(const XmlElement& condition) {
     const std::string_view kind = condition.name;
     if (kind == "property") {
-        return false;
+        return at_rest(condition.text) != 0.0;
     }
     if (kind == "not") {
         return !all_hold(condition);

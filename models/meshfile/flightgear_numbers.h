@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/meshfile/turning_model.h"
 #include "models/meshfile/xml_tree.h"
 
 #include <filesystem>
@@ -14,5 +15,12 @@ double number_in(
     const XmlElement& parent,
     std::string_view name,
     double without = 0.0);
+
+/// What the table of an animation makes of a property's value; the value itself without one.
+double interpolated(const std::filesystem::path& file, const XmlElement& animation, double value);
+
+/// A point of an animation's axis and its direction, as long as the file has it: without a length
+/// where it gives none. It does not turn.
+TurningAxis axis_in(const std::filesystem::path& file, const XmlElement& animation);
 
 } // namespace octant::models::meshfile

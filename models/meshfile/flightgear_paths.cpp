@@ -28,4 +28,9 @@ fs::path flightgear_file(const fs::path& model, const std::string& name) {
     }
 }
 
+fs::path flightgear_pictures(const fs::path& model, const std::string& texture_path) {
+    const fs::path folder = fs::path(texture_path).relative_path();
+    return folder.empty() ? fs::path() : model.parent_path() / folder;
+}
+
 } // namespace octant::models::meshfile

@@ -9,4 +9,8 @@ namespace octant::models::meshfile {
 /// above it, as FlightGear's root is. Empty where there is none.
 std::filesystem::path flightgear_file(const std::filesystem::path& model, const std::string& name);
 
+/// The folder that a <texture-path> in a FlightGear model means; empty for an empty one.
+std::filesystem::path
+flightgear_pictures(const std::filesystem::path& model, const std::string& texture_path);
+
 } // namespace octant::models::meshfile

@@ -20,6 +20,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,10 @@ namespace fs = std::filesystem;
 
 constexpr int most_model_depth = 8;
 constexpr std::size_t most_models = 500;
+constexpr std::size_t most_notes = 20;
+
+/// Columns: where x, y and z of AC3D files point in a model.
+const glm::dmat3 from_ac3d(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
 
 glm::dmat3 turn_about(int axis, double angle_rad) {
     glm::dmat3 turn(1.0);
@@ -56,7 +61,7 @@ public:
         , options_(options) {}
 
     TurningModel read() {
-        take_model(path_, {}, nullptr, 0);
+        take_model(model_file(), {}, nullptr, 0);
         if (model_.body.triangles.empty()) { // all of it turns: then none of it does
             for (TurningPart& part : std::exchange(model_.parts, {})) {
                 join_mesh(model_.body, std::move(part.mesh), {});
@@ -67,6 +72,11 @@ public:
         }
         if (model_.body.triangles.empty()) {
             error_in(path_, "expected a model with a mesh, got none");
+        }
+        if (const std::size_t all = model_.body.notes.size(); all > most_notes) {
+            model_.body.notes.resize(most_notes);
+            model_.body.notes.push_back(fmt::format(
+                "{}: {} more notes on its sub-models", path_.string(), all - most_notes));
         }
         model_.body.name = path_.stem().string();
         if (!at_rest_.empty()) {
@@ -81,6 +91,29 @@ public:
     }
 
 private:
+    /// An aircraft's own file, such as b25-set.xml, names its model among much else.
+    fs::path model_file() const {
+        if (!path_.filename().string().ends_with("-set.xml")) {
+            return path_;
+        }
+        const XmlElement root = flightgear_tree(path_);
+        for (const XmlElement& sim : root.children) {
+            const XmlElement* model = sim.name == "sim" ? sim.find("model") : nullptr;
+            const std::string name(model == nullptr ? "" : model->text_of("path"));
+            if (name.empty()) {
+                continue;
+            }
+            fs::path file = flightgear_file(path_, name);
+            if (file.empty()) {
+                error_in(
+                    path_,
+                    "expected a file of its sim/model/path, got none called " + in_quotes(name));
+            }
+            return file;
+        }
+        error_in(path_, "expected a model's path in sim/model, got none");
+    }
+
     Placement offsets(const fs::path& file, const XmlElement& parent) const {
         const XmlElement* found = parent.find("offsets");
         if (found == nullptr) {
@@ -111,15 +144,20 @@ private:
                 file, fmt::format("expected models at most {} deep, got more", most_model_depth));
         }
         const XmlElement root = flightgear_tree(file);
-        const Placement own = parent.of(offsets(file, root));
+        Placement own = parent.of(offsets(file, root));
         const FlightGearAnimations animated = animations_of(file, root, own);
         if (animated.hidden.contains("") && depth > 0) {
             return;
         }
         about = about == nullptr ? animated.axis_of("") : about;
+        options_.pictures_in = flightgear_pictures(file, std::string(root.text_of("texture-path")));
         if (const std::string name(root.text_of("path")); !name.empty()) {
+            if (depth == 0 && flightgear_file(file, name).empty()) {
+                error_in(file, "expected a file of its path, got none called " + in_quotes(name));
+            }
             take_named(file, name, own, animated, about, depth);
         }
+        options_.pictures_in.clear();
         for (const XmlElement& child : root.children) {
             const std::string path(child.text_of("path"));
             const std::string name(child.text_of("name"));
@@ -127,14 +165,17 @@ private:
             if (child.name == "model" && !path.empty() && !is_hidden && holds_at_rest(child)) {
                 const TurningAxis* turned =
                     about == nullptr && !name.empty() ? animated.axis_of(name) : about;
-                take_named(file, path, own.of(offsets(file, child)), {}, turned, depth);
+                const Placement moved = name.empty() ? own : own.of(animated.place_of(name));
+                take_named(file, path, moved.of(offsets(file, child)), {}, turned, depth);
             }
         }
     }
 
+    /// Also moves `own`, the model, to where it stands at rest.
     FlightGearAnimations
-    animations_of(const fs::path& file, const XmlElement& root, const Placement& own) {
+    animations_of(const fs::path& file, const XmlElement& root, Placement& own) {
         FlightGearAnimations animated = flightgear_animations(file, root);
+        own = own.of(animated.place_of(""));
         for (FlightGearTurn& turn : animated.turns) {
             turn.about.point_m = own.turn * turn.about.point_m + own.shift_m;
             turn.about.direction = own.turn * turn.about.direction;
@@ -154,9 +195,6 @@ private:
         const TurningAxis* about,
         int depth) {
         const fs::path file = flightgear_file(from, name);
-        if (file.empty() && depth == 0 && model_.body.triangles.empty()) {
-            error_in(from, "expected a file of its path, got none called " + in_quotes(name));
-        }
         if (file.empty()) {
             note_once(fmt::format("{}: no file of path '{}'", from.string(), printable(name)));
         } else if (ending_of(file) == ".xml") {
@@ -188,6 +226,11 @@ private:
         }
         ReadOptions options = options_;
         options.left_out = animated.hidden;
+        for (const FlightGearMove& move : animated.moves) {
+            for (const std::string& object : move.objects) {
+                options.moved[object] = in_ac3d(animated.place_of(object));
+            }
+        }
         for (const FlightGearTurn& turn : animated.turns) {
             if (about == nullptr) {
                 options.groups.push_back(turn.objects);
@@ -224,8 +267,14 @@ private:
                           : all.opacity + (more.opacity - all.opacity) * share;
     }
 
+    /// A move within a model, within an AC3D file.
+    static Placement in_ac3d(const Placement& in_model) {
+        return {
+            glm::transpose(from_ac3d) * in_model.turn * from_ac3d,
+            glm::transpose(from_ac3d) * in_model.shift_m};
+    }
+
     static Placement in_model(const fs::path& file, const Placement& placement) {
-        const glm::dmat3 from_ac3d(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
         return placement.of({ending_of(file) == ".ac" ? from_ac3d : glm::dmat3(1.0)});
     }
 
@@ -264,7 +313,9 @@ TurningModel read_turning_model(const fs::path& path, const ReadOptions& options
     if (ending_of(path) == ".xml") {
         return FlightGearReading(path, options).read();
     }
-    MeshParts parts = read_parts(path, options);
+    ReadOptions alone = options;
+    alone.stand_ins = false;
+    MeshParts parts = read_parts(path, alone);
     if (parts.body.triangles.empty()) { // then nothing is to be seen through the rest
         return {read_mesh(path, options), {}, {}};
     }

@@ -10,11 +10,8 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 namespace octant::models::meshfile {
 
@@ -90,55 +87,6 @@ bool is_of_other_wheels(std::string_view property) {
     return std::ranges::any_of(
         std::array<std::string_view, 4>{"gear", "wheel", "roll", "instrument"},
         [&](std::string_view part) { return property.find(part) != property.npos; });
-}
-
-/// What a table of an animation makes of a property's value; the value itself without one.
-double interpolated(const std::filesystem::path& file, const XmlElement& animation, double value) {
-    const XmlElement* table = animation.find("interpolation");
-    std::vector<std::pair<double, double>> entries;
-    for (std::size_t i = 0; table != nullptr && i < table->children.size(); ++i) {
-        const XmlElement& entry = table->children[i];
-        entries.emplace_back(number_in(file, entry, "ind"), number_in(file, entry, "dep"));
-    }
-    std::ranges::sort(entries);
-    const auto next =
-        std::ranges::upper_bound(entries, value, {}, [](const auto& entry) { return entry.first; });
-    if (entries.empty()) {
-        return value;
-    }
-    if (next == entries.begin() || next == entries.end()) {
-        return next == entries.begin() ? next->second : entries.back().second;
-    }
-    const auto& [from, start] = *std::prev(next);
-    return start + (value - from) / (next->first - from) * (next->second - start);
-}
-
-glm::dvec3 vector_in(
-    const std::filesystem::path& file,
-    const XmlElement& parent,
-    const std::array<std::string_view, 3>& names) {
-    return {
-        number_in(file, parent, names[0]),
-        number_in(file, parent, names[1]),
-        number_in(file, parent, names[2])};
-}
-
-/// A point of the axis and its direction, which has no length where the file gives none.
-TurningAxis axis_in(const std::filesystem::path& file, const XmlElement& animation) {
-    TurningAxis about;
-    about.direction = glm::dvec3(0.0);
-    if (const XmlElement* axis = animation.find("axis")) {
-        if (axis->find("x1-m") != nullptr || axis->find("x2-m") != nullptr) {
-            about.point_m = vector_in(file, *axis, {"x1-m", "y1-m", "z1-m"});
-            about.direction = vector_in(file, *axis, {"x2-m", "y2-m", "z2-m"}) - about.point_m;
-        } else {
-            about.direction = vector_in(file, *axis, {"x", "y", "z"});
-        }
-    }
-    if (const XmlElement* centre = animation.find("center")) {
-        about.point_m = vector_in(file, *centre, {"x-m", "y-m", "z-m"});
-    }
-    return about;
 }
 
 } // namespace

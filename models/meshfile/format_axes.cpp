@@ -2,6 +2,10 @@
 
 #include "sim/base/text_file.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 namespace octant::models::meshfile {
 
 std::optional<polygons::FileAxes> axes_of_format(const std::filesystem::path& file) {
@@ -16,6 +20,13 @@ std::optional<polygons::FileAxes> axes_of_format(const std::filesystem::path& fi
         return polygons::FileAxes::from_text("back,right,up");
     }
     return std::nullopt;
+}
+
+std::optional<polygons::FileAxes> usual_axes(const std::filesystem::path& file) {
+    constexpr std::array<std::string_view, 5> scenes{".flt", ".ive", ".osg", ".osgb", ".osgt"};
+    return std::ranges::find(scenes, ending_of(file)) == scenes.end()
+               ? std::nullopt
+               : std::optional(polygons::FileAxes::from_text("right,forward,up"));
 }
 
 } // namespace octant::models::meshfile

@@ -12,4 +12,8 @@ namespace octant::models::meshfile {
 /// specification says (x left, y up, z forward). Nothing for formats that prescribe nothing.
 std::optional<polygons::FileAxes> axes_of_format(const std::filesystem::path& file);
 
+/// How scenes of a format that says which way is up mostly lie: in OpenFlight's and
+/// OpenSceneGraph's files x right, y forward, z up. Nothing for others.
+std::optional<polygons::FileAxes> usual_axes(const std::filesystem::path& file);
+
 } // namespace octant::models::meshfile

@@ -2,6 +2,7 @@
 #include "models/meshfile/gltf_data.h"
 #include "models/meshfile/gltf_pictures.h"
 #include "models/meshfile/gltf_scene.h"
+#include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/placement.h"
 
@@ -17,7 +18,10 @@ namespace {
 
 constexpr std::size_t most_gltf_numbers = std::size_t{1} << 27U; ///< of corners and vertices
 constexpr std::array<std::string_view, 3> packed_extensions{
-    "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization"};
+    "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"};
+
+/// Floats, and the whole numbers of KHR_mesh_quantization.
+constexpr std::array<int, 5> place_components{5126, 5120, 5121, 5122, 5123};
 
 class GltfReading {
 public:
@@ -154,8 +158,9 @@ private:
             return known->second;
         }
         const GltfNumbers places = data_.accessor(position);
-        if (places.parts() != 3 || places.component() != 5126) {
-            data_.refuse(where, "a POSITION of three floats", "another type");
+        if (places.parts() != 3 ||
+            std::ranges::find(place_components, places.component()) == place_components.end()) {
+            data_.refuse(where, "a POSITION of three floats or short numbers", "another type");
         }
         count_numbers(places.count(), where);
         const auto first = static_cast<std::uint32_t>(mesh_.vertex_count());

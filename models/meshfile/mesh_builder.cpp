@@ -65,7 +65,7 @@ void drop_unused_vertices(TriangleMesh& mesh) {
 MeshBuilder::MeshBuilder(const std::filesystem::path& path, const ReadOptions& options)
     : path_(path)
     , options_(options)
-    , pictures_(path) {
+    , pictures_(path, options.pictures_in) {
     mesh_.name = path.stem().string();
 }
 

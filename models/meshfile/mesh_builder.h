@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/meshfile/baked_pictures.h"
+#include "models/meshfile/mesh_limits.h"
 #include "models/meshfile/mesh_parts.h"
 #include "models/meshfile/read_options.h"
 #include "models/no_index.h"
@@ -19,11 +20,6 @@
 #include <vector>
 
 namespace octant::models::meshfile {
-
-inline constexpr std::size_t most_polygon_corners = 10'000;
-
-/// Of a coordinate: what is larger is a fault of the file in any unit of length.
-inline constexpr double most_coordinate = 1e12;
 
 /// One corner of a polygon as a file names it.
 struct Corner {
@@ -48,6 +44,8 @@ public:
     void set_two_sided(bool two_sided) { is_two_sided_ = two_sided; }
 
     BakedPictures& pictures() { return pictures_; }
+
+    bool is_empty() const { return mesh_.triangles.empty(); }
 
     std::size_t vertex_count() const { return mesh_.vertices_m.size(); }
 

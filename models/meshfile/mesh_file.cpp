@@ -48,7 +48,7 @@ void refuse_to_write(const std::filesystem::path& path, const TriangleMesh& /*me
 }
 
 constexpr std::array formats{
-    Format{".obj", read_obj_mesh, nullptr, write_obj_mesh},
+    Format{".obj", read_obj_mesh, read_obj_parts, write_obj_mesh},
     Format{".ply", read_plainly<read_ply_mesh>, nullptr, write_one_file<ply_bytes>},
     Format{".stl", read_plainly<read_stl_mesh>, nullptr, write_one_file<stl_bytes>},
     Format{".gltf", read_gltf_mesh, read_gltf_parts, write_one_file<gltf_text>},

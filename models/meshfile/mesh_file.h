@@ -9,9 +9,10 @@ namespace octant::models::meshfile {
 
 /// Reads a triangle mesh; the file's ending says its format: .obj (with vertex colours), .ply
 /// (ascii, binary of both byte orders), .stl (ascii, binary), .gltf and .glb, .ac (AC3D), .wrl
-/// (VRML 2.0 IndexedFaceSet), .xml (FlightGear's model with its sub-models, read only). Polygons
-/// are cut into triangles; nothing else is changed: see repair.h. Scenes are read as they stand
-/// (nodes placed, mirrored ones turned round again), axes and units as the file has them.
+/// (VRML 2.0 IndexedFaceSet), .xml (FlightGear's model with its sub-models, or an aircraft's
+/// -set.xml, which names its model; read only). Polygons are cut into triangles; nothing else is
+/// changed: see repair.h. Scenes are read as they stand (nodes placed, mirrored ones turned round
+/// again), axes and units as the file has them.
 /// Whole-number colours stand for 0..1. Colours are display values (models/display_colour.h); those
 /// of glTF, linear in its files, are converted.
 ///

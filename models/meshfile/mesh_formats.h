@@ -20,6 +20,7 @@ TriangleMesh read_flightgear_model(const std::filesystem::path& path, const Read
 TriangleMesh read_vrml_mesh(const std::filesystem::path& path);
 
 /// Those behind read_parts.
+MeshParts read_obj_parts(const std::filesystem::path& path, const ReadOptions& options);
 MeshParts read_ac3d_parts(const std::filesystem::path& path, const ReadOptions& options);
 MeshParts read_gltf_parts(const std::filesystem::path& path, const ReadOptions& options);
 

@@ -26,7 +26,8 @@ public:
         : path_(path)
         , mesh_(path, options) {}
 
-    TriangleMesh read() {
+    /// What the file holds, to be finished.
+    MeshBuilder read() {
         const std::string text = read_text_file(path_, largest_obj_bytes);
         polygons::ObjLines lines(text);
         while (lines.next()) {
@@ -34,7 +35,7 @@ public:
             take(lines.text());
         }
         note_missing_files();
-        return mesh_.finish();
+        return std::move(mesh_);
     }
 
 private:
@@ -172,7 +173,8 @@ private:
         if (picture_ != BakedPictures::none && made.colour == glm::vec3(0.0F)) {
             made.colour = glm::vec3(1.0F); // written by programs that mean the picture alone
         }
-        material_ = mesh_.add_material(made);
+        const auto opacity = opacities_.find(*material_name_);
+        material_ = mesh_.add_material(made, opacity == opacities_.end() ? 1.0F : opacity->second);
         materials_.emplace(*material_name_, material_);
         return material_;
     }
@@ -198,6 +200,9 @@ private:
         for (const Material& material : polygons::read_mtl(file)) {
             colours_.insert_or_assign(material.name, material.colour);
         }
+        for (const auto& [material, opacity] : polygons::opacities_of_mtl(file)) {
+            opacities_.insert_or_assign(material, opacity);
+        }
         if (mesh_.takes_pictures()) {
             for (const auto& [material, picture] : polygons::pictures_of_mtl(file)) {
                 picture_names_.insert_or_assign(material, picture);
@@ -222,6 +227,7 @@ private:
     std::uint32_t material_ = no_index; ///< of material_name_, once a polygon has it
     std::map<std::string, std::uint32_t> materials_;
     std::map<std::string, glm::vec3> colours_;
+    std::map<std::string, float> opacities_;           ///< of materials that are not opaque
     std::map<std::string, std::string> picture_names_; ///< of materials
     std::uint32_t picture_ = BakedPictures::none;      ///< of material_name_
     std::vector<glm::vec2> places_;                    ///< on pictures
@@ -233,7 +239,11 @@ private:
 } // namespace
 
 TriangleMesh read_obj_mesh(const std::filesystem::path& path, const ReadOptions& options) {
-    return ObjMeshReading(path, options).read();
+    return ObjMeshReading(path, options).read().finish();
+}
+
+MeshParts read_obj_parts(const std::filesystem::path& path, const ReadOptions& options) {
+    return ObjMeshReading(path, options).read().finish_parts();
 }
 
 } // namespace octant::models::meshfile

@@ -1,5 +1,7 @@
 #include "models/meshfile/placement.h"
 
+#include "models/meshfile/mesh_limits.h"
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 

@@ -119,10 +119,12 @@ public:
         for (const PlyElement& element : header_.elements) {
             if (element.name == "vertex" && !has_vertices_) {
                 take_vertices(element);
-            } else if (element.name == "face" && has_vertices_) {
-                take_faces(element);
-            } else if (element.name == "face") {
-                source_.refuse("the element vertex before the element face", "face first");
+            } else if (is_surface(element) && has_vertices_) {
+                take_surface(element);
+            } else if (is_surface(element)) {
+                source_.refuse(
+                    fmt::format("the element vertex before the element {}", element.name),
+                    element.name + " first");
             } else {
                 skip(element);
             }
@@ -131,6 +133,10 @@ public:
     }
 
 private:
+    static bool is_surface(const PlyElement& element) {
+        return element.name == "face" || element.name == "tristrips";
+    }
+
     void skip(const PlyElement& element) {
         if (element.properties.empty()) {
             return;
@@ -139,9 +145,6 @@ private:
             for (const PlyProperty& property : element.properties) {
                 skip_one(property);
             }
-        }
-        if (element.name == "tristrips") {
-            mesh_.add_note("triangle strips are not read");
         }
     }
 
@@ -225,20 +228,22 @@ private:
         return value / largest;
     }
 
-    void take_faces(const PlyElement& element) {
+    void take_surface(const PlyElement& element) {
         bool has_corners = false;
         for (const PlyProperty& property : element.properties) {
             has_corners = has_corners || is_corners(property);
         }
         if (!has_corners) {
-            source_.refuse("the list vertex_indices of a face", "none");
+            source_.refuse("the list vertex_indices of a " + element.name, "none");
         }
         for (std::size_t i = 0; i < element.count; ++i) {
             for (const PlyProperty& property : element.properties) {
-                if (is_corners(property)) {
+                if (!is_corners(property)) {
+                    skip_one(property);
+                } else if (element.name == "face") {
                     take_face(property);
                 } else {
-                    skip_one(property);
+                    take_strips(property);
                 }
             }
         }
@@ -258,17 +263,46 @@ private:
         }
         corners_.clear();
         for (std::size_t i = 0; i < count; ++i) {
-            const double value = source_.number(property.type, "the number of a vertex");
-            if (!(value >= 0.0 && value < static_cast<double>(mesh_.vertex_count())) ||
-                value != std::floor(value)) {
-                source_.refuse(
-                    fmt::format("a vertex below {}", mesh_.vertex_count()),
-                    fmt::format("{}", value));
-            }
-            const auto vertex = static_cast<std::uint32_t>(value);
-            corners_.push_back({vertex, has_normals_ ? vertex : no_index});
+            corners_.push_back(corner(source_.number(property.type, "the number of a vertex")));
         }
         mesh_.add_polygon(corners_);
+    }
+
+    Corner corner(double number) const {
+        if (!(number >= 0.0 && number < static_cast<double>(mesh_.vertex_count())) ||
+            number != std::floor(number)) {
+            source_.refuse(
+                fmt::format("a vertex below {}", mesh_.vertex_count()), fmt::format("{}", number));
+        }
+        const auto vertex = static_cast<std::uint32_t>(number);
+        return {vertex, has_normals_ ? vertex : no_index};
+    }
+
+    /// Strips of triangles, one behind the other, -1 between them. Every second triangle of a strip
+    /// has its corners the other way round; those with a corner twice only lead on.
+    void take_strips(const PlyProperty& property) {
+        constexpr double next_strip = -1.0;
+        corners_.clear();
+        for (std::size_t left = count_of(property); left > 0; --left) {
+            const double number = source_.number(property.type, "the number of a vertex");
+            if (number == next_strip) {
+                corners_.clear();
+                continue;
+            }
+            corners_.push_back(corner(number));
+            if (const std::size_t count = corners_.size(); count >= 3) {
+                const std::size_t other_way = 1 - count % 2;
+                add_triangle(corners_[count - 3 + other_way], corners_[count - 2 - other_way]);
+            }
+        }
+    }
+
+    /// Of two corners and the last one of the strip at hand.
+    void add_triangle(const Corner& a, const Corner& b) {
+        const Corner& c = corners_.back();
+        if (a.vertex != b.vertex && b.vertex != c.vertex && c.vertex != a.vertex) {
+            mesh_.add_polygon(std::array{a, b, c});
+        }
     }
 
     const PlyHeader& header_;

@@ -1,3 +1,4 @@
+#include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/placement.h"
 #include "models/meshfile/vrml_fields.h"

@@ -99,4 +99,31 @@ std::map<std::string, std::string> pictures_of_mtl(const std::filesystem::path& 
     return pictures;
 }
 
+std::map<std::string, float> opacities_of_mtl(const std::filesystem::path& path) {
+    const std::string text = read_text_file(path, largest_file_bytes);
+    std::map<std::string, float> by_d;
+    std::map<std::string, float> all; // by Tr at first
+    std::string material;
+    for (const std::string_view line : split_lines(without_byte_order_mark(text))) {
+        const auto words = split_words(line);
+        if (!words.empty() && words[0] == "newmtl") {
+            material = std::string(after_first_word(line));
+        }
+        const auto value = words.size() == 2 ? finite_number(words[1]) : std::nullopt;
+        if (!value || *value < 0.0 || *value > 1.0) {
+            continue;
+        }
+        if (words[0] == "d") {
+            by_d.insert_or_assign(material, static_cast<float>(*value));
+        } else if (words[0] == "Tr" && *value < 1.0) {
+            all.insert_or_assign(material, 1.0F - static_cast<float>(*value));
+        }
+    }
+    for (const auto& [name, opacity] : by_d) {
+        all.insert_or_assign(name, opacity);
+    }
+    std::erase_if(all, [](const auto& one) { return one.second >= 1.0F; });
+    return all;
+}
+
 } // namespace octant::models::polygons

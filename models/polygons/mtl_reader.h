@@ -19,4 +19,9 @@ std::vector<Material> read_mtl(const std::filesystem::path& path);
 /// `map_Kd ... FILE`. Throws Error for a file that is not text.
 std::map<std::string, std::string> pictures_of_mtl(const std::filesystem::path& path);
 
+/// How much the materials of an MTL file hide of what lies behind, by their names, of those that do
+/// not hide all: `d`, else 1 - `Tr`; no numbers 0..1 and a Tr of 1 say nothing, since programs
+/// disagree about it. Throws Error for a file that is not text.
+std::map<std::string, float> opacities_of_mtl(const std::filesystem::path& path);
+
 } // namespace octant::models::polygons

@@ -1,8 +1,13 @@
+// Triangles that agree make pieces; pieces whose joints disagree are put together, the one turned
+// against the other. A patch that lies the wrong way round meets its surface along a good part of
+// its rim. Bodies that only touch, as a door does at its hinge, meet along few edges; each of them
+// looks the way the file has it.
 #include "models/repair/agreeing_turns.h"
 
 #include "models/no_index.h"
 #include "models/repair/edge_joints.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -10,76 +15,162 @@ namespace octant::models::repair {
 
 namespace {
 
-class Turning {
+/// Pieces of triangles, put together one by one; each is turned or not against the one that names
+/// its group (union-find with parities).
+class TurnedPieces {
 public:
-    Turning(
-        std::span<const Triangle> triangles,
-        std::span<const Side> sides,
-        std::span<const Triangle> named)
-        : neighbours_(triangles.size(), {no_index, no_index, no_index})
-        , agrees_(triangles.size(), {true, true, true})
-        , reached_(triangles.size(), false) {
-        turns_.turned.assign(triangles.size(), 0);
-        find_neighbours(sides, named);
+    struct Place {
+        std::uint32_t group = 0;
+        std::uint8_t turned = 0;
+    };
+
+    explicit TurnedPieces(std::vector<std::size_t> sizes)
+        : sizes_(std::move(sizes))
+        , parents_(sizes_.size()) {
+        for (std::uint32_t piece = 0; piece < parents_.size(); ++piece) {
+            parents_[piece].group = piece;
+        }
     }
 
-    AgreeingTurns turns() {
-        for (std::uint32_t first = 0; first < reached_.size(); ++first) {
-            if (!reached_[first]) {
-                turn_shell(first);
-            }
+    Place place_of(std::uint32_t piece) {
+        std::uint8_t turned = 0;
+        while (parents_[piece].group != piece) {
+            Place& parent = parents_[piece];
+            const Place next = parents_[parent.group];
+            parent = {next.group, static_cast<std::uint8_t>(parent.turned ^ next.turned)};
+            turned ^= parent.turned;
+            piece = parent.group;
         }
-        return std::move(turns_);
+        return {piece, turned};
+    }
+
+    /// Triangles of the group that `group` names.
+    std::size_t size_of(std::uint32_t group) const { return sizes_[group]; }
+
+    /// Two groups, by their names; the second one turned against the first or not.
+    void join(std::uint32_t first, std::uint32_t second, std::uint8_t turned) {
+        const auto [least, most] = std::minmax(first, second);
+        parents_[most] = {least, turned};
+        sizes_[least] += sizes_[most];
     }
 
 private:
-    void find_neighbours(std::span<const Side> sides, std::span<const Triangle> named) {
+    std::vector<std::size_t> sizes_;
+    std::vector<Place> parents_;
+};
+
+/// An edge between two triangles.
+struct Joint {
+    std::uint32_t one = 0;
+    std::uint32_t other = 0;
+    bool agree = true;
+};
+
+/// Whether so many edges make one surface of two pieces, by the size of the smaller: a patch of n
+/// triangles has a rim of about the root of n at the least.
+bool is_one_surface(std::size_t edges, std::size_t triangles) {
+    constexpr std::size_t least_share = 2; // half of that root
+    return least_share * edges * least_share * edges >= triangles;
+}
+
+class Turning {
+public:
+    Turning(
+        std::size_t triangles, std::span<const Side> sides, std::span<const Triangle> named)
+        : piece_of_(triangles, no_index) {
+        turns_.turned.assign(triangles, 0);
         for_each_joint(sides, named, [&](std::span<const Side> edge) {
             turns_.crowded_edges += static_cast<std::size_t>(edge.size() > 2);
             if (edge.size() == 2) {
-                const bool agree = edge[0].rises != edge[1].rises;
-                for (std::size_t i = 0; i < 2; ++i) {
-                    const Side& side = edge[i];
-                    neighbours_[side.triangle][side.corner] = edge[1 - i].triangle;
-                    agrees_[side.triangle][side.corner] = agree;
-                }
+                joints_.push_back(
+                    {edge[0].triangle, edge[1].triangle, edge[0].rises != edge[1].rises});
             }
         });
     }
 
-    void turn_shell(std::uint32_t first) {
-        std::vector<std::uint8_t>& turned = turns_.turned;
-        shell_.assign(1, first);
-        reached_[first] = true;
-        std::size_t to_turn = 0;
-        for (std::size_t i = 0; i < shell_.size(); ++i) {
-            const std::uint32_t t = shell_[i];
-            to_turn += turned[t];
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t next = neighbours_[t][k];
-                if (next != no_index && !reached_[next]) {
-                    reached_[next] = true;
-                    turned[next] = static_cast<std::uint8_t>(turned[t] ^ (agrees_[t][k] ? 0U : 1U));
-                    shell_.push_back(next);
-                }
-            }
+    AgreeingTurns turns() {
+        TurnedPieces pieces(agreeing_pieces());
+        while (put_together(pieces)) {
         }
-        turn_fewer(to_turn);
+        turn_fewer(pieces);
+        return std::move(turns_);
     }
 
-    void turn_fewer(std::size_t to_turn) {
-        const bool others = 2 * to_turn > shell_.size();
-        for (const std::uint32_t t : shell_) {
-            turns_.turned[t] ^= static_cast<std::uint8_t>(others);
+private:
+    /// Numbers the pieces in the order of their first triangles; their sizes.
+    std::vector<std::size_t> agreeing_pieces() {
+        Groups groups(piece_of_.size());
+        for (const Joint& joint : joints_) {
+            if (joint.agree) {
+                groups.join(joint.one, joint.other);
+            }
         }
-        turns_.count += others ? shell_.size() - to_turn : to_turn;
+        std::vector<std::size_t> sizes;
+        for (std::uint32_t t = 0; t < piece_of_.size(); ++t) {
+            const std::uint32_t first = groups.group_of(t); // not behind t
+            if (first == t) {
+                sizes.push_back(0);
+            }
+            piece_of_[t] =
+                first == t ? static_cast<std::uint32_t>(sizes.size() - 1) : piece_of_[first];
+            ++sizes[piece_of_[t]];
+        }
+        std::erase_if(joints_, [](const Joint& joint) { return joint.agree; });
+        return sizes;
+    }
+
+    /// Joins groups that have enough edges in common; false if there are none any more.
+    bool put_together(TurnedPieces& pieces) {
+        std::vector<std::array<std::uint32_t, 3>> links; // two groups; turned against each other
+        for (const Joint& joint : joints_) {
+            const auto one = pieces.place_of(piece_of_[joint.one]);
+            const auto other = pieces.place_of(piece_of_[joint.other]);
+            if (one.group != other.group) {
+                const auto [least, most] = std::minmax(one.group, other.group);
+                const std::uint32_t turned = 1U ^ one.turned ^ other.turned;
+                links.push_back({least, most, turned});
+            }
+        }
+        std::ranges::sort(links);
+        bool any = false;
+        for (std::size_t first = 0, last = 0; first < links.size(); first = last) {
+            last = first;
+            while (last < links.size() && links[last] == links[first]) {
+                ++last;
+            }
+            const auto [least, most, turned] = links[first];
+            const auto one = pieces.place_of(least);
+            const auto other = pieces.place_of(most);
+            const std::size_t smaller =
+                std::min(pieces.size_of(one.group), pieces.size_of(other.group));
+            if (one.group != other.group && is_one_surface(last - first, smaller)) {
+                pieces.join(
+                    one.group,
+                    other.group,
+                    static_cast<std::uint8_t>(turned ^ one.turned ^ other.turned));
+                any = true;
+            }
+        }
+        return any;
+    }
+
+    void turn_fewer(TurnedPieces& pieces) {
+        std::vector<std::size_t> to_turn(piece_of_.size(), 0); // by the names of groups
+        for (const std::uint32_t piece : piece_of_) {
+            const auto place = pieces.place_of(piece);
+            to_turn[place.group] += place.turned;
+        }
+        for (std::size_t t = 0; t < piece_of_.size(); ++t) {
+            const auto place = pieces.place_of(piece_of_[t]);
+            const bool others = 2 * to_turn[place.group] > pieces.size_of(place.group);
+            turns_.turned[t] = static_cast<std::uint8_t>((place.turned != 0) != others);
+            turns_.count += turns_.turned[t];
+        }
     }
 
     AgreeingTurns turns_;
-    std::vector<std::array<std::uint32_t, 3>> neighbours_; ///< of each triangle, side by side
-    std::vector<std::array<bool, 3>> agrees_; ///< with that neighbour, before any is turned
-    std::vector<bool> reached_;
-    std::vector<std::uint32_t> shell_; ///< at hand, in the order in which it is reached
+    std::vector<Joint> joints_; ///< once pieces are found, those that disagree
+    std::vector<std::uint32_t> piece_of_;
 };
 
 } // namespace
@@ -88,7 +179,7 @@ AgreeingTurns agreeing_turns(
     std::span<const Triangle> triangles,
     std::span<const Side> sides,
     std::span<const Triangle> named) {
-    return Turning(triangles, sides, named).turns();
+    return Turning(triangles.size(), sides, named).turns();
 }
 
 } // namespace octant::models::repair

@@ -17,7 +17,8 @@ struct AgreeingTurns {
     std::size_t crowded_edges = 0;    ///< shared by more than two triangles, which none agree over
 };
 
-/// Goes from each shell's first triangle to its neighbours and turns the fewer half of the shell.
+/// Of each shell the fewer half is turned. Pieces of a shell that disagree along a few edges only,
+/// for their size, are left as they are: bodies that touch, each of which looks its own way.
 /// `sides`: the sorted sides of the triangles; `named`: as for_each_joint.
 AgreeingTurns agreeing_turns(
     std::span<const Triangle> triangles,

@@ -1,6 +1,6 @@
 #include "ui/base/figures_text.h"
 
-#include "sim/base/error.h"
+#include "sim/base/utf8.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -50,7 +50,7 @@ Json json_of(const Figures& figures) {
 
 std::string figure_text(const Figures& figure) {
     if (const auto* text = std::get_if<std::string>(&figure.value())) {
-        return printable(*text);
+        return one_line(*text);
     }
     if (const auto* number = std::get_if<double>(&figure.value())) {
         return fmt::format("{:.6g}", *number);

@@ -11,9 +11,13 @@
 #include "ui/world/aircraft_axes.h"
 #include "ui/world/mesh_input.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <fmt/format.h>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace octant::ui::commands {
 
@@ -58,11 +62,23 @@ std::string scale_in_words(double length) {
 }
 
 void add_materials(base::Figures& figures, const models::TriangleMesh& mesh) {
-    figures["materials"] = base::Figures::list({});
+    std::vector<std::pair<std::string, std::size_t>> lines; // how often each comes
     for (const models::Material& material : mesh.materials) {
         const glm::vec3& colour = material.colour;
-        figures["materials"].push_back(fmt::format(
-            "{} ({:.2f} {:.2f} {:.2f})", printable(material.name), colour.x, colour.y, colour.z));
+        std::string line = fmt::format(
+            "{} ({:.2f} {:.2f} {:.2f})", printable(material.name), colour.x, colour.y, colour.z);
+        const auto known =
+            std::ranges::find(lines, line, &std::pair<std::string, std::size_t>::first);
+        if (known == lines.end()) {
+            lines.emplace_back(std::move(line), 1);
+        } else {
+            ++known->second;
+        }
+    }
+    figures["materials"] = base::Figures::list({});
+    for (const auto& [line, count] : lines) {
+        figures["materials"].push_back(
+            count == 1 ? line : fmt::format("{}, {} times", line, count));
     }
     figures["vertex_colours"] = !mesh.colours.empty();
 }
@@ -132,7 +148,7 @@ Command model_info_command() {
              flag("--quiet", "no notes", options->quiet)},
         .footer = "Keys: file, length_m, span_m, height_m, scale, axes, axes_are, faces and "
                   "vertices as read,\n  shells, closed and defects as repaired, materials "
-                  "(red green blue), vertex_colours, picture.\n"
+                  "(red green blue) and how often, vertex_colours, picture.\n"
                   "Example:\n  octant model info f15 --picture f15.png",
         .run = [options] { show_model_info(*options); }};
 }

@@ -11,6 +11,7 @@
 #include <osg/LOD>
 #include <osg/Material>
 #include <osg/NodeVisitor>
+#include <osg/TexGen>
 #include <osg/Texture2D>
 #include <osg/TriangleIndexFunctor>
 #include <osgDB/ReadFile>
@@ -40,8 +41,8 @@ struct Triangles {
 
 class Collecting : public osg::NodeVisitor {
 public:
-    explicit Collecting(MeshBuilder& mesh)
-        : osg::NodeVisitor(osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN)
+    Collecting(MeshBuilder& mesh, osg::NodeVisitor::TraversalMode children)
+        : osg::NodeVisitor(children)
         , mesh_(mesh) {}
 
     /// The level that is for the nearest eye.
@@ -118,7 +119,16 @@ private:
         return found;
     }
 
+    /// Of pictures that lie on a surface; those that it mirrors, whose places follow from the view,
+    /// are none.
     std::uint32_t picture_of(const osg::Geometry& geometry) {
+        const auto* mirrored = nearest_state(geometry, [](const osg::StateSet* state) {
+            return state == nullptr ? nullptr
+                                    : state->getTextureAttribute(0, osg::StateAttribute::TEXGEN);
+        });
+        if (mirrored != nullptr) {
+            return BakedPictures::none;
+        }
         const osg::Image* image = nearest_state(geometry, [](const osg::StateSet* state) {
             const auto* texture =
                 state == nullptr ? nullptr
@@ -173,8 +183,12 @@ void read_by_osg(const std::filesystem::path& file, MeshBuilder& mesh) {
     if (!node) {
         error_in(file, "expected a scene that OpenSceneGraph can read, got none");
     }
-    Collecting collecting(mesh);
-    node->accept(collecting);
+    Collecting shown(mesh, osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN);
+    node->accept(shown);
+    if (mesh.is_empty()) { // of switches that are all off
+        Collecting all(mesh, osg::NodeVisitor::TRAVERSE_ALL_CHILDREN);
+        node->accept(all);
+    }
 }
 
 } // namespace octant::ui::reader

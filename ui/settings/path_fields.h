@@ -31,11 +31,10 @@ inline constexpr std::tuple path_rows{
          listing<
              "aircraft: ",
              base::built_in_models,
-             ", an OBJ file of up to 50,000 polygons (2,000 where nearly all are triangles), or a "
-             "mesh (.obj, .ply, .stl, .glb, .ac, .wrl, .pm, .chain, FlightGear's .xml and what "
-             "--version lists); repeat for wingmen, or =PATH for one with a path of its own, from "
-             "N s "
-             "on, such as 500md=turn@10s">},
+             ", an OBJ file of up to 50,000 polygons (2,000 where nearly all are triangles) "
+             "without pictures and glass, or a mesh (.obj, .ply, .stl, .glb, .ac, .wrl, .pm, "
+             ".chain, FlightGear's .xml and what --version lists); repeat for wingmen, or =PATH "
+             "for one with a path of its own, from N s on, such as 500md=turn@10s">},
         {.group = SettingGroup::Path,
          .change = SettingsChange::Flight,
          .known = base::built_in_models}),

@@ -29,6 +29,10 @@ std::string axis_along(const FileAxes& axes, const glm::dvec3& in_body) {
     return text;
 }
 
+glm::dvec3 up_in_file(const FileAxes& axes) {
+    return axes.file_from_body({0.0, 0.0, -1.0});
+}
+
 std::string_view source_of(From from) {
     switch (from) {
     case From::Given:
@@ -55,10 +59,12 @@ AircraftAxes aircraft_axes(
     if (const auto axes = models::meshfile::axes_of_format(file)) {
         return {*axes, From::Format};
     }
-    if (const auto axes = models::polygons::guessed_axes(mesh)) {
-        return {*axes, From::Guess};
+    const auto usual = models::meshfile::usual_axes(file);
+    const auto guessed = models::polygons::guessed_axes(mesh);
+    if (guessed && (!usual || up_in_file(*guessed) == up_in_file(*usual))) {
+        return {*guessed, From::Guess};
     }
-    return {FileAxes(), From::Usual};
+    return {usual.value_or(FileAxes()), From::Usual};
 }
 
 void check_axes(const std::string& setting) {

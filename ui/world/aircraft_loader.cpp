@@ -2,6 +2,8 @@
 
 #include "models/polygons/file_axes.h"
 #include "models/polygons/mesh_polygons.h"
+#include "models/polygons/mtl_reader.h"
+#include "models/polygons/obj_lines.h"
 #include "models/polygons/obj_reader.h"
 #include "sim/aircraft_kind.h"
 #include "sim/base/error.h"
@@ -22,6 +24,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -83,6 +87,24 @@ draworder::OrderedModel with_order(
     return std::move(cached.ordered);
 }
 
+/// Whether a line of an OBJ file names a material file of pictures or glass, which meshes show.
+bool names_pictures_or_glass(std::string_view line, const std::filesystem::path& file) {
+    if (!line.starts_with("mtllib")) {
+        return false;
+    }
+    const std::filesystem::path folder = file.parent_path();
+    const std::filesystem::path materials = folder / models::polygons::after_first_word(line);
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(materials, ignored)) {
+        return false;
+    }
+    const auto pictures = models::polygons::pictures_of_mtl(materials);
+    return !models::polygons::opacities_of_mtl(materials).empty() ||
+           std::ranges::any_of(pictures, [&](const auto& of_material) {
+               return std::filesystem::is_regular_file(folder / of_material.second, ignored);
+           });
+}
+
 /// Whether an OBJ file is a polygon model, to be painted in order. Many faces that are nearly all
 /// triangles are the mesh of a surface, which refinement in flight serves better.
 bool is_polygon_model(const std::filesystem::path& file) {
@@ -91,15 +113,17 @@ bool is_polygon_model(const std::filesystem::path& file) {
     }
     std::size_t triangles = 0;
     std::size_t others = 0;
+    bool is_plain = true;
     const std::string text = read_text_file(file);
     for (const std::string_view line : split_lines(text)) {
         if (line.starts_with("f ") || line.starts_with("f\t")) {
             ++(split_words(line).size() == 4 ? triangles : others);
         }
+        is_plain = is_plain && !names_pictures_or_glass(line, file);
     }
     const std::size_t faces = triangles + others;
     const bool is_mesh = faces > most_triangles_of_a_model && others < faces / 10;
-    return faces <= most_polygons_of_a_model && !is_mesh;
+    return is_plain && faces <= most_polygons_of_a_model && !is_mesh;
 }
 
 /// `kind`: the row of the aircraft; null for one of which only the shape is known.

@@ -3,10 +3,12 @@
 #include "models/meshfile/level_chain.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "sim/base/utf8.h"
 #include "ui/report/child_program.h"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -45,6 +47,20 @@ const Library* library_of(const fs::path& file) {
         }
     }
     return nullptr;
+}
+
+/// In the reader's own words where it told what it expected; else it crashed or met its limits.
+[[noreturn]] void refuse(const fs::path& file, const Library& library, std::string_view complaint) {
+    if (const std::string named = file.string() + ": "; complaint.starts_with(named)) {
+        complaint.remove_prefix(named.size());
+    }
+    constexpr std::size_t longest = 300;
+    const std::string words = one_line(complaint.substr(0, longest));
+    error_in(
+        file,
+        words.starts_with("expected ")
+            ? words
+            : fmt::format("expected a mesh that {} can read; its reader: {}", library.name, words));
 }
 
 /// Beside this program; empty where it was not built.
@@ -115,16 +131,7 @@ models::TriangleMesh read_library_mesh(const fs::path& file) {
     }
     const report::ProgramEnding ending = child->finish();
     if (!ending.succeeded) {
-        std::string_view complaint = ending.last_complaint;
-        if (const std::string named = file.string() + ": "; complaint.starts_with(named)) {
-            complaint.remove_prefix(named.size());
-        }
-        error_in(
-            file,
-            fmt::format(
-                "expected a mesh that {} can read, its reader ended: {}",
-                library.name,
-                printable(std::string(complaint))));
+        refuse(file, library, ending.last_complaint);
     }
     models::TriangleMesh mesh = std::move(models::meshfile::read_chain(out).levels.front().mesh);
     mesh.name = file.stem().string();

@@ -33,11 +33,12 @@ std::string after_first_word(std::string_view line) {
 /// Follows names from file to file.
 class Following {
 public:
-    void follow(const fs::path& file) {
+    /// `pictures`: where those of an .ac file are looked for first; empty: beside it alone.
+    void follow(const fs::path& file, const fs::path& pictures = {}) {
         try {
             const std::string ending = ending_of(file);
             if (ending == ".ac") {
-                follow_ac3d(file);
+                follow_ac3d(file, pictures.empty() ? file.parent_path() : pictures);
             } else if (ending == ".obj") {
                 follow_obj(file);
             } else if (ending == ".mtl") {
@@ -70,18 +71,18 @@ private:
     }
 
     /// As models/meshfile/baked_pictures.cpp looks for one.
-    void add_picture(const fs::path& from, std::string name) {
+    void add_picture(const fs::path& folder, std::string name) {
         std::ranges::replace(name, '\\', '/');
-        if (!name.empty() && !add(from.parent_path() / name)) {
-            add(from.parent_path() / fs::path(name).filename());
+        if (!name.empty() && !add(folder / name)) {
+            add(folder / fs::path(name).filename());
         }
     }
 
-    void follow_ac3d(const fs::path& file) {
+    void follow_ac3d(const fs::path& file, const fs::path& pictures) {
         const std::string text = text_of(file);
         for (const std::string_view line : split_lines(text)) {
             if (line.starts_with("texture ")) {
-                add_picture(file, after_first_word(line));
+                add_picture(pictures, after_first_word(line));
             }
         }
     }
@@ -107,7 +108,7 @@ private:
             const auto words = split_words(line);
             if (words.size() >= 2 && words.front() == "map_Kd") {
                 add_picture(
-                    file,
+                    file.parent_path(),
                     words[1].starts_with('-') ? std::string(words.back()) : after_first_word(line));
             }
         }
@@ -134,9 +135,15 @@ private:
         if (!element.include.empty()) {
             add(models::meshfile::flightgear_file(file, element.include));
         }
+        const fs::path pictures = models::meshfile::flightgear_pictures(
+            file, std::string(element.text_of("texture-path")));
         for (const models::meshfile::XmlElement& child : element.children) {
             if (child.name == "path") {
-                add(models::meshfile::flightgear_file(file, child.text));
+                const fs::path named = models::meshfile::flightgear_file(file, child.text);
+                add(named);
+                if (!pictures.empty() && ending_of(named) == ".ac") {
+                    follow(named, pictures);
+                }
             }
             follow_elements(file, child);
         }

@@ -27,8 +27,8 @@ TEST_CASE("objects of AC3D stand where their parents and they themselves put the
         "part.ac",
         ac3d_start + "kids 1\nOBJECT group\nloc 10 0 0\nrot 0 -1 0 1 0 0 0 0 1\nkids 2\n" +
             "OBJECT poly\nname \"kids 3\"\ndata 6\nkids 9\ntexture \"a b.png\"\ntexrep 1 1\n" +
-            "crease 45.0\nloc 0 0 2\n" + ac3d_corners + surface + "kids 0\nOBJECT poly\n" +
-            ac3d_corners +
+            "crease 45.0\nshowname 1\nloc 0 0 2\n" + ac3d_corners + surface +
+            "kids 0\nOBJECT poly\n" + ac3d_corners +
             "numsurf 3\nSURF 0x30\nmat 0\nrefs 3\n2 0 0\n1 0 0\n0 0 0\nSURF 0x2\nmat 0\nrefs 2\n"
             "0 0 0\n1 0 0\nSURF 0x0\nmat 1\nrefs 1\n0 0 0\nkids 0\n"));
     CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {5, 4, 3}});

@@ -5,9 +5,11 @@
 #include "tests/models/meshfile/mesh_samples.h"
 
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <string>
+#include <utility>
 
 using namespace octant;
 using namespace octant::models;
@@ -35,6 +37,40 @@ TEST_CASE("FlightGear's models bring their sub-models, moved and turned") {
     CHECK(mesh.vertices_m[6].z == Approx(4.0));
     CHECK_THAT(mesh.notes.back(), Catch::Contains("left at rest: 1 spin"));
     CHECK(axes_of_format(file)->text() == "back,right,up");
+}
+
+TEST_CASE("an aircraft of FlightGear is read by its own file, which names its model") {
+    file_with("square.ac", ac3d_square("0x0"));
+    file_with("flier.xml", "<PropertyList><path>square.ac</path></PropertyList>");
+    file_with(
+        "base.xml",
+        "<PropertyList><sim><model><path>flier.xml</path></model></sim></PropertyList>");
+    const auto read_set = [](const std::string& sim) {
+        return file_with(
+            "flier-set.xml", "<PropertyList include='base.xml'>" + sim + "</PropertyList>");
+    };
+    CHECK(read_mesh(read_set("<sim><aero>x</aero></sim>")).triangles.size() == 2);
+    CHECK(
+        read_mesh(read_set("<sim><model><path>Aircraft/F/square.ac</path></model></sim>"))
+            .triangles.size() == 2);
+    CHECK_THAT(
+        read_mesh(file_with(
+                      "first.xml",
+                      "<PropertyList><model><path>none.xml</path></model>"
+                      "<model><path>square.ac</path></model></PropertyList>"))
+            .notes.front(),
+        Catch::Contains("no file of path 'none.xml'"));
+    CHECK_THAT(
+        error_of("first.xml", "<PropertyList><path>none.ac</path></PropertyList>"),
+        Catch::Contains("expected a file of its path, got none called 'none.ac'"));
+    CHECK_THAT(
+        error_of(
+            "none-set.xml",
+            "<PropertyList><sim><model><path>none.xml</path></model></sim></PropertyList>"),
+        Catch::Contains("expected a file of its sim/model/path, got none called 'none.xml'"));
+    CHECK_THAT(
+        error_of("void-set.xml", "<PropertyList><sim/></PropertyList>"),
+        Catch::Contains("expected a model's path in sim/model, got none"));
 }
 
 TEST_CASE("a faulty number in a range costs the range alone") {
@@ -107,6 +143,90 @@ TEST_CASE("what a range shows from afar only is left out of a FlightGear model")
         "<object-name>far</object-name></animation></PropertyList>");
     CHECK(read_mesh(file).triangles.size() == 2);
     CHECK(read_mesh(near_file).triangles.size() == 2);
+}
+
+TEST_CASE("ranges, lights and views of a FlightGear model show what is seen from outside") {
+    file_with("square.ac", ac3d_square("0x0", "pilot"));
+    const auto shown = [](const std::string& animation) {
+        const auto file = file_with(
+            "outside.xml",
+            "<PropertyList><path>square.ac</path><model><path>square.ac</path></model><animation>"
+            "<object-name>pilot</object-name>" +
+                animation + "</animation></PropertyList>");
+        return read_mesh(file).triangles.size() == 4; // else the sub-model's two alone
+    };
+    CHECK(shown("<type>range</type><min-m>1</min-m><max-m>500</max-m>")); // not from his own eye
+    CHECK(shown("<type>range</type><max-property>level/detailed</max-property>"));
+    CHECK_FALSE(shown("<type>range</type><min-property>level/detailed</min-property>"));
+    CHECK_FALSE(shown("<type>light</type><light-type>point</light-type>"));
+    const auto in_view = [](const std::string& relation, const std::string& number) {
+        return "<type>select</type><condition><" + relation +
+               "><property>sim/current-view/view-number</property><value>" + number + "</value></" +
+               relation + "></condition>";
+    };
+    CHECK_FALSE(shown(in_view("equals", "0")));
+    CHECK(shown(in_view("not-equals", "0")));
+    CHECK(shown(in_view("greater-than", "0")));
+}
+
+TEST_CASE("what animations move stands where it is at rest: landing gear up") {
+    file_with("square.ac", ac3d_square("0x0", "leg"));
+    const auto corner_m = [](const std::string& animations) {
+        const TriangleMesh mesh = read_mesh(file_with(
+            "gear.xml",
+            "<PropertyList><path>square.ac</path><model><name>wheel</name><path>square.ac</path>"
+            "</model>" +
+                animations + "</PropertyList>"));
+        REQUIRE(mesh.vertices_m.size() == 8);
+        CHECK(mesh.notes.size() == 1); // of what is left at rest
+        return std::pair(mesh.vertices_m[2], mesh.vertices_m[6]);
+    };
+    const auto is_at = [](const glm::dvec3& place_m, double x_m, double z_m) {
+        return glm::distance(place_m, glm::dvec3(x_m, 0.0, z_m)) < 1e-9;
+    };
+    const std::string turned =
+        "<animation><type>rotate</type><object-name>leg</object-name><object-name>wheel</"
+        "object-name>"
+        "<property>gear/gear/position-norm</property><interpolation><entry><ind>0</ind><dep>90</"
+        "dep>"
+        "</entry><entry><ind>1</ind><dep>0</dep></entry></interpolation><axis><y>2</y></axis>"
+        "<center><x-m>1</x-m></center></animation>";
+    const std::string shifted =
+        "<animation><type>translate</type><object-name>leg</object-name><offset-m>2</offset-m>"
+        "<axis><x>1</x></axis></animation>";
+    const auto [leg_m, wheel_m] = corner_m(turned); // from x = 1, z = 1
+    CHECK(is_at(leg_m, 2.0, 0.0));
+    CHECK(is_at(wheel_m, 2.0, 0.0));
+    CHECK(is_at(corner_m(turned + shifted).first, 2.0, -2.0)); // shifted, then turned
+    CHECK(is_at(corner_m(shifted + turned).first, 4.0, 0.0));
+    CHECK(is_at(corner_m(turned + shifted).second, 2.0, 0.0));
+    const std::string limited =
+        "<animation><type>rotate</type><property>canopy</property><offset-deg>400</offset-deg>"
+        "<max-deg>180</max-deg><axis><x1-m>0</x1-m><y1-m>-1</y1-m><y2-m>1</y2-m></axis></"
+        "animation>";
+    CHECK(is_at(
+        corner_m("<animation><type>rotate</type><property>canopy</property><factor>7</factor>"
+                 "<axis><y>1</y></axis></animation>")
+            .first,
+        1.0,
+        1.0));
+    file_with("whole.xml", "<PropertyList><path>square.ac</path>" + limited + "</PropertyList>");
+    const TriangleMesh whole = read_mesh(file_with(
+        "holder.xml", "<PropertyList><model><path>whole.xml</path></model></PropertyList>"));
+    CHECK(is_at(whole.vertices_m.at(2), -1.0, -1.0));
+}
+
+TEST_CASE("what is said of a FlightGear model's many parts ends with a count") {
+    std::string models;
+    for (int i = 0; i < 30; ++i) {
+        models += "<model><path>none" + std::to_string(i) + ".ac</path></model>";
+    }
+    file_with("square.ac", ac3d_square("0x0"));
+    const TriangleMesh mesh = read_mesh(
+        file_with("many.xml", "<PropertyList><path>square.ac</path>" + models + "</PropertyList>"));
+    REQUIRE(mesh.notes.size() == 21);
+    CHECK_THAT(mesh.notes.front(), Catch::Contains("no file of path 'none0.ac'"));
+    CHECK_THAT(mesh.notes.back(), Catch::Contains("10 more notes on its sub-models"));
 }
 
 TEST_CASE("what FlightGear shows under a condition is there if it holds at rest") {

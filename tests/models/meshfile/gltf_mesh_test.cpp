@@ -33,6 +33,8 @@ struct Parts {
     std::string accessors =
         R"([{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
             {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"}])";
+    std::string views = R"([{"buffer":0,"byteLength":48},
+               {"buffer":0,"byteOffset":48,"byteLength":4}])";
     std::string uri = "data:application/octet-stream;base64," + base64_text(square_bytes());
     std::string more;
 };
@@ -40,11 +42,8 @@ struct Parts {
 std::string gltf(const Parts& parts) {
     return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" +
            parts.nodes + R"(,"meshes":[{"primitives":[)" + parts.primitive + R"(]}],"accessors":)" +
-           parts.accessors +
-           R"(,"bufferViews":[{"buffer":0,"byteLength":48},
-               {"buffer":0,"byteOffset":48,"byteLength":4}],
-               "buffers":[{"byteLength":52,"uri":")" +
-           parts.uri + "\"}]" + parts.more + "}";
+           parts.accessors + R"(,"bufferViews":)" + parts.views +
+           R"(,"buffers":[{"byteLength":52,"uri":")" + parts.uri + "\"}]" + parts.more + "}";
 }
 
 TriangleMesh read_gltf(const Parts& parts) {
@@ -81,6 +80,27 @@ TEST_CASE("strips, fans and lists of glTF give the triangles that they stand for
     Parts lines;
     lines.primitive = R"({"attributes":{"POSITION":0},"mode":1},)" + Parts().primitive;
     CHECK(read_gltf(lines).notes.size() == 1);
+}
+
+TEST_CASE("places of glTF may be short numbers, which their node makes as large as they are") {
+    std::string bytes;
+    for (const int part : {0, 0, 0, 0, 100, 0, 0, 0, 0, 100, 0, 0, 100, 100, 0, 0}) { // 4 apiece
+        bytes += static_cast<char>(part);
+        bytes += '\0';
+    }
+    Parts parts;
+    parts.uri = "data:application/octet-stream;base64," +
+                base64_text(bytes + std::string(16, '\0') + std::string("\0\1\2\3", 4));
+    parts.accessors = R"([{"bufferView":0,"componentType":5122,"count":4,"type":"VEC3"},
+            {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"}])";
+    parts.views = R"([{"buffer":0,"byteLength":32,"byteStride":8},
+               {"buffer":0,"byteOffset":48,"byteLength":4}])";
+    parts.nodes = R"([{"mesh":0,"scale":[0.01,0.01,0.01]}])";
+    parts.more = R"(,"extensionsRequired":["KHR_mesh_quantization"])";
+    const TriangleMesh mesh = read_gltf(parts);
+    CHECK(mesh.triangles.size() == 2);
+    CHECK(mesh.vertices_m.at(3).x == Approx(1.0));
+    CHECK(mesh.vertices_m.at(3).y == Approx(1.0));
 }
 
 TEST_CASE("nodes of glTF place their meshes; a mirror turns triangles round again") {

@@ -83,6 +83,23 @@ TEST_CASE("OBJ materials come in the order of their first polygon, with colours 
     CHECK(mesh.triangle_materials == std::vector<std::uint32_t>{2, 0, 0, 1});
 }
 
+TEST_CASE("what an MTL file calls clear is apart from the body of an OBJ file") {
+    file_with(
+        "glass.mtl",
+        "newmtl glass\nTr 0\nd 0.25\nnewmtl tinted\nTr 0.25\nnewmtl hull\nd 1\nnewmtl odd\nTr 1\n"
+        "newmtl worse\nd -f 2\n");
+    std::string text = std::string(three) + "mtllib glass.mtl\n";
+    for (const std::string name : {"glass", "tinted", "hull", "odd", "worse"}) {
+        text += "usemtl " + name + "\nf 1 2 3\n";
+    }
+    const auto file = file_with("glass.obj", text);
+    CHECK(read_mesh(file).triangles.size() == 5);
+    const MeshParts parts = read_parts(file, {});
+    CHECK(parts.body.triangles.size() == 3);
+    CHECK(parts.clear.mesh.triangles.size() == 2);
+    CHECK(parts.clear.opacity == Approx(0.5)); // the mean of 0.25 and 0.75
+}
+
 TEST_CASE("a missing MTL file is noted") {
     const TriangleMesh mesh =
         read_obj_text("mtllib none.mtl\n" + std::string(three) + "usemtl a\nf 1 2 3");

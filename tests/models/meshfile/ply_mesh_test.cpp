@@ -70,6 +70,16 @@ TEST_CASE("an ascii PLY with what it need not have is read") {
     CHECK(mesh.normals.empty());
 }
 
+TEST_CASE("strips of a PLY file give triangles that look the same way") {
+    const std::string head = start + "element vertex 6\n" + places +
+                             "element tristrips 1\nproperty list int int vertex_indices\n"
+                             "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n";
+    const TriangleMesh mesh = read_ply_text(head + "11 0 1 2 3 3 4 -1 2 3 4 5\n");
+    CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}});
+    CHECK(refused_ply(head + "3 0 1 6\n") == "part.ply:16: expected a vertex below 6, got 6");
+    CHECK(refused_ply(head + "3 0 1 -1\n") == "part.ply: expected at least one triangle, got none");
+}
+
 TEST_CASE("binary PLY files of both byte orders are read alike") {
     for (const std::endian order : {std::endian::little, std::endian::big}) {
         Body body(order);

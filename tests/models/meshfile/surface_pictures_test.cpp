@@ -130,6 +130,27 @@ TEST_CASE("what is mostly transparent is left out or glass, unless nothing else 
     }
 }
 
+TEST_CASE("a FlightGear model says in which folder its pictures lie") {
+    const auto mesh = file_with("painted.ac", ac3d_square("0x0"));
+    const std::filesystem::path folder = mesh.parent_path() / "Texture-RAF";
+    std::filesystem::create_directories(folder);
+    std::filesystem::remove(mesh.parent_path() / "two.bmp");
+    write_file(folder / "two.bmp", red_and_blue());
+    const auto model = [](const std::string& where) {
+        return read_mesh(
+            file_with(
+                "painted.xml", "<PropertyList><path>painted.ac</path>" + where + "</PropertyList>"),
+            {.pictures = true});
+    };
+    CHECK(model("").colours.empty());
+    for (const std::string name : {"Texture-RAF/", "/Texture-RAF"}) {
+        const TriangleMesh painted = model("<texture-path>" + name + "</texture-path>");
+        CHECK(painted.notes.empty());
+        REQUIRE(painted.colours.size() == 4);
+        CHECK(painted.colours[0].x > 0.75F);
+    }
+}
+
 TEST_CASE("a picture that is missing is told, and the material's colour stays") {
     const auto file = file_with("lonely.ac", ac3d_square("0x0"));
     std::filesystem::remove(file.parent_path() / "two.bmp");

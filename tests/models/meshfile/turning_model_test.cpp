@@ -64,7 +64,7 @@ TEST_CASE("propellers and rotors of a FlightGear model turn, wheels stay with th
     CHECK_THAT(model.body.notes.back(), Catch::Contains("left at rest: 2 rotate, 2 spin"));
     CHECK_THAT(
         model.body.notes.front(),
-        Catch::Contains("expected a number, got '1,5'; what it turns is left at rest"));
+        Catch::Contains("expected a number, got '1,5'; what it moves is left at rest"));
     CHECK(read_mesh(file).triangles.size() == 6); // as one mesh all of it is there
     CHECK(read_turning_model(file.parent_path() / "parts.ac", {}).parts.empty());
 }
@@ -124,6 +124,27 @@ TEST_CASE("of a mesh whose objects are not told apart nothing turns, and it is t
     const TurningModel model = read_turning_model(file, {});
     CHECK(model.body.triangles.size() == 1);
     CHECK(model.parts.empty());
+}
+
+TEST_CASE("an AC3D aircraft alone shows its blades, not what stands for discs, light and shadows") {
+    const auto objects_left = [](const std::string& first, const std::string& second) {
+        const std::string object = "\"\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\n"
+                                   "mat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n";
+        const auto file = file_with(
+            "alone.ac",
+            "\xef\xbb\xbf"
+            "AC3Db\nMATERIAL \"w\" rgb 1 1 1\nOBJECT world\nkids 2\n"
+            "OBJECT poly\nname \"" +
+                first + object + "OBJECT poly\nname \"" + second + object);
+        CHECK(read_mesh(file).triangles.size() == 2);
+        return read_turning_model(file, {}).body.triangles.size();
+    };
+    CHECK(objects_left("heliceG", "propdiscG") == 1);
+    CHECK(objects_left("PropBlurFastL", "wing") == 1);
+    CHECK(objects_left("taxi-light-cone", "light") == 1);
+    CHECK(objects_left("Fastprop", "Slowprop") == 1);
+    CHECK(objects_left("Rotor-Disc_M-Pale", "shadow") == 2); // there is nothing else
+    CHECK(objects_left("noshadow.glass", "disk") == 2);
 }
 
 TEST_CASE("a sub-model turns as the model that holds it says by its name") {

@@ -182,6 +182,41 @@ TEST_CASE("a shell that is inside out throughout stays so: it may be a hollow") 
     CHECK(volume_m3(after.mesh) < 0.0);
 }
 
+TEST_CASE("a door that touches its sheet along few edges keeps its own side, a flap is turned") {
+    const auto sheet_with_door = [](std::uint32_t hinge_edges) {
+        TriangleMesh mesh;
+        const auto add_squares = [&](std::uint32_t count, const glm::dvec3& along_m) {
+            const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
+            for (std::uint32_t i = 0; i <= count; ++i) {
+                for (std::uint32_t j = 0; j <= count; ++j) {
+                    const double x_m = i; // the door's corners beyond the hinge lie off the sheet
+                    const bool is_off = along_m.z != 0.0 && j == 0 && i > hinge_edges;
+                    mesh.vertices_m.push_back(
+                        glm::dvec3(x_m, is_off ? 0.5 : 0.0, 0.0) + along_m * static_cast<double>(j));
+                }
+            }
+            for (std::uint32_t i = 0; i < count; ++i) {
+                for (std::uint32_t j = 0; j < count; ++j) {
+                    const std::uint32_t a = first + i * (count + 1) + j;
+                    const std::uint32_t b = a + count + 1;
+                    mesh.triangles.push_back({a, b, b + 1});
+                    mesh.triangles.push_back({a, b + 1, a + 1});
+                }
+            }
+        };
+        add_squares(12, {0.0, -1.0, 0.0});
+        add_squares(6, {0.0, 0.0, 1.0}); // agrees with the sheet if it is turned
+        return mesh;
+    };
+    const RepairedMesh door = checked(sheet_with_door(2));
+    CHECK(door.counts.turned_triangles == 0);
+    CHECK(door.counts.shells == 2);
+    CHECK(door.counts.split_edges == 2);
+    const RepairedMesh flap = checked(sheet_with_door(6));
+    CHECK(flap.counts.turned_triangles == 72);
+    CHECK(flap.counts.shells == 1);
+}
+
 TEST_CASE("two tetrahedra that touch in a vertex get one each") {
     TriangleMesh mesh = tetrahedron();
     for (const double side : {-1.0}) {

@@ -36,6 +36,12 @@ TEST_CASE("figures stand in lines, names in a column and members of lists on lin
                                                           "two\n");
 }
 
+TEST_CASE("a long text is printed whole, on one line") {
+    Figures figures;
+    figures["file"] = std::string(100, 'x') + "\nend";
+    CHECK(octant::ui::base::figures_text(figures) == "file  " + std::string(100, 'x') + " end\n");
+}
+
 TEST_CASE("figures stand in JSON in their order and with all digits") {
     Figures figures = some_figures();
     figures["faces"] = -3; // a figure that is set again keeps its place

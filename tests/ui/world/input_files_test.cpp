@@ -81,6 +81,12 @@ TEST_CASE("pictures, buffers and sub-models of an aircraft are inputs of the run
     CHECK(hash() == before);
     const auto kept = files_to_keep(flown_by({folder / "m/jet.xml"}), {});
     CHECK(kept.size() == 4); // shared.ac lies above, and is only hashed
+    fs::create_directories(folder / "m/Textures");
+    write_file(folder / "m/Textures/skin.png", "5");
+    write_file(
+        folder / "m/jet.xml",
+        "<PropertyList><path>body.ac</path><texture-path>/Textures/</texture-path></PropertyList>");
+    CHECK(files_to_keep(flown_by({folder / "m/jet.xml"}), {}).size() == 4); // both pictures
     write_file(folder / "m/part.bin", "4");
     write_file(folder / "m/a.gltf", R"({"buffers":[{"uri":"part.bin"},{"uri":"data:x"}]})");
     CHECK(files_to_keep(flown_by({folder / "m/a.gltf"}), {}).size() == 2);
