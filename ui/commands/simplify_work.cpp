@@ -56,6 +56,8 @@ std::string name_of(simplify::Chooser chooser) {
     switch (chooser) {
     case simplify::Chooser::Distances:
         return "distances";
+    case simplify::Chooser::Peaks:
+        return "peaks";
     case simplify::Chooser::Quadrics:
         return "quadrics";
     case simplify::Chooser::Volumes:
