@@ -15,6 +15,9 @@ namespace octant::models {
 /// Three indices, counter-clockwise seen from outside.
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// The colours of a triangle's corners, display values 0..1.
+using CornerColours = std::array<glm::vec3, 3>;
+
 /// A triangle mesh as files hold it, in the file's own axes and units (metres for aircraft).
 /// Corners share vertices; colours belong to vertices, normals to corners, materials to triangles.
 struct TriangleMesh {

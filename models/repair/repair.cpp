@@ -41,6 +41,9 @@ public:
         , named_(mesh_.triangles) {}
 
     RepairedMesh repair() {
+        if (seams_ == Seams::Welded) {
+            take_corner_colours();
+        }
         weld(first_twins(
             mesh_.vertices_m,
             seams_ == Seams::Welded ? std::vector<glm::vec3>() : mesh_.colours,
@@ -54,7 +57,10 @@ public:
         take_out_vertices();
         counts_.shells = count_shells(mesh_);
         counts_.boundary_loops = count_boundary_loops(mesh_);
-        return {std::move(mesh_), counts_};
+        if (!colours_break()) {
+            corner_colours_.clear();
+        }
+        return {std::move(mesh_), std::move(corner_colours_), counts_};
     }
 
 private:
@@ -66,6 +72,26 @@ private:
             }
         }
         return used;
+    }
+
+    void take_corner_colours() {
+        for (const auto& [a, b, c] : mesh_.colours.empty() ? std::vector<Triangle>() : named_) {
+            corner_colours_.push_back({mesh_.colours[a], mesh_.colours[b], mesh_.colours[c]});
+        }
+    }
+
+    /// Whether a corner's colour differs from its vertex's by more than a few steps of eight bits.
+    bool colours_break() const {
+        constexpr float a_few_steps = 0.01F;
+        for (std::size_t t = 0; t < corner_colours_.size(); ++t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const glm::vec3 off = corner_colours_[t][k] - mesh_.colours[mesh_.triangles[t][k]];
+                if (glm::dot(off, off) > a_few_steps * a_few_steps) {
+                    return true;
+                }
+            }
+        }
+        return false;
     }
 
     /// Puts the vertex that each is to become in its place, none or itself for one that stays.
@@ -127,6 +153,7 @@ private:
     void keep_triangles(const std::vector<bool>& stays) {
         keep(mesh_.triangles, stays);
         keep(named_, stays);
+        keep(corner_colours_, stays);
         keep(mesh_.corner_normals, stays);
         keep(mesh_.triangle_materials, stays);
     }
@@ -241,6 +268,9 @@ private:
                 continue;
             }
             std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
+            if (!corner_colours_.empty()) {
+                std::swap(corner_colours_[t][1], corner_colours_[t][2]);
+            }
             if (!mesh_.corner_normals.empty()) {
                 std::swap(mesh_.corner_normals[t][1], mesh_.corner_normals[t][2]);
                 turn_normals(t);
@@ -287,6 +317,7 @@ private:
     Seams seams_;
     std::vector<Triangle> named_; ///< the triangles by the vertices of the file
     RepairCounts counts_;
+    std::vector<CornerColours> corner_colours_;
     std::vector<std::uint8_t> turned_; ///< 1 for triangles that are to be turned
     std::vector<bool> is_apart_;       ///< triangles that share no vertex with others
     std::unordered_map<std::uint32_t, std::uint32_t> turned_normals_;

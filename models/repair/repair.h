@@ -3,6 +3,8 @@
 #include "models/repair/repair_counts.h"
 #include "models/triangle_mesh.h"
 
+#include <vector>
+
 namespace octant::models::repair {
 
 /// Whether vertices at one place are one. Files double vertices where normals, colours or pictures
@@ -13,6 +15,9 @@ enum class Seams { Welded, Apart };
 
 struct RepairedMesh {
     TriangleMesh mesh; ///< every edge in one or two triangles, every vertex with one fan
+    /// One a triangle where colours break along seams that were welded: what the file says, while
+    /// the mesh's colours are means. Empty where none break.
+    std::vector<CornerColours> corner_colours;
     RepairCounts counts;
 };
 

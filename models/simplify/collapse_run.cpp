@@ -10,6 +10,8 @@
 //   As it is expensive, it is evaluated lazily: a collapse only marks the edges around it as
 //   unchecked, and an unchecked edge is evaluated anew when its old cost reaches the top of the
 //   heap.
+// - Chooser::Peaks: the same and more where a distance gets far larger than is usual: a sum of
+//   squares hardly sees a single peak, and where most triangles stay, no later step lowers it.
 // - Chooser::Volumes: place and cost without memory (volume_place.cpp), evaluated lazily too.
 #include "models/simplify/collapse_run.h"
 
@@ -34,6 +36,19 @@ constexpr EdgeWeights fast_weights{.boundary = 1.0, .crease = 0.1, .crease_cosin
 /// doubled: by then more of them are negligible. Working units.
 constexpr double least_error = 1e-5;
 
+/// For Chooser::Peaks: a distance beyond so many root mean squares is a peak.
+constexpr double peak_height = 2.0;
+
+/// The guard at the beginning. The plain ways to choose an edge have none against slivers, which
+/// lie best along cylinders and rims, but where states between are shown.
+Strictness first_strictness(const WorkingSurface& surface, Chooser chooser, bool low_may_turn) {
+    if (chooser == Chooser::Peaks) {
+        return surface.coloured() ? Strictness::Normal : Strictness::Strips;
+    }
+    return chooser == Chooser::Distances || !low_may_turn ? strictness_for(surface)
+                                                          : Strictness::Loose;
+}
+
 } // namespace
 
 CollapseRun::CollapseRun(
@@ -53,10 +68,13 @@ CollapseRun::CollapseRun(
     , has_parked_(surface.mesh.vertex_slots(), false)
     , checked_(surface.mesh.face_slots() * 3, false)
     , numbers_(surface.mesh.vertex_slots())
-    , strictness_(strictness_for(surface))
+    , strictness_(first_strictness(surface, chooser, options.low_may_turn))
     , filled_at_(least_error) {
-    assert((chooser == Chooser::Distances) == (points != nullptr));
+    assert(measures_distances(chooser) == (points != nullptr));
     std::iota(numbers_.begin(), numbers_.end(), 0U);
+    for (std::uint32_t face = 0; face < surface.mesh.face_slots(); ++face) {
+        area_ += 0.5 * glm::length(area_vector(surface.corner_places(face)));
+    }
 }
 
 /// Whether one of the goals is reached.
@@ -132,7 +150,7 @@ bool CollapseRun::next_edge(HalfEdge& h) {
             update_cost(h);
             continue;
         }
-        if (chooser_ == Chooser::Distances) {
+        if (measures_distances(chooser_)) {
             return true;
         }
         if (is_allowed(h, placed(h))) {
@@ -168,7 +186,7 @@ bool CollapseRun::is_allowed(HalfEdge h, const Placement& placement) {
 void CollapseRun::update_cost(HalfEdge edge) {
     checked_[edge] = true;
     const Placement placement = placed(edge);
-    if (chooser_ != Chooser::Distances) {
+    if (!measures_distances(chooser_)) {
         heap_.set(edge, static_cast<float>(placement.cost + length_cost(edge, placement)));
         return;
     }
@@ -176,8 +194,23 @@ void CollapseRun::update_cost(HalfEdge edge) {
         heap_.remove(edge);
         return;
     }
-    const double there = surface_increase(edge, placement, std::numeric_limits<double>::infinity());
-    heap_.set(edge, static_cast<float>(there + cost_.way_back(surface_, ring_, placement.place)));
+    heap_.set(edge, static_cast<float>(surface_cost(edge, placement)));
+}
+
+/// How much squared distances grow by a collapse, both ways, whose ring must be in ring_.
+double CollapseRun::surface_cost(HalfEdge h, const Placement& placement) {
+    const double there = surface_increase(h, placement);
+    return there + peak_cost() + cost_.way_back(surface_, ring_, placement.place);
+}
+
+/// What the largest distance of the collapse that was measured last adds to its cost: as if all
+/// around it were as far off.
+double CollapseRun::peak_cost() const {
+    if (chooser_ != Chooser::Peaks || !(area_ > 0.0)) {
+        return 0.0;
+    }
+    const double usual2 = peak_height * peak_height * squares_ / area_;
+    return std::max(0.0, cost_.most2() - usual2) * cost_.area();
 }
 
 /// The cost that length_share adds, so that short edges go first and regions stay round.
@@ -190,8 +223,8 @@ double CollapseRun::length_cost(HalfEdge edge, const Placement& placement) const
 }
 
 /// How much the squared distances of the tracked points grow by a collapse. The ring of the edge
-/// must be in ring_. Stops early once the growth exceeds `enough`.
-double CollapseRun::surface_increase(HalfEdge h, const Placement& placement, double enough) {
+/// must be in ring_.
+double CollapseRun::surface_increase(HalfEdge h, const Placement& placement) {
     faces_.clear();
     faces_.push_back(face_of(h));
     if (surface_.mesh.twin(h) != none) {
@@ -202,7 +235,7 @@ double CollapseRun::surface_increase(HalfEdge h, const Placement& placement, dou
     }
     cost_.gather(*points_, faces_);
     cost_.set_triangles(surface_, ring_, placement.place, placement.colour);
-    return cost_.increase(enough);
+    return cost_.increase();
 }
 
 /// Collapses an edge, moves the tracked points to their new nearest triangles, records the collapse
@@ -214,7 +247,7 @@ void CollapseRun::collapse(HalfEdge h, const Placement& placement) {
     const HalfEdge twin = mesh.twin(h);
     mesh.ring_of(h, ring_);
     if (points_ != nullptr) {
-        surface_increase(h, placement, std::numeric_limits<double>::infinity());
+        squares_ += surface_increase(h, placement);
         ring_faces_.clear();
         for (const RingFace& face : ring_) {
             ring_faces_.push_back(face.face);

@@ -18,9 +18,9 @@ namespace octant::models::simplify {
 /// The greedy loop of edge collapses: always the cheapest edge next.
 class CollapseRun {
 public:
-    /// `points`, the tracked points of the surface, serve Chooser::Distances alone and are null
-    /// otherwise (asserted). Of the options length_share and low_may_turn count. The surface and
-    /// the points are changed by run().
+    /// `points`, the tracked points of the surface, serve choosers that measure distances and are
+    /// null for others (asserted). Of the options length_share and low_may_turn count. The surface
+    /// and the points are changed by run().
     CollapseRun(
         WorkingSurface& surface,
         const WorkingUnits& units,
@@ -42,7 +42,9 @@ private:
     bool next_edge(HalfEdge& h);
     void update_cost(HalfEdge edge);
     double length_cost(HalfEdge edge, const Placement& placement) const;
-    double surface_increase(HalfEdge h, const Placement& placement, double enough);
+    double surface_increase(HalfEdge h, const Placement& placement);
+    double surface_cost(HalfEdge h, const Placement& placement);
+    double peak_cost() const;
     Placement placed(HalfEdge h);
     bool is_allowed(HalfEdge h, const Placement& placement);
     void collapse(HalfEdge h, const Placement& placement);
@@ -51,7 +53,7 @@ private:
     WorkingSurface& surface_;
     const WorkingUnits& units_;
     Chooser chooser_;
-    TrackedPoints* points_; ///< Null unless distances choose.
+    TrackedPoints* points_; ///< Null unless distances are measured.
     double length_share_;
     bool low_may_turn_;
     VertexQuadrics quadrics_;
@@ -65,8 +67,10 @@ private:
     std::vector<Collapse> collapses_;
     Strictness strictness_;
     bool filled_ = false;
-    double error_ = 0.0; ///< The estimated error so far, in working units.
-    double filled_at_;   ///< The error when edges that were not allowed were last looked at.
+    double error_ = 0.0;   ///< The estimated error so far, in working units.
+    double squares_ = 0.0; ///< The sum of squared distances so far, weighted by area.
+    double area_ = 0.0;    ///< The area that this sum runs over.
+    double filled_at_;     ///< The error when edges that were not allowed were last looked at.
     SurfaceCost cost_;
     std::vector<RingFace> ring_;
     std::vector<std::uint32_t> faces_;

@@ -1,7 +1,8 @@
 // Which collapses are best is known only afterwards: the cheapest next one leads astray now and
-// then, by distances as by quadrics. So both are tried where that is cheap, and measured.
+// then, by distances as by quadrics. So several ways are tried where that is cheap, and measured.
 #include "models/simplify/passes.h"
 
+#include "models/measure/flipped_area.h"
 #include "models/measure/mesh_distance.h"
 #include "models/simplify/shells.h"
 #include "sim/base/worker_team.h"
@@ -19,17 +20,22 @@ namespace {
 /// A plain pass is tried where no more than this share of the triangles is to be left: then it
 /// costs a fraction of the other, and the other may go astray.
 constexpr double deep = 0.1;
+/// On meshes of no more triangles Quality::Surface tries every way.
+constexpr std::size_t small = 30'000;
 /// Quality::Fast tries a second plain pass on meshes of no more triangles, and then takes still
 /// less time than Quality::Surface by far.
-constexpr std::size_t small = 100'000;
+constexpr std::size_t small_for_fast = 100'000;
 
 bool is_reached(const Simplified& result, const Goal& goal) {
     return (!goal.faces || result.mesh.triangles.size() <= *goal.faces) &&
            (!goal.vertices || result.mesh.vertices_m.size() <= *goal.vertices);
 }
 
-/// How far a result is off: certified distance times root mean square; 0 where it lies on the
-/// original.
+/// With one percent of its area turned over a result counts as twice as far off.
+constexpr double turned_price = 100.0;
+
+/// How far a result is off: certified distance times root mean square, more where triangles are
+/// turned over; 0 where it lies on the original.
 double fault_of(const Simplified& result, const SimplifyOptions& options) {
     if (result.mesh.triangles.empty()) {
         return std::numeric_limits<double>::infinity();
@@ -37,15 +43,21 @@ double fault_of(const Simplified& result, const SimplifyOptions& options) {
     if (result.sequence.collapses.empty()) {
         return 0.0;
     }
+    constexpr std::size_t samples = 50'000;
     measure::DistanceOptions how;
     how.tightness = 1.05;
-    how.samples = 50'000;
+    how.samples = samples;
     how.negligible_m = 1e-6 * diagonal_m(result.sequence.original);
     how.threads = options.threads;
     const measure::MeshDistance distance =
         measure::distance(result.sequence.original, result.mesh, how);
     const double off_m = distance.most_hausdorff_m();
-    return off_m > 2.0 * how.negligible_m ? off_m * distance.rms_m() : 0.0;
+    if (!(off_m > 2.0 * how.negligible_m)) {
+        return 0.0;
+    }
+    const double turned = measure::flipped_area_share(
+        result.mesh, result.sequence.original, {.samples = samples, .threads = options.threads});
+    return off_m * distance.rms_m() * (1.0 + turned_price * turned);
 }
 
 /// A result and how far it is off; one that misses the goal comes after all that reach it.
@@ -72,14 +84,19 @@ std::size_t wanted_faces(const Goal& goal) {
 
 /// What chooses the collapses of each pass that is tried; the usual one first.
 std::vector<Chooser> choosers_for(const TriangleMesh& original, const SimplifyOptions& options) {
-    const auto before = static_cast<double>(original.triangles.size());
-    const bool is_deep = static_cast<double>(wanted_faces(options.goal)) <= deep * before;
+    const std::size_t before = original.triangles.size();
+    const bool is_deep =
+        static_cast<double>(wanted_faces(options.goal)) <= deep * static_cast<double>(before);
     const bool is_fast = options.quality == Quality::Fast;
+    const bool has_plain = is_fast ? before <= small_for_fast : is_deep || before <= small;
     std::vector<Chooser> choosers{is_fast ? Chooser::Quadrics : Chooser::Distances};
-    if (!is_fast && is_deep) {
+    if (!is_fast && before <= small) {
+        choosers.push_back(Chooser::Peaks);
+    }
+    if (!is_fast && has_plain) {
         choosers.push_back(Chooser::Quadrics);
     }
-    if (original.colours.empty() && (is_fast ? original.triangles.size() <= small : is_deep)) {
+    if (original.colours.empty() && has_plain) {
         choosers.push_back(Chooser::Volumes);
     }
     return choosers;

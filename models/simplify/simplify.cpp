@@ -191,7 +191,7 @@ simplified_to_count(TriangleMesh original, const SimplifyOptions& options, Choos
     const WorkingSurface target(original, units);
     WorkingSurface surface = target;
     std::optional<TrackedPoints> points;
-    if (chosen_by == Chooser::Distances) {
+    if (measures_distances(chosen_by)) {
         points.emplace(target, least_points);
     }
     Simplified result;

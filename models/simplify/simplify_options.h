@@ -25,9 +25,15 @@ enum class Quality {
 /// By what collapses were chosen.
 enum class Chooser {
     Distances, ///< By distances to the original surface, both ways.
+    Peaks,     ///< By the same, where a distance far above the usual one counts for all around it.
     Quadrics,  ///< By the sums of squared distances to the original planes.
     Volumes    ///< By the volumes that triangles sweep, without memory of the original.
 };
+
+/// Whether it measures distances to the original surface at each step.
+constexpr bool measures_distances(Chooser chooser) {
+    return chooser == Chooser::Distances || chooser == Chooser::Peaks;
+}
 
 /// How a mesh is simplified.
 struct SimplifyOptions {

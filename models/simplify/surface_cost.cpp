@@ -42,23 +42,20 @@ void SurfaceCost::set_triangles(
     }
 }
 
-double SurfaceCost::increase(double enough) {
-    constexpr std::size_t chunk = 256;
-    double sum = -cost_now_;
-    for (std::size_t first = 0; first < block_.size() && !(sum > enough); first += chunk) {
-        const std::size_t end = std::min(first + chunk, block_.size());
-        find_nearest(block_, first, end, triangles, coloured_);
-        sum += cost_sum(block_, first, end, coloured_);
-    }
-    return sum;
-}
-
 double SurfaceCost::total() {
     if (block_.size() == 0) {
         return 0.0;
     }
     find_nearest(block_, 0, block_.size(), triangles, coloured_);
     return cost_sum(block_, 0, block_.size(), coloured_);
+}
+
+double SurfaceCost::most2() const {
+    float most = 0.0F;
+    for (std::size_t i = 0; i < block_.size(); ++i) {
+        most = std::max(most, block_.distances2[i]);
+    }
+    return static_cast<double>(most);
 }
 
 double SurfaceCost::area() const {

@@ -7,7 +7,6 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,12 +27,18 @@ public:
         const glm::dvec3& place,
         const glm::dvec3& colour);
 
-    /// The sum over the points of weight times squared distance to the set triangles, less the
-    /// present sum. Stops early once it exceeds `enough` and returns what it has then.
-    double increase(double enough = std::numeric_limits<double>::infinity());
-
     /// The sum over the points of weight times squared distance to the set triangles.
     double total();
+
+    /// The same less the present sum.
+    double increase() { return total() - cost_now_; }
+
+    /// The largest squared distance of a point to the set triangles, as total() or increase() saw
+    /// it last.
+    double most2() const;
+
+    /// The area that the points stand for.
+    double area() const;
 
     /// A total this small may be nothing but the rounding of the points.
     double negligible() const;
@@ -48,8 +53,6 @@ public:
     std::vector<FlatTriangle> triangles;
 
 private:
-    double area() const; ///< The area that the points stand for.
-
     PointBlock block_;
     double cost_now_ = 0.0;
     bool coloured_ = false;

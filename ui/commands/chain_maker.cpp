@@ -38,20 +38,20 @@ std::vector<std::size_t> face_goals(std::size_t faces, std::size_t coarsest) {
 
 } // namespace
 
-models::meshfile::LevelChain level_chain(TriangleMesh mesh, const ChainOptions& options) {
+models::meshfile::LevelChain
+level_chain(const models::simplify::ColourSeams& seams, const ChainOptions& options) {
+    const TriangleMesh& original = seams.marked();
     constexpr double larger = 1.0 + 1e-9; // errors of a chain rise from level to level
     models::simplify::SimplifyOptions simplify = options.simplify;
     simplify.keep_shells = true; // the finest level has them all
     simplify.goal = {.vertices = {}, .faces = options.coarsest_faces, .error_m = {}};
     const std::vector<std::size_t> goals =
-        face_goals(mesh.triangles.size(), options.coarsest_faces);
-    const models::simplify::Simplified coarsest =
-        models::simplify::simplified(std::move(mesh), simplify);
+        face_goals(original.triangles.size(), options.coarsest_faces);
+    const models::simplify::Simplified coarsest = models::simplify::simplified(original, simplify);
     const models::CollapseSequence& sequence = coarsest.sequence;
-    const TriangleMesh& original = sequence.original;
     models::meshfile::LevelChain chain;
     chain.name = original.name;
-    chain.levels.push_back({original, 0.0});
+    chain.levels.push_back({seams.broken(original), 0.0});
     for (const std::size_t goal : goals) {
         const std::size_t collapses = models::collapses_to_faces(sequence, goal);
         TriangleMesh level = models::mesh_after(sequence, collapses);
@@ -65,7 +65,7 @@ models::meshfile::LevelChain level_chain(TriangleMesh mesh, const ChainOptions& 
             const double error_m = certified_m(original, level, simplify.threads);
             const double least_m =
                 std::max(before_m * larger, 1e-12 * models::diagonal_m(original));
-            chain.levels.push_back({std::move(level), std::max(error_m, least_m)});
+            chain.levels.push_back({seams.broken(std::move(level)), std::max(error_m, least_m)});
         }
         if (options.show_level) {
             options.show_level(chain.levels.size() - 1, goals.size());

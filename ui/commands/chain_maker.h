@@ -2,8 +2,8 @@
 
 #include "models/meshfile/level_chain.h"
 #include "models/polygons/polygon_model.h"
+#include "models/simplify/colour_seams.h"
 #include "models/simplify/simplify.h"
-#include "models/triangle_mesh.h"
 
 #include <cstddef>
 #include <functional>
@@ -20,9 +20,10 @@ struct ChainOptions {
     std::function<void(std::size_t done, std::size_t of)> show_level;
 };
 
-/// Levels of detail of an oriented manifold (repaired): half the faces each time, each polished and
-/// its distance to the mesh certified. Where no polygons are given and the last level has at most
-/// 300 triangles, these are the polygons.
-models::meshfile::LevelChain level_chain(models::TriangleMesh mesh, const ChainOptions& options);
+/// Levels of detail of an oriented manifold (repaired) whose colours may break along seams: half
+/// the faces each time, each polished and its distance to the mesh certified. Where no polygons are
+/// given and the last level has at most 300 triangles, these are the polygons.
+models::meshfile::LevelChain
+level_chain(const models::simplify::ColourSeams& seams, const ChainOptions& options);
 
 } // namespace octant::ui::commands

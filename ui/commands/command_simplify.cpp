@@ -149,7 +149,7 @@ constexpr const char* simplify_footer =
     "fractions of the diagonal.\n"
     "Exit code 1: the mesh is written, but the goal was out of reach.\n"
     "Keys of --json: in, out, faces_in_file, repairs, faces_before, vertices_before, faces,\n"
-    "  vertices, method, chosen_by (distances, quadrics or volumes, whichever was best),\n"
+    "  vertices, method, chosen_by (distances, peaks, quadrics or volumes, whichever was best),\n"
     "  shells_gone, error, error_of_diagonal, rms, rms_of_diagonal, colour_rms (length in RGB\n"
     "  0..1, where there are colours), time_s;\n"
     "  with --chain instead levels (faces, error, error_of_diagonal each), polygons,\n"

@@ -5,6 +5,7 @@
 #include "models/meshfile/mesh_file.h"
 #include "models/polygons/obj_reader.h"
 #include "models/repair/repair.h"
+#include "models/simplify/colour_seams.h"
 #include "models/simplify/paper_simplify.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/error.h"
@@ -56,6 +57,8 @@ std::string name_of(simplify::Chooser chooser) {
     switch (chooser) {
     case simplify::Chooser::Distances:
         return "distances";
+    case simplify::Chooser::Peaks:
+        return "peaks";
     case simplify::Chooser::Quadrics:
         return "quadrics";
     case simplify::Chooser::Volumes:
@@ -64,7 +67,8 @@ std::string name_of(simplify::Chooser chooser) {
     return "volumes";
 }
 
-models::TriangleMesh read_repaired(const SimplifyCommand& command, Figures& figures) {
+/// The mesh as an oriented manifold, and where its colours break.
+simplify::ColourSeams read_repaired(const SimplifyCommand& command, Figures& figures) {
     models::TriangleMesh mesh = world::read_mesh_input(command.in);
     figures["faces_in_file"] = mesh.triangles.size();
     repair::RepairedMesh repaired = repair::repaired(
@@ -82,7 +86,7 @@ models::TriangleMesh read_repaired(const SimplifyCommand& command, Figures& figu
     if (repaired.mesh.triangles.empty()) {
         error_in(command.in, "expected at least one triangle with an area, got none");
     }
-    return std::move(repaired.mesh);
+    return {std::move(repaired.mesh), std::move(repaired.corner_colours)};
 }
 
 void add_distance(
@@ -179,7 +183,8 @@ void simplify_as_printed(
 }
 
 bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
-    models::TriangleMesh original = read_repaired(command, figures);
+    const simplify::ColourSeams seams = read_repaired(command, figures);
+    const models::TriangleMesh& original = seams.marked();
     simplify::SimplifyOptions options = options_of(command, models::diagonal_m(original));
     figures["faces_before"] = original.triangles.size();
     figures["vertices_before"] = original.vertices_m.size();
@@ -189,7 +194,7 @@ bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
     const simplify::Simplified result = simplify::simplified(original, options);
     const double time_s = watch.s();
     progress.finish();
-    meshfile::write_mesh(command.out, result.mesh);
+    meshfile::write_mesh(command.out, seams.broken(result.mesh));
     figures["faces"] = result.mesh.triangles.size();
     figures["vertices"] = result.mesh.vertices_m.size();
     figures["method"] = command.method;
@@ -213,9 +218,9 @@ bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
 }
 
 void simplify_into_chain(const SimplifyCommand& command, Figures& figures) {
-    models::TriangleMesh original = read_repaired(command, figures);
+    const simplify::ColourSeams seams = read_repaired(command, figures);
     ChainOptions options;
-    options.simplify = options_of(command, models::diagonal_m(original));
+    options.simplify = options_of(command, models::diagonal_m(seams.marked()));
     if (command.faces > 0) {
         options.coarsest_faces = static_cast<std::size_t>(command.faces);
     }
@@ -227,7 +232,7 @@ void simplify_into_chain(const SimplifyCommand& command, Figures& figures) {
         progress.show(static_cast<int>(100 * done / std::max<std::size_t>(of, 1)));
     };
     const base::Stopwatch watch;
-    const meshfile::LevelChain chain = level_chain(std::move(original), options);
+    const meshfile::LevelChain chain = level_chain(seams, options);
     const double time_s = watch.s();
     progress.finish();
     meshfile::write_chain(command.out, chain);

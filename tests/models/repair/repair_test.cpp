@@ -88,6 +88,29 @@ TEST_CASE("triangles that share no vertices are welded where places agree") {
     CHECK(mixed.mesh.colours[0].x == Approx(2.5 / 3.0)); // one of the three corners there is grey
 }
 
+TEST_CASE("colours that break along a welded seam stay with their corners") {
+    TriangleMesh mesh = cube();
+    TriangleMesh apart;
+    for (const Triangle& triangle : mesh.triangles) {
+        const auto first = static_cast<std::uint32_t>(apart.vertices_m.size());
+        for (const std::uint32_t vertex : triangle) {
+            apart.vertices_m.push_back(mesh.vertices_m[vertex]);
+            apart.colours.emplace_back(apart.triangles.size() < 6 ? 0.2F : 0.8F);
+        }
+        apart.triangles.push_back({first, first + 1, first + 2});
+    }
+    std::swap(apart.triangles[2][1], apart.triangles[2][2]); // turned back by the repair
+    const RepairedMesh after = checked(apart);
+    CHECK(after.mesh.vertices_m.size() == 8);
+    REQUIRE(after.corner_colours.size() == 12);
+    for (std::size_t t = 0; t < 12; ++t) {
+        CHECK(after.corner_colours[t][1] == glm::vec3(t < 6 ? 0.2F : 0.8F));
+    }
+    CHECK(repaired(apart, Seams::Apart).corner_colours.empty());
+    apart.colours.assign(apart.colours.size(), glm::vec3(0.5F));
+    CHECK(repaired(apart).corner_colours.empty());
+}
+
 TEST_CASE("rims a rounding apart are welded, rims farther apart are not") {
     const auto quads = [](double gap) {
         TriangleMesh mesh;

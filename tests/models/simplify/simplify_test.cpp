@@ -253,6 +253,21 @@ TEST_CASE("corner normals come from the original, on both sides of a sharp edge"
     }
 }
 
+TEST_CASE("where a plain pass is cheap the product of both distances is no worse than its") {
+    for (const TriangleMesh& fine : {machined_part(12), ball(24), ring(32, 12)}) {
+        for (const std::size_t part : {2U, 10U}) {
+            const std::size_t faces = fine.triangles.size() / part;
+            const auto off = [&](Quality quality) {
+                const TriangleMesh made = simplified(fine, to_faces(faces, quality)).mesh;
+                CHECK(made.triangles.size() <= faces);
+                const measure::MeshDistance far = apart(fine, made);
+                return far.most_hausdorff_m() * far.rms_m();
+            };
+            CHECK(off(Quality::Surface) <= 1.05 * off(Quality::Fast));
+        }
+    }
+}
+
 TEST_CASE("the same input gives the same bytes, on one thread and on three") {
     const TriangleMesh fine = two_coloured(ring(40, 24));
     SimplifyOptions options = to_faces(300);
