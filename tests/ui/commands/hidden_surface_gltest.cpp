@@ -28,7 +28,7 @@ visuals::scene::Picture picture_of(int width, int height, const std::vector<std:
 
 ui::settings::RunSettings
 canyon_flight(const char* path, const char* aircraft, visuals::scene::View view) {
-    ui::settings::RunSettings settings;
+    ui::settings::RunSettings settings = ui::settings::of_given_ground();
     settings.path.name = path;
     settings.path.aircraft = {aircraft};
     settings.view.kind = view;
