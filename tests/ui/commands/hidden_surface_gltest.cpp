@@ -85,6 +85,23 @@ TEST_CASE("detail between samples, trees and houses are painted as the depth buf
     }
 }
 
+TEST_CASE("cockpits, with detail beyond them, are painted as the depth buffer shows them") {
+    for (const auto& [aircraft, terrain] : {std::pair{"f15", "canyon"}, {"500md", "hills"}}) {
+        for (const double azimuth_deg : {0.0, -70.0, 70.0}) {
+            INFO(aircraft << " turned by " << azimuth_deg);
+            ui::settings::RunSettings settings =
+                canyon_flight("pop-up", aircraft, visuals::scene::View::Cockpit);
+            settings.path.terrain = terrain;
+            settings.view.azimuth_deg = azimuth_deg;
+            settings.ground.near_detail = true;
+            settings.ground.scenery = true;
+            const ui::flight::IdComparison result = compare(settings, 480);
+            CHECK(result.frames > 3);
+            CHECK(result.wrong == 0);
+        }
+    }
+}
+
 TEST_CASE("with clouds, a ribbon and effects the polygons are those that the depth buffer shows") {
     using visuals::scene::View;
     for (const auto& [aircraft, terrain] : {std::pair{"f15", "canyon"}, {"500md", "hills"}}) {
