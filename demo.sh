@@ -22,7 +22,7 @@ flight=0
 fly() { # aircraft path terrain view
   flight=$((flight + 1))
   echo "== flight $flight of 8: $1 $2 over $3, $4 view"
-  "$octant" fly "$2" --aircraft "$1" --terrain "$3" --view "$4" --size 640x360 --frame-per-sample --near-detail --scenery \
+  "$octant" fly "$2" --aircraft "$1" --terrain "$3" --view "$4" --size 640x360 --frame-per-sample \
     --pictures 20 --record "$out/$1-$2" --if-new
 }
 fly f15 straight hills chase

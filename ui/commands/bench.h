@@ -9,7 +9,8 @@
 namespace octant::ui::commands {
 
 struct BenchOptions {
-    settings::RunSettings settings;    ///< size, samples, triangles, aircraft and drawing are used
+    settings::RunSettings settings =
+        settings::of_given_ground();   ///< size, samples, triangles, aircraft and drawing are used
     std::vector<std::string> terrains; ///< one scene each, and each renderer if none is asked for
     int frames = 300;                  ///< timed, of each scene
     bool quiet = false;

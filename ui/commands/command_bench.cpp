@@ -116,6 +116,11 @@ std::vector<Option> options_of(BenchCommand& bench) {
             "--formation",
             "ten F-15s over the canyon, 25,000 triangles, 1920x1080, in place of other scenes",
             bench.formation),
+        flag(
+            "--near-detail",
+            "with made-up detail of the ground near the eye",
+            settings.ground.near_detail),
+        flag("--scenery", "with made-up trees and houses near the eye", settings.ground.scenery),
         flag("--json", "as JSON", bench.json),
         flag("--quiet", "no progress", options.quiet)};
 }

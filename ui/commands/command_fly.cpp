@@ -16,6 +16,7 @@
 #include "ui/settings/part_text.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
+#include "ui/world/near_ground_notes.h"
 
 #include <algorithm>
 #include <array>
@@ -176,6 +177,10 @@ void fly(FlyOptions options) {
     for (const std::string& note : session.world().notes) {
         base::say(options.quiet, fmt::format("note: {}", note));
     }
+    for (const std::string& note :
+         world::near_ground_notes(session.world(), options.settings.ground, options.given)) {
+        base::say(options.quiet, fmt::format("note: {}", note));
+    }
     if (options.replay && !live) {
         start_replay(*options.replay, session, options.quiet);
     }
@@ -218,17 +223,6 @@ void fly(FlyOptions options) {
     }
     if (verdict && !verdict->is_same) {
         throw CheckSaidNo();
-    }
-}
-
-/// Makes each of these options note its name when it is read.
-void note_given(std::span<Option> options, std::vector<std::string>& given) {
-    for (Option& option : options) {
-        const std::string name = option.name.substr(0, option.name.find(','));
-        option.read = [name, read = option.read, &given](const Words& words) {
-            given.push_back(name);
-            read(words);
-        };
     }
 }
 
@@ -276,9 +270,7 @@ std::vector<Option> options_of(FlyOptions& options) {
         flag("--if-new", "do nothing when DIR holds this very run already", options.if_new),
         flag("--json", "summary as JSON", options.json),
         flag("--quiet", "no progress, no notes", options.quiet)};
-    const std::size_t own = table.size();
-    add_setting_options(table, options.settings);
-    note_given(std::span(table).subspan(own), options.given);
+    add_setting_options(table, options.settings, &options.given);
     return table;
 }
 

@@ -186,6 +186,14 @@ std::vector<Option> popping_options(studies::flicker::PoppingStudyOptions& optio
         read_option({"frames", "N", "only the first of each path", 2, 1e7}, settings.time.frames),
         jobs_option(options.jobs, "flights at once"),
         flag("--shimmer", "draw, and measure shimmer too", options.shimmer),
+        flag(
+            "--near-detail",
+            "shimmer: with made-up detail of the ground near the eye",
+            settings.ground.near_detail),
+        flag(
+            "--scenery",
+            "shimmer: with made-up trees and houses near the eye",
+            settings.ground.scenery),
         read_option({"every", "N", "shimmer: one pair of frames in N", 2, 100000}, options.every)};
 }
 

@@ -5,6 +5,8 @@
 #include "ui/settings/settings_file.h"
 
 #include <fmt/format.h>
+#include <span>
+#include <string>
 
 namespace octant::ui::commands {
 
@@ -51,9 +53,22 @@ private:
     std::vector<Option>& options_;
 };
 
+/// Makes each of these options note its name when it is read.
+void note_given(std::span<Option> options, std::vector<std::string>& given) {
+    for (Option& option : options) {
+        const std::string name = option.name.substr(0, option.name.find(','));
+        option.read = [name, read = option.read, &given](const Words& words) {
+            given.push_back(name);
+            read(words);
+        };
+    }
+}
+
 } // namespace
 
-void add_setting_options(std::vector<Option>& options, RunSettings& settings) {
+void add_setting_options(
+    std::vector<Option>& options, RunSettings& settings, std::vector<std::string>* given) {
+    const std::size_t own = options.size();
     options.push_back(
         {.name = "--settings",
          .form = "FILE",
@@ -64,6 +79,9 @@ void add_setting_options(std::vector<Option>& options, RunSettings& settings) {
              settings = settings::read_settings(words.front());
          }});
     settings::visit_settings(settings, OptionAdder(options));
+    if (given != nullptr) {
+        note_given(std::span(options).subspan(own), *given);
+    }
 }
 
 } // namespace octant::ui::commands

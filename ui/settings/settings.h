@@ -86,4 +86,13 @@ struct RunSettings : visuals::scene::Settings {
     bool operator==(const RunSettings&) const = default;
 };
 
+/// Settings of what is measured: the ground as it is given, without the detail and the scenery that
+/// are made up near the eye.
+inline RunSettings of_given_ground() {
+    RunSettings settings;
+    settings.ground.near_detail = false;
+    settings.ground.scenery = false;
+    return settings;
+}
+
 } // namespace octant::ui::settings

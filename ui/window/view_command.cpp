@@ -9,6 +9,7 @@
 #include "ui/window/viewer.h"
 #include "ui/window/window_bench.h"
 #include "ui/world/input_files.h"
+#include "ui/world/near_ground_notes.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -66,9 +67,14 @@ void print_bench(const WindowBench& bench) {
         fmt::format("{:+.2f} ms", bench.open.median_ms - bench.hidden.median_ms));
 }
 
-void view(const ViewOptions& options, bool quiet) {
+void view(const ViewOptions& options, const std::vector<std::string>& given, bool quiet) {
     Viewer viewer(options);
-    for (const std::string& note : viewer.session().world().notes) {
+    const world::World& world = viewer.session().world();
+    for (const std::string& note : world.notes) {
+        base::say(quiet, "note: " + note);
+    }
+    for (const std::string& note :
+         world::near_ground_notes(world, options.settings.ground, given)) {
         base::say(quiet, "note: " + note);
     }
     const base::StopSignals stop_signals;
@@ -85,7 +91,8 @@ void view(const ViewOptions& options, bool quiet) {
 
 struct ViewWork {
     ViewOptions view;
-    std::optional<int> bench; ///< frames to time instead of a flight to see
+    std::vector<std::string> given; ///< names of the settings' options that stand there
+    std::optional<int> bench;       ///< frames to time instead of a flight to see
     bool json = false;
     bool quiet = false;
 };
@@ -104,7 +111,7 @@ void view_or_bench(ViewWork work) {
         const WindowBench bench = bench_window(work.view, *work.bench, work.quiet);
         work.json ? print_bench_as_json(bench) : print_bench(bench);
     } else {
-        view(work.view, work.quiet);
+        view(work.view, work.given, work.quiet);
     }
 }
 
@@ -143,7 +150,7 @@ std::vector<commands::Option> options_of(ViewWork& work) {
             view.send),
         flag("--json", "the times of --bench as JSON", work.json),
         flag("--quiet", "no notes", work.quiet)};
-    add_setting_options(table, view.settings);
+    add_setting_options(table, view.settings, &work.given);
     return table;
 }
 

@@ -149,7 +149,25 @@ std::uint32_t FineGround::make_middle(std::uint32_t a, std::uint32_t b) {
 
 void FineGround::add(
     const std::uint32_t* corners, bool bears, std::vector<std::uint32_t>& indices) {
-    add_parts({corners[0], corners[1], corners[2]}, 0, bears, indices);
+    const Corners triangle{corners[0], corners[1], corners[2]};
+    if (!is_far(triangle)) {
+        add_parts(triangle, 0, bears, indices);
+        return;
+    }
+    if (bears) {
+        add_things(triangle, indices);
+    }
+    indices.insert(indices.end(), corners, corners + 3);
+}
+
+/// Whether a triangle is so far off that none of its edges looks long: most are.
+bool FineGround::is_far(const Corners& triangle) const {
+    const glm::vec3& a = vertices_[triangle.a].position_m;
+    const glm::vec3& b = vertices_[triangle.b].position_m;
+    const glm::vec3& c = vertices_[triangle.c].position_m;
+    const float longest2 = std::max({squared(b - a), squared(c - b), squared(a - c)});
+    const float over_longest = 1.0F + 1.0F / view_.long_rad;
+    return squared(a) >= over_longest * over_longest * longest2;
 }
 
 /// Whether a triangle, and all that may be made of it, lies outside the frustum.

@@ -62,6 +62,7 @@ private:
     std::uint32_t middle_of(std::uint32_t a, std::uint32_t b);
     std::uint32_t make_middle(std::uint32_t a, std::uint32_t b);
     float moved_m(const glm::vec3& from_m, const glm::vec3& to_m, const glm::dvec2& place_m) const;
+    bool is_far(const Corners& triangle) const;
     bool is_outside(const Corners& triangle) const;
     bool is_quarter_of_cell(const Corners& triangle) const;
     void add_things(const Corners& triangle, std::vector<std::uint32_t>& indices);

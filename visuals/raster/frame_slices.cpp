@@ -45,8 +45,8 @@ void FrameSlices::add_step(const FrameInput& input, const PaintStep& step, DrawS
         const bool shows_mesh = plan.mesh_look != scene::MeshLook::None;
         style.fill = shows_mesh            ? Fill::Mesh
                      : plan.ground_texture ? Fill::TextureInPerspective
-                     : plan.grain          ? Fill::Grain
                                            : Fill::Levels;
+        style.has_grain = style.fill == Fill::Levels && plan.grain;
         add_slice({.indices = indices.subspan(step.first, step.count), .style = style});
     };
     switch (step.what) {

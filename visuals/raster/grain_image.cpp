@@ -8,6 +8,7 @@
 
 #include <cassert>
 #include <cstddef>
+#include <utility>
 
 namespace octant::visuals::raster {
 
@@ -15,20 +16,18 @@ namespace {
 
 using scene::GrainPattern;
 
-/// Bytes behind a row that may be loaded with its last texel.
-constexpr int behind_row = 4;
-constexpr int least_side = 4;
-
-GrainImage::Level level_of(const GrainPattern& pattern) {
-    GrainImage::Level level{pattern.size, pattern.size + behind_row, {}};
-    const auto size = static_cast<std::size_t>(level.size);
-    level.texels.reserve(size * static_cast<std::size_t>(level.stride));
+/// Writes a level's texels from its first row on.
+void write_level(const GrainPattern& pattern, std::uint16_t* to) {
+    const auto size = static_cast<std::size_t>(pattern.size);
     for (std::size_t row = 0; row < size; ++row) {
-        for (std::size_t column = 0; column < static_cast<std::size_t>(level.stride); ++column) {
-            level.texels.push_back(pattern.texels[row * size + column % size]);
+        const std::uint8_t* const own = &pattern.texels[row * size];
+        const std::uint8_t* const above = &pattern.texels[(row + 1) % size * size];
+        std::uint16_t* const line = to + row * GrainImage::stride;
+        for (std::size_t column = 0; column <= size; ++column) {
+            const std::size_t from = column % size;
+            line[column] = static_cast<std::uint16_t>(own[from] | above[from] << 8);
         }
     }
-    return level;
 }
 
 /// A part of the world direction of each pixel's line of sight, one unit deep: `of_view` has that
@@ -49,12 +48,12 @@ ray_part(const glm::dvec3& of_view, const glm::dmat4& view_to_clip, const glm::d
 
 } // namespace
 
-GrainImage::GrainImage() {
+GrainImage::GrainImage()
+    : texels_(std::size_t{2 * side} * stride) {
     GrainPattern pattern = scene::grain_pattern();
-    levels_.push_back(level_of(pattern));
-    while (pattern.size > least_side) {
-        pattern = half_of(pattern);
-        levels_.push_back(level_of(pattern));
+    for (int level = 0; level < levels; ++level) {
+        pattern = level == 0 ? std::move(pattern) : half_of(pattern);
+        write_level(pattern, &texels_[static_cast<std::size_t>(row_of(level)) * stride]);
     }
 }
 

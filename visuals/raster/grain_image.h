@@ -3,6 +3,7 @@
 #include "visuals/raster/projection.h"
 #include "visuals/raster/triangle.h"
 #include "visuals/scene/frame_plan.h"
+#include "visuals/scene/grain_pattern.h"
 
 #include <glm/vec2.hpp>
 
@@ -11,22 +12,25 @@
 
 namespace octant::visuals::raster {
 
-/// The fine pattern of ground, in levels of half the size each.
+/// The fine pattern of ground, in levels of half the size each, all in one list: where a texel of
+/// any level lies follows from shifts. A texel holds its own value and that of the one above, so
+/// that two of them, one load, are the four around a place. Each level repeats each way, and has
+/// its first column once more behind its last.
 class GrainImage {
 public:
-    /// A square that repeats each way.
-    struct Level {
-        int size;   ///< texels a side, a power of two
-        int stride; ///< bytes a row: behind its texels its first ones once more
-        std::vector<std::uint8_t> texels;
-    };
+    static constexpr int side = scene::GrainPattern::texels_a_side;
+    static constexpr int stride = side + 1; ///< texels from row to row, of all levels
+    static constexpr int levels = 9;        ///< the last one has four texels a side
 
     GrainImage();
 
-    const std::vector<Level>& levels() const { return levels_; }
+    /// The first row of a level; there is room behind the last one.
+    static constexpr int row_of(int level) { return 2 * side - (2 * side >> level); }
+
+    const std::uint16_t* texels() const { return texels_.data(); }
 
 private:
-    std::vector<Level> levels_;
+    std::vector<std::uint16_t> texels_;
 };
 
 /// The one that all renderers share.

@@ -198,14 +198,14 @@ HWY_INLINE void place_each(
     }
 }
 
-/// The share of the fine pattern that places have without haze.
+/// The share of the fine pattern that places have without haze, as a level.
 HWY_INLINE Real grain_share(const Places& at, const Light& light) {
     const auto squares =
         hn::Add(hn::Add(hn::Mul(at.x, at.x), hn::Mul(at.y, at.y)), hn::Mul(at.z, at.z));
     const auto left =
         hn::Mul(hn::Sub(set(light.grain_reach_m), hn::Sqrt(squares)), set(light.grain_per_m));
     const auto near = hn::Min(hn::Max(left, hn::Zero(Reals())), set(1.0F));
-    return hn::Mul(hn::Div(at.level<24>(), set(most_level)), near);
+    return hn::Mul(at.level<24>(), near);
 }
 
 void PlaceColoured(

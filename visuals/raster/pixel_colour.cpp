@@ -2,7 +2,6 @@
 
 #include "visuals/raster/even_texture.h"
 #include "visuals/raster/texture_levels.h"
-#include "visuals/scene/grain_pattern.h"
 
 #include <algorithm>
 #include <cmath>
@@ -153,50 +152,6 @@ by_texture_in_perspective(const TileTriangle& one, const TileJob& job, int colum
     return textured({x, y, value(2), value(3)}, levels_of(size2, job.ground->levels().size()), job);
 }
 
-/// The fine pattern between the four texels around a place of one level, -1 to 1.
-double grain_at(const GrainImage::Level& level, double x, double y) {
-    const auto column = static_cast<std::int64_t>(std::floor(x));
-    const auto row = static_cast<std::int64_t>(std::floor(y));
-    const double right = x - static_cast<double>(column);
-    const double up = y - static_cast<double>(row);
-    const auto texel = [&](std::int64_t i, std::int64_t j) {
-        const std::int64_t last = level.size - 1;
-        return static_cast<double>(
-            level.texels[static_cast<std::size_t>((j & last) * level.stride + (i & last))]);
-    };
-    const double low = texel(column, row) * (1.0 - right) + texel(column + 1, row) * right;
-    const double high = texel(column, row + 1) * (1.0 - right) + texel(column + 1, row + 1) * right;
-    return (low + up * (high - low)) / 128.0 - 1.0;
-}
-
-PixelColour by_grain(const TileTriangle& one, const TileJob& job, int column, int row) {
-    const TriangleExtra& extra = *one.extra;
-    const GrainRays& rays = *job.grain_rays;
-    const double w = depth_of(extra, column, row);
-    const auto place = [&](const RealPlane& ray) { return ray.at(column, row) * w; };
-    const double x = place(rays.x);
-    const double y = place(rays.y);
-    const auto moves = [&](double RealPlane::*step) {
-        const double step_x = (rays.x.*step - x * (extra.by_w[4].*step)) * w;
-        const double step_y = (rays.y.*step - y * (extra.by_w[4].*step)) * w;
-        return step_x * step_x + step_y * step_y;
-    };
-    const double size2 = 0.5 * std::max(moves(&RealPlane::per_x), moves(&RealPlane::per_y));
-    const auto& levels = job.grain->levels();
-    const double level = size2 > 1.0 ? 0.5 * coarse_log2(size2) : 0.0;
-    const auto number = std::min(static_cast<std::size_t>(level + 0.5), levels.size() - 1);
-    const double scale = 1.0 / static_cast<double>(std::uint64_t{1} << number);
-    const double grain = grain_at(
-        levels[number], (rays.at_eye.x + x) * scale - 0.5, (rays.at_eye.y + y) * scale - 0.5);
-    const double share = std::clamp(extra.by_w[3].at(column, row) * w, 0.0, 1.0) *
-                         static_cast<double>(scene::GrainPattern::most_share);
-    PixelColour colour = by_perspective(one, column, row);
-    for (std::uint16_t& part : colour) {
-        part = packed(part / per_level * (1.0 + share * grain));
-    }
-    return colour;
-}
-
 /// Six hues around the wheel, one a level, so that neighbours are far apart; 0..1.
 std::array<double, 3> hue_of(float level) {
     const double turn = std::floor(static_cast<double>(level) + 0.25) * 5.0 / 12.0;
@@ -321,8 +276,6 @@ PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, i
     switch (one.triangle->fill) {
     case Fill::Perspective:
         return by_perspective(one, column, row);
-    case Fill::Grain:
-        return by_grain(one, job, column, row);
     case Fill::Texture:
         return by_texture(one, job, column, row);
     case Fill::TextureInPerspective:
@@ -336,6 +289,17 @@ PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, i
         break;
     }
     return by_levels(*one.triangle, column, row);
+}
+
+std::uint16_t grain_share_of(const TileTriangle& one, int column, int row) {
+    if (!one.triangle->has_grain) {
+        return 0;
+    }
+    if (one.triangle->fill == Fill::Perspective) {
+        return packed(one.extra->by_w[3].at(column, row) * depth_of(*one.extra, column, row));
+    }
+    const std::int32_t level = limited(one.triangle->levels, 3, column, row);
+    return static_cast<std::uint16_t>((level + 128 * 128 + 4) >> 3);
 }
 
 std::uint32_t overlay_colour_of(const TileTriangle& one, int column, int row) {

@@ -133,8 +133,7 @@ void Renderer::draw_into(const scene::FramePlan& plan, const scene::PixelRect& r
             byte_of(plan.background.x), byte_of(plan.background.y), byte_of(plan.background.z)};
         job.ground = ground_ ? &*ground_ : nullptr;
         job.haze = haze_ahead(plan) * 255.0F;
-        job.grain = &grain_image();
-        job.grain_rays = &work_.grain_rays();
+        job.grain = plan.grain ? &work_.grain_rays() : nullptr;
         job.light = &work_.light();
         job.far_to_near = walk_ == Walk::FarToNear;
         job.tints_mesh_levels = plan.mesh_look == scene::MeshLook::Levels;

@@ -91,6 +91,23 @@ struct StripLevel {
     HWY_INLINE hn::Vec<Strip> colour(std::size_t part) const { return from_level(level(part)); }
 };
 
+/// Red, green and blue; behind them the share of grain where a triangle has any.
+template <bool has_grain>
+constexpr std::size_t level_planes = has_grain ? 4 : 3;
+
+/// The levels of a triangle over a strip.
+template <bool has_grain>
+HWY_INLINE std::array<StripLevel, level_planes<has_grain>>
+strip_levels(const Levels& levels, const glm::ivec2& from_px, int columns_right) {
+    const auto level = [&](std::size_t k)
+                           HWY_ATTR { return StripLevel(levels, k, from_px, columns_right); };
+    if constexpr (has_grain) {
+        return {level(0), level(1), level(2), level(3)};
+    } else {
+        return {level(0), level(1), level(2)};
+    }
+}
+
 /// A bit for each pixel of a strip whose value has all bits set.
 HWY_INLINE std::uint32_t full_bits(const StripValues& values) {
     alignas(8) std::array<std::uint8_t, 16> bytes;

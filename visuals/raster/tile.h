@@ -33,13 +33,12 @@ struct TileJob {
     std::array<std::uint8_t, 3> background{};
     const GroundImage* ground = nullptr; ///< for textures
     glm::vec3 haze{0.0F};                ///< levels, for textures
-    const GrainImage* grain = nullptr;   ///< for Fill::Grain
-    const GrainRays* grain_rays = nullptr;
-    const Light* light = nullptr;   ///< for Fill::Lit
-    bool tints_mesh_levels = false; ///< for Fill::Mesh
-    bool far_to_near = false;       ///< each triangle over what is there; one sample a pixel
-    bool blue_first = false;        ///< in each pixel; else red
-    std::uint8_t* rgba = nullptr;   ///< of its upper left pixel
+    const GrainRays* grain = nullptr;    ///< none in a picture without
+    const Light* light = nullptr;        ///< for Fill::Lit
+    bool tints_mesh_levels = false;      ///< for Fill::Mesh
+    bool far_to_near = false;            ///< each triangle over what is there; one sample a pixel
+    bool blue_first = false;             ///< in each pixel; else red
+    std::uint8_t* rgba = nullptr;        ///< of its upper left pixel
     std::size_t row_bytes = 0;
 
     /// TileBuffer::full of a row that is covered whole.
@@ -101,7 +100,11 @@ struct TileBuffer {
     static constexpr std::size_t padding = 2 * tile_width; ///< two rows may be at hand at once
 
     alignas(64) std::array<std::uint16_t, pixels + padding> covered{};
-    std::array<std::array<std::uint16_t, pixels + padding>, 3> sums{}; ///< 1/256 level
+    /// Red, green, blue, 1/256 level; and, where the picture has grain, the share of it likewise.
+    std::array<std::array<std::uint16_t, pixels + padding>, 4> sums{};
+    /// Where the picture has grain: of each pixel one over the depth of the ground that was painted
+    /// there last, 1/m; 0: none.
+    alignas(64) std::array<float, pixels + padding> nearness{};
     /// A bit for each column that is covered whole; one row more than there are.
     std::array<std::uint64_t, tile_height + 1> full{};
     std::uint32_t full_rows = 0; ///< a bit for each row that is covered whole

@@ -13,6 +13,7 @@
 #include "visuals/raster/tile_veil-inl.h"
 
 #include <algorithm>
+#include <bit>
 
 HWY_BEFORE_NAMESPACE();
 
@@ -62,7 +63,7 @@ nearer_pixels(std::uint32_t pixels, float first, float per_px, DepthRule rule, f
 /// Colours pixels of a strip, a bit each, whatever is there.
 HWY_INLINE void colour_over(
     std::uint32_t pixels,
-    const std::array<StripLevel, 3>& levels,
+    const std::array<StripLevel, 4>& levels,
     std::size_t first,
     TileBuffer& buffer) {
     alignas(8) std::array<std::uint8_t, 8> bits{};
@@ -80,6 +81,37 @@ HWY_INLINE void colour_over(
     }
 }
 
+/// Puts the grain of a triangle over pixels of a strip, a bit each: none of one without. The strip
+/// begins at a column and row of the picture.
+HWY_INLINE void grain_over(
+    std::uint32_t pixels,
+    const Triangle& triangle,
+    const StripLevel& share,
+    const glm::ivec2& at,
+    std::size_t first,
+    TileBuffer& buffer) {
+    alignas(8) std::array<std::uint8_t, 8> bits{};
+    std::memcpy(bits.data(), &pixels, sizeof pixels);
+    for (std::size_t i = 0; i < strip_parts; ++i) {
+        const std::size_t part = i * part_px;
+        const auto is_drawn = hn::LoadMaskBits(Strip(), bits.data() + part / 8);
+        const auto value =
+            triangle.has_grain ? hn::ShiftLeft<4>(share.colour(i)) : hn::Zero(Strip());
+        std::uint16_t* const sums = buffer.sums[3].data() + first + part;
+        hn::StoreU(hn::IfThenElse(is_drawn, value, hn::LoadU(Strip(), sums)), Strip(), sums);
+        if (triangle.has_grain) {
+            put_nearness_of_part(
+                triangle,
+                at + glm::ivec2(static_cast<int>(part), 0),
+                hn::VecFromMask(Strip(), is_drawn),
+                buffer.nearness.data() + first + part);
+        }
+    }
+    for (std::uint32_t left = triangle.has_grain ? 0 : pixels; left != 0; left &= left - 1) {
+        buffer.nearness[first + static_cast<std::size_t>(std::countr_zero(left))] = 0.0F;
+    }
+}
+
 /// As paint_strip_of_middles(), over what is there, by depth where the triangle has one.
 HWY_INLINE void paint_strip_over(
     const TileTriangle& one, const TileJob& job, const TileBox& box, int left, TileBuffer& buffer) {
@@ -93,10 +125,7 @@ HWY_INLINE void paint_strip_over(
     const std::uint32_t bends_left = triangle.middle_is_left ? ~0U : 0U;
     const int first_lower = first_row_of(triangle.middle) - job.first_px.y;
     const DepthRule rule(triangle.depth);
-    std::array levels{
-        StripLevel(triangle.levels, 0, box_px, left - box.left),
-        StripLevel(triangle.levels, 1, box_px, left - box.left),
-        StripLevel(triangle.levels, 2, box_px, left - box.left)};
+    auto levels = strip_levels<true>(triangle.levels, box_px, left - box.left);
     auto pixel = static_cast<std::size_t>(box.first_row * tile_width + left);
     for (int row = box.first_row; row <= box.last_row; ++row, pixel += tile_width) {
         const std::uint32_t bent = (row < first_lower ? upper : lower).pixels_from();
@@ -115,6 +144,10 @@ HWY_INLINE void paint_strip_over(
         }
         if (drawn != 0 && rule.colours) {
             colour_over(drawn, levels, pixel, buffer);
+            if (job.grain != nullptr) {
+                const glm::ivec2 at = job.first_px + glm::ivec2(left, row);
+                grain_over(drawn, triangle, levels[3], at, pixel, buffer);
+            }
         }
         whole.x += whole.slope;
         upper.x += upper.slope;
@@ -158,6 +191,13 @@ HWY_INLINE void paint_pixels_over(
             buffer.covered[pixel] = 0xffff;
             for (std::size_t k = 0; k < 3; ++k) {
                 buffer.sums[k][pixel] = static_cast<std::uint16_t>(colour[k] * 16U);
+            }
+            if (job.grain != nullptr) {
+                const Triangle& triangle = *one.triangle;
+                buffer.sums[3][pixel] =
+                    static_cast<std::uint16_t>(grain_share_of(one, at.x, at.y) * 16U);
+                buffer.nearness[pixel] =
+                    triangle.has_grain ? nearness_at(triangle, at.x, at.y) : 0.0F;
             }
         }
     }

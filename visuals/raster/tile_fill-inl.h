@@ -9,6 +9,7 @@
 
 #include "visuals/raster/pixel_colour.h"
 #include "visuals/raster/tile_coverage-inl.h"
+#include "visuals/raster/tile_nearness-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 
@@ -85,7 +86,7 @@ HWY_INLINE void walk_perspective(
     const int end = std::max(std::min(column + block_px, last_column), column + 1);
     const double w_here = 1.0 / std::max(extra.by_w[4].at(column, row), 1e-30);
     const double w_end = 1.0 / std::max(extra.by_w[4].at(end, row), 1e-30);
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < walk.base.size(); ++i) {
         const double here = extra.by_w[i].at(column, row) * w_here;
         const double there = extra.by_w[i].at(end, row) * w_end;
         const double per_px = (there - here) / (end - column);
@@ -113,6 +114,18 @@ HWY_INLINE void add_pixel_by_pixel(
             buffer.sums[k][pixel + i] =
                 static_cast<std::uint16_t>(buffer.sums[k][pixel + i] + colour[k] * counts[i]);
         }
+    }
+}
+
+/// Writes how near a triangle is where a few pixels have new samples.
+HWY_INLINE void
+put_nearness_of_pixels(const Triangle& triangle, const glm::ivec2& at, Counts counts, float* to) {
+    constexpr std::size_t px_at_once = hn::MaxLanes(Pixels());
+    alignas(32) std::array<std::uint16_t, px_at_once> each;
+    hn::Store(counts, Pixels(), each.data());
+    for (std::size_t i = 0; i < px_at_once; i += half_part_px) {
+        const glm::ivec2 first = at + glm::ivec2(static_cast<int>(i), 0);
+        put_nearness(triangle, first, hn::LoadU(HalfStrip(), &each[i]), to + i);
     }
 }
 
@@ -168,9 +181,16 @@ HWY_NOINLINE void fill(const TileTriangle& one, const TileJob& job, TileBuffer& 
                             *one.extra, column, job.first_px.x + places.last, row, walk);
                     }
                 }
-                for (std::size_t k = 0; k < 3; ++k) {
+                for (std::size_t k = 0; k < (triangle.has_grain ? 4 : 3); ++k) {
                     add_level(
                         walk, triangle.levels, k, i, counts, buffer.sums[k].data() + pixel + i);
+                }
+                if (triangle.has_grain) {
+                    put_nearness_of_pixels(
+                        triangle,
+                        {column + static_cast<int>(i), row},
+                        counts,
+                        buffer.nearness.data() + pixel + i);
                 }
             }
         }

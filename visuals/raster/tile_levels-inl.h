@@ -9,6 +9,7 @@
 #endif
 
 #include "visuals/raster/strip_level-inl.h"
+#include "visuals/raster/tile_nearness-inl.h"
 #include "visuals/raster/tile_rows-inl.h"
 
 #include <algorithm>
@@ -21,6 +22,7 @@ namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 
 /// Paints the strip of a triangle that begins at a column of the tile.
+template <bool has_grain>
 HWY_INLINE void paint_strip(
     const Triangle& triangle,
     const TileJob& job,
@@ -34,10 +36,7 @@ HWY_INLINE void paint_strip(
     const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
     const glm::ivec2 box_px = job.first_px + glm::ivec2(box.left, box.first_row);
     StripCoverage coverage(triangle, first_px, columns, lanes);
-    std::array levels{
-        StripLevel(triangle.levels, 0, box_px, left - box.left),
-        StripLevel(triangle.levels, 1, box_px, left - box.left),
-        StripLevel(triangle.levels, 2, box_px, left - box.left)};
+    auto levels = strip_levels<has_grain>(triangle.levels, box_px, left - box.left);
     auto pixel = static_cast<std::size_t>(box.first_row * tile_width + left);
     for (int row = box.first_row; row <= box.last_row; ++row, pixel += tile_width) {
         std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
@@ -51,12 +50,20 @@ HWY_INLINE void paint_strip(
                 after[i] = hn::Or(before, masks[i]);
                 hn::StoreU(after[i], Strip(), buffer.covered.data() + at);
                 const auto counts = hn::PopulationCount(fresh);
-                for (std::size_t k = 0; k < 3; ++k) {
+                for (std::size_t k = 0; k < levels.size(); ++k) {
                     std::uint16_t* const sums = buffer.sums[k].data() + at;
                     hn::StoreU(
                         hn::Add(hn::LoadU(Strip(), sums), hn::Mul(levels[k].colour(i), counts)),
                         Strip(),
                         sums);
+                }
+                if constexpr (has_grain) {
+                    const auto columns_right = static_cast<int>(i * part_px);
+                    put_nearness_of_part(
+                        triangle,
+                        job.first_px + glm::ivec2(left + columns_right, row),
+                        fresh,
+                        buffer.nearness.data() + at);
                 }
             }
             full |= std::uint64_t{full_bits(after)} << left;
@@ -87,6 +94,7 @@ struct MiddleEdge {
 
 /// paint_strip() where all lanes of a pixel share its middle: a triangle covers a pixel or does
 /// not.
+template <bool has_grain>
 HWY_INLINE void paint_strip_of_middles(
     const Triangle& triangle,
     const TileJob& job,
@@ -102,10 +110,7 @@ HWY_INLINE void paint_strip_of_middles(
     MiddleEdge lower(triangle.lower, triangle.middle, first_px);
     const std::uint32_t bends_left = triangle.middle_is_left ? ~0U : 0U;
     const int first_lower = first_row_of(triangle.middle) - job.first_px.y;
-    std::array levels{
-        StripLevel(triangle.levels, 0, box_px, left - box.left),
-        StripLevel(triangle.levels, 1, box_px, left - box.left),
-        StripLevel(triangle.levels, 2, box_px, left - box.left)};
+    auto levels = strip_levels<has_grain>(triangle.levels, box_px, left - box.left);
     auto pixel = static_cast<std::size_t>(box.first_row * tile_width + left);
     for (int row = box.first_row; row <= box.last_row; ++row, pixel += tile_width) {
         std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
@@ -126,11 +131,19 @@ HWY_INLINE void paint_strip_of_middles(
                 const auto all = hn::Set(Strip(), 0xffff);
                 hn::StoreU(
                     hn::IfThenElse(is_fresh, all, hn::LoadU(Strip(), covered)), Strip(), covered);
-                for (std::size_t k = 0; k < 3; ++k) {
+                for (std::size_t k = 0; k < levels.size(); ++k) {
                     std::uint16_t* const sums = buffer.sums[k].data() + at;
                     const auto sixteen = hn::ShiftLeft<4>(levels[k].colour(i));
                     hn::StoreU(
                         hn::IfThenElse(is_fresh, sixteen, hn::LoadU(Strip(), sums)), Strip(), sums);
+                }
+                if constexpr (has_grain) {
+                    const auto columns_right = static_cast<int>(i * part_px);
+                    put_nearness_of_part(
+                        triangle,
+                        job.first_px + glm::ivec2(left + columns_right, row),
+                        hn::VecFromMask(Strip(), is_fresh),
+                        buffer.nearness.data() + at);
                 }
             }
         }
@@ -144,6 +157,7 @@ HWY_INLINE void paint_strip_of_middles(
 }
 
 /// Paints a triangle of Fill::Levels that no plane cuts.
+template <bool has_grain>
 HWY_NOINLINE void paint_levels(
     const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const TileBox box(triangle, job);
@@ -152,15 +166,15 @@ HWY_NOINLINE void paint_levels(
     }
     if constexpr (has_pairs_of_rows) {
         if (!lanes.are_one && box.right - box.left < window_px) {
-            paint_levels_in_pairs(triangle, job, lanes, box, buffer);
+            paint_levels_in_pairs<has_grain>(triangle, job, lanes, box, buffer);
             return;
         }
     }
     for (int left = box.left; left <= box.right; left += strip_px) {
         if (lanes.are_one) {
-            paint_strip_of_middles(triangle, job, box, left, buffer);
+            paint_strip_of_middles<has_grain>(triangle, job, box, left, buffer);
         } else {
-            paint_strip(triangle, job, lanes, box, left, buffer);
+            paint_strip<has_grain>(triangle, job, lanes, box, left, buffer);
         }
     }
 }

@@ -36,13 +36,15 @@ HWY_INLINE void paint_one(
     const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const Fill fill_with = one.triangle->fill;
     if (fill_with == Fill::Levels && one.extra == nullptr) {
-        paint_levels(*one.triangle, job, lanes, buffer);
+        if (one.triangle->has_grain) {
+            paint_levels<true>(*one.triangle, job, lanes, buffer);
+        } else {
+            paint_levels<false>(*one.triangle, job, lanes, buffer);
+        }
     } else if (fill_with == Fill::Texture) {
         paint_even_texture(*one.triangle, job, lanes, buffer);
     } else if (fill_with == Fill::TextureInPerspective && one.extra->cut_count == 0) {
         paint_texture(one, job, lanes, buffer);
-    } else if (fill_with == Fill::Grain && one.extra->cut_count == 0) {
-        paint_grain(one, job, lanes, buffer);
     } else {
         cover(one, job, lanes, buffer);
         fill(one, job, buffer);
@@ -74,13 +76,16 @@ paint_near_to_far(const TileJob& job, const SampleLanes& lanes, TileBuffer& buff
 }
 
 void PaintTile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
-    clear(buffer);
+    clear(job, buffer);
     buffer.clear.clear();
     buffer.first_clear.clear();
     if (is_painted_over(job, lanes)) {
         paint_over(job, lanes, buffer);
     } else {
         paint_near_to_far(job, lanes, buffer);
+    }
+    if (job.grain != nullptr) {
+        add_grain(job, buffer);
     }
     resolve(job, buffer);
     paint_clear(job, buffer);

@@ -19,10 +19,14 @@ HWY_BEFORE_NAMESPACE();
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 
-HWY_NOINLINE void clear(TileBuffer& buffer) {
+HWY_NOINLINE void clear(const TileJob& job, TileBuffer& buffer) {
     buffer.covered.fill(0);
-    for (auto& plane : buffer.sums) {
-        plane.fill(0);
+    for (std::size_t k = 0; k < 3; ++k) {
+        buffer.sums[k].fill(0);
+    }
+    if (job.grain != nullptr) {
+        buffer.sums[3].fill(0);
+        buffer.nearness.fill(0.0F);
     }
     buffer.full.fill(0);
     buffer.full_rows = 0;

@@ -9,6 +9,7 @@
 #endif
 
 #include "visuals/raster/strip_level-inl.h"
+#include "visuals/raster/tile_nearness-inl.h"
 
 #include <algorithm>
 #include <array>
@@ -261,6 +262,18 @@ struct PairLevel {
     HWY_INLINE void next_rows() { at += 2 * per_row; }
 };
 
+/// The levels of a triangle over two rows.
+template <bool has_grain>
+HWY_INLINE std::array<PairLevel, level_planes<has_grain>>
+pair_levels(const Levels& levels, const TileJob& job, const TileBox& box) {
+    const auto level = [&](std::size_t k) HWY_ATTR { return PairLevel(levels, k, job, box); };
+    if constexpr (has_grain) {
+        return {level(0), level(1), level(2), level(3)};
+    } else {
+        return {level(0), level(1), level(2)};
+    }
+}
+
 /// Covers what is free of a triangle, and calls paint(window, fresh samples of its pixels) for all
 /// its windows and next_rows() after two rows.
 template <class Paint, class NextRows>
@@ -304,6 +317,7 @@ HWY_INLINE void paint_in_pairs(
 }
 
 /// Paints a triangle of levels.
+template <bool has_grain>
 HWY_INLINE void paint_levels_in_pairs(
     const Triangle& triangle,
     const TileJob& job,
@@ -311,16 +325,22 @@ HWY_INLINE void paint_levels_in_pairs(
     const TileBox& box,
     TileBuffer& buffer) {
     PairCoverage coverage(triangle, job, box, lanes);
-    std::array levels{
-        PairLevel(triangle.levels, 0, job, box),
-        PairLevel(triangle.levels, 1, job, box),
-        PairLevel(triangle.levels, 2, job, box)};
+    auto levels = pair_levels<has_grain>(triangle.levels, job, box);
     const auto paint = [&](const PairWindow& window, hn::Vec<Strip> fresh) HWY_ATTR {
         const auto counts = hn::PopulationCount(fresh);
-        for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t k = 0; k < levels.size(); ++k) {
             std::uint16_t* const sums = buffer.sums[k].data();
             const auto colour = from_level(levels[k].level(window));
             window.store(hn::Add(window.load(sums), hn::Mul(colour, counts)), sums);
+        }
+        if constexpr (has_grain) {
+            const auto put = [&](std::size_t which, hn::Vec<HalfStrip> of_row) HWY_ATTR {
+                const glm::ivec2 at(window.first[which], window.row + static_cast<int>(which));
+                float* const to = buffer.nearness.data() + window.pixel(which);
+                put_nearness(triangle, job.first_px + at, of_row, to);
+            };
+            put(0, hn::LowerHalf(HalfStrip(), fresh));
+            put(1, hn::UpperHalf(HalfStrip(), fresh));
         }
     };
     paint_in_pairs(coverage, job, box, buffer, paint, [&]() HWY_ATTR {

@@ -4,6 +4,7 @@
 #include "visuals/raster/texture_levels.h"
 #include "visuals/scene/paint_step.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -22,8 +23,8 @@ constexpr std::int32_t first_row_of(std::int32_t y) {
     return (y + 255) >> 8;
 }
 
-/// Red, green, blue and alpha over the picture: base + per_x * column + per_y * row at pixel
-/// middles, wrapping. Alpha is set for what lies over the picture alone.
+/// Red, green, blue and a fourth value over the picture: base + per_x * column + per_y * row at
+/// pixel middles, wrapping. The fourth is alpha over the picture, on the ground the share of grain.
 struct Levels {
     alignas(16) std::array<std::int32_t, 4> base{}; ///< 2^-16 level, from the level 128
     alignas(16) std::array<std::int32_t, 4> per_x{};
@@ -50,11 +51,20 @@ struct CutLine {
     double c = 0.0;
 };
 
+/// One over the depth along the line of sight within a triangle, 1/m: at pixel middles from its
+/// column `left` and row `first_row` on, and no less and no more than at its corners.
+struct NearnessPlane {
+    float first = 0.0F;
+    float per_x = 0.0F;
+    float per_y = 0.0F;
+    float least = 0.0F;
+    float most = 0.0F;
+};
+
 /// How the colour of a triangle's pixels is found.
 enum class Fill : std::uint8_t {
     Levels,      ///< three planes of levels
     Perspective, ///< as Levels, corrected for perspective
-    Grain,       ///< as Perspective, with the ground's fine pattern
     Texture,     ///< places in the texture, light and haze as planes: EvenTexture
     TextureInPerspective,
     Mesh, ///< levels, and lines along the edges
@@ -93,10 +103,20 @@ struct Triangle {
     Levels levels;
     std::uint32_t extra = none; ///< index into the chunk's extras
     TextureLevels texture;      ///< for Fill::Texture
+    NearnessPlane nearness;     ///< of one with grain
     std::uint16_t group = 0;    ///< depth group, from 1; 0: painted without depth
     scene::DepthUse depth = scene::DepthUse::None;
     Fill fill = Fill::Levels;
     bool middle_is_left = false; ///< the middle corner lies left of the whole edge
+    bool has_grain = false;      ///< the fine pattern, by the levels' fourth value
 };
+
+/// One over the depth of a triangle with grain at a pixel of the picture.
+inline float nearness_at(const Triangle& triangle, int column, int row) {
+    const NearnessPlane& plane = triangle.nearness;
+    const float in_row = plane.first + plane.per_y * static_cast<float>(row - triangle.first_row);
+    const float value = in_row + static_cast<float>(column - triangle.left) * plane.per_x;
+    return std::min(std::max(value, plane.least), plane.most);
+}
 
 } // namespace octant::visuals::raster

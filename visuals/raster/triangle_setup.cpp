@@ -126,10 +126,7 @@ void TriangleSetup::add_overlay(
 /// Whether straight lines over the picture are good enough for the levels between the corners.
 Fill TriangleSetup::fill_of(const std::array<const ScreenVertex*, 3>& corners, bool is_cut) const {
     const auto [a, b, c] = corners;
-    const bool has_grain = style_.fill == Fill::Grain &&
-                           (a->value[3] > 0.0F || b->value[3] > 0.0F || c->value[3] > 0.0F);
-    const bool is_plain = style_.fill == Fill::Levels || style_.fill == Fill::Grain;
-    if (!is_plain || has_grain || flat_ != nullptr) {
+    if (style_.fill != Fill::Levels || flat_ != nullptr) {
         return style_.fill;
     }
     if (is_cut) {
@@ -290,6 +287,11 @@ void TriangleSetup::add_placed(
     triangle.depth = style_.depth;
     triangle.fill = fill_;
     const FallingCorners corners{top, middle, bottom, area};
+    triangle.has_grain =
+        style_.has_grain && (a.value[3] > 0.0F || b.value[3] > 0.0F || c.value[3] > 0.0F);
+    if (triangle.has_grain) {
+        triangle.nearness = nearness_plane(corners, {left, first});
+    }
     if (flat_ != nullptr) {
         set_edges(corners, triangle);
         triangle.levels = even_levels(flat_->rgb);

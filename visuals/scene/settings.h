@@ -100,10 +100,10 @@ struct GroundSettings {
     double resolution_c = 0.0; ///< C of the first frame; 0 = the one that meets the triangle target
     /// c, the weight of roughness. Nothing: 20 for midpoint, 5 for printed.
     std::optional<double> roughness_c;
-    double control_a = 0.0;   ///< a, triangles per unit of C; 0 = from the terrain's own gain
-    int control_r = 4;        ///< r, earlier frames that the damping looks back at
-    bool near_detail = false; ///< screen error: ground between the samples, near the eye
-    bool scenery = false;     ///< screen error: trees and houses near the eye
+    double control_a = 0.0;  ///< a, triangles per unit of C; 0 = from the terrain's own gain
+    int control_r = 4;       ///< r, earlier frames that the damping looks back at
+    bool near_detail = true; ///< screen error: ground between the samples, near the eye
+    bool scenery = true;     ///< screen error: trees and houses near the eye
     MeshLook show_mesh = MeshLook::None;
 
     bool operator==(const GroundSettings&) const = default;

@@ -142,6 +142,25 @@ TEST_CASE("several aircraft fly together") {
             .picture != fly({"straight", "--aircraft", "f15"}).picture);
 }
 
+TEST_CASE("who asks for detail near the eye is told where the ground cannot show it") {
+    const auto told = [](std::vector<std::string> words) {
+        words.insert(words.begin(), {"fly", "straight"});
+        words.insert(words.end(), {"--frames", "1", "--size", "64x48"});
+        return run_octant(words).err;
+    };
+    CHECK_THAT(
+        told({"--terrain", "background60", "--scenery"}),
+        Contains("note: --scenery shows nothing: background60 has no samples"));
+    CHECK_THAT(
+        told({"--terrain", "hills", "--mesh", "midpoint", "--near-detail"}),
+        Contains("note: --near-detail shows nothing: only ground that is refined by screen-error"));
+    CHECK_THAT(
+        told({"--terrain", "hills", "--ground-shading", "texture", "--scenery"}),
+        Contains("note: --scenery shows nothing: where a texture colours the ground"));
+    CHECK_THAT(told({"--terrain", "background60"}), !Contains("shows nothing"));
+    CHECK_THAT(told({"--terrain", "hills", "--scenery"}), !Contains("shows nothing"));
+}
+
 TEST_CASE("a finished flight is skipped when asked, unless something has changed") {
     const auto folder = tests::empty_folder("skip") / "out";
     const std::vector<std::string> flight = {

@@ -28,7 +28,7 @@ visuals::scene::Picture picture_of(int width, int height, const std::vector<std:
 
 ui::settings::RunSettings
 canyon_flight(const char* path, const char* aircraft, visuals::scene::View view) {
-    ui::settings::RunSettings settings;
+    ui::settings::RunSettings settings = ui::settings::of_given_ground();
     settings.path.name = path;
     settings.path.aircraft = {aircraft};
     settings.view.kind = view;
@@ -81,6 +81,23 @@ TEST_CASE("detail between samples, trees and houses are painted as the depth buf
                 CHECK(result.unordered == 0);
                 CHECK(result.wrong == 0);
             }
+        }
+    }
+}
+
+TEST_CASE("cockpits, with detail beyond them, are painted as the depth buffer shows them") {
+    for (const auto& [aircraft, terrain] : {std::pair{"f15", "canyon"}, {"500md", "hills"}}) {
+        for (const double azimuth_deg : {0.0, -70.0, 70.0}) {
+            INFO(aircraft << " turned by " << azimuth_deg);
+            ui::settings::RunSettings settings =
+                canyon_flight("pop-up", aircraft, visuals::scene::View::Cockpit);
+            settings.path.terrain = terrain;
+            settings.view.azimuth_deg = azimuth_deg;
+            settings.ground.near_detail = true;
+            settings.ground.scenery = true;
+            const ui::flight::IdComparison result = compare(settings, 480);
+            CHECK(result.frames > 3);
+            CHECK(result.wrong == 0);
         }
     }
 }

@@ -97,7 +97,7 @@ void check_against_golden(
 
 RunSettings
 small(const std::string& path, const std::string& aircraft, const std::string& terrain, View view) {
-    RunSettings settings;
+    RunSettings settings = ui::settings::of_given_ground();
     settings.path.name = path;
     settings.path.aircraft = {aircraft};
     settings.path.terrain = terrain;
@@ -154,6 +154,17 @@ TEST_CASE("pictures are those that were approved") {
     check_against_golden("500md-jinking-hills-cockpit", low);
     check_against_golden(
         "f15-straight-canyon-tower", small("straight", "f15", "canyon", View::Tower));
+}
+
+TEST_CASE("pictures of near ground with its detail and what stands there are those approved") {
+    // The pattern's levels are chosen by each renderer in its own way.
+    for (const char* const terrain : {"hills", "canyon"}) {
+        RunSettings low = small("straight", "500md", terrain, View::Chase);
+        low.ground.near_detail = true;
+        low.ground.scenery = true;
+        check_against_golden(
+            "500md-straight-" + std::string(terrain) + "-near-ground", low, Golden::OfEach);
+    }
 }
 
 TEST_CASE("pictures with a head-up display are those that were approved") {

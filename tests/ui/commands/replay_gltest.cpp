@@ -35,10 +35,28 @@ const fs::path& recorded() {
             run_octant({"terrain", "make", "--kind", "hills", "--size", "257", "--out", ground})
                 .exit_code == 0);
         const tests::ProgramRun run = run_octant(
-            {"fly",     "turn",        "--terrain", ground,     "--adapt",
-             "terrain", "--triangles", "20000",     "--rate",   "1000",
-             "--size",  "320x240",     "--frames",  "60",       "--warm-up",
-             "2",       "--pictures",  "0",         "--record", (made / "flight").string(),
+            {"fly",
+             "turn",
+             "--terrain",
+             ground,
+             "--adapt",
+             "terrain",
+             "--triangles",
+             "20000",
+             "--rate",
+             "1000",
+             "--size",
+             "320x240",
+             "--frames",
+             "60",
+             "--warm-up",
+             "2",
+             "--pictures",
+             "0",
+             "--record",
+             (made / "flight").string(),
+             "--no-near-detail",
+             "--no-scenery",
              "--quiet"});
         INFO(run.err);
         REQUIRE(run.exit_code == 0);

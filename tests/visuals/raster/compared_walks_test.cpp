@@ -73,13 +73,18 @@ TEST_CASE("from far to near, each over what is there, the picture is the same") 
     clear_depth(plan);
     plan.paint(many_triangles(2), scene::DepthUse::Nearest);
     plan.paint(many_triangles(4));
-    const scene::Picture near_to_far = drawn(plan.plan(), size_px, 1);
-    Renderer renderer(std::make_shared<Workers>(2), size_px, 1);
-    renderer.walk(Renderer::Walk::FarToNear);
-    scene::Picture far_to_near;
-    renderer.draw(plan.plan());
-    renderer.finish_and_read(far_to_near);
-    CHECK(largest_difference(near_to_far, far_to_near) <= 1);
+    for (const bool has_grain : {false, true}) {
+        if (has_grain) {
+            plan.plan().grain = scene::Grain{glm::vec2(0.2F, 0.6F), 30.0F, 90.0F};
+        }
+        const scene::Picture near_to_far = drawn(plan.plan(), size_px, 1);
+        Renderer renderer(std::make_shared<Workers>(2), size_px, 1);
+        renderer.walk(Renderer::Walk::FarToNear);
+        scene::Picture far_to_near;
+        renderer.draw(plan.plan());
+        renderer.finish_and_read(far_to_near);
+        CHECK(largest_difference(near_to_far, far_to_near) <= 1);
+    }
 }
 
 TEST_CASE("a picture all by depth is the same alone and before something else") {

@@ -30,8 +30,8 @@ void paint_much(FlatPlan& plan) {
                 const float x = part();
                 triangle.at_px[k] = middle + reach * glm::vec2(x, part());
                 triangle.depth_m[k] = 1.0F + static_cast<float>(below(dice, 1000)) / 10.0F;
-                triangle.colour[k] =
-                    static_cast<std::uint32_t>(below(dice, 1U << 24)) | 0xff000000U;
+                const std::uint32_t alpha = i % 4 == 0 ? 0U : 0xff000000U;
+                triangle.colour[k] = static_cast<std::uint32_t>(below(dice, 1U << 24)) | alpha;
             }
             triangles.push_back(triangle);
         }
@@ -60,6 +60,11 @@ void put_in_haze(FlatPlan& plan) {
         .falloff_per_m = 0.02F,
         .to_sun_level = glm::vec2(0.6F, 0.8F),
         .sunward = glm::vec3(0.9F, 0.8F, 0.6F)};
+}
+
+/// The fine pattern on triangles to 60 m, less from 20 m on.
+void put_grain(FlatPlan& plan) {
+    plan.plan().grain = scene::Grain{glm::vec2(0.4F, 0.7F), 20.0F, 60.0F};
 }
 
 /// A texture of noise, and where it lies under the plan's triangles.
@@ -116,6 +121,9 @@ TEST_CASE("any number of threads makes the same bytes") {
     paint_much(plan);
     check_threads(plan.plan(), nullptr);
     put_in_haze(plan);
+    put_grain(plan);
+    check_threads(plan.plan(), nullptr);
+    plan.plan().grain.reset();
     const scene::GroundTexture texture = put_on_noise(plan);
     check_threads(plan.plan(), &texture);
 }
@@ -126,6 +134,9 @@ TEST_CASE("all instruction sets make the same bytes") {
     check_sets(plan.plan(), nullptr);
     put_in_haze(plan);
     check_sets(plan.plan(), nullptr);
+    put_grain(plan);
+    check_sets(plan.plan(), nullptr);
+    plan.plan().grain.reset();
     const scene::GroundTexture texture = put_on_noise(plan);
     check_sets(plan.plan(), &texture);
 }

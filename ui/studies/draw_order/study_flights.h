@@ -6,8 +6,9 @@
 namespace octant::ui::studies::draw_order {
 
 struct StudyOptions : base::StudyOutput {
-    settings::RunSettings settings; ///< size, samples and context are taken from it
-    int jobs = 1;                   ///< flights at once; above 1 their times depend on each other
+    settings::RunSettings settings =
+        settings::of_given_ground(); ///< size, samples and context are taken from it
+    int jobs = 1;                    ///< flights at once; above 1 their times depend on each other
 };
 
 /// Tables 5 and 6 of the 1989 paper: aircraft alone (100 frames of an orbit) and the four paths

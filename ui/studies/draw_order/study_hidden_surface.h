@@ -8,10 +8,11 @@
 namespace octant::ui::studies::draw_order {
 
 struct HiddenSurfaceStudy : base::StudyOutput {
-    settings::RunSettings settings; ///< terrain, triangles and context are taken from it
-    bool race = true;               ///< frames a second of the three ways
-    bool pictures = true;           ///< polygon numbers against the depth buffer
-    bool rays = true;               ///< polygon numbers against rays
+    settings::RunSettings settings =
+        settings::of_given_ground(); ///< terrain, triangles and context are taken from it
+    bool race = true;                ///< frames a second of the three ways
+    bool pictures = true;            ///< polygon numbers against the depth buffer
+    bool rays = true;                ///< polygon numbers against rays
     int race_frames = 200;
     int every = 10;       ///< every Nth frame is compared
     std::string aircraft; ///< compared in place of F-15 and 500MD, unless empty

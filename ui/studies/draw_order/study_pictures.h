@@ -6,9 +6,10 @@
 namespace octant::ui::studies::draw_order {
 
 struct PictureStudyOptions : base::StudyOutput {
-    settings::RunSettings settings; ///< size, triangles and context are taken from it
-    int frames = 4;                 ///< of each scene
-    int jobs = 1;                   ///< scenes at once
+    settings::RunSettings settings =
+        settings::of_given_ground(); ///< size, triangles and context are taken from it
+    int frames = 4;                  ///< of each scene
+    int jobs = 1;                    ///< scenes at once
 };
 
 /// How near the pictures of both renderers, with 1, 4 and 16 samples a pixel, come to 8 x 8
