@@ -97,8 +97,8 @@ std::uintmax_t whole_fragments_bytes(const std::filesystem::path& file, std::uin
         if (!in.read(reinterpret_cast<char*>(head.data()), head.size())) {
             return whole;
         }
-        const std::uintmax_t box =
-            std::uintmax_t{head[0]} << 24U | head[1] << 16U | head[2] << 8U | head[3];
+        const std::uintmax_t box = std::uintmax_t{head[0]} << 24U | std::uintmax_t{head[1]} << 16U |
+                                   std::uintmax_t{head[2]} << 8U | head[3];
         if (box < head.size() || box > size - at) {
             return whole;
         }
