@@ -18,9 +18,14 @@ built() { # preset, targets
 
 clang() { built clang; }
 
+# What sanitizers of both layers are told.
+told_sanitizers() {
+  export LSAN_OPTIONS=suppressions=$PWD/tests/lsan.supp:print_suppressions=0 UBSAN_OPTIONS=print_stacktrace=1
+}
+
 asan() {
   built asan
-  export LSAN_OPTIONS=suppressions=$PWD/tests/lsan.supp:print_suppressions=0 UBSAN_OPTIONS=print_stacktrace=1
+  told_sanitizers
   ctest --test-dir build/asan -j "$jobs" -LE 'bench|long' --output-on-failure
 }
 
@@ -43,6 +48,7 @@ fuzz() {
   local seconds=${1:-10} build=$PWD/build/fuzz found=0
   number "$seconds"
   built fuzz format_fuzzers
+  told_sanitizers
   "$build/tests/fuzz/formats/format_replay" --write-corpus "$build/corpus"
   mkdir -p "$build/findings"
   for program in "$build"/tests/fuzz/formats/fuzz_*; do

@@ -19,11 +19,11 @@ namespace octant::models::made {
 namespace {
 
 constexpr std::uint32_t meridians = 192;
-constexpr std::uint32_t rings = 192;
+constexpr std::uint32_t globe_rings = 192;
 
 /// A line a ring from north to south, four meridians a digit from 180 degrees west on eastward, the
 /// westernmost in the highest bit.
-constexpr std::array<std::string_view, rings> land_bits = {
+constexpr std::array<std::string_view, globe_rings> land_bits = {
     "000000000000000000000000000000000000000000000000",
     "000000000000000000000000000000000000000000000000",
     "000000000000000000000000000000000000000000000000",
@@ -224,7 +224,7 @@ constexpr glm::vec3 forest(0.10F, 0.35F, 0.08F);
 constexpr glm::vec3 desert(0.72F, 0.58F, 0.30F);
 
 double latitude_rad(std::uint32_t ring) {
-    return 0.5 * pi - pi * (ring + 1) / (rings + 1);
+    return 0.5 * pi - pi * (ring + 1) / (globe_rings + 1);
 }
 
 double longitude_rad(std::uint32_t meridian) {
@@ -259,7 +259,7 @@ void add_vertex(TriangleMesh& mesh, double north_rad, double east_rad, const glm
 void add_vertices(TriangleMesh& mesh) {
     mesh.vertices_m.emplace_back(0.0, 0.0, 1.0);
     mesh.colours.push_back(sea);
-    for (std::uint32_t ring = 0; ring < rings; ++ring) {
+    for (std::uint32_t ring = 0; ring < globe_rings; ++ring) {
         const double north_rad = latitude_rad(ring);
         const glm::vec3 land = land_colour(deg_from_rad(north_rad));
         for (std::uint32_t meridian = 0; meridian < meridians; ++meridian) {
@@ -272,14 +272,14 @@ void add_vertices(TriangleMesh& mesh) {
 }
 
 void add_triangles(TriangleMesh& mesh) {
-    constexpr std::uint32_t south_pole = rings * meridians + 1;
+    constexpr std::uint32_t south_pole = globe_rings * meridians + 1;
     const auto vertex = [](std::uint32_t ring, std::uint32_t meridian) {
         return 1 + ring * meridians + meridian % meridians;
     };
     for (std::uint32_t i = 0; i < meridians; ++i) {
         mesh.triangles.push_back({0, vertex(0, i), vertex(0, i + 1)});
     }
-    for (std::uint32_t ring = 0; ring + 1 < rings; ++ring) {
+    for (std::uint32_t ring = 0; ring + 1 < globe_rings; ++ring) {
         for (std::uint32_t i = 0; i < meridians; ++i) {
             const std::uint32_t north_west = vertex(ring, i);
             const std::uint32_t south_east = vertex(ring + 1, i + 1);
@@ -288,7 +288,8 @@ void add_triangles(TriangleMesh& mesh) {
         }
     }
     for (std::uint32_t i = 0; i < meridians; ++i) {
-        mesh.triangles.push_back({south_pole, vertex(rings - 1, i + 1), vertex(rings - 1, i)});
+        mesh.triangles.push_back(
+            {south_pole, vertex(globe_rings - 1, i + 1), vertex(globe_rings - 1, i)});
     }
 }
 

@@ -45,11 +45,10 @@ private:
 
     /// Lines of other keywords say nothing about triangles.
     void take(std::string_view line) {
-        const std::size_t first = line.find_first_not_of(" \t");
-        if (first == std::string_view::npos || line[first] == '#') {
+        const Words words = split_words(line);
+        if (words.empty() || words[0].starts_with('#')) {
             return;
         }
-        const Words words = split_words(line);
         if (words[0] == "v") {
             take_vertex(words);
         } else if (words[0] == "vn") {

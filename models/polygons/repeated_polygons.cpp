@@ -27,7 +27,7 @@ Key key_of(const PolygonModel& model, std::size_t polygon) {
         const glm::dvec3& at = model.vertices_m[vertex];
         key.places.push_back({at.x + 0.0, at.y + 0.0, at.z + 0.0}); // no negative zeros
     }
-    std::ranges::rotate(key.places, std::ranges::min_element(key.places));
+    std::rotate(key.places.begin(), std::ranges::min_element(key.places), key.places.end());
     return key;
 }
 

@@ -25,7 +25,9 @@ std::vector<std::string>
 differing_settings(Recordings recordings, const std::vector<std::size_t>& among) {
     std::vector<std::string> names;
     const Rows& first = recordings[among.front()].run.settings;
-    for (const auto& [name, value] : first) {
+    for (const auto& row : first) {
+        const auto& name = row.first;
+        const auto& value = row.second;
         const bool differs = std::ranges::any_of(among, [&](std::size_t i) {
             return value_of(recordings[i].run.settings, name) != value;
         });

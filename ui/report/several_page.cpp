@@ -179,7 +179,9 @@ std::string common_rows(Recordings recordings) {
     const auto table = [&](const char* title, auto rows_of) {
         std::string html = fmt::format(
             "<div class=\"card\">\n<h3>{}</h3>\n<div class=\"scroll\"><table>\n<tbody>\n", title);
-        for (const auto& [name, value] : rows_of(recordings.front())) {
+        for (const auto& row : rows_of(recordings.front())) {
+            const auto& name = row.first;
+            const auto& value = row.second;
             const bool same = std::ranges::all_of(recordings, [&](const LoadedRecording& each) {
                 return value_of(rows_of(each), name) == value;
             });

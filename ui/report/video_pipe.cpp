@@ -4,9 +4,12 @@
 #include "sim/base/file_status.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
+#include <fstream>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -82,6 +85,47 @@ const std::filesystem::path& writable(const std::filesystem::path& file) {
     return file;
 }
 
+/// Returns how many of a video's bytes, boxes of ISO 14496-12, are whole fragments with what stands
+/// before them; 0 where not one fragment is whole. A box of 4 GiB and more ends the search: no
+/// fragment of a second has one.
+std::uintmax_t whole_fragments_bytes(const std::filesystem::path& file, std::uintmax_t size) {
+    std::ifstream in(file, std::ios::binary);
+    std::uintmax_t whole = 0;
+    for (std::uintmax_t at = 0;;) {
+        std::array<unsigned char, 8> head{};
+        in.seekg(static_cast<std::streamoff>(at));
+        if (!in.read(reinterpret_cast<char*>(head.data()), head.size())) {
+            return whole;
+        }
+        const std::uintmax_t box = std::uintmax_t{head[0]} << 24U | std::uintmax_t{head[1]} << 16U |
+                                   std::uintmax_t{head[2]} << 8U | head[3];
+        if (box < head.size() || box > size - at) {
+            return whole;
+        }
+        at += box;
+        if (std::equal(head.begin() + 4, head.end(), "mdat")) {
+            whole = at;
+        }
+    }
+}
+
+/// Cuts what a failed ffmpeg left after its last whole fragment, and removes it where it has none.
+/// Returns whether something that plays is left.
+bool keep_whole_fragments(const std::filesystem::path& file) {
+    if (!is_file(file)) {
+        return false;
+    }
+    std::error_code fault;
+    const std::uintmax_t size = std::filesystem::file_size(file, fault);
+    const std::uintmax_t whole = fault ? 0 : whole_fragments_bytes(file, size);
+    if (whole == 0) {
+        std::filesystem::remove(file, fault);
+    } else {
+        std::filesystem::resize_file(file, whole, fault);
+    }
+    return whole > 0;
+}
+
 [[noreturn]] void refuse_without_ffmpeg(const std::filesystem::path& file) {
     error_in(file, "expected ffmpeg to make a video with, found none on PATH");
 }
@@ -122,14 +166,12 @@ void VideoPipe::add(const PictureView& picture) {
 
 std::optional<std::string> VideoPipe::finish() {
     const ProgramEnding ending = program_.finish();
-    if (ending.succeeded && !broken_) {
+    // A full disk that ffmpeg meets as it closes the file is told, and its exit code is 0.
+    if (ending.succeeded && !broken_ && ending.last_complaint.empty()) {
         return std::nullopt;
     }
-    std::error_code ignored;
-    if (is_file(file_) && std::filesystem::file_size(file_, ignored) == 0) {
-        std::filesystem::remove(file_, ignored);
-    }
-    return "not made: ffmpeg: " + ending.last_complaint;
+    const char* const what = keep_whole_fragments(file_) ? "cut short" : "not made";
+    return fmt::format("{}: ffmpeg: {}", what, ending.last_complaint);
 }
 
 } // namespace octant::ui::report

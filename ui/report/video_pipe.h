@@ -36,7 +36,8 @@ public:
     void add(const PictureView& picture);
 
     /// Waits until the file is whole. Returns nothing where it was made, else one line that ends in
-    /// ffmpeg's last one; what it left is then removed where it is empty. Once only.
+    /// ffmpeg's last one; what it left is then cut after the last whole fragment, or removed where
+    /// there is none. Once only.
     std::optional<std::string> finish();
 
 private:

@@ -136,7 +136,8 @@ std::string label_of(const Words& words) {
     std::string label;
     for (const std::string& word : words) {
         const fs::path file(word);
-        const std::string name = file.has_parent_path() ? file.stem().string() : word;
+        const bool is_path = file.has_parent_path() && file.has_stem();
+        const std::string name = is_path ? file.stem().string() : word;
         label += label.empty() ? "" : "+";
         label += name;
     }

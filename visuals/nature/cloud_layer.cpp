@@ -17,13 +17,13 @@ namespace octant::visuals::nature {
 
 namespace {
 
-constexpr double cell_m = 64.0;       ///< of the finest level
-constexpr int period = 512;           ///< of the density, in those cells
-constexpr int widest = 32;            ///< of the octaves of one cloud, in those cells
-constexpr int weather = 128;          ///< the octave that gathers them
-constexpr float most_density = 0.93F; ///< of what is behind, a cloud leaves a little
-constexpr double through_m = 25.0;    ///< so near the layer's height nothing of it is seen ...
-constexpr double whole_m = 150.0;     ///< ... and so far from it all
+constexpr double finest_cell_m = 64.0; ///< of the finest level
+constexpr int period = 512;            ///< of the density, in those cells
+constexpr int widest = 32;             ///< of the octaves of one cloud, in those cells
+constexpr int weather = 128;           ///< the octave that gathers them
+constexpr float most_density = 0.93F;  ///< of what is behind, a cloud leaves a little
+constexpr double through_m = 25.0;     ///< so near the layer's height nothing of it is seen ...
+constexpr double whole_m = 150.0;      ///< ... and so far from it all
 
 std::size_t wrapped(std::int64_t index, int size) {
     const std::int64_t rest = index % size;
@@ -177,7 +177,7 @@ CloudLayer::vertex(const Node& node, const glm::dvec3& at_m, bool from_above, fl
 
 void CloudLayer::add_level(
     int level, const glm::dvec3& eye_m, double height_m, double earth_radius_m) {
-    const double size_m = cell_m * static_cast<double>(1 << level);
+    const double size_m = finest_cell_m * static_cast<double>(1 << level);
     const auto first_of = [&](double place_m, double own_m) {
         return 2 * static_cast<std::int64_t>(std::floor(place_m / (2.0 * own_m))) - side / 2;
     };

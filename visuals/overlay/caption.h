@@ -15,18 +15,17 @@ namespace octant::visuals::overlay {
 class Caption {
 public:
     template <typename... Values>
-    explicit Caption(fmt::format_string<Values...> format, Values&&... values)
-        : size_(std::min(
-              fmt::format_to_n(
-                  letters_.data(), letters_.size(), format, std::forward<Values>(values)...)
-                  .size,
-              letters_.size())) {}
+    explicit Caption(fmt::format_string<Values...> format, Values&&... values) {
+        const auto written = fmt::format_to_n(
+            letters_.data(), letters_.size(), format, std::forward<Values>(values)...);
+        size_ = std::min(written.size, letters_.size());
+    }
 
     std::string_view text() const { return {letters_.data(), size_}; }
 
 private:
     std::array<char, 16> letters_{};
-    std::size_t size_;
+    std::size_t size_ = 0;
 };
 
 } // namespace octant::visuals::overlay

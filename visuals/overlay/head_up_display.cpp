@@ -34,7 +34,7 @@ constexpr float box_side = 0.262F; ///< of the speed and altitude boxes towards 
 constexpr float tape_bottom = -0.345F;
 constexpr float tape_half = 0.17F;
 constexpr float tape_per_deg = 0.0085F;
-constexpr float tick = 0.011F;
+constexpr float short_tick = 0.011F;
 constexpr float long_tick = 0.018F;
 constexpr float marker_radius = 0.0115F;
 constexpr float marker_wing = 0.032F;
@@ -243,7 +243,7 @@ private:
         for (int fifth = first; fifth <= last; ++fifth) {
             const int deg = 5 * fifth;
             const float x = static_cast<float>(deg - heading_deg) * per_deg;
-            const float top = bottom - (deg % 10 == 0 ? long_tick : tick) * unit_px_;
+            const float top = bottom - (deg % 10 == 0 ? long_tick : short_tick) * unit_px_;
             canvas_.line({x, bottom}, {x, top});
             if (deg % number_deg == 0) {
                 const int shown = (deg + 720) % 360;

@@ -47,8 +47,10 @@ dials_of(const models::polygons::PolygonModel& cockpit, const sim::AircraftLimit
     layout.speed_kt = overlay::speed_scale_kt(limits.most_speed_mps);
     layout.load_g = overlay::load_scale_g(limits.least_load_factor, limits.most_load_factor);
     for (const auto& [name, shows] : named_dials) {
-        const auto polygon = std::ranges::find_if(
-            cockpit.polygons, [&](const auto& one) { return cockpit.parts[one.part] == name; });
+        const auto polygon =
+            std::ranges::find_if(cockpit.polygons, [&, part = name](const auto& one) {
+                return cockpit.parts[one.part] == part;
+            });
         if (polygon != cockpit.polygons.end()) {
             const auto index = static_cast<std::size_t>(polygon - cockpit.polygons.begin());
             layout.dials.push_back(dial_in(cockpit, index, shows));

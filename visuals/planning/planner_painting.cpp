@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
-#include <ranges>
 
 // Writes the painting steps of a plan: in which order, and how, what has been planned is drawn.
 //
@@ -60,8 +59,8 @@ void Planner::paint_by_depth() {
     steps_.paint_ground_by_depth(edge_on_indices);
     steps_.paint_shadows_by_depth(ground_);
     steps_.paint_sky(scene::DepthUse::InfinitelyFar);
-    for (const std::uint32_t i : near_to_far_ | std::views::reverse) {
-        paint_clear(placed_[i]);
+    for (auto i = near_to_far_.rbegin(); i != near_to_far_.rend(); ++i) {
+        paint_clear(placed_[*i]);
     }
 }
 

@@ -27,9 +27,9 @@ constexpr std::string_view three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 } // namespace
 
 TEST_CASE("an OBJ triangle is read, and all that says nothing about triangles is passed over") {
-    const TriangleMesh mesh =
-        read_obj_text("\xef\xbb\xbf# a comment\no part\ng one two\ns off\nvt 0 0\nvp 1\nl 1 2\n"
-                      "v 0 0 0\nv 1e0 0 0 1.0\nv 0 +1 0\nnonsense\n\nf 1/1 \\\n 2/1/ 3\n");
+    const TriangleMesh mesh = read_obj_text(
+        "\xef\xbb\xbf# a comment\no part\ng one two\ns off\nvt 0 0\nvp 1\nl 1 2\n"
+        "v 0 0 0\nv 1e0 0 0 1.0\nv 0 +1 0\nnonsense\n\n\r\r\n \t\r\r\nf 1/1 \\\n 2/1/ 3\n");
     CHECK(mesh.name == "part");
     CHECK(
         mesh.vertices_m ==

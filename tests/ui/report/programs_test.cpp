@@ -74,22 +74,48 @@ TEST_CASE("without ffmpeg a video is refused before anything is flown") {
     CHECK_FALSE(std::filesystem::exists(file));
 }
 
-TEST_CASE("what an ffmpeg that fails leaves is removed where it is empty") {
+TEST_CASE("of what an ffmpeg that fails leaves only whole fragments are kept") {
     const ScratchFolder scratch;
     make_program(
         scratch / "bin",
         "ffmpeg",
-        "for file; do :; done; printf \"$OCTANT_LEFT\" > \"${file#file:}\"; exit 1");
-    const SearchPath only((scratch / "bin").string());
-    const auto left = [&](const char* bytes) {
-        ::setenv("OCTANT_LEFT", bytes, 1);
+        "for file; do :; done; cat \"$OCTANT_LEFT\" > \"${file#file:}\"; exit 1");
+    const SearchPath only((scratch / "bin").string() + ":/usr/bin:/bin");
+    const auto left = [&](const std::string& bytes) {
+        write_file(scratch / "left", bytes);
+        ::setenv("OCTANT_LEFT", (scratch / "left").c_str(), 1);
         VideoPipe video(scratch / "a.mp4", {4, 4, 3, false, 60.0});
-        CHECK(video.finish());
-        return std::filesystem::exists(scratch / "a.mp4");
+        const auto fault = video.finish();
+        REQUIRE(fault);
+        const bool kept = std::filesystem::exists(scratch / "a.mp4");
+        CHECK_THAT(*fault, Catch::StartsWith(kept ? "cut short: " : "not made: "));
+        return kept ? read_file(scratch / "a.mp4") : "nothing";
     };
-    CHECK_FALSE(left(""));
-    CHECK(left("a fragment"));
+    const auto box = [](const std::string& kind, const std::string& content) {
+        const auto size = static_cast<char>(8 + content.size());
+        return std::string{0, 0, 0, size} + kind + content;
+    };
+    const std::string head = box("ftyp", "isom") + box("moov", "");
+    const std::string fragment = box("moof", "abc") + box("mdat", "defgh");
+    CHECK(left("") == "nothing");
+    CHECK(left("no video") == "nothing");
+    CHECK(left(head) == "nothing");
+    CHECK(left(head + fragment) == head + fragment);
+    const std::string two = head + fragment + fragment;
+    for (std::size_t cut = 1; cut <= fragment.size(); ++cut) {
+        CHECK(left(two.substr(0, two.size() - cut)) == head + fragment);
+    }
+    CHECK(left(head + fragment.substr(0, fragment.size() - 1)) == "nothing");
     ::unsetenv("OCTANT_LEFT");
+}
+
+TEST_CASE("an ffmpeg that complains is reported although it says that it succeeded") {
+    const ScratchFolder scratch;
+    make_program(
+        scratch / "bin", "ffmpeg", "echo 'Error closing file: No space left on device' >&2");
+    const SearchPath only((scratch / "bin").string());
+    VideoPipe video(scratch / "a.mp4", {4, 4, 3, false, 60.0});
+    CHECK(video.finish() == "not made: ffmpeg: Error closing file: No space left on device");
 }
 
 TEST_CASE("an ffmpeg that fails is reported with its last line and stops nobody") {

@@ -101,6 +101,7 @@ TEST_CASE("ranges of decimals end where they say, and names are fit for folders"
     CHECK(
         names_of(sweep_of("[vary]\npath = [\"../a b/x.toml\", \"c/x.toml\", \"..\"]")) ==
         std::vector<std::string>{"x", "xx", "_.."});
+    CHECK(names_of(sweep_of("name = \"a/\"")) == std::vector<std::string>{"a-"});
 }
 
 TEST_CASE("a sweep's faults are told by file and line") {

@@ -1,6 +1,7 @@
 #include "tests/ui/window/virtual_display.h"
 
 #include <X11/Xlib.h>
+#include <X11/Xutil.h>
 #include <X11/extensions/XTest.h>
 #include <X11/keysym.h>
 #include <csignal>
@@ -71,7 +72,7 @@ std::unique_ptr<VirtualDisplay> VirtualDisplay::start() {
             told_on.c_str(),
             "-screen",
             "0",
-            "1400x900x24",
+            "2000x1200x24",
             "-nolisten",
             "tcp",
             nullptr);
@@ -146,6 +147,32 @@ void VirtualDisplay::press_button(int button) {
 void VirtualDisplay::release_button(int button) {
     XTestFakeButtonEvent(connection_->display, static_cast<unsigned>(button), False, 0);
     XSync(connection_->display, False);
+}
+
+ui::report::Picture VirtualDisplay::picture(const glm::ivec2& at, const glm::ivec2& size) const {
+    XImage* const image = XGetImage(
+        connection_->display,
+        DefaultRootWindow(connection_->display),
+        at.x,
+        at.y,
+        static_cast<unsigned>(size.x),
+        static_cast<unsigned>(size.y),
+        AllPlanes,
+        ZPixmap);
+    if (image == nullptr) {
+        throw std::runtime_error("no picture of the display");
+    }
+    ui::report::Picture picture{size.x, size.y, 3, {}};
+    for (int y = 0; y < size.y; ++y) {
+        for (int x = 0; x < size.x; ++x) {
+            const unsigned long rgb = XGetPixel(image, x, y);
+            for (const unsigned shift : {16U, 8U, 0U}) {
+                picture.bytes.push_back(static_cast<std::byte>(rgb >> shift & 0xFFU));
+            }
+        }
+    }
+    XDestroyImage(image);
+    return picture;
 }
 
 void VirtualDisplay::turn_wheel() {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "ui/report/png_file.h"
+
 #include <glm/vec2.hpp>
 
 #include <memory>
@@ -11,8 +13,8 @@ namespace octant::tests {
 /// through the display's server. Ends with the object.
 class VirtualDisplay {
 public:
-    /// Starts it, 1400 x 900 pixels, and makes it the process's display. Nothing where the server's
-    /// program (Xvfb) is not installed.
+    /// Starts it, 2000 x 1200 pixels, and makes it the process's display. Nothing where the
+    /// server's program (Xvfb) is not installed.
     static std::unique_ptr<VirtualDisplay> start();
 
     ~VirtualDisplay();
@@ -37,6 +39,9 @@ public:
     void move_pointer(const glm::ivec2& to);
     void press_button(int button);
     void release_button(int button);
+
+    /// What a person sees of the part that begins at `at`.
+    ui::report::Picture picture(const glm::ivec2& at, const glm::ivec2& size) const;
 
     /// One click of the wheel, away from the person.
     void turn_wheel();

@@ -133,7 +133,7 @@ report::HtmlTable relief_table(const FlickerStudyOptions& options) {
         "fixed view, mean abs dn",
         "path, mean abs dn",
         "path, % of N"};
-    const FlickerSettings standard;
+    const FlickerSettings as_asked;
     std::vector<std::array<WayFigures, shown_ways.size()>> found(fields.size());
     std::vector<double> relief_m;
     for (const HeightField& field : fields) {
@@ -156,14 +156,14 @@ report::HtmlTable relief_table(const FlickerStudyOptions& options) {
                  gain_text(figures.most_gain),
                  fmt::format("{:.1f}", figures.fixed_change),
                  fmt::format("{:.1f}", figures.path_change),
-                 fmt::format("{:.3f}", 100.0 * figures.path_change / standard.target_triangles)});
+                 fmt::format("{:.3f}", 100.0 * figures.path_change / as_asked.target_triangles)});
         }
     }
     table.note = fmt::format(
         "Settings as at the fixed view and the path above, a = {:g} for the control as printed. "
         "Fixed view: the last {} of {} frames. g: N'(C) over 4 % of C, by the one that the control "
         "goes by, here and there along the path. Own gain makes up to {} meshes a frame.",
-        standard.triangles_per_resolution,
+        as_asked.triangles_per_resolution,
         last_frames,
         2 * last_frames,
         terrain::tuned_meshes);

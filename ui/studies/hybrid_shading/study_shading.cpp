@@ -149,8 +149,8 @@ void study_shading(const ShadingStudyOptions& options) {
     const bool quiet = options.quiet || options.jobs > 1; // progress of one at a time only
     share_out(models.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
         const ShadedModel& model = models[i];
-        const int views = static_cast<int>(study_eyes(model.polygons).size());
-        base::Progress progress(model.name, views, quiet, "views");
+        const int eyes = static_cast<int>(study_eyes(model.polygons).size());
+        base::Progress progress(model.name, eyes, quiet, "views");
         int done = 0;
         runs[i] = run_shading(model, options.size_px, [&] { progress.show(++done); });
         progress.finish();

@@ -56,7 +56,7 @@ models::TriangleMesh bare(const models::TriangleMesh& mesh) {
     return shape;
 }
 
-constexpr std::array methods = {
+constexpr std::array peer_methods = {
     PeerMethod{"meshoptimizer", "meshoptimizer"},
     PeerMethod{lindstrom_turk, "CGAL Lindstrom-Turk"},
     PeerMethod{"cgal-garland-heckbert", "CGAL Garland-Heckbert"},
@@ -76,7 +76,7 @@ models::TriangleMesh octahedron() {
 
 std::vector<PeerMethod> peers_in(const fs::path& program, const fs::path& folder) {
     std::vector<PeerMethod> there;
-    for (const PeerMethod& method : methods) {
+    for (const PeerMethod& method : peer_methods) {
         if (simplified_by_peer(program, method.name, octahedron(), 6, folder)) {
             there.push_back(method);
         }
