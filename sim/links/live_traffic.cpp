@@ -1,5 +1,6 @@
 #include "sim/links/live_traffic.h"
 
+#include "sim/hidden_height.h"
 #include "sim/links/dis_entity.h"
 #include "sim/links/flightgear_fdm.h"
 
@@ -247,7 +248,7 @@ std::size_t LiveTraffic::show(double now_s, double delay_s, std::span<AircraftSt
 void LiveTraffic::put_away_hidden(std::span<AircraftState> states) const {
     for (std::size_t i = 0; i < states.size(); ++i) {
         if (vehicles_[i].is_hidden()) {
-            states[i].position_m.z = hidden_m;
+            states[i].position_m.z = hidden_height_m;
         }
     }
 }

@@ -50,9 +50,6 @@ public:
 
     const CigiImageGenerator& cigi() const { return cigi_; }
 
-    /// The height at which vehicles are put that are not to be seen.
-    static constexpr double hidden_m = -1e5;
-
     enum class Taken {
         Wrong, ///< no decoder knows it; it changed nothing but counts
         Right, ///< it may matter for later ones

@@ -224,23 +224,4 @@ std::string mavlink_text(const Verdict& verdict) {
     }
 }
 
-std::vector<std::byte> encode_mavlink(const MavLinkFrame& frame, std::uint8_t sequence) {
-    const auto number = static_cast<std::uint32_t>(frame.kind);
-    WireWriter writer(ByteOrder::Little);
-    writer.add(std::to_integer<std::uint8_t>(magic_2));
-    writer.add(static_cast<std::uint8_t>(frame.payload.size()));
-    writer.add(std::uint16_t{0}); // flags
-    writer.add(sequence);
-    writer.add(frame.system);
-    writer.add(std::uint8_t{1}); // component: autopilot
-    writer.add(static_cast<std::uint16_t>(number & 0xffffU));
-    writer.add(static_cast<std::uint8_t>(number >> 16U));
-    for (const std::byte byte : frame.payload) {
-        writer.add(std::to_integer<std::uint8_t>(byte));
-    }
-    const Message* const message = message_of(number);
-    writer.add(sum_of(writer.bytes().subspan(1), message == nullptr ? 0 : message->extra));
-    return writer.take();
-}
-
 } // namespace octant::sim::links

@@ -59,7 +59,4 @@ private:
 
 std::string mavlink_text(const Verdict& verdict);
 
-/// A frame of version 2. The payload must be as long as its kind says.
-std::vector<std::byte> encode_mavlink(const MavLinkFrame& frame, std::uint8_t sequence);
-
 } // namespace octant::sim::links

@@ -1,5 +1,6 @@
 #include "ui/flight/live_flight.h"
 
+#include "sim/hidden_height.h"
 #include "ui/flight/cigi_air.h"
 
 #include <algorithm>
@@ -16,8 +17,6 @@ namespace scene = visuals::scene;
 
 namespace {
 
-/// Where nobody sees an aircraft that nobody flies.
-constexpr glm::dvec3 out_of_sight_m(0.0, 0.0, sim::links::LiveTraffic::hidden_m);
 constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 
 constexpr std::array<std::pair<LiveChannel, std::string_view>, 3> channels{
@@ -52,7 +51,7 @@ void LiveFlight::states_at(double time_s, std::span<sim::AircraftState> states) 
                                             : traffic_.show(time_s, options_.delay_s, of_vehicles_);
     give_places(shown);
     for (std::size_t i = 1; i < states.size(); ++i) {
-        states[i].position_m = out_of_sight_m;
+        states[i].position_m = glm::dvec3(0.0, 0.0, sim::hidden_height_m);
     }
     for (std::size_t i = 0; i < shown; ++i) {
         states[places_[i].aircraft] = of_vehicles_[i];

@@ -29,7 +29,10 @@ struct Column {
     int decimals;
     double (*get)(const FrameRecord&);
     void (*set)(FrameRecord&, double);
-    std::optional<std::uint64_t> FrameRecord::*hash = nullptr; ///< of Kind::Hash, in place of both
+    /// Of Kind::Hash, in place of get and set.
+    std::optional<std::uint64_t> FrameRecord::*hash = nullptr;
+    /// Whether a file without this column is no recording.
+    bool required = false;
 };
 
 template <auto Member>
@@ -59,27 +62,31 @@ hash_column(std::string_view name, std::optional<std::uint64_t> FrameRecord::*ha
     return {name, Kind::Hash, 0, nullptr, nullptr, hash};
 }
 
+constexpr Column required(Column column) {
+    column.required = true;
+    return column;
+}
+
 using R = FrameRecord;
 constexpr auto seconds = 6;
 constexpr auto milliseconds = 4;
-constexpr std::size_t required_columns = 16;
 constexpr std::array frame_columns{
-    column<&R::frame>("frame"),
-    column<&R::sim_time_s>("sim_time_s", Kind::Number, seconds),
-    column<&R::wall_s>("wall_s", Kind::Number, seconds),
-    column<&R::frame_ms>("frame_ms", Kind::Number, milliseconds),
-    column<&R::sim_ms>("sim_ms", Kind::Number, milliseconds),
-    column<&R::plan_ms>("plan_ms", Kind::Number, milliseconds),
-    column<&R::draw_ms>("draw_ms", Kind::Number, milliseconds),
-    column<&R::read_ms>("read_ms", Kind::Number, milliseconds),
-    column<&R::terrain_triangles>("terrain_triangles"),
-    column<&R::terrain_fans>("terrain_fans"),
-    column<&R::aircraft_polygons>("aircraft_polygons"),
-    column<&R::draw_cell>("draw_cell"),
-    column<&R::resolution_c>("resolution_c", Kind::MayBeEmpty, 6),
-    column<&R::triangle_change>("triangle_change"),
-    column<&R::stress>("stress", Kind::MayBeEmpty, 4),
-    column<&R::overrun>("overrun"),
+    required(column<&R::frame>("frame")),
+    required(column<&R::sim_time_s>("sim_time_s", Kind::Number, seconds)),
+    required(column<&R::wall_s>("wall_s", Kind::Number, seconds)),
+    required(column<&R::frame_ms>("frame_ms", Kind::Number, milliseconds)),
+    required(column<&R::sim_ms>("sim_ms", Kind::Number, milliseconds)),
+    required(column<&R::plan_ms>("plan_ms", Kind::Number, milliseconds)),
+    required(column<&R::draw_ms>("draw_ms", Kind::Number, milliseconds)),
+    required(column<&R::read_ms>("read_ms", Kind::Number, milliseconds)),
+    required(column<&R::terrain_triangles>("terrain_triangles")),
+    required(column<&R::terrain_fans>("terrain_fans")),
+    required(column<&R::aircraft_polygons>("aircraft_polygons")),
+    required(column<&R::draw_cell>("draw_cell")),
+    required(column<&R::resolution_c>("resolution_c", Kind::MayBeEmpty, 6)),
+    required(column<&R::triangle_change>("triangle_change")),
+    required(column<&R::stress>("stress", Kind::MayBeEmpty, 4)),
+    required(column<&R::overrun>("overrun")),
     column<&R::warm_up>("warm_up"),
     column<&R::record_ms>("record_ms", Kind::Number, milliseconds),
     column<&R::draw_calls>("draw_calls"),
@@ -196,9 +203,9 @@ std::vector<std::size_t> read_header(
     }
     for (std::size_t i = 0; i < frame_columns.size(); ++i) {
         const std::string_view name = frame_columns[i].name;
-        const bool required = i < required_columns ||
-                              std::find(further.begin(), further.end(), name) != further.end();
-        if (required && std::find(order.begin(), order.end(), i) == order.end()) {
+        const bool is_needed = frame_columns[i].required ||
+                               std::find(further.begin(), further.end(), name) != further.end();
+        if (is_needed && std::find(order.begin(), order.end(), i) == order.end()) {
             error_at(
                 path,
                 1,

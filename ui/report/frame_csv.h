@@ -25,9 +25,9 @@ std::string frame_csv_line(const FrameRecord& record);
 FrameRecord as_written(const FrameRecord& record);
 
 /// frames.csv row by row, in the memory of one of them: columns may stand in any order, unknown
-/// ones are skipped, the sixteen up to `overrun` and those of `further` must be there. An empty
-/// file has no rows. Frames must count upwards. Throws Error "file:line: expected ..., got ..." for
-/// anything else.
+/// ones are skipped; those that every recording has had from the first (frame_csv.cpp marks them)
+/// and those of `further` must be there. An empty file has no rows. Frames must count upwards.
+/// Throws Error "file:line: expected ..., got ..." for anything else.
 class FrameReader {
 public:
     explicit FrameReader(
@@ -42,7 +42,7 @@ public:
 private:
     std::filesystem::path path_;
     LineReader lines_;
-    std::vector<std::size_t> columns_; ///< of each field
+    std::vector<std::size_t> columns_; ///< the number of the column that each field belongs to
     std::optional<int> last_frame_;
     bool torn_ = false;
     bool ended_ = false;

@@ -36,8 +36,8 @@ struct FrameRecord {
     /// frame_ms over the frame's share of simulated time; filtered where the ground adapts, then
     /// not finite while warming up.
     double stress = 0.0;
-    int overrun = 0; ///< 1 when frame_ms is above 16.67
-    int draw_calls = 0;
+    int overrun = 0;    ///< 1 when frame_ms is above 16.67
+    int draw_calls = 0; ///< of the graphics library, or steps painted where there is none
     int shadow_triangles = 0;
     int veil_triangles = 0;
     int cuts = 0;      ///< ground triangles and aircraft polygons painted again, cut by planes
@@ -52,7 +52,9 @@ struct FrameRecord {
     /// By the clock only, else not finite: from the input that the frame shows, or from the moment
     /// that it was due, to the picture finished.
     double latency_ms = std::numeric_limits<double>::quiet_NaN();
-    int smooth_polygons = 0;  ///< of aircraft_polygons
+    /// Polygons that are lit smoothly, of all polygons of the models shown and all triangles of
+    /// their refined meshes, whether they are painted or face away.
+    int smooth_polygons = 0;
     int smooth_target = -1;   ///< smooth polygons that this frame was to have; negative: by a share
     int refine_splits = 0;    ///< of meshes that are refined in each frame
     int refine_collapses = 0; ///< of meshes that are refined in each frame

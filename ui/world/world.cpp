@@ -5,6 +5,7 @@
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
+#include "sim/hidden_height.h"
 #include "ui/settings/flown_aircraft.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/aircraft_loader.h"
@@ -29,9 +30,6 @@ namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 
 namespace {
-
-/// Where nobody sees an aircraft.
-constexpr double out_of_sight_m = -1e5;
 
 double largest_radius_m(const planning::Scene& scene) {
     double largest_m = 0.0;
@@ -190,7 +188,7 @@ void states_beside(
         states[i] = path.state_at(time_s);
         states[i].time_s = leader.time_s;
         if (time_s < path.start_s() || time_s > path.end_s()) {
-            states[i].position_m.z = out_of_sight_m;
+            states[i].position_m.z = sim::hidden_height_m;
         }
     }
 }

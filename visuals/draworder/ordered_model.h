@@ -4,6 +4,7 @@
 #include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/octant_order.h"
 #include "visuals/draworder/order_cell.h"
+#include "visuals/draworder/order_method.h"
 #include "visuals/draworder/order_trial.h"
 #include "visuals/draworder/search_budget.h"
 
@@ -11,15 +12,6 @@
 #include <vector>
 
 namespace octant::visuals::draworder {
-
-/// How the painting orders of a model are found.
-enum class Method {
-    Paper, ///< 8 octants with one viewpoint each, steps 1 to 6 as printed.
-    /// Octants that are divided further where a cycle remains; exact from a stated distance on.
-    Cells,
-    Tree, ///< A tree of planes over eye space; exact for every eye point.
-    Bsp   ///< Polygons divided by planes; exact for every eye point, for any model at once.
-};
 
 struct OrderOptions {
     Method method = Method::Tree;

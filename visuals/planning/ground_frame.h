@@ -10,14 +10,14 @@ namespace octant::visuals::planning {
 
 /// Indices of one triangle's shadow pieces, numbered as FramePlan::repaint_indices are.
 struct ShadowPieces {
-    std::uint32_t triangle = 0; ///< number in Ground::triangles
+    std::uint32_t triangle = 0; ///< its number in GroundMesher::triangles()
     std::uint32_t first = 0;    ///< place of the first index among the pieces' indices
     std::uint32_t count = 0;
 };
 
 /// The ground of one frame before facing, with the shadows on it.
 struct GroundFrame {
-    scene::TriangleDraw all;               ///< Ground::triangles, in painting order
+    scene::TriangleDraw all;               ///< GroundMesher::triangles(), in painting order
     std::span<const ShadowPieces> shadows; ///< ascending
     std::span<const std::uint32_t> shadow_indices;
 };

@@ -1,9 +1,10 @@
 #pragma once
 
-#include "visuals/planning/planner.h"
+#include "visuals/planning/scene.h"
 #include "visuals/scene/frame_plan.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace octant::visuals::planning {

@@ -1,5 +1,6 @@
 #include "visuals/planning/refined_aircraft.h"
 
+#include "visuals/planning/shading_rule_of.h"
 #include "visuals/scene/model_look.h"
 
 #include <glm/geometric.hpp>
@@ -35,19 +36,12 @@ std::uint32_t mean_colour(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 
 } // namespace
 
-shading::ShadingRuleSettings rule_of(const scene::ShadingSettings& settings) {
-    shading::ShadingRuleSettings rule;
-    rule.rule = settings.rule == scene::HybridRule::Paper ? shading::ShadingRule::Paper
-                                                          : shading::ShadingRule::Error;
-    return rule;
-}
-
 RefinedAircraft::RefinedAircraft(
     std::shared_ptr<const refine::ProgressiveMesh> mesh,
     const refine::ViewRefinerOptions& options,
     const scene::ShadingSettings& shading)
     : refiner_(std::move(mesh), options)
-    , selector_(rule_of(shading))
+    , selector_(shading_rule_of(shading))
     , shows_levels_(shading.show_model == scene::ModelLook::Levels) {}
 
 refine::RefinedFrame

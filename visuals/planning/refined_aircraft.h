@@ -23,9 +23,6 @@ struct RefineLook {
     double pixel_rad = 0.001;
 };
 
-/// The rule by which polygons are chosen to be smooth.
-shading::ShadingRuleSettings rule_of(const scene::ShadingSettings& settings);
-
 /// One aircraft's mesh, kept as fine as each frame needs it. Several share a hierarchy. Keeps its
 /// memory; what stays from frame to frame is not worked out again.
 class RefinedAircraft {

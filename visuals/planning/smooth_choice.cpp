@@ -1,5 +1,6 @@
 #include "visuals/planning/smooth_choice.h"
 
+#include "visuals/planning/shading_rule_of.h"
 #include "visuals/shading/smooth_count.h"
 
 #include <glm/geometric.hpp>
@@ -104,12 +105,12 @@ SmoothChoice::SmoothChoice(
         placed[i].first_smooth = static_cast<std::uint32_t>(words);
         std::size_t needed = words_for(model);
         for (std::size_t as = 0; chooses_ && as <= model.levels.size(); ++as) {
-            choosers_[i].emplace_back(model.shaded_as(as), rule_of(settings));
+            choosers_[i].emplace_back(model.shaded_as(as), shading_rule_of(settings));
         }
         if (placed[i].far_model != nullptr) {
             needed = std::max(needed, words_for(*placed[i].far_model));
             if (chooses_) {
-                choosers_[i].emplace_back(placed[i].far_model->shaded, rule_of(settings));
+                choosers_[i].emplace_back(placed[i].far_model->shaded, shading_rule_of(settings));
             }
         }
         words += needed;

@@ -16,12 +16,8 @@
 
 // The seam between deciding and drawing: the planner writes a FramePlan, a renderer draws it.
 //
-// All colours are display values (models/display_colour.h): light, haze, blending, interpolation
-// between corners and the averages of samples and texels are computed on them directly, as image
-// generators of the 1980s did, and the picture's bytes are the result without any conversion. That
-// costs physical truth: half of the light gives a display value of 0.5, a fifth of the light;
-// sums are cut at white early; and the average of a white and a black sample is 0.5, not 0.735, so
-// that thin bright lines lose weight on dark ground.
+// All colours are display values (models/display_colour.h), and all arithmetic is done on them
+// directly; README.md of this room says what that costs.
 
 namespace octant::visuals::scene {
 

@@ -76,7 +76,8 @@ public:
     /// driver drew straight into the window (asserted).
     virtual void finish_and_copy(Picture& picture) { finish_and_read(picture); }
 
-    /// Of the last draw() and the insets since; consecutive aircraft of a step are one.
+    /// Calls of the graphics library for the last draw() and the insets since; without one, steps
+    /// of painting. Consecutive aircraft of a step are one.
     virtual int draw_calls() const = 0;
 
     /// From now on pictures may be drawn straight into the window, which is so large, where they

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/draworder/ordered_model.h"
+#include "visuals/draworder/order_method.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/model_look.h"
 

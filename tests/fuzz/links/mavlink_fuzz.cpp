@@ -1,5 +1,6 @@
 #include "sim/links/mavlink.h"
 #include "tests/fuzz/links/packet_target.h"
+#include "tests/sim/links/mavlink_frames.h"
 
 using namespace octant::sim::links;
 

@@ -4,6 +4,7 @@
 #include "sim/links/line_input.h"
 #include "sim/links/live_traffic.h"
 #include "sim/links/mavlink.h"
+#include "tests/sim/links/mavlink_frames.h"
 #include "tests/sim/links/receiver.h"
 
 #include <catch2/catch.hpp>
@@ -125,7 +126,7 @@ TEST_CASE("MAVLink systems beyond the cap wait until one has been silent for ten
     payload.set(4, std::int32_t{470000000});
     payload.set(12, std::int32_t{100000});
     const auto packet = [&](std::uint16_t port, double arrival_s) {
-        const auto bytes = encode_mavlink(
+        const auto bytes = octant::tests::encode_mavlink(
             {MavLinkKind::GlobalPositionInt, 1, {payload.bytes().begin(), payload.bytes().end()}},
             0);
         return Datagram{Protocol::MavLink, {1, port}, arrival_s, bytes};

@@ -1,5 +1,6 @@
 #include "sim/base/units.h"
 #include "sim/links/mavlink.h"
+#include "tests/sim/links/mavlink_frames.h"
 
 #include <catch2/catch.hpp>
 
@@ -9,6 +10,7 @@
 
 using namespace octant;
 using namespace octant::sim::links;
+using octant::tests::encode_mavlink;
 
 namespace {
 

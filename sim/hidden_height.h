@@ -1,0 +1,9 @@
+#pragma once
+
+namespace octant::sim {
+
+/// The height of an aircraft that is not there, as one whose track has ended or that nobody flies:
+/// so far below any ground that no view shows it.
+inline constexpr double hidden_height_m = -1e5;
+
+} // namespace octant::sim
