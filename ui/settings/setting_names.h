@@ -2,6 +2,7 @@
 
 #include "ui/settings/enum_names.h"
 #include "ui/settings/settings.h"
+#include "visuals/draworder/ordered_model.h"
 
 #include <array>
 #include <string_view>
