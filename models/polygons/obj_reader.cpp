@@ -221,6 +221,9 @@ private:
     bool take_material_file(const std::string& name) {
         const std::filesystem::path file = path_.parent_path() / name;
         std::error_code ignored;
+        if (std::filesystem::is_directory(file, ignored)) {
+            refuse(fmt::format("expected a material file, got the folder {}", in_quotes(name)));
+        }
         if (!std::filesystem::exists(file, ignored)) {
             return false;
         }

@@ -75,8 +75,7 @@ bool is_one_surface(std::size_t edges, std::size_t triangles) {
 
 class Turning {
 public:
-    Turning(
-        std::size_t triangles, std::span<const Side> sides, std::span<const Triangle> named)
+    Turning(std::size_t triangles, std::span<const Side> sides, std::span<const Triangle> named)
         : piece_of_(triangles, no_index) {
         turns_.turned.assign(triangles, 0);
         for_each_joint(sides, named, [&](std::span<const Side> edge) {

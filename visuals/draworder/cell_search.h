@@ -2,7 +2,6 @@
 
 #include "models/polygons/polygon_model.h"
 #include "visuals/draworder/draw_order.h"
-#include "visuals/draworder/order_cell.h"
 #include "visuals/draworder/search_budget.h"
 #include "visuals/draworder/working_model.h"
 

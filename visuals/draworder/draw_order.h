@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace octant::visuals::draworder {
@@ -115,6 +116,13 @@ private:
     std::vector<Range> cells_;
     int list_count_ = 0;
     bool one_cell_an_eye_ = true;
+};
+
+/// The eye points that share a list.
+struct OrderCell {
+    std::string path; ///< Paper, Cells: "+-+/0/3"; empty for a cell of a tree.
+    /// The cell is the intersection of the half-spaces in front of them; unit normals, body axes.
+    std::vector<Plane> planes;
 };
 
 /// A single cell that lists all polygons in file order: for painting with a depth buffer, and for

@@ -3,7 +3,6 @@
 #include "models/polygons/polygon_model.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/octant_order.h"
-#include "visuals/draworder/order_cell.h"
 #include "visuals/draworder/order_method.h"
 #include "visuals/draworder/order_trial.h"
 #include "visuals/draworder/search_budget.h"

@@ -37,8 +37,8 @@ struct LocalPolygon {
 struct LocalModel {
     glm::dvec3 middle_m{0.0}; ///< In the file's axes.
     double size_m = 1.0;
-    /// From where certificates measure, in the file's axes: the origin or, of a model so far from it
-    /// that the rounding of planes would count in a sum of them, the middle.
+    /// From where certificates measure, in the file's axes: the origin or, of a model so far from
+    /// it that the rounding of planes would count in a sum of them, the middle.
     glm::dvec3 about_m{0.0};
     double tolerance = tolerance_sizes; ///< Of the certificate.
     std::vector<LocalAxis> axes;        ///< One for each pivot.

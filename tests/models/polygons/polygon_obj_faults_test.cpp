@@ -47,6 +47,7 @@ TEST_CASE("wrong OBJ lines are refused with file, line, expected and got") {
         "m.obj:1: expected an OBJ line (v, f, g, o, usemtl, mtllib), got 'vertex'");
     CHECK(message("usemtl\n") == "m.obj:1: expected a material name, got none");
     CHECK(message("mtllib \n") == "m.obj:1: expected a file name, got none");
+    CHECK(message("mtllib //\n") == "m.obj:1: expected a material file, got the folder '//'");
 }
 
 TEST_CASE(

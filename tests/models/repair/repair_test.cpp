@@ -215,7 +215,8 @@ TEST_CASE("a door that touches its sheet along few edges keeps its own side, a f
                     const double x_m = i; // the door's corners beyond the hinge lie off the sheet
                     const bool is_off = along_m.z != 0.0 && j == 0 && i > hinge_edges;
                     mesh.vertices_m.push_back(
-                        glm::dvec3(x_m, is_off ? 0.5 : 0.0, 0.0) + along_m * static_cast<double>(j));
+                        glm::dvec3(x_m, is_off ? 0.5 : 0.0, 0.0) +
+                        along_m * static_cast<double>(j));
                 }
             }
             for (std::uint32_t i = 0; i < count; ++i) {
