@@ -110,7 +110,7 @@ double split_tolerance_m(const PolygonModel& model) {
 std::uint32_t split_polygon(PolygonModel& model, std::size_t polygon, const Plane& plane) {
     const double tolerance_m = split_tolerance_m(model);
     const auto whole = model.corners(polygon);
-    const auto height_m = [&](std::uint32_t corner) {
+    [[maybe_unused]] const auto height_m = [&](std::uint32_t corner) {
         return distance_m(plane, model.vertices_m[corner]);
     };
     assert(std::ranges::any_of(whole, [&](auto c) { return height_m(c) > tolerance_m; }));
