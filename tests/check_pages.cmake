@@ -1,13 +1,29 @@
-# Fails when the page of a room does not name one of its files: a file that no page knows is one that
-# a reader cannot place. X.h and X.cpp are named together, as the word X; `*_x` and `x_*` in the
-# page's code stand for all that end or begin so. A README.md speaks of the files beside it.
+# Fails when the page of a room does not name one of its files, which a reader then cannot place; and
+# when no README.md above links a page. X.h and X.cpp are named together, as the word X; `*_x` and
+# `x_*` stand for all that end or begin so. A README.md speaks of the files beside it.
 cmake_minimum_required(VERSION 3.25)
 
 file(GLOB_RECURSE pages RELATIVE ${ROOT} ${ROOT}/sim/README.md ${ROOT}/flightpaths/README.md ${ROOT}/models/README.md
-  ${ROOT}/visuals/README.md ${ROOT}/ui/README.md)
+  ${ROOT}/visuals/README.md ${ROOT}/ui/README.md ${ROOT}/tests/README.md)
 foreach(page ${pages})
   get_filename_component(room ${page} DIRECTORY)
   file(READ ${ROOT}/${page} text)
+  set(above ${room})
+  set(linked FALSE)
+  while(above AND NOT linked)
+    get_filename_component(above "${above}" DIRECTORY)
+    string(REGEX REPLACE "^${above}/" "" way ${page})
+    if(EXISTS ${ROOT}/${above}/README.md)
+      file(READ ${ROOT}/${above}/README.md leading)
+      string(FIND "${leading}" "(${way})" place)
+      if(place GREATER_EQUAL 0)
+        set(linked TRUE)
+      endif()
+    endif()
+  endwhile()
+  if(NOT linked)
+    message(SEND_ERROR "${page}: expected a link to it in a README.md above, found none")
+  endif()
   string(REGEX MATCHALL "[a-z0-9_*-]+" words "${text}")
   list(REMOVE_DUPLICATES words)
   set(patterns ${words})
@@ -17,6 +33,9 @@ foreach(page ${pages})
   file(GLOB files RELATIVE ${ROOT}/${room} ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
   list(TRANSFORM files REPLACE "[.](h|cpp)$" "")
   list(REMOVE_DUPLICATES files)
+  if(room MATCHES "^tests")
+    continue() # one page tells how all tests are laid out
+  endif()
   foreach(name ${files})
     if(NOT name IN_LIST words AND NOT (patterns AND name MATCHES "^(${patterns})$"))
       message(SEND_ERROR "${page}: expected a word on ${name}, found none")
