@@ -30,7 +30,7 @@ public:
     /// is the model's own again.
     void take(const CigiPart& part, double at_s);
 
-    /// Of a part that has been told before.
+    /// Lets a part that has been told of before go on by these rates.
     void take(const CigiRate& rate, double at_s);
 
     void forget(std::uint16_t entity);

@@ -42,12 +42,12 @@ public:
 
     visuals::scene::PixelRect rectangle() const { return rectangle_; }
 
-    /// Planner::prepare.
+    /// Begins the work on the ground of the next picture, as Planner::prepare.
     void prepare(const visuals::scene::Camera& camera, const visuals::landscape::Beside& beside) {
         planner_->prepare(camera, std::nullopt, beside);
     }
 
-    /// Planner::wait.
+    /// Returns when nothing is being prepared, as Planner::wait.
     void wait() { planner_->wait(); }
 
     /// `smooth_share`: SmoothWish::share.

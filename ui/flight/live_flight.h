@@ -94,7 +94,7 @@ public:
     /// that pictures show from this one on, where it is another one.
     std::optional<std::string> light(Session& session) const;
 
-    /// The same for a flight that is repeated: the time that light() gave.
+    /// For a flight that is repeated: brings the sun to the time of day that light() gave then.
     static void light_as(Session& session, const std::string& time_of_day);
 
     const sim::links::LiveTraffic& traffic() const { return traffic_; }
@@ -104,7 +104,7 @@ public:
 private:
     visuals::scene::AirSettings air_of(const Session& session) const;
 
-    /// Of a vehicle.
+    /// Which aircraft shows a vehicle.
     struct Place {
         std::size_t aircraft = 0;
         std::optional<std::uint16_t> type; ///< of an entity

@@ -137,7 +137,7 @@ private:
     std::unique_ptr<Gui> gui_;
     ViewState state_;
     std::optional<WindowRecording> recording_;
-    /// Of a flight that others fly.
+    /// Records a flight that other programs fly.
     std::optional<flight::FlightRecorder> live_recorder_;
     base::Stopwatch clock_;
     double last_turn_s_ = 0.0;

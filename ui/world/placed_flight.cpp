@@ -89,7 +89,7 @@ placed(const FlightScript& script, flightpaths::Placement placement, const Scene
         script.trajectory, placement, heights, script.min_clearance_m, script.limits);
 }
 
-/// The same; what is wrong with it is said with the name of the path.
+/// Lays a path over the ground; what is wrong with it is said with the name of the path.
 flightpaths::PlacedPath placed_by_name(
     const std::string& name,
     const FlightScript& script,

@@ -37,10 +37,11 @@ float height_of_cover_m(float height_m, const nature::Climate& climate);
 /// hold.
 float snow_cover(const Site& site, const glm::vec3& normal, const nature::Climate& climate);
 
-/// Of a place whose height is that of height_of_cover_m().
+/// What covers a place whose height is what height_of_cover_m() gives.
 Cover cover_of(const Site& site);
 
-/// Own colour of temperate ground, display values; the height as for cover_of().
+/// The colour of temperate ground before light falls on it, display values. The height of the place
+/// is what height_of_cover_m() gives.
 glm::vec3 temperate(const Site& site);
 
 /// Share of desert ground that shrubs cover, 0..1.

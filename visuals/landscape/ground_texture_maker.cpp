@@ -121,7 +121,7 @@ sum_of_lit_row(const scene::GroundTexture& texture, const nature::Daylight& day,
     return sum;
 }
 
-/// Of the ground under light.
+/// The mean colour of the whole ground under the light of a day.
 glm::vec3 mean_lit(const scene::GroundTexture& texture, const nature::Daylight& day) {
     const scene::GroundImage& normal = texture.normal;
     std::vector<glm::dvec3> rows(static_cast<std::size_t>(normal.height));

@@ -40,7 +40,7 @@ float share_of(std::uint32_t dice, unsigned shift) {
     return static_cast<float>(dice >> shift & 0xffU) * (1.0F / 256.0F);
 }
 
-/// Of a tree, over its species'.
+/// How large a tree is, in sizes of its species: 0.7 to 1.3.
 float size_of(std::uint32_t dice) {
     return 0.7F + 0.6F * share_of(dice, 16);
 }

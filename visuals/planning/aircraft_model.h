@@ -56,7 +56,7 @@ struct AircraftModel {
     /// Number of the representation by polygons.
     std::size_t as_polygons() const { return errors_m.size() - 1; }
 
-    /// Of a level or of the polygons.
+    /// What is shaded where the aircraft is shown by this level of detail, or by its polygons.
     const shading::ShadedPolygons& shaded_as(std::size_t representation) const {
         return representation < levels.size() ? levels[representation].shaded : shaded;
     }

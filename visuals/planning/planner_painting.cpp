@@ -31,7 +31,8 @@ constexpr double rounding_px = 0.01;
 
 } // namespace
 
-/// By the middles of their hulls; of two that are as far the one of the lower number.
+/// Whether the middle of one hull is nearer to the eye than that of another; of two that are
+/// equally far the one with the lower number counts as nearer.
 bool Planner::is_nearer(std::uint32_t a, std::uint32_t b) const {
     const double a_m2 = glm::dot(hulls_[a].centre_m, hulls_[a].centre_m);
     const double b_m2 = glm::dot(hulls_[b].centre_m, hulls_[b].centre_m);
@@ -116,13 +117,13 @@ void Planner::paint_clear(const PlacedAircraft& aircraft) {
     }
 }
 
-/// By the middle of its box.
+/// Whether the middle of a knot's box and the eye are on different sides of the clouds.
 bool Planner::is_beyond_clouds(const Knot& knot, const scene::Camera& camera) const {
     const double knot_m = camera.eye_m.z + knot.box.centre_m.z;
     return clouds_ && (knot_m > cloud_height_m_) != (camera.eye_m.z > cloud_height_m_);
 }
 
-/// Those that lie beyond the clouds, or those that do not.
+/// Paints the knots that lie beyond the clouds, or those that do not.
 void Planner::paint_knots(const scene::Camera& camera, bool beyond_clouds, PlanCounts& counts) {
     for (const Knot& knot : order_.knots()) {
         if (is_beyond_clouds(knot, camera) == beyond_clouds) {

@@ -45,7 +45,7 @@ bool chooses_by(const scene::ShadingSettings& settings, bool follows_clock) {
             settings.rule == scene::HybridRule::Paper);
 }
 
-/// Of the sun, in body axes.
+/// The light of the sun on an aircraft, in its body axes.
 shading::ShadingLight
 light_on(const PlacedAircraft& aircraft, const glm::dvec3& to_sun, const glm::vec2& light) {
     shading::ShadingLight sun;

@@ -82,7 +82,7 @@ struct Bend {
     double reach() const { return 0.5 * (most - least); }
 };
 
-/// Of all four values.
+/// How perspective bends each of the four values along a triangle's edges.
 std::array<Bend, 4> bends(const Corners& corners) {
     std::array<Bend, 4> result;
     for (std::size_t k = 0; k < corners.size(); ++k) {

@@ -35,12 +35,12 @@ HWY_INLINE Real set(float value) {
     return hn::Set(Reals(), value);
 }
 
-/// mix() of OpenGL.
+/// The value between `from` and `to` at `share`, as mix() of GLSL gives it.
 HWY_INLINE Real mixed(Real from, Real to, Real share) {
     return hn::Add(hn::Mul(from, hn::Sub(set(1.0F), share)), hn::Mul(to, share));
 }
 
-/// As exp_of_minus().
+/// e to the power -x for several numbers at once, with the same results as exp_of_minus().
 HWY_INLINE Real exp_of_minus_each(Real x) {
     const Whole whole;
     const auto power = hn::Min(hn::Mul(x, set(1.44269504F)), set(126.0F));

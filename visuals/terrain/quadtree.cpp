@@ -86,7 +86,8 @@ float middle_deviation_m(const NineSamples& nine) {
          off(h[1][1], h[0][2], h[2][0])});
 }
 
-/// The same for a node in which the padding has moved middles and ends.
+/// middle_deviation_m() for a node in which the padding has moved middles and ends: each middle is
+/// held against what the sides, or the triangles beside the diagonals, have at its place.
 float cut_middle_deviation_m(const NineSamples& nine) {
     const auto& h = nine.height_m;
     const auto share = [](const std::array<int, 3>& at) {

@@ -40,10 +40,12 @@ void add(ExactPlane& sum, double factor, const ExactPlane& plane);
 /// in floating point where its rounding cannot matter, else exactly.
 bool is_behind(const WrittenPlane& plane, const Vector& point, double tolerance);
 
-/// The same, decided exactly.
+/// Whether the height of a point over a plane is at most `tolerance` times largest(normal), decided
+/// exactly.
 bool is_behind(const ExactPlane& plane, const ExactVector& point, const Rational& tolerance);
 
-/// The same for every point of the circle on which a point travels about an axis.
+/// Whether that is so, exactly, for every point of the circle on which a point travels about an
+/// axis.
 bool is_circle_behind(
     const ExactPlane& plane, const Axis& axis, const Vector& point, const Rational& tolerance);
 
