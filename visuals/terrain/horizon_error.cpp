@@ -28,8 +28,9 @@ namespace {
 
 /// How far from the picture's border the horizon is turned.
 constexpr double border_rad = rad_from_deg(1.0);
-/// A turn within which the horizon's ground leaves the picture.
-constexpr double leaving_rad = rad_from_deg(4.0);
+/// Far ground lies within this angle below its end: it comes into the picture or leaves it while
+/// the view turns by as much.
+constexpr double far_ground_rad = rad_from_deg(4.0);
 /// How much the error may change in a turn, as a share of how far that moves the picture.
 constexpr double share_of_turn = 0.006;
 
@@ -83,20 +84,21 @@ ErrorTarget HorizonError::eased(const MeshView& view, const ErrorTarget& target)
     if (!target.geomorphs || target.most_triangles >= any_triangles) {
         return target;
     }
-    const auto there = turned_to(view, horizon_rad(view));
+    const auto there = turned_to(view, missing_rad(view));
     if (!there) {
         return target;
     }
     rule_.look_from(there->view);
     const double there_px = rule_.error_px_of(survey_.limit_for(target));
-    const double moved_px = view.focal_px * std::max(there->turned_rad - leaving_rad, 0.0);
+    const double moved_px = view.focal_px * std::max(there->turned_rad - far_ground_rad, 0.0);
     ErrorTarget eased = target;
     eased.error_px = std::max(target.error_px, there_px - share_of_turn * moved_px);
     return eased;
 }
 
-/// The elevation of the ground's end where the view looks, at its mean height.
-double HorizonError::horizon_rad(const MeshView& view) const {
+/// The elevation of that border of far ground that leaves the picture first: of its end, seen at
+/// the ground's mean height but not above level, when the view turns down, else of where it begins.
+double HorizonError::missing_rad(const MeshView& view) const {
     const GroundTiles& ground = rule_.ground();
     const glm::dvec2 half_m = ground.half_extent_m();
     double end = std::numeric_limits<double>::infinity(); // in lengths of `ahead`
@@ -106,8 +108,12 @@ double HorizonError::horizon_rad(const MeshView& view) const {
             end = std::min(end, (std::copysign(half_m[axis], ahead) - view.eye_m[axis]) / ahead);
         }
     }
-    const double away_m = std::max(end * glm::length(glm::dvec2(view.ahead)), ground.spacing_m());
-    return std::atan2(static_cast<double>(ground.facts().mean_m) - view.eye_m.z, away_m);
+    const double level = glm::length(glm::dvec2(view.ahead));
+    const double away_m = std::max(end * level, ground.spacing_m());
+    const double over_m = std::max(view.eye_m.z - static_cast<double>(ground.facts().mean_m), 0.0);
+    const double end_rad = -std::atan2(over_m, away_m);
+    const bool above = std::atan2(view.ahead.z, level) > end_rad;
+    return above ? end_rad - far_ground_rad : end_rad;
 }
 
 } // namespace octant::visuals::terrain

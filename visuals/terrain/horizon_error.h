@@ -37,7 +37,7 @@ public:
     ErrorTarget eased(const MeshView& view, const ErrorTarget& target);
 
 private:
-    double horizon_rad(const MeshView& view) const;
+    double missing_rad(const MeshView& view) const;
 
     ErrorRule rule_;
     ErrorSurvey survey_;
