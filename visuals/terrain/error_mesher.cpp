@@ -59,7 +59,8 @@ constexpr std::array<std::uint8_t, 16> edges_beside = [] {
 ErrorMesher::ErrorMesher(const GroundTiles& ground)
     : ground_(&ground)
     , rule_(ground)
-    , survey_(rule_) {}
+    , survey_(rule_)
+    , horizon_(ground) {}
 
 GroundMesh ErrorMesher::mesh(const MeshView& view, const ErrorTarget& target) {
     if (meshed_ && view == view_ && target == target_) {
@@ -69,7 +70,7 @@ GroundMesh ErrorMesher::mesh(const MeshView& view, const ErrorTarget& target) {
     view_ = view;
     target_ = target;
     rule_.look_from(view);
-    limit_ = survey_.limit_for(target);
+    limit_ = survey_.limit_for(horizon_.eased(view, target));
     nodes_ = survey_.nodes();
     morph_limit_ = target.geomorphs ? limit_ : std::numeric_limits<float>::infinity();
     height_base_m_ = ground_->shape().height_base_m - view.eye_m.z;

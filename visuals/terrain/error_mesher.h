@@ -6,6 +6,7 @@
 #include "visuals/terrain/fan_shape.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/horizon_error.h"
 #include "visuals/terrain/paint_order.h"
 #include "visuals/terrain/triangle_runs.h"
 
@@ -41,11 +42,12 @@ public:
     ~ErrorMesher() = default;
 
     /// The mesh at the smallest error, at or above the target's, for which no larger error gives
-    /// more triangles than the target's, whatever was meshed before. The mesh is returned again,
-    /// without work, when view and target are those of the last call. Colours are left to
-    /// vertices(). Beside the samples in use there may be vertices that are only ends of others.
-    /// Vertices and indices stay valid until the next mesh but one, so that a mesh can be drawn
-    /// while the next is made; origins until the next mesh.
+    /// more triangles than the target's, whatever was meshed before. With geomorphs and a budget it
+    /// is also at or above that of HorizonError: where the horizon is not in the picture, triangles
+    /// may be left over. The mesh is returned again, without work, when view and target are those
+    /// of the last call. Colours are left to vertices(). Beside the samples in use there may be
+    /// vertices that are only ends of others. Vertices and indices stay valid until the next mesh
+    /// but one, so that a mesh can be drawn while the next is made; origins until the next mesh.
     GroundMesh mesh(const MeshView& view, const ErrorTarget& target);
 
     /// The vertices of the last mesh, so that their colours can be set.
@@ -125,6 +127,7 @@ private:
     const GroundTiles* ground_;
     ErrorRule rule_;
     ErrorSurvey survey_;
+    HorizonError horizon_;
     MeshView view_; ///< The view of the last mesh.
     ErrorTarget target_;
     GroundMesh mesh_;
