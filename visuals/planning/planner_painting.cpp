@@ -50,7 +50,7 @@ void Planner::paint_by_depth() {
     // What is refined comes apart, so that all others become one step.
     for (const bool refined : {false, true}) {
         for (const std::uint32_t i : near_to_far_) {
-            if (is_refined(placed_[i]) == refined) {
+            if (is_refined(placed_[i]) == refined && !placed_[i].is_hidden) {
                 paint(placed_[i], scene::DepthUse::Nearest);
             }
         }
@@ -61,7 +61,9 @@ void Planner::paint_by_depth() {
     steps_.paint_shadows_by_depth(ground_);
     steps_.paint_sky(scene::DepthUse::InfinitelyFar);
     for (auto i = near_to_far_.rbegin(); i != near_to_far_.rend(); ++i) {
-        paint_clear(placed_[*i]);
+        if (!placed_[*i].is_hidden) {
+            paint_clear(placed_[*i]);
+        }
     }
 }
 
@@ -137,11 +139,14 @@ void Planner::paint_knot(const Knot& knot, const scene::Camera& camera, PlanCoun
     members_.clear();
     knot_dashes_.clear();
     for (const std::uint32_t member : order_.members(knot)) {
-        if (member < hulls_.size()) {
-            members_.push_back(&placed_[member]);
-        } else {
+        if (member >= hulls_.size()) {
             knot_dashes_.push_back(member);
+        } else if (!placed_[member].is_hidden) {
+            members_.push_back(&placed_[member]);
         }
+    }
+    if (members_.empty() && knot_dashes_.empty()) {
+        return;
     }
     if (!scene::in_view(knot.box.centre_m, radius_m(knot.box), frustum_)) {
         for (const PlacedAircraft* member : members_) {

@@ -1,3 +1,4 @@
+#include "sim/hidden_height.h"
 #include "visuals/draworder/octant_order.h"
 #include "visuals/planning/mesh_levels.h"
 #include "visuals/planning/planner.h"
@@ -72,6 +73,7 @@ void Planner::place_aircraft(
     const scene::Camera& camera, std::span<const sim::AircraftState> states) {
     for (std::size_t i = 0; i < states.size(); ++i) {
         const sim::AircraftState state = sunk(states[i], camera.eye_m, mesher_->earth_radius_m());
+        placed_[i].is_hidden = sim::is_hidden_at(states[i].position_m.z);
         place(placed_[i], state, camera.eye_m);
         const glm::dvec3 position_m = state.position_m - camera.eye_m;
         const double margin_m =
@@ -135,11 +137,15 @@ void Planner::choose_model(PlacedAircraft& aircraft, double distance_m) const {
         std::span(parts_).subspan(aircraft.first_part, aircraft.model->polygons.pivots.size() + 1);
 }
 
-/// Chooses what of an aircraft's index buffer is drawn; of a refined mesh nothing.
+/// Chooses what of an aircraft's index buffer is drawn; of a refined mesh and of one that is not
+/// there nothing.
 void Planner::choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m) {
     const AircraftModel& model = *aircraft.model;
     aircraft.ranges.clear();
     aircraft.list = {};
+    if (aircraft.is_hidden) {
+        return;
+    }
     if (is_solid(aircraft)) {
         if (!is_refined(aircraft)) {
             aircraft.ranges.push_back(model.levels[aircraft.representation].range);
@@ -166,7 +172,7 @@ void Planner::represent(PlacedAircraft& aircraft) {
     }
     const glm::dvec3 place_m(aircraft.parts[0][3]);
     const double radius_m = model.subject.radius_m;
-    if (!scene::in_view(place_m, radius_m, frustum_)) {
+    if (aircraft.is_hidden || !scene::in_view(place_m, radius_m, frustum_)) {
         aircraft.representation = model.as_polygons();
         aircraft.is_represented = false; // what it is when it comes back into view is chosen anew
         return;
