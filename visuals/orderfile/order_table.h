@@ -2,14 +2,14 @@
 
 #include "models/polygons/file_axes.h"
 #include "models/polygons/polygon_model.h"
-#include "visuals/draworder/cell_orders.h"
+#include "visuals/orderfile/cell_orders.h"
 
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 /// One row of a table of painting orders, in the form of the 1989 paper's table 4.
 struct OrderRow {
@@ -37,4 +37,4 @@ std::vector<OrderRow> order_table(
     const CellOrders& orders,
     const models::polygons::FileAxes& axes = {});
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

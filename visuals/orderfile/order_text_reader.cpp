@@ -2,17 +2,20 @@
 // file, the line, what was expected and what was found.
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "visuals/draworder/order_text.h"
-#include "visuals/draworder/order_words.h"
+#include "visuals/draworder/octant_path.h"
+#include "visuals/orderfile/order_text.h"
+#include "visuals/orderfile/order_words.h"
 
 #include <fmt/format.h>
 #include <set>
 #include <string_view>
 #include <utility>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 namespace {
+
+using draworder::DrawOrder;
 
 constexpr long most_planes = 1000;
 constexpr long most_directions = 64;
@@ -257,15 +260,15 @@ private:
         } else if (words_.skip("half")) {
             take_planes(cell);
             return;
-        } else if (words_.has_more() && is_octant_path(words_.here())) {
-            cell.path = path_in_body(std::string(words_.here()), axes_);
-            const auto corners = corners_of_path(cell.path);
+        } else if (words_.has_more() && draworder::is_octant_path(words_.here())) {
+            cell.path = draworder::path_in_body(std::string(words_.here()), axes_);
+            const auto corners = draworder::corners_of_path(cell.path);
             cell.directions.assign(corners.begin(), corners.end());
             words_.step();
         } else {
             words_.refuse(fmt::format(
                 "a region: an octant path such as +-+/0/3 (at most {} levels), cone or half",
-                most_path_levels));
+                draworder::most_path_levels));
         }
         const auto planes = planes_of_cone(cell.directions, orders_.centre_m);
         if (!planes) {
@@ -299,4 +302,4 @@ CellOrders read_order_file(
     return OrderReading(path, faces, axes).read();
 }
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

@@ -1,7 +1,7 @@
 // A certificate for painting orders, the exact rule turned round: the code that finds orders looks
 // for what hides what, and this code looks for planes which prove that nothing does. It shares no
 // code with the search, so that a mistake there cannot repeat itself here.
-#include "visuals/draworder/order_check.h"
+#include "visuals/orderfile/order_check.h"
 
 #include "visuals/separation/check_shape.h"
 #include "visuals/separation/separation.h"
@@ -12,7 +12,7 @@
 #include <cassert>
 #include <utility>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 namespace {
 
@@ -21,10 +21,10 @@ constexpr double along_axis = 1e-9;
 
 using Planes = std::vector<Plane>;
 
-/// One run of certify.
-class Certifying {
+/// One run of check_order.
+class OrderChecking {
 public:
-    Certifying(const models::polygons::PolygonModel& model, const CellOrders& orders)
+    OrderChecking(const models::polygons::PolygonModel& model, const CellOrders& orders)
         : model_(model)
         , orders_(orders)
         , frame_(separation::check_frame(model))
@@ -151,12 +151,12 @@ private:
 
 } // namespace
 
-OrderCheck certify(
+OrderCheck check_order(
     const models::polygons::PolygonModel& model,
     const CellOrders& orders,
     const std::function<void(std::size_t, std::size_t)>& progress) {
     assert(orders.faces == model.polygons.size());
-    return Certifying(model, orders).check(progress);
+    return OrderChecking(model, orders).check(progress);
 }
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

@@ -1,14 +1,14 @@
 #pragma once
 
 #include "models/polygons/polygon_model.h"
-#include "visuals/draworder/cell_orders.h"
+#include "visuals/orderfile/cell_orders.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 /// Something that could not be proved.
 struct Doubt {
@@ -47,9 +47,9 @@ struct OrderCheck {
 /// `progress(done, all)` is called after each cell. The time grows with the pairs: about 10,000 a
 /// second, more when planes of the cell decide. `orders.faces` must equal the number of polygons
 /// (asserted).
-OrderCheck certify(
+OrderCheck check_order(
     const models::polygons::PolygonModel& model,
     const CellOrders& orders,
     const std::function<void(std::size_t, std::size_t)>& progress = {});
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

@@ -1,9 +1,9 @@
 // Painting orders in words: the 1989 paper's table 4 for any model, for `octant draw-order --table`
 // and the panels of the window.
-#include "visuals/draworder/order_table.h"
+#include "visuals/orderfile/order_table.h"
 
 #include "sim/base/plane.h"
-#include "visuals/draworder/order_text.h"
+#include "visuals/draworder/octant_path.h"
 
 #include <glm/geometric.hpp>
 
@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <utility>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 namespace {
 
@@ -123,7 +123,7 @@ std::vector<OrderRow> order_table(
             row.region =
                 region_in_words(cell.planes, model, axes) + distances_in_words(cell, orders.metric);
         } else {
-            row.cell = path_in_file(cell.path, axes);
+            row.cell = draworder::path_in_file(cell.path, axes);
         }
         row.list = list_in_words(cell.list);
         rows.push_back(std::move(row));
@@ -134,4 +134,4 @@ std::vector<OrderRow> order_table(
     return rows;
 }
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

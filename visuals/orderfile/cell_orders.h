@@ -7,17 +7,15 @@
 
 #include <glm/vec3.hpp>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 /// How the distance of an eye from the centre is measured: L1 is |x| + |y| + |z|, L2 the usual
 /// length.
@@ -49,32 +47,22 @@ struct CellOrders {
     std::vector<std::uint32_t> parents;   ///< As PolygonModel::parents.
     std::vector<ListedCell> cells;
     /// In place of cells: an order in which polygons are divided, too. Body axes, metres.
-    std::optional<DrawOrder> parts;
+    std::optional<draworder::DrawOrder> parts;
 };
 
 /// Converts a model's orders to this form. An order by parts is turned into cells where these are
-/// few (order_cells.h). Octant cells are made from their paths rather than from
+/// few (cells_of_parts.h). Octant cells are made from their paths rather than from
 /// the planes that the model gives them, except where several cells share a path (an octant divided
 /// by planes). They begin at the distance from which the model's orders hold: at its
 /// min_distance_m, or for Method::Paper, which has none, at sqrt(3) times the model's radius, so
 /// that no eye of them lies inside the radius.
-CellOrders cell_orders(const OrderedModel& ordered);
+CellOrders cell_orders(const draworder::OrderedModel& ordered);
 
 /// The index of the cell that an eye uses; nothing when none contains it.
 std::optional<std::size_t> cell_of(const CellOrders& orders, const glm::dvec3& eye_m);
 
 /// Whether an eye is between the least and the greatest distance of all cells.
 bool in_range(const CellOrders& orders, const glm::dvec3& eye_m);
-
-/// Whether a text is an octant path: the signs of x, y and z, then at most most_path_levels
-/// children 0 to 3, each after a slash.
-bool is_octant_path(std::string_view text);
-inline constexpr std::size_t most_path_levels = 24;
-
-/// The corners A, B, C of the flat triangle that an octant path names, on |x| + |y| + |z| = 1. The
-/// children of (A, B, C), with AB the midpoint of an edge, are 0 = (A, AB, CA), 1 = (AB, B, BC), 2
-/// = (CA, BC, C) and 3 = (BC, CA, AB).
-std::array<glm::dvec3, 3> corners_of_path(std::string_view path);
 
 /// The planes through `apex_m` that bound the cone of all non-negative sums of the directions; none
 /// when these span all of space. Returns nothing when the directions lie in one plane.
@@ -86,4 +74,4 @@ planes_of_cone(std::span<const glm::dvec3> directions, const glm::dvec3& apex_m)
 /// reach to the centre.
 std::vector<Plane> region_of(const CellOrders& orders, const ListedCell& cell);
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

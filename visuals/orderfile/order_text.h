@@ -1,13 +1,13 @@
 #pragma once
 
 #include "models/polygons/file_axes.h"
-#include "visuals/draworder/cell_orders.h"
+#include "visuals/orderfile/cell_orders.h"
 
 #include <cstddef>
 #include <filesystem>
 #include <string>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 /// Painting orders as text, in which planes are absolute, in the axes of the exported model:
 /// N.p + D >= 0 for points p as they stand in its file, from its origin and not from `center`.
@@ -19,7 +19,7 @@ namespace octant::visuals::draworder {
 ///     twosided I J ...         default none
 ///     parents P0 P1 ...        of which polygon each is a piece; default none
 ///     cell REGION [min R] [max R] order I0 I1 ...    I0 is painted first, others never
-/// REGION is an octant path (cell_orders.h), `cone K X1 Y1 Z1 ...` (non-negative sums of K
+/// REGION is an octant path (octant_path.h), `cone K X1 Y1 Z1 ...` (non-negative sums of K
 /// directions, from the centre) or `half K NX NY NZ D ...` (points p with N.p + D >= 0 for all K;
 /// K = 0 is everywhere). The first cell that contains an eye is used.
 ///
@@ -40,12 +40,6 @@ namespace octant::visuals::draworder {
 /// Cells without path or directions are written as `half`.
 std::string order_text(const CellOrders& orders, const models::polygons::FileAxes& axes = {});
 
-/// An octant path of the body axes as the file's axes say it: signs and children change places.
-std::string path_in_file(const std::string& path, const models::polygons::FileAxes& axes);
-
-/// The inverse of path_in_file.
-std::string path_in_body(const std::string& path, const models::polygons::FileAxes& axes);
-
 /// Reads order_text for a model of `faces` polygons. Normals of any length become unit vectors.
 /// Throws Error "file:line: expected ..., got ...": no header, unknown keywords and regions,
 /// numbers that are missing, too many, not finite or too large, indices out of range, a polygon
@@ -56,4 +50,4 @@ CellOrders read_order_file(
     std::size_t faces,
     const models::polygons::FileAxes& axes = {});
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

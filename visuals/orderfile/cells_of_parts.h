@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 /// More cells than these, or more entries in all lists, say less than the parts do.
 inline constexpr std::size_t most_cells_of_parts = 1'000;
@@ -25,6 +25,6 @@ struct CellOfParts {
 /// cells on both sides of it are combined. Only regions with a volume become cells. Returns nothing
 /// when there are too many.
 std::optional<std::vector<CellOfParts>>
-cells_of_parts(const models::polygons::PolygonModel& model, const DrawOrder& order);
+cells_of_parts(const models::polygons::PolygonModel& model, const draworder::DrawOrder& order);
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

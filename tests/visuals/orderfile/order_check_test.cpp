@@ -1,7 +1,11 @@
+#include "models/polygons/polygon_model.h"
 #include "sim/base/output_file.h"
+#include "tests/order_shapes.h"
+#include "tests/paper_example.h"
 #include "tests/scratch.h"
-#include "visuals/draworder/order_check.h"
-#include "visuals/draworder/order_text.h"
+#include "visuals/orderfile/order_check.h"
+#include "visuals/orderfile/order_text.h"
+#include "visuals/orderfile/ray_check.h"
 #include "visuals/separation/separation.h"
 
 #include <catch2/catch.hpp>
@@ -10,12 +14,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shapes.h"
-#include "wrong_rays.h"
-
 using namespace octant;
-using namespace octant::visuals::draworder;
+using namespace octant::visuals::orderfile;
 using namespace octant::visuals::separation;
+using visuals::draworder::Method;
+using visuals::draworder::ordered;
+using visuals::draworder::OrderedModel;
 
 namespace {
 
@@ -65,8 +69,8 @@ const Plane above{{0, 0, 1}, 0};
 
 TEST_CASE("of two plates one above the other only the lower may be painted first") {
     const auto plates = model_of({low_plate, moved(low_plate, {0, 0, 1})});
-    CHECK(certify(plates, one_cell({}, {0, 1}, 2)).good());
-    const OrderCheck wrong = certify(plates, one_cell({}, {1, 0}, 2));
+    CHECK(check_order(plates, one_cell({}, {0, 1}, 2)).good());
+    const OrderCheck wrong = check_order(plates, one_cell({}, {1, 0}, 2));
     CHECK(wrong.pairs == 1);
     CHECK(wrong.pairs_open == 1);
     CHECK(wrong.doubts == std::vector<Doubt>{{0, 1, 0}});
@@ -78,17 +82,17 @@ TEST_CASE("two slanted plates side by side need a plane that none of them has") 
         {{{-3, -1, 0}, {-1, -1, 1}, {-1, 1, 1}, {-3, 1, 0}},
          {{1, -1, 1.2}, {3, -1, 0}, {3, 1, 0}, {1, 1, 1.2}}});
     const Plane over{{0, 0, 1}, -5};
-    const OrderCheck check = certify(slanted, one_cell({over}, {0, 1}, 2));
+    const OrderCheck check = check_order(slanted, one_cell({over}, {0, 1}, 2));
     CHECK(check.good());
-    CHECK(certify(slanted, one_cell({over}, {1, 0}, 2)).good());
+    CHECK(check_order(slanted, one_cell({over}, {1, 0}, 2)).good());
     // From low at the right the right one hides the left one.
     const Plane right{{1, 0, 0}, -4};
-    CHECK(certify(slanted, one_cell({right}, {0, 1}, 2)).good());
+    CHECK(check_order(slanted, one_cell({right}, {0, 1}, 2)).good());
     const auto tipped = model_of(
         {{{-3, -1, 0}, {-1, -1, -0.5}, {-1, 1, -0.5}, {-3, 1, 0}},
          {{1, -1, 1}, {3, -1, 0}, {3, 1, 0}, {1, 1, 1}}});
-    CHECK(certify(tipped, one_cell({right}, {0, 1}, 2)).good());
-    CHECK_FALSE(certify(tipped, one_cell({right}, {1, 0}, 2)).good());
+    CHECK(check_order(tipped, one_cell({right}, {0, 1}, 2)).good());
+    CHECK_FALSE(check_order(tipped, one_cell({right}, {1, 0}, 2)).good());
 }
 
 TEST_CASE("polygons that touch are certified, polygons that cross are not") {
@@ -96,31 +100,31 @@ TEST_CASE("polygons that touch are certified, polygons that cross are not") {
         {{{0, -1, 1}, {1, -1, 0}, {1, 1, 0}, {0, 1, 1}},
          {{-1, -1, 0}, {0, -1, 1}, {0, 1, 1}, {-1, 1, 0}},
          {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}});
-    CHECK(certify(roof, one_cell({above}, {2, 1, 0}, 3)).good());
-    CHECK(certify(roof, one_cell({above}, {2, 0, 1}, 3)).good());
+    CHECK(check_order(roof, one_cell({above}, {2, 1, 0}, 3)).good());
+    CHECK(check_order(roof, one_cell({above}, {2, 0, 1}, 3)).good());
     const auto crossing =
         model_of({low_plate, {{-0.5, -0.5, -1}, {0.5, -0.5, 1}, {0.5, 0.5, 1}, {-0.5, 0.5, -1}}});
     const Plane high{{0, 0, 1}, -9};
-    CHECK_FALSE(certify(crossing, one_cell({high}, {0, 1}, 2)).good());
-    CHECK_FALSE(certify(crossing, one_cell({high}, {1, 0}, 2)).good());
+    CHECK_FALSE(check_order(crossing, one_cell({high}, {0, 1}, 2)).good());
+    CHECK_FALSE(check_order(crossing, one_cell({high}, {1, 0}, 2)).good());
 }
 
 TEST_CASE("a polygon may be left out only where no eye sees its front") {
     const auto plates = model_of({low_plate, moved(low_plate, {5, 0, 0})});
     const Plane below{{0, 0, -1}, 0};
-    CHECK(certify(plates, one_cell({below}, {}, 2)).good());
-    const OrderCheck check = certify(plates, one_cell({above}, {1}, 2));
+    CHECK(check_order(plates, one_cell({below}, {}, 2)).good());
+    const OrderCheck check = check_order(plates, one_cell({above}, {1}, 2));
     CHECK(check.unlisted == 1);
     CHECK(check.doubts == std::vector<Doubt>{{0, 0, 0}});
     CellOrders from_below = one_cell({below}, {}, 2);
     from_below.two_sided = {1};
-    CHECK(certify(plates, from_below).doubts == std::vector<Doubt>{{0, 1, 1}});
+    CHECK(check_order(plates, from_below).doubts == std::vector<Doubt>{{0, 1, 1}});
 }
 
 TEST_CASE("the paper's table is certified beyond the model's radius, and no other order is") {
     const auto model = tests::paper_example();
     const CellOrders orders = cell_orders(ordered(model, {.method = Method::Paper, .paper = {}}));
-    const OrderCheck check = certify(model, orders);
+    const OrderCheck check = check_order(model, orders);
     CHECK(check.good());
     CHECK(check.pairs == 4 * 10 + 2 * 15 + 2 * 6);
     CHECK(check.by_plane + check.by_programme == check.pairs);
@@ -131,7 +135,7 @@ TEST_CASE("the paper's table is certified beyond the model's radius, and no othe
             const auto rays = count_wrong_rays(
                 model, swapped, {.eyes = 4000, .rays_per_eye = 5, .least_distance_radii = 1.8});
             INFO(cell << " " << place);
-            CHECK(certify(model, swapped).good() == (rays.wrong == 0));
+            CHECK(check_order(model, swapped).good() == (rays.wrong == 0));
         }
     }
 }
@@ -157,8 +161,8 @@ TEST_CASE("a turning part is certified for every angle") {
     rotor.pivots = {{.part = 1, .point_m = {0, 0, 1}, .axis = {0, 0, 1}}};
     auto plate_and_blade = rotor;
     plate_and_blade.polygons.resize(2);
-    CHECK(certify(plate_and_blade, one_cell({}, {0, 1}, 2)).good());
-    CHECK_FALSE(certify(plate_and_blade, one_cell({}, {1, 0}, 2)).good());
+    CHECK(check_order(plate_and_blade, one_cell({}, {0, 1}, 2)).good());
+    CHECK_FALSE(check_order(plate_and_blade, one_cell({}, {1, 0}, 2)).good());
     // At the file's angle the ramp is far from the blade, at half a turn they cross.
     // The eyes are high above both.
     const double half = std::sqrt(0.5);
@@ -166,8 +170,8 @@ TEST_CASE("a turning part is certified for every angle") {
     const CellOrders orders = one_cell(high, {0, 2, 1}, 3);
     auto fixed = rotor;
     fixed.pivots.clear();
-    CHECK(certify(fixed, orders).good());
-    CHECK_FALSE(certify(rotor, orders).good());
+    CHECK(check_order(fixed, orders).good());
+    CHECK_FALSE(check_order(rotor, orders).good());
     CHECK(count_wrong_rays(rotor, orders, {.most_distance_radii = 9}).wrong == 0);
     CHECK(count_wrong_rays(rotor, orders, {.most_distance_radii = 9, .turn_rad = 3.1}).wrong > 0);
 }
@@ -193,10 +197,10 @@ TEST_CASE("orders found for all kinds of shapes are certified, and come back fro
             const OrderedModel found = ordered(model, {.method = method, .paper = {}});
             const CellOrders orders = cell_orders(found);
             INFO(model.name << " " << static_cast<int>(method));
-            CHECK(certify(found.model, orders).good());
+            CHECK(check_order(found.model, orders).good());
             write_file(path, order_text(orders));
             const CellOrders read = read_order_file(path, found.model.polygons.size());
-            CHECK(certify(found.model, read).good());
+            CHECK(check_order(found.model, read).good());
             const RayCount rays =
                 count_wrong_rays(found.model, read, {.eyes = 300, .least_distance_radii = 0.1});
             CHECK(rays.hits > 100);

@@ -7,7 +7,7 @@
 //   rules for equals the tree with the fewest cuts is kept.
 // - Polygons in a node's plane that face the other way stay in the node. Each is painted on the way
 //   through the node when the eye is on its side.
-#include "visuals/draworder/bsp_tree.h"
+#include "visuals/orderfile/bsp_tree.h"
 
 #include "visuals/draworder/split.h"
 
@@ -18,7 +18,7 @@
 #include <functional>
 #include <utility>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 namespace {
 
@@ -39,7 +39,7 @@ enum class Among {
 class BspBuilding {
 public:
     BspBuilding(models::polygons::PolygonModel model, Among among)
-        : tolerance_m_(split_tolerance_m(model))
+        : tolerance_m_(draworder::split_tolerance_m(model))
         , among_(among) {
         tree_.model = std::move(model);
     }
@@ -171,7 +171,7 @@ private:
                 add_to_plane(polygon, node.plane);
             }
             if (side == Side::Both) {
-                back.polygons.push_back(split_polygon(tree_.model, polygon, node.plane));
+                back.polygons.push_back(draworder::split_polygon(tree_.model, polygon, node.plane));
             }
             if (side == Side::Front || side == Side::Both) {
                 front.polygons.push_back(polygon);
@@ -243,4 +243,4 @@ void append_painted(
     }
 }
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 /// A binary space partition of a model by planes of its own polygons, to compare the other orders
 /// with. It orders any model for any eye, but it cuts polygons where it must and is walked anew in
@@ -53,4 +53,4 @@ void append_painted(
     std::vector<std::uint32_t>& painted,
     std::vector<int>& to_do);
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

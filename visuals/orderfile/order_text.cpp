@@ -1,17 +1,18 @@
-// Writes painting orders in the text format that order_text.h describes, and converts octant paths
-// between body axes and the axes of a model file.
-#include "visuals/draworder/order_text.h"
+// Writes painting orders in the text format that order_text.h describes.
+#include "visuals/orderfile/order_text.h"
 
 #include "sim/base/format_once.h"
+#include "visuals/draworder/octant_path.h"
 
-#include <cassert>
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 namespace {
+
+using draworder::DrawOrder;
 
 std::string numbers(const glm::dvec3& v) {
     return fmt::format("{:.17g} {:.17g} {:.17g}", v.x, v.y, v.z);
@@ -27,7 +28,7 @@ std::string indices(const std::vector<std::uint32_t>& list) {
 
 std::string region_text(const ListedCell& cell, const models::polygons::FileAxes& axes) {
     if (!cell.path.empty()) {
-        return path_in_file(cell.path, axes);
+        return draworder::path_in_file(cell.path, axes);
     }
     if (!cell.directions.empty()) {
         std::string text = fmt::format("cone {}", cell.directions.size());
@@ -42,46 +43,6 @@ std::string region_text(const ListedCell& cell, const models::polygons::FileAxes
             " {} {:.17g}", numbers(axes.file_from_body(plane.normal)), plane.offset_m + 0.0);
     }
     return text;
-}
-
-/// Where one axis of a coordinate system points in another one: along which axis, and whether in
-/// the opposite direction.
-struct AxisPlace {
-    std::size_t axis = 0;
-    bool turned_round = false;
-};
-
-AxisPlace place_of(const glm::dvec3& unit) {
-    for (int i = 0; i < 3; ++i) {
-        if (std::abs(unit[i]) > 0.5) {
-            return {static_cast<std::size_t>(i), unit[i] < 0.0};
-        }
-    }
-    assert(false);
-    return {};
-}
-
-/// Converts an octant path to other axes. Signs move with their axes. Children 0, 1, 2 are those at
-/// the corners on x, y, z, and the corners of each child are named alike, so that every level
-/// changes in the same way.
-template <typename ToOther>
-std::string with_axes_changed(const std::string& path, ToOther to_other) {
-    assert(is_octant_path(path));
-    std::string out = path;
-    std::array<AxisPlace, 3> places;
-    for (std::size_t i = 0; i < 3; ++i) {
-        glm::dvec3 unit(0.0);
-        unit[static_cast<int>(i)] = 1.0;
-        places[i] = place_of(to_other(unit));
-        out[places[i].axis] = (path[i] == '-') != places[i].turned_round ? '-' : '+';
-    }
-    for (std::size_t at = 4; at < path.size(); at += 2) {
-        const auto child = static_cast<std::size_t>(path[at] - '0');
-        if (child < 3) {
-            out[at] = static_cast<char>('0' + places[child].axis);
-        }
-    }
-    return out;
 }
 
 std::string child_text(int child) {
@@ -120,14 +81,6 @@ std::string parts_text(const DrawOrder& order, const models::polygons::FileAxes&
 
 } // namespace
 
-std::string path_in_file(const std::string& path, const models::polygons::FileAxes& axes) {
-    return with_axes_changed(path, [&](const glm::dvec3& v) { return axes.file_from_body(v); });
-}
-
-std::string path_in_body(const std::string& path, const models::polygons::FileAxes& axes) {
-    return with_axes_changed(path, [&](const glm::dvec3& v) { return axes.body_from_file(v); });
-}
-
 std::string order_text(const CellOrders& orders, const models::polygons::FileAxes& axes) {
     std::string text = "draworder 1\n";
     if (orders.centre_m != glm::dvec3(0.0)) {
@@ -157,4 +110,4 @@ std::string order_text(const CellOrders& orders, const models::polygons::FileAxe
     return text;
 }
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

@@ -1,6 +1,6 @@
 // From parts to cells: the walk of an eye through the tree is done for all eyes of a region at
 // once, and divides where they would go different ways.
-#include "visuals/draworder/order_cells.h"
+#include "visuals/orderfile/cells_of_parts.h"
 
 #include "sim/base/plane.h"
 #include "visuals/draworder/eye_region.h"
@@ -9,9 +9,12 @@
 #include <cstdint>
 #include <utility>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 namespace {
+
+using draworder::DrawOrder;
+using draworder::EyeRegion;
 
 /// The eyes of a region on their way through the tree.
 struct Wanderers {
@@ -41,12 +44,12 @@ public:
 
 private:
     /// The unit and origin of faces, without faces.
-    static ModelFaces empty_frame(const models::polygons::PolygonModel& model) {
-        ModelFaces frame{
+    static draworder::ModelFaces empty_frame(const models::polygons::PolygonModel& model) {
+        draworder::ModelFaces frame{
             .faces = {},
             .tolerances = {},
-            .rigid = HidingGraph(0),
-            .ignored = HidingGraph(0),
+            .rigid = draworder::HidingGraph(0),
+            .ignored = draworder::HidingGraph(0),
             .notes = {}};
         const double radius_m = models::polygons::radius_m(model);
         frame.unit_m = radius_m > 0.0 ? radius_m : 1.0;
@@ -120,7 +123,7 @@ private:
     }
 
     const DrawOrder& order_;
-    ModelFaces frame_;
+    draworder::ModelFaces frame_;
     std::vector<Wanderers> groups_;
     std::vector<CellOfParts> cells_;
     std::size_t entries_ = 0;
@@ -133,4 +136,4 @@ cells_of_parts(const models::polygons::PolygonModel& model, const DrawOrder& ord
     return Expanding(model, order).cells();
 }
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

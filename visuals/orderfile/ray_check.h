@@ -1,8 +1,8 @@
 #pragma once
 
 #include "models/polygons/polygon_model.h"
-#include "visuals/draworder/cell_orders.h"
 #include "visuals/draworder/draw_order.h"
+#include "visuals/orderfile/cell_orders.h"
 
 #include <glm/vec3.hpp>
 
@@ -10,7 +10,7 @@
 #include <functional>
 #include <span>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 /// Which random eyes and rays are tried.
 struct EyeSamples {
@@ -46,7 +46,9 @@ struct RayCount {
 /// eyes inside that radius look in all directions. Polygons that face away from the eye are not
 /// painted.
 RayCount count_wrong_rays(
-    const models::polygons::PolygonModel& model, const DrawOrder& order, const EyeSamples& samples);
+    const models::polygons::PolygonModel& model,
+    const draworder::DrawOrder& order,
+    const EyeSamples& samples);
 
 /// Gives the list that is painted for an eye; it must stay as it is until the next call.
 using PaintedFrom = std::function<std::span<const std::uint32_t>(const glm::dvec3& eye_m)>;
@@ -63,4 +65,4 @@ RayCount count_wrong_rays(
     const CellOrders& orders,
     const EyeSamples& samples);
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

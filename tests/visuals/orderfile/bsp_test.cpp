@@ -1,4 +1,7 @@
-#include "visuals/draworder/bsp_tree.h"
+#include "tests/order_shapes.h"
+#include "tests/paper_example.h"
+#include "visuals/orderfile/bsp_tree.h"
+#include "visuals/orderfile/ray_check.h"
 
 #include <catch2/catch.hpp>
 
@@ -7,11 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "shapes.h"
-#include "wrong_rays.h"
-
 using namespace octant;
-using namespace octant::visuals::draworder;
+using namespace octant::visuals::orderfile;
 
 namespace {
 

@@ -1,6 +1,7 @@
-#include "shapes.h"
+#include "tests/order_shapes.h"
 
 #include "models/made/made_up.h"
+#include "sim/base/dice.h"
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>
@@ -13,8 +14,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "wrong_rays.h"
 
 namespace octant::tests {
 

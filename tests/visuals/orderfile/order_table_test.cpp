@@ -1,12 +1,14 @@
-#include "visuals/draworder/order_table.h"
+#include "models/polygons/polygon_model.h"
+#include "tests/paper_example.h"
+#include "visuals/orderfile/order_table.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
-#include "wrong_rays.h"
-
 using namespace octant;
-using namespace octant::visuals::draworder;
+using namespace octant::visuals::orderfile;
+using visuals::draworder::Method;
+using visuals::draworder::ordered;
 
 namespace {
 

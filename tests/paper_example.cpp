@@ -1,4 +1,4 @@
-#include "wrong_rays.h"
+#include "tests/paper_example.h"
 
 #include <array>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "visuals/draworder/order_words.h"
+#include "visuals/orderfile/order_words.h"
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 #include <optional>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 namespace {
 
@@ -92,4 +92,4 @@ Plane OrderWords::plane() {
     return {normal * factor, number("an offset") * factor};
 }
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

@@ -1,17 +1,21 @@
+#include "models/polygons/polygon_model.h"
+#include "sim/base/dice.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "tests/paper_example.h"
 #include "tests/scratch.h"
-#include "visuals/draworder/order_text.h"
+#include "visuals/orderfile/order_text.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 
-#include "wrong_rays.h"
-
 using namespace octant;
-using namespace octant::visuals::draworder;
+using namespace octant::visuals::orderfile;
+using visuals::draworder::DrawOrder;
+using visuals::draworder::Method;
+using visuals::draworder::ordered;
 
 namespace {
 
@@ -69,37 +73,6 @@ TEST_CASE("a file is read into cells, planes, distances and lists") {
     CHECK(cell_of(orders, {11, 3, 1}) == std::nullopt);
     CHECK(cell_of(orders, {2, 1, -1}) == 2);
     CHECK(cell_of(orders, {0.5, 1, -1}) == std::nullopt); // left of the centre
-}
-
-TEST_CASE("children of an octant path are the parts of its triangle") {
-    const auto close = [](const std::array<glm::dvec3, 3>& a, const std::array<glm::dvec3, 3>& b) {
-        return std::ranges::equal(
-            a, b, [](const auto& p, const auto& q) { return glm::distance(p, q) < 1e-15; });
-    };
-    CHECK(close(corners_of_path("+-+"), {glm::dvec3(1, 0, 0), {0, -1, 0}, {0, 0, 1}}));
-    CHECK(close(corners_of_path("+++/0"), {glm::dvec3(1, 0, 0), {0.5, 0.5, 0}, {0.5, 0, 0.5}}));
-    CHECK(close(corners_of_path("+++/1"), {glm::dvec3(0.5, 0.5, 0), {0, 1, 0}, {0, 0.5, 0.5}}));
-    CHECK(close(corners_of_path("+++/2"), {glm::dvec3(0.5, 0, 0.5), {0, 0.5, 0.5}, {0, 0, 1}}));
-    CHECK(close(corners_of_path("+++/3"), {glm::dvec3(0, 0.5, 0.5), {0.5, 0, 0.5}, {0.5, 0.5, 0}}));
-}
-
-TEST_CASE("an octant path means the same eyes in the axes of any file") {
-    for (const char* name : {"right,up,back", "up,right,forward", "left,back,up"}) {
-        const auto axes = models::polygons::FileAxes::from_text(name);
-        for (const std::string path : {"+++", "-+-/2", "+--/0/3/1", "---/1/1/0/2"}) {
-            const std::string in_file = path_in_file(path, axes);
-            CHECK(path_in_body(in_file, axes) == path);
-            glm::dvec3 body(0.0);
-            glm::dvec3 file(0.0);
-            for (const glm::dvec3& corner : corners_of_path(path)) {
-                body += corner;
-            }
-            for (const glm::dvec3& corner : corners_of_path(in_file)) {
-                file += corner;
-            }
-            CHECK(glm::distance(axes.body_from_file(file), body) < 1e-15);
-        }
-    }
 }
 
 TEST_CASE("the octant orders of a model and its exported file choose the same lists") {

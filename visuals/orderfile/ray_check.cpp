@@ -2,11 +2,12 @@
 // last must be the one nearest to the eye. It finds gaps between cells, which the certificate
 // (order_check.cpp) cannot see, and it measures how wrong an inexact order is: the share of wrong
 // pixels.
-#include "visuals/draworder/ray_check.h"
+#include "visuals/orderfile/ray_check.h"
 
 #include "models/polygons/inside_outline.h"
 #include "sim/base/dice.h"
 #include "sim/base/units.h"
+#include "visuals/draworder/octant_order.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -15,9 +16,11 @@
 #include <cmath>
 #include <limits>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 namespace {
+
+using draworder::DrawOrder;
 
 /// The distance of a polygon that a ray misses.
 constexpr double missed = std::numeric_limits<double>::infinity();
@@ -117,7 +120,7 @@ public:
     glm::dvec3 next_eye_m() {
         glm::dvec3 direction = dice_.direction();
         if (samples_.octant >= 0) {
-            direction = glm::abs(direction) * octant_signs(samples_.octant);
+            direction = glm::abs(direction) * draworder::octant_signs(samples_.octant);
         }
         const double spread =
             std::log(samples_.most_distance_radii / samples_.least_distance_radii);
@@ -230,4 +233,4 @@ RayCount count_wrong_rays(
     return count;
 }
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

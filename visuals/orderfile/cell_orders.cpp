@@ -1,8 +1,10 @@
 // Cells as files and checks see them: octants of the eye, their division into four (section IV of
 // the 1989 paper, "divide the viewing directions further"), and regions by planes.
-#include "visuals/draworder/cell_orders.h"
+#include "visuals/orderfile/cell_orders.h"
 
-#include "visuals/draworder/order_cells.h"
+#include "visuals/draworder/octant_order.h"
+#include "visuals/draworder/octant_path.h"
+#include "visuals/orderfile/cells_of_parts.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -10,12 +12,11 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <map>
 #include <utility>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 namespace {
 
@@ -28,7 +29,7 @@ Plane plane_through(const glm::dvec3& normal, const glm::dvec3& point_m) {
 
 /// The cell of an octant path about a centre, without its list.
 ListedCell cell_of_path(const std::string& path, const glm::dvec3& centre_m) {
-    const auto corners = corners_of_path(path);
+    const auto corners = draworder::corners_of_path(path);
     ListedCell cell;
     cell.path = path;
     cell.directions.assign(corners.begin(), corners.end());
@@ -38,8 +39,8 @@ ListedCell cell_of_path(const std::string& path, const glm::dvec3& centre_m) {
 
 /// The planes of a cell that shares its path with others. All eyes of its octant at the least
 /// distance (in L1) lie in one plane, which is added because it helps checks.
-std::vector<Plane>
-planes_within_path(const ListedCell& cell, const OrderCell& from, const glm::dvec3& centre_m) {
+std::vector<Plane> planes_within_path(
+    const ListedCell& cell, const draworder::OrderCell& from, const glm::dvec3& centre_m) {
     std::vector<Plane> planes = cell.planes;
     planes.insert(planes.end(), from.planes.begin(), from.planes.end());
     glm::dvec3 signs(0.0);
@@ -74,7 +75,7 @@ void append_greatest_distance(const CellOrders& orders, double max_m, std::vecto
     const double diagonal = std::sqrt(3.0);
     const double octahedron_m = orders.metric == Metric::L1 ? max_m / diagonal : max_m;
     for (int octant = 0; octant < 8; ++octant) {
-        const glm::dvec3 normal = -octant_signs(octant) / diagonal;
+        const glm::dvec3 normal = -draworder::octant_signs(octant) / diagonal;
         planes.push_back({normal, octahedron_m - glm::dot(normal, orders.centre_m)});
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -93,7 +94,7 @@ double length_m(Metric metric, const glm::dvec3& vector_m) {
     return metric == Metric::L1 ? size.x + size.y + size.z : glm::length(vector_m);
 }
 
-CellOrders cell_orders(const OrderedModel& ordered) {
+CellOrders cell_orders(const draworder::OrderedModel& ordered) {
     CellOrders orders;
     orders.faces = ordered.model.polygons.size();
     orders.parents = ordered.model.parents;
@@ -111,11 +112,11 @@ CellOrders cell_orders(const OrderedModel& ordered) {
         return orders;
     }
     std::map<std::string, int> cells_of_path;
-    for (const OrderCell& cell : ordered.cells) {
+    for (const draworder::OrderCell& cell : ordered.cells) {
         ++cells_of_path[cell.path];
     }
     for (std::size_t i = 0; i < ordered.cells.size(); ++i) {
-        const OrderCell& from = ordered.cells[i];
+        const draworder::OrderCell& from = ordered.cells[i];
         ListedCell cell;
         if (from.path.empty()) {
             cell.planes = from.planes;
@@ -160,50 +161,6 @@ bool in_range(const CellOrders& orders, const glm::dvec3& eye_m) {
     return away_m >= least_m && away_m <= most_m;
 }
 
-bool is_octant_path(std::string_view text) {
-    if (text.size() < 3 || text.size() % 2 == 0 || text.size() > 3 + 2 * most_path_levels) {
-        return false;
-    }
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const bool good = i < 3        ? text[i] == '+' || text[i] == '-'
-                          : i % 2 == 1 ? text[i] == '/'
-                                       : text[i] >= '0' && text[i] <= '3';
-        if (!good) {
-            return false;
-        }
-    }
-    return true;
-}
-
-std::array<glm::dvec3, 3> corners_of_path(std::string_view path) {
-    assert(is_octant_path(path));
-    std::array<glm::dvec3, 3> corners{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        corners[i] = glm::dvec3(0.0);
-        corners[i][static_cast<int>(i)] = path[i] == '+' ? 1.0 : -1.0;
-    }
-    for (std::size_t at = 4; at < path.size(); at += 2) {
-        const auto [a, b, c] = corners;
-        const glm::dvec3 ab = (a + b) * 0.5;
-        const glm::dvec3 bc = (b + c) * 0.5;
-        const glm::dvec3 ca = (c + a) * 0.5;
-        switch (path[at]) {
-        case '0':
-            corners = {a, ab, ca};
-            break;
-        case '1':
-            corners = {ab, b, bc};
-            break;
-        case '2':
-            corners = {ca, bc, c};
-            break;
-        default:
-            corners = {bc, ca, ab};
-        }
-    }
-    return corners;
-}
-
 std::optional<std::vector<Plane>>
 planes_of_cone(std::span<const glm::dvec3> directions, const glm::dvec3& apex_m) {
     std::vector<Plane> planes;
@@ -245,4 +202,4 @@ std::vector<Plane> region_of(const CellOrders& orders, const ListedCell& cell) {
     return planes;
 }
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace octant::visuals::draworder {
+namespace octant::visuals::orderfile {
 
 /// The words of a file of orders, line by line, and what they may stand for. What is read is left
 /// behind; a word that is wrong is refused with an Error that names file, line, what was expected
@@ -74,4 +74,4 @@ private:
     int line_ = 0;
 };
 
-} // namespace octant::visuals::draworder
+} // namespace octant::visuals::orderfile
