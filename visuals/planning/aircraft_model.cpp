@@ -274,10 +274,10 @@ void add_turning(AircraftModel& model, std::span<const TurningMesh> parts) {
     }
 }
 
-void add_clear(AircraftModel& model, const models::TriangleMesh& mesh, float opacity) {
+void add_transparent(AircraftModel& model, const models::TriangleMesh& mesh, float opacity) {
     assert(model.progressive != nullptr && opacity > 0.0F && opacity < 1.0F);
     const std::size_t first = model.buffers.vertices.size();
-    model.clear = append_level(model.buffers, {&mesh, 0.0}).range;
+    model.transparent = append_level(model.buffers, {&mesh, 0.0}).range;
     model.opacity = opacity;
     for (scene::ModelVertex& vertex : std::span(model.buffers.vertices).subspan(first)) {
         vertex.polygon = 0;
