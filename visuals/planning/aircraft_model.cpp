@@ -285,6 +285,14 @@ void add_transparent(AircraftModel& model, const models::TriangleMesh& mesh, flo
     }
 }
 
+double reach_below_m(const AircraftModel& model) {
+    float most_m = 0.0F;
+    for (const scene::ModelVertex& vertex : model.buffers.vertices) {
+        most_m = std::max(most_m, vertex.position_m.z);
+    }
+    return static_cast<double>(most_m);
+}
+
 glm::dvec3 pilot_eye_m(const models::polygons::PolygonModel& model) {
     glm::dvec3 least(std::numeric_limits<double>::max());
     glm::dvec3 most(std::numeric_limits<double>::lowest());

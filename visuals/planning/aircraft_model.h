@@ -96,6 +96,10 @@ void add_turning(AircraftModel& model, std::span<const TurningMesh> parts);
 /// Gives a model with a progressive mesh its transparent surfaces; body axes. Loading work.
 void add_transparent(AircraftModel& model, const models::TriangleMesh& mesh, float opacity);
 
+/// How far a model reaches below its reference point when it stands upright, metres; parts that
+/// turn as at the time 0. Goes with the corners: to be asked once, at loading.
+double reach_below_m(const AircraftModel& model);
+
 /// Where a pilot's eye may be in an aircraft of which only the shape is known, body axes: a quarter
 /// of the length behind the nose at the height of the top.
 glm::dvec3 pilot_eye_m(const models::polygons::PolygonModel& model);
